@@ -1,0 +1,50 @@
+# One target per room: keyline_room(lac DEPENDS core numeric LINK Boost::headers PRIVATE_LINK nlopt_cxx)
+#   DEPENDS       rooms used, all of them above this one in keyline/CMakeLists.txt
+#   LINK          libraries whose headers stand in this room's own headers
+#   PRIVATE_LINK  libraries used in its .cpp files alone
+function(keyline_room name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
+  set(target keyline_${name})
+  if(sources)
+    add_library(${target} STATIC ${sources} ${headers})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE keyline_warnings ${ARG_PRIVATE_LINK})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(keyline::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(
+    ${target} ${scope} "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>"
+                       "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  target_compile_features(${target} ${scope} cxx_std_23)
+  foreach(room IN LISTS ARG_DEPENDS)
+    target_link_libraries(${target} ${scope} keyline::${room})
+  endforeach()
+  target_link_libraries(${target} ${scope} ${ARG_LINK})
+  set_property(GLOBAL APPEND PROPERTY KEYLINE_ROOMS ${name})
+endfunction()
+
+# One test program per room: every *_test.cpp of the folder.
+function(keyline_tests name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  set(target keyline_${name}_tests)
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE keyline::${name} keyline_warnings GTest::gtest GTest::gmock
+                                          GTest::gtest_main ${ARG_LINK})
+  target_compile_definitions(
+    ${target} PRIVATE KEYLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                      KEYLINE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${name})
+endfunction()
+
+add_library(keyline_warnings INTERFACE)
+target_compile_options(keyline_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+if(KEYLINE_SANITIZE)
+  add_compile_options(-fsanitize=${KEYLINE_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${KEYLINE_SANITIZE})
+endif()

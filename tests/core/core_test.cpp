@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/core/error.h"
+#include "keyline/core/pose.h"
+#include "keyline/core/progress.h"
+#include "keyline/core/similarity.h"
+#include "keyline/core/tolerance.h"
+
+namespace keyline::core {
+namespace {
+
+TEST(Angle, WrapsIntoHalfOpenTurn) {
+  EXPECT_DOUBLE_EQ(wrap_angle(3 * kPi), kPi);
+  EXPECT_DOUBLE_EQ(wrap_angle(-kPi), kPi);
+  EXPECT_NEAR(wrap_angle(2 * kPi + 0.25), 0.25, 1e-15);
+}
+
+TEST(Angle, IsCounterClockwisePositive) {
+  EXPECT_DOUBLE_EQ(angle_between({1, 0}, {0, 2}), kPi / 2);
+  EXPECT_DOUBLE_EQ(angle_between({0, 1}, {1, 0}), -kPi / 2);
+  EXPECT_EQ(angle_between({0, 0}, {1, 0}), 0);
+}
+
+TEST(Pose, LocalFrameRoundTrip) {
+  const Pose2 pose{{3, -2}, 0.7};
+  const Point2 p{1.5, 4};
+  EXPECT_LT(distance(p, to_local(pose, from_local(pose, p))), 1e-15 * 10);
+}
+
+TEST(Similarity, InverseUndoes) {
+  const Similarity2 map{2.5, -1.1, {4, 7}};
+  const Point2 p{-3, 0.5};
+  EXPECT_LT(distance(p, apply(inverse(map), apply(map, p))), 1e-14);
+}
+
+TEST(Failure, CodesCarryTheirPublicNames) {
+  EXPECT_STREQ(code_name(ErrorCode::bad_input), "bad-input");
+  EXPECT_STREQ(code_name(ErrorCode::not_converged), "not-converged");
+}
+
+TEST(Progress, PartMapsToItsShareOfTheWhole) {
+  double seen = -1;
+  const Progress whole{[&](double f, std::string_view) { seen = f; }, {}};
+  part_of(whole, 0.5, 0.7).report(0.5, "half");
+  EXPECT_DOUBLE_EQ(seen, 0.6);
+}
+
+TEST(Progress, StopReachesEveryCopy) {
+  const auto token = CancellationToken::make();
+  const CancellationToken copy = token;
+  token.request_stop();
+  EXPECT_TRUE(copy.stop_requested());
+  EXPECT_FALSE(CancellationToken{}.stop_requested());
+}
+
+TEST(Tolerance, LargerOfAbsoluteAndRelative) {
+  EXPECT_TRUE(is_close(100, 101, {0, 0.02}));
+  EXPECT_FALSE(is_close(100, 101, {0.5, 0}));
+}
+
+}  // namespace
+}  // namespace keyline::core
