@@ -1,0 +1,114 @@
+#include "keyline/curve/polyline.h"
+
+#include <algorithm>
+#include <string>
+
+namespace keyline::curve {
+
+using core::Point2;
+using core::Point3;
+
+namespace {
+
+struct Place {
+  std::size_t edge;
+  double fraction;
+};
+
+/// Edge and fraction of it at t. Vertices are compared as breakpoints() prints them, so that a
+/// breakpoint always belongs to the edge that starts there.
+template <class P>
+Place locate(const Polyline<P>& c, double t) {
+  if (c.points.size() < 2) throw core::InvalidInput("Polyline: fewer than two points");
+  const double edges = static_cast<double>(c.points.size() - 1);
+  t = std::clamp(t, 0.0, 1.0);
+  auto edge = std::min(static_cast<std::size_t>(t * edges), c.points.size() - 2);
+  if (edge + 2 < c.points.size() && static_cast<double>(edge + 1) / edges <= t) ++edge;
+  if (edge > 0 && t < static_cast<double>(edge) / edges) --edge;
+  return {edge, std::clamp(t * edges - static_cast<double>(edge), 0.0, 1.0)};
+}
+
+}  // namespace
+
+template <class P>
+core::Result<void> validate(const Polyline<P>& c) {
+  if (c.points.size() < 2) {
+    return core::fail(core::ErrorCode::bad_input, "a polyline has two or more points", "",
+                      "points");
+  }
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    if (!is_finite(c.points[i])) {
+      return core::fail(core::ErrorCode::bad_input, "coordinate is not a finite number", "",
+                        "points[" + std::to_string(i) + "]");
+    }
+  }
+  return {};
+}
+
+template <class P>
+P evaluate(const Polyline<P>& c, double t) {
+  const Place at = locate(c, t);
+  return mix(c.points[at.edge], c.points[at.edge + 1], at.fraction);
+}
+
+template <class P>
+Jet<P> jet(const Polyline<P>& c, double t) {
+  const Place at = locate(c, t);
+  const P& a = c.points[at.edge];
+  const P& b = c.points[at.edge + 1];
+  return {mix(a, b, at.fraction), static_cast<double>(c.points.size() - 1) * (b - a), {}, {}};
+}
+
+template <class P>
+std::vector<double> breakpoints(const Polyline<P>& c) {
+  if (c.points.size() < 2) throw core::InvalidInput("Polyline: fewer than two points");
+  std::vector<double> t(c.points.size());
+  const double edges = static_cast<double>(t.size() - 1);
+  for (std::size_t i = 0; i < t.size(); ++i) t[i] = static_cast<double>(i) / edges;
+  return t;
+}
+
+template <class P>
+std::pair<Polyline<P>, Polyline<P>> split(const Polyline<P>& c, double t) {
+  return {subcurve(c, 0, t), subcurve(c, t, 1)};
+}
+
+template <class P>
+Polyline<P> subcurve(const Polyline<P>& c, double t0, double t1) {
+  const Place from = locate(c, t0);
+  const Place to = locate(c, std::max(t0, t1));
+  Polyline<P> part;
+  part.points.push_back(mix(c.points[from.edge], c.points[from.edge + 1], from.fraction));
+  for (std::size_t i = from.edge + 1; i <= to.edge; ++i) part.points.push_back(c.points[i]);
+  if (to.fraction > 0 || part.points.size() < 2) {
+    part.points.push_back(mix(c.points[to.edge], c.points[to.edge + 1], to.fraction));
+  }
+  return part;
+}
+
+template <class P>
+Polyline<P> reverse(const Polyline<P>& c) {
+  Polyline<P> r = c;
+  std::reverse(r.points.begin(), r.points.end());
+  return r;
+}
+
+Polyline2 transform(const Polyline2& c, const core::Similarity2& map) {
+  Polyline2 moved = c;
+  for (Point2& p : moved.points) p = core::apply(map, p);
+  return moved;
+}
+
+#define KEYLINE_INSTANTIATE(P)                                                    \
+  template core::Result<void> validate(const Polyline<P>&);                       \
+  template P evaluate(const Polyline<P>&, double);                                \
+  template Jet<P> jet(const Polyline<P>&, double);                                \
+  template std::vector<double> breakpoints(const Polyline<P>&);                   \
+  template std::pair<Polyline<P>, Polyline<P>> split(const Polyline<P>&, double); \
+  template Polyline<P> subcurve(const Polyline<P>&, double, double);              \
+  template Polyline<P> reverse(const Polyline<P>&);
+KEYLINE_INSTANTIATE(Point2)
+KEYLINE_INSTANTIATE(Point3)
+#undef KEYLINE_INSTANTIATE
+
+}  // namespace keyline::curve
