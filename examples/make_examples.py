@@ -1,0 +1,286 @@
+#!/usr/bin/env python3
+"""Makes every input of this folder from a known truth: python3 examples/make_examples.py [FOLDER].
+
+Standard library only, seeded: the same bytes on every run; a test compares them with the committed
+files. Each curve is a chain of log-aesthetic pieces (slope, length, curvature at both ends); the
+noisy files have their truth beside them as NAME-truth.json, in the form `keyline` prints.
+"""
+
+import json
+import math
+import random
+import sys
+from pathlib import Path
+
+# Nodes and weights of the 5-point Gauss-Legendre rule on [-1, 1].
+_A = math.sqrt(5 - 2 * math.sqrt(10 / 7)) / 3
+_B = math.sqrt(5 + 2 * math.sqrt(10 / 7)) / 3
+_WA = (322 + 13 * math.sqrt(70)) / 900
+_WB = (322 - 13 * math.sqrt(70)) / 900
+GAUSS = ((-_B, _WB), (-_A, _WA), (0.0, 128 / 225), (_A, _WA), (_B, _WB))
+
+
+class Piece:
+    """Curvature is the power mean of its two end values in arc length, exponent -alpha."""
+
+    def __init__(self, alpha, length, curvature_start, curvature_end):
+        self.alpha, self.length = alpha, length
+        self.curvature = (curvature_start, curvature_end)
+
+    def turning(self, v):
+        """Turning of the tangent over the first fraction v of the length, in closed form."""
+        k0, k1 = self.curvature
+        if k0 == k1:
+            return self.length * k0 * v
+        if self.alpha == 0:
+            ratio = math.log(k1 / k0)
+            return self.length * k0 * math.expm1(ratio * v) / ratio
+        if self.alpha == 1:
+            c = k0 / k1 - 1
+            return self.length * k0 * math.log1p(c * v) / c
+        side = -1.0 if k0 + k1 < 0 and self.alpha > 0 else 1.0
+        exponent = -self.alpha
+        a, b = (signed_power(side * k, exponent) for k in (k0, k1))
+        e = 1 / exponent + 1
+        swept = abs(a + (b - a) * v) ** e - abs(a) ** e
+        return side * self.length * swept / ((b - a) * e)
+
+    def as_json(self):
+        return {"alpha": self.alpha, "length": self.length, "curvature": list(self.curvature)}
+
+
+def signed_power(x, e):
+    return math.copysign(abs(x) ** e, x) if x else 0.0
+
+
+class Chain:
+    """A start (x, y, direction) and pieces; point(s) at arc length s."""
+
+    def __init__(self, start, pieces, closed=False):
+        self.start, self.pieces, self.closed = start, pieces, closed
+        self.length = sum(p.length for p in pieces)
+        self.poses = [start]
+        for p in pieces:
+            x, y, direction = self.poses[-1]
+            dx, dy = self._advance(p, direction, 0, p.length)
+            self.poses.append((x + dx, y + dy, direction + p.turning(1)))
+
+    @staticmethod
+    def _advance(piece, direction, s0, s1, panels=24):
+        dx = dy = 0.0
+        h = (s1 - s0) / panels
+        for i in range(panels):
+            middle = s0 + (i + 0.5) * h
+            for node, weight in GAUSS:
+                angle = direction + piece.turning((middle + node * h / 2) / piece.length)
+                dx += weight * h / 2 * math.cos(angle)
+                dy += weight * h / 2 * math.sin(angle)
+        return dx, dy
+
+    def point(self, s):
+        i = 0
+        while s > self.pieces[i].length and i + 1 < len(self.pieces):
+            s -= self.pieces[i].length
+            i += 1
+        x, y, direction = self.poses[i]
+        dx, dy = self._advance(self.pieces[i], direction, 0, min(s, self.pieces[i].length))
+        return x + dx, y + dy
+
+    def as_json(self):
+        x, y, direction = self.start
+        return {"type": "log-aesthetic", "start": [x, y], "direction": direction,
+                "closed": self.closed, "pieces": [p.as_json() for p in self.pieces]}
+
+
+class Noise(random.Random):
+    """Seeded by the file's name, so that adding a file leaves the others as they are."""
+
+    def normal(self, sigma):
+        radius = math.sqrt(-2 * math.log(1 - self.random()))
+        return sigma * radius * math.cos(2 * math.pi * self.random())
+
+    def stations(self, low, high, count):
+        """Increasing, from low to high, unevenly spaced as a hand-held scanner leaves them."""
+        step = (high - low) / (count - 1)
+        inner = [low + (i + 0.7 * (self.random() - 0.5)) * step for i in range(1, count - 1)]
+        return [low, *inner, high]
+
+
+def measured(chain, noise, stations, sigma):
+    points = [chain.point(s) for s in stations]
+    return [(x + noise.normal(sigma), y + noise.normal(sigma)) for x, y in points]
+
+
+def rows(points, form, separator=","):
+    return "".join(separator.join(form % c for c in p) + "\n" for p in points)
+
+
+def truth(chain, **more):
+    return json.dumps({**chain.as_json(), **more}, indent=1) + "\n"
+
+
+# ---- the car: bonnet, windscreen, roof; quarter scale, millimetres -------------------------------
+
+
+def car_keyline():
+    return Chain((0.0, 20.0, 0.62), [
+        Piece(0.5, 395.0, -1 / 300, -1 / 1600),   # bonnet: convergent
+        Piece(-1.0, 46.0, -1 / 1600, 1 / 55),     # into the hollow at the windscreen's foot
+        Piece(-1.0, 20.0, 1 / 55, -1 / 840),      # and out of it
+        Piece(2 / 3, 330.0, -1 / 840, -1 / 700),  # windscreen: almost one radius
+        Piece(-1.0, 250.0, -1 / 700, -1 / 2600),  # roof, sharp: two pieces of slope -1
+        Piece(-1.0, 200.0, -1 / 2600, -1 / 1200),
+    ])
+
+
+def bonnet_scan():
+    chain, noise, sigma = car_keyline(), Noise("bonnet-scan"), 0.1
+    points = measured(chain, noise, noise.stations(0, chain.length, 700), sigma)
+    for i in (61, 187, 342, 343, 519, 660):  # specks of dust, and a reflection of two points
+        x, y = points[i]
+        points[i] = (x + noise.normal(1.0), y + 4 + 6 * noise.random())
+    head = "# key-line of a car, side view, scanned from a clay model at 1:4, mm\nx,z\n"
+    return {"bonnet-scan.csv": head + rows(points, "%.3f"),
+            "bonnet-scan-truth.json": truth(chain, sigma=sigma)}
+
+
+def parts_of_the_car():
+    chain, files = car_keyline(), {}
+    for name, low, high, count in (("bonnet", 0, 500, 210), ("windscreen", 420, 860, 190),
+                                   ("roof", 770, chain.length, 200)):
+        noise = Noise(name)
+        points = measured(chain, noise, noise.stations(low, high, count), 0.1)
+        files[name + ".csv"] = "x,z\n" + rows(points, "%.3f")
+    return files
+
+
+def car_lattice():
+    """Rows across the car (y), columns along it; the middle row is the key-line."""
+    chain, noise = car_keyline(), Noise("lattice")
+    columns = [chain.point(i * chain.length / 89) for i in range(90)]
+    text = "# range data of a clay model, mm: 11 rows (y) of 90 columns (x), blank line between rows\n"
+    for row in range(11):
+        y = (row - 5) * 20.0
+        crown = [(x, y, z - y * y / 1500) for x, z in columns]
+        points = [(px, py, pz + noise.normal(0.05)) for px, py, pz in crown]
+        text += ("\n" if row else "") + rows(points, "%.3f", " ")
+    return {"car-lattice.xyz": text}
+
+
+def car_cloud():
+    """Random surface points in metres at full scale, for --section y=0 --band 0.03."""
+    chain, noise, points = car_keyline(), Noise("cloud"), []
+    for _ in range(3600):
+        x, z = chain.point(chain.length * noise.random())
+        y = 150 * (2 * noise.random() - 1)
+        points.append(tuple(c / 250 for c in (x, y, z - y * y / 1500 + noise.normal(0.1))))
+    return {"car-cloud.xyz": rows(points, "%.5f", " ")}
+
+
+# ---- other shapes -------------------------------------------------------------------------------
+
+
+def hull_waterline():
+    """Half breadths of a waterline, m, rounded to the millimetre: entrance, parallel body, run."""
+    chain = Chain((0.0, 0.0, 0.30), [
+        Piece(-1.0, 9.0, 0.0, -1 / 48),
+        Piece(-0.7, turning_length(-0.7, -1 / 48, 0.0, -0.30 + 9.0 / 96), -1 / 48, 0.0),
+        Piece(-1.0, 11.0, 0.0, 0.0),
+        Piece(-1.2, 12.0, 0.0, -1 / 40),
+        Piece(-1.0, 6.0, -1 / 40, 0.0),
+    ])
+    points = [chain.point(i * chain.length / 60) for i in range(61)]
+    head = "# waterline of a hull, half breadths in metres\nstation\thalf_breadth\n"
+    return {"hull-waterline.tsv": head + rows(points, "%.3f", "\t"),
+            "hull-waterline-truth.json": truth(chain)}
+
+
+def turning_length(alpha, curvature_start, curvature_end, turning):
+    """Length at which a piece of these ends turns by the given angle."""
+    return turning / Piece(alpha, 1.0, curvature_start, curvature_end).turning(1)
+
+
+def airfoil():
+    """Selig's order, trailing edge over the nose and back; NACA four-digit formulas, 3412."""
+    m, p, t = 0.03, 0.4, 0.12
+
+    def surface(x, side):
+        half = 5 * t * (0.2969 * math.sqrt(x) - 0.1260 * x - 0.3516 * x**2 + 0.2843 * x**3
+                        - 0.1036 * x**4)
+        scale, inner = (m / p**2, 0.0) if x < p else (m / (1 - p) ** 2, 1 - 2 * p)
+        camber = scale * (inner + 2 * p * x - x * x)
+        slope = math.atan(2 * scale * (p - x))
+        return x - side * half * math.sin(slope), camber + side * half * math.cos(slope)
+
+    xs = [(1 + math.cos(math.pi * i / 45)) / 2 for i in range(46)]
+    points = [surface(x, 1) for x in xs] + [surface(x, -1) for x in reversed(xs[:-1])]
+    lines = "".join(" %9.6f %9.6f\n" % p for p in points)
+    return {"airfoil.dat": "KEYLINE 3412 made from formulas\n" + lines}
+
+
+def bottle():
+    """Half profile with corners at foot and lip: foot, body, shoulder, neck, lip; mm."""
+    shoulder = 0.9
+    drop = turning_length(-1.0, 0.0, 1 / 30, shoulder / 2)
+    wall = Chain((36.0, 0.0, math.pi / 2), [
+        Piece(-1.0, 110.0, 0.0, 0.0),
+        Piece(-1.0, drop, 0.0, 1 / 30), Piece(-1.0, drop, 1 / 30, 0.0),
+        Piece(-1.0, drop, 0.0, -1 / 30), Piece(-1.0, drop, -1 / 30, 0.0),
+        Piece(-1.0, 45.0, 0.0, 0.0),
+    ])
+    noise = Noise("bottle")
+    x_neck, y_top, _ = wall.poses[-1]
+    points = [(36.0 * i / 30, 0.0) for i in range(30)]
+    points += [wall.point(s) for s in noise.stations(0, wall.length, 260)]
+    points += [(x_neck - x_neck * i / 20, y_top) for i in range(1, 11)]
+    points = [(x + noise.normal(0.04), y + noise.normal(0.04)) for x, y in points]
+    return {"bottle.csv": "r;h\n" + rows(points, "%.3f", ";"),
+            "bottle-truth.json": truth(wall, sigma=0.04)}
+
+
+def unordered():
+    """An S-shaped curve whose points come in no order at all."""
+    chain = Chain((-20.0, 5.0, -0.4), [Piece(-1.0, 80.0, 1 / 30, -1 / 25),
+                                       Piece(1.0, 60.0, -1 / 25, -1 / 90)])
+    noise = Noise("unordered")
+    points = measured(chain, noise, noise.stations(0, chain.length, 220), 0.02)
+    noise.shuffle(points)
+    return {"unordered.xyz": rows(points, "%.4f", " "),
+            "unordered-truth.json": truth(chain, sigma=0.02)}
+
+
+def outlines():
+    """Two closed outlines told apart by an id column, each of four quarters mirrored into each other."""
+    text, noise = "id,x,y\n", Noise("outlines")
+    ovals = (("pebble", 0.5, 1 / 60, 1 / 25, 0.0), ("egg", -0.5, 1 / 80, 1 / 30, 150.0))
+    for name, alpha, k0, k1, x in ovals:
+        length = turning_length(alpha, k0, k1, math.pi / 2)
+        there, back = Piece(alpha, length, k0, k1), Piece(alpha, length, k1, k0)
+        chain = Chain((x, 0.0, 0.0), [there, back, there, back], closed=True)
+        stations = [chain.length * i / 180 for i in range(180)]
+        for p in measured(chain, noise, stations, 0.03):
+            text += name + "," + rows([p], "%.3f")
+    return {"outlines.csv": text}
+
+
+def clothoid():
+    """Exact points of one clothoid, from a straight start to radius 40 over length 100."""
+    chain = Chain((10.0, -5.0, 0.25), [Piece(-1.0, 100.0, 0.0, 1 / 40)])
+    points = [chain.point(i) for i in range(101)]
+    return {"clothoid.csv": "x,y\n" + rows(points, "%.12f"), "clothoid-truth.json": truth(chain)}
+
+
+MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
+          unordered, outlines, clothoid)
+
+
+def main():
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent
+    folder.mkdir(parents=True, exist_ok=True)
+    for make in MAKERS:
+        for name, text in make().items():
+            (folder / name).write_text(text, encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    main()
