@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/fit/knot_search.h"
+
+namespace keyline::fit::detail {
+
+/// Knots and their criterion.
+struct ScoredKnots {
+  std::vector<double> knots;
+  double bic = 0;
+};
+
+/// Improves knots by local search until nothing helps, `rounds` improvements were made or a stop
+/// is requested: continuous optimisation of the positions (Levenberg-Marquardt on the residuals,
+/// coefficients eliminated), neighbours merged into multiple knots and multiple knots split,
+/// single knots removed, inserted and moved elsewhere. Never worse than the start.
+ScoredKnots polish_knots(SplineSolver& solver, const BayesCriterion& criterion,
+                         std::vector<double> knots, int rounds, const core::Progress& progress);
+
+/// Knots by refinement where residuals are large, then removal of those of little use: quick,
+/// deterministic, within a few per cent of a good placement.
+ScoredKnots refined_knots(SplineSolver& solver, const BayesCriterion& criterion);
+
+}  // namespace keyline::fit::detail

@@ -1,0 +1,208 @@
+#include "keyline/fit/knot_search.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include "keyline/fit/knot_polish.h"
+#include "keyline/numeric/genetic.h"
+
+namespace keyline::fit {
+namespace {
+
+using numeric::Random;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The genetic problem: real-coded interior knots, of variable number, increasing.
+class KnotProblem {
+ public:
+  using Genome = std::vector<double>;
+
+  KnotProblem(const SplineSolver& solver, const BayesCriterion& criterion,
+              const KnotSearchOptions& options)
+      : criterion_(criterion),
+        domain_(solver.domain()),
+        solvers_(static_cast<std::size_t>(numeric::thread_count(options.threads)), solver) {
+    const auto order = static_cast<std::size_t>(solver.order());
+    most_knots_ = solver.data_count() > order ? solver.data_count() - order : 0;
+    most_initial_ = std::clamp<std::size_t>(solver.data_count() / 4, 1, 100);
+    if (options.smart_start) start_ = detail::refined_knots(solvers_[0], criterion).knots;
+    smart_ = options.smart_start;
+  }
+
+  Genome create(Random& random) {
+    if (smart_) return varied_start(random);
+    Genome knots(std::min(most_knots_, 1 + random.index(most_initial_)));
+    for (double& t : knots) t = inner(random);
+    std::sort(knots.begin(), knots.end());
+    return knots;
+  }
+
+  /// Two cuts of the interval; the knots between them change places, so that counts may change.
+  void crossover(Genome& a, Genome& b, Random& random) const {
+    double low = inner(random);
+    double high = inner(random);
+    if (low > high) std::swap(low, high);
+    const auto part = [&](Genome& g) {
+      return std::pair(std::lower_bound(g.begin(), g.end(), low),
+                       std::upper_bound(g.begin(), g.end(), high));
+    };
+    const auto [a0, a1] = part(a);
+    const auto [b0, b1] = part(b);
+    Genome new_a(a.begin(), a0);
+    new_a.insert(new_a.end(), b0, b1);
+    new_a.insert(new_a.end(), a1, a.end());
+    Genome new_b(b.begin(), b0);
+    new_b.insert(new_b.end(), a0, a1);
+    new_b.insert(new_b.end(), b1, b.end());
+    a = std::move(new_a);
+    b = std::move(new_b);
+  }
+
+  /// Inserts or deletes a knot with equal probability.
+  void mutate(Genome& knots, Random& random) const {
+    const bool insert = random.chance(0.5);
+    if (insert || knots.empty()) {
+      const double t = inner(random);
+      knots.insert(std::upper_bound(knots.begin(), knots.end(), t), t);
+    } else {
+      knots.erase(knots.begin() + static_cast<std::ptrdiff_t>(random.index(knots.size())));
+    }
+  }
+
+  double cost(const Genome& knots, int worker) {
+    return criterion_(solvers_[static_cast<std::size_t>(worker)].sum_of_squares(knots),
+                      knots.size());
+  }
+
+  SplineSolver& solver(int worker) { return solvers_[static_cast<std::size_t>(worker)]; }
+
+ private:
+  double inner(Random& random) const {
+    for (;;) {
+      const double t = random.uniform(domain_.low, domain_.high);
+      if (t > domain_.low) return t;
+    }
+  }
+
+  /// The refined knots, each moved within its neighbourhood, dropped or doubled now and then.
+  Genome varied_start(Random& random) {
+    if (first_) {
+      first_ = false;
+      return start_;
+    }
+    Genome knots;
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      const double before = i > 0 ? start_[i - 1] : domain_.low;
+      const double after = i + 1 < start_.size() ? start_[i + 1] : domain_.high;
+      const double u = random.uniform();
+      if (u < 0.1) continue;
+      knots.push_back(random.uniform((before + start_[i]) / 2, (after + start_[i]) / 2));
+      if (u > 0.95) knots.push_back(random.uniform(before, after));
+    }
+    std::erase_if(knots, [&](double t) { return !(t > domain_.low && t < domain_.high); });
+    std::sort(knots.begin(), knots.end());
+    return knots;
+  }
+
+  BayesCriterion criterion_;
+  core::Interval domain_;
+  std::vector<SplineSolver> solvers_;
+  std::size_t most_knots_ = 0;
+  std::size_t most_initial_ = 1;
+  std::vector<double> start_;
+  bool smart_ = false;
+  bool first_ = true;
+};
+
+/// Progress of all trials together: share done and the best criterion so far.
+class SearchProgress {
+ public:
+  SearchProgress(const core::Progress& progress, double steps) : progress_(progress), steps_(steps) {}
+
+  /// False: stop.
+  bool step(double best) {
+    if (progress_.sink) {
+      const std::scoped_lock lock(mutex_);
+      best_ = std::min(best_, best);
+      done_ += 1;
+      char text[48];
+      std::snprintf(text, sizeof text, "knots: best BIC %.2f", best_);
+      progress_.report(std::min(1.0, done_ / steps_), text);
+    }
+    return !progress_.stop_requested();
+  }
+
+ private:
+  const core::Progress& progress_;
+  double steps_;
+  std::mutex mutex_;
+  double done_ = 0;
+  double best_ = kInfinity;
+};
+
+numeric::GeneticOptions genetic_options(const KnotSearchOptions& options) {
+  numeric::GeneticOptions genetic;
+  genetic.population = options.population;
+  genetic.generations = options.generations;
+  genetic.trials = options.trials;
+  genetic.seed = options.seed;
+  genetic.threads = options.threads;
+  return genetic;
+}
+
+}  // namespace
+
+double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_knots) const {
+  if (!std::isfinite(sum_of_squares)) return kInfinity;
+  const double parameters = 2 * static_cast<double>(interior_knots) + order;
+  return count * std::log(std::max(floor, sum_of_squares + hidden)) + std::log(count) * parameters;
+}
+
+KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& criterion,
+                              const KnotSearchOptions& options) {
+  KnotProblem problem(solver, criterion, options);
+  // A polish counts as a quarter of a trial's generations in the progress shown.
+  const double polish_steps = 1 + options.generations / 4;
+  SearchProgress progress(options.progress,
+                          options.trials * (options.generations +
+                                            (options.placement == KnotPlacement::polished ? polish_steps : 0)));
+  const auto trials = numeric::evolve_trials(
+      problem, genetic_options(options),
+      [&](int, int, double best) { return progress.step(best); });
+  KnotSearchResult result;
+  std::vector<detail::ScoredKnots> ends(trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ends[i] = {trials[i].best.genome, trials[i].best.cost};
+    result.generations += trials[i].generations;
+    result.evaluations += trials[i].evaluations;
+  }
+  if (options.placement == KnotPlacement::polished && !options.progress.stop_requested()) {
+    numeric::parallel_for(ends.size(), options.threads, [&](std::size_t i, int worker) {
+      ends[i] = detail::polish_knots(problem.solver(worker), criterion, ends[i].knots,
+                                     options.polish_rounds, options.progress);
+      for (int k = 0; k < polish_steps; ++k) progress.step(ends[i].bic);
+    });
+  }
+  result.bic = kInfinity;
+  for (auto& end : ends) {
+    if (end.bic < result.bic) {
+      result.bic = end.bic;
+      result.knots = end.knots;
+    }
+  }
+  if (!std::isfinite(result.bic)) {
+    SplineSolver plain = solver;
+    result.knots.clear();
+    result.bic = criterion(plain.sum_of_squares({}), 0);
+  }
+  result.cancelled = options.progress.stop_requested();
+  return result;
+}
+
+}  // namespace keyline::fit

@@ -1,0 +1,47 @@
+#include "keyline/numeric/parallel.h"
+
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace keyline::numeric {
+namespace {
+
+TEST(ParallelFor, CallsEachIndexOnceWithAWorkerInRange) {
+  for (const int threads : {1, 2, 5}) {
+    std::vector<int> calls(1000, 0);
+    std::vector<int> workers(1000, -1);
+    parallel_for(calls.size(), threads, [&](std::size_t i, int worker) {
+      ++calls[i];
+      workers[i] = worker;
+    });
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+      ASSERT_EQ(calls[i], 1);
+      ASSERT_GE(workers[i], 0);
+      ASSERT_LT(workers[i], threads);
+    }
+  }
+}
+
+TEST(ParallelFor, NothingToDo) {
+  parallel_for(0, 2, [](std::size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, PassesExceptionsOn) {
+  const auto thrower = [](std::size_t i) {
+    if (i == 17) throw std::runtime_error("seventeen");
+  };
+  EXPECT_THROW(parallel_for(100, 2, thrower), std::runtime_error);
+  EXPECT_THROW(parallel_for(100, 1, thrower), std::runtime_error);
+}
+
+TEST(ParallelFor, ThreadCountIsAtLeastOne) {
+  EXPECT_GE(thread_count(0), 1);
+  EXPECT_GE(thread_count(-3), 1);
+  EXPECT_EQ(thread_count(3), 3);
+}
+
+}  // namespace
+}  // namespace keyline::numeric
