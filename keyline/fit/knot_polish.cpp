@@ -16,7 +16,7 @@ namespace {
 using Knots = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGain = 1e-7;            // an improvement must be worth this much BIC
+constexpr double kGain = 1e-7;             // an improvement must be worth this much BIC
 constexpr std::size_t kAllVariables = 40;  // up to this many distinct knots are moved together
 constexpr std::size_t kNeighbours = 4;     // otherwise those this near to the change
 
@@ -112,8 +112,8 @@ class Polisher {
     return improved(result, {moved, score(moved)});
   }
 
-  static std::pair<std::size_t, std::size_t> window(const std::vector<Group>& groups,
-                                                    double centre, bool everywhere) {
+  static std::pair<std::size_t, std::size_t> window(const std::vector<Group>& groups, double centre,
+                                                    bool everywhere) {
     if (everywhere || groups.size() <= kAllVariables) return {0, groups.size()};
     const auto near = static_cast<std::size_t>(
         std::lower_bound(groups.begin(), groups.end(), centre,
@@ -125,8 +125,7 @@ class Polisher {
 
   /// Residuals at the positions, and their forward differences by each position.
   bool linearise(const std::vector<Group>& groups, std::size_t first, std::size_t last,
-                 const Eigen::VectorXd& at, Eigen::VectorXd& residuals,
-                 Eigen::MatrixXd* jacobian) {
+                 const Eigen::VectorXd& at, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
     std::vector<Group> moved = groups;
     for (std::size_t i = first; i < last; ++i) {
       moved[i].at = at[static_cast<Eigen::Index>(i - first)];
@@ -178,7 +177,8 @@ class Polisher {
       best = improved(best, refine(flattened(merged), 15, merged[i - 1].at, false));
       if (progress_.stop_requested()) return best;
     }
-    const double spacing = core::length(solver_.domain()) / static_cast<double>(solver_.data_count());
+    const double spacing =
+        core::length(solver_.domain()) / static_cast<double>(solver_.data_count());
     for (std::size_t i = 0; i < groups.size(); ++i) {
       if (groups[i].multiplicity < 2) continue;
       std::vector<Group> split = groups;

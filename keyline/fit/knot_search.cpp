@@ -123,7 +123,8 @@ class KnotProblem {
 /// Progress of all trials together: share done and the best criterion so far.
 class SearchProgress {
  public:
-  SearchProgress(const core::Progress& progress, double steps) : progress_(progress), steps_(steps) {}
+  SearchProgress(const core::Progress& progress, double steps)
+      : progress_(progress), steps_(steps) {}
 
   /// False: stop.
   bool step(double best) {
@@ -169,12 +170,13 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
   KnotProblem problem(solver, criterion, options);
   // A polish counts as a quarter of a trial's generations in the progress shown.
   const double polish_steps = 1 + options.generations / 4;
-  SearchProgress progress(options.progress,
-                          options.trials * (options.generations +
-                                            (options.placement == KnotPlacement::polished ? polish_steps : 0)));
-  const auto trials = numeric::evolve_trials(
-      problem, genetic_options(options),
-      [&](int, int, double best) { return progress.step(best); });
+  SearchProgress progress(
+      options.progress,
+      options.trials * (options.generations +
+                        (options.placement == KnotPlacement::polished ? polish_steps : 0)));
+  const auto trials =
+      numeric::evolve_trials(problem, genetic_options(options),
+                             [&](int, int, double best) { return progress.step(best); });
   KnotSearchResult result;
   std::vector<detail::ScoredKnots> ends(trials.size());
   for (std::size_t i = 0; i < trials.size(); ++i) {

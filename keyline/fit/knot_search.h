@@ -14,10 +14,10 @@ namespace keyline::fit {
 
 /// Bayes' information criterion of [Fairing] Eq. 5: N ln Q + ln N (2n + m), less is better.
 struct BayesCriterion {
-  double count = 0;     ///< N, data points
-  int order = 4;        ///< m
-  double floor = 0;     ///< least Q that counts: what the rounding of the data leaves
-  double hidden = 0;    ///< part of Q no knots can remove: the scatter inside condensed bins
+  double count = 0;   ///< N, data points
+  int order = 4;      ///< m
+  double floor = 0;   ///< least Q that counts: what the rounding of the data leaves
+  double hidden = 0;  ///< part of Q no knots can remove: the scatter inside condensed bins
   /// Infinite where sum_of_squares is.
   double operator()(double sum_of_squares, std::size_t interior_knots) const;
 };
@@ -42,7 +42,7 @@ struct KnotSearchOptions {
 struct KnotSearchResult {
   std::vector<double> knots;  ///< interior, increasing, multiple ones repeated
   double bic = 0;
-  int generations = 0;  ///< done, over all trials
+  int generations = 0;            ///< done, over all trials
   std::uint64_t evaluations = 0;  ///< least-squares fits of the genetic search
   bool cancelled = false;         ///< stopped by the progress token; the knots are the best so far
 };

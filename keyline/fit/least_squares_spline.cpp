@@ -37,7 +37,8 @@ void basis_at(const double* knots, std::size_t span, int order, double x, double
     double saved = 0;
     for (int j = 0; j < r; ++j) {
       const double right = knots[span + 1 + static_cast<std::size_t>(j)];
-      const double left = knots[span + 1 + static_cast<std::size_t>(j) - static_cast<std::size_t>(r)];
+      const double left =
+          knots[span + 1 + static_cast<std::size_t>(j) - static_cast<std::size_t>(r)];
       const double part = out[j] / (right - left);
       out[j] = saved + (right - x) * part;
       saved = (x - left) * part;
@@ -231,10 +232,10 @@ double SplineSolver::reduce(std::size_t interior) {
   for (std::size_t span = order - 1; span < coefficients; ++span) {
     const double end = knots_[span + 1];
     if (!(knots_[span] < end)) continue;
-    const auto stop = span + 1 == coefficients
-                          ? x.end()
-                          : std::lower_bound(x.begin() + static_cast<std::ptrdiff_t>(first),
-                                             x.end(), end);
+    const auto stop =
+        span + 1 == coefficients
+            ? x.end()
+            : std::lower_bound(x.begin() + static_cast<std::ptrdiff_t>(first), x.end(), end);
     const auto last = static_cast<std::size_t>(stop - x.begin());
     if (last == first) continue;
     basis_rows<order>(span, first, last);
@@ -317,8 +318,8 @@ double evaluate(const LeastSquaresSpline& spline, double x, std::size_t column) 
   const auto order = static_cast<std::size_t>(spline.order);
   const auto begin = spline.knots.begin() + spline.order;
   const auto end = spline.knots.end() - spline.order;
-  const auto span = static_cast<std::size_t>(std::upper_bound(begin, end, x) -
-                                             spline.knots.begin()) - 1;
+  const auto span =
+      static_cast<std::size_t>(std::upper_bound(begin, end, x) - spline.knots.begin()) - 1;
   std::array<double, kMaximumOrder> basis{};
   basis_at(spline.knots.data(), span, spline.order, x, basis.data());
   double value = 0;

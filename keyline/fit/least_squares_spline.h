@@ -96,7 +96,7 @@ class SplineSolver {
 /// A spline with one or several columns of coefficients, in the parameter of its data.
 struct LeastSquaresSpline {
   int order = 4;
-  std::vector<double> knots;  ///< full
+  std::vector<double> knots;                      ///< full
   std::vector<std::vector<double>> coefficients;  ///< per column, knots.size() - order of them
   double sum_of_squares = 0;                      ///< weighted
 };
