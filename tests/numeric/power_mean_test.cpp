@@ -1,0 +1,94 @@
+#include "keyline/numeric/power_mean.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "keyline/numeric/quadrature.h"
+#include "keyline/numeric/roots.h"
+
+namespace keyline::numeric {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(PowerMean, KnownMeans) {
+  EXPECT_NEAR(power_mean(1, 4, 1, 0.5), 2.5, 1e-15);
+  EXPECT_NEAR(power_mean(1, 4, 0, 0.5), 2.0, 1e-15);
+  EXPECT_NEAR(power_mean(1, 4, -1, 0.5), 1.6, 1e-15);
+  EXPECT_NEAR(power_mean(1, 4, 2, 0.5), std::sqrt(8.5), 1e-15);
+  EXPECT_EQ(power_mean(3, 3, 7, 0.3), 3);
+}
+
+TEST(PowerMean, LosesNothingNearTheGeometricMean) {
+  for (const double p : {1e-12, -1e-12, 1e-15, 1e-300, 1e-308}) {
+    EXPECT_NEAR(power_mean(2, 18, p, 0.5), 6, 5e-11 * std::fmin(1, std::abs(p) * 1e12) + 1e-14) << p;
+  }
+  // First order in p: ln M_p = ln M_0 + p u (1-u) ln(b/a)^2 / 2.
+  const double p = 1e-7;
+  const double l = std::log(9.0);
+  EXPECT_NEAR(power_mean(2, 18, p, 0.25), 2 * std::exp(0.25 * l + p * 0.1875 * l * l / 2), 1e-13);
+}
+
+TEST(PowerMean, EndsAtZeroAndInfinity) {
+  EXPECT_NEAR(power_mean(1, 0, 1, 0.25), 0.75, 1e-16);
+  EXPECT_NEAR(power_mean(0, 2, 2, 0.25), 1, 1e-15);
+  EXPECT_NEAR(power_mean(kInfinity, 2, -1, 0.25), 8, 1e-15);
+  EXPECT_NEAR(power_mean(2, kInfinity, -2, 0.75), 4, 1e-15);
+  EXPECT_EQ(power_mean(1, 0, -1, 0.5), 0);
+  EXPECT_EQ(power_mean(1, 0, 0, 0.5), 0);
+  EXPECT_EQ(power_mean(1, kInfinity, 1, 0.5), kInfinity);
+}
+
+TEST(PowerMean, SurvivesLargeExponents) {
+  EXPECT_NEAR(power_mean(1, 5, 1000, 0.5), 5 * std::pow(0.5, 1e-3), 1e-13);
+  EXPECT_NEAR(power_mean(1, 5, -1000, 0.5), std::pow(0.5, -1e-3), 1e-13);
+  EXPECT_NEAR(power_mean_integral(1, 5, 1000, 1), 5 * 1000 / 1001.0, 1e-12);
+}
+
+TEST(PowerMean, SignedCrossesZero) {
+  EXPECT_NEAR(signed_power_mean(-1, 3, 1, 0.5), 1, 1e-15);
+  EXPECT_NEAR(signed_power_mean(-2, 2, 3, 0.5), 0, 1e-15);
+  EXPECT_NEAR(signed_power_mean(-1, -3, 1, 0.5), -2, 1e-15);
+}
+
+TEST(PowerMeanIntegral, AgreesWithQuadrature) {
+  for (const double p : {-7.0, -2.0, -1.0, -1 - 1e-13, -0.5, -1e-13, 0.0, 1e-13, 0.3, 1.0, 2.0, 9.0}) {
+    for (const double b : {0.6, 0.9999999, 1.0000001, 2.0}) {
+      for (const double u : {0.1, 0.5, 1.0}) {
+        const auto f = [&](double v) { return power_mean(1, b, p, v); };
+        const double expected = integrate_adaptive(f, 0, u, 1e-13).value;
+        EXPECT_NEAR(power_mean_integral(1, b, p, u), expected, 2e-14 * expected) << p << ' ' << b;
+      }
+    }
+  }
+}
+
+TEST(PowerMeanIntegral, SingularEnds) {
+  EXPECT_NEAR(power_mean_integral(1, 0, 1, 0.5), 0.375, 1e-16);   // 1 - v
+  EXPECT_NEAR(power_mean_integral(0, 1, 2, 1), 2.0 / 3, 1e-15);   // sqrt(v)
+  EXPECT_NEAR(power_mean_integral(kInfinity, 1, -2, 0.25), 1, 1e-15);  // 1 / sqrt(v)
+  EXPECT_NEAR(power_mean_integral(1, kInfinity, -2, 1), 2, 1e-15);
+  EXPECT_EQ(power_mean_integral(1, kInfinity, -1, 1), kInfinity);
+  EXPECT_NEAR(signed_power_mean_integral(-1, 1, 3, 1), 0, 1e-16);
+  EXPECT_NEAR(signed_power_mean_integral(-1, 3, 1, 1), 1, 1e-15);
+}
+
+TEST(Quadrature, GaussRulesAreExactForPolynomials) {
+  const auto power = [](int n) { return [n](double x) { return std::pow(x, n); }; };
+  EXPECT_NEAR((integrate_gauss<8>(power(15), 0, 1)), 1.0 / 16, 1e-16);
+  EXPECT_NEAR((integrate_gauss<16>(power(31), 0, 2)), std::pow(2.0, 32) / 32, 1e-7);
+  EXPECT_NEAR((integrate_gauss<32>(power(63), 0, 1)), 1.0 / 64, 1e-16);
+}
+
+TEST(Roots, FindsTheSignChange) {
+  const auto root = bracketed_root([](double x) { return x * x * x - 2; }, 0, 5, 1e-15);
+  ASSERT_TRUE(root);
+  EXPECT_NEAR(*root, std::cbrt(2.0), 1e-15);
+  EXPECT_FALSE(bracketed_root([](double x) { return x * x + 1; }, -1, 1, 1e-9));
+  EXPECT_FALSE(bracketed_root([](double) { return std::nan(""); }, -1, 1, 1e-9));
+}
+
+}  // namespace
+}  // namespace keyline::numeric
