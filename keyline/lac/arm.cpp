@@ -116,8 +116,7 @@ namespace {
 /// Integral over a panel of fractions of length times tangent.
 Vector2 panel_vector(const Arm& arm, const Panel& panel) {
   if (panel.straight) {
-    const double angle =
-        arm.turning * (panel.from == 0 ? 0.0 : arm.angle_fraction(panel.from));
+    const double angle = arm.turning * (panel.from == 0 ? 0.0 : arm.angle_fraction(panel.from));
     const double arc = arm.arc_fraction(panel.to) - arm.arc_fraction(panel.from);
     return {arc * std::cos(angle), arc * std::sin(angle)};
   }

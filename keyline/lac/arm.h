@@ -24,13 +24,13 @@ inline double decay_integral(double k, double x) {
 }
 
 struct Arm {
-  double a = 0;         ///< decay of ds, >= 0
-  double b = 0;         ///< decay of dtheta, a + 1 or a - 1
-  double range = 0;     ///< lambda at the light end, >= 0; may be infinite
-  double length = 0;    ///< document units
-  double turning = 0;   ///< signed, travelling from the heavy end
+  double a = 0;           ///< decay of ds, >= 0
+  double b = 0;           ///< decay of dtheta, a + 1 or a - 1
+  double range = 0;       ///< lambda at the light end, >= 0; may be infinite
+  double length = 0;      ///< document units
+  double turning = 0;     ///< signed, travelling from the heavy end
   bool backward = false;  ///< heavy end is the later one along the piece
-  double from = 0;      ///< fractions of the piece's length it covers
+  double from = 0;        ///< fractions of the piece's length it covers
   double to = 1;
 
   double arc_total = 1;    ///< decay_integral(a, range)

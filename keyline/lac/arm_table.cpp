@@ -49,8 +49,8 @@ ArmTable::ArmTable(const Arm& arm) : arm_(arm) {
 
 void ArmTable::add_series(Series& series, const Panel& panel) const {
   if (panel.straight) {
-    series.direction = core::unit_vector(
-        panel.from == 0 ? 0.0 : arm_.turning * arm_.angle_fraction(panel.from));
+    series.direction =
+        core::unit_vector(panel.from == 0 ? 0.0 : arm_.turning * arm_.angle_fraction(panel.from));
     series.arc = panel.from == 0 ? 0.0 : arm_.arc_fraction(panel.from);
     return;
   }

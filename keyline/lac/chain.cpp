@@ -196,9 +196,8 @@ Chain reverse(const Chain& chain) {
 ChainPair split(const Chain& chain, double t) { return {part(chain, 0, t), part(chain, t, 1)}; }
 
 Chain transform(const Chain& chain, const core::Similarity2& map) {
-  Chain result{{apply(map, chain.start.position), chain.start.direction + map.rotation},
-               {},
-               chain.closed};
+  Chain result{
+      {apply(map, chain.start.position), chain.start.direction + map.rotation}, {}, chain.closed};
   for (const Piece& piece : chain.pieces) {
     result.pieces.push_back(piece_of(transform(place(piece, chain.start), map)));
   }

@@ -41,9 +41,8 @@ const char* broken_rule(const Piece& p) {
 double scaled_rate(double alpha, double k0, double k1, double t) {
   const double l = numeric::log_ratio(k0, k1);
   const double x = -alpha * l;
-  const double relative =
-      x > 0 ? l * numeric::expm1_over(-x) / ((1 - t) * std::exp(-x) + t)
-            : l * numeric::expm1_over(x) / ((1 - t) + t * std::exp(x));
+  const double relative = x > 0 ? l * numeric::expm1_over(-x) / ((1 - t) * std::exp(-x) + t)
+                                : l * numeric::expm1_over(x) / ((1 - t) + t * std::exp(x));
   return relative * numeric::power_mean(k0, k1, -alpha, t);
 }
 
@@ -100,8 +99,8 @@ double curvature(const Piece& p, double t) {
   if (p.alpha < 0) {
     return numeric::signed_power_mean(p.curvature_start, p.curvature_end, -p.alpha, t);
   }
-  return sign_of(p) * numeric::power_mean(std::abs(p.curvature_start), std::abs(p.curvature_end),
-                                          -p.alpha, t);
+  return sign_of(p) *
+         numeric::power_mean(std::abs(p.curvature_start), std::abs(p.curvature_end), -p.alpha, t);
 }
 
 double curvature_rate(const Piece& p, double t) {

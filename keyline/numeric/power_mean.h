@@ -13,7 +13,9 @@ namespace keyline::numeric {
 inline double expm1_over(double x) { return x == 0 ? 1.0 : std::expm1(x) / x; }
 
 /// sgn(x) |x|^e for e > 0: odd, increasing.
-inline double signed_power(double x, double e) { return std::copysign(std::pow(std::abs(x), e), x); }
+inline double signed_power(double x, double e) {
+  return std::copysign(std::pow(std::abs(x), e), x);
+}
 
 /// ln(b / a) for a, b > 0, without loss where a is close to b.
 inline double log_ratio(double a, double b) {
@@ -26,6 +28,7 @@ namespace detail {
 /// ln((1-u) + u e^x) for u in [0, 1], without cancellation and without overflow.
 inline double log_blend(double x, double u) {
   if (x > 0) return x + log_blend(-x, 1 - u);
+  if (u >= 1) return x;
   const double y = u * std::expm1(x);
   return y > -0.5 ? std::log1p(y) : std::log((1 - u) + u * std::exp(x));
 }
@@ -45,7 +48,8 @@ inline double power_mean(double a, double b, double p, double u) {
   if (u <= 0 || a == b) return a;
   if (u >= 1) return b;
   const bool infinite = std::isinf(a) || std::isinf(b);
-  if (a > 0 && b > 0 && !infinite) return a * std::exp(detail::log_power_mean(log_ratio(a, b), p, u));
+  if (a > 0 && b > 0 && !infinite)
+    return a * std::exp(detail::log_power_mean(log_ratio(a, b), p, u));
   if (infinite == (p < 0)) {  // one of the powers is zero: only the other end counts
     const double kept = infinite ? std::isinf(a) ? b : a : a > 0 ? a : b;
     const double weight = kept == a ? 1 - u : u;

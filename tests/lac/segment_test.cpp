@@ -48,7 +48,8 @@ Vector2 brute_displacement(const Piece& p, double t) {
 
 TEST(Segment, StraightLineAndCircle) {
   const Segment line{{{1, 2}, 0.5}, 3, 2, 0, 0};
-  EXPECT_NEAR(distance(evaluate(line, 0.5), Point2{1 + std::cos(0.5), 2 + std::sin(0.5)}), 0, 1e-15);
+  EXPECT_NEAR(distance(evaluate(line, 0.5), Point2{1 + std::cos(0.5), 2 + std::sin(0.5)}), 0,
+              1e-15);
   for (const double alpha : {-1e3, -1.0, 0.0, 1.0, 2.5, 1e3}) {
     const Segment circle{{{0, -2}, 0}, alpha, std::numbers::pi, 0.5, 0.5};
     EXPECT_NEAR(distance(evaluate(circle, 1), Point2{2, 0}), 0, 1e-15) << alpha;
@@ -79,7 +80,8 @@ TEST(Segment, CircleInvoluteClosedForm) {
   EXPECT_NEAR(distance(evaluate(s, 1), end), 0, 4e-15);
   EXPECT_NEAR(total_turning(s), t1, 1e-15);
   const double half = t1 * std::sqrt(0.5);
-  const Point2 middle{std::cos(half) + half * std::sin(half), std::sin(half) - half * std::cos(half)};
+  const Point2 middle{std::cos(half) + half * std::sin(half),
+                      std::sin(half) - half * std::cos(half)};
   EXPECT_NEAR(distance(evaluate(s, 0.5), middle), 0, 4e-15);
 }
 
@@ -126,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Piece{0.5, 1, 1, 1 + 1e-9}, Piece{-2, 3, 1e-9, 1.1e-9}));
 
 TEST(Segment, CuspIsIntegratedInTangentAngle) {
-  for (const double alpha : {1.3, 2.0, 4.0, 1e3}) {
+  for (const double alpha : {1.3, 2.0, 4.0, 12.0}) {
     const Piece p{alpha, 1, kInfinity, 1};
     const double theta = total_turning(p);
     EXPECT_NEAR(theta, alpha / (alpha - 1), 1e-13 * theta);
@@ -137,8 +139,8 @@ TEST(Segment, CuspIsIntegratedInTangentAngle) {
     };
     Vector2 sum;
     double before = 0;
-    for (int k = 0; k <= 200; ++k) {
-      const double x = k == 200 ? 1 : 1 - std::pow(0.9, k + 1);
+    for (int k = 300; k >= 0; --k) {
+      const double x = std::pow(0.8, k);
       sum = sum + numeric::integrate_gauss<16>(f, before, x);
       before = x;
     }
@@ -199,9 +201,16 @@ TEST(Segment, HoldsAtExtremeScales) {
 TEST(Segment, ValidateNamesTheBrokenRule) {
   EXPECT_TRUE(validate(Piece{-1, 1, 0, -1}));
   EXPECT_TRUE(validate(Piece{2, 1, kInfinity, 1}));
-  const Piece bad[] = {{std::nan(""), 1, 1, 1}, {kInfinity, 1, 1, 1}, {0, 0, 1, 1}, {0, -1, 1, 1},
-                       {0, 1, 1, 0},            {0.5, 1, 1, -1},      {2, 1, kInfinity, kInfinity},
-                       {1, 1, kInfinity, 1},    {-1, 1, kInfinity, 1}, {0, 1, 1, std::nan("")},
+  const Piece bad[] = {{std::nan(""), 1, 1, 1},
+                       {kInfinity, 1, 1, 1},
+                       {0, 0, 1, 1},
+                       {0, -1, 1, 1},
+                       {0, 1, 1, 0},
+                       {0.5, 1, 1, -1},
+                       {2, 1, kInfinity, kInfinity},
+                       {1, 1, kInfinity, 1},
+                       {-1, 1, kInfinity, 1},
+                       {0, 1, 1, std::nan("")},
                        {0, 1, 1e9, 1e9}};
   for (const Piece& p : bad) {
     const auto valid = validate(p);

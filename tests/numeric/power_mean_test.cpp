@@ -23,7 +23,8 @@ TEST(PowerMean, KnownMeans) {
 
 TEST(PowerMean, LosesNothingNearTheGeometricMean) {
   for (const double p : {1e-12, -1e-12, 1e-15, 1e-300, 1e-308}) {
-    EXPECT_NEAR(power_mean(2, 18, p, 0.5), 6, 5e-11 * std::fmin(1, std::abs(p) * 1e12) + 1e-14) << p;
+    EXPECT_NEAR(power_mean(2, 18, p, 0.5), 6, 5e-11 * std::fmin(1, std::abs(p) * 1e12) + 1e-14)
+        << p;
   }
   // First order in p: ln M_p = ln M_0 + p u (1-u) ln(b/a)^2 / 2.
   const double p = 1e-7;
@@ -54,7 +55,8 @@ TEST(PowerMean, SignedCrossesZero) {
 }
 
 TEST(PowerMeanIntegral, AgreesWithQuadrature) {
-  for (const double p : {-7.0, -2.0, -1.0, -1 - 1e-13, -0.5, -1e-13, 0.0, 1e-13, 0.3, 1.0, 2.0, 9.0}) {
+  for (const double p :
+       {-7.0, -2.0, -1.0, -1 - 1e-13, -0.5, -1e-13, 0.0, 1e-13, 0.3, 1.0, 2.0, 9.0}) {
     for (const double b : {0.6, 0.9999999, 1.0000001, 2.0}) {
       for (const double u : {0.1, 0.5, 1.0}) {
         const auto f = [&](double v) { return power_mean(1, b, p, v); };
@@ -66,8 +68,8 @@ TEST(PowerMeanIntegral, AgreesWithQuadrature) {
 }
 
 TEST(PowerMeanIntegral, SingularEnds) {
-  EXPECT_NEAR(power_mean_integral(1, 0, 1, 0.5), 0.375, 1e-16);   // 1 - v
-  EXPECT_NEAR(power_mean_integral(0, 1, 2, 1), 2.0 / 3, 1e-15);   // sqrt(v)
+  EXPECT_NEAR(power_mean_integral(1, 0, 1, 0.5), 0.375, 1e-16);        // 1 - v
+  EXPECT_NEAR(power_mean_integral(0, 1, 2, 1), 2.0 / 3, 1e-15);        // sqrt(v)
   EXPECT_NEAR(power_mean_integral(kInfinity, 1, -2, 0.25), 1, 1e-15);  // 1 / sqrt(v)
   EXPECT_NEAR(power_mean_integral(1, kInfinity, -2, 1), 2, 1e-15);
   EXPECT_EQ(power_mean_integral(1, kInfinity, -1, 1), kInfinity);
