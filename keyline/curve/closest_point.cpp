@@ -1,0 +1,201 @@
+#include "keyline/curve/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "keyline/curve/bernstein.h"
+
+namespace keyline::curve {
+
+using core::Point2;
+using core::Vector2;
+using detail::Coefficients;
+using detail::combination;
+using detail::derivative;
+using detail::product;
+
+namespace {
+
+constexpr ClosestPoint kNone{0, {}, std::numeric_limits<double>::infinity()};
+
+template <class C>
+void consider(const C& c, Point2 p, double t, ClosestPoint& best) {
+  const Point2 q = evaluate(c, t);
+  const double d = distance(p, q);
+  if (d < best.distance) best = {t, q, d};
+}
+
+/// Stationary point of the distance between low and high, by Newton's method kept inside.
+template <class C>
+double stationary_point(const C& c, Point2 p, double low, double high) {
+  double t = 0.5 * (low + high);
+  for (int step = 0; step < 80 && high - low > 0; ++step) {
+    const Jet2 j = jet(c, t);
+    const Vector2 offset = j.point - p;
+    const double slope = dot(offset, j.first);
+    if (slope == 0) break;
+    (slope > 0 ? high : low) = t;
+    const double bend = dot(j.first, j.first) + dot(offset, j.second);
+    double next = bend > 0 ? t - slope / bend : low - 1;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (next == t || !(low < next || next < high)) break;
+    t = next;
+  }
+  return t;
+}
+
+/// Squared distance from p times the squared weight function, and the derivative of the plain
+/// squared distance up to a positive factor, both as plain Bernstein coefficients.
+struct DistanceForm {
+  Coefficients<double> value, slope;
+};
+
+DistanceForm distance_form(const Bezier2& c, Point2 p) {
+  Coefficients<double> x, y, w;
+  for (std::size_t i = 0; i < c.control.size(); ++i) {
+    const double weight = is_rational(c) ? c.weights[i] : 1.0;
+    x.push_back(weight * (c.control[i].x - p.x));
+    y.push_back(weight * (c.control[i].y - p.y));
+    w.push_back(weight);
+  }
+  x = detail::scaled(x);
+  y = detail::scaled(y);
+  const auto value = combination(product(x, x), 1, product(y, y));
+  auto slope = derivative(value);
+  if (is_rational(c)) {
+    w = detail::scaled(w);
+    slope = combination(product(slope, w), -2, product(value, derivative(w)));
+  }
+  return {detail::unscaled(value), detail::unscaled(slope)};
+}
+
+class BezierSearch {
+ public:
+  BezierSearch(const Bezier2& c, Point2 p, ClosestPoint& best) : c_(c), p_(p), best_(best) {
+    consider(c, p, 0, best);
+    consider(c, p, 1, best);
+    const DistanceForm form = distance_form(c, p);
+    weight_ = is_rational(c) ? *std::max_element(c.weights.begin(), c.weights.end()) : 1.0;
+    search(form.value, form.slope, 0, 1, 0);
+  }
+
+ private:
+  void search(const Coefficients<double>& value, const Coefficients<double>& slope, double low,
+              double width, int depth) {
+    const double bound = *std::min_element(value.begin(), value.end()) / (weight_ * weight_);
+    const double nearest = best_.distance * best_.distance;
+    if (bound > nearest * (1 - 1e-14)) return;
+    const bool falls = std::any_of(slope.begin(), slope.end(), [](double x) { return x < 0; });
+    const bool rises = std::any_of(slope.begin(), slope.end(), [](double x) { return x > 0; });
+    if (!(falls && rises)) return;  // monotone: the ends are known
+    const double high = low + width;
+    if (single_minimum(slope) || depth >= 44) {
+      consider(c_, p_, stationary_point(c_, p_, low, high), best_);
+      return;
+    }
+    const double middle = low + 0.5 * width;
+    consider(c_, p_, middle, best_);
+    const auto v = detail::halves(value);
+    const auto s = detail::halves(slope);
+    search(v.left, s.left, low, 0.5 * width, depth + 1);
+    search(v.right, s.right, middle, 0.5 * width, depth + 1);
+  }
+
+  /// Falling, then rising: exactly one stationary point, and it is a minimum.
+  static bool single_minimum(const Coefficients<double>& slope) {
+    if (!(slope.front() < 0 && slope.back() > 0)) return false;
+    const auto first = std::find_if(slope.begin(), slope.end(), [](double x) { return x >= 0; });
+    return std::all_of(first, slope.end(), [](double x) { return x >= 0; });
+  }
+
+  const Bezier2& c_;
+  Point2 p_;
+  ClosestPoint& best_;
+  double weight_ = 1;
+};
+
+/// Whether the control polygon's box leaves room for a point nearer than `distance`.
+bool may_be_nearer(const Bezier2& c, Point2 p, double distance) {
+  double dx = std::numeric_limits<double>::infinity();
+  double dy = dx;
+  double low_x = dx, low_y = dx, high_x = -dx, high_y = -dx;
+  for (const Point2& q : c.control) {
+    low_x = std::min(low_x, q.x);
+    high_x = std::max(high_x, q.x);
+    low_y = std::min(low_y, q.y);
+    high_y = std::max(high_y, q.y);
+  }
+  dx = std::max({low_x - p.x, p.x - high_x, 0.0});
+  dy = std::max({low_y - p.y, p.y - high_y, 0.0});
+  return std::hypot(dx, dy) <= distance;
+}
+
+}  // namespace
+
+ClosestPoint closest_point(const Bezier2& c, Point2 p) {
+  ClosestPoint best = kNone;
+  BezierSearch(c, p, best);
+  return best;
+}
+
+ClosestPoint closest_point(const BSpline2& c, Point2 p) {
+  const auto pieces = to_beziers(c);
+  const auto breaks = breakpoints(c);
+  ClosestPoint near = kNone;
+  for (const double t : breaks) consider(c, p, t, near);
+  std::optional<std::size_t> winner;
+  ClosestPoint best = near;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!may_be_nearer(pieces[i], p, best.distance)) continue;
+    const double before = best.distance;
+    BezierSearch(pieces[i], p, best);
+    if (best.distance < before) winner = i;
+  }
+  if (!winner || *winner + 1 >= breaks.size()) return near;
+  const double low = breaks[*winner];
+  best.t = std::clamp(low + (breaks[*winner + 1] - low) * best.t, 0.0, 1.0);
+  return best;
+}
+
+ClosestPoint closest_point(const Polyline2& c, Point2 p) {
+  if (c.points.size() < 2) throw core::InvalidInput("Polyline: fewer than two points");
+  const double edges = static_cast<double>(c.points.size() - 1);
+  ClosestPoint best = kNone;
+  for (std::size_t i = 0; i + 1 < c.points.size(); ++i) {
+    const Vector2 edge = c.points[i + 1] - c.points[i];
+    const double size = norm(edge);
+    const double u =
+        size > 0 ? std::clamp(dot((p - c.points[i]) / size, edge / size), 0.0, 1.0) : 0.0;
+    const Point2 q = mix(c.points[i], c.points[i + 1], u);
+    const double d = distance(p, q);
+    if (d < best.distance) best = {(static_cast<double>(i) + u) / edges, q, d};
+  }
+  return best;
+}
+
+ClosestPoint closest_point(const PlanarView& c, Point2 p) {
+  constexpr int kParts = 24;
+  ClosestPoint best = kNone;
+  const auto& breaks = c.breaks();
+  std::vector<double> t;
+  std::vector<double> d;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    for (int k = t.empty() ? 0 : 1; k <= kParts; ++k) {
+      const double u = static_cast<double>(k) / kParts;
+      t.push_back(k == kParts ? breaks[i + 1] : (1 - u) * breaks[i] + u * breaks[i + 1]);
+      d.push_back(distance(p, c.point(t.back())));
+    }
+  }
+  for (const double b : breaks) consider(c, p, b, best);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const bool lowest = (i == 0 || d[i] <= d[i - 1]) && (i + 1 == t.size() || d[i] <= d[i + 1]);
+    if (!lowest) continue;
+    if (i > 0) consider(c, p, stationary_point(c, p, t[i - 1], t[i]), best);
+    if (i + 1 < t.size()) consider(c, p, stationary_point(c, p, t[i], t[i + 1]), best);
+  }
+  return best;
+}
+
+}  // namespace keyline::curve

@@ -1,0 +1,160 @@
+#include "keyline/curve/length.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace keyline::curve {
+namespace detail {
+namespace {
+
+// Ten-point Gauss-Legendre rule on [-1, 1] (positive half).
+constexpr std::array<double, 5> kNodes{0.14887433898163121, 0.43339539412924719,
+                                       0.67940956829902441, 0.86506336668898451,
+                                       0.97390652851717172};
+constexpr std::array<double, 5> kWeights{0.29552422471475287, 0.26926671930999636,
+                                         0.21908636251598204, 0.14945134915058059,
+                                         0.066671344308688138};
+constexpr int kMaxDepth = 50;
+
+double gauss(const SpeedView& v, double low, double high) {
+  const double middle = 0.5 * (low + high);
+  const double half = 0.5 * (high - low);
+  double sum = 0;
+  for (std::size_t i = 0; i < kNodes.size(); ++i)
+    sum += kWeights[i] * (v(middle - half * kNodes[i]) + v(middle + half * kNodes[i]));
+  return half * sum;
+}
+
+/// Calls accept(low, high, length) for panels from low to high in order; `whole` is their rule.
+template <class F>
+void refine(const SpeedView& v, double low, double high, double whole, double allowed, int depth,
+            F&& accept) {
+  const double middle = 0.5 * (low + high);
+  const double left = gauss(v, low, middle);
+  const double right = gauss(v, middle, high);
+  const double difference = std::abs(left + right - whole);
+  if (!(difference > std::max(allowed, 4e-16 * whole)) || depth >= kMaxDepth ||
+      !(low < middle && middle < high)) {
+    accept(low, middle, left);
+    accept(middle, high, right);
+    return;
+  }
+  refine(v, low, middle, left, 0.5 * allowed, depth + 1, accept);
+  refine(v, middle, high, right, 0.5 * allowed, depth + 1, accept);
+}
+
+std::vector<double> cut(const std::vector<double>& breaks, double t0, double t1) {
+  std::vector<double> ends{t0};
+  for (const double b : breaks)
+    if (b > t0 && b < t1) ends.push_back(b);
+  ends.push_back(t1);
+  return ends;
+}
+
+template <class F>
+void integrate(const SpeedView& v, const std::vector<double>& ends, double tolerance, F&& accept) {
+  std::vector<double> whole;
+  double total = 0;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    whole.push_back(gauss(v, ends[i], ends[i + 1]));
+    total += whole.back();
+  }
+  const double allowed = tolerance * total / static_cast<double>(whole.size());
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    refine(v, ends[i], ends[i + 1], whole[i], allowed, 0, accept);
+}
+
+}  // namespace
+
+double integrate_speed(const SpeedView& v, const std::vector<double>& breaks, double t0, double t1,
+                       double tolerance) {
+  if (t1 < t0) return -integrate_speed(v, breaks, t1, t0, tolerance);
+  t0 = std::clamp(t0, 0.0, 1.0);
+  t1 = std::clamp(t1, 0.0, 1.0);
+  if (!(t0 < t1)) return 0;
+  double sum = 0;
+  integrate(v, cut(breaks, t0, t1), tolerance, [&](double, double, double s) { sum += s; });
+  return sum;
+}
+
+ArcLengthMap map_lengths(const SpeedView& v, const std::vector<double>& breaks, double tolerance) {
+  ArcLengthMap map{{0.0}, {0.0}};
+  integrate(v, cut(breaks, 0, 1), tolerance, [&](double, double high, double s) {
+    map.t.push_back(high);
+    map.s.push_back(map.s.back() + s);
+  });
+  return map;
+}
+
+double length_at(const SpeedView& v, const ArcLengthMap& map, double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  const auto after = std::upper_bound(map.t.begin() + 1, map.t.end() - 1, t);
+  const std::size_t i = static_cast<std::size_t>(after - map.t.begin()) - 1;
+  return map.s[i] + (t > map.t[i] ? gauss(v, map.t[i], t) : 0.0);
+}
+
+/// Newton's method inside a panel, kept between bounds that shrink.
+double invert_length(const SpeedView& v, const ArcLengthMap& map, double s) {
+  if (!(s > 0)) return 0;
+  if (s >= map.s.back()) return 1;
+  const auto after = std::upper_bound(map.s.begin() + 1, map.s.end() - 1, s);
+  const std::size_t i = static_cast<std::size_t>(after - map.s.begin()) - 1;
+  double low = map.t[i];
+  double high = map.t[i + 1];
+  const double panel = map.s[i + 1] - map.s[i];
+  double t = panel > 0 ? low + (high - low) * (s - map.s[i]) / panel : low;
+  for (int step = 0; step < 60; ++step) {
+    const double excess = map.s[i] + gauss(v, map.t[i], t) - s;
+    if (std::abs(excess) <= 2e-16 * map.s.back()) break;
+    (excess > 0 ? high : low) = t;
+    const double rate = v(t);
+    double next = rate > 0 ? t - excess / rate : low - 1;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == t) break;
+    t = next;
+  }
+  return t;
+}
+
+}  // namespace detail
+
+namespace {
+
+template <class P>
+double length_up_to(const Polyline<P>& c, double t) {
+  const Polyline<P> part = subcurve(c, 0, t);
+  double sum = 0;
+  for (std::size_t i = 1; i < part.points.size(); ++i)
+    sum += distance(part.points[i - 1], part.points[i]);
+  return sum;
+}
+
+}  // namespace
+
+template <class P>
+double arc_length(const Polyline<P>& c, double t0, double t1, double) {
+  if (t1 < t0) return -arc_length(c, t1, t0);
+  return length_up_to(subcurve(c, t0, t1), 1);
+}
+
+template <class P>
+double parameter_at_length(const Polyline<P>& c, double s, double) {
+  if (c.points.size() < 2) throw core::InvalidInput("Polyline: fewer than two points");
+  const double edges = static_cast<double>(c.points.size() - 1);
+  double before = 0;
+  for (std::size_t i = 0; i + 1 < c.points.size(); ++i) {
+    const double edge = distance(c.points[i], c.points[i + 1]);
+    if (s <= before + edge && edge > 0)
+      return (static_cast<double>(i) + std::clamp((s - before) / edge, 0.0, 1.0)) / edges;
+    before += edge;
+  }
+  return s > 0 ? 1 : 0;
+}
+
+template double arc_length(const Polyline2&, double, double, double);
+template double arc_length(const Polyline3&, double, double, double);
+template double parameter_at_length(const Polyline2&, double, double);
+template double parameter_at_length(const Polyline3&, double, double);
+
+}  // namespace keyline::curve

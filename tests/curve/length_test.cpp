@@ -1,0 +1,79 @@
+#include "keyline/curve/length.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/curve/bezier.h"
+#include "keyline/curve/bspline.h"
+
+#include "test_curves.h"
+
+namespace keyline::curve {
+namespace {
+
+/// y = x^2 from x = 0 to x = 1.
+const Bezier2 kParabola{{{0, 0}, {0.5, 0}, {1, 1}}, {}};
+const double kParabolaLength = std::sqrt(5.0) / 2 + std::asinh(2.0) / 4;
+
+TEST(ArcLength, ParabolaMeetsEveryTolerance) {
+  for (double tolerance = 1e-2; tolerance > 1e-14; tolerance *= 0.1)
+    EXPECT_NEAR(arc_length(kParabola, 0, 1, tolerance), kParabolaLength,
+                std::max(tolerance, 4e-16) * kParabolaLength);
+}
+
+TEST(ArcLength, CircleCuspAndDegenerate) {
+  EXPECT_NEAR(arc_length(quarter_circle()), core::kPi / 2, 1e-15 * 4);
+  EXPECT_NEAR(arc_length(quarter_circle(), 1, 0), -core::kPi / 2, 1e-15 * 4);
+  // (t^2, t^3) over [-1, 1]: a cusp inside, length 2 (13 sqrt(13) - 8) / 27.
+  const Bezier2 cusp{{{1, -1}, {-1.0 / 3, 1}, {-1.0 / 3, -1}, {1, 1}}, {}};
+  EXPECT_NEAR(arc_length(cusp), 2 * (13 * std::sqrt(13.0) - 8) / 27, 1e-11);
+  EXPECT_EQ(arc_length(Bezier2{{{2, 3}, {2, 3}}, {}}), 0);
+}
+
+TEST(ArcLength, IsAdditiveOverAnyCut) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const BSpline2 c = random_spline(seed, 3, 8, seed % 2 == 1);
+    const double whole = arc_length(c);
+    EXPECT_NEAR(arc_length(c, 0, 0.37) + arc_length(c, 0.37, 1), whole, 1e-11 * whole);
+    EXPECT_NEAR(arc_length(reverse(c)), whole, 1e-11 * whole);
+    const core::Similarity2 map{1e6, 1.1, {-4, 1e5}};
+    EXPECT_NEAR(arc_length(transform(c, map)), 1e6 * whole, 1e-10 * 1e6 * whole);
+  }
+}
+
+TEST(ArcLength, InverseGoesBack) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const BSpline2 c = random_spline(seed, 4, 9, seed % 2 == 1);
+    const ArcLengthMap map = arc_length_map(c);
+    for (const double f : {0.0, 0.1, 0.33, 0.5, 0.9, 0.999, 1.0}) {
+      const double t = parameter_at_length(c, map, f * total_length(map));
+      EXPECT_NEAR(arc_length(c, 0, t), f * total_length(map), 1e-11 * total_length(map));
+      EXPECT_NEAR(length_at_parameter(c, map, t), f * total_length(map), 1e-11 * total_length(map));
+    }
+  }
+}
+
+TEST(ArcLength, EqualLengthParametersOfACircle) {
+  const auto t = equal_length_parameters(quarter_circle(), 5);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(core::direction_of(evaluate(quarter_circle(), t[i]) - core::Point2{}),
+                i * core::kPi / 8, 1e-14);
+}
+
+TEST(ArcLength, PolylineIsExact) {
+  const Polyline2 c{{{0, 0}, {3, 4}, {3, 4}, {3, 10}}};
+  EXPECT_EQ(arc_length(c), 11);
+  EXPECT_DOUBLE_EQ(arc_length(c, 1.0 / 6, 1), 8.5);
+  EXPECT_DOUBLE_EQ(parameter_at_length(c, 8), 2.5 / 3);
+  EXPECT_EQ(parameter_at_length(c, -1), 0);
+  EXPECT_EQ(parameter_at_length(c, 12), 1);
+}
+
+TEST(ArcLength, SpaceCurve) {
+  const Bezier3 line{{{0, 0, 0}, {1, 2, 2}}, {}};
+  EXPECT_NEAR(arc_length(line), 3, 1e-15 * 4);
+}
+
+}  // namespace
+}  // namespace keyline::curve
