@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/analysis/profile.h"
+
+namespace keyline::analysis {
+
+/// How far apart two ends may be and still count as joined. Curvature and its rate are compared
+/// relative to the larger of the two (curvature no smaller than 1 / scale, its rate than
+/// 1 / scale^2), where scale is the length of the shorter curve.
+struct ContinuityTolerance {
+  double gap = 1e-6;             ///< in the curves' unit
+  double angle = 1e-4;           ///< radians
+  double curvature = 1e-3;       ///< relative
+  double curvature_rate = 1e-2;  ///< relative
+};
+
+/// What happens where one curve ends and the next begins. order is 0…3 for G0…G3, -1 where there
+/// is a gap. angle is the turn from the end tangent to the start tangent in (-pi, pi]; the jumps
+/// are start of the next less end of the one before, absolute, and relative as compared.
+struct JointContinuity {
+  core::Point2 position;
+  double gap = 0;
+  double angle = 0;
+  double curvature_jump = 0;
+  double curvature_rate_jump = 0;
+  double relative_curvature_jump = 0;
+  double relative_curvature_rate_jump = 0;
+  int order = -1;
+};
+
+/// The joint between two ends; scale > 0 as above. Where a curvature is not finite (a cusp) the
+/// order is at most 1 and the jump is reported as 0.
+JointContinuity joint_continuity(const curve::Jet2& end, const curve::Jet2& start, double scale,
+                                 const ContinuityTolerance& tolerance = {});
+
+/// One entry per joint of the curves taken in order, the last one closing the loop if `closed`.
+std::vector<JointContinuity> continuity(const std::vector<CurveView>& curves, bool closed = false,
+                                        const ContinuityTolerance& tolerance = {});
+
+/// One entry per breakpoint inside a curve.
+std::vector<JointContinuity> inner_continuity(const CurveView& curve,
+                                              const ContinuityTolerance& tolerance = {});
+
+template <curve::PlanarCurve C>
+std::vector<JointContinuity> continuity(const std::vector<C>& curves, bool closed = false,
+                                        const ContinuityTolerance& tolerance = {}) {
+  std::vector<CurveView> views;
+  for (const C& c : curves) views.push_back(view(c));
+  return continuity(views, closed, tolerance);
+}
+
+}  // namespace keyline::analysis

@@ -1,0 +1,285 @@
+#include "keyline/analysis/split.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/analysis/integrate.h"
+#include "keyline/analysis/waves.h"
+#include "keyline/core/angle.h"
+
+namespace keyline::analysis {
+namespace {
+
+using detail::Sample;
+using Kind = CurvatureEvent::Kind;
+
+constexpr int kLeastSamples = 16;
+
+/// A stretch, or several in a row, of one curvature: samples [first, last].
+struct Flat {
+  std::size_t first;
+  std::size_t last;
+};
+
+class Splitter {
+ public:
+  Splitter(const CurveView& curve, const SplitOptions& options) : curve_(curve), options_(options) {
+    result_.threshold = options.noise;
+    take_samples();
+    find_flats();
+  }
+
+  Split run() {
+    std::size_t from = 0;
+    for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
+      if (samples_[i].stretch == samples_[i + 1].stretch || !is_corner(i)) continue;
+      const double t = samples_[i + 1].t;
+      result_.corners.push_back({Kind::corner, t, samples_[i].s, samples_[i].curvature, {t, t}});
+      cuts_.push_back(t);
+      split_run(from, i);
+      from = i + 1;
+    }
+    split_run(from, samples_.size() - 1);
+    make_pieces();
+    return std::move(result_);
+  }
+
+ private:
+  void take_samples() {
+    const std::vector<double> ends =
+        detail::panel_ends(curve_.breakpoints, {0, 1}, options_.samples, kLeastSamples);
+    const auto speed = [&](double t) { return curve::speed(curve_.jet(t)); };
+    int stretch = 0;
+    double s = 0;
+    std::size_t next = 1;  // breakpoint to come
+    samples_.push_back({ends[0], 0, curvature_at(ends[0]), 0});
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double step = detail::gauss8(speed, ends[i - 1], ends[i]);
+      s += std::isfinite(step) ? step : 0;
+      const bool at_break = next < curve_.breakpoints.size() && ends[i] >= curve_.breakpoints[next];
+      const double before = at_break ? std::nextafter(ends[i], 0.0) : ends[i];
+      samples_.push_back({ends[i], s, curvature_at(before), stretch});
+      if (!at_break) continue;
+      ++next;
+      ++stretch;
+      if (i + 1 < ends.size()) samples_.push_back({ends[i], s, curvature_at(ends[i]), stretch});
+    }
+    length_ = s;
+    for (const Sample& sample : samples_) largest_ = std::max(largest_, std::abs(sample.curvature));
+    rounding_ = std::max(options_.rounding * largest_, length_ > 0 ? 1e-9 / length_ : 0);
+  }
+
+  /// Curvature; at a cusp, where it is infinite, that of a place close by.
+  double curvature_at(double t) const {
+    const double kappa = curve::curvature(curve_.jet(t));
+    if (std::isfinite(kappa)) return kappa;
+    const double beside = curve::curvature(curve_.jet(t < 0.5 ? t + 1e-7 : t - 1e-7));
+    return std::isfinite(beside) ? beside : 0;
+  }
+
+  bool is_corner(std::size_t i) const {
+    const double t = samples_[i].t;
+    const double before = curve::tangent_angle(curve_.jet(std::nextafter(t, 0.0)));
+    const double after = curve::tangent_angle(curve_.jet(t));
+    return std::abs(core::wrap_angle(after - before)) > options_.corner;
+  }
+
+  void find_flats() {
+    for (std::size_t first = 0; first < samples_.size();) {
+      std::size_t last = first;
+      double low = samples_[first].curvature;
+      double high = low;
+      while (last + 1 < samples_.size() && samples_[last + 1].stretch == samples_[first].stretch) {
+        ++last;
+        low = std::min(low, samples_[last].curvature);
+        high = std::max(high, samples_[last].curvature);
+      }
+      if (high - low <= rounding_ && last > first) {
+        const bool same = !flats_.empty() && flats_.back().last + 1 == first &&
+                          std::abs(samples_[first - 1].curvature - low) <= 2 * rounding_;
+        if (same) {
+          flats_.back().last = last;
+        } else {
+          flats_.push_back({first, last});
+        }
+      }
+      first = last + 1;
+    }
+  }
+
+  const Flat* flat_around(std::size_t i) const {
+    for (const Flat& f : flats_) {
+      if (f.first <= i && i <= f.last) return &f;
+    }
+    return nullptr;
+  }
+
+  void split_run(std::size_t from, std::size_t to) {
+    if (to <= from) return;
+    const auto turns =
+        detail::significant_turns(samples_, from, to, options_.noise, rounding_, result_.merged);
+    for (std::size_t k = 1; k + 1 < turns.size(); ++k) {
+      const double rise = samples_[turns[k]].curvature - samples_[turns[k - 1]].curvature;
+      add_extremum(turns[k], rise > 0 ? Kind::maximum : Kind::minimum);
+    }
+    std::vector<std::size_t> crossings;
+    for (std::size_t k = 1; k < turns.size(); ++k) find_crossing(turns[k - 1], turns[k], crossings);
+    for (std::size_t i : detail::significant_crossings(samples_, from, to, crossings,
+                                                       options_.noise, rounding_, result_.merged))
+      add_inflection(i);
+    cut_at_flats(from, to);
+  }
+
+  void add(CurvatureEvent event, const Flat* flat) {
+    if (flat) {
+      event.flat = {samples_[flat->first].t, samples_[flat->last].t};
+      event.t = (event.flat.low + event.flat.high) / 2;
+      event.arc_length = (samples_[flat->first].s + samples_[flat->last].s) / 2;
+      cuts_.push_back(event.flat.low);
+      cuts_.push_back(event.flat.high);
+    } else {
+      event.flat = {event.t, event.t};
+      cuts_.push_back(event.t);
+    }
+    (event.kind == Kind::inflection ? result_.inflections : result_.extrema).push_back(event);
+  }
+
+  void add_extremum(std::size_t i, Kind kind) {
+    const Sample& here = samples_[i];
+    double t = here.t;
+    const bool inside = i > 0 && i + 1 < samples_.size() &&
+                        samples_[i - 1].stretch == here.stretch &&
+                        samples_[i + 1].stretch == here.stretch;
+    const Flat* flat = flat_around(i);
+    if (!flat && inside) {
+      const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet(at)); };
+      t = bisect(rate, samples_[i - 1].t, samples_[i + 1].t, t);
+    } else if (!flat) {  // the turn may lie just beside the breakpoint, inside the stretch
+      t = refine_beside(i);
+    }
+    const double kappa = inside ? curvature_at(t) : here.curvature;
+    add({kind, t, arc_length_at(t, i), kappa, {t, t}}, flat);
+  }
+
+  double refine_beside(std::size_t i) const {
+    const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet(at)); };
+    const Sample& here = samples_[i];
+    if (i > 0 && samples_[i - 1].stretch == here.stretch)
+      return bisect(rate, samples_[i - 1].t, std::nextafter(here.t, 0.0), here.t);
+    if (i + 1 < samples_.size() && samples_[i + 1].stretch == here.stretch)
+      return bisect(rate, here.t, samples_[i + 1].t, here.t);
+    return here.t;
+  }
+
+  /// The zero of f in [low, high], or `otherwise` where f does not change sign.
+  template <class F>
+  double bisect(const F& f, double low, double high, double otherwise) const {
+    const double at_low = f(low);
+    const double at_high = f(high);
+    if (!(at_low * at_high < 0)) return otherwise;
+    for (int step = 0; step < 60 && high - low > 1e-16; ++step) {
+      const double middle = (low + high) / 2;
+      ((f(middle) > 0) == (at_low > 0) ? low : high) = middle;
+    }
+    return (low + high) / 2;
+  }
+
+  double arc_length_at(double t, std::size_t near) const {
+    const auto speed = [&](double at) { return curve::speed(curve_.jet(at)); };
+    const double step = detail::gauss8(speed, samples_[near].t, t);
+    return samples_[near].s + (std::isfinite(step) ? step : 0);
+  }
+
+  int sign_of(std::size_t i) const {
+    const double kappa = samples_[i].curvature;
+    return std::abs(kappa) <= rounding_ ? 0 : kappa > 0 ? 1 : -1;
+  }
+
+  /// The middle one of the sign changes between two turning points, if there is one in sum: the
+  /// last sample that surely has the first sign.
+  void find_crossing(std::size_t from, std::size_t to, std::vector<std::size_t>& crossings) const {
+    std::vector<std::size_t> found;
+    int sign = 0;
+    std::size_t last_sure = from;
+    for (std::size_t i = from; i <= to; ++i) {
+      const int now = sign_of(i);
+      if (now == 0) continue;
+      if (sign != 0 && now != sign) found.push_back(last_sure);
+      sign = now;
+      last_sure = i;
+    }
+    if (found.size() % 2 == 1) crossings.push_back(found[found.size() / 2]);
+  }
+
+  void add_inflection(std::size_t i) {
+    std::size_t next = i + 1;
+    while (next + 1 < samples_.size() && sign_of(next) == 0) ++next;
+    const std::size_t middle = (i + next) / 2;
+    const Flat* flat = sign_of(middle) == 0 ? flat_around(middle) : nullptr;
+    double t = samples_[middle].t;
+    if (!flat && samples_[i].stretch == samples_[next].stretch) {
+      const auto kappa = [&](double at) { return curve::curvature(curve_.jet(at)); };
+      t = bisect(kappa, samples_[i].t, std::nextafter(samples_[next].t, 0.0), t);
+    }
+    add({Kind::inflection, t, arc_length_at(t, middle), 0, {t, t}}, flat);
+  }
+
+  /// Cuts where an exact arc or straight stretch meets curvature that flows on, and where a
+  /// straight stretch ends; not between arcs.
+  void cut_at_flats(std::size_t from, std::size_t to) {
+    for (const Flat& f : flats_) {
+      if (f.last < from || f.first > to) continue;
+      const bool straight = sign_of(f.first) == 0;
+      const bool arc_before = f.first > 0 && flat_around(f.first - 1);
+      const bool arc_after = f.last + 1 < samples_.size() && flat_around(f.last + 1);
+      if (f.first > from && (straight || !arc_before)) cuts_.push_back(samples_[f.first].t);
+      if (f.last < to && (straight || !arc_after)) cuts_.push_back(samples_[f.last].t);
+    }
+  }
+
+  void make_pieces() {
+    cuts_.push_back(0);
+    cuts_.push_back(1);
+    std::ranges::sort(cuts_);
+    std::vector<double> ends = {0};
+    for (double c : cuts_) {
+      if (c - ends.back() > 1e-12 && (1 - c > 1e-12 || c == 1)) ends.push_back(c);
+    }
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double a = ends[i - 1];
+      const double b = ends[i];
+      result_.pieces.push_back({{a, b},
+                                {length_at(a), length_at(b)},
+                                curvature_at(a),
+                                curvature_at(std::nextafter(b, 0.0))});
+    }
+    for (auto* events : {&result_.extrema, &result_.inflections})
+      std::ranges::sort(*events, {}, &CurvatureEvent::t);
+    std::ranges::sort(result_.merged, {}, [](const MergedWave& w) { return w.t.low; });
+  }
+
+  double length_at(double t) const {
+    const auto it = std::ranges::upper_bound(samples_, t, {}, &Sample::t);
+    const std::size_t i =
+        it == samples_.begin() ? 0 : static_cast<std::size_t>(it - samples_.begin()) - 1;
+    return arc_length_at(t, i);
+  }
+
+  const CurveView& curve_;
+  SplitOptions options_;
+  std::vector<Sample> samples_;
+  std::vector<Flat> flats_;
+  std::vector<double> cuts_;
+  Split result_;
+  double length_ = 0;
+  double largest_ = 0;
+  double rounding_ = 0;
+};
+
+}  // namespace
+
+Split split_monotone(const CurveView& curve, const SplitOptions& options) {
+  return Splitter(curve, options).run();
+}
+
+}  // namespace keyline::analysis

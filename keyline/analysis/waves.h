@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "keyline/analysis/split.h"
+
+namespace keyline::analysis::detail {
+
+/// A sample of the curve in order of t; stretch counts the breakpoints before it.
+struct Sample {
+  double t = 0;
+  double s = 0;
+  double curvature = 0;
+  int stretch = 0;
+};
+
+/// Turning points of the curvature along samples [from, to] (both ends included in the result),
+/// after every wave of no more than `noise` displacement or `rounding` swing has been merged.
+/// What was merged is added to `merged`, rounding left out.
+std::vector<std::size_t> significant_turns(const std::vector<Sample>& samples, std::size_t from,
+                                           std::size_t to, double noise, double rounding,
+                                           std::vector<MergedWave>& merged);
+
+/// Of the sign changes (index of the sample before each), those that bound significant lobes.
+std::vector<std::size_t> significant_crossings(const std::vector<Sample>& samples, std::size_t from,
+                                               std::size_t to, std::vector<std::size_t> crossings,
+                                               double noise, double rounding,
+                                               std::vector<MergedWave>& merged);
+
+}  // namespace keyline::analysis::detail

@@ -1,0 +1,126 @@
+#include "keyline/analysis/split.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/analysis/fairness.h"
+#include "keyline/analysis/volume.h"
+#include "keyline/curve/bezier.h"
+#include "keyline/curve/bspline.h"
+#include "keyline/curve/polyline.h"
+
+#include "spirals.h"
+
+namespace keyline::analysis {
+namespace {
+
+TEST(Split, SpiralIsOnePiece) {
+  const Split split = split_monotone(testing::clothoid(0, 5, 1));
+  ASSERT_EQ(split.pieces.size(), 1u);
+  EXPECT_TRUE(split.extrema.empty() && split.inflections.empty() && split.merged.empty());
+  EXPECT_NEAR(split.pieces[0].curvature_end, 5, 1e-9);
+}
+
+TEST(Split, ClothoidThroughItsInflection) {
+  const Split split = split_monotone(testing::clothoid(-1, 3, 2));
+  ASSERT_EQ(split.inflections.size(), 1u);
+  EXPECT_NEAR(split.inflections[0].t, 0.25, 1e-12);
+  EXPECT_EQ(split.pieces.size(), 2u);
+  EXPECT_TRUE(split.extrema.empty());
+}
+
+TEST(Split, EllipseArcHasItsVertices) {
+  // Quarters of an ellipse joined at its vertices would hide them at breakpoints: use a rotated
+  // conic arc instead, whose vertex lies inside.
+  const curve::Bezier2 parabola{{{-1, 1}, {0.5, -2}, {2, 4}}, {}};  // y = x^2 from -1 to 2
+  const Split split = split_monotone(parabola);
+  ASSERT_EQ(split.extrema.size(), 1u);
+  EXPECT_EQ(split.extrema[0].kind, CurvatureEvent::Kind::maximum);
+  EXPECT_NEAR(split.extrema[0].t, 1.0 / 3, 1e-9);
+  EXPECT_NEAR(split.extrema[0].curvature, 2, 1e-12);
+  EXPECT_EQ(split.pieces.size(), 2u);
+}
+
+TEST(Split, SmallWavesAreMergedAndReported) {
+  // Amplitude 0.5 at wavelength 0.1: the curve moves by 2 * 0.5 * 0.01 / (8 pi^2) = 1.27e-4.
+  const auto c = testing::wavy(1, 3, 0.5, 0.1, 1);
+  EXPECT_GT(split_monotone(c).pieces.size(), 15u);
+  EXPECT_GT(split_monotone(c, {.noise = 1e-4}).pieces.size(), 10u);
+  const Split split = split_monotone(c, {.noise = 1.5e-4});
+  EXPECT_EQ(split.pieces.size(), 1u);
+  ASSERT_GE(split.merged.size(), 8u);
+  EXPECT_EQ(split.threshold, 1.5e-4);
+  for (const MergedWave& w : split.merged) EXPECT_LE(w.displacement, 1.5e-4);
+}
+
+TEST(Split, ShortLobesOfTheOtherSignAreNoise) {
+  // Curvature dips below zero for a short stretch in the middle only by the wave.
+  const auto c = testing::wavy(-1, 1, 0.4, 0.2, 1);
+  EXPECT_GT(split_monotone(c).inflections.size(), 1u);
+  const Split split = split_monotone(c, {.noise = 1e-3});
+  ASSERT_EQ(split.inflections.size(), 1u);
+  EXPECT_NEAR(split.inflections[0].t, 0.5, 0.06);
+}
+
+TEST(Split, LineArcLineComesApart) {
+  const Split split = split_monotone(testing::arcs({0, 2, 0}, {1, 2, 4}));
+  ASSERT_EQ(split.pieces.size(), 3u);
+  EXPECT_NEAR(split.pieces[1].t.low, 0.25, 1e-12);
+  EXPECT_NEAR(split.pieces[1].t.high, 0.5, 1e-12);
+  ASSERT_EQ(split.extrema.size(), 1u);
+  EXPECT_NEAR(split.extrema[0].flat.low, 0.25, 1e-12);
+}
+
+TEST(Split, GrowingArcsStayTogether) {
+  EXPECT_EQ(split_monotone(testing::arcs({1, 2, 3, 4}, {1, 2, 3, 4})).pieces.size(), 1u);
+}
+
+TEST(Split, ReversalMirrorsTheEvents) {
+  const curve::Bezier2 c{{{0, 0}, {1, 3}, {2, -3}, {3, 1}}, {}};
+  curve::Bezier2 back = c;
+  std::ranges::reverse(back.control);
+  const Split a = split_monotone(c);
+  const Split b = split_monotone(back);
+  ASSERT_EQ(a.pieces.size(), b.pieces.size());
+  for (std::size_t i = 0; i < a.pieces.size(); ++i)
+    EXPECT_NEAR(a.pieces[i].t.low, 1 - b.pieces[a.pieces.size() - 1 - i].t.high, 1e-9);
+}
+
+TEST(Split, CornersOfAPolyline) {
+  const curve::Polyline2 zigzag{{{0, 0}, {1, 0}, {1, 1}}};
+  const Split split = split_monotone(zigzag);
+  EXPECT_EQ(split.corners.size(), 1u);
+  EXPECT_EQ(split.pieces.size(), 2u);
+}
+
+TEST(Split, DegenerateCurvesAreOnePiece) {
+  const curve::Bezier2 point{{{1, 1}, {1, 1}, {1, 1}, {1, 1}}, {}};
+  EXPECT_EQ(split_monotone(point).pieces.size(), 1u);
+  const curve::Bezier2 line{{{0, 0}, {1, 1}, {2, 2}, {3, 3}}, {}};
+  EXPECT_EQ(split_monotone(line).pieces.size(), 1u);
+  const curve::Bezier2 there_and_back{{{0, 0}, {2, 0}, {-1, 0}, {1, 0}}, {}};
+  EXPECT_GE(split_monotone(there_and_back).pieces.size(), 1u);
+}
+
+TEST(Volume, CircularSegmentAndParabola) {
+  EXPECT_NEAR(volume(testing::arcs({1}, {2})), (2 - std::sin(2.0)) / 2, 1e-12);
+  const curve::Bezier2 parabola{{{-1, 1}, {0, -1}, {1, 1}}, {}};
+  EXPECT_NEAR(signed_volume(parabola), 4.0 / 3, 1e-14);
+  EXPECT_NEAR(signed_volume(curve::Bezier2{{{1, 1}, {0, -1}, {-1, 1}}, {}}), -4.0 / 3, 1e-14);
+}
+
+TEST(Fairness, ClothoidEnergies) {
+  const Fairness f = fairness(testing::clothoid(-1, 3, 2));
+  EXPECT_NEAR(f.length, 2, 1e-12);
+  EXPECT_NEAR(f.total_turning, 2, 1e-12);
+  EXPECT_NEAR(f.absolute_turning, 2.5, 1e-4);
+  EXPECT_NEAR(f.bending_energy, 2 * (9.0 - 3.0 + 1.0) / 3, 1e-12);
+  EXPECT_NEAR(f.variation_energy, 8, 1e-12);
+  EXPECT_EQ(f.inflections, 1);
+  EXPECT_EQ(f.extrema, 0);
+  EXPECT_NEAR(f.curvature_max, 3, 1e-9);
+}
+
+}  // namespace
+}  // namespace keyline::analysis
