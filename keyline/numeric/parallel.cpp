@@ -4,6 +4,7 @@
 #include <thread>
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -18,7 +19,8 @@ namespace detail {
 
 void run_parallel(std::size_t count, int threads,
                   const std::function<void(std::size_t, int)>& body) {
-  tbb::task_arena arena(threads);
+  // More than the machine has would only make TBB complain.
+  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
                       [&](const tbb::blocked_range<std::size_t>& range) {

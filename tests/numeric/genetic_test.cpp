@@ -44,8 +44,11 @@ GeneticOptions small(int trials, int threads) {
 
 TEST(Genetic, FindsTheOptimum) {
   Switches problem;
+  GeneticOptions options = small(8, 2);
+  options.population = 60;
+  options.generations = 200;
   double best = 24;
-  for (const auto& trial : evolve_trials(problem, small(8, 2))) {
+  for (const auto& trial : evolve_trials(problem, options)) {
     best = std::min(best, trial.best.cost);
   }
   EXPECT_EQ(best, 0);
