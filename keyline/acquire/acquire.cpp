@@ -1,0 +1,179 @@
+#include "keyline/acquire/acquire.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "keyline/acquire/clean.h"
+#include "keyline/acquire/corners.h"
+#include "keyline/acquire/ends.h"
+#include "keyline/acquire/noise.h"
+#include "keyline/acquire/outliers.h"
+
+namespace keyline::acquire {
+namespace {
+
+using core::ErrorCode;
+using detail::Working;
+
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+core::Result<Working> flatten(const RawCurve& raw, const AcquireOptions& options, KeyLine& line) {
+  const std::vector<std::size_t> kept = detail::finite_points(raw);
+  line.report.points_read = raw.points.size();
+  line.report.non_finite = raw.points.size() - kept.size();
+  if (line.report.non_finite > 0) {
+    line.report.notes.push_back(
+        counted(line.report.non_finite, "point", "points") +
+        " dropped: a coordinate or weight is missing, not a number or infinite");
+  }
+  if (kept.empty()) return core::fail(ErrorCode::bad_input, "no point has finite coordinates");
+  std::vector<core::Point3> points;
+  for (const std::size_t i : kept) points.push_back(raw.points[i]);
+  if (options.plane) {
+    line.plane = *options.plane;
+  } else if (raw.has_z) {
+    line.plane = fit_plane(points).plane;
+  }
+  Working work;
+  double sum = 0;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    work.points.push_back(to_plane(line.plane, points[k]));
+    work.sources.push_back(kept[k]);
+    if (!raw.weights.empty()) work.weights.push_back(raw.weights[kept[k]]);
+    const double off = std::abs(distance_from_plane(line.plane, points[k]));
+    line.report.plane_departure = std::max(line.report.plane_departure, off);
+    sum += off * off;
+  }
+  line.report.plane_departure_rms = std::sqrt(sum / static_cast<double>(kept.size()));
+  return work;
+}
+
+void note_plane(KeyLine& line, double extent) {
+  if (line.report.plane_departure <= 1e-9 * extent) return;
+  line.report.notes.push_back("points projected on a plane; largest distance from it " +
+                              std::to_string(line.report.plane_departure));
+}
+
+void merge(Working& work, KeyLine& line) {
+  const std::size_t merged = detail::merge_repeated(work);
+  line.report.duplicates += merged;
+  if (merged > 0) {
+    line.report.notes.push_back(counted(merged, "repeated point", "repeated points") + " merged");
+  }
+}
+
+/// Closes the outline as its ends ask for: drops the repeated first point, or adds it at a corner.
+void settle_ends(Working& work, std::size_t stride, const AcquireOptions& options, KeyLine& line) {
+  Ends ends = recognise_ends(work.points, stride);
+  if (options.closed) {
+    const bool repeated = ends == Ends::closed_repeated || ends == Ends::corner_repeated;
+    ends = *options.closed ? (repeated ? Ends::closed_repeated : Ends::closed) : Ends::apart;
+  }
+  const auto note = [&](const char* text) { line.report.notes.emplace_back(text); };
+  switch (ends) {
+    case Ends::apart:
+      break;
+    case Ends::closed_repeated:
+      detail::remove_points(work, {work.points.size() - 1});
+      [[fallthrough]];
+    case Ends::closed:
+      line.closed = true;
+      note("recognised as a closed outline");
+      break;
+    case Ends::corner_repeated:
+      line.ends_meet = true;
+      note("the ends meet in a corner: kept as an open curve from corner to corner");
+      break;
+    case Ends::corner_at_last:
+      std::rotate(work.points.rbegin(), work.points.rbegin() + 1, work.points.rend());
+      std::rotate(work.sources.rbegin(), work.sources.rbegin() + 1, work.sources.rend());
+      if (!work.weights.empty()) {
+        std::rotate(work.weights.rbegin(), work.weights.rbegin() + 1, work.weights.rend());
+      }
+      [[fallthrough]];
+    case Ends::corner_at_first:
+      work.points.push_back(work.points.front());
+      work.sources.push_back(work.sources.front());
+      if (!work.weights.empty()) work.weights.push_back(work.weights.front());
+      line.ends_meet = true;
+      note("closed outline that starts at a corner: kept as an open curve from corner to corner");
+      break;
+    case Ends::blunt:
+      note("the ends face each other across a blunt edge: kept as an open curve");
+      break;
+  }
+}
+
+void drop_outliers(Working& work, double noise, std::size_t stride, KeyLine& line) {
+  for (int pass = 0; pass < 3; ++pass) {
+    const auto strays = find_outliers(work.points, line.closed, noise, stride);
+    if (strays.empty() || work.points.size() < strays.size() + 4) break;
+    for (const std::size_t i : strays) line.report.outlier_sources.push_back(work.sources[i]);
+    detail::remove_points(work, strays);
+  }
+  auto& sources = line.report.outlier_sources;
+  std::sort(sources.begin(), sources.end());
+  line.report.outliers = sources.size();
+  if (line.report.outliers > 0) {
+    line.report.notes.push_back(counted(line.report.outliers, "stray point", "stray points") +
+                                " removed");
+  }
+}
+
+double polygon_length(const std::vector<core::Point2>& points, bool closed) {
+  double sum = closed ? core::distance(points.back(), points.front()) : 0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += core::distance(points[i - 1], points[i]);
+  return sum;
+}
+
+/// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
+/// one: integers may also be exact coordinates of a small figure.
+double noise_of(const Working& work, bool closed, const AcquireOptions& options, double rounding) {
+  if (options.noise) return *options.noise;
+  const double estimate = estimate_noise(work.points, closed);
+  if (work.points.size() < 8) return estimate;
+  const double most = 3e-4 * polygon_length(work.points, closed);
+  return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
+}
+
+}  // namespace
+
+core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions& options) {
+  if (const auto checked = detail::check_input(raw); !checked) {
+    return std::unexpected(checked.error());
+  }
+  KeyLine line;
+  line.id = raw.id;
+  line.report.notes = raw.notes;
+  auto flat = flatten(raw, options, line);
+  if (!flat) return std::unexpected(flat.error());
+  Working& work = *flat;
+  note_plane(line, detail::extent_of(work.points));
+  merge(work, line);
+  if (work.points.size() < 2) {
+    const bool one = raw.points.size() == 1;
+    return core::fail(ErrorCode::bad_input,
+                      one ? "a single point is no curve" : "all points are at the same place",
+                      "give at least two different points");
+  }
+  line.rounding = estimate_rounding(raw);
+  const std::size_t stride = noise_stride(work.points, false);
+  const double noise = noise_of(work, false, options, line.rounding);
+  if (options.remove_outliers) drop_outliers(work, noise, stride, line);
+  settle_ends(work, stride, options, line);
+  line.noise = noise_of(work, line.closed, options, line.rounding);
+  if (options.find_corners) {
+    line.corners = find_corners(work.points, line.closed, line.noise, options.corner_angle);
+  }
+  line.length = polygon_length(work.points, line.closed);
+  line.points = std::move(work.points);
+  line.weights = std::move(work.weights);
+  line.sources = std::move(work.sources);
+  return line;
+}
+
+}  // namespace keyline::acquire

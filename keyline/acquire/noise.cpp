@@ -1,0 +1,157 @@
+#include "keyline/acquire/noise.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "keyline/acquire/local_fit.h"
+
+namespace keyline::acquire {
+namespace {
+
+struct Window {
+  int points;
+  int degree;
+};
+
+// Short windows of low degree cope with sparse points, the longer ones of high degree with bends.
+constexpr std::array<Window, 5> kWindows{{{5, 2}, {5, 3}, {6, 3}, {7, 4}, {8, 5}}};
+constexpr std::size_t kMostWindows = 4000;
+
+/// Ratio of the median of a chi-squared variable to its degrees of freedom (1 to 3).
+double median_ratio(int freedom) {
+  constexpr std::array<double, 4> median{0, 0.45493642, 1.38629436, 2.36597388};
+  return median[static_cast<std::size_t>(freedom)] / freedom;
+}
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Calls visit(span of m points, `stride` apart) for windows spread evenly over the curve.
+template <class Visit>
+void for_windows(std::span<const core::Point2> points, bool closed, std::size_t m,
+                 std::size_t stride, Visit visit) {
+  const std::size_t n = points.size();
+  const std::size_t reach = (m - 1) * stride;
+  if (n <= reach) return;
+  const std::size_t count = closed ? n : n - reach;
+  const std::size_t skip = std::max<std::size_t>(1, count / kMostWindows);
+  std::array<core::Point2, detail::LocalFit::kMostPoints> window;
+  for (std::size_t first = 0; first < count; first += skip) {
+    for (std::size_t k = 0; k < m; ++k) window[k] = points[(first + k * stride) % n];
+    visit(std::span<const core::Point2>(window.data(), m));
+  }
+}
+
+/// Share of the windows whose points advance steadily.
+double advancing_share(std::span<const core::Point2> points, bool closed, std::size_t stride) {
+  std::size_t windows = 0, advancing = 0;
+  for_windows(points, closed, 6, stride, [&](std::span<const core::Point2> window) {
+    const core::Vector2 chord = window.back() - window.front();
+    bool forward = true;
+    for (std::size_t k = 1; k < window.size(); ++k) {
+      forward = forward && core::dot(chord, window[k] - window[k - 1]) > 0;
+    }
+    ++windows;
+    advancing += forward ? 1 : 0;
+  });
+  return windows == 0 ? 1 : static_cast<double>(advancing) / static_cast<double>(windows);
+}
+
+double estimate_in(std::span<const core::Point2> points, bool closed, Window w,
+                   std::size_t stride) {
+  std::vector<double> variances;
+  const int freedom = w.points - w.degree - 1;
+  for_windows(points, closed, static_cast<std::size_t>(w.points), stride,
+              [&](std::span<const core::Point2> window) {
+                const auto fit = detail::LocalFit::make(window, w.degree);
+                if (fit) variances.push_back(fit->squared_residuals() / freedom);
+              });
+  if (variances.empty()) return std::numeric_limits<double>::infinity();
+  return std::sqrt(median_of(variances) / median_ratio(freedom));
+}
+
+/// Exponent of the last decimal place value is written with (-2 for 0.25, 1 for 130), and its
+/// number of significant digits, in the shortest decimal form that reads back to value.
+struct DecimalForm {
+  int last_place;
+  int digits;
+};
+
+DecimalForm decimal_form(double value) {
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(value),
+                                 std::chars_format::scientific);
+  const std::string_view s(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
+  const std::size_t e = s.find('e');
+  int exponent = 0;
+  std::from_chars(s.data() + e + (s[e + 1] == '+' ? 2 : 1), s.data() + s.size(), exponent);
+  const int digits = e == 1 ? 1 : static_cast<int>(e) - 1;
+  return {exponent - digits + 1, digits};
+}
+
+/// Rounding step of one coordinate, or 0.
+double step_of(std::vector<int>& places, int most_digits) {
+  if (places.empty() || most_digits >= 13) return 0;
+  // The place that is fine enough for four fifths of the values.
+  const auto at = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 5);
+  std::nth_element(places.begin(), at, places.end());
+  return std::pow(10.0, std::min(*at, 0));
+}
+
+double step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate) {
+  std::vector<int> places;
+  std::vector<int> digits;
+  const std::size_t skip = std::max<std::size_t>(1, raw.points.size() / 5000);
+  for (std::size_t i = 0; i < raw.points.size(); i += skip) {
+    const double value = raw.points[i].*coordinate;
+    if (!std::isfinite(value) || value == 0) continue;
+    const DecimalForm form = decimal_form(value);
+    places.push_back(form.last_place);
+    digits.push_back(form.digits);
+  }
+  if (places.empty()) return 0;
+  const auto middle = digits.begin() + static_cast<std::ptrdiff_t>(digits.size() / 2);
+  std::nth_element(digits.begin(), middle, digits.end());
+  return step_of(places, *middle);
+}
+
+}  // namespace
+
+std::size_t noise_stride(std::span<const core::Point2> points, bool closed) {
+  std::size_t stride = 1;
+  while (advancing_share(points, closed, stride) < 0.75 && 24 * stride < points.size()) {
+    stride *= 2;
+  }
+  return stride;
+}
+
+double estimate_noise(std::span<const core::Point2> points, bool closed) {
+  const std::size_t stride = noise_stride(points, closed);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Window& w : kWindows) {
+    if (points.size() < static_cast<std::size_t>(w.points) + 2 * (w.degree == 5 ? 2u : 0u))
+      continue;
+    least = std::min(least, estimate_in(points, closed, w, stride));
+  }
+  return std::isfinite(least) ? least : 0;
+}
+
+double estimate_rounding(const RawCurve& raw) {
+  double finest = 0;
+  for (const auto coordinate : {&core::Point3::x, &core::Point3::y, &core::Point3::z}) {
+    if (coordinate == &core::Point3::z && !raw.has_z) continue;
+    const double step = step_of_coordinate(raw, coordinate);
+    if (step > 0) finest = finest > 0 ? std::min(finest, step) : step;
+  }
+  return finest;
+}
+
+}  // namespace keyline::acquire

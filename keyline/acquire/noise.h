@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "keyline/acquire/raw_curve.h"
+#include "keyline/core/point.h"
+
+namespace keyline::acquire {
+
+/// Standard deviation of the position error of ordered points, normal to the curve, from the
+/// residuals of local polynomials (several degrees and window widths; the least of their median
+/// estimates, since curvature can only enlarge them). Median based: up to a third of the windows
+/// may hold corners or strays. 0 for fewer than 5 points, and of the order of 1e-12 of the size
+/// for points exactly on a smooth, densely sampled curve. Waves longer than about ten points are
+/// shape to this estimate, not noise.
+double estimate_noise(std::span<const core::Point2> points, bool closed);
+
+/// Number of points from one window point to the next at which steps along the curve stand clear
+/// of the noise: 1 for ordinary data, larger where points are denser than their noise.
+std::size_t noise_stride(std::span<const core::Point2> points, bool closed);
+
+/// Decimal step the coordinates are rounded to (1 for integer pixels, 1e-5 for five decimals), or
+/// 0 where they carry 13 or more significant digits. The finer of the steps found in x, y and z,
+/// each the one that four fifths of the values satisfy. The standard deviation of the rounding
+/// error is rounding / sqrt(12).
+double estimate_rounding(const RawCurve& raw);
+
+}  // namespace keyline::acquire

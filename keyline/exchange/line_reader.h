@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyline/core/error.h"
+
+namespace keyline::exchange {
+
+/// Reads text line by line in bounded memory: lines end with \n, \r\n or \r; a UTF-8 byte order
+/// mark is skipped. Binary content, UTF-16 and overlong lines are failures with the place
+/// "name:line".
+class LineReader {
+ public:
+  /// name: what failures call the input. longest: largest number of bytes in a line.
+  LineReader(std::istream& in, std::string name, std::size_t longest);
+
+  /// The next line without its end, valid until the next call. Sets `end` and returns an empty
+  /// line after the last one.
+  core::Result<std::string_view> next(bool& end);
+
+  /// 1-based number of the line last returned.
+  int number() const { return number_; }
+
+  /// "name:line" of the line last returned.
+  std::string place() const { return name_ + ":" + std::to_string(number_); }
+
+ private:
+  bool fill();
+  core::Result<void> check_start();
+  std::unexpected<core::Failure> failure(std::string message, std::string hint) const;
+
+  std::istream& in_;
+  std::string name_;
+  std::size_t longest_;
+  std::vector<char> buffer_;
+  std::size_t position_ = 0;
+  std::size_t filled_ = 0;
+  std::string line_;
+  int number_ = 0;
+  bool started_ = false;
+  bool after_return_ = false;
+};
+
+}  // namespace keyline::exchange

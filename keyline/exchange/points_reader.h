@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <istream>
+#include <string>
+#include <vector>
+
+#include "keyline/acquire/raw_curve.h"
+#include "keyline/core/error.h"
+
+namespace keyline::exchange {
+
+/// What the reader finds out by itself and may be told instead. Columns are named as in the
+/// file's header (letter case and units aside) or numbered from 1.
+struct PointsOptions {
+  std::vector<std::string> columns;  ///< x, y and maybe z; empty: by header, else the first ones
+  std::string weight_column;         ///< empty: a column named w, weight or weights
+  std::string id_column;             ///< empty: a column named id, curve or name
+  char separator = 0;                ///< 0: found out; ' ' stands for any white space
+  std::size_t longest_line = 1 << 20;
+};
+
+/// Reads points from text: columns separated by commas, semicolons, tabs or spaces (decimal commas
+/// where semicolons, tabs or spaces separate), one point per line.
+///
+/// - Comment lines start with #, %, // or !; a header line (also a comment) of names chooses the
+///   columns; units after a name ("x [mm]", "x_m") are ignored. Without a header the first two or
+///   three columns are x, y, z; a fourth and later ones are ignored and noted.
+/// - Selig airfoil files: title lines before and text lines after the points are ignored and noted;
+///   Lednicer files (counts of both sides first) become one curve from trailing edge over the nose
+///   to trailing edge.
+/// - An id column makes one curve for each id, in order of first appearance.
+/// - Missing entries (empty, nan, inf, null, NA) give non-finite coordinates, left to
+///   acquire_key_line to count and drop.
+///
+/// Returns: bad-input with path "file:line" for text where a number belongs, too few columns, an
+/// unknown column, values above 1e100, binary or UTF-16 content, a line longer than longest_line,
+/// or no points at all; io where the file cannot be opened or read. Memory: that of the points.
+core::Result<std::vector<acquire::RawCurve>> read_points(const std::filesystem::path& path,
+                                                         const PointsOptions& options = {});
+
+/// The same from an open stream; `name` stands for the file in failures.
+core::Result<std::vector<acquire::RawCurve>> read_points(std::istream& in, const std::string& name,
+                                                         const PointsOptions& options = {});
+
+}  // namespace keyline::exchange

@@ -1,0 +1,114 @@
+#include "keyline/acquire/acquire.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+
+namespace keyline::acquire {
+namespace {
+
+RawCurve curve_of(std::vector<core::Point3> points) {
+  RawCurve raw;
+  raw.points = std::move(points);
+  return raw;
+}
+
+struct Degenerate {
+  const char* name;
+  std::vector<core::Point3> points;
+};
+
+TEST(AcquireKeyLine, TooLittleIsBadInput) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Degenerate cases[] = {
+      {"none", {}},
+      {"one", {{1, 2, 0}}},
+      {"all equal", {{1, 2, 0}, {1, 2, 0}, {1, 2, 0}, {1, 2, 0}}},
+      {"not finite", {{nan, 0, 0}, {0, nan, 0}}},
+      {"one finite", {{nan, 0, 0}, {0, 1, 0}}},
+      {"huge", {{0, 0, 0}, {1e300, 0, 0}, {2, 0, 0}}},
+  };
+  for (const Degenerate& c : cases) {
+    SCOPED_TRACE(c.name);
+    const auto line = acquire_key_line(curve_of(c.points));
+    ASSERT_FALSE(line);
+    EXPECT_EQ(line.error().code, core::ErrorCode::bad_input);
+    EXPECT_FALSE(line.error().message.empty());
+  }
+}
+
+TEST(AcquireKeyLine, FewPointsAreALine) {
+  const auto two = acquire_key_line(curve_of({{0, 0, 0}, {1, 0, 0}}));
+  ASSERT_TRUE(two);
+  EXPECT_EQ(two->points.size(), 2u);
+  EXPECT_FALSE(two->closed);
+  EXPECT_EQ(two->noise, 0);
+  const auto three = acquire_key_line(curve_of({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}}));
+  ASSERT_TRUE(three);
+  EXPECT_EQ(three->points.size(), 3u);
+}
+
+TEST(AcquireKeyLine, CollinearIsAStraightKeyLine) {
+  RawCurve raw;
+  for (int i = 0; i < 20; ++i) raw.points.push_back({i * 0.1, i * 0.2, 0});
+  const auto line = acquire_key_line(raw);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->points.size(), 20u);
+  EXPECT_FALSE(line->closed);
+  EXPECT_TRUE(line->corners.empty());
+}
+
+TEST(AcquireKeyLine, CountsWhatItDrops) {
+  RawCurve raw;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 60; ++i) {
+    const double t = i / 59.0;
+    raw.points.push_back({t, t * t, 0});
+    if (i == 10) raw.points.push_back({nan, 0, 0});
+    if (i == 20) raw.points.push_back(raw.points.back());
+    if (i == 30) raw.points.push_back({t, t * t + 0.2, 0});
+  }
+  const auto line = acquire_key_line(raw);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->report.points_read, 63u);
+  EXPECT_EQ(line->report.non_finite, 1u);
+  EXPECT_EQ(line->report.duplicates, 1u);
+  EXPECT_EQ(line->report.outliers, 1u);
+  EXPECT_EQ(line->report.outlier_sources, (std::vector<std::size_t>{33}));
+  EXPECT_EQ(line->points.size(), 60u);
+  EXPECT_LT(line->noise, 1e-8);
+}
+
+TEST(AcquireKeyLine, RecognisesClosedOutlines) {
+  RawCurve raw;
+  for (int i = 0; i < 40; ++i) {
+    const double a = 2 * core::kPi * i / 40;
+    raw.points.push_back({std::cos(a), std::sin(a), 0});
+  }
+  const auto open = acquire_key_line(raw);
+  ASSERT_TRUE(open);
+  EXPECT_TRUE(open->closed);
+  EXPECT_EQ(open->points.size(), 40u);
+  raw.points.push_back(raw.points.front());
+  const auto repeated = acquire_key_line(raw);
+  ASSERT_TRUE(repeated);
+  EXPECT_TRUE(repeated->closed);
+  EXPECT_EQ(repeated->points.size(), 40u);
+}
+
+TEST(AcquireKeyLine, AxisPlanesKeepCoordinates) {
+  RawCurve raw;
+  raw.has_z = true;
+  for (int i = 0; i < 30; ++i) raw.points.push_back({i * 0.1, 0.5, std::sin(i * 0.1)});
+  const auto line = acquire_key_line(raw);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->plane.axis_x, (core::Vector3{1, 0, 0}));
+  EXPECT_EQ(line->plane.axis_y, (core::Vector3{0, 0, 1}));
+  EXPECT_EQ(line->points[7], (core::Point2{0.7000000000000001, std::sin(7 * 0.1)}));
+}
+
+}  // namespace
+}  // namespace keyline::acquire
