@@ -9,6 +9,16 @@ namespace keyline::figure {
 
 using core::Point2;
 
+void Group::add(Shape item) { items.emplace_back(std::move(item)); }
+void Group::add(Label item) { items.emplace_back(std::move(item)); }
+void Group::add(Marks item) { items.emplace_back(std::move(item)); }
+
+void Drawing::add(Shape item) { items.emplace_back(std::move(item)); }
+void Drawing::add(Label item) { items.emplace_back(std::move(item)); }
+void Drawing::add(Marks item) { items.emplace_back(std::move(item)); }
+void Drawing::add(Picture item) { items.emplace_back(std::move(item)); }
+void Drawing::add(Group item) { items.emplace_back(std::move(item)); }
+
 Path to_page(const Viewport& v, const Path& path) {
   Path mapped = path;
   for (PathStep& step : mapped.steps)

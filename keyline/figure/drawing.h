@@ -18,18 +18,18 @@ namespace keyline::figure {
 /// top left corner), in the drawing's unit. Model coordinates (y up) enter through a Viewport.
 
 struct Shape {
-  Path path;
-  std::optional<Stroke> stroke;
-  std::optional<Color> fill;  ///< even-odd rule
+  Path path = {};
+  std::optional<Stroke> stroke = {};
+  std::optional<Color> fill = {};  ///< even-odd rule
 };
 
 enum class Anchor { start, middle, end };
 enum class Baseline { alphabetic, middle, top };
 
 struct Label {
-  core::Point2 at;
-  std::string text;  ///< UTF-8, one line; control characters are dropped
-  double size = 12;  ///< em height in the drawing's unit
+  core::Point2 at = {};
+  std::string text = {};  ///< UTF-8, one line; control characters are dropped
+  double size = 12;       ///< em height in the drawing's unit
   Color color = kInk;
   Anchor anchor = Anchor::start;
   Baseline baseline = Baseline::alphabetic;
@@ -43,7 +43,7 @@ enum class Marker { dot, circle, square, diamond, triangle, cross, plus };
 
 /// The same marker at many points.
 struct Marks {
-  std::vector<core::Point2> points;
+  std::vector<core::Point2> points = {};
   Marker marker = Marker::dot;
   double size = 4;  ///< across
   Color color = kInk;
@@ -51,20 +51,24 @@ struct Marks {
 
 /// Pixels stretched over a box: rgb holds 3 * columns * rows bytes, top row first.
 struct Picture {
-  Box box;
+  Box box = {};
   int columns = 0;
   int rows = 0;
-  std::vector<std::uint8_t> rgb;
-  std::string text;  ///< what is to be seen, for those who cannot see it
+  std::vector<std::uint8_t> rgb = {};
+  std::string text = {};  ///< what is to be seen, for those who cannot see it
 };
 
 struct Item;
 
 /// Items under one name, painted in order and cut at `clip` where given.
 struct Group {
-  std::string name;
-  std::optional<Box> clip;
-  std::vector<Item> items;
+  std::string name = {};
+  std::optional<Box> clip = {};
+  std::vector<Item> items = {};
+
+  void add(Shape item);
+  void add(Label item);
+  void add(Marks item);
 };
 
 struct Item {
@@ -77,22 +81,22 @@ struct Drawing {
   double width = 640;
   double height = 400;
   PageUnit unit = PageUnit::px;
-  std::string title;        ///< read by screen readers and PDF viewers, not painted
-  std::string description;  ///< likewise, longer
+  std::string title = {};        ///< read by screen readers and PDF viewers, not painted
+  std::string description = {};  ///< likewise, longer
   std::optional<Color> background = kPaper;
-  std::vector<Item> items;
+  std::vector<Item> items = {};
 
-  void add(Shape item) { items.push_back({std::move(item)}); }
-  void add(Label item) { items.push_back({std::move(item)}); }
-  void add(Marks item) { items.push_back({std::move(item)}); }
-  void add(Picture item) { items.push_back({std::move(item)}); }
-  void add(Group item) { items.push_back({std::move(item)}); }
+  void add(Shape item);
+  void add(Label item);
+  void add(Marks item);
+  void add(Picture item);
+  void add(Group item);
 };
 
 /// Uniform scale and flip from the model (y up) to the page (y down).
 struct Viewport {
   double scale = 1;
-  core::Point2 origin;  ///< where the model's (0, 0) lies on the page
+  core::Point2 origin = {};  ///< where the model's (0, 0) lies on the page
   friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 

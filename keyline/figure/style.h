@@ -45,7 +45,7 @@ Color sequential(double u);
 struct Stroke {
   Color color = kInk;
   double width = 1;
-  std::vector<double> dash;
+  std::vector<double> dash = {};
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 

@@ -24,7 +24,7 @@ Drawing sample_drawing() {
   d.add(Marks{{{60, 80}, {80, 80}}, Marker::diamond, 6, palette(3)});
   d.add(Picture{{{150, 60}, {190, 90}}, 2, 1, {255, 0, 0, 0, 0, 255}, "two pixels"});
   Group group{"cut", Box{{100, 60}, {140, 90}}, {}};
-  group.items.push_back({Shape{rectangle({{0, 0}, {500, 500}}), std::nullopt, Color{0, 200, 0}}});
+  group.add(Shape{rectangle({{0, 0}, {500, 500}}), std::nullopt, Color{0, 200, 0}});
   d.add(group);
   return d;
 }
