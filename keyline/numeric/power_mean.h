@@ -20,7 +20,8 @@ inline double signed_power(double x, double e) {
 /// ln(b / a) for a, b > 0, without loss where a is close to b.
 inline double log_ratio(double a, double b) {
   const double r = b / a;
-  return r > 0.5 && r < 2 ? std::log1p((b - a) / a) : std::log(b) - std::log(a);
+  if (r > 0.5 && r < 2) return std::log1p((b - a) / a);
+  return r > 1e-300 && r < 1e300 ? std::log(r) : std::log(b) - std::log(a);
 }
 
 namespace detail {

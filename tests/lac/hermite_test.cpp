@@ -1,0 +1,220 @@
+#include "keyline/lac/hermite.h"
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/lac/region.h"
+
+#include "reference_table.h"
+
+namespace keyline::lac {
+namespace {
+
+using core::ErrorCode;
+using core::Point2;
+using core::Vector2;
+
+HandleAngles angles_of(double theta, double psi) { return {theta, psi, 1, -psi}; }
+
+TEST(SolveG1, ReproducesTheReferenceTable) {
+  const auto rows = read_reference("g1.csv");
+  if (rows.empty()) GTEST_SKIP() << "shared reference data not found";
+  int drawn = 0;
+  double worst = 0;
+  for (const ReferenceRow& row : rows) {
+    const auto value = [&](const char* name) { return std::stod(row.at(name)); };
+    SCOPED_TRACE("alpha " + row.at("alpha") + " theta " + row.at("theta_d") + " psi " +
+                 row.at("psi"));
+    const double theta = value("theta_d");
+    const auto solution = solve_g1(angles_of(theta, value("psi")), value("alpha"));
+    if (row.at("lambda") == "none") {
+      ASSERT_FALSE(solution);
+      EXPECT_EQ(solution.error().code, ErrorCode::undrawable);
+      continue;
+    }
+    ASSERT_TRUE(solution) << solution.error().message;
+    ++drawn;
+    const Segment& s = solution->segment;
+    const auto near = [&](double got, const char* name) {
+      const double error = std::abs(got - value(name)) / std::abs(value(name));
+      worst = std::max(worst, error);
+      EXPECT_LT(error, 1e-10) << name << ' ' << got << ' ' << row.at(name);
+    };
+    near(solution->lambda, "lambda");
+    near(s.length, "arc_over_chord");
+    near(s.curvature_start, "k0_chord");
+    near(s.curvature_end, "k1_chord");
+    const Point2 middle = evaluate(s, fraction_at_turning(piece_of(s), 0.5));
+    near(middle.x, "mid_x");
+    near(middle.y, "mid_y");
+  }
+  EXPECT_GT(drawn, 0);
+  RecordProperty("worst_relative_error", std::to_string(worst));
+}
+
+/// Largest of the end's distance from where it should be (over the chord) and of its direction's.
+double residual(const SegmentSolution& solution, Point2 p2, double direction) {
+  const core::Pose2 end = end_pose(solution.segment);
+  const double chord = distance(solution.segment.start.position, p2);
+  return std::max(distance(end.position, p2) / chord,
+                  std::abs(core::wrap_angle(end.direction - direction)));
+}
+
+double residual(const SegmentSolution& s) { return residual(s, {1, 0}, s.turning - s.chord_angle); }
+
+TEST(SolveG1, MeetsRandomDrawableRequests) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double worst = 0;
+  int most = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const double alpha = -10 + 20 * unit(random);
+    const double theta = std::exp(std::log(1e-6) + unit(random) * std::log(3e6));
+    const core::Interval region = drawable_region(alpha, theta);
+    const double psi = core::at(region, 0.001 + 0.998 * unit(random));
+    const auto solution = solve_g1(angles_of(theta, psi), alpha);
+    ASSERT_TRUE(solution) << alpha << ' ' << theta << ' ' << psi << solution.error().message;
+    const double r = residual(*solution);
+    EXPECT_LE(r, 1e-12) << alpha << ' ' << theta << ' ' << psi / theta;
+    worst = std::max(worst, r);
+    most = std::max(most, solution->iterations);
+  }
+  EXPECT_LE(most, 12);
+  RecordProperty("worst_residual", std::to_string(worst));
+}
+
+TEST(SolveG1, HoldsAtLimitingSlopesAndAtTheBorderOfTheRegion) {
+  int beyond = 0;
+  for (const double alpha : {-1e3, -10.0, -1.0, -0.3, -1e-13, 0.0, 1e-13, 0.3, 0.5, 1 - 1e-13, 1.0,
+                             1 + 1e-13, 1.5, 2.0, 1e3}) {
+    for (const double theta : {1e-6, 1e-3, 0.5, 2.0, 3.0}) {
+      const core::Interval region = drawable_region(alpha, theta);
+      for (const double share :
+           {1e-12, 1e-9, 1e-6, 1e-3, 0.3, 0.5, 0.7, 1 - 1e-3, 1 - 1e-6, 1 - 1e-9, 1 - 1e-12}) {
+        SCOPED_TRACE(testing::Message() << alpha << ' ' << theta << ' ' << share);
+        const auto solution = solve_g1(angles_of(theta, core::at(region, share)), alpha);
+        if (!solution) {
+          // Only where the curvature ratio leaves the doubles: slopes close to 0 and 1.
+          EXPECT_EQ(solution.error().code, ErrorCode::undrawable);
+          EXPECT_LT(std::min(std::abs(alpha), std::abs(alpha - 1)), 0.06);
+          EXPECT_LT(std::min(share, 1 - share), 2e-3);
+          ++beyond;
+          continue;
+        }
+        EXPECT_LE(residual(*solution), 1e-12);
+        EXPECT_LE(solution->iterations, 40);
+      }
+    }
+  }
+  EXPECT_GT(beyond, 0);
+}
+
+TEST(SolveG1, AnswersOutsideTheRegionWithTheNearestThatCanBeDrawn) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 200; ++n) {
+    const double alpha = n % 2 == 0 ? -0.1 - 9 * unit(random) : 1.1 + 9 * unit(random);
+    const double theta = 0.01 + 2.9 * unit(random);
+    const core::Interval region = drawable_region(alpha, theta);
+    const double psi = n % 3 == 0
+                           ? region.low * 0.95 * unit(random)
+                           : region.high + (theta - region.high) * (0.05 + 0.9 * unit(random));
+    const auto solution = solve_g1(angles_of(theta, psi), alpha);
+    ASSERT_FALSE(solution) << alpha << ' ' << theta << ' ' << psi;
+    EXPECT_EQ(solution.error().code, ErrorCode::undrawable);
+    EXPECT_FALSE(solution.error().hint.empty());
+    const NearestDrawable nearest = nearest_drawable(alpha, theta, psi);
+    EXPECT_TRUE(solve_g1(angles_of(theta, nearest.chord_angle), alpha));
+    EXPECT_TRUE(solve_g1(angles_of(theta, psi), nearest.alpha))
+        << nearest.alpha << ' ' << psi / theta;
+    // Half a percent further out it cannot be drawn.
+    const double further = nearest.alpha + 0.005 * (alpha - nearest.alpha);
+    if (std::abs(nearest.alpha - 0.5) > 0.6) {
+      EXPECT_FALSE(solve_g1(angles_of(theta, psi), further));
+    }
+  }
+}
+
+TEST(SolveG1, MovesTurnsScalesAndMirrorsWithItsHandles) {
+  const Point2 p[3] = {{0, 0}, {0.6, -0.4}, {1.3, 0.2}};
+  for (const double alpha : {-2.0, -1.0, 0.0, 0.5, 1.0, 3.0}) {
+    const auto unit = solve_g1(p[0], p[1], p[2], alpha);
+    ASSERT_TRUE(unit) << alpha;
+    for (const double scale : {1e-150, 1e-3, 1e150}) {
+      const core::Similarity2 map{scale, 2.3, {0.7 * scale, -scale}};
+      const auto moved = solve_g1(apply(map, p[0]), apply(map, p[1]), apply(map, p[2]), alpha);
+      ASSERT_TRUE(moved);
+      EXPECT_NEAR(moved->segment.length / scale, unit->segment.length, 1e-14);
+      EXPECT_NEAR(moved->segment.curvature_start * scale, unit->segment.curvature_start, 1e-12);
+      EXPECT_NEAR(moved->segment.curvature_end * scale, unit->segment.curvature_end, 1e-12);
+      EXPECT_LE(distance(evaluate(moved->segment, 1), apply(map, p[2])), 1e-14 * scale);
+    }
+    const auto mirror = [](Point2 q) { return Point2{q.x, -q.y}; };
+    const auto mirrored_curve = solve_g1(mirror(p[0]), mirror(p[1]), mirror(p[2]), alpha);
+    ASSERT_TRUE(mirrored_curve);
+    EXPECT_EQ(mirrored_curve->segment.curvature_start, -unit->segment.curvature_start);
+    EXPECT_EQ(mirrored_curve->reversed, unit->reversed);
+    const auto back = solve_g1(p[2], p[1], p[0], alpha);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->segment.curvature_start, -unit->segment.curvature_end, 1e-13);
+    EXPECT_NE(back->reversed, unit->reversed);
+    EXPECT_NEAR(back->lambda, unit->lambda, 1e-13);
+    EXPECT_LE(residual(*back, p[0], core::direction_of(p[0] - p[1])), 1e-14);
+  }
+}
+
+TEST(SolveG1, RadiusGrowsUnlessReversed) {
+  const auto growing = solve_g1({0, 0}, {0.4, 0.3}, {1, 0.25}, -1);
+  ASSERT_TRUE(growing);
+  EXPECT_FALSE(growing->reversed);
+  EXPECT_LT(std::abs(growing->segment.curvature_end), std::abs(growing->segment.curvature_start));
+}
+
+TEST(SolveG1, BadInputIsNormalInput) {
+  const double nan = std::nan("");
+  const auto code = [](Point2 a, Point2 b, Point2 c, double alpha) {
+    const auto solution = solve_g1(a, b, c, alpha);
+    return solution ? std::optional<ErrorCode>() : solution.error().code;
+  };
+  EXPECT_EQ(code({0, 0}, {1, 1}, {2, 0}, nan), ErrorCode::bad_input);
+  EXPECT_EQ(code({0, 0}, {1, 1}, {2, 0}, INFINITY), ErrorCode::bad_input);
+  EXPECT_EQ(code({0, nan}, {1, 1}, {2, 0}, 1), ErrorCode::bad_input);
+  EXPECT_EQ(code({0, 0}, {1, 1}, {0, 0}, 1), ErrorCode::bad_input);
+  EXPECT_EQ(code({1, 1}, {1, 1}, {1, 1}, 1), ErrorCode::bad_input);
+  EXPECT_EQ(code({0, 0}, {3, 0}, {1, 0}, 1), ErrorCode::undrawable);  // turns back on itself
+  EXPECT_EQ(code({0, 0}, {-1, 0}, {1, 0}, 1), ErrorCode::undrawable);
+  for (const Point2 middle : {Point2{0, 0}, Point2{2, 0}, Point2{0.7, 0}}) {
+    const auto line = solve_g1({0, 0}, middle, {2, 0}, 1);
+    ASSERT_TRUE(line);
+    EXPECT_EQ(line->segment, (Segment{{{0, 0}, 0}, 1, 2, 0, 0}));
+  }
+  const auto circle = solve_g1({0, 0}, {1, 1}, {2, 0}, 0.3);
+  ASSERT_TRUE(circle);
+  EXPECT_EQ(circle->segment.curvature_start, circle->segment.curvature_end);
+}
+
+TEST(DrawableRegion, ClosedForms) {
+  for (const double theta : {0.1, 1.0, 2.5}) {
+    for (const double alpha : {0.0, 0.5, 1.0}) {
+      EXPECT_EQ(drawable_region(alpha, theta).high, theta);
+      EXPECT_EQ(drawable_region(alpha, theta).low, 0);
+    }
+    // Involute from its cusp: chord of (e^{i theta} (1 - i theta) - 1).
+    const double x = std::cos(theta) + theta * std::sin(theta) - 1;
+    const double y = std::sin(theta) - theta * std::cos(theta);
+    EXPECT_NEAR(drawable_region(2, theta).high, std::atan2(y, x), 3e-15);
+  }
+  // Small angles: psi*/theta -> |1-alpha| / |1 - 2 alpha| (alpha < 0), alpha / (2 alpha - 1).
+  EXPECT_NEAR(drawable_region(-1, 1e-5).high / 1e-5, 2.0 / 3, 1e-9);
+  EXPECT_NEAR(drawable_region(-3, 1e-5).high / 1e-5, 4.0 / 7, 1e-9);
+  EXPECT_NEAR(drawable_region(4, 1e-5).high / 1e-5, 4.0 / 7, 1e-9);
+  EXPECT_THROW(drawable_region(NAN, 1), core::InvalidInput);
+  EXPECT_THROW(drawable_region(1, 4), core::InvalidInput);
+}
+
+}  // namespace
+}  // namespace keyline::lac
