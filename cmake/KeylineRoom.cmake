@@ -45,6 +45,10 @@ endfunction()
 
 add_library(keyline_warnings INTERFACE)
 target_compile_options(keyline_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # std::stable_sort of libstdc++ 12 calls what libstdc++ itself calls deprecated
+  target_compile_options(keyline_warnings INTERFACE -Wno-deprecated-declarations)
+endif()
 if(KEYLINE_SANITIZE)
   add_compile_options(-fsanitize=${KEYLINE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${KEYLINE_SANITIZE})
