@@ -15,7 +15,7 @@ struct AcquireOptions {
   std::optional<bool> ordered;  ///< empty: recognised; false: order anew; true: keep
   bool remove_outliers = true;
   bool find_corners = true;
-  double corner_angle = 0.35;   ///< radians: a smaller change of direction is no corner
+  double corner_angle = 0.6;    ///< radians: a smaller change of direction is no corner
   std::optional<double> noise;  ///< known standard deviation; empty: estimated
   std::optional<Plane> plane;   ///< empty: fitted (3D input) or z = 0 (planar input)
 };

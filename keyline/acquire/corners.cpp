@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "keyline/core/angle.h"
 
 namespace keyline::acquire {
 namespace {
 
-constexpr std::array<int, 5> kArms{1, 2, 3, 4, 6};
-constexpr double kConcentration = 3;  // turn at the corner against the turn beside it
-constexpr double kClearance = 5;      // turn at the corner against its standard error
+constexpr std::array<int, 4> kArms{1, 2, 3, 4};
+constexpr double kConcentration = 2.5;  // turn at the corner against the turn beside it
+constexpr double kContrast = 3;         // and against the usual turn of the whole polygon
+constexpr double kClearance = 5;        // turn at the corner against its standard error
+constexpr double kOwnShare = 0.5;       // of the turn between the arms, at the vertex itself
+constexpr double kKink = 0.17;          // of the corner angle: a kink between very smooth runs
+constexpr double kKinkConcentration = 12;
 
 /// Polygon read with indices that may run past its ends.
 class Ring {
@@ -67,20 +72,51 @@ Turn turn_at(const Ring& ring, std::ptrdiff_t i, int arm, double noise) {
           1.3 * noise * std::sqrt(1 / before.spread + 1 / after.spread)};
 }
 
+/// Largest turn at the four vertices nearest the arms of vertex i, less what noise explains.
+double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise) {
+  double beside = 0;
+  for (const std::ptrdiff_t k : {i - 2 * arm, i - arm, i + arm, i + 2 * arm}) {
+    if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
+    const Turn flank = turn_at(ring, k, arm, noise);
+    beside = std::max(beside, std::abs(flank.angle) - 2 * flank.error);
+  }
+  return beside;
+}
+
+/// Turn that four fifths of the vertices stay below.
+double usual_turn(const Ring& ring) {
+  std::vector<double> turns;
+  for (std::ptrdiff_t i = 0; i < ring.size(); ++i) {
+    if (!ring.has(i - 1) || !ring.has(i + 1)) continue;
+    turns.push_back(std::abs(core::angle_between(ring[i] - ring[i - 1], ring[i + 1] - ring[i])));
+  }
+  if (turns.empty()) return 0;
+  const auto at = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() * 4 / 5);
+  std::nth_element(turns.begin(), at, turns.end());
+  return *at;
+}
+
+struct Thresholds {
+  double noise;
+  double angle;
+  double usual;
+};
+
 /// Turn at vertex i if it is a corner, else 0. The arm is the shortest that beats the noise.
-double corner_turn(const Ring& ring, std::ptrdiff_t i, double noise, double angle) {
+double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
   for (const int arm : kArms) {
     if (!ring.has(i - arm) || !ring.has(i + arm) || 4 * arm >= ring.size()) return 0;
-    const Turn turn = turn_at(ring, i, arm, noise);
-    if (turn.error * kClearance > std::max(angle, 0.5 * std::abs(turn.angle))) continue;
-    if (std::abs(turn.angle) < std::max(angle, kClearance * turn.error)) return 0;
-    double beside = 0;
-    for (const std::ptrdiff_t k : {i - arm, i + arm}) {
-      if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
-      const Turn flank = turn_at(ring, k, arm, noise);
-      beside = std::max(beside, std::abs(flank.angle) - 2 * flank.error);
-    }
-    return std::abs(turn.angle) >= kConcentration * beside ? turn.angle : 0;
+    const Turn turn = turn_at(ring, i, arm, t.noise);
+    const double size = std::abs(turn.angle);
+    if (turn.error * kClearance > std::max(t.angle, 0.5 * size)) continue;
+    if (size < std::max(kKink * t.angle, 2 * kClearance * turn.error)) return 0;
+    const double beside = turn_beside(ring, i, arm, t.noise);
+    const double rest = std::max(beside, t.usual);
+    if (arm == 1 && size >= kKinkConcentration * rest) return turn.angle;
+    if (size < t.angle || size < kContrast * t.usual) return 0;
+    const double own = std::abs(turn_at(ring, i, 1, t.noise).angle);
+    if (own < kOwnShare * size) return 0;
+    return size >= kConcentration * beside ? turn.angle : 0;
   }
   return 0;
 }
@@ -92,8 +128,9 @@ std::vector<std::size_t> find_corners(std::span<const core::Point2> points, bool
   const Ring ring(points, closed);
   std::vector<double> turns(points.size(), 0);
   if (points.size() >= 4) {
+    const Thresholds thresholds{noise, angle, usual_turn(ring)};
     for (std::size_t i = 0; i < points.size(); ++i) {
-      turns[i] = corner_turn(ring, static_cast<std::ptrdiff_t>(i), noise, angle);
+      turns[i] = corner_turn(ring, static_cast<std::ptrdiff_t>(i), thresholds);
     }
   }
   // Of neighbouring candidates only the sharpest is the corner.

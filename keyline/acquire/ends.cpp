@@ -8,6 +8,7 @@
 namespace keyline::acquire {
 namespace {
 
+constexpr double kAcross = 0.8;      // radians
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
 
 double polygon_length(std::span<const core::Point2> points) {
@@ -33,6 +34,14 @@ double turn(core::Point2 a, core::Point2 b, core::Point2 c, core::Point2 d) {
   return core::angle_between(b - a, d - c);
 }
 
+/// True where the chord between the ends goes on from the last step and into the first.
+bool runs_across(std::span<const core::Point2> points, std::size_t s) {
+  const std::size_t n = points.size();
+  const core::Point2 last = points[n - 1];
+  return std::abs(turn(points[n - 1 - s], last, last, points[0])) < kAcross &&
+         std::abs(turn(last, points[0], points[0], points[s])) < kAcross;
+}
+
 }  // namespace
 
 Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride) {
@@ -42,8 +51,12 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride) {
   const double length = polygon_length(points);
   const double gap = core::distance(points.front(), points.back());
   const bool repeated = gap <= 1e-9 * length;
-  const bool near = n >= 8 && gap <= 1.75 * spacing_at_ends(points, s) && gap <= 0.2 * length;
-  if (!repeated && !near) return Ends::apart;
+  const double spacing = spacing_at_ends(points, s);
+  const bool near = n >= 8 && gap <= 1.75 * spacing && gap <= 0.2 * length;
+  // A wider gap still belongs to an outline if the curve runs straight across it.
+  const bool facing =
+      n >= 8 && gap <= 4 * spacing && gap <= 0.05 * length && runs_across(points, s);
+  if (!repeated && !near && !facing) return Ends::apart;
 
   const auto at = [&](std::size_t k) { return points[k * s]; };
   const auto back = [&](std::size_t k) { return points[n - 1 - k * s]; };

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "keyline/acquire/plane.h"
+#include "keyline/acquire/raw_curve.h"
+#include "keyline/core/error.h"
+
+namespace keyline::acquire {
+
+enum class Axis { x, y, z };
+
+/// Points of a cloud within `band` of the plane axis = position, moved onto the plane, in the
+/// order of the cloud (acquire_key_line puts them in order along the curve).
+/// Returns bad-input where the cloud is planar, the band is not positive, or fewer than 3 points
+/// lie in it; the hint names the band that would hold 3.
+core::Result<RawCurve> section_plane(const RawCurve& cloud, Axis axis, double position,
+                                     double band);
+
+/// The same for any plane.
+core::Result<RawCurve> section_plane(const RawCurve& cloud, const Plane& plane, double band);
+
+}  // namespace keyline::acquire

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "keyline/core/point.h"
+
+namespace keyline::acquire::detail {
+
+struct Edge {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  double length = 0;
+};
+
+/// The 8 nearest neighbours of every point.
+std::vector<std::vector<std::size_t>> neighbour_lists(std::span<const core::Point2> points);
+
+/// Edges of the minimum spanning tree of the neighbour graph, shortest first (Kruskal). A forest
+/// where the graph falls apart, unless `connect`: then the trees are joined by shortest edges
+/// (of those between trees, O(trees * n) work).
+std::vector<Edge> spanning_tree(std::span<const core::Point2> points,
+                                const std::vector<std::vector<std::size_t>>& neighbours,
+                                bool connect);
+
+/// Points of the longest path of a tree, end to end.
+std::vector<std::size_t> longest_path(std::size_t count, std::span<const Edge> tree);
+
+}  // namespace keyline::acquire::detail
