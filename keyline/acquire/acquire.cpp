@@ -10,6 +10,7 @@
 #include "keyline/acquire/ends.h"
 #include "keyline/acquire/noise.h"
 #include "keyline/acquire/outliers.h"
+#include "keyline/acquire/sort_out.h"
 
 namespace keyline::acquire {
 namespace {
@@ -90,14 +91,16 @@ void settle_ends(Working& work, std::size_t stride, const AcquireOptions& option
       break;
     case Ends::corner_at_last:
       std::rotate(work.points.rbegin(), work.points.rbegin() + 1, work.points.rend());
-      std::rotate(work.sources.rbegin(), work.sources.rbegin() + 1, work.sources.rend());
+      if (!work.sources.empty()) {
+        std::rotate(work.sources.rbegin(), work.sources.rbegin() + 1, work.sources.rend());
+      }
       if (!work.weights.empty()) {
         std::rotate(work.weights.rbegin(), work.weights.rbegin() + 1, work.weights.rend());
       }
       [[fallthrough]];
     case Ends::corner_at_first:
       work.points.push_back(work.points.front());
-      work.sources.push_back(work.sources.front());
+      if (!work.sources.empty()) work.sources.push_back(work.sources.front());
       if (!work.weights.empty()) work.weights.push_back(work.weights.front());
       line.ends_meet = true;
       note("closed outline that starts at a corner: kept as an open curve from corner to corner");
@@ -112,12 +115,13 @@ void drop_outliers(Working& work, double noise, std::size_t stride, KeyLine& lin
   for (int pass = 0; pass < 3; ++pass) {
     const auto strays = find_outliers(work.points, line.closed, noise, stride);
     if (strays.empty() || work.points.size() < strays.size() + 4) break;
-    for (const std::size_t i : strays) line.report.outlier_sources.push_back(work.sources[i]);
+    for (const std::size_t i : strays) {
+      if (!work.sources.empty()) line.report.outlier_sources.push_back(work.sources[i]);
+    }
+    line.report.outliers += strays.size();
     detail::remove_points(work, strays);
   }
-  auto& sources = line.report.outlier_sources;
-  std::sort(sources.begin(), sources.end());
-  line.report.outliers = sources.size();
+  std::sort(line.report.outlier_sources.begin(), line.report.outlier_sources.end());
   if (line.report.outliers > 0) {
     line.report.notes.push_back(counted(line.report.outliers, "stray point", "stray points") +
                                 " removed");
@@ -154,6 +158,7 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   Working& work = *flat;
   note_plane(line, detail::extent_of(work.points));
   merge(work, line);
+  detail::put_in_order(work, options, line);
   if (work.points.size() < 2) {
     const bool one = raw.points.size() == 1;
     return core::fail(ErrorCode::bad_input,

@@ -76,12 +76,12 @@ std::size_t merge_repeated(Working& work) {
       continue;
     }
     work.points[kept] = work.points[i];
-    work.sources[kept] = work.sources[i];
+    if (!work.sources.empty()) work.sources[kept] = work.sources[i];
     if (!work.weights.empty()) work.weights[kept] = work.weights[i];
     ++kept;
   }
   work.points.resize(kept);
-  work.sources.resize(kept);
+  if (!work.sources.empty()) work.sources.resize(kept);
   if (!work.weights.empty()) work.weights.resize(kept);
   return n - kept;
 }

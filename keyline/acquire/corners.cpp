@@ -102,6 +102,15 @@ struct Thresholds {
   double usual;
 };
 
+/// True where the turn between longer arms happens at the vertex itself.
+bool is_own_turn(const Ring& ring, std::ptrdiff_t i, double size) {
+  const auto own = [&](std::ptrdiff_t k) {
+    if (!ring.has(k - 1) || !ring.has(k + 1)) return 0.0;
+    return std::abs(core::angle_between(ring[k] - ring[k - 1], ring[k + 1] - ring[k]));
+  };
+  return own(i) >= kOwnShare * size && own(i) >= 1.5 * std::max(own(i - 1), own(i + 1));
+}
+
 /// Turn at vertex i if it is a corner, else 0. The arm is the shortest that beats the noise.
 double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
   for (const int arm : kArms) {
@@ -114,8 +123,7 @@ double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
     const double rest = std::max(beside, t.usual);
     if (arm == 1 && size >= kKinkConcentration * rest) return turn.angle;
     if (size < t.angle || size < kContrast * t.usual) return 0;
-    const double own = std::abs(turn_at(ring, i, 1, t.noise).angle);
-    if (own < kOwnShare * size) return 0;
+    if (arm > 1 && !is_own_turn(ring, i, size)) return 0;
     return size >= kConcentration * beside ? turn.angle : 0;
   }
   return 0;

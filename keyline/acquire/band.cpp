@@ -1,0 +1,208 @@
+#include "keyline/acquire/band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "keyline/acquire/kd_tree.h"
+#include "keyline/acquire/order.h"
+#include "keyline/core/angle.h"
+
+namespace keyline::acquire {
+namespace {
+
+constexpr std::size_t kSamples = 400;
+constexpr double kLong = 0.25;  // width over length that makes a neighbourhood a stretch of line
+
+struct Spread {
+  core::Point2 mean;
+  core::Vector2 direction;
+  double along = 0;  // standard deviations
+  double across = 0;
+};
+
+Spread spread_of(std::span<const core::Point2> points, std::span<const double> weights,
+                 std::span<const std::size_t> near) {
+  const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
+  const core::Point2 origin = points[near[0]];
+  core::Vector2 sum;
+  double total = 0;
+  for (const std::size_t i : near) {
+    sum = sum + weight(i) * (points[i] - origin);
+    total += weight(i);
+  }
+  Spread s;
+  s.mean = origin + sum / total;
+  double xx = 0, xy = 0, yy = 0;
+  for (const std::size_t i : near) {
+    const core::Vector2 d = points[i] - s.mean;
+    xx += weight(i) * d.x * d.x;
+    xy += weight(i) * d.x * d.y;
+    yy += weight(i) * d.y * d.y;
+  }
+  const double half = 0.5 * std::hypot(xx - yy, 2 * xy);
+  s.direction = core::unit_vector(0.5 * std::atan2(2 * xy, xx - yy));
+  s.along = std::sqrt((0.5 * (xx + yy) + half) / total);
+  s.across = std::sqrt(std::max(0.5 * (xx + yy) - half, 0.0) / total);
+  return s;
+}
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double extent_of(std::span<const core::Point2> points) {
+  core::Point2 low = points[0], high = points[0];
+  for (const core::Point2& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return core::distance(low, high);
+}
+
+using Cell = std::pair<std::int64_t, std::int64_t>;
+
+Cell cell_of(core::Point2 p, double size) {
+  return {static_cast<std::int64_t>(std::floor(p.x / size)),
+          static_cast<std::int64_t>(std::floor(p.y / size))};
+}
+
+/// Weighted mean being collected.
+struct Mean {
+  core::Vector2 sum;
+  double weight = 0;
+  void add(core::Point2 p, double w) {
+    sum = sum + w * core::Vector2{p.x, p.y};
+    weight += w;
+  }
+  core::Point2 point() const { return {sum.x / weight, sum.y / weight}; }
+};
+
+std::vector<core::Point2> moved_to_centre(std::span<const core::Point2> points,
+                                          std::span<const core::Point2> given,
+                                          std::span<const double> weights, double radius) {
+  const detail::KdTree tree(given);
+  std::vector<core::Point2> moved(points.begin(), points.end());
+  for (core::Point2& p : moved) {
+    const auto near = tree.within(p, radius);
+    if (near.size() < 3) continue;
+    const Spread s = spread_of(given, weights, near);
+    p = s.mean + core::dot(p - s.mean, s.direction) * s.direction;
+  }
+  return moved;
+}
+
+}  // namespace
+
+BandWidth measure_band(std::span<const core::Point2> points) {
+  if (points.size() < 24) return {};
+  const detail::KdTree tree(points);
+  const std::size_t skip = std::max<std::size_t>(1, points.size() / kSamples);
+  for (std::size_t count = 6; count <= points.size() / 4; count *= 2) {
+    std::vector<double> ratios, widths, radii;
+    for (std::size_t i = 0; i < points.size(); i += skip) {
+      const auto near = tree.nearest(points[i], count, points.size());
+      const Spread s = spread_of(points, {}, near);
+      ratios.push_back(s.along > 0 ? s.across / s.along : 1);
+      widths.push_back(s.across);
+      radii.push_back(core::distance(points[i], points[near.back()]));
+    }
+    if (median_of(ratios) > kLong) continue;
+    const double radius = median_of(radii);
+    return {count == 6 ? 0 : median_of(widths), radius};
+  }
+  return {};
+}
+
+Averaged average_cells(std::span<const core::Point2> points, std::span<const double> weights,
+                       std::size_t most) {
+  Averaged result;
+  double size = extent_of(points) / static_cast<double>(most);
+  while (size > 0) {
+    std::map<Cell, Mean> cells;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      cells[cell_of(points[i], size)].add(points[i], weights.empty() ? 1 : weights[i]);
+      if (cells.size() > most) break;
+    }
+    if (cells.size() <= most) {
+      for (const auto& [cell, mean] : cells) {
+        if (!(mean.weight > 0)) continue;
+        result.points.push_back(mean.point());
+        result.weights.push_back(mean.weight);
+      }
+      break;
+    }
+    size *= 1.5;
+  }
+  return result;
+}
+
+Averaged average_band(std::span<const core::Point2> points, std::span<const double> weights,
+                      double radius) {
+  const std::vector<core::Point2> once = moved_to_centre(points, points, weights, radius);
+  const std::vector<core::Point2> centre = moved_to_centre(once, points, weights, radius);
+  const Averaged reduced = average_cells(centre, weights, 2000);
+  const Ordering ordering = order_points(reduced.points);
+  // Each point goes to the nearest point of the ordered centre line, and these to stretches.
+  std::vector<core::Point2> line;
+  for (const std::size_t i : ordering.order) line.push_back(reduced.points[i]);
+  std::vector<std::size_t> stretch(line.size(), 0);
+  double since = 0;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    since += core::distance(line[k - 1], line[k]);
+    stretch[k] = stretch[k - 1];
+    if (since >= 0.5 * radius) {
+      ++stretch[k];
+      since = 0;
+    }
+  }
+  std::vector<Mean> means(stretch.back() + 1);
+  const detail::KdTree tree(line);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t k = tree.nearest(centre[i], 1, line.size()).front();
+    if (core::distance(line[k], centre[i]) > radius) continue;
+    means[stretch[k]].add(points[i], weights.empty() ? 1 : weights[i]);
+  }
+  Averaged result;
+  for (const Mean& mean : means) {
+    if (!(mean.weight > 0)) continue;
+    result.points.push_back(mean.point());
+    result.weights.push_back(mean.weight);
+  }
+  return result;
+}
+
+Averaged average_runs(std::span<const core::Point2> points, std::span<const double> weights,
+                      std::span<const std::size_t> keep, std::size_t most) {
+  Averaged result;
+  const std::size_t group = points.size() / std::max<std::size_t>(most, 1) + 1;
+  const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
+  Mean mean;
+  std::size_t held = 0;
+  const auto flush = [&] {
+    if (held > 0 && mean.weight > 0) {
+      result.points.push_back(mean.point());
+      result.weights.push_back(mean.weight);
+    }
+    mean = {};
+    held = 0;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::binary_search(keep.begin(), keep.end(), i)) {
+      flush();
+      result.points.push_back(points[i]);
+      result.weights.push_back(weight(i));
+      continue;
+    }
+    mean.add(points[i], weight(i));
+    if (++held == group) flush();
+  }
+  flush();
+  return result;
+}
+
+}  // namespace keyline::acquire
