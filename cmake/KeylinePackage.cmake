@@ -4,6 +4,7 @@
 include(CMakePackageConfigHelpers)
 get_property(rooms GLOBAL PROPERTY KEYLINE_ROOMS)
 get_property(links GLOBAL PROPERTY KEYLINE_LINKS)
+list(REMOVE_DUPLICATES links)
 
 add_library(keyline_all INTERFACE)
 add_library(keyline::keyline ALIAS keyline_all)
