@@ -6,6 +6,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
+#include "keyline/lac/chord_search.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::lac::detail {
@@ -58,129 +59,18 @@ Arm unit_arm(const Decays& d, double theta, double q) {
 /// e^{-kx} with 0 * infinity read as a decay.
 double decay(double k, double x) { return std::isinf(x) ? 0.0 : std::exp(-k * x); }
 
-/// The bracketed search; chord angles are measured from the heavy tangent.
-class Search {
- public:
-  Search(double alpha, double theta, double psi)
-      : d_(decays_of(alpha)), theta_(theta), growing_(alpha < 0) {
-    target_ = growing_ ? psi : theta - psi;
-    axis_ = core::unit_vector(target_);
-    excess_ = psi - theta / 2;
-  }
-
-  ChordSolution run();
-
- private:
-  struct Sample {
-    double q = 0;
-    double miss = 0;  ///< psi reached less psi wanted, in the direction in which psi grows with q
-    double slope = 0;
-    double length = 1;
-    double length_slope = 0;
-  };
-  Sample at(double q) const;
-  double first_guess() const;
-  double step(const Sample& s) const;
-  ChordStatus verdict_at_limit(Sample& limit) const;
-  double secant(const Sample& s, const Sample& beyond) const;
-
-  Decays d_;
-  double theta_ = 0;
-  double target_ = 0;
-  double excess_ = 0;
-  Vector2 axis_;
-  bool growing_ = false;
-  double low_ = 0;
-  double high_ = kInfinity;
-};
-
-Search::Sample Search::at(double q) const {
-  const ChordValue v = chord_value(d_, theta_, q);
-  const double sign = growing_ ? 1 : -1;
-  Sample s;
-  s.q = q;
-  s.miss = sign * std::atan2(cross(axis_, v.chord), dot(axis_, v.chord));
+/// The chord against the wanted direction `axis`, angles measured from the heavy tangent; sign -1
+/// where the chord angle seen from there falls with q.
+ChordSample sample_at(const Decays& d, double theta, double q, Vector2 axis, double sign) {
+  const ChordValue v = chord_value(d, theta, q);
   const double square = dot(v.chord, v.chord);
+  ChordSample s;
+  s.q = q;
+  s.miss = sign * std::atan2(cross(axis, v.chord), dot(axis, v.chord));
   s.slope = sign * cross(v.chord, v.slope) / square;
   s.length = std::sqrt(square);
   s.length_slope = dot(v.chord, v.slope) / s.length;
   return s;
-}
-
-/// psi - theta/2 is close to c tanh(q slope / c), exactly so for small angles at alpha = -1; c is
-/// the limit for small angles.
-double Search::first_guess() const {
-  const double c = theta_ / (2 * (d_.a + std::abs(d_.b)));
-  const double x = std::min(excess_ / c, 0.97);
-  return c * std::atanh(x) / circle_slope(theta_);
-}
-
-/// Newton's step in e^{-kq}; infinite where it leads past the limit.
-double Search::step(const Sample& s) const {
-  const double x = d_.k * s.miss / s.slope;
-  if (!(s.slope > 0) || !(x > -1)) return s.miss < 0 ? kInfinity : -kInfinity;
-  return std::abs(x) < 1e-300 ? -s.miss / s.slope : -std::log1p(x) / d_.k;
-}
-
-/// What the limit q -> infinity says to a chord angle that finite q did not reach so far.
-ChordStatus Search::verdict_at_limit(Sample& limit) const {
-  const bool reachable = d_.a > 0 && d_.b > 0;
-  const bool resolved = d_.k * kLargestRange > 40;
-  limit = at(reachable && resolved ? kInfinity : kLargestRange);
-  if (limit.miss > 0) return ChordStatus::solved;
-  if (!reachable) {
-    const bool inside = excess_ < theta_ / 2;
-    return inside ? ChordStatus::beyond_precision : ChordStatus::beyond_region;
-  }
-  const Sample end = resolved ? limit : at(kInfinity);
-  if (std::abs(end.miss) < 4e-16) {
-    limit = end;
-    return ChordStatus::solved;
-  }
-  return end.miss > 0 ? ChordStatus::beyond_precision : ChordStatus::beyond_region;
-}
-
-/// Secant between a sample short of the root and one beyond it, in e^{-kq} or, for small k, 1/q.
-double Search::secant(const Sample& s, const Sample& beyond) const {
-  const double share = -s.miss / (beyond.miss - s.miss);
-  if (d_.k * kLargestRange > 40)
-    return s.q - std::log1p(-share * (1 - decay(d_.k, beyond.q - s.q))) / d_.k;
-  const double from = 1 / (1 + s.q);
-  const double to = 1 / (1 + beyond.q);
-  return 1 / (from + share * (to - from)) - 1;
-}
-
-ChordSolution Search::run() {
-  if (!(excess_ > 0)) return {ChordStatus::solved, 0, at(0).length, 0};
-  const double sharpness = std::max(d_.a, std::abs(d_.b));
-  double q = std::min(first_guess(), kLargestRange);
-  Sample s;
-  int iteration = 1;
-  for (; iteration <= 100; ++iteration) {
-    s = at(q);
-    const double change = step(s);
-    if (s.miss == 0 || std::abs(s.miss * sharpness * change) < 2e-16) {
-      const double next = std::max(0.0, q + (s.miss == 0 ? 0 : change));
-      return {ChordStatus::solved, next, s.length + s.length_slope * (next - q), iteration};
-    }
-    (s.miss < 0 ? low_ : high_) = q;
-    double next = q + change;
-    if (next > kLargestRange && !std::isfinite(high_)) {
-      Sample limit;
-      const ChordStatus verdict = verdict_at_limit(limit);
-      if (verdict != ChordStatus::solved) return {verdict, kInfinity, 1, iteration};
-      if (limit.miss < 4e-16) return {verdict, limit.q, limit.length, iteration};
-      next = secant(s, limit);
-      if (next > kLargestRange) return {verdict, limit.q, limit.length, iteration};
-      high_ = limit.q;
-    }
-    if (std::isfinite(high_) && high_ - low_ <= 4e-16 * high_) break;
-    if (!(next > low_ && next < high_)) {
-      next = (low_ + std::min(high_, kLargestRange)) / 2;
-    }
-    q = next;
-  }
-  return {ChordStatus::solved, q, s.length, iteration};
 }
 
 }  // namespace
@@ -230,7 +120,21 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
 }
 
 ChordSolution solve_chord_angle(double alpha, double theta, double psi) {
-  return Search(alpha, theta, psi).run();
+  const Decays d = decays_of(alpha);
+  const double sign = alpha < 0 ? 1 : -1;
+  const Vector2 axis = core::unit_vector(alpha < 0 ? psi : theta - psi);
+  const auto at = [&](double q) { return sample_at(d, theta, q, axis, sign); };
+  const double excess = psi - theta / 2;
+  if (!(excess > 0)) return {ChordStatus::solved, 0, at(0).length, 0};
+  // psi - theta/2 is close to c tanh(q slope / c), exactly so for small angles at alpha = -1.
+  const double c = theta / (2 * (d.a + std::abs(d.b)));
+  SearchSetup setup;
+  setup.guess = c * std::atanh(std::min(excess / c, 0.97)) / circle_slope(theta);
+  setup.k = d.k;
+  setup.sharpness = std::max(d.a, std::abs(d.b));
+  setup.limit_drawn = d.a > 0 && d.b > 0;
+  setup.inside = psi < theta;
+  return search_chord(setup, at);
 }
 
 double limit_chord_angle(double alpha, double theta) {
