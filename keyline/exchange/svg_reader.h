@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/curve/bezier.h"
+
+namespace keyline::exchange {
+
+/// One run of Bézier pieces, end to end.
+struct SvgCurve {
+  std::string name = {};   ///< label or id of its element, "#2", "#3" … behind for later subpaths
+  std::string layer = {};  ///< label or id of the nearest named group; may be empty
+  std::vector<curve::Bezier2> pieces = {};  ///< degree 1 to 3; rational quadratics for arcs
+  bool closed = false;
+};
+
+/// Something of the file that is not among the curves, or not all of it.
+struct SvgSkipped {
+  int line = 0;
+  std::string what = {};
+};
+
+struct SvgContents {
+  std::vector<SvgCurve> curves = {};
+  std::string unit = {};      ///< "mm" where the file states a physical size, else "px"
+  std::string metadata = {};  ///< our own JSON exactly as write_svg() got it; else empty
+  std::vector<SvgSkipped> skipped = {};
+};
+
+/// Bounds that keep hostile files from using up the machine.
+struct SvgReadLimits {
+  std::size_t bytes = std::size_t{256} << 20;
+  int depth = 200;                   ///< of nested elements
+  int use_depth = 16;                ///< of <use> within <use>
+  std::size_t pieces = 4'000'000;    ///< Bézier pieces in all
+  std::size_t elements = 2'000'000;  ///< elements visited, repeated ones counted again
+};
+
+/// Reads the curves of an SVG file: paths and basic shapes under nested transforms, viewBoxes,
+/// groups, nested <svg>, <symbol> and <use>. Colours and other style are ignored.
+///
+/// Frame:   y up: a point of the file's outermost user space (x, y) comes back as scale * (x, -y),
+///          so what write_svg() wrote in mm comes back bit for bit. scale turns user units into
+///          mm where the file states a physical size, else into px.
+/// Skipped: text, images and other elements that hold no curve are counted by name; paths whose
+///          data end in an error are read up to it; entities of a document type are not expanded
+///          and nothing outside the file is looked at.
+/// Fails:   bad_input with path "line N" where the bytes are no XML or hold no <svg>, or are
+///          compressed; unsupported for encodings other than UTF-8 and ISO 8859-1; bad_input where
+///          the file is larger than the limits. A file without any curve is no failure.
+core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& limits = {});
+
+}  // namespace keyline::exchange
