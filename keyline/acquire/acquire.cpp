@@ -1,6 +1,8 @@
 #include "keyline/acquire/acquire.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -17,6 +19,13 @@ namespace {
 
 using core::ErrorCode;
 using detail::Working;
+
+std::string short_number(double value) {
+  std::array<char, 32> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+  return {text.data(), end.ptr};
+}
 
 std::string counted(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -56,7 +65,7 @@ core::Result<Working> flatten(const RawCurve& raw, const AcquireOptions& options
 void note_plane(KeyLine& line, double extent) {
   if (line.report.plane_departure <= 1e-9 * extent) return;
   line.report.notes.push_back("points projected on a plane; largest distance from it " +
-                              std::to_string(line.report.plane_departure));
+                              short_number(line.report.plane_departure));
 }
 
 void merge(Working& work, KeyLine& line) {
@@ -69,7 +78,7 @@ void merge(Working& work, KeyLine& line) {
 
 /// Closes the outline as its ends ask for: drops the repeated first point, or adds it at a corner.
 void settle_ends(Working& work, std::size_t stride, const AcquireOptions& options, KeyLine& line) {
-  Ends ends = recognise_ends(work.points, stride);
+  Ends ends = recognise_ends(work.points, stride, line.report.reordered);
   if (options.closed) {
     const bool repeated = ends == Ends::closed_repeated || ends == Ends::corner_repeated;
     ends = *options.closed ? (repeated ? Ends::closed_repeated : Ends::closed) : Ends::apart;

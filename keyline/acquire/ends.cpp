@@ -34,17 +34,27 @@ double turn(core::Point2 a, core::Point2 b, core::Point2 c, core::Point2 d) {
   return core::angle_between(b - a, d - c);
 }
 
-/// True where the chord between the ends goes on from the last step and into the first.
-bool runs_across(std::span<const core::Point2> points, std::size_t s) {
+/// Direction of the curve near one end, from the end inwards: to the first point at least a quarter
+/// of the gap away.
+core::Vector2 inwards(std::span<const core::Point2> points, bool at_first, double gap) {
   const std::size_t n = points.size();
-  const core::Point2 last = points[n - 1];
-  return std::abs(turn(points[n - 1 - s], last, last, points[0])) < kAcross &&
-         std::abs(turn(last, points[0], points[0], points[s])) < kAcross;
+  const auto at = [&](std::size_t k) { return at_first ? points[k] : points[n - 1 - k]; };
+  std::size_t k = 1;
+  while (k + 1 < n / 4 && core::distance(at(0), at(k)) < 0.25 * gap) ++k;
+  return at(k) - at(0);
+}
+
+/// True where the chord between the ends goes on from the curve before it and into that after it.
+bool runs_across(std::span<const core::Point2> points) {
+  const core::Vector2 chord = points.front() - points.back();
+  const double gap = core::norm(chord);
+  return std::abs(core::angle_between(-inwards(points, false, gap), chord)) < kAcross &&
+         std::abs(core::angle_between(chord, inwards(points, true, gap))) < kAcross;
 }
 
 }  // namespace
 
-Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride) {
+Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bool scattered) {
   const std::size_t n = points.size();
   const std::size_t s = std::max<std::size_t>(stride, 1);
   if (n < 4 || n <= 6 * s) return Ends::apart;
@@ -54,8 +64,8 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride) {
   const double spacing = spacing_at_ends(points, s);
   const bool near = n >= 8 && gap <= 1.75 * spacing && gap <= 0.2 * length;
   // A wider gap still belongs to an outline if the curve runs straight across it.
-  const bool facing =
-      n >= 8 && gap <= 4 * spacing && gap <= 0.05 * length && runs_across(points, s);
+  const double widest = scattered ? 0.05 * length : std::min(4 * spacing, 0.05 * length);
+  const bool facing = n >= 8 && gap <= widest && runs_across(points);
   if (!repeated && !near && !facing) return Ends::apart;
 
   const auto at = [&](std::size_t k) { return points[k * s]; };

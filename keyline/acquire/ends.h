@@ -19,7 +19,10 @@ enum class Ends {
 
 /// Recognises closed outlines from the gap between the ends against the spacing beside it
 /// (`stride` points apart where points are denser than their noise). Fewer than 8 points are
-/// closed only where the first is repeated.
-Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride);
+/// closed only where the first is repeated. scattered: the points were drawn without regard to
+/// spacing (a random sample), so that a gap of a twentieth of the length still closes where the
+/// curve runs straight across it.
+Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride,
+                    bool scattered = false);
 
 }  // namespace keyline::acquire

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "keyline/acquire/local_fit.h"
+#include "keyline/core/angle.h"
 
 namespace keyline::acquire {
 namespace {
@@ -13,6 +14,11 @@ namespace {
 constexpr std::size_t kSide = 3;  // neighbours used on each side
 constexpr double kFar = 10;   // stray: this many times the noise, and the misfit of its neighbours
 constexpr double kUsual = 8;  // and this many times the upper quartile of such residuals
+
+constexpr double kAside = 0.2;     // and this share of the gap a single stray leaves
+constexpr double kRunAside = 0.6;  // or a run of strays
+constexpr double kBridge = 1.5;  // longest such gap, in steps: across a wider one nothing is known
+constexpr double kBend = 0.9;    // largest turn at the ends of the gap, radians
 
 struct Neighbours {
   std::array<core::Point2, 2 * kSide> points;
@@ -37,6 +43,16 @@ bool collect(std::span<const core::Point2> points, bool closed, std::size_t firs
   return true;
 }
 
+/// True where leaving the run out turns no corner: the tip of a fin is no stray.
+bool bridge_is_smooth(const Neighbours& around) {
+  const auto& p = around.points;
+  const core::Vector2 before = p[kSide - 1] - p[kSide - 2];
+  const core::Vector2 bridge = p[kSide] - p[kSide - 1];
+  const core::Vector2 after = p[kSide + 1] - p[kSide];
+  return std::abs(core::angle_between(before, bridge)) < kBend &&
+         std::abs(core::angle_between(bridge, after)) < kBend;
+}
+
 /// The curve through the neighbours of a run: the fit and the least residual that makes a stray.
 struct Expected {
   detail::LocalFit fit;
@@ -52,7 +68,11 @@ std::optional<Expected> expected_at(std::span<const core::Point2> points, bool c
   if (!fit) return std::nullopt;
   const double freedom = 2 * kSide - 4;
   const double misfit = std::sqrt(fit->squared_residuals() / freedom);
-  return Expected{*fit, std::max(kFar * std::max(noise, misfit), 0.25 * around.spacing)};
+  const double bridge = core::distance(around.points[kSide - 1], around.points[kSide]);
+  if (bridge > kBridge * static_cast<double>(count + 1) * around.spacing) return std::nullopt;
+  if (!bridge_is_smooth(around)) return std::nullopt;
+  const double aside = (count == 1 ? kAside : kRunAside) * bridge;
+  return Expected{*fit, std::max({kFar * std::max(noise, misfit), 0.25 * around.spacing, aside})};
 }
 
 bool is_stray_run(std::span<const core::Point2> points, std::size_t first, std::size_t count,

@@ -77,7 +77,9 @@ class PointsTable {
   TableStyle style_;
   Columns columns_;
   std::vector<std::string> names_;
-  std::string first_text_;
+  std::string first_text_;  // shortened
+  std::string last_text_;
+  bool unknown_header_ = false;
   bool started_ = false;
   bool text_id_ = false;
   std::size_t text_lines_ = 0;
@@ -172,6 +174,7 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
   }
   if (!comment) {
     if (first_text_.empty()) first_text_ = shortened(line);
+    last_text_ = std::string(line.substr(0, 4096));
     ++text_lines_;
   }
   return {};
@@ -236,6 +239,8 @@ core::Result<void> PointsTable::choose_columns(const Fields& fields, const std::
 
 core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
   started_ = true;
+  unknown_header_ = text_lines_ > 0 && style_.separator != ' ' &&
+                    detail::split(last_text_, style_).size() == fields.size();
   if (auto chosen = choose_columns(fields, place); !chosen) return chosen;
   return data_row(fields, number, place);
 }
@@ -338,12 +343,17 @@ core::Result<Curves> PointsTable::finish(const std::string& name) {
                                                        : " (it starts with '" + first_text_ + "')"),
                       "give a text file with two or three numbers on each line", name);
   }
-  if (curves_.size() == 1 && curves_[0].id.empty() && text_lines_ > 0) curves_[0].id = first_text_;
+  const bool title_is_header = unknown_header_ && text_lines_ == 1;
+  if (curves_.size() == 1 && curves_[0].id.empty() && text_lines_ > 0 && !title_is_header) {
+    curves_[0].id = first_text_;
+  }
   unfold_lednicer();
   const auto note = [&](const std::string& text) {
     for (RawCurve& curve : curves_) curve.notes.push_back(text);
   };
-  if (text_lines_ > 0) note(std::to_string(text_lines_) + " title line(s) before the points");
+  if (unknown_header_) note("the header names no x and y: the first columns taken");
+  if (text_lines_ > 0 && !title_is_header)
+    note(std::to_string(text_lines_) + " title line(s) before the points");
   if (junk_lines_ > 0) note(std::to_string(junk_lines_) + " text line(s) after the points ignored");
   if (ignored_columns_ > 0) {
     note(std::to_string(ignored_columns_) +
