@@ -85,12 +85,14 @@ Box2 bounding_box(const Bezier2& c) {
   return box;
 }
 
-Box2 bounding_box(const BSpline2& c) {
+Box2 bounding_box(const PiecewiseBezier& c) {
   const Point2 start = evaluate(c, 0);
   Box2 box{start, start};
-  for (const Bezier2& piece : to_beziers(c)) box = united(box, bounding_box(piece));
+  for (const Bezier2& piece : c.pieces) box = united(box, bounding_box(piece));
   return box;
 }
+
+Box2 bounding_box(const BSpline2& c) { return bounding_box(PiecewiseBezier{to_beziers(c), 0}); }
 
 Box2 bounding_box(const Polyline2& c) {
   if (c.points.empty()) throw core::InvalidInput("Polyline: fewer than two points");

@@ -2,6 +2,7 @@
 
 #include "keyline/curve/bezier.h"
 #include "keyline/curve/bspline.h"
+#include "keyline/curve/piecewise_bezier.h"
 #include "keyline/curve/polyline.h"
 #include "keyline/curve/view.h"
 
@@ -28,6 +29,7 @@ Box2 united(const Box2& a, core::Point2 p);
 /// of the coordinates' derivatives in Bernstein form): tight to rounding.
 Box2 bounding_box(const Bezier2& c);
 Box2 bounding_box(const BSpline2& c);
+Box2 bounding_box(const PiecewiseBezier& c);
 Box2 bounding_box(const Polyline2& c);
 /// For any other curve extrema are sought among 32 parts of every smooth stretch: two extrema of
 /// one coordinate within one part may be missed.

@@ -1,9 +1,9 @@
 #include "keyline/curve/closest_point.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "keyline/curve/bernstein.h"
 
@@ -140,23 +140,41 @@ ClosestPoint closest_point(const Bezier2& c, Point2 p) {
   return best;
 }
 
-ClosestPoint closest_point(const BSpline2& c, Point2 p) {
-  const auto pieces = to_beziers(c);
-  const auto breaks = breakpoints(c);
-  ClosestPoint near = kNone;
-  for (const double t : breaks) consider(c, p, t, near);
-  std::optional<std::size_t> winner;
-  ClosestPoint best = near;
+namespace {
+
+/// Nearest point of the pieces, piece i standing for [breaks[i], breaks[i+1]].
+ClosestPoint closest_of(const std::vector<Bezier2>& pieces, const std::vector<double>& breaks,
+                        Point2 p) {
+  ClosestPoint best = kNone;
+  std::size_t winner = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {  // ends first: they prune most pieces
+    for (const double t : {0.0, 1.0}) {
+      const double before = best.distance;
+      consider(pieces[i], p, t, best);
+      if (best.distance < before) winner = i;
+    }
+  }
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (!may_be_nearer(pieces[i], p, best.distance)) continue;
     const double before = best.distance;
     BezierSearch(pieces[i], p, best);
     if (best.distance < before) winner = i;
   }
-  if (!winner || *winner + 1 >= breaks.size()) return near;
-  const double low = breaks[*winner];
-  best.t = std::clamp(low + (breaks[*winner + 1] - low) * best.t, 0.0, 1.0);
+  best.t = (1 - best.t) * breaks[winner] + best.t * breaks[winner + 1];
   return best;
+}
+
+}  // namespace
+
+ClosestPoint closest_point(const PiecewiseBezier& c, Point2 p) {
+  return closest_of(c.pieces, breakpoints(c), p);
+}
+
+ClosestPoint closest_point(const BSpline2& c, Point2 p) {
+  const auto pieces = to_beziers(c);
+  const auto breaks = breakpoints(c);
+  if (breaks.size() == pieces.size() + 1) return closest_of(pieces, breaks, p);
+  return closest_point(PlanarView(c), p);  // knots too close for the parameter to tell apart
 }
 
 ClosestPoint closest_point(const Polyline2& c, Point2 p) {
@@ -175,26 +193,59 @@ ClosestPoint closest_point(const Polyline2& c, Point2 p) {
   return best;
 }
 
+namespace {
+
+class ViewSearch {
+ public:
+  ViewSearch(const PlanarView& c, Point2 p, ClosestPoint& best) : c_(c), p_(p), best_(best) {}
+
+  void stretch(double low, double high) {
+    constexpr int kParts = 16;
+    std::array<End, kParts + 1> ends;
+    for (int k = 0; k <= kParts; ++k)
+      ends[k] = end_at(k == kParts ? std::nextafter(high, low) : low + (high - low) * k / kParts);
+    for (int k = 0; k < kParts; ++k) visit(ends[k], ends[k + 1], 0);
+  }
+
+ private:
+  struct End {
+    double t, distance, speed, slope;
+  };
+
+  End end_at(double t) {
+    const Jet2 j = c_.jet_at(t);
+    const double d = distance(j.point, p_);
+    if (d < best_.distance) best_ = {t, j.point, d};
+    return {t, d, speed(j), dot(j.point - p_, j.first)};
+  }
+
+  void visit(const End& a, const End& b, int depth) {
+    const double middle = 0.5 * (a.t + b.t);
+    const End m = end_at(middle);
+    const double length = 1.25 / 6 * (b.t - a.t) * (a.speed + 4 * m.speed + b.speed);
+    if (0.5 * (a.distance + b.distance - length) > best_.distance) return;
+    if (depth < 4) {
+      visit(a, m, depth + 1);
+      visit(m, b, depth + 1);
+      return;
+    }
+    if (a.slope < 0 && m.slope >= 0) consider(c_, p_, stationary_point(c_, p_, a.t, m.t), best_);
+    if (m.slope < 0 && b.slope >= 0) consider(c_, p_, stationary_point(c_, p_, m.t, b.t), best_);
+  }
+
+  const PlanarView& c_;
+  Point2 p_;
+  ClosestPoint& best_;
+};
+
+}  // namespace
+
 ClosestPoint closest_point(const PlanarView& c, Point2 p) {
-  constexpr int kParts = 24;
   ClosestPoint best = kNone;
   const auto& breaks = c.breaks();
-  std::vector<double> t;
-  std::vector<double> d;
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    for (int k = t.empty() ? 0 : 1; k <= kParts; ++k) {
-      const double u = static_cast<double>(k) / kParts;
-      t.push_back(k == kParts ? breaks[i + 1] : (1 - u) * breaks[i] + u * breaks[i + 1]);
-      d.push_back(distance(p, c.point(t.back())));
-    }
-  }
   for (const double b : breaks) consider(c, p, b, best);
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const bool lowest = (i == 0 || d[i] <= d[i - 1]) && (i + 1 == t.size() || d[i] <= d[i + 1]);
-    if (!lowest) continue;
-    if (i > 0) consider(c, p, stationary_point(c, p, t[i - 1], t[i]), best);
-    if (i + 1 < t.size()) consider(c, p, stationary_point(c, p, t[i], t[i + 1]), best);
-  }
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+    ViewSearch(c, p, best).stretch(breaks[i], breaks[i + 1]);
   return best;
 }
 

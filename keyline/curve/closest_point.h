@@ -2,6 +2,7 @@
 
 #include "keyline/curve/bezier.h"
 #include "keyline/curve/bspline.h"
+#include "keyline/curve/piecewise_bezier.h"
 #include "keyline/curve/polyline.h"
 #include "keyline/curve/view.h"
 
@@ -20,10 +21,12 @@ struct ClosestPoint {
 /// its derivative, then refined by Newton's method. Polylines are exact.
 ClosestPoint closest_point(const Bezier2& c, core::Point2 p);
 ClosestPoint closest_point(const BSpline2& c, core::Point2 p);
+ClosestPoint closest_point(const PiecewiseBezier& c, core::Point2 p);
 ClosestPoint closest_point(const Polyline2& c, core::Point2 p);
-/// For any other curve: every local minimum among 24 samples per smooth stretch is refined. Minima
-/// closer together than the samples may be missed; curvature monotone on each stretch, as on
-/// log-aesthetic pieces turning less than two full turns, is safe.
+/// For any other curve: each smooth stretch is cut in 16 and these in halves, up to four times,
+/// while the distances of the ends less half the arc length between them leave room for a nearer
+/// point; then Newton's method. Sound up to the estimate of the arc length (Simpson's rule and a
+/// quarter) and as long as 1/256 of a stretch holds no two minima.
 ClosestPoint closest_point(const PlanarView& c, core::Point2 p);
 template <PlanarCurve C>
 ClosestPoint closest_point(const C& c, core::Point2 p) {
