@@ -77,6 +77,12 @@ core::Interval domain(const BSpline<P>& c) {
 }
 
 template <class P>
+double exact_knot_at(const BSpline<P>& c, double t) {
+  require_counts(c);
+  return t >= 1 ? c.knots[c.control.size()] : locate(c, t).knot;
+}
+
+template <class P>
 P evaluate(const BSpline<P>& c, double t) {
   require_counts(c);
   const auto [span, u] = locate(c, t);
@@ -111,238 +117,6 @@ std::vector<double> breakpoints(const BSpline<P>& c) {
   }
   t.push_back(1.0);
   return t;
-}
-
-namespace {
-
-/// Control values with their knots, polynomial or lifted.
-template <class V>
-struct Net {
-  int degree;
-  std::vector<double> knots;
-  std::vector<V> d;
-};
-
-template <class P>
-Net<core::Displacement<P>> plain_net(const BSpline<P>& c) {
-  Net<core::Displacement<P>> net{c.degree, c.knots, {}};
-  for (const P& p : c.control) net.d.push_back(detail::from_origin(p));
-  return net;
-}
-template <class P>
-Net<detail::Homogeneous<P>> lifted_net(const BSpline<P>& c) {
-  Net<detail::Homogeneous<P>> net{c.degree, c.knots, {}};
-  for (std::size_t i = 0; i < c.control.size(); ++i)
-    net.d.push_back(detail::lift(c.control[i], c.weights[i]));
-  return net;
-}
-
-template <class P>
-BSpline<P> from_net(const Net<core::Displacement<P>>& net) {
-  BSpline<P> c{net.degree, net.knots, {}, {}};
-  for (const auto& v : net.d) c.control.push_back(P{} + v);
-  return c;
-}
-template <class P>
-BSpline<P> from_net(const Net<detail::Homogeneous<P>>& net) {
-  BSpline<P> c{net.degree, net.knots, {}, {}};
-  for (const auto& h : net.d) {
-    c.control.push_back(detail::project(h));
-    c.weights.push_back(h.weight);
-  }
-  return c;
-}
-
-template <class V>
-int multiplicity(const Net<V>& net, double u) {
-  const auto [first, last] = std::equal_range(net.knots.begin(), net.knots.end(), u);
-  return static_cast<int>(last - first);
-}
-
-/// Boehm's insertion of u, which lies in the domain, once.
-template <class V>
-void insert_once(Net<V>& net, double u) {
-  const int p = net.degree;
-  const int n = static_cast<int>(net.d.size());
-  int k = static_cast<int>(std::upper_bound(net.knots.begin(), net.knots.end(), u) -
-                           net.knots.begin()) -
-          1;
-  if (k >= n) k = n - 1;
-  while (!(net.knots[k] < net.knots[k + 1])) --k;
-  std::vector<V> d(net.d.begin(), net.d.begin() + (k - p + 1));
-  d.reserve(n + 1);
-  for (int i = k - p + 1; i <= k; ++i) {
-    const double a = (u - net.knots[i]) / (net.knots[i + p] - net.knots[i]);
-    d.push_back((1 - a) * net.d[i - 1] + a * net.d[i]);
-  }
-  d.insert(d.end(), net.d.begin() + k, net.d.end());
-  net.d = std::move(d);
-  net.knots.insert(net.knots.begin() + k + 1, u);
-}
-
-template <class V>
-void insert_up_to(Net<V>& net, double u, int wanted) {
-  for (int m = multiplicity(net, u); m < wanted; ++m) insert_once(net, u);
-}
-
-/// The curve over [from, to] with clamped ends.
-template <class V>
-Net<V> extract(Net<V> net, double from, double to) {
-  const int p = net.degree;
-  insert_up_to(net, from, p);
-  insert_up_to(net, to, p);
-  const auto begin = net.knots.begin();
-  const auto k = std::upper_bound(begin, net.knots.end(), from) - begin - 1;
-  const auto f = std::lower_bound(begin, net.knots.end(), to) - begin;
-  Net<V> part{p, {}, {net.d.begin() + (k - p), net.d.begin() + f}};
-  part.knots.assign(p + 1, from);
-  part.knots.insert(part.knots.end(), begin + k + 1, begin + f);
-  part.knots.insert(part.knots.end(), p + 1, to);
-  return part;
-}
-
-/// Blossom of the polynomial of a span at the given degree arguments.
-template <class V>
-V blossom(const Net<V>& net, int span, const double* arguments) {
-  const int p = net.degree;
-  std::array<V, kMaxBezierDegree + 1> d;
-  for (int j = 0; j <= p; ++j) d[j] = net.d[span - p + j];
-  for (int r = 1; r <= p; ++r) {
-    for (int j = p; j >= r; --j) {
-      const double low = net.knots[span - p + j];
-      const double high = net.knots[span + 1 - r + j];
-      const double a = (arguments[r - 1] - low) / (high - low);
-      d[j] = (1 - a) * d[j - 1] + a * d[j];
-    }
-  }
-  return d[p];
-}
-
-/// Control value of the elevated curve that belongs to its inner knots at[0..degree]: the mean of
-/// the blossom over leaving one of them out (Ramshaw, "Blossoms are polar forms", 1989).
-template <class V>
-V elevated_value(const Net<V>& net, int span, const double* at) {
-  const int count = net.degree + 1;
-  std::array<double, kMaxBezierDegree + 1> rest;
-  V sum{};
-  for (int skip = 0; skip < count; ++skip) {
-    std::copy(at, at + skip, rest.begin());
-    std::copy(at + skip + 1, at + count, rest.begin() + skip);
-    sum = sum + (1.0 / count) * blossom(net, span, rest.data());
-  }
-  return sum;
-}
-
-/// Longest span of the domain that meets [low, high].
-template <class V>
-int widest_span(const Net<V>& net, double low, double high) {
-  int best = -1;
-  for (int s = net.degree; s < static_cast<int>(net.d.size()); ++s) {
-    if (net.knots[s] < low || net.knots[s + 1] > high) continue;
-    const double width = net.knots[s + 1] - net.knots[s];
-    if (width > 0 && (best < 0 || width > net.knots[best + 1] - net.knots[best])) best = s;
-  }
-  return best;
-}
-
-/// One degree more; net is clamped.
-template <class V>
-Net<V> elevate_once(const Net<V>& net) {
-  Net<V> raised{net.degree + 1, {}, {}};
-  for (std::size_t i = 0; i < net.knots.size(); ++i) {
-    raised.knots.push_back(net.knots[i]);
-    if (i + 1 == net.knots.size() || net.knots[i + 1] != net.knots[i])
-      raised.knots.push_back(net.knots[i]);
-  }
-  const std::size_t count = raised.knots.size() - raised.degree - 1;
-  for (std::size_t i = 0; i < count; ++i) {
-    const int span = widest_span(net, raised.knots[i], raised.knots[i + raised.degree + 1]);
-    raised.d.push_back(elevated_value(net, span, &raised.knots[i + 1]));
-  }
-  return raised;
-}
-
-/// Calls f with the net of the curve, polynomial or lifted, and makes a curve of its answer.
-template <class P, class F>
-BSpline<P> through_net(const BSpline<P>& c, F f) {
-  require_counts(c);
-  return is_rational(c) ? from_net<P>(f(lifted_net(c))) : from_net<P>(f(plain_net(c)));
-}
-
-}  // namespace
-
-template <class P>
-BSpline<P> refine_knots(const BSpline<P>& c, const std::vector<double>& inserted) {
-  const core::Interval range = domain(c);
-  return through_net(c, [&](auto net) {
-    for (const double u : inserted) {
-      if (!(u >= range.low && u <= range.high))
-        throw core::InvalidInput("insert_knot: outside the domain");
-      if (multiplicity(net, u) > c.degree)
-        throw core::InvalidInput("insert_knot: multiplicity above degree + 1");
-      insert_once(net, u);
-    }
-    return net;
-  });
-}
-
-template <class P>
-BSpline<P> insert_knot(const BSpline<P>& c, double u, int times) {
-  return refine_knots(c, std::vector<double>(std::max(times, 0), u));
-}
-
-template <class P>
-BSpline<P> clamp_ends(const BSpline<P>& c) {
-  const core::Interval range = domain(c);
-  return through_net(c, [&](auto net) { return extract(std::move(net), range.low, range.high); });
-}
-
-template <class P>
-std::vector<Bezier<P>> to_beziers(const BSpline<P>& c) {
-  const core::Interval range = domain(c);
-  const int p = c.degree;
-  const BSpline<P> fine = through_net(c, [&](auto net) {
-    const auto knots = net.knots;
-    for (const double u : knots)
-      if (u >= range.low && u <= range.high) insert_up_to(net, u, p);
-    return extract(std::move(net), range.low, range.high);
-  });
-  std::vector<Bezier<P>> pieces;
-  for (std::size_t k = p; k < fine.control.size(); ++k) {
-    if (!(fine.knots[k] < fine.knots[k + 1])) continue;
-    Bezier<P> piece;
-    piece.control.assign(fine.control.begin() + (k - p), fine.control.begin() + k + 1);
-    if (is_rational(c))
-      piece.weights.assign(fine.weights.begin() + (k - p), fine.weights.begin() + k + 1);
-    pieces.push_back(std::move(piece));
-  }
-  return pieces;
-}
-
-template <class P>
-BSpline<P> elevate_degree(const BSpline<P>& c, int by) {
-  const core::Interval range = domain(c);
-  if (by < 0 || c.degree + by > kMaxBezierDegree)
-    throw core::InvalidInput("elevate_degree: degree out of range");
-  return through_net(c, [&](auto net) {
-    net = extract(std::move(net), range.low, range.high);
-    for (int i = 0; i < by; ++i) net = elevate_once(net);
-    return net;
-  });
-}
-
-template <class P>
-BSpline<P> subcurve(const BSpline<P>& c, double t0, double t1) {
-  require_counts(c);
-  const double from = locate(c, t0).knot;
-  const double to = t1 >= 1 ? domain(c).high : locate(c, t1).knot;
-  if (!(from < to)) throw core::InvalidInput("subcurve: empty");
-  return through_net(c, [&](auto net) { return extract(std::move(net), from, to); });
-}
-
-template <class P>
-std::pair<BSpline<P>, BSpline<P>> split(const BSpline<P>& c, double t) {
-  return {subcurve(c, 0, t), subcurve(c, t, 1)};
 }
 
 template <class P>
@@ -419,19 +193,13 @@ core::Result<void> validate(const BSpline<P>& c) {
   return validate_knots(c);
 }
 
-#define KEYLINE_INSTANTIATE(P)                                                     \
-  template core::Result<void> validate(const BSpline<P>&);                         \
-  template core::Interval domain(const BSpline<P>&);                               \
-  template P evaluate(const BSpline<P>&, double);                                  \
-  template Jet<P> jet(const BSpline<P>&, double);                                  \
-  template std::vector<double> breakpoints(const BSpline<P>&);                     \
-  template BSpline<P> insert_knot(const BSpline<P>&, double, int);                 \
-  template BSpline<P> refine_knots(const BSpline<P>&, const std::vector<double>&); \
-  template BSpline<P> clamp_ends(const BSpline<P>&);                               \
-  template std::vector<Bezier<P>> to_beziers(const BSpline<P>&);                   \
-  template BSpline<P> elevate_degree(const BSpline<P>&, int);                      \
-  template BSpline<P> subcurve(const BSpline<P>&, double, double);                 \
-  template std::pair<BSpline<P>, BSpline<P>> split(const BSpline<P>&, double);     \
+#define KEYLINE_INSTANTIATE(P)                                 \
+  template core::Result<void> validate(const BSpline<P>&);     \
+  template core::Interval domain(const BSpline<P>&);           \
+  template double exact_knot_at(const BSpline<P>&, double);    \
+  template P evaluate(const BSpline<P>&, double);              \
+  template Jet<P> jet(const BSpline<P>&, double);              \
+  template std::vector<double> breakpoints(const BSpline<P>&); \
   template BSpline<P> reverse(const BSpline<P>&);
 KEYLINE_INSTANTIATE(Point2)
 KEYLINE_INSTANTIATE(Point3)

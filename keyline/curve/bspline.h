@@ -45,11 +45,14 @@ core::Result<void> validate(const BSpline<P>& c);
 /// Range of knot values the curve is defined over.
 template <class P>
 core::Interval domain(const BSpline<P>& c);
-/// Knot value at t and back.
+/// Knot value at t and back (up to rounding).
 template <class P>
 double knot_at(const BSpline<P>& c, double t) {
   return core::at(domain(c), t);
 }
+/// The same, but the very knot where t is one of breakpoints().
+template <class P>
+double exact_knot_at(const BSpline<P>& c, double t);
 template <class P>
 double parameter_at_knot(const BSpline<P>& c, double u) {
   const core::Interval d = domain(c);

@@ -15,7 +15,7 @@ struct Place {
 Place locate(const PiecewiseBezier& c, double t) {
   if (c.pieces.empty()) throw core::InvalidInput("PiecewiseBezier: no piece");
   const double n = static_cast<double>(c.pieces.size());
-  t = std::clamp(t, 0.0, 1.0);
+  t = t >= 0 ? std::min(t, 1.0) : 0.0;  // 0 for NaN, too
   auto i = std::min(static_cast<std::size_t>(t * n), c.pieces.size() - 1);
   if (i + 1 < c.pieces.size() && static_cast<double>(i + 1) / n <= t) ++i;
   if (i > 0 && t < static_cast<double>(i) / n) --i;

@@ -21,7 +21,7 @@ template <class P>
 Place locate(const Polyline<P>& c, double t) {
   if (c.points.size() < 2) throw core::InvalidInput("Polyline: fewer than two points");
   const double edges = static_cast<double>(c.points.size() - 1);
-  t = std::clamp(t, 0.0, 1.0);
+  t = t >= 0 ? std::min(t, 1.0) : 0.0;  // 0 for NaN, too
   auto edge = std::min(static_cast<std::size_t>(t * edges), c.points.size() - 2);
   if (edge + 2 < c.points.size() && static_cast<double>(edge + 1) / edges <= t) ++edge;
   if (edge > 0 && t < static_cast<double>(edge) / edges) --edge;
