@@ -1,5 +1,3 @@
-#include "keyline/lac/hermite.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
 #include "keyline/lac/chord_kernel.h"
+#include "keyline/lac/one_signed.h"
 #include "keyline/lac/region.h"
 
 namespace keyline::lac {
@@ -27,7 +26,8 @@ std::string number(double x) {
 }
 
 std::unexpected<core::Failure> undrawable(double alpha, double theta, double psi, double sign) {
-  const core::Interval region = drawable_region(alpha, theta);
+  const double limit = detail::limit_chord_angle(alpha, theta);
+  const core::Interval region{theta - limit, limit};
   const NearestDrawable nearest = nearest_drawable(alpha, theta, psi);
   const double low = sign > 0 ? region.low : -region.high;
   const double high = sign > 0 ? region.high : -region.low;
@@ -102,6 +102,17 @@ core::Result<HandleAngles> handle_angles(Point2 p0, Point2 p1, Point2 p2) {
 }
 
 core::Result<SegmentSolution> solve_g1(const HandleAngles& angles, double alpha) {
+  if (std::abs(angles.turning) >= core::kPi - 1e-15) {
+    return core::fail(ErrorCode::undrawable,
+                      "the middle point does not lie between the ends: the curve would turn back",
+                      "put it nearer to the chord's middle");
+  }
+  return detail::solve_one_signed(angles, alpha);
+}
+
+namespace detail {
+
+core::Result<SegmentSolution> solve_one_signed(const HandleAngles& angles, double alpha) {
   if (!std::isfinite(alpha)) {
     return core::fail(ErrorCode::bad_input, "the slope alpha must be a finite number", {}, "alpha");
   }
@@ -112,15 +123,15 @@ core::Result<SegmentSolution> solve_g1(const HandleAngles& angles, double alpha)
     return core::fail(ErrorCode::bad_input, "an angle is not a number");
   }
   if (theta < kStraight && std::abs(psi) < kStraight) return straight(angles, alpha);
-  if (!(theta < core::kPi - 1e-15) || !(psi > 0 && psi < theta)) {
+  if (!(psi > 0 && psi < theta && theta < 2 * core::kPi)) {
     return core::fail(ErrorCode::undrawable,
                       "the middle point does not lie between the ends: the curve would turn back",
                       "put it nearer to the chord's middle");
   }
   SegmentSolution solution;
   solution.reversed = psi < theta / 2;
-  const detail::ChordSolution chord =
-      detail::solve_chord_angle(alpha, theta, solution.reversed ? theta - psi : psi);
+  const ChordSolution chord =
+      solve_chord_angle(alpha, theta, solution.reversed ? theta - psi : psi);
   if (chord.status == detail::ChordStatus::beyond_precision) return beyond_doubles(alpha);
   if (chord.status != detail::ChordStatus::solved) return undrawable(alpha, theta, psi, sign);
   const double length = 1 / chord.chord_length;
@@ -136,6 +147,8 @@ core::Result<SegmentSolution> solve_g1(const HandleAngles& angles, double alpha)
   solution.iterations = chord.iterations;
   return solution;
 }
+
+}  // namespace detail
 
 core::Result<SegmentSolution> solve_g1(Point2 p0, Point2 p1, Point2 p2, double alpha) {
   const auto angles = handle_angles(p0, p1, p2);

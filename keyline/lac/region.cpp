@@ -37,7 +37,11 @@ double nearest_alpha(double alpha, double theta, double psi) {
 }  // namespace
 
 NearestDrawable nearest_drawable(double alpha, double theta, double psi) {
-  const core::Interval region = drawable_region(alpha, theta);
+  if (!(theta > 0 && theta < 2 * core::kPi)) {
+    throw core::InvalidInput("nearest_drawable: theta must lie in (0, 2 pi)");
+  }
+  const double limit = detail::limit_chord_angle(alpha, theta);
+  const core::Interval region{theta - limit, limit};
   const double margin = 1e-6 * (region.high - region.low);
   const bool swapped = psi < theta / 2;
   const double unswapped = swapped ? theta - psi : psi;

@@ -18,7 +18,7 @@ struct NearestDrawable {
   double chord_angle = 0;  ///< a little inside the region, on the side of the one asked for
   double alpha = 0;        ///< the nearest slope whose region holds the chord angle asked for
 };
-/// 0 < psi < theta < pi.
+/// 0 < psi < theta < 2 pi.
 NearestDrawable nearest_drawable(double alpha, double theta, double psi);
 
 }  // namespace keyline::lac

@@ -234,4 +234,25 @@ Segment transform(const Segment& s, const core::Similarity2& map) {
           s.curvature_end / map.scale};
 }
 
+core::Result<Segment> evolute(const Segment& s) {
+  const double k0 = s.curvature_start;
+  const double k1 = s.curvature_end;
+  const bool plain = k0 * k1 > 0 && std::isfinite(k0) && std::isfinite(k1);
+  if (!plain || k0 == k1) {
+    return core::fail(ErrorCode::bad_input,
+                      "the evolute needs a curvature that changes and is never zero or infinite");
+  }
+  const auto curvature_of_evolute = [&](double k, double t) {
+    return k * k * (k / std::abs(curvature_rate(s, t)));
+  };
+  const Vector2 normal = core::perpendicular_left(core::unit_vector(s.start.direction));
+  const double outward = 1 / k1 > 1 / k0 ? 0.5 : -0.5;
+  const double slope = s.alpha == 2 ? 0 : 1 / (2 - s.alpha);
+  return Segment{{s.start.position + normal / k0, s.start.direction + outward * core::kPi},
+                 slope,
+                 std::abs(1 / k1 - 1 / k0),
+                 curvature_of_evolute(k0, 0),
+                 curvature_of_evolute(k1, 1)};
+}
+
 }  // namespace keyline::lac

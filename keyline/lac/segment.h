@@ -109,4 +109,9 @@ struct SegmentPair {
 SegmentPair split(const Segment& segment, double t);
 Segment transform(const Segment& segment, const core::Similarity2& map);
 
+/// Locus of the centres of curvature: again log-aesthetic, of slope 1/(2 - alpha), as long as the
+/// radius of curvature changes by. Its tangents are the normals of the curve.
+/// Fails (bad_input): a circle, a straight line, an inflection or a cusp.
+core::Result<Segment> evolute(const Segment& segment);
+
 }  // namespace keyline::lac

@@ -190,6 +190,25 @@ TEST(Segment, FractionAtTurningInvertsTurning) {
   EXPECT_NEAR(fraction_at_turning({2, 1, kInfinity, 1}, 0.5), 0.25, 1e-15);
 }
 
+TEST(Segment, EvoluteHasSlopeOneOverTwoMinusAlpha) {
+  for (const double alpha : {-3.0, -1.0, 0.0, 0.5, 1.0, 1.7, 2.0, 2.3, 4.0}) {
+    for (const double end : {0.6, 2.9}) {
+      for (const double sign : {1.0, -1.0}) {
+        const Segment s{{{1, 2}, 0.3}, alpha, 1.2, sign * 1.3, sign * end};
+        const auto e = evolute(s);
+        ASSERT_TRUE(e);
+        for (const double t : {0.0, 0.3, 0.7, 1.0}) {
+          const double at = (1 / curvature(s, t) - sign / 1.3) / (sign / end - sign / 1.3);
+          const Point2 centre = centre_of_curvature(jet(s, t));
+          EXPECT_NEAR(distance(evaluate(*e, at), centre), 0, 1e-14) << alpha << ' ' << end;
+        }
+      }
+    }
+  }
+  EXPECT_FALSE(evolute(Segment{{}, -1, 1, 1, 1}));
+  EXPECT_FALSE(evolute(Segment{{}, -1, 1, 1, -1}));
+}
+
 TEST(Segment, HoldsAtExtremeScales) {
   for (const double scale : {1e150, 1e-150}) {
     const Segment s = transform({{}, 0.7, 1, 3, 0.5}, {scale, 0, {}});
