@@ -53,7 +53,7 @@ std::vector<JointContinuity> continuity(const std::vector<CurveView>& curves, bo
   const std::size_t n = curves.size();
   for (std::size_t i = 0; i < n && (closed || i + 1 < n); ++i) {
     const std::size_t next = (i + 1) % n;
-    joints.push_back(joint_continuity(curves[i].jet(1), curves[next].jet(0),
+    joints.push_back(joint_continuity(curves[i].jet_at(1), curves[next].jet_at(0),
                                       std::min(lengths[i], lengths[next]), tolerance));
   }
   return joints;
@@ -63,10 +63,10 @@ std::vector<JointContinuity> inner_continuity(const CurveView& curve,
                                               const ContinuityTolerance& tolerance) {
   std::vector<JointContinuity> joints;
   const double length = ArcLengthTable(curve).length();
-  for (std::size_t i = 1; i + 1 < curve.breakpoints.size(); ++i) {
-    const double t = curve.breakpoints[i];
+  for (std::size_t i = 1; i + 1 < curve.breaks().size(); ++i) {
+    const double t = curve.breaks()[i];
     joints.push_back(
-        joint_continuity(curve.jet(std::nextafter(t, 0.0)), curve.jet(t), length, tolerance));
+        joint_continuity(curve.jet_at(std::nextafter(t, 0.0)), curve.jet_at(t), length, tolerance));
   }
   return joints;
 }

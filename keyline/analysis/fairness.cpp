@@ -10,11 +10,11 @@ namespace keyline::analysis {
 
 Fairness fairness(const CurveView& curve) {
   constexpr int kPanels = 256;
-  const std::vector<double> ends = detail::panel_ends(curve.breakpoints, {0, 1}, kPanels, 2);
+  const std::vector<double> ends = detail::panel_ends(curve.breaks(), {0, 1}, kPanels, 2);
   const auto integral = [&](auto f) {
     return detail::integrate(
         [&](double t) {
-          const curve::Jet2 jet = curve.jet(t);
+          const curve::Jet2 jet = curve.jet_at(t);
           const double value = f(jet) * curve::speed(jet);
           return std::isfinite(value) ? value : 0;
         },

@@ -1,33 +1,12 @@
 #include "keyline/analysis/profile.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "keyline/core/angle.h"
 
 namespace keyline::analysis {
 namespace {
-
-constexpr std::array<double, 4> kNodes = {0.18343464249564980494, 0.52553240991632898582,
-                                          0.79666647741362673959, 0.96028985649753623168};
-constexpr std::array<double, 4> kWeights = {0.36268378337836198297, 0.31370664587788728734,
-                                            0.22238103445337447054, 0.10122853629037625915};
-constexpr int kLeastPanels = 256;
-
-double speed_at(const CurveView& curve, double t) { return curve::speed(curve.jet(t)); }
-
-/// Length of [a, b], which holds no breakpoint in its inside.
-double panel_length(const CurveView& curve, double a, double b) {
-  const double middle = (a + b) / 2;
-  const double half = (b - a) / 2;
-  double sum = 0;
-  for (std::size_t i = 0; i < kNodes.size(); ++i) {
-    const double d = half * kNodes[i];
-    sum += kWeights[i] * (speed_at(curve, middle - d) + speed_at(curve, middle + d));
-  }
-  return std::isfinite(sum) ? half * sum : 0;
-}
 
 bool all_finite(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
@@ -104,54 +83,6 @@ CurvatureProfile reversed(const CurvatureProfile& p) {
   return r;
 }
 
-ArcLengthTable::ArcLengthTable(const CurveView& curve) : curve_(curve) {
-  std::vector<double> ends = curve.breakpoints;
-  if (ends.size() < 2) ends = {0, 1};
-  const int spans = static_cast<int>(ends.size()) - 1;
-  const int per_span = std::max(2, (kLeastPanels + spans - 1) / spans);
-  parameters_ = {ends.front()};
-  lengths_ = {0};
-  for (int i = 0; i < spans; ++i) {
-    for (int k = 1; k <= per_span; ++k) {
-      const double u = static_cast<double>(k) / per_span;
-      const double a = parameters_.back();
-      const double b = k == per_span ? ends[i + 1] : (1 - u) * ends[i] + u * ends[i + 1];
-      parameters_.push_back(b);
-      lengths_.push_back(lengths_.back() + panel_length(curve_, a, b));
-    }
-  }
-}
-
-double ArcLengthTable::length_at(double t) const {
-  const auto it = std::upper_bound(parameters_.begin() + 1, parameters_.end() - 1, t);
-  const std::size_t i = static_cast<std::size_t>(it - parameters_.begin());
-  const double clamped = std::clamp(t, parameters_[i - 1], parameters_[i]);
-  return lengths_[i - 1] + panel_length(curve_, parameters_[i - 1], clamped);
-}
-
-double ArcLengthTable::parameter_at(double s) const {
-  const auto it = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, s);
-  const std::size_t i = static_cast<std::size_t>(it - lengths_.begin());
-  double low = parameters_[i - 1];
-  double high = parameters_[i];
-  const double target = std::clamp(s, lengths_[i - 1], lengths_[i]) - lengths_[i - 1];
-  const double whole = lengths_[i] - lengths_[i - 1];
-  if (!(whole > 0)) return low;
-  if (target <= 0) return low;
-  if (target >= whole) return high;
-  const double start = low;
-  double t = low + (high - low) * target / whole;
-  for (int step = 0; step < 40; ++step) {
-    const double miss = panel_length(curve_, start, t) - target;
-    if (std::abs(miss) <= 1e-14 * lengths_.back()) break;
-    (miss > 0 ? high : low) = t;
-    const double v = speed_at(curve_, t);
-    const double newton = v > 0 ? t - miss / v : t;
-    t = newton > low && newton < high ? newton : (low + high) / 2;
-  }
-  return t;
-}
-
 CurvatureProfile sample_profile(const CurveView& curve, const ArcLengthTable& table,
                                 core::Interval t, int n) {
   CurvatureProfile p;
@@ -163,7 +94,7 @@ CurvatureProfile sample_profile(const CurveView& curve, const ArcLengthTable& ta
     const double s = i == n - 1 ? s1 : s0 + (s1 - s0) * i / (n - 1);
     double at = i == 0 ? t.low : i == n - 1 ? std::nextafter(t.high, 0.0) : table.parameter_at(s);
     at = std::clamp(at, t.low, t.high);
-    const curve::Jet2 jet = curve.jet(at);
+    const curve::Jet2 jet = curve.jet_at(at);
     const double now = curve::tangent_angle(jet);
     if (i > 0) turned += core::wrap_angle(now - angle);
     angle = now;

@@ -1,27 +1,25 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 #include "keyline/curve/concept.h"
 #include "keyline/curve/jet.h"
+#include "keyline/curve/length.h"
+#include "keyline/curve/view.h"
 
 namespace keyline::analysis {
 
-/// A planar curve as the analysis sees it: its jets by parameter and the parameters at which its
-/// smoothness may drop. Any type that models curve::PlanarCurve becomes one through view().
-struct CurveView {
-  std::function<curve::Jet2(double)> jet;
-  std::vector<double> breakpoints;  ///< 0 = b0 < b1 < … < bn = 1
-};
+/// A planar curve as the analysis sees it, whatever its type.
+using CurveView = curve::PlanarView;
 
 /// A view of c, which must outlive it.
 template <curve::PlanarCurve C>
 CurveView view(const C& c) {
-  return {[&c](double t) -> curve::Jet2 { return jet(c, t); }, breakpoints(c)};
+  return CurveView(c);
 }
+inline CurveView view(const CurveView& v) { return v; }
 
 /// What a curve does along its length, and all that graphs, diagrams and rhythms are made of.
 ///
@@ -44,24 +42,21 @@ core::Result<CurvatureProfile> complete(CurvatureProfile profile);
 /// The same curve travelled the other way; the profile must be complete.
 CurvatureProfile reversed(const CurvatureProfile& profile);
 
-/// Arc length of a view, tabulated once, and its inverse.
-///
-/// Accuracy: eight-point Gauss rule on at least 256 panels that end at the breakpoints; about
-/// 1e-12 of the length where the curve is smooth between breakpoints and has no cusp.
+/// A view with its arc length, tabulated once (curve/length.h) to 1e-12 of the whole.
 class ArcLengthTable {
  public:
-  explicit ArcLengthTable(const CurveView& curve);
+  explicit ArcLengthTable(const CurveView& curve)
+      : curve_(curve), map_(curve::arc_length_map(curve)) {}
 
-  double length() const { return lengths_.back(); }
+  double length() const { return curve::total_length(map_); }
   /// Arc length from t = 0 to t, t clamped to [0, 1].
-  double length_at(double t) const;
+  double length_at(double t) const { return curve::length_at_parameter(curve_, map_, t); }
   /// Parameter at arc length s, s clamped to [0, length()].
-  double parameter_at(double s) const;
+  double parameter_at(double s) const { return curve::parameter_at_length(curve_, map_, s); }
 
  private:
   CurveView curve_;
-  std::vector<double> parameters_;  // panel ends
-  std::vector<double> lengths_;     // arc length at them
+  curve::ArcLengthMap map_;
 };
 
 /// n >= 2 samples at equal steps of arc length over [t.low, t.high], ends included; curvature is

@@ -6,6 +6,8 @@
 #include "keyline/analysis/integrate.h"
 #include "keyline/analysis/waves.h"
 #include "keyline/core/angle.h"
+#include "keyline/numeric/quadrature.h"
+#include "keyline/numeric/roots.h"
 
 namespace keyline::analysis {
 namespace {
@@ -47,16 +49,16 @@ class Splitter {
  private:
   void take_samples() {
     const std::vector<double> ends =
-        detail::panel_ends(curve_.breakpoints, {0, 1}, options_.samples, kLeastSamples);
-    const auto speed = [&](double t) { return curve::speed(curve_.jet(t)); };
+        detail::panel_ends(curve_.breaks(), {0, 1}, options_.samples, kLeastSamples);
+    const auto speed = [&](double t) { return curve::speed(curve_.jet_at(t)); };
     int stretch = 0;
     double s = 0;
     std::size_t next = 1;  // breakpoint to come
     samples_.push_back({ends[0], 0, curvature_at(ends[0]), 0});
     for (std::size_t i = 1; i < ends.size(); ++i) {
-      const double step = detail::gauss8(speed, ends[i - 1], ends[i]);
+      const double step = numeric::integrate_gauss<8>(speed, ends[i - 1], ends[i]);
       s += std::isfinite(step) ? step : 0;
-      const bool at_break = next < curve_.breakpoints.size() && ends[i] >= curve_.breakpoints[next];
+      const bool at_break = next < curve_.breaks().size() && ends[i] >= curve_.breaks()[next];
       const double before = at_break ? std::nextafter(ends[i], 0.0) : ends[i];
       samples_.push_back({ends[i], s, curvature_at(before), stretch});
       if (!at_break) continue;
@@ -71,16 +73,16 @@ class Splitter {
 
   /// Curvature; at a cusp, where it is infinite, that of a place close by.
   double curvature_at(double t) const {
-    const double kappa = curve::curvature(curve_.jet(t));
+    const double kappa = curve::curvature(curve_.jet_at(t));
     if (std::isfinite(kappa)) return kappa;
-    const double beside = curve::curvature(curve_.jet(t < 0.5 ? t + 1e-7 : t - 1e-7));
+    const double beside = curve::curvature(curve_.jet_at(t < 0.5 ? t + 1e-7 : t - 1e-7));
     return std::isfinite(beside) ? beside : 0;
   }
 
   bool is_corner(std::size_t i) const {
     const double t = samples_[i].t;
-    const double before = curve::tangent_angle(curve_.jet(std::nextafter(t, 0.0)));
-    const double after = curve::tangent_angle(curve_.jet(t));
+    const double before = curve::tangent_angle(curve_.jet_at(std::nextafter(t, 0.0)));
+    const double after = curve::tangent_angle(curve_.jet_at(t));
     return std::abs(core::wrap_angle(after - before)) > options_.corner;
   }
 
@@ -152,8 +154,8 @@ class Splitter {
                         samples_[i + 1].stretch == here.stretch;
     const Flat* flat = flat_around(i);
     if (!flat && inside) {
-      const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet(at)); };
-      t = bisect(rate, samples_[i - 1].t, samples_[i + 1].t, t);
+      const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet_at(at)); };
+      t = zero_of(rate, samples_[i - 1].t, samples_[i + 1].t, t);
     } else if (!flat) {  // the turn may lie just beside the breakpoint, inside the stretch
       t = refine_beside(i);
     }
@@ -162,31 +164,24 @@ class Splitter {
   }
 
   double refine_beside(std::size_t i) const {
-    const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet(at)); };
+    const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet_at(at)); };
     const Sample& here = samples_[i];
     if (i > 0 && samples_[i - 1].stretch == here.stretch)
-      return bisect(rate, samples_[i - 1].t, std::nextafter(here.t, 0.0), here.t);
+      return zero_of(rate, samples_[i - 1].t, std::nextafter(here.t, 0.0), here.t);
     if (i + 1 < samples_.size() && samples_[i + 1].stretch == here.stretch)
-      return bisect(rate, here.t, samples_[i + 1].t, here.t);
+      return zero_of(rate, here.t, samples_[i + 1].t, here.t);
     return here.t;
   }
 
   /// The zero of f in [low, high], or `otherwise` where f does not change sign.
   template <class F>
-  double bisect(const F& f, double low, double high, double otherwise) const {
-    const double at_low = f(low);
-    const double at_high = f(high);
-    if (!(at_low * at_high < 0)) return otherwise;
-    for (int step = 0; step < 60 && high - low > 1e-16; ++step) {
-      const double middle = (low + high) / 2;
-      ((f(middle) > 0) == (at_low > 0) ? low : high) = middle;
-    }
-    return (low + high) / 2;
+  double zero_of(const F& f, double low, double high, double otherwise) const {
+    return numeric::bracketed_root(f, low, high, 0).value_or(otherwise);
   }
 
   double arc_length_at(double t, std::size_t near) const {
-    const auto speed = [&](double at) { return curve::speed(curve_.jet(at)); };
-    const double step = detail::gauss8(speed, samples_[near].t, t);
+    const auto speed = [&](double at) { return curve::speed(curve_.jet_at(at)); };
+    const double step = numeric::integrate_gauss<8>(speed, samples_[near].t, t);
     return samples_[near].s + (std::isfinite(step) ? step : 0);
   }
 
@@ -218,8 +213,8 @@ class Splitter {
     const Flat* flat = sign_of(middle) == 0 ? flat_around(middle) : nullptr;
     double t = samples_[middle].t;
     if (!flat && samples_[i].stretch == samples_[next].stretch) {
-      const auto kappa = [&](double at) { return curve::curvature(curve_.jet(at)); };
-      t = bisect(kappa, samples_[i].t, std::nextafter(samples_[next].t, 0.0), t);
+      const auto kappa = [&](double at) { return curve::curvature(curve_.jet_at(at)); };
+      t = zero_of(kappa, samples_[i].t, std::nextafter(samples_[next].t, 0.0), t);
     }
     add({Kind::inflection, t, arc_length_at(t, middle), 0, {t, t}}, flat);
   }

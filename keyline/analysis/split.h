@@ -62,8 +62,8 @@ struct Split {
 /// piece). Smallest waves are merged first, each judged after its neighbours are gone.
 ///
 /// Works on any curve, also where curvature or its rate jumps at breakpoints. Events between
-/// breakpoints are refined by bisection of curvature or its rate to the last bit of t; they are
-/// found where the samples see the change of sign.
+/// breakpoints are refined to the last bits of t by a bracketed root of curvature or its rate; they
+/// are found where the samples see the change of sign.
 Split split_monotone(const CurveView& curve, const SplitOptions& options = {});
 
 template <curve::PlanarCurve C>

@@ -1,0 +1,101 @@
+#include "keyline/analysis/analyze.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "keyline/analysis/volume.h"
+
+namespace keyline::analysis {
+namespace {
+
+core::Result<void> check(const CurveView& curve, double length) {
+  for (double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    if (!core::is_finite(curve.jet_at(t).point))
+      return core::fail(core::ErrorCode::bad_input, "the curve holds a number that is not finite");
+  }
+  if (!std::isfinite(length) || !(length > 0))
+    return core::fail(core::ErrorCode::bad_input, "the curve has no length");
+  return {};
+}
+
+std::vector<CurvaturePlotPoint> plot_of(const CurveView& curve, const ArcLengthTable& table,
+                                        int samples) {
+  std::vector<CurvaturePlotPoint> plot;
+  const int n = std::max(samples, 2);
+  for (int i = 0; i < n; ++i) {
+    const double s = table.length() * i / (n - 1);
+    const double t = i == 0 ? 0 : i == n - 1 ? 1 : table.parameter_at(s);
+    const double kappa = curve::curvature(curve.jet_at(t));
+    if (std::isfinite(kappa)) plot.push_back({t, s, kappa});
+  }
+  return plot;
+}
+
+core::Result<PieceAnalysis> analyze_piece(const CurveView& curve, const ArcLengthTable& table,
+                                          const MonotonePiece& extent,
+                                          const AnalyzeOptions& options, double whole) {
+  PieceAnalysis piece;
+  piece.extent = extent;
+  piece.length = extent.arc_length.high - extent.arc_length.low;
+  piece.volume = volume(curve, extent.t);
+  const CurvatureProfile fine = sample_profile(curve, table, extent.t, 2 * kLddcPoints + 1);
+  piece.lddc = curvature_distribution_diagram(fine);
+  piece.lcg = logarithmic_curvature_graph(
+      sample_profile(curve, table, extent.t, std::max(options.piece_samples, 3)));
+  RhythmOptions rhythm = options.rhythm;
+  rhythm.noise = std::max(rhythm.noise, options.noise);
+  // Measurements are spread over the whole curve; a piece has its share of them.
+  rhythm.observations = std::max(10.0, rhythm.observations * piece.length / whole);
+  auto reading = classify_rhythm(fine, rhythm);
+  if (!reading) return std::unexpected(reading.error());
+  piece.interpretations = std::move(reading->interpretations);
+  const Interpretation& best = piece.interpretations.front();
+  piece.rhythm = best.rhythm;
+  piece.slopes = best.slopes;
+  piece.impression = impression(best.rhythm);
+  return piece;
+}
+
+MonotoneAnswer monotone_answer(const AnalyzeOptions& options, const Split& split) {
+  if (options.certify) return options.certify();
+  if (!split.extrema.empty()) return {MonotoneAnswer::Value::no, split.extrema.front().t};
+  return {};
+}
+
+}  // namespace
+
+core::Result<CurveAnalysis> analyze(const CurveView& curve, const AnalyzeOptions& options) {
+  const ArcLengthTable table(curve);
+  if (const auto sound = check(curve, table.length()); !sound)
+    return std::unexpected(sound.error());
+  CurveAnalysis result;
+  result.length = table.length();
+  result.volume = volume(curve);
+  result.plot = plot_of(curve, table, options.plot_samples);
+  SplitOptions split = options.split;
+  split.noise = std::max(split.noise, options.noise);
+  result.split = split_monotone(curve, split);
+  for (const MonotonePiece& extent : result.split.pieces) {
+    if (!(extent.arc_length.high - extent.arc_length.low > 1e-12 * result.length)) continue;
+    auto piece = analyze_piece(curve, table, extent, options, result.length);
+    if (!piece) return std::unexpected(piece.error());
+    result.pieces.push_back(std::move(*piece));
+  }
+  result.curvature_min = std::numeric_limits<double>::infinity();
+  result.curvature_max = -result.curvature_min;
+  const auto meet = [&](double kappa) {
+    if (!std::isfinite(kappa)) return;
+    result.curvature_min = std::min(result.curvature_min, kappa);
+    result.curvature_max = std::max(result.curvature_max, kappa);
+  };
+  for (const CurvaturePlotPoint& p : result.plot) meet(p.curvature);
+  for (const MonotonePiece& p : result.split.pieces) {
+    meet(p.curvature_start);
+    meet(p.curvature_end);
+  }
+  result.monotone = monotone_answer(options, result.split);
+  return result;
+}
+
+}  // namespace keyline::analysis

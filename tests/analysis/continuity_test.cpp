@@ -1,0 +1,61 @@
+#include "keyline/analysis/continuity.h"
+
+#include <gtest/gtest.h>
+
+#include "spirals.h"
+
+namespace keyline::analysis {
+namespace {
+
+using testing::SpiralCurve;
+
+core::Pose2 end_of(const SpiralCurve& c) {
+  return {evaluate(c, 1), c.start.direction + c.turning(c.length)};
+}
+
+int order_after(const SpiralCurve& first, const SpiralCurve& second) {
+  return continuity(std::vector<SpiralCurve>{first, second}).at(0).order;
+}
+
+TEST(Continuity, OrdersOfJoints) {
+  const SpiralCurve first = testing::clothoid(0, 1, 1);
+  const core::Pose2 end = end_of(first);
+  EXPECT_EQ(order_after(first, testing::clothoid(1, 2, 1, end)), 3);
+  EXPECT_EQ(order_after(first, testing::arcs({1}, {1}, end)), 2);
+  EXPECT_EQ(order_after(first, testing::arcs({2}, {1}, end)), 1);
+  EXPECT_EQ(order_after(first, testing::arcs({1}, {1}, {end.position, end.direction + 0.1})), 0);
+  const core::Point2 off = end.position + core::Vector2{0.01, 0};
+  EXPECT_EQ(order_after(first, testing::arcs({1}, {1}, {off, end.direction})), -1);
+}
+
+TEST(Continuity, JumpsAreMeasured) {
+  const SpiralCurve first = testing::clothoid(0, 1, 1);
+  core::Pose2 start = end_of(first);
+  start.position = start.position + core::Vector2{3e-4, 4e-4};
+  start.direction += 0.02;
+  const auto joint = continuity(std::vector<SpiralCurve>{first, testing::arcs({2}, {1}, start)})[0];
+  EXPECT_NEAR(joint.gap, 5e-4, 1e-12);
+  EXPECT_NEAR(joint.angle, 0.02, 1e-12);
+  EXPECT_NEAR(joint.curvature_jump, 1, 1e-12);
+  EXPECT_NEAR(joint.curvature_rate_jump, -1, 1e-9);
+}
+
+TEST(Continuity, ClosedLoopsHaveOneJointMore) {
+  const SpiralCurve half = testing::arcs({1}, {core::kPi});
+  const SpiralCurve other = testing::arcs({1}, {core::kPi}, end_of(half));
+  EXPECT_EQ(continuity(std::vector<SpiralCurve>{half, other}).size(), 1u);
+  const auto joints = continuity(std::vector<SpiralCurve>{half, other}, true);
+  ASSERT_EQ(joints.size(), 2u);
+  EXPECT_EQ(joints[1].order, 3);
+  EXPECT_TRUE(continuity(std::vector<SpiralCurve>{}).empty());
+}
+
+TEST(Continuity, BreakpointsInsideACurve) {
+  const auto joints = inner_continuity(view(testing::arcs({1, 2}, {1, 2})));
+  ASSERT_EQ(joints.size(), 1u);
+  EXPECT_EQ(joints[0].order, 1);
+  EXPECT_NEAR(joints[0].curvature_jump, 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace keyline::analysis
