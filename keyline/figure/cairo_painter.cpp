@@ -9,6 +9,7 @@
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/encode.h"
 #include "keyline/figure/painter.h"
+#include "keyline/figure/text.h"
 
 namespace keyline::figure {
 
@@ -208,7 +209,7 @@ core::Result<std::string> write_pdf(const Drawing& drawing) {
   // A fixed date: the same drawing gives the same bytes.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2000-01-01T00:00:00Z");
-  const std::string title = detail::clean_text(drawing.title);
+  const std::string title = clean_text(drawing.title);
   if (!title.empty())
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
   cairo_status_t status = paint_surface(drawing, surface.get(), px * kPointsPerPx);

@@ -183,8 +183,10 @@ Drawing evolute_chart(const SampledCurve& curve, const ChartOptions& options) {
   const std::vector<LegendEntry> legend = {
       {.name = curve.name.empty() ? "curve" : curve.name, .color = kInk, .width = 1.8},
       {.name = "evolute", .color = palette(1), .width = 1.3}};
+  ChartOptions limited = options;
+  limited.largest_height = std::min(options.largest_height, 0.7 * options.width);
   ModelFigure figure =
-      detail::start_figure(model, "Evolute", "Centres of curvature", legend, options);
+      detail::start_figure(model, "Evolute", "Centres of curvature", legend, limited);
   detail::add_line(figure, centers, Stroke{palette(1), 1.3, {}});
   detail::add_curve(figure, curve, Stroke{kInk, 1.8, {}});
   detail::add_piece_numbers(figure, curve);

@@ -7,9 +7,6 @@
 
 namespace keyline::figure::detail {
 
-/// &, <, >, " and ' as references: fit for element content and quoted attributes of XML and HTML.
-std::string escape_xml(std::string_view text);
-
 /// Base 64 with padding (RFC 4648).
 std::string base64(std::string_view bytes);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keyline/figure/painter.h"
+#include "keyline/figure/text.h"
 
 namespace keyline::figure::detail {
 

@@ -22,9 +22,6 @@ class Painter {
 /// and clean text only; markers other than dots arrive as shapes.
 void paint(const Drawing& drawing, Painter& painter);
 
-/// Valid UTF-8 without control characters: bytes that are no UTF-8 become U+FFFD.
-std::string clean_text(std::string_view text);
-
 /// How far below label.at the letters stand.
 inline double baseline_drop(const Label& label) {
   if (label.baseline == Baseline::middle) return 0.36 * label.size;

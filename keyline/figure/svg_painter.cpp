@@ -10,6 +10,7 @@
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/encode.h"
 #include "keyline/figure/painter.h"
+#include "keyline/figure/text.h"
 
 namespace keyline::figure {
 
@@ -89,8 +90,8 @@ class SvgPainter final : public detail::Painter {
       body_ += "/></clipPath>\n";
       append(attributes, {" clip-path=\"url(#", id, ")\""});
     }
-    const std::string name = detail::clean_text(group.name);
-    if (!name.empty()) append_attribute(attributes, "data-name", detail::escape_xml(name));
+    const std::string name = clean_text(group.name);
+    if (!name.empty()) append_attribute(attributes, "data-name", escape_markup(name));
     append(body_, {"<g", attributes, ">\n"});
   }
 
@@ -129,7 +130,7 @@ class SvgPainter final : public detail::Painter {
       append_point(body_, label.at);
       body_ += ")\"";
     }
-    append(body_, {">", detail::escape_xml(label.text), "</text>\n"});
+    append(body_, {">", escape_markup(label.text), "</text>\n"});
   }
 
   void dots(const Marks& marks) override {
@@ -149,8 +150,8 @@ class SvgPainter final : public detail::Painter {
     append_box(picture.box);
     append(body_, {" preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
                    detail::base64(detail::png_of_pixels(picture)), "\">"});
-    const std::string text = detail::clean_text(picture.text);
-    if (!text.empty()) append(body_, {"<title>", detail::escape_xml(text), "</title>"});
+    const std::string text = clean_text(picture.text);
+    if (!text.empty()) append(body_, {"<title>", escape_markup(text), "</title>"});
     body_ += "</image>\n";
   }
 
@@ -189,11 +190,11 @@ Description describe(const Drawing& drawing, const std::string& prefix) {
   Description description;
   std::string ids;
   const auto add = [&](std::string_view element, std::string_view text) {
-    const std::string clean = detail::clean_text(text);
+    const std::string clean = clean_text(text);
     if (clean.empty()) return;
     const std::string id = prefix + '-' + std::string(element);
     append(description.elements,
-           {"<", element, " id=\"", id, "\">", detail::escape_xml(clean), "</", element, ">\n"});
+           {"<", element, " id=\"", id, "\">", escape_markup(clean), "</", element, ">\n"});
     append(ids, {ids.empty() ? "" : " ", id});
   };
   add("title", drawing.title);
@@ -205,7 +206,7 @@ Description describe(const Drawing& drawing, const std::string& prefix) {
 }  // namespace
 
 std::string write_svg(const Drawing& drawing, const SvgOptions& options) {
-  const std::string prefix = detail::escape_xml(detail::clean_text(options.id_prefix));
+  const std::string prefix = escape_markup(clean_text(options.id_prefix));
   SvgPainter painter(prefix);
   if (drawing.background) {
     const Box page{{0, 0}, {drawing.width, drawing.height}};
