@@ -74,24 +74,11 @@ std::vector<double> quantised(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<double> polygon_parameters(std::span<const Point2> points, bool centripetal) {
-  std::vector<double> t(points.size(), 0.0);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double chord = core::distance(points[i - 1], points[i]);
-    t[i] = t[i - 1] + (centripetal ? std::sqrt(chord) : chord);
-  }
-  if (t.empty() || !(t.back() > 0) || !std::isfinite(t.back())) return {};
-  const double total = t.back();
-  for (double& v : t) v /= total;
-  t.back() = 1;
-  return t;
-}
-
 CanonicalData canonical_curve(std::span<const Point2> points, const std::vector<double>& parameters,
                               const std::vector<double>& weights) {
-  double length = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
   const Point2 centre = centroid(points);
+  double length = 0;
+  for (const Point2& p : points) length = std::max(length, distance(centre, p));
   CanonicalData result;
   std::vector<Point2> scaled;
   for (const Point2& p : points) {

@@ -19,12 +19,8 @@ struct CanonicalData {
   bool reversed = false;  ///< canonical parameter t is 1 - t of the data as given
 };
 
-/// Cumulative chord length (or the sum of its square roots: centripetal) scaled to [0, 1]; empty
-/// where the total is zero or overflows.
-std::vector<double> polygon_parameters(std::span<const core::Point2> points, bool centripetal);
-
-/// A plane curve: origin at its first point, x axis to the centroid, size by the length of its
-/// polygon; traversed so that the points of the later half lie farther from the centroid (ties: so
+/// A plane curve: origin at its first point, x axis to the centroid, size by the largest distance
+/// from it; traversed so that the points of the later half lie farther from the centroid (ties: so
 /// that the signed area is positive).
 CanonicalData canonical_curve(std::span<const core::Point2> points,
                               const std::vector<double>& parameters,

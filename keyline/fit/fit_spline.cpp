@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "keyline/fit/canonical.h"
+#include "keyline/fit/periodic.h"
 
 namespace keyline::fit {
 namespace {
@@ -110,45 +112,60 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
   return found;
 }
 
-/// The final fit; where rounding puts the knots just beyond the rank limit, the nearest knots
-/// within it: those left when the closest pair loses one.
-bool solve_final(SplineSolver& solver, std::vector<double>& knots) {
-  while (!solver.solve(knots)) {
-    if (knots.empty()) return false;
-    std::size_t closest = 0;
-    double gap = 2;
-    for (std::size_t i = 1; i < knots.size(); ++i) {
-      if (knots[i] - knots[i - 1] < gap) {
-        gap = knots[i] - knots[i - 1];
-        closest = i;
-      }
-    }
-    knots.erase(knots.begin() + static_cast<std::ptrdiff_t>(closest));
+/// Removes the knot nearest behind another one.
+void remove_closest(std::vector<double>& knots) {
+  auto closest = knots.begin();
+  for (auto it = knots.begin() + 1; it < knots.end(); ++it) {
+    if (closest == knots.begin() || it[0] - it[-1] < closest[0] - closest[-1]) closest = it;
   }
-  return true;
+  knots.erase(closest);
+}
+
+/// The final fit. Where rounding puts the knots just beyond the limit of rank, the closest pair
+/// loses one; empty only where the data do not even carry a spline without knots.
+std::optional<LeastSquaresSpline> final_fit(const SplineData& data, core::Interval domain,
+                                            std::vector<double> knots, int order) {
+  SplineSolver solver(data, domain, order);
+  while (!solver.solve(knots)) {
+    if (knots.empty()) return std::nullopt;
+    remove_closest(knots);
+  }
+  LeastSquaresSpline result;
+  result.order = order;
+  result.knots.assign(solver.knots().begin(), solver.knots().end());
+  for (std::size_t k = 0; k < data.columns.size(); ++k) {
+    auto& column = result.coefficients.emplace_back();
+    for (std::size_t i = 0; i < knots.size() + static_cast<std::size_t>(order); ++i) {
+      column.push_back(solver.coefficient(i, k));
+    }
+  }
+  return result;
 }
 
 struct Misfit {
   double sse = 0;
+  double rms = 0;
   double largest = 0;
 };
 
-/// Weighted squares and largest distance of the data from the solver's spline.
-Misfit misfit(const SplineSolver& solver) {
-  const std::size_t n = solver.data_count();
-  std::vector<double> residuals(n * solver.column_count());
-  solver.residuals(residuals);
+/// Weighted squares and largest distance of the data from the spline.
+Misfit misfit(const LeastSquaresSpline& spline, const SplineData& data) {
   Misfit result;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < data.parameters.size(); ++i) {
     double squares = 0;
-    for (std::size_t k = 0; k < solver.column_count(); ++k) {
-      squares += residuals[k * n + i] * residuals[k * n + i];
+    for (std::size_t k = 0; k < data.columns.size(); ++k) {
+      const double r = evaluate(spline, data.parameters[i], k) - data.columns[k][i];
+      squares += r * r;
     }
-    result.sse += squares;
-    const double w = solver.data().weights.empty() ? 1 : solver.data().weights[i];
-    result.largest = std::max(result.largest, std::sqrt(squares / w));
+    result.sse += (data.weights.empty() ? 1 : data.weights[i]) * squares;
+    result.largest = std::max(result.largest, std::sqrt(squares));
   }
+  result.rms = std::sqrt(result.sse / sum_of_weights(data));
   return result;
+}
+
+std::vector<double> interior_of(const LeastSquaresSpline& spline) {
+  return {spline.knots.begin() + spline.order, spline.knots.end() - spline.order};
 }
 
 core::Result<void> check_points(std::span<const Point2> points, int order) {
@@ -175,11 +192,84 @@ double curve_rounding(std::span<const Point2> points, double given) {
   return detail::decimal_rounding(values);
 }
 
+/// Points in order of their parameters.
+struct OrderedPoints {
+  std::vector<Point2> points;
+  std::vector<double> parameters;
+  std::vector<double> weights;
+};
+
+OrderedPoints ordered(std::span<const Point2> points, const std::vector<double>& parameters,
+                      const std::vector<double>& weights) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parameters[a] < parameters[b]; });
+  OrderedPoints result;
+  for (const std::size_t i : order) {
+    result.points.push_back(points[i]);
+    result.parameters.push_back(parameters[i]);
+    if (!weights.empty()) result.weights.push_back(weights[i]);
+  }
+  return result;
+}
+
+constexpr double kOverlap = 0.1;  // of a loop, continued beyond both ends
+
+/// A loop with its last tenth before its start and its first tenth after its end; parameters
+/// again in [0, 1].
+OrderedPoints overlapped(const OrderedPoints& loop) {
+  OrderedPoints result;
+  for (const double shift : {-1.0, 0.0, 1.0}) {
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+      const double t = loop.parameters[i] + shift;
+      if (t < -kOverlap || t > 1 + kOverlap) continue;
+      result.points.push_back(loop.points[i]);
+      result.parameters.push_back((t + kOverlap) / (1 + 2 * kOverlap));
+      if (!loop.weights.empty()) result.weights.push_back(loop.weights[i]);
+    }
+  }
+  return result;
+}
+
+/// Knots of the overlapped loop as knots of one turn, in [0, 1).
+std::vector<double> one_turn(const std::vector<double>& knots) {
+  std::vector<double> result;
+  for (const double t : knots) {
+    const double u = t * (1 + 2 * kOverlap) - kOverlap;
+    if (u >= 0 && u < 1) result.push_back(u < 1e-9 ? 0 : u);
+  }
+  return result;
+}
+
+/// The loop's first point shared between both ends: half its weight at 0 and half at 1.
+SplineData with_both_ends(SplineData data) {
+  if (data.weights.empty()) data.weights.assign(data.parameters.size(), 1.0);
+  data.weights.front() /= 2;
+  data.parameters.push_back(data.parameters.front() + 1);
+  data.weights.push_back(data.weights.front());
+  for (auto& column : data.columns) column.push_back(column.front());
+  for (double& t : data.parameters) t = std::min(t, 1.0);
+  return data;
+}
+
+/// The closed curve of the knots, without some of them where data are too few.
+std::optional<LeastSquaresSpline> closed_fit(const SplineData& open, std::vector<double> knots,
+                                             int order) {
+  const SplineData data = with_both_ends(open);
+  while (!knots.empty()) {
+    if (auto spline = detail::periodic_spline(data, knots, order)) return spline;
+    remove_closest(knots);
+  }
+  return detail::periodic_spline(data, {0}, order);
+}
+
 }  // namespace
 
 SplineFitOptions SplineFitOptions::for_fairing() {
   SplineFitOptions options;
   options.order = 5;
+  options.parameter = Parametrization::smooth_chord;
   options.population = 30;
   options.generations = 30;
   options.trials = 1;
@@ -196,39 +286,46 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
   if (auto ok = check_points(points, options.order); !ok) return std::unexpected(ok.error());
   const auto w = all_weights(points.size(), weights, options.must_pass);
   if (!w) return std::unexpected(w.error());
+  std::vector<Point2> path(points.begin(), points.end());
+  if (options.closed) path.push_back(points.front());
   SplineFit fit;
-  fit.parameters =
-      detail::polygon_parameters(points, options.parameter == Parametrization::centripetal);
+  fit.parameters = parametrize(path, options.parameter);
   if (fit.parameters.empty()) {
     return core::fail(
         ErrorCode::bad_input,
         "the points are all equal, or too far apart for their distances to be numbers");
   }
-  const auto found = find_knots(detail::canonical_curve(points, fit.parameters, *w),
-                                curve_rounding(points, options.rounding), options);
+  fit.parameters.resize(points.size());
+  const OrderedPoints run = ordered(points, fit.parameters, *w);
+  const OrderedPoints searched = options.closed ? overlapped(run) : run;
+  const auto found =
+      find_knots(detail::canonical_curve(searched.points, searched.parameters, searched.weights),
+                 curve_rounding(points, options.rounding), options);
   if (!found) return std::unexpected(found.error());
-  SplineData data{fit.parameters, {{}, {}}, *w};
-  for (const Point2& p : points) {
+  SplineData data{run.parameters, {{}, {}}, run.weights};
+  for (const Point2& p : run.points) {
     data.columns[0].push_back(p.x - points.front().x);
     data.columns[1].push_back(p.y - points.front().y);
   }
-  SplineSolver solver(std::move(data), {0, 1}, options.order);
-  fit.interior_knots = found->knots;
-  if (!solve_final(solver, fit.interior_knots)) {
+  const auto spline = options.closed ? closed_fit(data, one_turn(found->knots), options.order)
+                                     : final_fit(data, {0, 1}, found->knots, options.order);
+  if (!spline) {
     return core::fail(ErrorCode::bad_input, "too few different points for a spline of this order");
   }
+  fit.interior_knots = interior_of(*spline);
   fit.curve.degree = options.order - 1;
-  fit.curve.knots.assign(solver.knots().begin(), solver.knots().end());
-  for (std::size_t i = 0; i + static_cast<std::size_t>(options.order) < fit.curve.knots.size();
-       ++i) {
-    fit.curve.control.push_back(points.front() +
-                                core::Vector2{solver.coefficient(i, 0), solver.coefficient(i, 1)});
+  fit.curve.knots = spline->knots;
+  for (std::size_t i = 0; i < spline->coefficients[0].size(); ++i) {
+    const core::Vector2 v{spline->coefficients[0][i], spline->coefficients[1][i]};
+    fit.curve.control.push_back(points.front() + v);
   }
-  const Misfit m = misfit(solver);
+  const Misfit m = misfit(*spline, data);
   fit.sse = m.sse;
+  fit.rms = m.rms;
   fit.deviation = m.largest;
-  fit.rms = std::sqrt(m.sse / sum_of_weights(solver.data()));
-  fit.bic = found->criterion(fit.sse, fit.interior_knots.size());
+  BayesCriterion criterion = found->criterion;
+  criterion.count = static_cast<double>(points.size());
+  fit.bic = criterion(fit.sse, fit.interior_knots.size());
   fit.report = found->report;
   return fit;
 }
@@ -266,26 +363,17 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
       find_knots(detail::canonical_function(data.parameters, data.columns[0], data.weights),
                  rounding, options);
   if (!found) return std::unexpected(found.error());
-  FunctionFit fit;
-  for (const double t : found->knots) fit.interior_knots.push_back(core::at(range, t));
-  std::erase_if(fit.interior_knots, [&](double t) { return !(t > range.low && t < range.high); });
-  SplineSolver solver(std::move(data), range, options.order);
-  if (!solve_final(solver, fit.interior_knots)) {
+  std::vector<double> knots;
+  for (const double t : found->knots) knots.push_back(core::at(range, t));
+  std::erase_if(knots, [&](double t) { return !(t > range.low && t < range.high); });
+  const auto spline = final_fit(data, range, knots, options.order);
+  if (!spline) {
     return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order");
   }
-  fit.spline.order = options.order;
-  fit.spline.knots.assign(solver.knots().begin(), solver.knots().end());
-  fit.spline.coefficients.emplace_back();
-  for (std::size_t i = 0; i + static_cast<std::size_t>(options.order) < fit.spline.knots.size();
-       ++i) {
-    fit.spline.coefficients[0].push_back(solver.coefficient(i, 0));
-  }
-  const Misfit m = misfit(solver);
-  fit.spline.sum_of_squares = fit.sse = m.sse;
-  fit.deviation = m.largest;
-  fit.rms = std::sqrt(m.sse / sum_of_weights(solver.data()));
+  const Misfit m = misfit(*spline, data);
+  FunctionFit fit{*spline, interior_of(*spline), m.sse, 0, m.largest, m.rms, found->report};
+  fit.spline.sum_of_squares = m.sse;
   fit.bic = found->criterion(fit.sse, fit.interior_knots.size());
-  fit.report = found->report;
   return fit;
 }
 

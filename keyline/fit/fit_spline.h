@@ -11,11 +11,10 @@
 #include "keyline/curve/bspline.h"
 #include "keyline/fit/knot_search.h"
 #include "keyline/fit/least_squares_spline.h"
+#include "keyline/fit/parametrization.h"
 
 /// Splines with knots found by themselves: step 2 of [Fairing].
 namespace keyline::fit {
-
-enum class Parametrization { chord, centripetal };
 
 /// Defaults are the middle of the ranges [Fairing] recommends (population 50 to 150, generations
 /// 100 to 300, trials 20 to 40).
@@ -31,8 +30,8 @@ struct SplineFitOptions {
   /// Rounding of the data, in their unit: residuals are not fitted below rounding / sqrt(12).
   /// 0: found from the decimals of the data (note that turned data show none).
   double rounding = 0;
-  /// Nor are they below this fraction of the size of the data (polygon length; largest departure
-  /// of a function from its mean): exact data must not invite endless knots.
+  /// Nor are they below this fraction of the size of the data (largest distance from the
+  /// centroid; of a function from its mean): exact data must not invite endless knots.
   double resolution = 1e-8;
   /// More data than this are averaged into this many bins for the search (0: never); the final
   /// fit uses all of them.
@@ -45,7 +44,7 @@ struct SplineFitOptions {
   core::Progress progress;
 
   /// A small budget for the fairing pipeline: smart start, population 30, generations 30, one
-  /// trial, order 5 (continuous rate of curvature), at most 800 data in the search.
+  /// trial, order 5 (continuous rate of curvature), smooth_chord, at most 800 data in the search.
   static SplineFitOptions for_fairing();
 };
 
@@ -88,8 +87,7 @@ struct FunctionFit {
 ///
 /// The knots minimise N ln Q + ln N (2n + m), Q the sum over both coordinates. They are searched
 /// in a frame of the data's own (place, direction of travel, attitude, size), so that moved,
-/// turned, scaled or reversed data give the same curve up to rounding; the parameter is chord
-/// length or its centripetal variant over [0, 1].
+/// turned, scaled or reversed data give the same curve up to rounding.
 ///
 /// Closed: the points are a loop (the first need not be repeated). The knots are searched on the
 /// loop continued by a tenth beyond both ends, and the result is the periodic least-squares

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "keyline/fit/knot_search.h"
@@ -15,12 +16,13 @@ struct ScoredKnots {
 /// Improves knots by local search until nothing helps, `rounds` improvements were made or a stop
 /// is requested: continuous optimisation of the positions (Levenberg-Marquardt on the residuals,
 /// coefficients eliminated), neighbours merged into multiple knots and multiple knots split,
-/// single knots removed, inserted and moved elsewhere. Never worse than the start.
-ScoredKnots polish_knots(SplineSolver& solver, const BayesCriterion& criterion,
+/// single knots removed, inserted and moved elsewhere. Never worse than the start. Works with
+/// as many threads as there are solvers; the result does not depend on their number.
+ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& criterion,
                          std::vector<double> knots, int rounds, const core::Progress& progress);
 
 /// Knots by refinement where residuals are large, then removal of those of little use: quick,
-/// deterministic, within a few per cent of a good placement.
+/// deterministic, a start for the genetic search.
 ScoredKnots refined_knots(SplineSolver& solver, const BayesCriterion& criterion);
 
 }  // namespace keyline::fit::detail

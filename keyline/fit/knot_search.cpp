@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include "keyline/fit/knot_polish.h"
@@ -29,7 +30,7 @@ class KnotProblem {
         domain_(solver.domain()),
         solvers_(static_cast<std::size_t>(numeric::thread_count(options.threads)), solver) {
     const auto order = static_cast<std::size_t>(solver.order());
-    most_knots_ = solver.data_count() > order ? solver.data_count() - order : 0;
+    most_knots_ = solver.data_count() > order ? (solver.data_count() - order) / 2 : 0;
     most_initial_ = std::clamp<std::size_t>(solver.data_count() / 4, 1, 100);
     if (options.smart_start) start_ = detail::refined_knots(solvers_[0], criterion).knots;
     smart_ = options.smart_start;
@@ -80,7 +81,7 @@ class KnotProblem {
                       knots.size());
   }
 
-  SplineSolver& solver(int worker) { return solvers_[static_cast<std::size_t>(worker)]; }
+  std::span<SplineSolver> solvers() { return solvers_; }
 
  private:
   double inner(Random& random) const {
@@ -162,6 +163,7 @@ numeric::GeneticOptions genetic_options(const KnotSearchOptions& options) {
 double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_knots) const {
   if (!std::isfinite(sum_of_squares)) return kInfinity;
   const double parameters = 2 * static_cast<double>(interior_knots) + order;
+  if (interior_knots > 0 && parameters > count) return kInfinity;
   return count * std::log(std::max(floor, sum_of_squares + hidden)) + std::log(count) * parameters;
 }
 
@@ -185,11 +187,17 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
     result.evaluations += trials[i].evaluations;
   }
   if (options.placement == KnotPlacement::polished && !options.progress.stop_requested()) {
-    numeric::parallel_for(ends.size(), options.threads, [&](std::size_t i, int worker) {
-      ends[i] = detail::polish_knots(problem.solver(worker), criterion, ends[i].knots,
-                                     options.polish_rounds, options.progress);
-      for (int k = 0; k < polish_steps; ++k) progress.step(ends[i].bic);
-    });
+    // Trials in parallel where there are enough of them, otherwise the candidates of one.
+    const auto solvers = problem.solvers();
+    const bool trials_in_parallel = ends.size() >= 2 * solvers.size();
+    numeric::parallel_for(
+        ends.size(), trials_in_parallel ? options.threads : 1, [&](std::size_t i, int worker) {
+          const auto used =
+              trials_in_parallel ? solvers.subspan(static_cast<std::size_t>(worker), 1) : solvers;
+          ends[i] = detail::polish_knots(used, criterion, ends[i].knots, options.polish_rounds,
+                                         options.progress);
+          for (int k = 0; k < polish_steps; ++k) progress.step(ends[i].bic);
+        });
   }
   result.bic = kInfinity;
   for (auto& end : ends) {

@@ -18,7 +18,8 @@ struct BayesCriterion {
   int order = 4;      ///< m
   double floor = 0;   ///< least Q that counts: what the rounding of the data leaves
   double hidden = 0;  ///< part of Q no knots can remove: the scatter inside condensed bins
-  /// Infinite where sum_of_squares is.
+  /// Infinite where sum_of_squares is, and where there are more parameters than data, 2n + m > N:
+  /// the criterion is meaningless near interpolation, where Q vanishes.
   double operator()(double sum_of_squares, std::size_t interior_knots) const;
 };
 

@@ -216,6 +216,24 @@ bool SplineSolver::full_rank(std::size_t coefficients) const {
   return true;
 }
 
+template <class Visit>
+void SplineSolver::for_each_span(Visit visit) const {
+  const std::vector<double>& x = weighted_->parameters;
+  const auto order = static_cast<std::size_t>(order_);
+  const std::size_t coefficients = knot_count_ - order;
+  std::size_t first = 0;
+  for (std::size_t span = order - 1; span < coefficients; ++span) {
+    const double end = knots_[span + 1];
+    if (!(knots_[span] < end)) continue;
+    const auto from = x.begin() + static_cast<std::ptrdiff_t>(first);
+    // The last span owns its end.
+    const auto stop = span + 1 == coefficients ? x.end() : std::lower_bound(from, x.end(), end);
+    const auto last = static_cast<std::size_t>(stop - x.begin());
+    if (last > first) visit(span, first, last);
+    first = last;
+  }
+}
+
 template <int order>
 double SplineSolver::reduce(std::size_t interior) {
   const std::size_t coefficients = interior + order;
@@ -226,46 +244,37 @@ double SplineSolver::reduce(std::size_t interior) {
   }
   std::fill_n(band_.begin(), (coefficients + order) * order, 0.0);
   std::fill_n(right_.begin(), (coefficients + order) * columns, 0.0);
-  const std::vector<double>& x = weighted_->parameters;
   double rest = 0;
-  std::size_t first = 0;
-  for (std::size_t span = order - 1; span < coefficients; ++span) {
-    const double end = knots_[span + 1];
-    if (!(knots_[span] < end)) continue;
-    const auto stop =
-        span + 1 == coefficients
-            ? x.end()
-            : std::lower_bound(x.begin() + static_cast<std::ptrdiff_t>(first), x.end(), end);
-    const auto last = static_cast<std::size_t>(stop - x.begin());
-    if (last == first) continue;
+  for_each_span([&](std::size_t span, std::size_t first, std::size_t last) {
     basis_rows<order>(span, first, last);
     eliminate<order>(span + 1 - order, padded(last - first), rest);
-    first = last;
-  }
+  });
   return full_rank(coefficients) ? rest : kInfinity;
 }
 
-double SplineSolver::dispatch(std::size_t interior) {
+template <class Call>
+auto SplineSolver::with_order(Call call) const {
   switch (order_) {
     case 2:
-      return reduce<2>(interior);
+      return call.template operator()<2>();
     case 3:
-      return reduce<3>(interior);
+      return call.template operator()<3>();
     case 4:
-      return reduce<4>(interior);
+      return call.template operator()<4>();
     case 5:
-      return reduce<5>(interior);
+      return call.template operator()<5>();
     case 6:
-      return reduce<6>(interior);
+      return call.template operator()<6>();
     case 7:
-      return reduce<7>(interior);
+      return call.template operator()<7>();
     default:
-      return reduce<8>(interior);
+      return call.template operator()<8>();
   }
 }
 
 double SplineSolver::sum_of_squares(std::span<const double> interior_knots) {
-  return set_knots(interior_knots) ? dispatch(interior_knots.size()) : kInfinity;
+  if (!set_knots(interior_knots)) return kInfinity;
+  return with_order([&]<int order>() { return reduce<order>(interior_knots.size()); });
 }
 
 void SplineSolver::substitute_back(std::size_t coefficients) {
@@ -292,26 +301,26 @@ double SplineSolver::coefficient(std::size_t i, std::size_t column) const {
   return right_[i * column_count() + column];
 }
 
-void SplineSolver::residuals(std::span<double> out) const {
-  const auto order = static_cast<std::size_t>(order_);
-  const std::size_t coefficients = knot_count_ - order;
+template <int order>
+void SplineSolver::residual_rows(std::size_t span, std::size_t first, std::size_t last,
+                                 std::span<double> out) {
+  basis_rows<order>(span, first, last);
   const std::size_t columns = column_count();
-  const std::size_t n = data_count();
-  std::array<double, kMaximumOrder> basis{};
-  std::size_t span = order - 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = weighted_->parameters[i];
-    while (span + 1 < coefficients && x >= knots_[span + 1]) ++span;
-    basis_at(knots_.data(), span, order_, x, basis.data());
-    const double w = weighted_->weights.empty() ? 1.0 : weighted_->weights[i];
-    for (std::size_t k = 0; k < columns; ++k) {
-      double value = 0;
-      for (std::size_t j = 0; j < order; ++j) {
-        value += basis[j] * right_[(span + 1 - order + j) * columns + k];
-      }
-      out[k * n + i] = w * value - weighted_->columns[k][i];
+  for (std::size_t k = 0; k < columns; ++k) {
+    double* const target = out.data() + k * data_count();
+    for (std::size_t i = first; i < last; ++i) target[i] = -weighted_->columns[k][i];
+    for (std::size_t j = 0; j < order; ++j) {
+      const double* const row = rows_.data() + j * stride_;
+      const double c = right_[(span + 1 - order + j) * columns + k];
+      for (std::size_t i = first; i < last; ++i) target[i] += c * row[i - first];
     }
   }
+}
+
+void SplineSolver::residuals(std::span<double> out) {
+  for_each_span([&](std::size_t span, std::size_t first, std::size_t last) {
+    with_order([&]<int order>() { residual_rows<order>(span, first, last, out); });
+  });
 }
 
 double evaluate(const LeastSquaresSpline& spline, double x, std::size_t column) {

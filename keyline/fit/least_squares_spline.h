@@ -57,8 +57,13 @@ class SplineSolver {
   /// After solve(): coefficient i of a column, i in [0, n + m).
   double coefficient(std::size_t i, std::size_t column) const;
 
+  /// Entry (i, j), i <= j < i + m, of the banded triangle the observations were reduced to.
+  double triangle(std::size_t i, std::size_t j) const {
+    return band_[i * static_cast<std::size_t>(order_) + (j - i)];
+  }
+
   /// After solve(): sqrt(w_j) (S(x_j) - F_j), the columns one after another; size N * columns.
-  void residuals(std::span<double> out) const;
+  void residuals(std::span<double> out);
 
   /// Full knot vector of the last call.
   std::span<const double> knots() const { return {knots_.data(), knot_count_}; }
@@ -76,10 +81,17 @@ class SplineSolver {
   void basis_rows(std::size_t span, std::size_t first, std::size_t last);
   template <int order>
   void eliminate(std::size_t row, std::size_t rows, double& rest);
+  template <int order>
+  void residual_rows(std::size_t span, std::size_t first, std::size_t last, std::span<double> out);
+  /// Calls visit(span, first, last) for each knot span with data.
+  template <class Visit>
+  void for_each_span(Visit visit) const;
+  /// Calls call.template operator()<order>() with the order of the spline.
+  template <class Call>
+  auto with_order(Call call) const;
   bool set_knots(std::span<const double> interior);
   bool full_rank(std::size_t coefficients) const;
   void substitute_back(std::size_t coefficients);
-  double dispatch(std::size_t interior);
 
   std::shared_ptr<const SplineData> data_;      // as given
   std::shared_ptr<const SplineData> weighted_;  // columns times sqrt(w), weights = sqrt(w)

@@ -1,0 +1,187 @@
+#include "keyline/fit/bezier_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "keyline/fit/parametrization.h"
+
+namespace keyline::fit {
+namespace {
+
+using core::ErrorCode;
+using core::Point2;
+using core::Vector2;
+
+constexpr double kSliding = 0.02;  // weight of residuals along the curve
+
+struct Problem {
+  std::span<const Point2> samples;
+  Vector2 start;  // unit tangents
+  Vector2 end;
+  double size = 0;
+};
+
+/// All Bernstein polynomials of a degree at t.
+Eigen::VectorXd bernstein(int degree, double t) {
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(degree + 1);
+  b[0] = 1;
+  for (int r = 1; r <= degree; ++r) {
+    for (int j = r; j > 0; --j) b[j] = (1 - t) * b[j] + t * b[j - 1];
+    b[0] *= 1 - t;
+  }
+  return b;
+}
+
+/// Least squares for the handle lengths and the free inner points, the parameters given.
+/// Unknowns: length of the first handle, of the last, then x and y of points 2 … degree - 2.
+/// Where tangents are given, residuals along them count only a little: a foot may slide, and the
+/// alternation converges like Gauss-Newton on the distances.
+curve::Bezier2 solve(const Problem& problem, int degree, const std::vector<double>& t,
+                     const std::vector<Vector2>& tangents) {
+  const int inner = degree - 3;
+  const int unknowns = 2 + 2 * inner;
+  const Point2 first = problem.samples.front();
+  const Point2 last = problem.samples.back();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const Eigen::VectorXd b = bernstein(degree, t[i]);
+    rows.col(0) << b[1] * problem.start.x, b[1] * problem.start.y;
+    rows.col(1) << -b[degree - 1] * problem.end.x, -b[degree - 1] * problem.end.y;
+    for (int j = 0; j < inner; ++j) {
+      // Inner points count from the first.
+      rows(0, 2 + 2 * j) = b[j + 2];
+      rows(1, 3 + 2 * j) = b[j + 2];
+    }
+    const double at_last = b[degree - 1] + b[degree];
+    const Point2& p = problem.samples[i];
+    Eigen::Vector2d rest((p.x - first.x) - at_last * (last.x - first.x),
+                         (p.y - first.y) - at_last * (last.y - first.y));
+    if (!tangents.empty()) {
+      const Vector2 along = tangents[i];
+      Eigen::Matrix2d frame;
+      frame << kSliding * along.x, kSliding * along.y, -along.y, along.x;
+      normal += (frame * rows).transpose() * (frame * rows);
+      right += (frame * rows).transpose() * (frame * rest);
+      continue;
+    }
+    normal += rows.transpose() * rows;
+    right += rows.transpose() * rest;
+  }
+  normal.diagonal().array() += 1e-13 * normal.trace();
+  Eigen::VectorXd x = normal.ldlt().solve(right);
+  const double least = 1e-3 * problem.size / degree;
+  for (int k = 0; k < 2; ++k) {
+    if (x[k] >= least) continue;
+    // The handle would turn back: hold it at the least length and solve for the rest.
+    right -= normal.col(k) * least;
+    normal.row(k).setZero();
+    normal.col(k).setZero();
+    normal(k, k) = 1;
+    right[k] = least;
+    x = normal.ldlt().solve(right);
+  }
+  curve::Bezier2 result;
+  result.control.resize(static_cast<std::size_t>(degree) + 1);
+  result.control.front() = first;
+  result.control[1] = first + x[0] * problem.start;
+  for (int j = 0; j < inner; ++j) {
+    result.control[static_cast<std::size_t>(j) + 2] = first + Vector2{x[2 + 2 * j], x[3 + 2 * j]};
+  }
+  result.control[static_cast<std::size_t>(degree) - 1] = last + -x[1] * problem.end;
+  result.control.back() = last;
+  return result;
+}
+
+/// One guarded Newton step of every parameter to the foot of its sample; the largest distance.
+double correct_feet(const Problem& problem, const curve::Bezier2& c, std::vector<double>& t) {
+  double largest = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto j = jet(c, t[i]);
+    const Vector2 off = j.point - problem.samples[i];
+    double best = norm(off);
+    const double slope = dot(off, j.first);
+    double bend = dot(j.first, j.first) + dot(off, j.second);
+    if (bend <= 0) bend = dot(j.first, j.first);
+    const double next = bend > 0 ? std::clamp(t[i] - slope / bend, 0.0, 1.0) : t[i];
+    const double distance = core::distance(evaluate(c, next), problem.samples[i]);
+    if (distance < best && i > 0 && i + 1 < t.size()) {
+      t[i] = next;
+      best = distance;
+    }
+    largest = std::max(largest, best);
+  }
+  return largest;
+}
+
+std::vector<Vector2> tangents_at(const curve::Bezier2& c, const std::vector<double>& t) {
+  std::vector<Vector2> result;
+  for (const double v : t) {
+    const Vector2 d = jet(c, v).first;
+    const double length = norm(d);
+    result.push_back(length > 0 ? d / length : Vector2{1, 0});
+  }
+  return result;
+}
+
+BezierFit fit_degree(const Problem& problem, int degree, const std::vector<double>& start,
+                     const BezierFitOptions& options) {
+  BezierFit best;
+  best.deviation = std::numeric_limits<double>::infinity();
+  std::vector<double> t = start;
+  std::vector<Vector2> tangents;
+  for (int i = 0; i <= options.iterations; ++i) {
+    const curve::Bezier2 c = solve(problem, degree, t, tangents);
+    const double deviation = correct_feet(problem, c, t);
+    if (i >= 2) tangents = tangents_at(c, t);
+    if (!(deviation < best.deviation)) continue;
+    best = {c, deviation, deviation <= options.tolerance, t};
+    if (best.within && i > 2) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+core::Result<BezierFit> fit_bezier(std::span<const Point2> samples, Vector2 start_tangent,
+                                   Vector2 end_tangent, const BezierFitOptions& options) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (core::is_finite(samples[i])) continue;
+    return core::fail(ErrorCode::bad_input, "a coordinate is not a finite number", "",
+                      "points[" + std::to_string(i) + "]");
+  }
+  const double start = norm(start_tangent);
+  const double end = norm(end_tangent);
+  if (!(start > 0) || !(end > 0) || !std::isfinite(start) || !std::isfinite(end)) {
+    return core::fail(ErrorCode::bad_input, "end tangents must have a direction");
+  }
+  if (options.lowest_degree < 3 || options.highest_degree > 12 ||
+      options.lowest_degree > options.highest_degree || !(options.tolerance >= 0)) {
+    return core::fail(ErrorCode::bad_input,
+                      "degrees must lie in 3 … 12, the tolerance be positive");
+  }
+  const std::vector<double> t = parametrize(samples, Parametrization::chord);
+  if (t.empty())
+    return core::fail(ErrorCode::bad_input, "at least two different points are needed");
+  Problem problem{samples, start_tangent / start, end_tangent / end, 0};
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    problem.size += distance(samples[i - 1], samples[i]);
+  }
+  BezierFit best;
+  best.deviation = std::numeric_limits<double>::infinity();
+  for (int degree = options.lowest_degree; degree <= options.highest_degree; ++degree) {
+    BezierFit fit = fit_degree(problem, degree, t, options);
+    if (fit.deviation < best.deviation) best = std::move(fit);
+    if (best.within) break;
+  }
+  return best;
+}
+
+}  // namespace keyline::fit
