@@ -18,7 +18,7 @@ using core::ErrorCode;
 using core::Point2;
 using core::Vector2;
 
-constexpr double kSliding = 0.02;  // weight of residuals along the curve
+constexpr double kSliding = 0.0005;  // weight of residuals along the curve
 
 struct Problem {
   std::span<const Point2> samples;
@@ -100,23 +100,37 @@ curve::Bezier2 solve(const Problem& problem, int degree, const std::vector<doubl
   return result;
 }
 
-/// One guarded Newton step of every parameter to the foot of its sample; the largest distance.
+/// One Newton step to the foot of p, shortened until it comes nearer; the distance then.
+double step_to_foot(const curve::Bezier2& c, Point2 p, double& t) {
+  const auto j = jet(c, t);
+  const Vector2 off = j.point - p;
+  const double here = norm(off);
+  const double slope = dot(off, j.first);
+  double bend = dot(j.first, j.first) + dot(off, j.second);
+  if (bend <= 0) bend = dot(j.first, j.first);
+  if (!(bend > 0)) return here;
+  for (double share = 1; share > 0.1; share /= 2) {
+    const double next = std::clamp(t - share * slope / bend, 0.0, 1.0);
+    const double there = core::distance(evaluate(c, next), p);
+    if (there < here) {
+      t = next;
+      return there;
+    }
+  }
+  return here;
+}
+
+/// Moves every parameter to the foot of its sample; the largest distance.
 double correct_feet(const Problem& problem, const curve::Bezier2& c, std::vector<double>& t) {
   double largest = 0;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const auto j = jet(c, t[i]);
-    const Vector2 off = j.point - problem.samples[i];
-    double best = norm(off);
-    const double slope = dot(off, j.first);
-    double bend = dot(j.first, j.first) + dot(off, j.second);
-    if (bend <= 0) bend = dot(j.first, j.first);
-    const double next = bend > 0 ? std::clamp(t[i] - slope / bend, 0.0, 1.0) : t[i];
-    const double distance = core::distance(evaluate(c, next), problem.samples[i]);
-    if (distance < best && i > 0 && i + 1 < t.size()) {
-      t[i] = next;
-      best = distance;
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+    double distance = 0;
+    for (int step = 0; step < 4; ++step) {
+      const double before = t[i];
+      distance = step_to_foot(c, problem.samples[i], t[i]);
+      if (std::abs(t[i] - before) < 1e-12) break;
     }
-    largest = std::max(largest, best);
+    largest = std::max(largest, distance);
   }
   return largest;
 }
