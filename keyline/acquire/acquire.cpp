@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "keyline/acquire/band.h"
 #include "keyline/acquire/clean.h"
 #include "keyline/acquire/corners.h"
 #include "keyline/acquire/ends.h"
@@ -143,6 +144,13 @@ double polygon_length(const std::vector<core::Point2>& points, bool closed) {
   return sum;
 }
 
+/// Length of the curve behind the points: the polygon of means where steps are noise.
+double curve_length(const Working& work, bool closed, std::size_t stride) {
+  if (stride <= 1) return polygon_length(work.points, closed);
+  const std::size_t groups = work.points.size() / (2 * stride);
+  return polygon_length(average_runs(work.points, {}, {}, groups).points, closed);
+}
+
 /// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
 /// one: integers may also be exact coordinates of a small figure.
 double noise_of(const Working& work, bool closed, const AcquireOptions& options, double rounding) {
@@ -183,7 +191,7 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   if (options.find_corners) {
     line.corners = find_corners(work.points, line.closed, line.noise, options.corner_angle);
   }
-  line.length = polygon_length(work.points, line.closed);
+  line.length = curve_length(work, line.closed, stride);
   line.points = std::move(work.points);
   line.weights = std::move(work.weights);
   line.sources = std::move(work.sources);

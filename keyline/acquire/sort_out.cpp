@@ -15,7 +15,7 @@
 namespace keyline::acquire::detail {
 namespace {
 
-constexpr std::size_t kMostOrdered = 4000;  // more points are averaged first
+constexpr std::size_t kMostOrdered = 20000;  // more points are averaged first
 
 /// Merges points at the same place wherever they stand in the input.
 void merge_anywhere(Working& work, KeyLine& line) {
