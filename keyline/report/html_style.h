@@ -64,7 +64,7 @@ footer { margin-top: 2.5rem; color: #5a6268; font-size: 0.83rem; }
 }
 @page { margin: 16mm 14mm; }
 @media print {
-  body { max-width: none; padding: 0; font-size: 10pt; }
+  body { max-width: none; padding: 0 1px; font-size: 10pt; }
   h1 { font-size: 18pt; }
   h2 { font-size: 13pt; margin-top: 14pt; break-after: avoid; }
   figure, .numbers div, .verdict, tr, pre { break-inside: avoid; }
