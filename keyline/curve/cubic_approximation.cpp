@@ -192,28 +192,35 @@ class Run {
     detail::CubicFit fit;
   };
 
-  /// The longest piece from `at`: growing steps from the length of the last one, then bisection.
+  /// The longest piece from `at`: growing steps from the length of the last one, then bisection,
+  /// helped by the sixth-order growth of the distance with the length.
   Reach furthest(double at, double step) {
     const double last = static_cast<double>(count_);
     const double panel_end = std::min(std::floor(at) + 1, last);
-    Reach best{panel_end, {clipped(at, panel_end), 0.0}};  // part of one panel: exact
-    double failed = std::numeric_limits<double>::infinity();
-    for (double end = std::max(at + step, panel_end); best.end < last; end = at + 2 * (end - at)) {
+    Reach best{panel_end, {clipped(at, panel_end), 0.0, 0.0}};  // part of one panel: exact
+    Reach failed{std::numeric_limits<double>::infinity(), {}};
+    for (double end = std::max(at + step, panel_end); best.end < last;) {
       const Reach reach = attempt(at, std::min(end, last));
       if (reach.fit.bound > tolerance_) {
-        failed = reach.end;
+        failed = reach;
         break;
       }
       if (reach.end >= best.end) best = reach;
+      end = at + (end - at) * std::clamp(1.02 * affordable(reach.fit), 1.02, 2.0);
     }
-    while (failed - best.end > 1e-4 * (failed - at) && std::isfinite(failed)) {
-      const Reach reach = attempt(at, 0.5 * (best.end + failed));
-      if (reach.fit.bound <= tolerance_)
-        best = reach;
-      else
-        failed = reach.end;
+    while (std::isfinite(failed.end) && failed.end - best.end > 1e-3 * (failed.end - at)) {
+      const double gap = failed.end - best.end;
+      double end = at + 0.998 * (failed.end - at) * affordable(failed.fit);
+      if (!(end > best.end + 0.1 * gap && end < failed.end - 0.1 * gap)) end = best.end + 0.5 * gap;
+      const Reach reach = attempt(at, end);
+      (reach.fit.bound <= tolerance_ ? best : failed) = reach;
     }
     return best;
+  }
+
+  /// How many times longer the piece may be if its distance grows with the sixth power.
+  double affordable(const detail::CubicFit& fit) const {
+    return fit.distance > 0 ? std::pow(tolerance_ / fit.distance, 1.0 / 6) : 2.0;
   }
 
   Cubic clipped(double from, double to) const {
@@ -224,7 +231,7 @@ class Run {
 
   /// Cubic over [at, end] and its bound; exact where that is part of one panel.
   Reach attempt(double at, double end) {
-    if (end <= std::floor(at) + 1) return {end, {clipped(at, end), 0.0}};
+    if (end <= std::floor(at) + 1) return {end, {clipped(at, end), 0.0, 0.0}};
     row_.clear();
     ends_.clear();
     const auto first = static_cast<std::size_t>(at);

@@ -164,9 +164,24 @@ double carried_speed(const Cubic& q, double u, Vector2 velocity) {
   return square > 0 ? std::max(dot(velocity, v) / square, 0.0) : 0.0;
 }
 
+/// Bound of the distance between h and q over [u0, u1]; in halves while it is above `wanted`.
+double part_bound(const Cubic& h, const Cubic& q, double u0, double u1, double wanted, int depth) {
+  const double v0 = carried_speed(q, u0, velocity_on(h, 0));
+  const double v1 = carried_speed(q, u1, velocity_on(h, 1));
+  const std::array<double, 4> u{u0, std::min(u0 + v0 / 3, 1.0), std::max(u1 - v1 / 3, 0.0), u1};
+  const std::array<double, 4> even{u0, (2 * u0 + u1) / 3, (u0 + 2 * u1) / 3, u1};
+  const double bound = std::min(difference_bound(h, q, u), difference_bound(h, q, even));
+  if (!(bound > wanted) || depth >= 4) return bound;
+  const auto [left, right] = split(h, 0.5);
+  const double middle = std::clamp(foot_on(q, left.control[3], 0.5 * (u0 + u1)), u0, u1);
+  const double first = part_bound(left, q, u0, middle, wanted, depth + 1);
+  if (first > wanted) return bound;
+  return std::min(bound, std::max(first, part_bound(right, q, middle, u1, wanted, depth + 1)));
+}
+
 }  // namespace
 
-double deviation_bound(std::span<const Cubic> row, const Cubic& q) {
+double deviation_bound(std::span<const Cubic> row, const Cubic& q, double wanted) {
   double total = 0;
   for (const Cubic& h : row) total += rough_length(h);
   const LengthTable table(q);
@@ -178,12 +193,7 @@ double deviation_bound(std::span<const Cubic> row, const Cubic& q) {
     const bool last = i + 1 == row.size();
     const double guess = total > 0 ? std::max(table.parameter(done / total), u0) : u0;
     const double u1 = last ? 1.0 : std::max(u0, foot_on(q, row[i].control[3], guess));
-    const double v0 = carried_speed(q, u0, velocity_on(row[i], 0));
-    const double v1 = carried_speed(q, u1, velocity_on(row[i], 1));
-    const std::array<double, 4> u{u0, std::min(u0 + v0 / 3, 1.0), std::max(u1 - v1 / 3, 0.0), u1};
-    const std::array<double, 4> even{u0, (2 * u0 + u1) / 3, (u0 + 2 * u1) / 3, u1};
-    largest = std::max(largest,
-                       std::min(difference_bound(row[i], q, u), difference_bound(row[i], q, even)));
+    largest = std::max(largest, part_bound(row[i], q, u0, u1, wanted, 0));
     u0 = u1;
   }
   return largest;
@@ -217,10 +227,10 @@ class HandleFit {
     weights_.assign(points_.size(), 1.0);
     Normal at = linearise(a, b);
     double damping = 1e-6;
-    for (int step = 0; step < 20 && damping < 1e4; ++step) {  // Levenberg-Marquardt
+    for (int step = 0; step < 40 && damping < 1e4; ++step) {  // Levenberg-Marquardt
       const Normal next = linearise(moved(at, damping));
       const bool better = next.cost < at.cost;
-      const bool settled = next.cost > 0.98 * at.cost;
+      const bool settled = next.cost > 0.9995 * at.cost;
       damping *= better ? 0.1 : 10;
       if (better) at = next;
       if (better && (settled || best_ <= 0.7 * wanted)) break;
@@ -335,7 +345,7 @@ CubicFit fit_in_parameter(std::span<const Cubic> row, std::span<const double> en
   const double last_width = row.size() > 1 ? 1 - ends[row.size() - 2] : 1.0;
   const Vector2 a = velocity_on(row.front(), 0) / (3 * ends[0]);
   const Vector2 b = velocity_on(row.back(), 1) / (3 * last_width);
-  CubicFit fit{{{p0, p0 + a, p3 - b, p3}}, 0};
+  CubicFit fit{{{p0, p0 + a, p3 - b, p3}}, 0, 0};
   double u0 = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const double u1 = ends[i];
@@ -361,8 +371,8 @@ CubicFit fit_cubic(std::span<const Cubic> row, std::span<const double> ends, dou
     const double b = distance(q[2], q[3]);
     if (std::isfinite(a) && std::isfinite(b)) fit.run(a, b, wanted);
   }
-  CubicFit result{fit.cubic(), std::numeric_limits<double>::infinity()};
-  if (fit.largest() <= 1.02 * wanted) result.bound = deviation_bound(row, result.cubic);
+  CubicFit result{fit.cubic(), std::numeric_limits<double>::infinity(), fit.largest()};
+  if (fit.largest() <= 1.02 * wanted) result.bound = deviation_bound(row, result.cubic, wanted);
   return result;
 }
 

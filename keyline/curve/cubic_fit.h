@@ -26,12 +26,13 @@ double polygon_length(const Cubic& c);
 /// A bound of the largest distance between the row of cubics (each starting where the last ended)
 /// and q, in both directions: the row is carried onto q by a piecewise cubic change of parameter,
 /// and the differences, of degree 9, are bounded by their Bernstein coefficients. Rigorous up to
-/// rounding.
-double deviation_bound(std::span<const Cubic> row, const Cubic& q);
+/// rounding. No effort is made to sharpen a bound below `wanted`; one above it may be higher still.
+double deviation_bound(std::span<const Cubic> row, const Cubic& q, double wanted);
 
 struct CubicFit {
   Cubic cubic;
-  double bound = 0;  ///< deviation_bound of it; infinite where the fit clearly misses `wanted`
+  double bound = 0;     ///< deviation_bound of it; infinite where the fit clearly misses `wanted`
+  double distance = 0;  ///< largest at the samples of the fit
 };
 
 /// The cubic with the row's ends and end tangents nearest to it: handle lengths by Gauss-Newton on
