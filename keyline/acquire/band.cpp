@@ -14,6 +14,7 @@ namespace keyline::acquire {
 namespace {
 
 constexpr std::size_t kSamples = 400;
+constexpr std::size_t kMostMoved = 6000;
 constexpr double kLong = 0.25;  // width over length that makes a neighbourhood a stretch of line
 
 struct Spread {
@@ -143,9 +144,14 @@ Averaged average_cells(std::span<const core::Point2> points, std::span<const dou
 
 Averaged average_band(std::span<const core::Point2> points, std::span<const double> weights,
                       double radius) {
-  const std::vector<core::Point2> once = moved_to_centre(points, points, weights, radius);
-  const std::vector<core::Point2> centre = moved_to_centre(once, points, weights, radius);
-  const Averaged reduced = average_cells(centre, weights, 2000);
+  // Many points are first averaged to a few thousand, far finer than the band is wide.
+  Averaged base{{points.begin(), points.end()}, {weights.begin(), weights.end()}};
+  if (points.size() > kMostMoved) base = average_cells(points, weights, kMostMoved);
+  std::vector<core::Point2> centre = base.points;
+  for (int pass = 0; pass < 2; ++pass) {
+    centre = moved_to_centre(centre, base.points, base.weights, radius);
+  }
+  const Averaged reduced = average_cells(centre, base.weights, 2000);
   const Ordering ordering = order_points(reduced.points);
   // Each point goes to the nearest point of the ordered centre line, and these to stretches.
   std::vector<core::Point2> line;
@@ -163,8 +169,8 @@ Averaged average_band(std::span<const core::Point2> points, std::span<const doub
   std::vector<Mean> means(stretch.back() + 1);
   const detail::KdTree tree(line);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t k = tree.nearest(centre[i], 1, line.size()).front();
-    if (core::distance(line[k], centre[i]) > radius) continue;
+    const std::size_t k = tree.nearest(points[i], 1, line.size()).front();
+    if (core::distance(line[k], points[i]) > radius) continue;
     means[stretch[k]].add(points[i], weights.empty() ? 1 : weights[i]);
   }
   Averaged result;

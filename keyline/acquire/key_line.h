@@ -33,10 +33,10 @@ struct KeyLine {
   /// Smoothly closed: the last point is followed by the first, which is not repeated. False where
   /// the ends meet in a corner (a sharp trailing edge); see ends_meet.
   bool closed = false;
-  bool ends_meet = false;            ///< open, but first and last point are the same place
-  double noise = 0;                  ///< standard deviation of position error normal to the curve
-  double rounding = 0;               ///< step the coordinates are rounded to; 0: not rounded
-  double length = 0;                 ///< of the polygon, with the closing edge where closed
+  bool ends_meet = false;  ///< open, but first and last point are the same place
+  double noise = 0;        ///< standard deviation of position error normal to the curve
+  double rounding = 0;     ///< step the coordinates are rounded to; 0: not rounded
+  double length = 0;       ///< of the polygon, closed where closed; of means where steps are noise
   std::vector<std::size_t> corners;  ///< increasing indices into points; ends of open curves not
   std::vector<std::size_t> sources;  ///< index into the raw points; empty where averaged
   Plane plane;
