@@ -37,20 +37,41 @@ std::vector<double> usual_values(std::vector<double> values) {
   return {values.begin() + cut, values.end() - cut};
 }
 
+/// The values as the axis places them.
+std::vector<double> placed(std::vector<double> values, Scale scale) {
+  if (scale == Scale::signed_root)
+    for (double& v : values) v = signed_root(v);
+  return values;
+}
+
 /// The range of the first curve, stretched by half at most to show the others' usual values.
-core::Interval curvature_range(const std::vector<SampledCurve>& curves) {
+core::Interval curvature_range(const std::vector<SampledCurve>& curves, Scale scale) {
   std::vector<double> first;
-  if (!curves.empty()) first = curves[0].curvature;
+  if (!curves.empty()) first = placed(curves[0].curvature, scale);
   first.push_back(0);
   core::Interval range = axis_range(first, Scale::linear);
   const double slack = 0.5 * length(range);
   const core::Interval most{range.low - slack, range.high + slack};
   for (std::size_t i = 1; i < curves.size(); ++i) {
-    const core::Interval other = axis_range(usual_values(curves[i].curvature), Scale::linear);
+    const std::vector<double> usual = usual_values(placed(curves[i].curvature, scale));
+    const core::Interval other = axis_range(usual, Scale::linear);
     range.low = std::max(most.low, std::min(range.low, other.low));
     range.high = std::min(most.high, std::max(range.high, other.high));
   }
+  if (scale == Scale::signed_root)
+    range = {range.low * std::abs(range.low), range.high * std::abs(range.high)};
   return range;
+}
+
+/// True where a few places are so much tighter than the rest that those would not be seen.
+bool needs_root_scale(const SampledCurve& curve) {
+  std::vector<double> sizes;
+  for (const double k : curve.curvature)
+    if (std::isfinite(k)) sizes.push_back(std::abs(k));
+  if (sizes.empty()) return false;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return largest_curvature(curve) > 25 * *middle && *middle > 0;
 }
 
 std::vector<Band> piece_bands(const SampledCurve& curve) {
@@ -79,7 +100,11 @@ Drawing curvature_plot(const std::vector<SampledCurve>& curves, const ChartOptio
   plot.width = options.width;
   plot.x.title = "Arc length" + bracketed(options.unit);
   plot.y.title = "Curvature" + bracketed(options.unit.empty() ? "" : "1/" + options.unit);
-  const core::Interval range = curvature_range(curves);
+  if (!curves.empty() && needs_root_scale(curves[0])) {
+    plot.y.scale = Scale::signed_root;
+    plot.subtitle = "Square-root scale: a few places are far tighter than the rest";
+  }
+  const core::Interval range = curvature_range(curves, plot.y.scale);
   plot.y.low = range.low;
   plot.y.high = range.high;
   plot.rules.push_back({0, false, kFrame, {}, ""});
@@ -102,11 +127,15 @@ Drawing curvature_plot(const std::vector<SampledCurve>& curves, const ChartOptio
 
 namespace {
 
-/// Tips of the teeth, scale = tooth length per unit of curvature.
-std::vector<Point2> comb_tips(const SampledCurve& curve, double scale) {
+/// Tips of the teeth; the longest tooth has the length `longest`.
+std::vector<Point2> comb_tips(const SampledCurve& curve, double longest, bool root) {
+  const double largest = largest_curvature(curve);
   std::vector<Point2> tips;
-  for (std::size_t i = 0; i < curve.points.size(); ++i)
-    tips.push_back(curve.points[i] - scale * curve.curvature[i] * left_normal(curve, i));
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const double share = largest > 0 ? curve.curvature[i] / largest : 0;
+    tips.push_back(curve.points[i] -
+                   longest * (root ? signed_root(share) : share) * left_normal(curve, i));
+  }
   return tips;
 }
 
@@ -120,7 +149,11 @@ void add_teeth(ModelFigure& figure, const SampledCurve& curve, const std::vector
   Path path;
   double since = kSpacing;
   for (std::size_t i = 0; i < tips.size(); ++i) {
-    if (i > 0) since += core::distance(curve.points[i - 1], curve.points[i]) * figure.view.scale;
+    if (i > 0) {
+      const double foot = core::distance(curve.points[i - 1], curve.points[i]);
+      const double tip = core::distance(tips[i - 1], tips[i]);
+      since += figure.view.scale * (std::isfinite(tip) ? std::max(foot, 0.5 * tip) : foot);
+    }
     if (since < kSpacing && !wanted[i] && i + 1 < tips.size()) continue;
     if (!core::is_finite(tips[i])) continue;
     since = 0;
@@ -136,15 +169,16 @@ Drawing curvature_comb(const SampledCurve& curve, const ChartOptions& options) {
   detail::check(curve);
   const double largest = largest_curvature(curve);
   const Box extent = box_of(curve.points);
-  const double scale = largest > 0 ? 0.16 * diagonal(extent) / largest : 0;
-  const std::vector<Point2> tips = comb_tips(curve, scale);
+  const bool root = needs_root_scale(curve);
+  const std::vector<Point2> tips = comb_tips(curve, 0.16 * diagonal(extent), root);
   Box model = extent;
   for (const Point2& tip : tips) include(model, tip);
-  const std::string subtitle = largest > 0
-                                   ? "Longest tooth: curvature " + short_number(largest, 3) +
-                                         (options.unit.empty() ? "" : " 1/" + options.unit) +
-                                         ", radius " + detail::with_unit(1 / largest, options.unit)
-                                   : "The curve is straight: no teeth";
+  std::string subtitle = largest > 0
+                             ? "Longest tooth: curvature " + short_number(largest, 3) +
+                                   (options.unit.empty() ? "" : " 1/" + options.unit) +
+                                   ", radius " + detail::with_unit(1 / largest, options.unit)
+                             : "The curve is straight: no teeth";
+  if (root) subtitle += "; teeth grow with the square root of the curvature";
   ModelFigure figure = detail::start_figure(model, "Curvature comb", subtitle, {}, options);
   add_teeth(figure, curve, tips);
   detail::add_line(figure, tips, Stroke{palette(0), 1, {}});
@@ -175,7 +209,7 @@ Drawing evolute_chart(const SampledCurve& curve, const ChartOptions& options) {
   detail::check(curve);
   const std::vector<Point2> centers = evolute_points(curve);
   const Box extent = box_of(curve.points);
-  const double reach = 0.5 * diagonal(extent);
+  const double reach = 0.4 * diagonal(extent);
   const Box room = is_empty(extent) ? extent : grown(extent, reach);
   Box model = extent;
   for (const auto& run : clip_to_box(centers, room))

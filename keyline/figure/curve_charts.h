@@ -28,11 +28,13 @@ struct ChartOptions {
 };
 
 /// Signed curvature against arc length; the first curve sets the range and its joints are marked.
-/// A later curve that leaves the range far is cut at the frame.
+/// A later curve that leaves the range far is cut at the frame. Where a few places are far tighter
+/// than the rest (25 times the median) the axis has a square-root scale, and says so.
 Drawing curvature_plot(const std::vector<SampledCurve>& curves, const ChartOptions& options = {});
 
 /// The curve with its curvature as teeth on its outer side and a line over their tips. The longest
-/// tooth stands for the largest |curvature|, which the subtitle states.
+/// tooth stands for the largest |curvature|, which the subtitle states. Square-root teeth where
+/// curvature_plot() has such a scale.
 Drawing curvature_comb(const SampledCurve& curve, const ChartOptions& options = {});
 
 /// The curve and the locus of its centres of curvature, cut where that leaves the figure.

@@ -20,6 +20,10 @@ struct AxisMap {
 
   double operator()(double value) const {
     if (scale == Scale::linear) return at(page, (value - values.low) / length(values));
+    if (scale == Scale::signed_root) {
+      const double low = signed_root(values.low);
+      return at(page, (signed_root(value) - low) / (signed_root(values.high) - low));
+    }
     if (!(value > 0)) return NAN;
     const double low = std::log(values.low);
     return at(page, (std::log(value) - low) / (std::log(values.high) - low));
@@ -38,7 +42,7 @@ Interval range_of(const Axis& axis, const std::vector<double>& values) {
   Interval range = axis_range(values, axis.scale);
   if (axis.low) range.low = *axis.low;
   if (axis.high) range.high = *axis.high;
-  const bool positive = axis.scale == Scale::linear || range.low > 0;
+  const bool positive = axis.scale != Scale::log10 || range.low > 0;
   if (axis.low && axis.high && !(range.low < range.high && positive))
     throw core::InvalidInput("draw: the range given for an axis is empty");
   if (!(range.low < range.high)) {
@@ -68,7 +72,15 @@ std::vector<double> values_of(const Plot& plot, bool along_x) {
 }
 
 Ticks ticks_for(const Axis& axis, const Interval& range, int most) {
-  return axis.scale == Scale::log10 ? log_ticks(range, most) : linear_ticks(range, most);
+  switch (axis.scale) {
+    case Scale::log10:
+      return log_ticks(range, most);
+    case Scale::signed_root:
+      return signed_root_ticks(range, most);
+    case Scale::linear:
+      break;
+  }
+  return linear_ticks(range, most);
 }
 
 double widest_label(const Ticks& ticks) {

@@ -96,6 +96,34 @@ Ticks linear_ticks(const core::Interval& range, int most) {
   return result;
 }
 
+double signed_root(double value) { return std::copysign(std::sqrt(std::abs(value)), value); }
+
+Ticks signed_root_ticks(const core::Interval& range, int most) {
+  if (!(length(range) > 0) || !std::isfinite(length(range)) || most < 2)
+    throw core::InvalidInput("signed_root_ticks: needs a finite range and at least two ticks");
+  const double low = signed_root(range.low);
+  const double high = signed_root(range.high);
+  const double apart = (high - low) / most;
+  Ticks result;
+  const auto add_side = [&](double sign) {
+    const double end = sign > 0 ? range.high : -range.low;
+    double last = INFINITY;
+    for (double v = end > 0 ? round_number_below(end) : 0; v > 0; v = round_number_below(v * 0.7)) {
+      const double place = std::sqrt(v);
+      if (place < apart || sign * v < range.low || sign * v > range.high) break;
+      if (last - place < apart) continue;
+      last = place;
+      result.ticks.push_back({sign * v, short_number(sign * v, 3)});
+    }
+  };
+  add_side(1);
+  add_side(-1);
+  if (range.low <= 0 && range.high >= 0) result.ticks.push_back({0, "0"});
+  std::sort(result.ticks.begin(), result.ticks.end(),
+            [](const Tick& a, const Tick& b) { return a.value < b.value; });
+  return result;
+}
+
 Ticks log_ticks(const core::Interval& range, int most) {
   if (!(range.low > 0) || !(range.high > range.low) || !std::isfinite(range.high))
     throw core::InvalidInput("log_ticks: needs a positive range");
@@ -131,6 +159,12 @@ core::Interval axis_range(const std::vector<double>& values, Scale scale) {
   }
   if (low > high) return log ? core::Interval{1, 10} : core::Interval{0, 1};
   const double size = std::max(std::abs(low), std::abs(high));
+  if (scale == Scale::signed_root && low < high) {
+    const double from = signed_root(low);
+    const double to = signed_root(high);
+    const double slack = 0.04 * (to - from);
+    return {(from - slack) * std::abs(from - slack), (to + slack) * std::abs(to + slack)};
+  }
   double margin = 0.04 * (high - low);
   if (log && high - low < 0.1) margin = 0.3;
   if (!log && high - low <= 1e-9 * size) margin = size > 1e-290 ? 0.1 * size : 1;

@@ -7,7 +7,8 @@
 
 namespace keyline::figure {
 
-enum class Scale { linear, log10 };
+/// signed_root shows sign(v) sqrt|v|: large and small values of both signs in one chart.
+enum class Scale { linear, log10, signed_root };
 
 struct Tick {
   double value = 0;
@@ -28,6 +29,13 @@ Ticks linear_ticks(const core::Interval& range, int most);
 /// over less than two decades 2 and 5 are labelled too. Needs 0 < low < high (InvalidInput
 /// otherwise).
 Ticks log_ticks(const core::Interval& range, int most);
+
+/// At most `most` (>= 2) ticks at 0 and at 1, 2 or 5 times powers of ten of both signs, so chosen
+/// that they stand well apart on a signed_root axis. Range as for linear_ticks().
+Ticks signed_root_ticks(const core::Interval& range, int most);
+
+/// sign(v) sqrt|v|.
+double signed_root(double value);
 
 /// Range of an axis for these values: the finite ones (positive ones on a log axis) with a margin
 /// of 4 % on both sides; something sensible around a single value; [0, 1] ([1, 10]) without any.

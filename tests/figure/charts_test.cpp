@@ -73,6 +73,15 @@ TEST(CurvatureComb, TellsAStraightLine) {
   EXPECT_GT(painted(curvature_plot({line})), 100);
 }
 
+TEST(CurvatureComb, ShowsSmallBesideLarge) {
+  SampledCurve nose = s_curve();
+  for (std::size_t i = 0; i < nose.curvature.size(); ++i)
+    nose.curvature[i] = 0.01 + (i == 700 ? 5 : 0);
+  EXPECT_TRUE(shows(curvature_comb(nose), "square root of the curvature"));
+  EXPECT_TRUE(shows(curvature_plot({nose}), "Square-root scale"));
+  EXPECT_FALSE(shows(curvature_plot({s_curve()}), "Square-root scale"));
+}
+
 TEST(Evolute, BreaksAtTheInflection) {
   const Drawing d = evolute_chart(s_curve(), {.unit = "mm"});
   EXPECT_GT(painted(d), 1500);

@@ -50,6 +50,21 @@ TEST(LogTicks, LabelPowersOfTen) {
   EXPECT_THROW(log_ticks({0, 1}, 5), core::InvalidInput);
 }
 
+TEST(SignedRootTicks, SpreadOverBothSigns) {
+  EXPECT_EQ(labels(signed_root_ticks({-4, 100}, 8)), "0 5 20 50 100");
+  EXPECT_EQ(labels(signed_root_ticks({-100, 100}, 9)), "−100 −50 −20 −5 0 5 20 50 100");
+  for (double high = 1e-9; high < 1e9; high *= 7)
+    for (double low : {-10 * high, -0.01 * high, 0.0, 0.5 * high}) {
+      const Ticks ticks = signed_root_ticks({low, high}, 7);
+      EXPECT_LE(ticks.ticks.size(), 8U);
+      for (const Tick& t : ticks.ticks) {
+        EXPECT_GE(t.value, low);
+        EXPECT_LE(t.value, high * (1 + 1e-12));
+      }
+    }
+  EXPECT_THROW(signed_root_ticks({1, 0}, 5), core::InvalidInput);
+}
+
 TEST(AxisRange, CoversTheUsableValues) {
   const auto range = axis_range({1, NAN, 3, INFINITY}, Scale::linear);
   EXPECT_NEAR(range.low, 0.92, 1e-12);
