@@ -54,6 +54,20 @@ void knot_search(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fit::fit_spline(points, {}, options));
 }
 
+// The spline step of fair, with its budget.
+void fair_spline(benchmark::State& state) {
+  std::vector<core::Point2> points;
+  const auto count = static_cast<int>(state.range(0));
+  for (int i = 0; i < count; ++i) points.push_back(wave(static_cast<double>(i) / (count - 1)));
+  const auto options = fit::SplineFitOptions::for_fairing();
+  for (auto _ : state) benchmark::DoNotOptimize(fit::fit_spline(points, {}, options));
+}
+
+BENCHMARK(fair_spline)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(least_squares_function)->Arg(49)->Arg(1000)->Arg(10000);
 BENCHMARK(least_squares_curve)->Arg(49)->Arg(1000)->Arg(10000);
 BENCHMARK(knot_search)->Arg(49)->Arg(1000)->Unit(benchmark::kMillisecond)->Iterations(1);

@@ -22,7 +22,7 @@ ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& 
                          std::vector<double> knots, int rounds, const core::Progress& progress);
 
 /// Knots by refinement where residuals are large, then removal of those of little use: quick,
-/// deterministic, a start for the genetic search.
-ScoredKnots refined_knots(SplineSolver& solver, const BayesCriterion& criterion);
+/// deterministic, a start for the genetic search. Thorough: also from knots too many to pay.
+ScoredKnots refined_knots(SplineSolver& solver, const BayesCriterion& criterion, bool thorough);
 
 }  // namespace keyline::fit::detail

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -79,19 +80,28 @@ ScoredKnots without_idle_knots(SplineSolver& solver, const BayesCriterion& crite
 
 }  // namespace
 
-ScoredKnots refined_knots(SplineSolver& solver, const BayesCriterion& criterion) {
+ScoredKnots refined_knots(SplineSolver& solver, const BayesCriterion& criterion, bool thorough) {
   Knots knots;
   ScoredKnots best{knots, score(solver, criterion, knots)};
-  const std::size_t most = solver.data_count() / 3;
-  while (knots.size() < most && knots.size() < 2 * best.knots.size() + 16) {
+  ScoredKnots lean = best;
+  std::size_t thinned_at = 16;
+  const std::size_t most = solver.data_count() / (thorough ? 2 : 3);
+  while (knots.size() < most && (thorough || knots.size() < 2 * best.knots.size() + 16)) {
     if (!solver.solve(knots)) break;
     Knots more = with_more_knots(solver, knots, 1 + knots.size() / 8);
     if (more.size() == knots.size()) break;
     knots = std::move(more);
     const double bic = score(solver, criterion, knots);
     if (bic < best.bic) best = {knots, bic};
+    // Too many knots may pay once the idle ones are gone, though none of the few did.
+    if (!thorough || knots.size() < thinned_at || knots.size() > 150 || !std::isfinite(bic))
+      continue;
+    thinned_at *= 2;
+    const ScoredKnots thinned = without_idle_knots(solver, criterion, {knots, bic});
+    if (thinned.bic < lean.bic) lean = thinned;
   }
-  return without_idle_knots(solver, criterion, best);
+  const ScoredKnots end = without_idle_knots(solver, criterion, best);
+  return lean.bic < end.bic ? lean : end;
 }
 
 }  // namespace keyline::fit::detail

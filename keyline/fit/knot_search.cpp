@@ -32,7 +32,7 @@ class KnotProblem {
     const auto order = static_cast<std::size_t>(solver.order());
     most_knots_ = solver.data_count() > order ? (solver.data_count() - order) / 2 : 0;
     most_initial_ = std::clamp<std::size_t>(solver.data_count() / 4, 1, 100);
-    if (options.smart_start) start_ = detail::refined_knots(solvers_[0], criterion).knots;
+    if (options.smart_start) start_ = detail::refined_knots(solvers_[0], criterion, false).knots;
     smart_ = options.smart_start;
   }
 
@@ -171,7 +171,7 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
                               const KnotSearchOptions& options) {
   KnotProblem problem(solver, criterion, options);
   // A polish counts as a quarter of a trial's generations in the progress shown.
-  const double polish_steps = 1 + options.generations / 4;
+  const int polish_steps = 1 + options.generations / 4;
   SearchProgress progress(
       options.progress,
       options.trials * (options.generations +
@@ -187,6 +187,10 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
     result.evaluations += trials[i].evaluations;
   }
   if (options.placement == KnotPlacement::polished && !options.progress.stop_requested()) {
+    // Knots by refinement are one more start: sharp features that random knots seldom meet.
+    if (!options.smart_start) {
+      ends.push_back(detail::refined_knots(problem.solvers()[0], criterion, true));
+    }
     // Trials in parallel where there are enough of them, otherwise the candidates of one.
     const auto solvers = problem.solvers();
     const bool trials_in_parallel = ends.size() >= 2 * solvers.size();
