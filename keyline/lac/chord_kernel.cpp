@@ -6,7 +6,9 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
+#include "keyline/lac/chord_lanes.h"
 #include "keyline/lac/chord_search.h"
+#include "keyline/lac/quick_search.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::lac::detail {
@@ -16,32 +18,27 @@ using core::Vector2;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Sums over the nodes of a panel: integral of f and of (fraction of the turning) f, f = e^{-a
-/// lambda} times tangent.
+/// Integrals over a panel of f = e^{-a lambda} times tangent and of angle times f.
 struct Moments {
   Vector2 zeroth;
   Vector2 first;
 };
 
+Moments straight_moments(const Arm& arm, const Panel& panel) {
+  const double angle = panel.from == 0 ? 0.0 : arm.turning * arm.angle_fraction(panel.from);
+  const double arc = decay_integral(arm.a, panel.to) - decay_integral(arm.a, panel.from);
+  const Vector2 sum = arc * core::unit_vector(angle);
+  return {sum, angle * sum};
+}
+
 Moments panel_moments(const Arm& arm, const Panel& panel) {
-  if (panel.straight) {
-    const double fraction = panel.from == 0 ? 0.0 : arm.angle_fraction(panel.from);
-    const double arc = decay_integral(arm.a, panel.to) - decay_integral(arm.a, panel.from);
-    const Vector2 sum = arc * core::unit_vector(arm.turning * fraction);
-    return {sum, fraction * sum};
-  }
-  constexpr const auto& rule = numeric::gauss_legendre<16>;
-  const double width = panel.to - panel.from;
-  Moments sum;
-  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-    const double lambda = panel.from + width * rule.nodes[i];
-    const double fraction = arm.angle_fraction(lambda);
-    const double weight = width * rule.weights[i] * std::exp(-arm.a * lambda);
-    const Vector2 f = weight * core::unit_vector(arm.turning * fraction);
-    sum.zeroth = sum.zeroth + f;
-    sum.first = sum.first + fraction * f;
-  }
-  return sum;
+  if (panel.straight) return straight_moments(arm, panel);
+  const double scale = arm.turning / arm.angle_total;
+  const double centre =
+      scale * (decay_integral(arm.b, panel.from) + decay_integral(arm.b, panel.to)) / 2;
+  const PanelSums s =
+      panel_sums({arm.a, arm.b, panel.from, panel.to - panel.from, scale, centre, 16});
+  return {core::rotate_ccw({s.x, s.y}, centre), core::rotate_ccw({s.angle_x, s.angle_y}, centre)};
 }
 
 Arm unit_arm(const Decays& d, double theta, double q) {
@@ -96,7 +93,7 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
     return {length * middle, slope * length * core::perpendicular_left(middle)};
   }
   const Arm arm = unit_arm(d, theta, q);
-  PanelWalk walk(arm, q, 4, 3.2);
+  PanelWalk walk(arm, q, 3, 2);
   Panel panel;
   Vector2 chord;
   Vector2 moment;
@@ -113,28 +110,31 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
   }
   // d/dq of (1/S) integral of e^{-a l} e^{i theta T(l)/T(q)}, S and T the two totals.
   const double arc_end = decay(d.a, q) / arm.arc_total;
-  const double angle_end = theta * decay(d.b, q) / arm.angle_total;
+  const double angle_end = decay(d.b, q) / arm.angle_total;
   const Vector2 slope =
       arc_end * (core::unit_vector(theta) - chord) - angle_end * core::perpendicular_left(moment);
   return {chord, slope};
 }
 
 ChordSolution solve_chord_angle(double alpha, double theta, double psi) {
+  const double excess = psi - theta / 2;
+  if (!(excess > 0)) {
+    const double h = theta / 2;
+    return {ChordStatus::solved, 0, h == 0 ? 1 : std::sin(h) / h, 0};
+  }
+  ChordSolution quick;
+  if (theta < core::kPi && quick_search(alpha, theta, excess, quick)) return quick;
   const Decays d = decays_of(alpha);
   const double sign = alpha < 0 ? 1 : -1;
   const Vector2 axis = core::unit_vector(alpha < 0 ? psi : theta - psi);
-  const auto at = [&](double q) { return sample_at(d, theta, q, axis, sign); };
-  const double excess = psi - theta / 2;
-  if (!(excess > 0)) return {ChordStatus::solved, 0, at(0).length, 0};
-  // psi - theta/2 is close to c tanh(q slope / c), exactly so for small angles at alpha = -1.
-  const double c = theta / (2 * (d.a + std::abs(d.b)));
   SearchSetup setup;
-  setup.guess = c * std::atanh(std::min(excess / c, 0.97)) / circle_slope(theta);
+  const bool started = quick.range > 0 && quick.range < kLargestRange;
+  setup.guess = started ? quick.range : guess_range(d, theta, excess, circle_slope(theta));
   setup.k = d.k;
   setup.sharpness = std::max(d.a, std::abs(d.b));
   setup.limit_drawn = d.a > 0 && d.b > 0;
   setup.inside = psi < theta;
-  return search_chord(setup, at);
+  return search_chord(setup, [&](double q) { return sample_at(d, theta, q, axis, sign); });
 }
 
 double limit_chord_angle(double alpha, double theta) {

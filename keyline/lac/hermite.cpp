@@ -82,19 +82,24 @@ core::Result<HandleAngles> handle_angles(Point2 p0, Point2 p1, Point2 p2) {
   const double scale = std::max(
       {std::abs(p1.x - p0.x), std::abs(p1.y - p0.y), std::abs(p2.x - p0.x), std::abs(p2.y - p0.y)});
   const Vector2 chord = (p2 - p0) / scale;
-  if (!(norm(chord) > 0)) {
+  const auto size = [](Vector2 v) { return std::sqrt(dot(v, v)); };  // scaled: no overflow
+  if (!(size(chord) > 0)) {
     return core::fail(ErrorCode::bad_input, "start and end point coincide", "move one of them",
                       "points[2]");
   }
   const Vector2 first = (p1 - p0) / scale;
   const Vector2 second = (p2 - p1) / scale;
-  HandleAngles angles{0, 0, norm(chord) * scale, core::direction_of(chord)};
-  const bool distinct = norm(first) > 0 && norm(second) > 0;
-  if (!distinct) return angles;
+  HandleAngles angles{0, 0, size(chord) * scale, 0};
+  const bool distinct = size(first) > 0 && size(second) > 0;
+  if (!distinct) {
+    angles.direction = core::direction_of(chord);
+    return angles;
+  }
   angles.turning = core::angle_between(first, second);
   angles.chord_angle = core::angle_between(first, chord);
   if (std::abs(angles.turning) < kStraight) {
     angles.turning = angles.chord_angle = 0;
+    angles.direction = core::direction_of(chord);
     return angles;
   }
   angles.direction = core::direction_of(first);

@@ -1,0 +1,13 @@
+// Compiled with AVX2 and FMA (see CMakeLists.txt); only templates of that instruction set here.
+#ifdef KEYLINE_LAC_AVX2
+#include "keyline/lac/chord_lanes_body.h"
+
+namespace keyline::lac::detail {
+
+template PanelSums PanelKernel::operator()<xsimd::fma3<xsimd::avx2>>(xsimd::fma3<xsimd::avx2>,
+                                                                     double, double, double, double,
+                                                                     double, double,
+                                                                     const GaussNodes*, int) const;
+
+}  // namespace keyline::lac::detail
+#endif

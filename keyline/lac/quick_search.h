@@ -1,0 +1,17 @@
+#pragma once
+
+#include "keyline/lac/chord_kernel.h"
+
+/// Internals: the common case of the chord search, on one Gauss panel.
+namespace keyline::lac::detail {
+
+/// First guess of q for a chord angle `excess` above theta/2: c tanh(q slope / c) is close to the
+/// excess, exactly so for small angles at alpha = -1; slope is that at the circle.
+double guess_range(const Decays& d, double theta, double excess, double slope);
+
+/// As solve_chord_angle by unguarded Newton steps, as long as one panel of at most 32 nodes carries
+/// the integral to rounding and the steps stay short of the limit. False: not solved, `solution`
+/// holds in `range` where to start the guarded search.
+bool quick_search(double alpha, double theta, double excess, ChordSolution& solution);
+
+}  // namespace keyline::lac::detail
