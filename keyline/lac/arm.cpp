@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "keyline/numeric/quadrature.h"
+#include "keyline/core/angle.h"
+#include "keyline/lac/chord_lanes.h"
 
 namespace keyline::lac::detail {
 namespace {
@@ -120,16 +121,15 @@ Vector2 panel_vector(const Arm& arm, const Panel& panel) {
     const double arc = arm.arc_fraction(panel.to) - arm.arc_fraction(panel.from);
     return {arc * std::cos(angle), arc * std::sin(angle)};
   }
-  constexpr const auto& rule = numeric::gauss_legendre<16>;
+  const double scale = arm.turning / arm.angle_total;
+  const double from = scale * decay_integral(arm.b, panel.from);
+  const double to = scale * decay_integral(arm.b, panel.to);
+  const double centre = (from + to) / 2;
   const double width = panel.to - panel.from;
-  Vector2 sum;
-  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-    const double lambda = panel.from + width * rule.nodes[i];
-    const double weight = rule.weights[i] * std::exp(-arm.a * lambda);
-    const double angle = arm.turning * arm.angle_fraction(lambda);
-    sum = sum + Vector2{weight * std::cos(angle), weight * std::sin(angle)};
-  }
-  return (width / arm.arc_total) * sum;
+  const double reach = std::max(arm.a, std::abs(arm.b)) * width + std::abs(to - from);
+  const PanelSums s =
+      panel_sums({arm.a, arm.b, panel.from, width, scale, centre, nodes_for(reach)});
+  return (1 / arm.arc_total) * core::rotate_ccw({s.x, s.y}, centre);
 }
 
 /// A circular arc or a straight line: sin(x)/x in closed form.
@@ -142,7 +142,7 @@ Vector2 arc_vector(double turning, double fraction) {
 }  // namespace
 
 Vector2 arm_vector(const Arm& arm, double lambda) {
-  PanelWalk walk(arm, lambda, 4, 2);
+  PanelWalk walk(arm, lambda, 6.5, 3.2);
   Panel panel;
   Vector2 sum;
   while (walk.next(panel)) sum = sum + panel_vector(arm, panel);

@@ -34,10 +34,13 @@ Moments straight_moments(const Arm& arm, const Panel& panel) {
 Moments panel_moments(const Arm& arm, const Panel& panel) {
   if (panel.straight) return straight_moments(arm, panel);
   const double scale = arm.turning / arm.angle_total;
-  const double centre =
-      scale * (decay_integral(arm.b, panel.from) + decay_integral(arm.b, panel.to)) / 2;
+  const double from = scale * decay_integral(arm.b, panel.from);
+  const double to = scale * decay_integral(arm.b, panel.to);
+  const double centre = (from + to) / 2;
+  const double width = panel.to - panel.from;
+  const double reach = std::max(arm.a, std::abs(arm.b)) * width + std::abs(to - from);
   const PanelSums s =
-      panel_sums({arm.a, arm.b, panel.from, panel.to - panel.from, scale, centre, 16});
+      panel_sums({arm.a, arm.b, panel.from, width, scale, centre, nodes_for(reach)});
   return {core::rotate_ccw({s.x, s.y}, centre), core::rotate_ccw({s.angle_x, s.angle_y}, centre)};
 }
 
@@ -93,7 +96,7 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
     return {length * middle, slope * length * core::perpendicular_left(middle)};
   }
   const Arm arm = unit_arm(d, theta, q);
-  PanelWalk walk(arm, q, 3, 2);
+  PanelWalk walk(arm, q, 6.5, 3.2);
   Panel panel;
   Vector2 chord;
   Vector2 moment;

@@ -35,6 +35,14 @@ struct PanelKernel {
                        double centre, const GaussNodes* rule, int nodes) const;
 };
 
+/// Nodes that carry a panel to rounding, by its decay, max(a, |b|) times width, plus its turning
+/// (up to 16). The error of n Gauss nodes on e^{zt} falls like (z/4)^(2n)/(2n)!; the bounds for 8
+/// to 16 nodes were measured over slopes from 0.05 to 20 (errors below 2e-15).
+inline int nodes_for(double reach) {
+  if (reach < 3.3) return reach < 1.4 ? 8 : 12;
+  return reach < 5.2 ? 16 : reach < 10 ? 24 : 32;
+}
+
 /// Dispatched to the best instruction set at hand.
 PanelSums panel_sums(const PanelJob& job);
 

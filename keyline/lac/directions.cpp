@@ -24,7 +24,8 @@ class InflectingFamily {
   /// The end curvature that goes with a start curvature; empty where the search fails.
   std::optional<double> end_curvature(double start) const {
     const auto excess = [&](double end) {
-      return numeric::signed_power_mean_integral(start, end, -alpha_, 1) - turning_;
+      const double e = numeric::signed_power_mean_integral(start, end, -alpha_, 1) - turning_;
+      return std::abs(e) < 1e-16 * (std::abs(start) + std::abs(end)) ? 0 : e;
     };
     // The mean lies between the ends: the end is on the other side of the turning.
     const double side = start < turning_ ? 1 : -1;
@@ -50,7 +51,8 @@ class InflectingFamily {
   double chord_angle(double start) const {
     const auto curve = piece(start);
     if (!curve) return std::nan("");
-    return core::wrap_angle(from_ + core::direction_of(displacement(*curve, 1)));
+    const double angle = core::wrap_angle(from_ + core::direction_of(displacement(*curve, 1)));
+    return std::abs(angle) < 4e-16 ? 0 : angle;
   }
 
  private:

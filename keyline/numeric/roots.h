@@ -20,7 +20,7 @@ std::optional<double> bracketed_root(F&& f, double low, double high, double tole
   if (at_high == 0) return high;
   if (!(at_low * (at_high > 0 ? 1.0 : -1.0) < 0) || std::isnan(at_high)) return std::nullopt;
   const auto narrow = [tolerance](double a, double b) {
-    const double spacing = 4e-16 * std::fmax(std::abs(a), std::abs(b));
+    const double spacing = 9e-16 * std::fmax(std::abs(a), std::abs(b));
     return std::abs(b - a) <= std::fmax(2 * tolerance, spacing);
   };
   std::uintmax_t evaluations = 200;
