@@ -23,8 +23,10 @@ using detail::local_name;
 /// The encoding an XML declaration states, in lower case.
 std::string declared_encoding(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 300));
-  std::size_t at = head.find("encoding");
-  if (at == std::string_view::npos || (at = head.find_first_of("\"'", at)) == head.npos) return {};
+  const std::size_t word = head.find("encoding");
+  if (word == std::string_view::npos) return {};
+  const std::size_t at = head.find_first_of("\"'", word);
+  if (at == std::string_view::npos) return {};
   const std::size_t end = head.find(head[at], at + 1);
   if (end == std::string_view::npos) return {};
   std::string name(head.substr(at + 1, end - at - 1));
@@ -79,8 +81,7 @@ class SvgReader {
     for (const auto& [name, count] : ignored_)
       skip(count.first, name + ": " + std::to_string(count.second) +
                             (count.second == 1 ? " element" : " elements") + " without curves");
-    std::stable_sort(contents_.skipped.begin(), contents_.skipped.end(),
-                     [](const auto& a, const auto& b) { return a.line < b.line; });
+    sort_skipped();
     return std::move(contents_);
   }
 
@@ -88,6 +89,15 @@ class SvgReader {
   void skip(int line, std::string what) {
     constexpr std::size_t kMost = 1000;
     if (contents_.skipped.size() < kMost) contents_.skipped.push_back({line, std::move(what)});
+  }
+
+  /// By line; what stands on one line stays in the order met.
+  void sort_skipped() {
+    std::map<int, std::vector<SvgSkipped>> by_line;
+    for (SvgSkipped& item : contents_.skipped) by_line[item.line].push_back(std::move(item));
+    contents_.skipped.clear();
+    for (auto& [number, items] : by_line)
+      for (SvgSkipped& item : items) contents_.skipped.push_back(std::move(item));
   }
 
   int line(const pugi::xml_node& node) const {

@@ -89,10 +89,10 @@ class Tracer {
   }
 
   Point2 place(Edge at) const {
-    const auto column = static_cast<double>(at % grid_.columns);
-    const auto row = static_cast<double>(at / grid_.columns);
-    const double u = column / (grid_.columns - 1);
-    const double v = row / (grid_.rows - 1);
+    const Edge column = at % grid_.columns;
+    const Edge row = at / grid_.columns;
+    const double u = static_cast<double>(column) / (grid_.columns - 1);
+    const double v = static_cast<double>(row) / (grid_.rows - 1);
     return {(1 - u) * grid_.low.x + u * grid_.high.x, (1 - v) * grid_.low.y + v * grid_.high.y};
   }
 

@@ -99,8 +99,9 @@ Drawing tile(const std::vector<Drawing>& drawings, int columns, double gap) {
   page.width = cell.x * static_cast<double>(across) + gap * static_cast<double>(across - 1);
   page.height = cell.y * static_cast<double>(down) + gap * static_cast<double>(down - 1);
   for (std::size_t i = 0; i < drawings.size(); ++i) {
+    const std::size_t row = i / across;
     const core::Vector2 by{(cell.x + gap) * static_cast<double>(i % across),
-                           (cell.y + gap) * static_cast<double>(i / across)};
+                           (cell.y + gap) * static_cast<double>(row)};
     Group group{drawings[i].title, std::nullopt, drawings[i].items};
     shift(group, by);
     page.add(std::move(group));

@@ -64,7 +64,7 @@ struct Item;
 struct Group {
   std::string name = {};
   std::optional<Box> clip = {};
-  std::vector<Item> items = {};
+  std::vector<Item> items;
 
   void add(Shape item);
   void add(Label item);

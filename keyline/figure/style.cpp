@@ -6,6 +6,20 @@
 
 namespace keyline::figure {
 
+namespace {
+
+/// (1 - u) a + u b, channel by channel.
+Color mixed(Color a, Color b, double u) {
+  const auto mix = [u](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(std::lround(from + u * (to - from)));
+  };
+  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue), 1};
+}
+
+}  // namespace
+
+Color lighter(Color c, double amount) { return mixed(c, kPaper, std::clamp(amount, 0.0, 1.0)); }
+
 Color palette(std::size_t index) {
   static constexpr std::array<Color, 8> kColors = {{{0, 105, 170},
                                                     {206, 84, 0},
@@ -27,13 +41,7 @@ Color sequential(double u) {
                                                    {246, 226, 72}}};
   const double x = std::isfinite(u) ? std::clamp(u, 0.0, 1.0) * (kStops.size() - 1) : 0;
   const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), kStops.size() - 2);
-  const double w = x - static_cast<double>(i);
-  const auto mix = [w](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(a + w * (b - a) + 0.5);
-  };
-  const Color& a = kStops[i];
-  const Color& b = kStops[i + 1];
-  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue), 1};
+  return mixed(kStops[i], kStops[i + 1], x - static_cast<double>(i));
 }
 
 }  // namespace keyline::figure

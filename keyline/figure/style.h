@@ -18,12 +18,7 @@ struct Color {
 constexpr Color with_alpha(Color c, double alpha) { return {c.red, c.green, c.blue, alpha}; }
 
 /// Part `amount` (0 … 1) of the way from c to white, solid.
-constexpr Color lighter(Color c, double amount) {
-  const auto mix = [amount](std::uint8_t v) {
-    return static_cast<std::uint8_t>(v + amount * (255 - v) + 0.5);
-  };
-  return {mix(c.red), mix(c.green), mix(c.blue), 1};
-}
+Color lighter(Color c, double amount);
 
 inline constexpr Color kPaper{255, 255, 255};
 inline constexpr Color kInk{33, 37, 41};       ///< titles and main lines

@@ -219,9 +219,9 @@ std::string write_svg(const Drawing& drawing, const SvgOptions& options) {
   const std::string h = number(drawing.height);
   std::string svg;
   if (options.standalone) svg += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  append(svg, {"<svg xmlns=\"http://www.w3.org/2000/svg\" "
-               "xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
-               " width=\"", w, unit, "\" height=\"", h, unit, "\" viewBox=\"0 0 ", w, " ", h, "\"",
+  svg += "<svg xmlns=\"http://www.w3.org/2000/svg\"";
+  svg += " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
+  append(svg, {" width=\"", w, unit, "\" height=\"", h, unit, "\" viewBox=\"0 0 ", w, " ", h, "\"",
                description.attributes, " font-family=\"", kFonts, "\">\n"});
   append(svg, {description.elements, painter.take(), "</svg>\n"});
   return svg;

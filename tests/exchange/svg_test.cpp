@@ -70,7 +70,7 @@ TEST(SvgWriter, HasTightPageAndRealSize) {
 }
 
 TEST(SvgWriter, RefusesWhatSvgCannotHold) {
-  const auto code = [](SvgPath path, SvgWriteOptions options = {}) {
+  const auto code = [](const SvgPath& path, const SvgWriteOptions& options = {}) {
     return write_svg({{"L", {path}}}, options).error().code;
   };
   const SvgPath line{"", {{{{0, 0}, {1, 1}}, {}}}, false};
