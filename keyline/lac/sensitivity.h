@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace keyline::lac {
+
+/// What a piece's geometry depends on, in the order of the derivative arrays below.
+enum PieceVariable : int {
+  kCurvatureStart = 0,
+  kCurvatureEnd = 1,
+  kLength = 2,
+  kAlpha = 3,
+  kPieceVariables = 4
+};
+
+/// A log-aesthetic piece as a table: local point and tangent angle at any fraction of its length,
+/// with derivatives by the four variables. The frame is the piece's own start (origin, x axis
+/// along the tangent). Built once, read at many fractions; this is what fitting a chain needs.
+///
+/// Accuracy: positions and angle to about 1e-13 of the length where curvature has no zero inside
+///           and |log(curvature ratio)| is moderate; 1e-9 where an end or the inside is an
+///           inflection (graded panels). Derivatives lose a few digits more at an inflection.
+/// Source:   papers/NOTES "One formula": curvature is the power mean of exponent -alpha in arc
+///           length; derivatives by differentiation under the integral.
+class PieceTable {
+ public:
+  struct Value {
+    double x = 0;
+    double y = 0;
+    double angle = 0;
+    std::array<double, kPieceVariables> dx{};
+    std::array<double, kPieceVariables> dy{};
+  };
+  struct End : Value {
+    std::array<double, kPieceVariables> dangle{};
+  };
+
+  /// curvatures finite; length > 0; alpha finite; alpha < 0 where the curvatures differ in sign
+  /// or one of them is zero (not checked: the caller keeps to it).
+  /// fine: more panels where curvature changes fast, for the last digits.
+  void build(double curvature_start, double curvature_end, double length, double alpha,
+             bool fine = false);
+
+  /// v in [0, 1], the fraction of the length.
+  Value at(double v) const;
+  const End& end() const { return end_; }
+  double curvature(double v) const;
+  double length() const { return length_; }
+
+ private:
+  static constexpr int kNodes = 17;
+  static constexpr int kColumns = 11;  // x, y, angle, dx[4], dy[4]
+  struct Panel {
+    double from = 0;
+    double to = 1;
+    int graded = 0;  // 0 evenly, -1 towards `from`, +1 towards `to`
+    std::array<std::array<double, kColumns>, kNodes> node{};
+  };
+  struct Running;
+  void plan_panels();
+  void add_geometric_panels(double from, double to, double least, int grade);
+  void fill(Panel& panel, Running& running) const;
+
+  double curvature_start_ = 0;
+  double curvature_end_ = 0;
+  double length_ = 1;
+  double alpha_ = -1;
+  bool fine_ = false;
+  double zero_ = -1;  // fraction where curvature vanishes inside, or -1
+  std::vector<Panel> panels_;
+  End end_;
+};
+
+/// Curvature of the piece at fraction v and its derivatives by (curvature_start, curvature_end,
+/// alpha); stable for alpha near 0. Same preconditions as PieceTable::build.
+struct CurvatureValue {
+  double curvature = 0;
+  double by_start = 0;
+  double by_end = 0;
+  double by_alpha = 0;
+};
+CurvatureValue curvature_with_derivatives(double curvature_start, double curvature_end,
+                                          double alpha, double v);
+
+}  // namespace keyline::lac
