@@ -1,0 +1,98 @@
+#include "keyline/document/planar_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace keyline::document {
+namespace {
+
+struct Share {
+  std::size_t index;
+  double t;
+};
+
+/// The member of the path that owns parameter t, and the member's own parameter.
+Share share_of(const Path& path, double t) {
+  const double n = static_cast<double>(path.curves.size());
+  const double at = std::clamp(t, 0.0, 1.0) * n;
+  const auto index = static_cast<std::size_t>(std::min(std::floor(at), n - 1));
+  return {index, at - static_cast<double>(index)};
+}
+
+}  // namespace
+
+core::Point2 evaluate(const PlanarCurve& c, double t) {
+  return std::visit([t](const auto& v) { return evaluate(v, t); }, c.value);
+}
+
+curve::Jet2 jet(const PlanarCurve& c, double t) {
+  return std::visit([t](const auto& v) { return jet(v, t); }, c.value);
+}
+
+std::vector<double> breakpoints(const PlanarCurve& c) {
+  return std::visit([](const auto& v) { return breakpoints(v); }, c.value);
+}
+
+PlanarCurve reverse(const PlanarCurve& c) {
+  return std::visit([](const auto& v) { return PlanarCurve{reverse(v)}; }, c.value);
+}
+
+PlanarCurve transform(const PlanarCurve& c, const core::Similarity2& map) {
+  return std::visit([&](const auto& v) { return PlanarCurve{transform(v, map)}; }, c.value);
+}
+
+core::Result<void> validate(const PlanarCurve& c) {
+  return std::visit([](const auto& v) { return validate(v); }, c.value);
+}
+
+core::Point2 evaluate(const Path& path, double t) {
+  const Share share = share_of(path, t);
+  return evaluate(path.curves[share.index], share.t);
+}
+
+curve::Jet2 jet(const Path& path, double t) {
+  const Share share = share_of(path, t);
+  const auto own = jet(path.curves[share.index], share.t);
+  return curve::rescaled(own, static_cast<double>(path.curves.size()));
+}
+
+std::vector<double> breakpoints(const Path& path) {
+  std::vector<double> all{0};
+  const double n = static_cast<double>(path.curves.size());
+  for (std::size_t i = 0; i < path.curves.size(); ++i) {
+    const auto own = breakpoints(path.curves[i]);
+    for (std::size_t k = 1; k < own.size(); ++k)
+      all.push_back((static_cast<double>(i) + own[k]) / n);
+  }
+  all.back() = 1;
+  return all;
+}
+
+Path reverse(const Path& path) {
+  Path result{{}, path.closed};
+  for (auto it = path.curves.rbegin(); it != path.curves.rend(); ++it)
+    result.curves.push_back(reverse(*it));
+  return result;
+}
+
+Path transform(const Path& path, const core::Similarity2& map) {
+  Path result{{}, path.closed};
+  for (const PlanarCurve& c : path.curves) result.curves.push_back(transform(c, map));
+  return result;
+}
+
+core::Result<void> validate(const Path& path) {
+  if (path.curves.empty())
+    return core::fail(core::ErrorCode::bad_input, "a path without curves",
+                      "give at least one curve", "curves");
+  for (std::size_t i = 0; i < path.curves.size(); ++i) {
+    auto own = validate(path.curves[i]);
+    if (own) continue;
+    own.error().path = "curves[" + std::to_string(i) + "]" +
+                       (own.error().path.empty() ? "" : "." + own.error().path);
+    return own;
+  }
+  return {};
+}
+
+}  // namespace keyline::document

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/core/similarity.h"
+#include "keyline/curve/bezier.h"
+#include "keyline/curve/bspline.h"
+#include "keyline/curve/jet.h"
+#include "keyline/curve/polyline.h"
+#include "keyline/lac/chain.h"
+
+namespace keyline::document {
+
+/// Any one planar curve of the public interface. Models curve::PlanarCurve.
+struct PlanarCurve {
+  std::variant<curve::Polyline2, curve::Bezier2, curve::BSpline2, lac::Chain> value;
+};
+
+/// Curves end to end; corners lie between its members. Models curve::PlanarCurve: the parameter
+/// gives every member an equal share of [0, 1].
+struct Path {
+  std::vector<PlanarCurve> curves;
+  bool closed = false;
+};
+
+core::Point2 evaluate(const PlanarCurve& c, double t);
+curve::Jet2 jet(const PlanarCurve& c, double t);
+std::vector<double> breakpoints(const PlanarCurve& c);
+PlanarCurve reverse(const PlanarCurve& c);
+PlanarCurve transform(const PlanarCurve& c, const core::Similarity2& map);
+/// Finite numbers, knots in order, lengths positive…: what each type states of itself.
+core::Result<void> validate(const PlanarCurve& c);
+
+core::Point2 evaluate(const Path& path, double t);
+curve::Jet2 jet(const Path& path, double t);
+std::vector<double> breakpoints(const Path& path);
+Path reverse(const Path& path);
+Path transform(const Path& path, const core::Similarity2& map);
+/// Not empty, members valid.
+core::Result<void> validate(const Path& path);
+
+/// A path with where it comes from and how it is drawn.
+struct NamedPath {
+  std::string name;
+  std::string layer;
+  Path path;
+  double stroke_width = 0;  ///< in the document's unit; 0: none given
+};
+
+/// What a file holds once transforms are applied.
+struct Document {
+  std::string unit;  ///< "mm", "in", "pt", "px" or empty where the file gives none
+  std::vector<NamedPath> paths;
+  std::vector<std::string> skipped;  ///< what was in the file and is not here, in words
+};
+
+}  // namespace keyline::document
