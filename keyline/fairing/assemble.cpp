@@ -1,0 +1,152 @@
+#include "keyline/fairing/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/fairing/reading.h"
+#include "keyline/fairing/runs.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr int kSettleRounds = 8;
+
+}  // namespace
+
+RegionPoints points_in_region(const std::vector<core::Point2>& points, core::Interval region) {
+  std::vector<double> at(points.size(), 0);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    at[i] = at[i - 1] + core::distance(points[i - 1], points[i]);
+  RegionPoints found;
+  const double total = at.back();
+  const auto first = std::lower_bound(at.begin(), at.end(), region.low * total);
+  const auto last = std::upper_bound(at.begin(), at.end(), region.high * total);
+  found.first = static_cast<std::size_t>(first - at.begin());
+  found.last = static_cast<std::size_t>(last - at.begin()) - 1;
+  found.t_first = at[found.first] / total;
+  found.t_last = at[found.last] / total;
+  return found;
+}
+
+std::vector<PointPlace> place_points(const RunResult& result, const Run& run) {
+  FitChain chain;
+  chain.closed = result.chain.closed;
+  const std::vector<core::Pose2> poses = lac::joints(result.chain);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool last = i + 1 == poses.size();
+    const lac::Piece& piece = result.chain.pieces[last ? i - 1 : i];
+    chain.joints.push_back({poses[i].position, poses[i].direction,
+                            last ? piece.curvature_end : piece.curvature_start});
+  }
+  std::vector<double> end{0};
+  for (const lac::Piece& piece : result.chain.pieces) {
+    chain.pieces.push_back({.length = piece.length, .alpha = piece.alpha});
+    end.push_back(end.back() + piece.length);
+  }
+  // First guess: shares of the length; then where the chain's own samples lie nearest, in order.
+  const int samples = static_cast<int>(std::clamp<std::size_t>(4 * run.points.size(), 400, 8000));
+  const std::vector<core::Point2> track = lac::sample(result.chain, samples);
+  const double step = end.back() / (samples - 1);
+  std::vector<FitPoint> points;
+  double at = 0;
+  const double total = polygon_length(run.points, run.closed);
+  // Closed chains start wherever their solving did: begin at the sample nearest the first point.
+  std::size_t base = 0;
+  if (chain.closed) {
+    for (std::size_t k = 1; k < track.size(); ++k)
+      if (core::distance(track[k], run.points[0]) < core::distance(track[base], run.points[0]))
+        base = k;
+  }
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    if (j > 0) at += core::distance(run.points[j - 1], run.points[j]);
+    const long guess = std::lround(at / total * (samples - 1));
+    const long reach = std::max<long>(5, samples / 25);
+    long best = guess;
+    double least = HUGE_VAL;
+    for (long k = guess - reach; k <= guess + reach; ++k) {
+      long where = k;
+      if (chain.closed)
+        where = ((static_cast<long>(base) + k) % (samples - 1) + samples - 1) % (samples - 1);
+      else if (k < 0 || k >= samples)
+        continue;
+      const double d = core::distance(track[where], run.points[j]);
+      if (d < least) {
+        least = d;
+        best = where;
+      }
+    }
+    const double s = std::clamp(step * static_cast<double>(best), 0.0, end.back());
+    const auto next = std::upper_bound(end.begin() + 1, end.end() - 1, s);
+    const int piece = static_cast<int>(next - end.begin()) - 1;
+    chain.feet.push_back({piece, (s - end[piece]) / chain.pieces[piece].length});
+    points.push_back({.position = run.points[j]});
+  }
+  const std::vector<double> offset = settle_feet(chain, points, kSettleRounds);
+  std::vector<PointPlace> places(points.size());
+  for (std::size_t j = 0; j < points.size(); ++j) places[j] = {offset[j], chain.feet[j].piece};
+  return places;
+}
+
+void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve,
+              double start) {
+  const std::vector<PointPlace> places = place_points(solved, run);
+  std::vector<int> count(solved.chain.pieces.size(), 0);
+  std::vector<double> deviation(solved.chain.pieces.size(), 0);
+  double square = 0;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const PointPlace& place = places[j];
+    ++count[place.piece];
+    square += place.offset * place.offset;
+    deviation[place.piece] = std::max(deviation[place.piece], std::abs(place.offset));
+    double& kept = result.offsets[run.index[j]];
+    if (std::abs(place.offset) >= std::abs(kept)) kept = place.offset;
+  }
+  const double rms = std::sqrt(square / static_cast<double>(places.size()));
+  std::vector<FairPiece> pieces = read_pieces(solved.chain, std::max(result.noise, rms), count);
+  for (FairPiece& piece : pieces) {
+    piece.curve = curve;
+    piece.start += start;
+    piece.deviation = deviation[piece.piece];
+    result.pieces.push_back(std::move(piece));
+  }
+}
+
+void measure_deviation(FairResult& result) {
+  double square = 0;
+  result.max_deviation = 0;
+  for (std::size_t j = 0; j < result.offsets.size(); ++j) {
+    const double d = std::abs(result.offsets[j]);
+    square += d * d;
+    if (d <= result.max_deviation) continue;
+    result.max_deviation = d;
+    result.worst_point = j;
+  }
+  result.rms_deviation = std::sqrt(square / static_cast<double>(result.offsets.size()));
+  result.within_tolerance = result.max_deviation <= result.tolerance;
+}
+
+void assemble(FairResult& result, const std::vector<RunResult>& solved,
+              const std::optional<curve::BSpline2>& before,
+              const std::optional<curve::BSpline2>& after) {
+  if (before) result.curves.push_back(*before);
+  for (const RunResult& run : solved) result.curves.push_back(run.chain);
+  if (after) result.curves.push_back(*after);
+  if (before)
+    for (FairPiece& piece : result.pieces) ++piece.curve;
+  std::vector<analysis::CurveView> views;
+  for (const FairCurve& c : result.curves)
+    views.push_back(std::visit([](const auto& v) { return analysis::view(v); }, c));
+  for (std::size_t i = 0; i < result.curves.size(); ++i) {
+    const auto* chain = std::get_if<lac::Chain>(&result.curves[i]);
+    if (!chain) continue;
+    const std::vector<lac::Segment> segments = lac::segments(*chain);
+    const auto inner = analysis::continuity(segments, chain->closed);
+    result.joints.insert(result.joints.end(), inner.begin(), inner.end());
+  }
+  if (views.size() > 1) {
+    const auto outer = analysis::continuity(views, result.closed);
+    result.joints.insert(result.joints.end(), outer.begin(), outer.end());
+  }
+}
+
+}  // namespace keyline::fairing::detail

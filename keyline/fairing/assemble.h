@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "keyline/fairing/fair.h"
+#include "keyline/fairing/run.h"
+
+/// Putting solved runs together into the answer.
+namespace keyline::fairing::detail {
+
+/// Points of a region given in fractions of the length, with the spline parameters (chord length)
+/// of the first and the last of them.
+struct RegionPoints {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  double t_first = 0;
+  double t_last = 1;
+};
+RegionPoints points_in_region(const std::vector<core::Point2>& points, core::Interval region);
+
+/// Adds a run's pieces and its points' offsets.
+void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start);
+
+/// Largest and mean square deviation of the offsets collected, and whether they pass.
+void measure_deviation(FairResult& result);
+
+/// Curves in order, joints between and inside them.
+void assemble(FairResult& result, const std::vector<RunResult>& solved,
+              const std::optional<curve::BSpline2>& before,
+              const std::optional<curve::BSpline2>& after);
+
+}  // namespace keyline::fairing::detail

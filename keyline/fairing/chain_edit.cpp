@@ -1,0 +1,136 @@
+#include "keyline/fairing/chain_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/lac/sensitivity.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+/// Mean curvature of a piece, to the few digits a starting guess needs.
+double mean_curvature(double k0, double k1, double alpha) {
+  constexpr double node[4] = {0.0694318442029737, 0.330009478207572, 0.669990521792428,
+                              0.930568155797026};
+  constexpr double weight[4] = {0.173927422568727, 0.326072577431273, 0.326072577431273,
+                                0.173927422568727};
+  double sum = 0;
+  for (int i = 0; i < 4; ++i)
+    sum += weight[i] * lac::curvature_with_derivatives(k0, k1, alpha, node[i]).curvature;
+  return sum;
+}
+
+/// Slope with which a piece from k0 to k1 turns by `mean` times its length; -1 where none does.
+double slope_of_mean(double k0, double mean, double k1) {
+  const bool crosses = k0 * k1 <= 0;
+  double low = crosses ? -5 : -8;
+  double high = crosses ? -0.3 : 8;
+  if (std::abs(k1 - k0) < 1e-3 * std::max(std::abs(k0), std::abs(k1))) return -1;
+  const double at_low = mean_curvature(k0, k1, low) - mean;
+  const double at_high = mean_curvature(k0, k1, high) - mean;
+  if (at_low * at_high > 0) return std::abs(at_low) < std::abs(at_high) ? low : high;
+  for (int i = 0; i < 24; ++i) {
+    const double alpha = 0.5 * (low + high);
+    const double here = mean_curvature(k0, k1, alpha) - mean;
+    (here * at_low > 0 ? low : high) = alpha;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Slope, and where no slope does it the end curvatures, that turn a merged piece by `mean` per
+/// length.
+void guess_merged(FitJoint& from, FitPiece& piece, FitJoint& to, double mean) {
+  const double low = std::min(from.curvature, to.curvature);
+  const double high = std::max(from.curvature, to.curvature);
+  const double margin = 0.02 * (high - low);
+  if (mean > low + margin && mean < high - margin) {
+    piece.alpha = slope_of_mean(from.curvature, mean, to.curvature);
+    return;
+  }
+  piece.alpha = -1;
+  const double shift = mean - 0.5 * (low + high);
+  from.curvature += shift;
+  to.curvature += shift;
+}
+
+}  // namespace
+
+FitChain without_joint(const FitChain& chain, int at) {
+  FitChain next = chain;
+  FitPiece& kept = next.pieces[at - 1];
+  const double first = kept.length;
+  const double second = chain.pieces[at].length;
+  const double share = first / (first + second);
+  kept.length = first + second;
+  kept.kind = PieceKind::curve;
+  const double turning = next.joints[at + 1].direction - next.joints[at - 1].direction;
+  guess_merged(next.joints[at - 1], kept, next.joints[at + 1], turning / kept.length);
+  next.joints.erase(next.joints.begin() + at);
+  next.pieces.erase(next.pieces.begin() + at);
+  for (Foot& foot : next.feet) {
+    if (foot.piece == at - 1) {
+      foot.fraction *= share;
+    } else if (foot.piece >= at) {
+      if (foot.piece == at) foot.fraction = share + (1 - share) * foot.fraction;
+      --foot.piece;
+    }
+  }
+  return next;
+}
+
+void rotate_start(FitChain& chain, int by) {
+  const int n = static_cast<int>(chain.pieces.size());
+  for (int k = 0; k < by; ++k) {
+    chain.joints.erase(chain.joints.begin());
+    chain.joints.push_back(chain.joints.front());
+    chain.joints.back().direction += chain.turning;
+  }
+  std::rotate(chain.pieces.begin(), chain.pieces.begin() + by % n, chain.pieces.end());
+  for (Foot& foot : chain.feet) foot.piece = (foot.piece + n - by % n) % n;
+}
+
+Window cut_window(const FitChain& chain, const std::vector<FitPoint>& points, int first,
+                  int count) {
+  Window w;
+  w.first = first;
+  const int n = static_cast<int>(chain.pieces.size());
+  w.chain.joints.assign(chain.joints.begin() + first, chain.joints.begin() + first + count + 1);
+  w.chain.pieces.assign(chain.pieces.begin() + first, chain.pieces.begin() + first + count);
+  w.chain.hold_start = chain.closed || first > 0 ? Hold::curvature : chain.hold_start;
+  w.chain.hold_end = chain.closed || first + count < n ? Hold::curvature : chain.hold_end;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const Foot& foot = chain.feet[j];
+    if (foot.piece < first || foot.piece >= first + count) continue;
+    w.chain.feet.push_back({foot.piece - first, foot.fraction});
+    w.points.push_back(points[j]);
+    w.index.push_back(j);
+  }
+  return w;
+}
+
+/// Puts a solved window, one piece shorter than cut, back into the whole.
+FitChain paste_window(const FitChain& whole, const Window& w, int count) {
+  FitChain next;
+  next.closed = whole.closed;
+  next.turning = whole.turning;
+  next.hold_start = whole.hold_start;
+  next.hold_end = whole.hold_end;
+  const auto tail = w.first + count;
+  next.joints.assign(whole.joints.begin(), whole.joints.begin() + w.first);
+  next.joints.insert(next.joints.end(), w.chain.joints.begin(), w.chain.joints.end());
+  next.joints.insert(next.joints.end(), whole.joints.begin() + tail + 1, whole.joints.end());
+  next.pieces.assign(whole.pieces.begin(), whole.pieces.begin() + w.first);
+  next.pieces.insert(next.pieces.end(), w.chain.pieces.begin(), w.chain.pieces.end());
+  next.pieces.insert(next.pieces.end(), whole.pieces.begin() + tail, whole.pieces.end());
+  next.feet = whole.feet;
+  const int grown = static_cast<int>(w.chain.pieces.size()) - count;
+  for (Foot& foot : next.feet)
+    if (foot.piece >= tail) foot.piece += grown;
+  for (std::size_t k = 0; k < w.index.size(); ++k) {
+    next.feet[w.index[k]] = w.chain.feet[k];
+    next.feet[w.index[k]].piece += w.first;
+  }
+  return next;
+}
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/fairing/chain_fit.h"
+
+/// Surgery on a chain under construction.
+namespace keyline::fairing::detail {
+
+/// The chain without the joint before piece `at` (1 <= at < pieces): the two pieces become one,
+/// its slope guessed so that it turns as much as they did together.
+FitChain without_joint(const FitChain& chain, int at);
+
+/// The closed chain started `by` joints later.
+void rotate_start(FitChain& chain, int by);
+
+/// Pieces [first, first + count) of a chain on their own, both end joints held.
+struct Window {
+  FitChain chain;
+  std::vector<FitPoint> points;
+  std::vector<std::size_t> index;  ///< of each point in the whole
+  int first = 0;
+};
+Window cut_window(const FitChain& chain, const std::vector<FitPoint>& points, int first, int count);
+
+/// Puts a window cut with `count` pieces, and changed since, back into the whole.
+FitChain paste_window(const FitChain& whole, const Window& window, int count);
+
+}  // namespace keyline::fairing::detail

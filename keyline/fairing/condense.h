@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "keyline/fairing/chain_fit.h"
+
+namespace keyline::fairing::detail {
+
+/// Points as the chain fit takes them: one each, or, where there are more than `most`, means of
+/// equal runs of neighbours that know their spread. weights: empty or one per point.
+std::vector<FitPoint> condense(std::span<const core::Point2> points,
+                               std::span<const double> weights, std::size_t most);
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,223 @@
+#include "keyline/fairing/fair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "keyline/fairing/assemble.h"
+#include "keyline/fairing/reading.h"
+#include "keyline/fairing/runs.h"
+
+namespace keyline::fairing {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+
+Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
+  if (line.points.size() < 2)
+    return fail(ErrorCode::bad_input, "a key-line needs at least two points", "give more points");
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    return fail(ErrorCode::bad_input, "the tolerance is not a length",
+                "give a number greater than 0", "tolerance");
+  if (options.order < 4 || options.order > 6)
+    return fail(ErrorCode::bad_input, "the order of the spline is out of range", "give 4, 5 or 6",
+                "order");
+  if (options.pieces < 0)
+    return fail(ErrorCode::bad_input, "the number of pieces is negative", "give 1 or more",
+                "pieces");
+  for (const std::size_t index : options.must_pass)
+    if (index >= line.points.size())
+      return fail(ErrorCode::bad_input, "a point to be passed does not exist",
+                  fmt::format("give indices below {}", line.points.size()), "must_pass");
+  if (const auto& r = options.region; r && !(r->low >= 0 && r->low < r->high && r->high <= 1))
+    return fail(ErrorCode::bad_input, "the region is not a part of the key-line",
+                "give a:b with 0 <= a < b <= 1", "region");
+  return {};
+}
+
+void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
+  const std::string where = fmt::format("run {}", index);
+  result.notes.push_back(fmt::format("{}: {} pieces, merged from {}", where,
+                                     run.chain.pieces.size(), run.start_pieces));
+  if (run.exact)
+    result.notes.push_back(where +
+                           ": the points are reproduced to rounding, so the chain that "
+                           "does so is given rather than a shorter one");
+  if (run.straightened > 0)
+    result.notes.push_back(
+        fmt::format("{}: {} pieces are exact lines or arcs", where, run.straightened));
+}
+
+/// The whole of one key-line.
+class Job {
+ public:
+  Job(const acquire::KeyLine& line, const FairOptions& options) : line_(line), options_(options) {
+    result_.length = detail::polygon_length(line.points, line.closed);
+    result_.noise = line.noise;
+    result_.tolerance = options.tolerance > 0
+                            ? options.tolerance
+                            : default_tolerance(line.noise, result_.length, line.points.size());
+    result_.closed = line.closed || line.ends_meet;
+    result_.notes = line.report.notes;
+  }
+
+  Result<FairResult> run() {
+    if (options_.region) return run_region();
+    runs_ = detail::runs_of(line_, options_);
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      if (auto done = fair_one(k, {}); !done) return std::unexpected(done.error());
+    return finish();
+  }
+
+ private:
+  core::Progress progress_of(std::size_t k) const {
+    const double n = static_cast<double>(runs_.size());
+    return core::part_of(options_.progress, static_cast<double>(k) / n,
+                         static_cast<double>(k + 1) / n);
+  }
+
+  detail::RunOptions run_options(std::size_t k) const {
+    const core::Progress whole = progress_of(k);
+    const double share = runs_[k].length / result_.length;
+    const int pieces = options_.pieces == 0
+                           ? 0
+                           : std::max(1, static_cast<int>(std::lround(options_.pieces * share)));
+    return {result_.tolerance, line_.noise, pieces, options_.threads, core::part_of(whole, 0.4, 1)};
+  }
+
+  Result<curve::BSpline2> spline_of(std::size_t k) {
+    const detail::Run& run = runs_[k];
+    fit::SplineFitOptions fit = fit::SplineFitOptions::for_fairing();
+    fit.order = std::min<int>(options_.order, static_cast<int>(run.points.size()));
+    fit.seed = options_.seed;
+    fit.threads = options_.threads;
+    fit.closed = run.closed && run.points.size() > 8;
+    fit.must_pass = run.must_pass;
+    fit.rounding = line_.rounding;
+    fit.progress = core::part_of(progress_of(k), 0, 0.4);
+    const auto found = fit::fit_spline(run.points, run.weights, fit);
+    if (!found) return std::unexpected(found.error());
+    result_.spline_bic += found->bic;
+    return found->curve;
+  }
+
+  Result<void> fair_one(std::size_t k, const curve::BSpline2& given) {
+    if (options_.progress.stop_requested() && solved_.empty())
+      return fail(ErrorCode::cancelled, "cancelled before there was a result", "");
+    curve::BSpline2 spline = given;
+    if (spline.control.empty()) {
+      auto own = spline_of(k);
+      if (!own) return std::unexpected(own.error());
+      spline = std::move(*own);
+    }
+    split(spline, k);
+    solved_.push_back(detail::fair_run(runs_[k], spline, run_options(k)));
+    result_.cancelled = result_.cancelled || solved_.back().cancelled;
+    note_run(result_, solved_.back(), k);
+    result_.splines.push_back(std::move(spline));
+    return {};
+  }
+
+  void split(const curve::BSpline2& spline, std::size_t k) {
+    analysis::SplitOptions options;
+    options.noise = std::max(line_.noise, 0.1 * result_.tolerance);
+    const analysis::Split found = analysis::split_monotone(spline, options);
+    if (!found.merged.empty())
+      result_.notes.push_back(fmt::format(
+          "run {}: {} waves of the spline's curvature that move it by less than {:.3g} were taken "
+          "for noise",
+          k, found.merged.size(), found.threshold));
+    for (const auto& piece : found.pieces) {
+      result_.monotone.push_back(piece);
+      result_.monotone_spline.push_back(static_cast<int>(k));
+    }
+  }
+
+  Result<FairResult> run_region() {
+    const core::Interval region = *options_.region;
+    acquire::KeyLine open = line_;
+    open.corners.clear();
+    if (line_.closed)
+      return fail(ErrorCode::unsupported, "a part of a closed key-line cannot be faired alone",
+                  "open it, or fair the whole", "region");
+    runs_ = {detail::run_between(open, 0, line_.points.size() - 1)};
+    auto whole = spline_of(0);
+    if (!whole) return std::unexpected(whole.error());
+    const auto range = detail::points_in_region(line_.points, region);
+    if (range.last < range.first + 4)
+      return fail(ErrorCode::bad_input, "the region holds fewer than five points",
+                  "choose a larger region", "region");
+    const curve::BSpline2 before = subcurve(*whole, 0, range.t_first);
+    const curve::BSpline2 after = subcurve(*whole, range.t_last, 1);
+    const curve::BSpline2 inside = subcurve(*whole, range.t_first, range.t_last);
+    runs_ = {detail::run_between(line_, range.first, range.last)};
+    runs_[0].clamp_start = range.first == 0 ? options_.clamp_start : Clamp::g2;
+    runs_[0].clamp_end = range.last + 1 == line_.points.size() ? options_.clamp_end : Clamp::g2;
+    if (auto done = fair_one(0, inside); !done) return std::unexpected(done.error());
+    if (range.first > 0) kept_before_ = before;
+    if (range.last + 1 < line_.points.size()) kept_after_ = after;
+    return finish();
+  }
+
+  Result<FairResult> finish() {
+    if (auto read = read_all(); !read) return std::unexpected(read.error());
+    if (!options_.interpretations.empty()) {
+      if (auto done = reinterpret(); !done) return std::unexpected(done.error());
+    }
+    detail::assemble(result_, solved_, kept_before_, kept_after_);
+    return std::move(result_);
+  }
+
+  /// Pieces, offsets and the deviation from the solved runs as they stand.
+  Result<void> read_all() {
+    result_.pieces.clear();
+    result_.offsets.assign(line_.points.size(), 0);
+    result_.within_tolerance = true;
+    double start = 0;
+    for (std::size_t k = 0; k < solved_.size(); ++k) {
+      detail::read_run(result_, solved_[k], runs_[k], static_cast<int>(k), start);
+      start += lac::arc_length(solved_[k].chain);
+    }
+    detail::measure_deviation(result_);
+    return {};
+  }
+
+  Result<void> reinterpret() {
+    std::vector<std::vector<detail::PieceWish>> wishes(solved_.size());
+    for (const InterpretationOverride& asked : options_.interpretations) {
+      if (asked.piece < 0 || asked.piece >= static_cast<int>(result_.pieces.size()))
+        return fail(ErrorCode::bad_input,
+                    fmt::format("there is no piece {} to interpret", asked.piece),
+                    fmt::format("the key-line has pieces 0 to {}", result_.pieces.size() - 1),
+                    "interpretation");
+      const FairPiece& piece = result_.pieces[asked.piece];
+      auto wish = detail::wish_for(asked, piece.piece);
+      if (!wish) return std::unexpected(wish.error());
+      wishes[piece.curve].push_back(*wish);
+    }
+    for (std::size_t k = 0; k < solved_.size(); ++k)
+      if (!wishes[k].empty())
+        detail::apply_wishes(solved_[k], runs_[k], wishes[k], run_options(k), result_.notes);
+    return read_all();
+  }
+
+  const acquire::KeyLine& line_;
+  const FairOptions& options_;
+  std::vector<detail::Run> runs_;
+  std::vector<detail::RunResult> solved_;
+  std::optional<curve::BSpline2> kept_before_;
+  std::optional<curve::BSpline2> kept_after_;
+  FairResult result_;
+};
+
+}  // namespace
+
+Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
+  if (auto sound = check(line, options); !sound) return std::unexpected(sound.error());
+  return Job(line, options).run();
+}
+
+}  // namespace keyline::fairing

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "keyline/acquire/key_line.h"
+#include "keyline/analysis/continuity.h"
+#include "keyline/analysis/rhythm.h"
+#include "keyline/analysis/split.h"
+#include "keyline/core/error.h"
+#include "keyline/core/progress.h"
+#include "keyline/curve/bspline.h"
+#include "keyline/fit/fit_spline.h"
+#include "keyline/lac/chain.h"
+
+/// The main job, [Fairing]: from a key-line's points to a faired chain and its verdict.
+namespace keyline::fairing {
+
+/// What is held at an end of an open key-line: its position, also its direction, also its
+/// curvature, as the spline through the points (or the given curve) has them.
+enum class Clamp { none, g0, g1, g2 };
+
+/// A reading of one piece of the answer that replaces the one found.
+struct InterpretationOverride {
+  int piece = 0;  ///< index into FairResult::pieces
+  std::optional<analysis::Rhythm> rhythm;
+  std::optional<double> slope;
+};
+
+struct FairOptions {
+  double tolerance =
+      0;           ///< largest distance of a point, in the points' unit; 0: by the default rule
+  int pieces = 0;  ///< wanted number of pieces; 0: as few as the tolerance allows
+  bool keep_corners = true;
+  Clamp clamp_start = Clamp::none;
+  Clamp clamp_end = Clamp::none;
+  std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
+  std::vector<InterpretationOverride> interpretations;
+  std::vector<std::size_t> must_pass;  ///< indices into the key-line's points
+  int order = 5;                       ///< of the spline, 4 to 6
+  std::uint64_t seed = 1;
+  int threads = 0;
+  core::Progress progress;
+};
+
+/// One log-aesthetic piece of the answer and how it reads.
+struct FairPiece {
+  int curve = 0;     ///< which of FairResult::curves
+  int piece = 0;     ///< which of its pieces
+  double start = 0;  ///< arc length from the start of the whole
+  double length = 0;
+  analysis::Rhythm rhythm = analysis::Rhythm::straight;
+  std::vector<double> slopes;
+  double volume = 0;
+  double deviation = 0;                                   ///< largest distance of its points
+  std::vector<analysis::Interpretation> interpretations;  ///< of the points' spline, best first
+  bool overridden = false;
+};
+
+/// A member of the answer: a faired chain, or a part of the given curve that was kept.
+using FairCurve = std::variant<lac::Chain, curve::BSpline2>;
+
+struct FairResult {
+  std::vector<FairCurve> curves;  ///< end to end; corners between them
+  bool closed = false;
+  std::vector<curve::BSpline2> splines;  ///< step 2, one per run between corners
+  double spline_bic = 0;
+  std::vector<analysis::MonotonePiece> monotone;  ///< step 3, of all splines in order
+  std::vector<int> monotone_spline;               ///< which spline each belongs to
+  std::vector<FairPiece> pieces;
+  std::vector<double> offsets;  ///< of every point, positive left of the curve
+  double length = 0;
+  double noise = 0;
+  double tolerance = 0;
+  double max_deviation = 0;
+  double rms_deviation = 0;
+  std::size_t worst_point = 0;
+  bool within_tolerance = false;
+  bool cancelled = false;
+  std::vector<analysis::JointContinuity> joints;  ///< inside chains and between curves
+  std::vector<std::string> notes;  ///< everything dropped, merged, overridden, in words
+};
+
+/// Fairs a key-line: corners become ends of chains; each run gets its spline (genetic knots), its
+/// split and its G2 chain of log-aesthetic pieces, as few as the tolerance allows.
+///
+/// Default tolerance: the larger of three times the noise (more for many points, so that one
+/// normal error in twenty runs exceeds it) and 0.05 % of the length.
+/// Returns: bad_input for fewer than two points or options out of range. A chain that misses the
+///          tolerance is returned with within_tolerance false. Cancelled work returns the best
+///          found with cancelled true, or a `cancelled` failure where there is nothing yet.
+/// Invariance: moving, turning, scaling or reversing the points changes the answer by rounding.
+/// Source:  [Fairing]; docs/design/chain-fit.md for step 5.
+core::Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options = {});
+
+/// The default tolerance for n points of a curve of that length.
+double default_tolerance(double noise, double length, std::size_t n);
+
+}  // namespace keyline::fairing

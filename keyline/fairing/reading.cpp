@@ -1,0 +1,98 @@
+#include "keyline/fairing/reading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/analysis/volume.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kZeroBand = 0.1;  // slopes of at most this size read as zero
+
+std::vector<analysis::Interpretation> readings_of(const lac::Chain& piece, double noise,
+                                                  int points) {
+  const auto& p = piece.pieces.front();
+  if (p.curvature_start * p.curvature_end < 0) return {};  // an S has one reading
+  analysis::RhythmOptions options;
+  options.noise = noise;
+  options.observations = std::max(10, points);
+  const auto reading = analysis::classify_rhythm(analysis::curvature_profile(piece, 201), options);
+  if (!reading) return {};
+  return reading->interpretations;
+}
+
+}  // namespace
+
+analysis::Rhythm rhythm_of(const lac::Piece& piece) {
+  using analysis::Rhythm;
+  if (piece.curvature_start == 0 && piece.curvature_end == 0) return Rhythm::straight;
+  if (piece.curvature_start == piece.curvature_end) return Rhythm::arc;
+  if (std::abs(piece.alpha) <= kZeroBand) return Rhythm::zero;
+  return piece.alpha < 0 ? Rhythm::minus : Rhythm::plus;
+}
+
+std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
+                                   const std::vector<int>& points_per_piece) {
+  std::vector<FairPiece> pieces;
+  double start = 0;
+  const std::vector<lac::Segment> segments = lac::segments(chain);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const lac::Chain own = lac::chain_of(segments[i]);
+    FairPiece piece;
+    piece.piece = static_cast<int>(i);
+    piece.start = start;
+    piece.length = segments[i].length;
+    piece.rhythm = rhythm_of(chain.pieces[i]);
+    if (piece.rhythm != analysis::Rhythm::straight && piece.rhythm != analysis::Rhythm::arc)
+      piece.slopes = {segments[i].alpha};
+    piece.volume = analysis::volume(own);
+    piece.interpretations = readings_of(own, noise, points_per_piece[i]);
+    start += piece.length;
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+core::Result<PieceWish> wish_for(const InterpretationOverride& asked, int piece_in_chain) {
+  using analysis::Rhythm;
+  PieceWish wish;
+  wish.piece = piece_in_chain;
+  if (asked.slope) {
+    if (!(std::abs(*asked.slope) <= kSteepestSlope))
+      return core::fail(core::ErrorCode::bad_input, "the slope is out of range",
+                        "give a slope between -12 and 12", "interpretation");
+    wish.alpha_low = wish.alpha_high = *asked.slope;
+    return wish;
+  }
+  switch (*asked.rhythm) {
+    case Rhythm::straight:
+      wish.kind = PieceKind::line;
+      break;
+    case Rhythm::arc:
+      wish.kind = PieceKind::arc;
+      break;
+    case Rhythm::minus:
+      wish.alpha_high = -kZeroBand;
+      break;
+    case Rhythm::zero:
+      wish.alpha_low = wish.alpha_high = 0;
+      break;
+    case Rhythm::plus:
+      wish.alpha_low = kZeroBand;
+      break;
+    case Rhythm::plus_minus:
+    case Rhythm::minus_plus:
+      wish.compound = true;
+      wish.plus_first = *asked.rhythm == Rhythm::plus_minus;
+      break;
+    case Rhythm::arcs:
+      return core::fail(core::ErrorCode::unsupported,
+                        "arcs joined end to end are not G2 and no chain can be made of them",
+                        "ask for arc, minus, zero, plus, plus+minus or minus+plus",
+                        "interpretation");
+  }
+  return wish;
+}
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "keyline/core/similarity.h"
+#include "keyline/fairing/chain_search.h"
+#include "keyline/fairing/fair.h"
+#include "keyline/lac/chain.h"
+
+/// One smooth stretch of a key-line between corners.
+namespace keyline::fairing::detail {
+
+struct Run {
+  std::vector<core::Point2> points;
+  std::vector<double> weights;         ///< empty or one per point
+  std::vector<std::size_t> index;      ///< of each point in the key-line
+  std::vector<std::size_t> must_pass;  ///< into points
+  bool closed = false;
+  Clamp clamp_start = Clamp::none;
+  Clamp clamp_end = Clamp::none;
+  double length = 0;
+};
+
+struct RunOptions {
+  double tolerance = 0;  ///< in the points' unit
+  double noise = 0;
+  int pieces = 0;
+  int threads = 0;
+  core::Progress progress;
+};
+
+/// What a piece is asked to be.
+struct PieceWish {
+  int piece = 0;
+  std::optional<PieceKind> kind;
+  double alpha_low = -kSteepestSlope;
+  double alpha_high = kSteepestSlope;
+  bool compound = false;    ///< two slopes of opposite sign…
+  bool plus_first = false;  ///< …plus first along growing radius
+};
+
+/// The solved run: the chain in the points' frame, and the same under construction.
+struct RunResult {
+  lac::Chain chain;
+  FitChain fit;
+  std::vector<FitPoint> points;  ///< canonical, condensed, weighted as last fitted
+  core::Similarity2 to_canonical;
+  bool reversed = false;  ///< the canonical frame runs the other way
+  bool within_tolerance = false;
+  bool exact = false;  ///< reproduces the points to rounding
+  bool cancelled = false;
+  int start_pieces = 0;
+  int straightened = 0;  ///< pieces that became lines or arcs
+};
+
+/// The shortest chain within the tolerance, solved in a frame of the run's own (size 1, direction
+/// of travel by the shape), polished and laid out as one exact forward chain.
+RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options);
+
+/// Solves again with some pieces told what to be; indices count along the result's chain.
+/// Wishes that an inflection or a straight neighbour forbids are changed; `notes` says so.
+void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wishes,
+                  const RunOptions& options, std::vector<std::string>& notes);
+
+/// Where every point of the run stands beside the chain.
+struct PointPlace {
+  double offset = 0;  ///< signed distance, positive left of the chain
+  int piece = 0;      ///< of the chain as laid out
+};
+std::vector<PointPlace> place_points(const RunResult& result, const Run& run);
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,77 @@
+#include "keyline/fairing/run_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "keyline/core/angle.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kHeavy = 1e6;  // weight of a point that must be passed
+
+core::Point2 centroid_of(const std::vector<core::Point2>& points) {
+  core::Vector2 sum;
+  for (const core::Point2 p : points) sum = sum + (p - points.front());
+  return points.front() + sum / static_cast<double>(points.size());
+}
+
+/// True where the run is taken from its end.
+bool runs_backwards(const Run& run, core::Point2 centroid) {
+  const std::size_t n = run.points.size();
+  if (run.closed) {
+    double area = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      area += core::cross(run.points[i] - centroid, run.points[(i + 1) % n] - centroid);
+    return area < 0;
+  }
+  double balance = 0;
+  for (std::size_t i = 0; i < n / 2; ++i)
+    balance +=
+        core::distance(run.points[n - 1 - i], centroid) - core::distance(run.points[i], centroid);
+  return balance < 0;
+}
+
+std::size_t farthest(const std::vector<core::Point2>& points, core::Point2 centroid) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (core::distance(points[i], centroid) > core::distance(points[best], centroid) * (1 + 1e-12))
+      best = i;
+  return best;
+}
+
+}  // namespace
+
+RunFrame make_frame(const Run& run) {
+  RunFrame frame;
+  const std::size_t n = run.points.size();
+  const core::Point2 centroid = centroid_of(run.points);
+  frame.reversed = runs_backwards(run, centroid);
+  frame.order.resize(n);
+  std::iota(frame.order.begin(), frame.order.end(), std::size_t{0});
+  if (frame.reversed) std::reverse(frame.order.begin(), frame.order.end());
+  if (run.closed) {
+    const auto start =
+        std::find(frame.order.begin(), frame.order.end(), farthest(run.points, centroid));
+    std::rotate(frame.order.begin(), start, frame.order.end());
+  }
+  const core::Point2 first = run.points[frame.order.front()];
+  const double turn = -core::direction_of(centroid - first);
+  const double scale = 1 / run.length;
+  const core::Vector2 moved = core::rotate_ccw({first.x, first.y}, turn);
+  frame.to_canonical = {scale, turn, -scale * moved};
+  frame.weights.assign(n, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const core::Vector2 v = scale * core::rotate_ccw(run.points[frame.order[i]] - first, turn);
+    frame.points.push_back({v.x, v.y});
+    if (!run.weights.empty()) frame.weights[i] = run.weights[frame.order[i]];
+  }
+  for (const std::size_t index : run.must_pass) {
+    const auto at = std::find(frame.order.begin(), frame.order.end(), index);
+    frame.weights[at - frame.order.begin()] *= kHeavy;
+  }
+  return frame;
+}
+
+}  // namespace keyline::fairing::detail

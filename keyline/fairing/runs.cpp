@@ -1,0 +1,69 @@
+#include "keyline/fairing/runs.h"
+
+#include <algorithm>
+
+namespace keyline::fairing::detail {
+namespace {
+
+void add_point(Run& run, const acquire::KeyLine& line, std::size_t index,
+               const std::vector<std::size_t>& must_pass) {
+  if (std::find(must_pass.begin(), must_pass.end(), index) != must_pass.end())
+    run.must_pass.push_back(run.points.size());
+  run.points.push_back(line.points[index]);
+  if (!line.weights.empty()) run.weights.push_back(line.weights[index]);
+  run.index.push_back(index);
+}
+
+/// Points first … first + count of the line, wrapping around where it is closed.
+Run stretch(const acquire::KeyLine& line, std::size_t first, std::size_t count,
+            const std::vector<std::size_t>& must_pass) {
+  Run run;
+  for (std::size_t k = 0; k <= count; ++k)
+    add_point(run, line, (first + k) % line.points.size(), must_pass);
+  run.length = polygon_length(run.points, false);
+  return run;
+}
+
+}  // namespace
+
+double polygon_length(const std::vector<core::Point2>& points, bool closed) {
+  double sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += core::distance(points[i - 1], points[i]);
+  if (closed) sum += core::distance(points.back(), points.front());
+  return sum;
+}
+
+Run run_between(const acquire::KeyLine& line, std::size_t first, std::size_t last) {
+  return stretch(line, first, last - first, {});
+}
+
+std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options) {
+  const std::size_t n = line.points.size();
+  std::vector<std::size_t> cuts;
+  if (options.keep_corners)
+    for (const std::size_t c : line.corners)
+      if (line.closed || (c > 0 && c + 1 < n)) cuts.push_back(c);
+  std::vector<Run> runs;
+  if (line.closed && cuts.empty()) {
+    Run run = stretch(line, 0, n - 1, options.must_pass);
+    run.closed = true;
+    run.length = polygon_length(run.points, true);
+    return {run};
+  }
+  if (line.closed) {
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const std::size_t next = k + 1 < cuts.size() ? cuts[k + 1] : cuts[0] + n;
+      runs.push_back(stretch(line, cuts[k], next - cuts[k], options.must_pass));
+    }
+    return runs;
+  }
+  cuts.insert(cuts.begin(), 0);
+  cuts.push_back(n - 1);
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    runs.push_back(stretch(line, cuts[k], cuts[k + 1] - cuts[k], options.must_pass));
+  runs.front().clamp_start = options.clamp_start;
+  runs.back().clamp_end = options.clamp_end;
+  return runs;
+}
+
+}  // namespace keyline::fairing::detail

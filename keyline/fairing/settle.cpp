@@ -1,0 +1,131 @@
+#include "keyline/fairing/settle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace keyline::fairing::detail {
+namespace {
+
+double cost_of(const std::vector<FitPoint>& points, const std::vector<double>& offsets) {
+  double sum = 0;
+  for (std::size_t j = 0; j < points.size(); ++j) sum += points[j].weight * offsets[j] * offsets[j];
+  return sum;
+}
+
+/// The chain with one piece made a line or an arc; its neighbours are told they meet one.
+FitChain with_kind(const FitChain& chain, int at, PieceKind kind) {
+  FitChain next = chain;
+  FitPiece& piece = next.pieces[at];
+  piece.kind = kind;
+  piece.alpha = -1;
+  const auto set = [&](int joint, double curvature) {
+    const int last = static_cast<int>(next.pieces.size());
+    next.joints[joint].curvature = curvature;
+    if (next.closed && joint == 0) next.joints[last].curvature = curvature;
+    if (next.closed && joint == last) next.joints[0].curvature = curvature;
+  };
+  const double mean = 0.5 * (chain.joints[at].curvature + chain.joints[at + 1].curvature);
+  set(at, kind == PieceKind::line ? 0 : mean);
+  set(at + 1, kind == PieceKind::line ? 0 : mean);
+  if (kind != PieceKind::line) return next;
+  for (const int side : {at - 1, at + 1}) {
+    const int n = static_cast<int>(next.pieces.size());
+    if (!next.closed && (side < 0 || side >= n)) continue;
+    FitPiece& neighbour = next.pieces[(side + n) % n];
+    if (neighbour.kind == PieceKind::curve && !slope_held(neighbour))
+      neighbour.alpha = std::clamp(neighbour.alpha, -3.0, -0.5);
+  }
+  return next;
+}
+
+bool touches_line(const FitChain& chain, int at) {
+  const int n = static_cast<int>(chain.pieces.size());
+  for (const int side : {at - 1, at + 1}) {
+    if (!chain.closed && (side < 0 || side >= n)) continue;
+    if (chain.pieces[(side + n) % n].kind != PieceKind::curve) return true;
+  }
+  return false;
+}
+
+/// Curves that a kind could stand in for at all: the departure is a few tolerances at most.
+bool worth_trying(const FitChain& chain, int at, PieceKind kind, double tolerance) {
+  const double a = chain.joints[at].curvature;
+  const double b = chain.joints[at + 1].curvature;
+  const double l = chain.pieces[at].length;
+  const double change =
+      kind == PieceKind::line ? std::max(std::abs(a), std::abs(b)) / 8 : std::abs(b - a) / 32;
+  return change * l * l < 3 * tolerance && !touches_line(chain, at);
+}
+
+}  // namespace
+
+int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept) {
+  int changed = 0;
+  ChainFitOptions fit;
+  fit.iterations = 12;
+  fit.gradient_tolerance = 1e-4;
+  fit.scale = accept.tolerance;
+  if (chain.pieces.size() == 1 && chain.closed) return 0;
+  double before = cost_of(points, offsets(chain, points));
+  for (int at = 0; at < static_cast<int>(chain.pieces.size()); ++at) {
+    double here = 0;
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (chain.feet[j].piece == at) here += points[j].weight;
+    for (const PieceKind kind : {PieceKind::line, PieceKind::arc}) {
+      if (!worth_trying(chain, at, kind, accept.tolerance)) continue;
+      FitChain trial = with_kind(chain, at, kind);
+      const ChainFitReport report = fit_chain(trial, points, fit);
+      const std::vector<double> found = offsets(trial, points);
+      const double after = cost_of(points, found);
+      const double allowed = 12 * accept.noise * accept.noise +
+                             here * std::pow(0.05 * accept.tolerance, 2) + 0.02 * before;
+      if (after - before > allowed || !accepts(accept, report, points, found)) continue;
+      chain = std::move(trial);
+      before = after;
+      ++changed;
+      break;
+    }
+  }
+  return changed;
+}
+
+bool polish(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept) {
+  const FitChain rough = chain;
+  ChainFitOptions fit;
+  fit.fine = true;
+  fit.scale = accept.tolerance;
+  fit.slope_prior = 1e-5;
+  const auto run = [&](int iterations, double gradient) {
+    chain = rough;
+    fit.iterations = iterations;
+    fit.gradient_tolerance = gradient;
+    fit.close_gaps = false;
+    fit_chain(chain, points, fit);
+    fit.close_gaps = true;
+    fit.iterations = 20;
+    const ChainFitReport report = fit_chain(chain, points, fit);
+    return accepts(accept, report, points, offsets(chain, points)) && report.max_gap < 1e-11;
+  };
+  return run(60, 1e-9) || run(6, 1e-3) || run(0, 1e-3) || run(60, 1e-9);
+}
+
+lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed) {
+  lac::Chain out;
+  out.start = {chain.joints.front().position, chain.joints.front().direction};
+  out.closed = chain.closed;
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    const FitPiece& piece = chain.pieces[i];
+    out.pieces.push_back(
+        {piece.alpha, piece.length, chain.joints[i].curvature, chain.joints[i + 1].curvature});
+  }
+  if (out.closed) out.pieces.back().curvature_end = out.pieces.front().curvature_start;
+  for (lac::Piece& piece : out.pieces) {
+    const bool crosses = piece.curvature_start * piece.curvature_end <= 0;
+    if (crosses && piece.alpha >= 0) piece.alpha = -1;
+    if (piece.curvature_start == piece.curvature_end) piece.alpha = -1;
+  }
+  lac::Chain placed = transform(out, core::inverse(to_canonical));
+  return reversed ? reverse(placed) : placed;
+}
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/core/similarity.h"
+#include "keyline/fairing/chain_search.h"
+#include "keyline/lac/chain.h"
+
+/// From a chain that the search accepted to the one that is given out.
+namespace keyline::fairing::detail {
+
+/// Pieces that are straight lines or circular arcs as far as the points can tell become exactly
+/// that. Returns how many.
+int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept);
+
+/// Least squares to the last digits; gaps between pieces close. True where the points pass.
+bool polish(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept);
+
+/// One forward chain, G2 at its joints by construction, in the frame `to_canonical` maps from,
+/// run the other way where `reversed`.
+lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed);
+
+}  // namespace keyline::fairing::detail

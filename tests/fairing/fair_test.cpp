@@ -1,0 +1,92 @@
+#include "keyline/fairing/fair.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/acquire/acquire.h"
+#include "keyline/curve/concept.h"
+#include "keyline/lac/chain.h"
+
+namespace keyline::fairing {
+namespace {
+
+acquire::KeyLine line_through(const std::vector<core::Point2>& points) {
+  acquire::RawCurve raw;
+  for (const core::Point2 p : points) raw.points.push_back({p.x, p.y, 0});
+  return acquire::acquire_key_line(raw).value();
+}
+
+const lac::Chain kTruth{
+    {{10, 5}, 0.3}, {{0.5, 40, 0.01, 0.03}, {-1, 30, 0.03, 0}, {-2, 50, 0, -0.025}}, false};
+
+TEST(Fair, ExactChainComesBack) {
+  const FairResult result = fair(line_through(lac::sample(kTruth, 400))).value();
+  ASSERT_EQ(result.curves.size(), 1U);
+  const auto& chain = std::get<lac::Chain>(result.curves[0]);
+  EXPECT_LE(result.max_deviation, 1e-5);
+  EXPECT_TRUE(result.within_tolerance);
+  // The second and third piece meet in an inflection; one S-shaped piece may stand for both only
+  // where it reproduces the points.
+  ASSERT_EQ(chain.pieces.size(), 3U);
+  EXPECT_NEAR(chain.pieces[0].alpha, 0.5, 1e-2);
+  EXPECT_NEAR(chain.pieces[1].alpha, -1, 1e-2);
+  EXPECT_NEAR(chain.pieces[2].alpha, -2, 1e-2);
+  EXPECT_NEAR(chain.pieces[0].length, 40, 0.05);
+}
+
+TEST(Fair, JointsAreG2AndPiecesMonotone) {
+  const FairResult result = fair(line_through(lac::sample(kTruth, 300))).value();
+  for (const auto& joint : result.joints) {
+    EXPECT_GE(joint.order, 2);
+    EXPECT_LE(joint.relative_curvature_jump, 1e-9);
+  }
+}
+
+TEST(Fair, CircleIsOneArc) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 90; ++i) points.push_back({50 * std::cos(0.02 * i), 50 * std::sin(0.02 * i)});
+  const FairResult result = fair(line_through(points)).value();
+  ASSERT_EQ(result.pieces.size(), 1U);
+  EXPECT_EQ(result.pieces[0].rhythm, analysis::Rhythm::arc);
+}
+
+TEST(Fair, StraightPointsAreOneLine) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 30; ++i) points.push_back({1.0 * i, 0.5 * i});
+  const FairResult result = fair(line_through(points)).value();
+  ASSERT_EQ(result.pieces.size(), 1U);
+  EXPECT_EQ(result.pieces[0].rhythm, analysis::Rhythm::straight);
+  EXPECT_LE(result.max_deviation, 1e-9);
+}
+
+TEST(Fair, TwoAndThreePointsAreEnough) {
+  EXPECT_TRUE(fair(line_through({{0, 0}, {1, 1}})));
+  EXPECT_TRUE(fair(line_through({{0, 0}, {1, 1}, {2, 1.5}})));
+}
+
+TEST(Fair, OptionsOutOfRangeAreBadInput) {
+  const auto line = line_through({{0, 0}, {1, 1}, {2, 1.5}, {3, 1.7}});
+  FairOptions options;
+  options.tolerance = -1;
+  EXPECT_EQ(fair(line, options).error().path, "tolerance");
+  options = {};
+  options.order = 9;
+  EXPECT_EQ(fair(line, options).error().path, "order");
+  options = {};
+  options.region = core::Interval{0.5, 0.5};
+  EXPECT_EQ(fair(line, options).error().path, "region");
+  options = {};
+  options.must_pass = {17};
+  EXPECT_EQ(fair(line, options).error().path, "must_pass");
+}
+
+TEST(Fair, DefaultToleranceIsThreeSigmaOrMore) {
+  EXPECT_DOUBLE_EQ(default_tolerance(0, 2, 100), 1e-3);
+  EXPECT_GE(default_tolerance(1, 2, 10), 3);
+  EXPECT_GT(default_tolerance(1, 2, 100000), 4.5);
+  EXPECT_LT(default_tolerance(1, 2, 100000), 6);
+}
+
+}  // namespace
+}  // namespace keyline::fairing
