@@ -1,0 +1,118 @@
+#include "keyline/operations/derived_forms.h"
+
+#include <cmath>
+
+#include "keyline/curve/conversion.h"
+#include "keyline/exchange/json_curve.h"
+
+namespace keyline::operations {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+using nlohmann::json;
+
+constexpr int kMostSamples = 10'000'000;
+
+Result<double> tolerance_of(const json& form, const char* name) {
+  if (!form.is_object() || !form.contains("tolerance"))
+    return fail(ErrorCode::bad_input, "a tolerance is wanted here",
+                "give {\"tolerance\": a length}", std::string(name) + ".tolerance");
+  const auto value =
+      exchange::number_from_json(form["tolerance"], std::string(name) + ".tolerance");
+  if (!value) return value;
+  if (!(*value > 0))
+    return fail(ErrorCode::bad_input, "the tolerance is not greater than zero",
+                "give a length greater than zero", std::string(name) + ".tolerance");
+  return value;
+}
+
+/// The degree asked for, 3 unless given; what is made of cubics is raised to it.
+Result<int> degree_of(const json& form, const char* name) {
+  if (!form.contains("degree")) return 3;
+  const json& degree = form["degree"];
+  if (!degree.is_number_integer() || degree.get<int>() < 3 || degree.get<int>() > 30)
+    return fail(ErrorCode::bad_input, "the degree is out of range",
+                "give a whole number from 3 to 30", std::string(name) + ".degree");
+  return degree.get<int>();
+}
+
+curve::Bezier2 raised(curve::Bezier2 piece, int to) {
+  const int by = to - static_cast<int>(piece.control.size() - 1);
+  return by > 0 ? elevate_degree(piece, by) : piece;
+}
+
+Result<curve::PiecewiseBezier> pieces_for(const json& form, const char* name,
+                                          const document::Path& path) {
+  const auto tolerance = tolerance_of(form, name);
+  if (!tolerance) return std::unexpected(tolerance.error());
+  const auto degree = degree_of(form, name);
+  if (!degree) return std::unexpected(degree.error());
+  curve::PiecewiseBezier all;
+  for (const document::PlanarCurve& c : path.curves) {
+    auto part = std::visit(
+        [&](const auto& v) { return curve::approximate_by_cubics(v, *tolerance); }, c.value);
+    all.deviation = std::max(all.deviation, part.deviation);
+    for (curve::Bezier2& piece : part.pieces)
+      all.pieces.push_back(raised(std::move(piece), *degree));
+  }
+  return all;
+}
+
+Result<void> add_samples(const json& wanted, const document::Path& path, json& result) {
+  if (!wanted.is_number_integer() || wanted.get<std::int64_t>() < 2 ||
+      wanted.get<std::int64_t>() > kMostSamples)
+    return fail(ErrorCode::bad_input, "\"samples\" is out of range",
+                "give a whole number from 2 to 10000000", "samples");
+  const int n = wanted.get<int>();
+  curve::Polyline2 line;
+  if (path.curves.size() == 1 && std::holds_alternative<lac::Chain>(path.curves[0].value))
+    line.points = lac::sample(std::get<lac::Chain>(path.curves[0].value), n);
+  else
+    line.points = curve::sample(path, n);
+  result["polyline"] = exchange::to_json(document::PlanarCurve{std::move(line)});
+  return {};
+}
+
+Result<void> add_bezier(const json& form, const document::Path& path, json& result) {
+  const auto made = pieces_for(form, "bezier", path);
+  if (!made) return std::unexpected(made.error());
+  document::Path as_path{{}, path.closed};
+  for (const curve::Bezier2& piece : made->pieces) as_path.curves.push_back({piece});
+  result["bezier"] = exchange::to_json(as_path);
+  result["bezier"]["deviation"] = made->deviation;
+  return {};
+}
+
+Result<void> add_nurbs(const json& form, const document::Path& path, json& result) {
+  const auto made = pieces_for(form, "nurbs", path);
+  if (!made) return std::unexpected(made.error());
+  const auto spline = curve::to_bspline(made->pieces, tolerance_of(form, "nurbs").value());
+  if (!spline) return std::unexpected(spline.error());
+  result["nurbs"] = exchange::to_json(document::PlanarCurve{*spline});
+  result["nurbs"]["deviation"] = made->deviation;
+  return {};
+}
+
+}  // namespace
+
+Result<void> add_derived_forms(const json& request, json& result) {
+  const bool wanted =
+      request.contains("samples") || request.contains("bezier") || request.contains("nurbs");
+  if (!wanted) return {};
+  if (!result.contains("curve"))
+    return fail(ErrorCode::unsupported, "the result holds no curve to convert",
+                "leave out samples, bezier and nurbs");
+  const auto path = exchange::path_from_json(result["curve"], "curve");
+  if (!path) return std::unexpected(path.error());
+  if (request.contains("samples"))
+    if (auto done = add_samples(request["samples"], *path, result); !done) return done;
+  if (request.contains("bezier"))
+    if (auto done = add_bezier(request["bezier"], *path, result); !done) return done;
+  if (request.contains("nurbs"))
+    if (auto done = add_nurbs(request["nurbs"], *path, result); !done) return done;
+  return {};
+}
+
+}  // namespace keyline::operations

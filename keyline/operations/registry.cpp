@@ -1,0 +1,10 @@
+#include "keyline/operations/registry.h"
+
+namespace keyline::operations {
+
+std::vector<Operation> all_operations() {
+  return {curve_analyze_operation(), curve_continuity_operation(), fair_operation(),
+          fit_spline_operation(), lac_segment_operation()};
+}
+
+}  // namespace keyline::operations

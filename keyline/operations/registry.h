@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/operations/operation.h"
+
+namespace keyline::operations {
+
+/// One function per operation, each in its own file.
+Operation curve_analyze_operation();
+Operation curve_continuity_operation();
+Operation fair_operation();
+Operation fit_spline_operation();
+Operation lac_segment_operation();
+
+/// All of the above.
+std::vector<Operation> all_operations();
+
+}  // namespace keyline::operations

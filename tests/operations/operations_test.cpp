@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include "keyline/operations/operation.h"
+
+namespace keyline::operations {
+namespace {
+
+using nlohmann::json;
+
+TEST(Operations, EveryExampleSucceeds) {
+  for (const Operation& operation : operations()) {
+    const auto result = perform(operation.name, operation.example, {});
+    EXPECT_TRUE(result) << operation.name << ": " << (result ? "" : result.error().message);
+  }
+}
+
+TEST(Operations, EverySchemaNamesItsRequiredFields) {
+  for (const Operation& operation : operations()) {
+    const json schema = request_schema(operation);
+    EXPECT_EQ(schema["title"], operation.name);
+    for (const auto& name : schema["required"]) EXPECT_TRUE(schema["properties"].contains(name));
+    for (const auto& [name, property] : schema["properties"].items())
+      EXPECT_TRUE(name == "op" || property.contains("description")) << operation.name << name;
+  }
+}
+
+TEST(Operations, UnknownAndMissingFieldsAreNamed) {
+  const auto unknown =
+      perform("lac.segment", {{"points", {{0, 0}, {1, 0}, {2, 1}}}, {"alpha", 1}, {"alpa", 2}}, {});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().path, "alpa");
+  const auto missing = perform("lac.segment", {{"points", {{0, 0}, {1, 0}, {2, 1}}}}, {});
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().path, "alpha");
+  EXPECT_EQ(missing.error().code, core::ErrorCode::bad_input);
+}
+
+TEST(Operations, PathOfABadPointIsExact) {
+  const auto result =
+      perform("lac.segment", {{"points", {{0, 0}, {1, "a"}, {2, 1}}}, {"alpha", 1}}, {});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().path, "points[1][1]");
+}
+
+TEST(Answer, LinesThatAreNotJsonGetAnAnswerToo) {
+  const json answer = json::parse(answer_line("{nonsense", {}));
+  EXPECT_EQ(answer["ok"], false);
+  EXPECT_EQ(answer["error"]["code"], "bad-input");
+}
+
+TEST(Answer, GivesTheIdBack) {
+  const json request{{"op", "lac.segment"},
+                     {"id", {{"a", 7}}},
+                     {"points", {{0, 0}, {2, 0}, {3, 1.5}}},
+                     {"alpha", -1}};
+  const json good = answer(request, {});
+  EXPECT_EQ(good["id"], (json{{"a", 7}}));
+  EXPECT_EQ(good["ok"], true);
+  EXPECT_EQ(good["result"]["curve"]["type"], "log-aesthetic");
+  const json bad = answer({{"op", "no.such"}, {"id", 3}}, {});
+  EXPECT_EQ(bad["id"], 3);
+  EXPECT_EQ(bad["error"]["code"], "unsupported");
+}
+
+TEST(DerivedForms, AreAddedWithTheirBound) {
+  const auto result = perform("lac.segment",
+                              {{"points", {{0, 0}, {2, 0}, {3, 1.5}}},
+                               {"alpha", -1},
+                               {"samples", 11},
+                               {"bezier", {{"degree", 3}, {"tolerance", 1e-4}}},
+                               {"nurbs", {{"tolerance", 1e-3}}}},
+                              {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ((*result)["polyline"]["points"].size(), 11);
+  EXPECT_LE((*result)["bezier"]["deviation"].get<double>(), 1e-4);
+  EXPECT_LE((*result)["nurbs"]["deviation"].get<double>(), 1e-3);
+}
+
+TEST(Continuity, SeesACornerAndASmoothJoint) {
+  const auto line = [](double x0, double y0, double x1, double y1) {
+    return json{{"type", "polyline"}, {"points", {{x0, y0}, {x1, y1}}}};
+  };
+  const auto result = perform(
+      "curve.continuity",
+      {{"curves", json::array({line(0, 0, 1, 0), line(1, 0, 2, 0), line(2, 0, 2, 1)})}}, {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ((*result)["joints"][0]["order"], "G3");
+  EXPECT_EQ((*result)["joints"][1]["order"], "G0");
+  EXPECT_EQ((*result)["order"], "G0");
+}
+
+}  // namespace
+}  // namespace keyline::operations
