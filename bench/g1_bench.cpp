@@ -82,6 +82,20 @@ void g1_solve(benchmark::State& state) {
 }
 BENCHMARK(g1_solve)->Arg(0)->Arg(4);
 
+// As g1_solve, all problems in one call; the time shown is that of one problem.
+void g1_solve_batch(benchmark::State& state) {
+  std::vector<lac::G1Problem> all;
+  for (const Problem& p : problems(static_cast<double>(state.range(0)))) {
+    all.push_back({{0, 0}, p.middle, {1, 0}, p.alpha});
+  }
+  std::vector<lac::G1Outcome> outcomes(all.size());
+  while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(all.size()))) {
+    lac::solve_g1(all, outcomes);
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(g1_solve_batch)->Arg(0)->Arg(4);
+
 void compound_solve(benchmark::State& state) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(0, 1);

@@ -1,4 +1,4 @@
-#include "keyline/lac/chord_lanes_body.h"
+#include "keyline/lac/batch_lanes_body.h"
 
 namespace keyline::lac::detail {
 
@@ -7,7 +7,20 @@ template PanelSums PanelKernel::operator()<xsimd::default_arch>(xsimd::default_a
                                                                 double, double, double, double,
                                                                 const GaussNodes*, int) const;
 
+template void BatchKernel::operator()<xsimd::default_arch>(xsimd::default_arch, ChordBlock*,
+                                                           std::size_t) const;
+
+template void AngleKernel::operator()<xsimd::default_arch>(xsimd::default_arch, const double*,
+                                                           const double*, double*,
+                                                           std::size_t) const;
+
 #ifdef KEYLINE_LAC_AVX2
+extern template void AngleKernel::operator()<xsimd::fma3<xsimd::avx2>>(xsimd::fma3<xsimd::avx2>,
+                                                                       const double*, const double*,
+                                                                       double*, std::size_t) const;
+extern template void BatchKernel::operator()<xsimd::fma3<xsimd::avx2>>(xsimd::fma3<xsimd::avx2>,
+                                                                       ChordBlock*,
+                                                                       std::size_t) const;
 extern template PanelSums PanelKernel::operator()<xsimd::fma3<xsimd::avx2>>(
     xsimd::fma3<xsimd::avx2>, double, double, double, double, double, double, const GaussNodes*,
     int) const;
@@ -20,6 +33,16 @@ PanelSums panel_sums(const PanelJob& job) {
   static auto kernel = xsimd::dispatch<Architectures>(PanelKernel{});
   return kernel(job.a, job.b, job.from, job.width, job.scale, job.centre, &gauss_nodes(job.nodes),
                 job.nodes);
+}
+
+void angles_of_block(const double* y, const double* x, double* angle, std::size_t count) {
+  static auto kernel = xsimd::dispatch<Architectures>(AngleKernel{});
+  kernel(y, x, angle, count);
+}
+
+void solve_block(ChordBlock& block, std::size_t count) {
+  static auto kernel = xsimd::dispatch<Architectures>(BatchKernel{});
+  kernel(&block, count);
 }
 
 }  // namespace keyline::lac::detail

@@ -7,12 +7,18 @@
 /// Internals: included once for each instruction set by a source compiled for it.
 namespace keyline::lac::detail {
 
-/// (1 - e^{-b x}) / b; `near` says |b x| <= 1/2 throughout.
+/// A decay k for decay_integral_of: 0 stands for its limit.
 template <class Batch>
-inline Batch decay_integral_of(const Batch& b, const Batch& inverse_b, const Batch& x, bool near) {
-  if (near) return x * numeric::simd::expm1_over_small(-b * x);
-  return (Batch(1) - numeric::simd::exp(-b * x)) * inverse_b;
-}
+struct LaneDecay {
+  Batch minus_k, scale;
+  explicit LaneDecay(const Batch& k) {
+    const Batch safe = xsimd::select(k == Batch(0.0), Batch(1e-30), k);
+    minus_k = -safe;
+    scale = Batch(-1.0) / safe;
+  }
+  /// (1 - e^{-k x}) / k.
+  Batch integral(const Batch& x) const { return scale * numeric::simd::expm1(minus_k * x); }
+};
 
 template <class Batch>
 struct LaneSums {
@@ -35,15 +41,13 @@ PanelSums PanelKernel::operator()(Arch, double decay_a, double decay_b, double s
                                   double factor, double middle, const GaussNodes* rule,
                                   int nodes) const {
   using Batch = xsimd::batch<double, Arch>;
-  const Batch a(decay_a), b(decay_b), from(start), width(extent), scale(factor), centre(middle);
-  const Batch inverse_b(decay_b == 0 ? 0.0 : 1 / decay_b);
-  const double reach = decay_b * (start + extent);
-  const bool near = reach < 0.5 && reach > -0.5;
+  const Batch a(decay_a), from(start), width(extent), scale(factor), centre(middle);
+  const LaneDecay<Batch> b{Batch(decay_b)};
   LaneSums<Batch> sums;
   for (int i = 0; i < nodes; i += static_cast<int>(Batch::size)) {
     const Batch lambda = xsimd::fma(width, Batch::load_aligned(rule->nodes + i), from);
     const Batch weight = Batch::load_aligned(rule->weights + i) * numeric::simd::exp(-a * lambda);
-    const Batch angle = scale * decay_integral_of(b, inverse_b, lambda, near);
+    const Batch angle = scale * b.integral(lambda);
     sums.add(weight, angle, angle - centre);
   }
   return {extent * xsimd::hadd(sums.x), extent * xsimd::hadd(sums.y),

@@ -50,6 +50,23 @@ core::Result<SegmentSolution> solve_g1(core::Point2 p0, core::Point2 p1, core::P
 /// The same for a chord of length 1 along x, given by turning and chord angle.
 core::Result<SegmentSolution> solve_g1(const HandleAngles& angles, double alpha);
 
+/// One of many problems for the batch entry point, and its answer.
+struct G1Problem {
+  core::Point2 p0, p1, p2;
+  double alpha = -1;
+};
+struct G1Outcome {
+  Segment segment;
+  double lambda = 0;
+  bool drawn = false;  ///< else solve_g1 of the same handles tells why not
+  bool reversed = false;
+};
+
+/// solve_g1 for many problems, several at a time in vector lanes: the same curves within 1e-12 (in
+/// curvature, as far as the problem is well conditioned), no allocation where all can be drawn.
+/// The spans have one size (else InvalidInput).
+void solve_g1(std::span<const G1Problem> problems, std::span<G1Outcome> outcomes);
+
 /// The segment of slope alpha between two poses, its tangent angles running without a jump between
 /// the end directions, both measured from the chord in (-pi, pi]: C-shaped where they lie on
 /// different sides of the chord, else S-shaped, which needs an inflection and so alpha < 0. For

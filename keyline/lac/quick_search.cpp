@@ -25,12 +25,11 @@ struct Decay {
 };
 
 /// Chord and its derivative by q, as a fraction of the arc length, against the middle direction.
-ChordValue centred_chord(const Decays& d, double theta, double q, double reach, Vector2 half,
-                         double circle) {
+ChordValue centred_chord(const Decays& d, double theta, double q, double reach, int nodes,
+                         Vector2 half, double circle) {
   const Decay arc(d.a, q);
   const Decay angle(d.b, q);
-  const PanelSums s =
-      panel_sums({d.a, d.b, 0, q, theta / angle.integral, theta / 2, nodes_for(reach)});
+  const PanelSums s = panel_sums({d.a, d.b, 0, q, theta / angle.integral, theta / 2, nodes});
   const double unit = 1 / arc.integral;
   const Vector2 chord{s.x * unit, s.y * unit};
   if (reach - theta < 1e-3) return {chord, {-circle * chord.y, circle * chord.x}};
@@ -46,13 +45,21 @@ double short_atan(double r) { return r / (1 + r * r / 3); }
 
 }  // namespace
 
+// With y = excess / c, c the limit of the excess, q slope / c is an odd function f(y) that begins as
+// y + 1.2 (1 + s^2) c^2 y^3, s = 2 alpha - 1 and c for small angles and turning 1, and ends as
+// -A ln(1 - y), A = (a + |b|) / (6 k): an inverse tanh and a cubic that have both, exact for small
+// angles at alpha = -1 and 2.
 double guess_range(const Decays& d, double theta, double excess, double slope) {
-  const double small_angle_limit = theta / (2 * (d.a + std::abs(d.b)));
+  const double spread = d.a + std::abs(d.b);
   // With the turning the limit grows as the slope does, for most slopes (fitted to 3 %).
   const double share = d.b > d.a ? std::min(1.0, 2.5 * d.a) : d.b > 0 ? 0.8 * d.b / (1 + d.b) : 0;
-  const double c = small_angle_limit * (1 + share * (12 * slope / theta - 1));
-  const double x = std::min(excess / c, 0.98);
-  return c / slope * 0.5 * std::log((1 + x) / (1 - x));
+  const double c = 0.5 * theta / spread * (1 + share * (12 * slope / theta - 1));
+  const double y = std::min(excess / c, 0.98);
+  const double s = d.a + d.b;  // |2 alpha - 1|
+  const double cubic = 0.3 * (1 + s * s) / (spread * spread);
+  const double end = std::min(2.0, spread / (6 * d.k));
+  const double rest = 1 - 2 * end + y * y * (cubic - 2 * end / 3);
+  return c / slope * (y * rest + end * std::log((1 + y) / (1 - y)));
 }
 
 bool quick_search(double alpha, double theta, double excess, ChordSolution& solution) {
@@ -68,7 +75,9 @@ bool quick_search(double alpha, double theta, double excess, ChordSolution& solu
     solution.range = q;
     const double reach = sharpness * q + theta;
     if (!(q > 0 && reach < kLargestReach)) return false;
-    const ChordValue v = centred_chord(d, theta, q, reach, half, sign * slope);
+    const bool rough = iteration == 1;
+    const int nodes = rough ? rough_nodes_for(reach) : nodes_for(reach);
+    const ChordValue v = centred_chord(d, theta, q, reach, nodes, half, sign * slope);
     const double square = dot(v.chord, v.chord);
     const double miss = sign * short_atan(cross(axis, v.chord) / dot(axis, v.chord));
     const double rate = sign * cross(v.chord, v.slope) / square;
@@ -77,7 +86,7 @@ bool quick_search(double alpha, double theta, double excess, ChordSolution& solu
     if (!(rate > 0 && bend > -0.8)) return false;
     const double change = -newton / (1 + 0.5 * bend);  // log1p(bend) / k to second order
     q += change;
-    if (std::abs(miss * sharpness * change) < 2e-15) {
+    if (!rough && std::abs(miss * sharpness * change) < 2e-15) {
       const double length = std::sqrt(square);
       solution = {ChordStatus::solved, std::max(q, 0.0),
                   length + change * dot(v.chord, v.slope) / length, iteration};

@@ -5,8 +5,8 @@
 /// Internals: the common case of the chord search, on one Gauss panel.
 namespace keyline::lac::detail {
 
-/// First guess of q for a chord angle `excess` above theta/2: c tanh(q slope / c) is close to the
-/// excess, exactly so for small angles at alpha = -1; slope is that at the circle.
+/// First guess of q for a chord angle `excess` above theta/2; slope is d(chord angle)/dq at the
+/// circle. A few per cent off at most where the excess is not close to its limit.
 double guess_range(const Decays& d, double theta, double excess, double slope);
 
 /// As solve_chord_angle by unguarded Newton steps, as long as one panel of at most 32 nodes carries

@@ -87,6 +87,40 @@ TEST(SolveG1, MeetsRandomDrawableRequests) {
   RecordProperty("worst_residual", std::to_string(worst));
 }
 
+TEST(SolveG1, BatchAgreesWithSingleSolves) {
+  std::mt19937 random(13);
+  std::normal_distribution<double> place(0, 1);
+  std::vector<G1Problem> problems(2003);
+  for (std::size_t n = 0; n < problems.size(); ++n) {
+    G1Problem& p = problems[n];
+    p = {{place(random), place(random)}, {}, {place(random), place(random)}, 4 * place(random)};
+    p.p1 = mix(p.p0, p.p2, 0.5) + 0.3 * core::Vector2{place(random), place(random)};
+    if (n % 50 == 0) p.p1 = p.p0;
+    if (n % 51 == 0) p.alpha = n % 2 == 0 ? 0 : 1;
+    if (n % 97 == 0) p.p2 = p.p0;
+    if (n % 101 == 0) p.alpha = NAN;
+  }
+  std::vector<G1Outcome> outcomes(problems.size());
+  solve_g1(problems, outcomes);
+  int drawn = 0;
+  for (std::size_t n = 0; n < problems.size(); ++n) {
+    const G1Problem& p = problems[n];
+    const auto single = solve_g1(p.p0, p.p1, p.p2, p.alpha);
+    ASSERT_EQ(outcomes[n].drawn, single.has_value()) << n;
+    if (!single) continue;
+    ++drawn;
+    const Segment& s = outcomes[n].segment;
+    EXPECT_EQ(outcomes[n].reversed, single->reversed);
+    EXPECT_NEAR(s.length / single->segment.length, 1, 1e-13);
+    EXPECT_NEAR(distance(evaluate(s, 1), p.p2), 0, 1e-13 * distance(p.p0, p.p2)) << p.alpha;
+    EXPECT_NEAR(total_turning(s), single->turning, 1e-13);
+    EXPECT_NEAR(outcomes[n].lambda, single->lambda, 1e-9 * (1e-3 + single->lambda));
+  }
+  EXPECT_GT(drawn, 1000);
+  std::vector<G1Outcome> few(1);
+  EXPECT_THROW(solve_g1(problems, few), core::InvalidInput);
+}
+
 TEST(SolveG1, HoldsAtLimitingSlopesAndAtTheBorderOfTheRegion) {
   int beyond = 0;
   for (const double alpha : {-1e3, -10.0, -1.0, -0.3, -1e-13, 0.0, 1e-13, 0.3, 0.5, 1 - 1e-13, 1.0,
