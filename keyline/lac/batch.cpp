@@ -39,8 +39,8 @@ struct AngleBlock {
     void compute(std::size_t count) { detail::angles_of_block(y, x, angle, count); }
   };
   Column turning, chord, direction;
-  double square[kBatchSize]{};   ///< of the chord
-  bool plain[kBatchSize]{};      ///< distinct points of ordinary size
+  double square[kBatchSize]{};  ///< of the chord
+  bool plain[kBatchSize]{};     ///< distinct points of ordinary size
 };
 
 void measure(std::span<const G1Problem> problems, AngleBlock& block) {
@@ -104,8 +104,8 @@ void solve_singly(const G1Problem& problem, G1Outcome& outcome) {
   outcome.reversed = solution->reversed;
 }
 
-void leave(const G1Problem& problem, const ChordBlock& block, std::size_t at, const Prepared& placed,
-           G1Outcome& outcome) {
+void leave(const G1Problem& problem, const ChordBlock& block, std::size_t at,
+           const Prepared& placed, G1Outcome& outcome) {
   // Curvatures for unit arc length to curvatures of the arc length chord / chord_length.
   const double unit = placed.sign * block.chord_length[at] / placed.chord;
   const double heavy = unit * block.heavy[at];

@@ -18,7 +18,7 @@ struct ChordBlock {
   alignas(64) double theta[kBatchSize];   ///< in (0, pi)
   alignas(64) double excess[kBatchSize];  ///< chord angle less theta/2, > 0
   // Out, for an arm of unit length.
-  alignas(64) double solved[kBatchSize];        ///< 1, or 0: not solved here
+  alignas(64) double solved[kBatchSize];  ///< 1, or 0: not solved here
   alignas(64) double chord_length[kBatchSize];
   alignas(64) double heavy[kBatchSize];   ///< curvature at the heavy end
   alignas(64) double ratio[kBatchSize];   ///< e^-q, light curvature to heavy or the other way

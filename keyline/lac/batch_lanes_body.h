@@ -11,7 +11,7 @@ template <class Batch>
 struct LaneProblem {
   using Mask = typename Batch::batch_bool_type;
   Batch a, b, k, sharpness, sign;
-  Batch theta, half_x, half_y, axis_x, axis_y, slope;
+  Batch theta, half_x, half_y, axis_x, axis_y, slope, bend;
 
   LaneProblem(const Batch& alpha, const Batch& turning, const Batch& excess) : theta(turning) {
     const Mask negative = alpha < Batch(0.0);
@@ -30,20 +30,30 @@ struct LaneProblem {
     slope = xsimd::select(h < Batch(0.1), series, (Batch(1.0) - h * half_x / half_y) / theta);
   }
 
-  Batch guess(const Batch& excess) const {
+  /// The first guess of q; sets bend.
+  Batch guess(const Batch& excess) {
     const Batch growing = xsimd::min(Batch(1.0), Batch(2.5) * a);
     const Batch falling = Batch(0.8) * b / (Batch(1.0) + b);
-    const Batch share = xsimd::select(
-        b > a, growing, xsimd::select(b > Batch(0.0), falling, Batch(0.0)));
+    const Batch share =
+        xsimd::select(b > a, growing, xsimd::select(b > Batch(0.0), falling, Batch(0.0)));
     const Batch spread = a + xsimd::abs(b);
     const Batch grown = xsimd::fma(share, Batch(12.0) * slope / theta - Batch(1.0), Batch(1.0));
     const Batch c = Batch(0.5) * theta / spread * grown;
     const Batch y = xsimd::min(excess / c, Batch(0.98));
     const Batch s = a + b;
-    const Batch cubic = Batch(0.3) * (Batch(1.0) + s * s) / (spread * spread);
     const Batch end = xsimd::min(Batch(2.0), spread / xsimd::max(Batch(6.0) * k, Batch(1e-9)));
-    const Batch rest = xsimd::fma(y * y, cubic - end * Batch(2.0 / 3), Batch(1.0) - end - end);
-    return c / slope * (y * rest + end * xsimd::log((Batch(1.0) + y) / (Batch(1.0) - y)));
+    const Batch twice = end + end;
+    const Batch cubic =
+        Batch(0.3) * (Batch(1.0) + s * s) / (spread * spread) - twice * Batch(1.0 / 3);
+    const Batch square = y * y;
+    const Batch open = Batch(1.0) / (Batch(1.0) - square);
+    const Batch first =
+        xsimd::fma(twice, open - Batch(1.0), xsimd::fma(Batch(3.0) * cubic, square, Batch(1.0)));
+    const Batch second = y * (Batch(2.0) * twice * open * open + Batch(6.0) * cubic);
+    const Batch scale = c / slope;
+    bend = second / (first * first * scale);
+    const Batch rest = xsimd::fma(square, cubic, Batch(1.0) - twice);
+    return scale * (y * rest + end * xsimd::log((Batch(1.0) + y) / (Batch(1.0) - y)));
   }
 };
 
@@ -85,17 +95,17 @@ inline LaneStep<Batch> lane_step(const LaneProblem<Batch>& p, const Batch& q, co
   const Batch arc_end = arc_rest * unit;
   const auto circle = reach - p.theta < Batch(1e-3);
   const Batch circle_rate = p.sign * p.slope;
-  const Batch dx = xsimd::select(circle, -circle_rate * y,
-                                 arc_end * (p.half_x - x) + angle_end * s.angle_y);
-  const Batch dy = xsimd::select(circle, circle_rate * x,
-                                 arc_end * (p.half_y - y) - angle_end * s.angle_x);
+  const Batch dx =
+      xsimd::select(circle, -circle_rate * y, arc_end * (p.half_x - x) + angle_end * s.angle_y);
+  const Batch dy =
+      xsimd::select(circle, circle_rate * x, arc_end * (p.half_y - y) - angle_end * s.angle_x);
   const Batch square = x * x + y * y;
   const Batch r = (p.axis_x * y - p.axis_y * x) / (p.axis_x * x + p.axis_y * y);
   LaneStep<Batch> step;
   step.miss = p.sign * r / xsimd::fma(r, r * Batch(1.0 / 3), Batch(1.0));
   const Batch rate = p.sign * (x * dy - y * dx) / square;
   const Batch newton = step.miss / rate;
-  const Batch bend = p.k * newton;
+  const Batch bend = p.bend * newton;
   step.change = -newton / xsimd::fma(Batch(0.5), bend, Batch(1.0));
   step.length = xsimd::sqrt(square);
   step.length_slope = (x * dx + y * dy) / step.length;
@@ -117,7 +127,7 @@ template <class Batch>
 inline void solve_lanes(ChordBlock& block, std::size_t at) {
   const Batch alpha = Batch::load_aligned(block.alpha + at);
   const Batch excess = Batch::load_aligned(block.excess + at);
-  const LaneProblem<Batch> p(alpha, Batch::load_aligned(block.theta + at), excess);
+  LaneProblem<Batch> p(alpha, Batch::load_aligned(block.theta + at), excess);
   using Mask = typename Batch::batch_bool_type;
   Batch q = p.guess(excess);
   Batch length(1.0);
@@ -138,8 +148,8 @@ inline void solve_lanes(ChordBlock& block, std::size_t at) {
     const Mask lost = open & !step.fits;
     failed = failed | lost;
     open = open & !lost;
-    const Mask done = open & Mask(!rough) &
-                      (xsimd::abs(step.miss * p.sharpness * step.change) < Batch(2e-15));
+    const Mask done =
+        open & Mask(!rough) & (xsimd::abs(step.miss * p.sharpness * step.change) < Batch(1e-13));
     length = xsimd::select(done, xsimd::fma(step.length_slope, step.change, step.length), length);
     q = xsimd::select(open, xsimd::max(q + step.change, Batch(0.0)), q);
     open = open & !done;

@@ -132,7 +132,7 @@ ChordSolution solve_chord_angle(double alpha, double theta, double psi) {
   const Vector2 axis = core::unit_vector(alpha < 0 ? psi : theta - psi);
   SearchSetup setup;
   const bool started = quick.range > 0 && quick.range < kLargestRange;
-  setup.guess = started ? quick.range : guess_range(d, theta, excess, circle_slope(theta));
+  setup.guess = started ? quick.range : guess_range(d, theta, excess, circle_slope(theta)).range;
   setup.k = d.k;
   setup.sharpness = std::max(d.a, std::abs(d.b));
   setup.limit_drawn = d.a > 0 && d.b > 0;

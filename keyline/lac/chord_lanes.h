@@ -43,7 +43,8 @@ inline int nodes_for(double reach) {
   return reach < 5.2 ? 16 : reach < 10 ? 24 : 32;
 }
 
-/// Nodes that carry a panel to about 1e-6: enough for a first Newton step, whose own error is larger.
+/// Nodes that carry a panel to about 1e-6: enough for a first Newton step, whose own error is
+/// larger.
 inline int rough_nodes_for(double reach) {
   if (reach < 7.5) return reach < 5 ? 8 : 12;
   return reach < 10 ? 16 : 24;

@@ -33,10 +33,9 @@ inline void reduce_exponential(const Batch& x, Batch& power, Batch& rest) {
   const Batch r2 = r * r;
   const Batch r4 = r2 * r2;
   const Batch low = xsimd::fma(r2, horner(r, 1.0 / 24, 1.0 / 120), horner(r, 1.0 / 2, 1.0 / 6));
-  const Batch top =
-      xsimd::fma(r4, horner(r, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600),
-                 xsimd::fma(r2, horner(r, 1.0 / 40320, 1.0 / 362880),
-                            horner(r, 1.0 / 720, 1.0 / 5040)));
+  const Batch top = xsimd::fma(
+      r4, horner(r, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600),
+      xsimd::fma(r2, horner(r, 1.0 / 40320, 1.0 / 362880), horner(r, 1.0 / 720, 1.0 / 5040)));
   rest = xsimd::fma(r2, xsimd::fma(r4, top, low), r);
   using Integers = xsimd::batch<std::int64_t, typename Batch::arch_type>;
   power = xsimd::bitwise_cast<Batch>(xsimd::bitwise_cast<Integers>(biased) << 52);
