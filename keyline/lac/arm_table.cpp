@@ -30,6 +30,25 @@ const ChebyshevGrid& grid() {
   return instance;
 }
 
+/// Sum of c_j T_j(x): Clenshaw's recurrence in T_2(x), even and odd terms side by side, so that the
+/// chain of dependent operations is half as long.
+template <std::size_t N>
+Vector2 chebyshev_sum(const std::array<Vector2, N>& c, double x) {
+  static_assert(N % 2 == 1);
+  const double second = 2 * x * x - 1;
+  const double step = 2 * second;
+  Vector2 even1, even2, odd1, odd2;
+  for (std::size_t j = N / 2; j >= 1; --j) {
+    const Vector2 even0 = step * even1 - even2 + c[2 * j];
+    const Vector2 odd0 = step * odd1 - odd2 + c[2 * j - 1];
+    even2 = even1;
+    even1 = even0;
+    odd2 = odd1;
+    odd1 = odd0;
+  }
+  return (second * even1 - even2 + c[0]) + x * (odd1 - odd2);
+}
+
 }  // namespace
 
 ArmTable::ArmTable(const Arm& arm) : arm_(arm) {
@@ -80,14 +99,7 @@ Vector2 ArmTable::value(const Series& series, double lambda, double fraction) co
     return series.origin + (arc - series.arc) * series.direction;
   }
   const double x = 2 * ((lambda - series.from) / (series.to - series.from)) - 1;
-  Vector2 b1;
-  Vector2 b2;
-  for (int j = kOrder; j >= 1; --j) {
-    const Vector2 b0 = 2 * x * b1 - b2 + series.coefficient[j];
-    b2 = b1;
-    b1 = b0;
-  }
-  return series.origin + (x * b1 - b2 + series.coefficient[0]);
+  return series.origin + chebyshev_sum(series.coefficient, x);
 }
 
 Vector2 ArmTable::vector_at(double fraction, double complement) const {

@@ -35,17 +35,18 @@ struct PanelKernel {
                        double centre, const GaussNodes* rule, int nodes) const;
 };
 
+/// (These two are static so that every source has its own, for its own instruction set.)
 /// Nodes that carry a panel to rounding, by its decay, max(a, |b|) times width, plus its turning
 /// (up to 16). The error of n Gauss nodes on e^{zt} falls like (z/4)^(2n)/(2n)!; the bounds for 8
 /// to 16 nodes were measured over slopes from 0.05 to 20 (errors below 2e-15).
-inline int nodes_for(double reach) {
+static inline int nodes_for(double reach) {
   if (reach < 3.3) return reach < 1.4 ? 8 : 12;
   return reach < 5.2 ? 16 : reach < 10 ? 24 : 32;
 }
 
 /// Nodes that carry a panel to about 1e-6: enough for a first Newton step, whose own error is
 /// larger.
-inline int rough_nodes_for(double reach) {
+static inline int rough_nodes_for(double reach) {
   if (reach < 7.5) return reach < 5 ? 8 : 12;
   return reach < 10 ? 16 : 24;
 }
