@@ -1,0 +1,118 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/exchange/json_curve.h"
+#include "keyline/fit/fit_spline.h"
+#include "keyline/operations/operation.h"
+
+#include "commands.h"
+#include "input.h"
+#include "output.h"
+#include "terminal.h"
+
+namespace keyline::app {
+namespace {
+
+using core::Result;
+using nlohmann::json;
+
+struct Subject {
+  std::string name;
+  document::Path path;
+  double noise = 0;
+};
+
+/// Points are analysed through their spline, as in steps 2 to 4 of fairing.
+Result<Subject> spline_of(const acquire::KeyLine& line, const CommonOptions& common,
+                          const core::Progress& progress) {
+  fit::SplineFitOptions options = fit::SplineFitOptions::for_fairing();
+  options.seed = static_cast<std::uint64_t>(common.seed);
+  options.threads = common.threads;
+  options.closed = line.closed && line.points.size() > 8;
+  options.order = std::min<int>(options.order, static_cast<int>(line.points.size()));
+  options.rounding = line.rounding;
+  options.progress = progress;
+  auto fit = fit::fit_spline(line.points, line.weights, options);
+  if (!fit) return std::unexpected(fit.error());
+  Subject subject;
+  subject.name = line.id;
+  subject.noise = line.noise;
+  subject.path.closed = line.closed;
+  subject.path.curves.push_back({std::move(fit->curve)});
+  return subject;
+}
+
+Result<std::vector<Subject>> subjects_of(const AnalyzeCommand& command) {
+  std::vector<Subject> subjects;
+  if (kind_of(command.input.files.front()) != InputKind::points) {
+    auto document = load_document(command.input);
+    if (!document) return std::unexpected(document.error());
+    for (auto& named : document->paths)
+      subjects.push_back({named.name, std::move(named.path), command.input.noise.value_or(0)});
+    return subjects;
+  }
+  const core::Progress progress = interactive_progress(command.common.quiet);
+  const auto lines = load_key_lines(command.input);
+  if (!lines) return std::unexpected(lines.error());
+  for (const acquire::KeyLine& line : *lines) {
+    auto subject = spline_of(line, command.common, progress);
+    if (!subject) return std::unexpected(subject.error());
+    subjects.push_back(std::move(*subject));
+  }
+  end_progress();
+  return subjects;
+}
+
+void print_summary(const std::string& name, const json& result) {
+  if (!name.empty()) fmt::print("{}\n", name);
+  fmt::print("length {:.8g}  curvature {:.6g} to {:.6g}  inflections {}  extrema {}  monotone {}\n",
+             result["length"].get<double>(), result["curvature"]["min"].get<double>(),
+             result["curvature"]["max"].get<double>(), result["inflections"].size(),
+             result["extrema"].size(), result["monotone"].get<std::string>());
+  fmt::print("{:>5} {:>11} {:>11} {:>14} {:>11} {:>11}  {}\n", "piece", "from", "length", "rhythm",
+             "slope", "volume", "impression");
+  int index = 0;
+  for (const json& piece : result["pieces"]) {
+    std::string slopes;
+    for (const json& slope : piece["slopes"])
+      slopes += fmt::format("{}{:.3g}", slopes.empty() ? "" : " ", slope.get<double>());
+    fmt::print("{:>5} {:>11.5g} {:>11.5g} {:>14} {:>11} {:>11.4g}  {}\n", index++,
+               piece["arc_length"][0].get<double>(), piece["length"].get<double>(),
+               piece["rhythm"].get<std::string>(), slopes, piece["volume"].get<double>(),
+               piece["impression"].get<std::string>());
+  }
+}
+
+}  // namespace
+
+int run_analyze(const AnalyzeCommand& command) {
+  if (auto known = check_outputs(command.common, {".json", ".csv", ".svg"}); !known)
+    return report_failure(known.error());
+  const auto subjects = subjects_of(command);
+  if (!subjects) return report_failure(subjects.error());
+  json all = json::array();
+  std::vector<OutputCurve> curves;
+  double size = HUGE_VAL;
+  for (const Subject& subject : *subjects) {
+    const json request{{"curve", exchange::to_json(subject.path)}, {"noise", subject.noise}};
+    auto result = operations::perform("curve.analyze", request, {command.common.threads, {}});
+    if (!result) return report_failure(result.error(), command.input.files.front());
+    size = std::min(size, (*result)["length"].get<double>());
+    curves.push_back({subject.name, subject.path});
+    if (!command.common.json && !command.common.quiet) print_summary(subject.name, *result);
+    (*result)["name"] = subject.name;
+    all.push_back(std::move(*result));
+  }
+  const json shown = all.size() == 1 ? all[0] : json{{"curves", all}};
+  Writers writers =
+      curve_writers(curves, command.common.tolerance.value_or(1e-5 * size), command.input.unit);
+  writers[".json"] = [&]() -> Result<std::string> { return shown.dump(1) + "\n"; };
+  if (auto done = write_outputs(command.common, writers); !done)
+    return report_failure(done.error());
+  if (command.common.json) fmt::print("{}\n", shown.dump());
+  return kDone;
+}
+
+}  // namespace keyline::app

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands: each takes what was parsed and returns the exit status.
+namespace keyline::app {
+
+/// Options that mean the same everywhere.
+struct CommonOptions {
+  std::vector<std::string> outputs;  ///< -o, the extension chooses the format
+  bool json = false;
+  bool quiet = false;
+  long seed = 1;
+  int threads = 0;
+  std::optional<double> tolerance;
+  std::string command_line;  ///< as it was typed, for reports
+};
+
+/// Where a curve or points come from and how they are to be read.
+struct InputOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> columns;
+  std::string weights;
+  std::string id;
+  std::string select;   ///< id or name of one of several curves
+  std::string section;  ///< "y=0"
+  std::optional<double> band;
+  std::optional<long> row;
+  std::optional<long> column;
+  bool closed = false;
+  bool open = false;
+  bool keep_order = false;
+  bool keep_strays = false;
+  std::optional<double> noise;
+  std::string unit;
+};
+
+struct FairCommand {
+  CommonOptions common;
+  InputOptions input;
+  int pieces = 0;
+  std::string clamp;
+  std::string region;
+  std::vector<std::string> interpretations;
+  std::vector<long> must_pass;
+  bool keep_corners = true;
+  int order = 5;
+};
+int run_fair(const FairCommand& command);
+
+struct AnalyzeCommand {
+  CommonOptions common;
+  InputOptions input;
+};
+int run_analyze(const AnalyzeCommand& command);
+
+struct DrawCommand {
+  CommonOptions common;
+  std::vector<std::string> points;
+  std::vector<double> alpha{-1};
+};
+int run_draw(const DrawCommand& command);
+
+struct ConvertCommand {
+  CommonOptions common;
+  InputOptions input;
+};
+int run_convert(const ConvertCommand& command);
+
+int run_batch(const CommonOptions& common);
+int run_operations(const CommonOptions& common, const std::string& name);
+
+}  // namespace keyline::app

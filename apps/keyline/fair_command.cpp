@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/operations/fair_request.h"
+
+#include "commands.h"
+#include "input.h"
+#include "output.h"
+#include "terminal.h"
+
+namespace keyline::app {
+namespace {
+
+using core::Result;
+
+struct Faired {
+  acquire::KeyLine line;
+  fairing::FairResult result;
+};
+
+Result<fairing::FairOptions> options_of(const FairCommand& command,
+                                        const core::Progress& progress) {
+  fairing::FairOptions options;
+  options.tolerance = command.common.tolerance.value_or(0);
+  options.pieces = command.pieces;
+  options.keep_corners = command.keep_corners;
+  options.order = command.order;
+  options.seed = static_cast<std::uint64_t>(command.common.seed);
+  options.threads = command.common.threads;
+  options.progress = progress;
+  if (!command.clamp.empty())
+    if (auto done = operations::parse_clamp(command.clamp, options); !done)
+      return std::unexpected(done.error());
+  if (!command.region.empty()) {
+    const auto region = operations::parse_region(command.region);
+    if (!region) return std::unexpected(region.error());
+    options.region = *region;
+  }
+  for (const std::string& text : command.interpretations) {
+    const auto asked = operations::parse_interpretation(text);
+    if (!asked) return std::unexpected(asked.error());
+    options.interpretations.push_back(*asked);
+  }
+  return options;
+}
+
+/// Indices of points in the file to indices in the key-line, which may have lost some.
+Result<std::vector<std::size_t>> indices_in(const acquire::KeyLine& line,
+                                            const std::vector<long>& wanted) {
+  std::vector<std::size_t> found;
+  for (const long index : wanted) {
+    const auto at = std::find(line.sources.begin(), line.sources.end(),
+                              static_cast<std::size_t>(std::max(0L, index)));
+    if (index < 0 || at == line.sources.end())
+      return core::fail(core::ErrorCode::bad_input,
+                        fmt::format("point {} is not in the key-line", index),
+                        "it may have been dropped as stray; see --keep-strays", "--must-pass");
+    found.push_back(static_cast<std::size_t>(at - line.sources.begin()));
+  }
+  return found;
+}
+
+void print_table(const Faired& faired) {
+  const fairing::FairResult& r = faired.result;
+  fmt::print("{:>5} {:>9} {:>11} {:>11} {:>11} {:>11}  {}\n", "piece", "rhythm", "slope", "length",
+             "volume", "deviation", "impression");
+  for (std::size_t i = 0; i < r.pieces.size(); ++i) {
+    const fairing::FairPiece& p = r.pieces[i];
+    fmt::print("{:>5} {:>9} {:>11} {:>11.5g} {:>11.4g} {:>11.3g}  {}\n", i,
+               analysis::rhythm_name(p.rhythm),
+               p.slopes.empty() ? "" : fmt::format("{:.4g}", p.slopes[0]), p.length, p.volume,
+               p.deviation, analysis::impression(p.rhythm));
+  }
+}
+
+void tell(const FairCommand& command, const Faired& faired) {
+  const fairing::FairResult& r = faired.result;
+  const bool quiet = command.common.quiet;
+  const std::string name = faired.line.id.empty() ? "" : faired.line.id + ": ";
+  if (!command.common.json && !quiet) print_table(faired);
+  for (const std::string& note : r.notes) say(quiet, name + note);
+  const std::size_t chains = r.curves.size();
+  say(quiet, fmt::format("{}{} points, {} piece{} in {} chain{}; largest deviation {:.4g}, rms "
+                         "{:.4g}, tolerance {:.4g}, noise {:.3g}",
+                         name, faired.line.points.size(), r.pieces.size(),
+                         r.pieces.size() == 1 ? "" : "s", chains, chains == 1 ? "" : "s",
+                         r.max_deviation, r.rms_deviation, r.tolerance, r.noise));
+}
+
+/// Where the tolerance is missed, or that the work was cut short: after everything is written.
+int verdict_of(const std::vector<Faired>& all, const std::string& file) {
+  int exit = kDone;
+  for (const Faired& faired : all) {
+    const fairing::FairResult& r = faired.result;
+    const std::string name = faired.line.id.empty() ? "" : " (" + faired.line.id + ")";
+    if (r.cancelled) {
+      report_failure(
+          {core::ErrorCode::cancelled, "cancelled" + name + "; the best found was kept", "", ""});
+      return kCancelled;
+    }
+    if (r.within_tolerance) continue;
+    const core::Point2 p = faired.line.points[r.worst_point];
+    exit = report_failure(
+        {core::ErrorCode::not_converged,
+         fmt::format("no chain found{} within {:.4g}: the best misses point {} at ({:.6g}, {:.6g}) "
+                     "by {:.4g}",
+                     name, r.tolerance, r.worst_point, p.x, p.y, r.max_deviation),
+         "give a larger --tolerance, or look for strays there", ""},
+        file);
+  }
+  return exit;
+}
+
+Result<std::vector<Faired>> fair_all(const FairCommand& command) {
+  const core::Progress progress = interactive_progress(command.common.quiet);
+  auto options = options_of(command, progress);
+  if (!options) return std::unexpected(options.error());
+  auto lines = load_key_lines(command.input);
+  if (!lines) return std::unexpected(lines.error());
+  std::vector<Faired> all;
+  const double count = static_cast<double>(lines->size());
+  for (std::size_t i = 0; i < lines->size(); ++i) {
+    acquire::KeyLine& line = (*lines)[i];
+    auto indices = indices_in(line, command.must_pass);
+    if (!indices) return std::unexpected(indices.error());
+    options->must_pass = std::move(*indices);
+    options->progress =
+        core::part_of(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    auto result = fairing::fair(line, *options);
+    if (!result) return std::unexpected(result.error());
+    all.push_back({std::move(line), std::move(*result)});
+    if (all.back().result.cancelled) break;
+  }
+  end_progress();
+  return all;
+}
+
+nlohmann::json result_json(const std::vector<Faired>& all) {
+  if (all.size() == 1) return operations::fair_json(all.front().result);
+  nlohmann::json list = nlohmann::json::array();
+  for (const Faired& faired : all) {
+    nlohmann::json j = operations::fair_json(faired.result);
+    j["id"] = faired.line.id;
+    list.push_back(std::move(j));
+  }
+  return {{"curves", std::move(list)}};
+}
+
+}  // namespace
+
+int run_fair(const FairCommand& command) {
+  const std::string& file = command.input.files.front();
+  if (auto known = check_outputs(command.common, {".svg", ".json", ".csv"}); !known)
+    return report_failure(known.error());
+  const auto all = fair_all(command);
+  if (!all) return report_failure(all.error());
+  std::vector<OutputCurve> curves;
+  double tolerance = HUGE_VAL;
+  for (const Faired& faired : *all) {
+    curves.push_back({faired.line.id, operations::fair_curve(faired.result)});
+    tolerance = std::min(tolerance, 0.1 * faired.result.tolerance);
+  }
+  const Writers writers = curve_writers(curves, tolerance, command.input.unit);
+  if (auto done = write_outputs(command.common, writers); !done)
+    return report_failure(done.error());
+  if (command.common.json) fmt::print("{}\n", result_json(*all).dump());
+  for (const Faired& faired : *all) tell(command, faired);
+  return verdict_of(*all, file);
+}
+
+}  // namespace keyline::app
