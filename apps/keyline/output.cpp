@@ -49,7 +49,7 @@ Result<std::string> write_csv(const std::vector<OutputCurve>& curves) {
     const analysis::ArcLengthTable table(view);
     for (int i = 0; i < kSamples; ++i) {
       const double s = table.length() * i / (kSamples - 1);
-      const curve::Jet2 at = view.jet(table.parameter_at(s));
+      const curve::Jet2 at = jet(view, table.parameter_at(s));
       const double bend = curvature(at);
       if (several) out << curve.name << ',';
       out << exchange::shortest(at.point.x) << ',' << exchange::shortest(at.point.y) << ','
