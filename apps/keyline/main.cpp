@@ -133,6 +133,10 @@ int run(int argc, char** argv) {
   list_sub->add_option("NAME", name, "of an operation");
   add_common(*list_sub, list, false);
 
+  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+    return report_failure({core::ErrorCode::bad_input,
+                           std::string("there is no command \"") + argv[1] + "\"",
+                           "keyline --help lists them", ""});
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& e) {

@@ -1,0 +1,145 @@
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+TEST(BadInput, EmptyFile) {
+  const Scratch s;
+  expect_failure(run_keyline("fair --quiet " + s.write("empty.csv", "")), 2, "empty.csv");
+}
+
+TEST(BadInput, OnePoint) {
+  const Scratch s;
+  expect_failure(run_keyline("fair --quiet " + s.write("one.csv", "1,2\n")), 2, "one.csv");
+}
+
+TEST(BadInput, TwoPointsAreAStraightLine) {
+  const Scratch s;
+  const Outcome o = run_keyline("fair --json --quiet " + s.write("two.csv", "1,2\n3,4\n"));
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("\"straight\""), std::string::npos);
+}
+
+TEST(BadInput, ThreePointsGiveACurve) {
+  const Scratch s;
+  EXPECT_EQ(run_keyline("fair --quiet " + s.write("three.csv", "0,0\n1,0.1\n2,0\n")).status, 0);
+}
+
+TEST(BadInput, AllPointsEqual) {
+  const Scratch s;
+  expect_failure(run_keyline("fair --quiet " + s.write("same.csv", "1,1\n1,1\n1,1\n1,1\n")), 2,
+                 "same.csv");
+}
+
+TEST(BadInput, CollinearPointsAreAStraightLine) {
+  const Scratch s;
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + "," + std::to_string(2 * i) + "\n";
+  const Outcome o = run_keyline("fair --json --quiet " + s.write("line.csv", text));
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.out.find("\"straight\""), std::string::npos);
+}
+
+TEST(BadInput, NanAndInfinityAreDroppedAndCounted) {
+  const Scratch s;
+  std::string text = "x,y\n";
+  for (int i = 0; i < 20; ++i)
+    text += std::to_string(i) + "," + std::to_string(0.01 * i * i) + "\n";
+  text += "nan,3\ninf,4\n";
+  const Outcome o = run_keyline("fair --json " + s.write("holes.csv", text));
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("2 "), std::string::npos) << o.err;
+  EXPECT_EQ(o.out.find("nan"), std::string::npos);
+}
+
+TEST(BadInput, HugeNumber) {
+  const Scratch s;
+  expect_failure(run_keyline("fair --quiet " + s.write("huge.csv", "0,0\n1,1\n1e300,2\n3,3\n")), 2,
+                 "huge.csv:3");
+}
+
+TEST(BadInput, TextWhereANumberBelongs) {
+  const Scratch s;
+  expect_failure(run_keyline("fair --quiet " + s.write("text.csv", "0,0\n1,one\n2,2\n")), 2,
+                 "text.csv:2");
+}
+
+TEST(BadInput, BinaryFile) {
+  const Scratch s;
+  std::string bytes("\x89PNG\r\n\x1a\n", 8);
+  for (int i = 0; i < 300; ++i) bytes.push_back(static_cast<char>(i * 37));
+  expect_failure(run_keyline("fair --quiet " + s.write("binary.csv", bytes)), 2, "binary.csv");
+}
+
+TEST(BadInput, EndlessLineInBoundedMemory) {
+  // 1 GB without a line end, under a limit of 600 MB of address space.
+  const Scratch s;
+  const std::string script = s.write(
+      "run.sh", std::string("ulimit -v 800000; head -c 1073741824 /dev/zero | tr '\\0' '1' | ") +
+                    KEYLINE_PROGRAM + " fair --quiet - >" + s.path("out") + " 2>" + s.path("err"));
+  const int status = std::system(("bash " + script).c_str());
+  expect_failure({WEXITSTATUS(status), slurp(s.path("out")), slurp(s.path("err"))}, 2, "line");
+}
+
+TEST(BadInput, MissingFile) {
+  expect_failure(run_keyline("fair --quiet /no/such/file.csv"), 3, "/no/such/file.csv");
+}
+
+TEST(BadInput, Directory) {
+  const Scratch s;
+  EXPECT_NE(run_keyline("fair --quiet " + s.path("")).status, 0);
+}
+
+TEST(BadInput, UnwritableOutputLeavesNothingBehind) {
+  const Scratch s;
+  expect_failure(run_keyline("fair --quiet " + example("clothoid.csv") + " -o /no/such/place.svg"),
+                 3, "/no/such/place.svg");
+  const std::string kept = s.write("kept.svg", "old");
+  EXPECT_EQ(run_keyline("fair --quiet /no/such/file.csv -o " + kept).status, 3);
+  EXPECT_EQ(slurp(kept), "old");
+  EXPECT_EQ(s.count(), 1U);
+}
+
+TEST(BadInput, UnknownOption) {
+  expect_failure(run_keyline("fair --fairer " + example("clothoid.csv")), 2, "--fairer");
+}
+
+TEST(BadInput, UnknownCommandAndFormat) {
+  expect_failure(run_keyline("fear x.csv"), 2, "fear");
+  expect_failure(run_keyline("fair --quiet " + example("clothoid.csv") + " -o x.docx"), 2, ".docx");
+}
+
+TEST(BadInput, OptionsThatMakeNoSense) {
+  const std::string file = example("clothoid.csv");
+  expect_failure(run_keyline("fair --quiet --clamp begin:G1 " + file), 2, "clamp");
+  expect_failure(run_keyline("fair --quiet --region 0.9:0.1 " + file), 2, "region");
+  expect_failure(run_keyline("fair --quiet --interpretation 0:lovely " + file), 2, "lovely");
+  expect_failure(run_keyline("fair --quiet --interpretation 99:arc " + file), 2, "99");
+  expect_failure(run_keyline("fair --quiet --tolerance -1 " + file), 2, "tolerance");
+  expect_failure(run_keyline("fair --quiet --order 9 " + file), 2, "order");
+}
+
+TEST(BadInput, CurvesThatAreNone) {
+  const Scratch s;
+  expect_failure(run_keyline("analyze --quiet " + s.write("a.json", "{\n\"type\": }")), 2,
+                 "a.json:2");
+  expect_failure(run_keyline("analyze --quiet " +
+                             s.write("b.json", R"({"type":"bezier","points":[[0,0],[1,"x"]]})")),
+                 2, "points[1][1]");
+  expect_failure(run_keyline("analyze --quiet " + s.write("c.json", R"({"type":"spiral"})")), 2,
+                 "spiral");
+}
+
+TEST(BadInput, ToleranceOutOfReachIsStatusOneWithTheBestWritten) {
+  const Scratch s;
+  std::string text;
+  for (int i = 0; i < 40; ++i)
+    text += std::to_string(i) + "," + std::to_string((i * 7919) % 13 * 0.3) + "\n";
+  const Outcome o = run_keyline("fair --quiet --tolerance 1e-9 --keep-order --keep-strays " +
+                                s.write("wild.csv", text) + " -o " + s.path("best.json"));
+  EXPECT_EQ(o.status, 1) << o.err;
+  EXPECT_TRUE(std::filesystem::exists(s.path("best.json")));
+}
+
+}  // namespace
+}  // namespace keyline::app_test

@@ -1,0 +1,136 @@
+#include <cmath>
+#include <csignal>
+#include <sstream>
+
+#include <sys/wait.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+using nlohmann::json;
+
+TEST(Commands, HelpAndVersion) {
+  EXPECT_EQ(run_keyline("--version").out, "keyline 0.1.0\n");
+  for (const char* name : {"fair", "analyze", "draw", "convert", "batch", "operations"}) {
+    const Outcome o = run_keyline(std::string(name) + " --help");
+    EXPECT_EQ(o.status, 0);
+    EXPECT_NE(o.out.find("--threads"), std::string::npos) << name;
+  }
+}
+
+TEST(Commands, FairWritesEveryFormat) {
+  const Scratch s;
+  const Outcome o =
+      run_keyline("fair --quiet --json " + example("bonnet-scan.csv") + " -o " + s.path("a.svg") +
+                  " -o " + s.path("a.json") + " -o " + s.path("a.csv"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  const json result = json::parse(o.out);
+  EXPECT_EQ(result["curve"], json::parse(slurp(s.path("a.json"))));
+  EXPECT_LE(result["deviation"]["max"].get<double>(), result["tolerance"].get<double>());
+  EXPECT_LE(result["pieces"].size(), 8U);
+  EXPECT_NE(slurp(s.path("a.svg")).find("<svg"), std::string::npos);
+  EXPECT_TRUE(slurp(s.path("a.csv")).starts_with("x,y,arc_length,curvature\n"));
+}
+
+TEST(Commands, SvgReadsBackAsTheExactChain) {
+  const Scratch s;
+  ASSERT_EQ(run_keyline("fair --quiet " + example("clothoid.csv") + " -o " + s.path("a.svg") +
+                        " -o " + s.path("a.json"))
+                .status,
+            0);
+  ASSERT_EQ(run_keyline("convert --quiet " + s.path("a.svg") + " -o " + s.path("b.json")).status,
+            0);
+  EXPECT_EQ(slurp(s.path("a.json")), slurp(s.path("b.json")));
+}
+
+TEST(Commands, SameBytesWithOneThreadAndTwo) {
+  const std::string fair = "fair --quiet --json " + example("bottle.csv");
+  const Outcome one = run_keyline(fair + " --threads 1");
+  const Outcome two = run_keyline(fair + " --threads 2");
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(one.out, two.out);
+}
+
+TEST(Commands, SeveralFilesAreOneKeyLine) {
+  const Outcome o = run_keyline("fair --quiet --json " + example("bonnet.csv") + " " +
+                                example("windscreen.csv") + " " + example("roof.csv"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NEAR(json::parse(o.out)["length"].get<double>(), 1240, 15);
+}
+
+TEST(Commands, IdColumnMakesSeveralCurves) {
+  const Outcome o = run_keyline("fair --quiet --json " + example("outlines.csv"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(json::parse(o.out)["curves"].size(), 2U);
+}
+
+TEST(Commands, SectionOfACloudAndRowOfALattice) {
+  EXPECT_EQ(
+      run_keyline("fair --quiet --section y=0 --band 0.03 " + example("car-cloud.xyz")).status, 0);
+  EXPECT_EQ(run_keyline("fair --quiet --row 5 " + example("car-lattice.xyz")).status, 0);
+}
+
+TEST(Commands, BatchAnswersEveryLineInOrder) {
+  const Scratch s;
+  const std::string requests = s.write(
+      "requests", R"({"op":"lac.segment","id":1,"points":[[0,0],[2,0],[3,1.5]],"alpha":-1})"
+                  "\nnot json\n\n"
+                  R"({"op":"lac.segment","id":3,"points":[[0,0],[2,0],[4,0.01]],"alpha":"x"})"
+                  "\n"
+                  R"({"op":"operation that is none","id":4})");
+  const Outcome o = run_keyline("batch <" + requests);
+  ASSERT_EQ(o.status, 0);
+  std::istringstream lines(o.out);
+  std::string line;
+  std::vector<json> answers;
+  while (std::getline(lines, line)) answers.push_back(json::parse(line));
+  ASSERT_EQ(answers.size(), 4U);
+  EXPECT_EQ(answers[0]["ok"], true);
+  EXPECT_EQ(answers[1]["error"]["code"], "bad-input");
+  EXPECT_EQ(answers[2]["error"]["path"], "alpha");
+  EXPECT_EQ(answers[3]["id"], 4);
+}
+
+TEST(Commands, OperationsPrintsSchemas) {
+  const json list = json::parse(run_keyline("operations --json").out);
+  EXPECT_GE(list.size(), 5U);
+  for (const json& item : list) {
+    const Outcome o = run_keyline("operations " + item["name"].get<std::string>());
+    EXPECT_EQ(json::parse(o.out)["title"], item["name"]);
+  }
+  expect_failure(run_keyline("operations nothing"), 2, "nothing");
+}
+
+TEST(Commands, DrawTellsTheSegment) {
+  const Outcome o = run_keyline("draw --points 0,0 2,0 3,1.5 --alpha -1 --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(json::parse(o.out)["curve"]["type"], "log-aesthetic");
+  expect_failure(run_keyline("draw --points 0,0 1,0 1,0.01 --alpha -1"), 1, "");
+}
+
+/// Interrupts a long run after a while: status 130, one line, nothing half written.
+TEST(Commands, InterruptAtAnyStage) {
+  for (const char* delay : {"0.02", "0.2", "0.5", "1"}) {
+    const Scratch s;
+    std::string text;
+    for (int i = 0; i < 60000; ++i) {
+      const double t = 0.0004 * i;
+      text += std::to_string(100 * std::cos(t) + 3 * std::sin(7 * t)) + "," +
+              std::to_string(60 * std::sin(t) + 2 * std::cos(5 * t)) + "\n";
+    }
+    const std::string input = s.write("long.csv", text);
+    const Outcome o = run_keyline(
+        "fair --quiet --threads 1 --tolerance 1e-5 " + input + " -o " + s.path("out.svg"),
+        std::string("timeout -s INT ") + delay);
+    EXPECT_TRUE(o.status == 130 || o.status == 124) << delay << " " << o.status << o.err;
+    EXPECT_LE(s.count(), 2U);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::app_test
