@@ -88,6 +88,12 @@ CLI::App* add_fair(CLI::App& app, FairCommand& fair) {
   return sub;
 }
 
+bool has_command(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* sub : app.get_subcommands({}))
+    if (sub->get_name() == name) return true;
+  return false;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Keyline: aesthetic curves. Measured points in, a faired key-line out."};
   app.set_version_flag("--version", "keyline " KEYLINE_VERSION);
@@ -133,7 +139,7 @@ int run(int argc, char** argv) {
   list_sub->add_option("NAME", name, "of an operation");
   add_common(*list_sub, list, false);
 
-  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+  if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1]))
     return report_failure({core::ErrorCode::bad_input,
                            std::string("there is no command \"") + argv[1] + "\"",
                            "keyline --help lists them", ""});
