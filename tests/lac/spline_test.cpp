@@ -1,0 +1,239 @@
+#include "keyline/lac/spline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/curve/length.h"
+
+namespace keyline::lac {
+namespace {
+
+using core::ErrorCode;
+using core::Point2;
+
+std::vector<Point2> on_circle(int n, double step) {
+  std::vector<Point2> points;
+  for (int i = 0; i < n; ++i) points.push_back({2 * std::cos(i * step), 2 * std::sin(i * step)});
+  return points;
+}
+
+SplineOptions with_slope(double alpha) {
+  SplineOptions options;
+  options.alpha = {alpha};
+  return options;
+}
+
+/// Largest distance of the span ends from the points, by the chain's own functions.
+double misses(const SplineSolution& s, const std::vector<Point2>& points) {
+  const auto poses = joints(s.chain);
+  double worst = distance(poses[0].position, points[0]);
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    if (k < s.span.size() && s.span[k] == s.span[k - 1]) continue;
+    worst =
+        std::max(worst, distance(poses[k].position, points[(s.span[k - 1] + 1) % points.size()]));
+  }
+  return worst;
+}
+
+std::vector<Point2> wavy(int n, double noise, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<Point2> points;
+  for (int i = 0; i < n; ++i) points.push_back({double(i), noise * any(random)});
+  return points;
+}
+
+TEST(Spline, PointsOnACircleGiveTheCircle) {
+  for (const double alpha : {-5.0, -1.0, 0.0, 0.5, 1.0, 2.0, 30.0}) {
+    for (const bool closed : {false, true}) {
+      SplineOptions options = with_slope(alpha);
+      options.closed = closed;
+      const auto points = closed ? on_circle(5, 2 * core::kPi / 5) : on_circle(6, 0.8);
+      const auto s = solve_spline(points, options);
+      ASSERT_TRUE(s) << alpha << s.error().message;
+      for (const Piece& p : s->chain.pieces) {
+        EXPECT_NEAR(p.curvature_start, 0.5, 1e-12);
+        EXPECT_EQ(p.alpha, alpha);
+      }
+      EXPECT_LT(misses(*s, points), 1e-13);
+      EXPECT_TRUE(s->overridden.empty());
+    }
+  }
+}
+
+TEST(Spline, PointsOfASegmentGiveTheSegment) {
+  for (const double alpha : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.5}) {
+    const Segment segment{{{1, 2}, 0.7}, alpha, 3, 0.2, 0.9};
+    std::vector<Point2> points;
+    for (const double t : {0.0, 0.15, 0.4, 0.6, 1.0}) points.push_back(evaluate(segment, t));
+    SplineOptions options = with_slope(alpha);
+    options.start.direction = 0.7;
+    options.end.direction = end_pose(segment).direction;
+    const auto s = solve_spline(points, options);
+    ASSERT_TRUE(s) << alpha;
+    ASSERT_EQ(s->chain.pieces.size(), 4u);
+    EXPECT_NEAR(s->chain.pieces[0].curvature_start, 0.2, 1e-11);
+    EXPECT_NEAR(s->chain.pieces[3].curvature_end, 0.9, 1e-11);
+    EXPECT_NEAR(arc_length(s->chain), 3, 1e-12);
+    EXPECT_LT(misses(*s, points), 1e-13);
+    options.start.curvature = 0.2;
+    options.end.curvature = 0.9;
+    const auto both = solve_spline(points, options);
+    ASSERT_TRUE(both);
+    EXPECT_EQ(both->chain.pieces.size(), 6u);
+    EXPECT_NEAR(arc_length(both->chain), 3, 1e-12);
+  }
+}
+
+TEST(Spline, ALongOneIsG2AndMeetsItsPoints) {
+  for (const double alpha : {-1.0, -2.0, -0.5, 0.5}) {
+    const auto points = wavy(1000, 0.5, 3);
+    const auto s = solve_spline(points, with_slope(alpha));
+    ASSERT_TRUE(s) << alpha << s.error().message;
+    EXPECT_FALSE(s->span_by_span);
+    EXPECT_EQ(s->chain.pieces.size(), 999u);
+    EXPECT_EQ(largest_joint_gap(s->chain).curvature, 0);
+    EXPECT_LT(misses(*s, points), 1e-10);
+    for (std::size_t i = 0; i < s->chain.pieces.size(); ++i) {
+      const Piece& p = s->chain.pieces[i];
+      ASSERT_TRUE(validate(p));
+      const bool given_way = std::binary_search(s->overridden.begin(), s->overridden.end(), i);
+      EXPECT_EQ(p.alpha, given_way ? -1 : alpha);
+    }
+  }
+}
+
+TEST(Spline, ASymmetricRequestHasASymmetricAnswer) {
+  const std::vector<Point2> points{{0, 0}, {1, 0.6}, {2, -0.4}, {3, 0.6}, {4, 0}};
+  for (const double alpha : {-1.0, -3.0, -0.4, 1.0}) {
+    const auto s = solve_spline(points, with_slope(alpha));
+    ASSERT_TRUE(s);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Piece& a = s->chain.pieces[i];
+      const Piece& b = s->chain.pieces[3 - i];
+      EXPECT_NEAR(a.curvature_start, b.curvature_end, 1e-10);
+      EXPECT_NEAR(a.length, b.length, 1e-10);
+    }
+  }
+}
+
+TEST(Spline, DoesNotDependOnPlaceScaleOrSense) {
+  const std::vector<Point2> points{{0, 0}, {1, 0.6}, {2, -0.2}, {3.5, 0.6}, {4, 1.5}};
+  const core::Similarity2 map{250, 2.3, {-40, 7}};
+  for (const double alpha : {-1.0, -2.0, 0.5}) {
+    const auto s = solve_spline(points, with_slope(alpha));
+    ASSERT_TRUE(s);
+    std::vector<Point2> moved;
+    for (const Point2& p : points) moved.push_back(apply(map, p));
+    const auto m = solve_spline(moved, with_slope(alpha));
+    std::vector<Point2> back(points.rbegin(), points.rend());
+    const auto r = solve_spline(back, with_slope(alpha));
+    ASSERT_TRUE(m && r);
+    EXPECT_EQ(m->overridden, s->overridden);
+    for (const double t : {0.1, 0.35, 0.8}) {
+      const Point2 p = evaluate(s->chain, t);
+      EXPECT_LT(distance(apply(map, p), evaluate(m->chain, t)), 1e-9 * map.scale);
+      EXPECT_LT(distance(p, evaluate(r->chain, 1 - t)), 1e-9);
+    }
+  }
+}
+
+TEST(Spline, SpansThatMustInflectGiveWay) {
+  const std::vector<Point2> points{{0, 0}, {1, 0.5}, {2, 0.5}, {3, 0}, {4, 0}, {5, 0.8}};
+  const auto s = solve_spline(points, with_slope(1));
+  ASSERT_TRUE(s) << s.error().message;
+  EXPECT_FALSE(s->overridden.empty());
+  EXPECT_LT(s->overridden.size(), 5u);
+  for (const std::size_t i : s->overridden) EXPECT_EQ(s->chain.pieces[i].alpha, -1);
+  SplineOptions mixed;
+  mixed.alpha = {0.5, 1, -2, -0.5, -1};
+  const auto m = solve_spline(points, mixed);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_LT(misses(*m, points), 1e-12);
+}
+
+TEST(Spline, EndConditionsHold) {
+  const std::vector<Point2> points{{0, 0}, {1, 0.6}, {2, 0.7}, {3, 0}};
+  SplineOptions options;
+  options.start.direction = 1.2;
+  options.end.curvature = -0.25;
+  auto s = solve_spline(points, options);
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->chain.start.direction, 1.2, 1e-13);
+  EXPECT_NEAR(s->chain.pieces.back().curvature_end, -0.25, 1e-13);
+  options.start.curvature = 0.3;
+  s = solve_spline(points, options);
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->chain.start.direction, 1.2, 1e-12);
+  EXPECT_NEAR(s->chain.pieces.front().curvature_start, 0.3, 1e-13);
+  EXPECT_EQ(largest_joint_gap(s->chain).curvature, 0);
+}
+
+TEST(Spline, IsNeverWild) {
+  std::mt19937 random(17);
+  std::normal_distribution<double> normal;
+  int by_span = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<Point2> points;
+    for (int k = 0; k < 8; ++k) points.push_back({4 * normal(random), 4 * normal(random)});
+    SplineOptions options = with_slope(i % 3 == 0 ? 0.5 : -1.0);
+    options.closed = i % 2 == 0;
+    const auto s = solve_spline(points, options);
+    if (!s) {
+      EXPECT_EQ(s.error().code, ErrorCode::not_converged);
+      ADD_FAILURE() << i << " " << s.error().message;
+      continue;
+    }
+    by_span += s->span_by_span ? 1 : 0;
+    EXPECT_LT(misses(*s, points), 1e-10);
+    EXPECT_LT(largest_joint_gap(s->chain).curvature, 1e-12);
+    for (const Piece& p : s->chain.pieces) EXPECT_LT(std::abs(total_turning(p)), 1.5 * core::kPi);
+  }
+  EXPECT_GT(by_span, 0);
+}
+
+TEST(Spline, StraightDataGiveAStraightLine) {
+  const std::vector<Point2> points{{0, 0}, {1, 1}, {3, 3}};
+  const auto s = solve_spline(points, with_slope(2));
+  ASSERT_TRUE(s);
+  for (const Piece& p : s->chain.pieces) EXPECT_EQ(p.curvature_start, 0);
+  EXPECT_EQ(solve_spline(std::vector<Point2>{{0, 0}, {2, 0}})->chain.pieces.size(), 1u);
+}
+
+TEST(Spline, RefusesBadInput) {
+  const auto code = [](const std::vector<Point2>& points, const SplineOptions& options = {}) {
+    return solve_spline(points, options).error().code;
+  };
+  EXPECT_EQ(code({}), ErrorCode::bad_input);
+  EXPECT_EQ(code({{0, 0}}), ErrorCode::bad_input);
+  EXPECT_EQ(solve_spline(std::vector<Point2>{{0, 0}, {1, 0}, {1, 0}}).error().path, "points[2]");
+  EXPECT_EQ(code({{0, 0}, {std::nan(""), 0}}), ErrorCode::bad_input);
+  SplineOptions options;
+  options.alpha = {1, 2};
+  EXPECT_EQ(code({{0, 0}, {1, 0}}, options), ErrorCode::bad_input);
+  options.alpha = {std::nan("")};
+  EXPECT_EQ(code({{0, 0}, {1, 0}}, options), ErrorCode::bad_input);
+  options.alpha = {};
+  options.closed = true;
+  EXPECT_EQ(code({{0, 0}, {1, 0}}, options), ErrorCode::bad_input);
+  options.start.direction = 1;
+  EXPECT_EQ(code({{0, 0}, {1, 0}, {1, 1}}, options), ErrorCode::bad_input);
+}
+
+TEST(Spline, WorksAtExtremeScales) {
+  for (const double scale : {1e-150, 1e150}) {
+    std::vector<Point2> points{{0, 0}, {1, 0.6}, {2, -0.2}, {3.5, 0.6}};
+    for (Point2& p : points) p = {p.x * scale, p.y * scale};
+    const auto s = solve_spline(points);
+    ASSERT_TRUE(s);
+    EXPECT_LT(s->deviation, 1e-12 * scale);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::lac
