@@ -18,13 +18,13 @@ using detail::UnitPiece;
 
 constexpr double kAllowed = 1e-14;  ///< of the length, per step of the argument
 constexpr int kSeriesDegree = 20;
-constexpr int kMapDegree = 6;  ///< of the parameter's polynomial on a stretch
+constexpr int kMapDegree = 12;  ///< of the parameter's polynomial on a stretch
 constexpr int kMaxDepth = 60;
 
 /// Point and weight: a rational Bézier in homogeneous form.
 struct Weighted {
   Vector2 point;
-  double weight = 1;
+  double weight = 0;
 };
 Weighted operator+(Weighted a, Weighted b) { return {a.point + b.point, a.weight + b.weight}; }
 Weighted operator-(Weighted a, Weighted b) { return {a.point - b.point, a.weight - b.weight}; }
@@ -231,7 +231,7 @@ double stretch_bound(const Homogeneous& h, const UnitPiece& unit, const Paramete
   const bool rational = h.least_weight < 1;
   const int carried = static_cast<int>((b.series.size() - 1) * (t.size() - 1));
   const int degree = rational ? carried + s.series.degree : std::max(carried, s.series.degree);
-  const int nodes = 4 * degree;
+  const int nodes = 6 * degree;
   double largest = 0;
   for (int j = 0; j < nodes; ++j) {
     const double x = std::cos(core::kPi * (j + 0.5) / nodes);
@@ -241,7 +241,7 @@ double stretch_bound(const Homogeneous& h, const UnitPiece& unit, const Paramete
     largest = std::max(largest, norm(q.point - q.weight * p));
   }
   const double left_out = b.cut + (b.cut_weight + 1) * s.remainder + b.cut_weight * (s.v1 - s.v0);
-  return (largest / std::cos(core::kPi / 8) + left_out) / b.least_weight;
+  return (largest / std::cos(core::kPi / 12) + left_out) / b.least_weight;
 }
 
 /// Stretches of [v0, v1], in order.

@@ -61,8 +61,7 @@ void integrate_angle(TaylorSeries& s) {
 double majorant(const TaylorSeries& s, double x) {
   if (s.value == 0) return std::abs(s.rate) * x;
   const double step = s.decay * std::abs(s.log_rate) * x;
-  const double power =
-      s.decay == 0 ? std::abs(s.log_rate) * x : -std::log1p(-step) / s.decay;
+  const double power = s.decay == 0 ? std::abs(s.log_rate) * x : -std::log1p(-step) / s.decay;
   return std::abs(s.value) * std::exp(power);
 }
 
@@ -110,8 +109,8 @@ TaylorSeries taylor_series(const UnitPiece& unit, SeriesVariable variable, doubl
     s.log_rate = kappa == 0 ? 0 : rate / kappa;
   }
   const bool vertex = s.value == 0 && s.rate != 0;  // inflection in arc length, cusp in angle
-  s.analytic = std::isfinite(s.value) && std::isfinite(s.log_rate) &&
-               (!vertex || s.decay == -1) && !(by_angle && s.value == 0);
+  s.analytic = std::isfinite(s.value) && std::isfinite(s.log_rate) && (!vertex || s.decay == -1) &&
+               !(by_angle && s.value == 0);
   if (!s.analytic) return s;
   const double pace = std::abs(s.decay * s.log_rate);
   s.radius = pace == 0 || vertex || is_polynomial_power(s.decay)
@@ -138,8 +137,8 @@ double remainder_bound(const TaylorSeries& s, double reach) {
   for (int i = 1; i <= 24; ++i) {
     const double growth = ratio * i / (std::isinf(s.radius) ? 24.0 : 24.5);
     const double r = reach * std::exp(growth);
-    const double bound = velocity_bound(s, r) * r * std::exp(-(n + 1) * growth) /
-                         ((n + 1) * -std::expm1(-growth));
+    const double bound =
+        velocity_bound(s, r) * r * std::exp(-(n + 1) * growth) / ((n + 1) * -std::expm1(-growth));
     if (bound < best) best = bound;
   }
   return best;

@@ -21,9 +21,9 @@ enum class SeriesVariable { tangent_angle, arc_length };
 /// A piece reduced to length 1 and mainly positive curvature.
 struct UnitPiece {
   Piece piece;
-  double length = 1;    ///< that was
-  double mirror = 1;    ///< -1: mirrored in the start tangent
-  double turning = 0;   ///< of the reduced piece
+  double length = 1;   ///< that was
+  double mirror = 1;   ///< -1: mirrored in the start tangent
+  double turning = 0;  ///< of the reduced piece
 };
 UnitPiece unit_piece(const Piece& piece);
 
@@ -33,16 +33,16 @@ UnitPiece unit_piece(const Piece& piece);
 struct TaylorSeries {
   SeriesVariable variable = SeriesVariable::arc_length;
   double about = 0;
-  double arc = 0;     ///< fraction of the arc length at `about`
+  double arc = 0;  ///< fraction of the arc length at `about`
   int degree = 0;
-  bool analytic = true;    ///< false: curvature 0 or infinite there, no series
-  double radius = 0;       ///< of convergence, may be infinite
+  bool analytic = true;  ///< false: curvature 0 or infinite there, no series
+  double radius = 0;     ///< of convergence, may be infinite
   std::array<core::Vector2, kMaxTaylorDegree + 1> coefficient{};
 
-  double value = 0;    ///< kappa or rho times turning, at the point of expansion
-  double log_rate = 0; ///< d ln(kappa) / dx or d ln(rho) / dx
-  double rate = 0;     ///< d kappa / dx: what counts where kappa is 0
-  double decay = 0;    ///< alpha or 1 - alpha
+  double value = 0;     ///< kappa or rho times turning, at the point of expansion
+  double log_rate = 0;  ///< d ln(kappa) / dx or d ln(rho) / dx
+  double rate = 0;      ///< d kappa / dx: what counts where kappa is 0
+  double decay = 0;     ///< alpha or 1 - alpha
   double turning = 0;
 };
 

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include "keyline/core/angle.h"
+#include "keyline/lac/quasi_forms.h"
+
+namespace keyline::lac::detail {
+
+using core::Vector2;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Bernstein polynomials of degree n at t, and their derivatives.
+struct Basis {
+  std::vector<double> value, slope;
+  Basis(int n, double t) : value(n + 1, 0.0), slope(n + 1, 0.0) {
+    std::vector<double> b{1};
+    for (int level = 1; level <= n; ++level) {
+      if (level == n)
+        for (int i = 0; i <= n; ++i) slope[i] = n * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
+      b.push_back(0);
+      for (int i = level; i > 0; --i) b[i] = (1 - t) * b[i] + t * b[i - 1];
+      b[0] *= 1 - t;
+    }
+    value = b;
+  }
+};
+
+Vector2 combine(const std::vector<double>& weights, const ControlPolygon& b) {
+  Vector2 v;
+  for (std::size_t i = 0; i < b.size(); ++i) v = v + weights[i] * b[i];
+  return v;
+}
+
+/// Bézier polygons of one degree with the ends, tangents and curvatures of a unit piece. Unknowns:
+/// handle length and far handle's offset along the tangent at either end, then the inner points.
+class Family {
+ public:
+  Family(const UnitPiece& unit, int degree)
+      : unit_(unit),
+        n_(degree),
+        end_(displacement(unit.piece, 1)),
+        end_tangent_(core::unit_vector(unit.turning)) {}
+
+  int unknowns() const { return 4 + 2 * (n_ - 5); }
+
+  ControlPolygon polygon(const VectorXd& x) const {
+    ControlPolygon b(n_ + 1);
+    const double bend = n_ / (n_ - 1.0);
+    const Vector2 tangent{1, 0};
+    b[1] = x[0] * tangent;
+    b[2] = x[1] * tangent + (bend * unit_.piece.curvature_start * x[0] * x[0]) * Vector2{0, 1};
+    for (int i = 3; i < n_ - 2; ++i) b[i] = {x[4 + 2 * (i - 3)], x[5 + 2 * (i - 3)]};
+    b[n_] = end_;
+    b[n_ - 1] = end_ - x[2] * end_tangent_;
+    b[n_ - 2] =
+        end_ - x[3] * end_tangent_ +
+        (bend * unit_.piece.curvature_end * x[2] * x[2]) * core::perpendicular_left(end_tangent_);
+    return b;
+  }
+
+  /// d(combination of the polygon) / dx_k.
+  Vector2 change(const VectorXd& x, const std::vector<double>& w, int k) const {
+    const double bend = 2 * n_ / (n_ - 1.0);
+    const Vector2 normal = core::perpendicular_left(end_tangent_);
+    switch (k) {
+      case 0:
+        return {w[1], w[2] * bend * unit_.piece.curvature_start * x[0]};
+      case 1:
+        return {w[2], 0};
+      case 2:
+        return -w[n_ - 1] * end_tangent_ +
+               (w[n_ - 2] * bend * unit_.piece.curvature_end * x[2]) * normal;
+      case 3:
+        return -w[n_ - 2] * end_tangent_;
+      default: {
+        const double at = w[3 + (k - 4) / 2];
+        return k % 2 == 0 ? Vector2{at, 0} : Vector2{0, at};
+      }
+    }
+  }
+
+  /// Unit speed at the ends, inner points by least squares at equal arc length.
+  VectorXd start(const std::vector<double>& at, const std::vector<Vector2>& points) const {
+    VectorXd x = VectorXd::Zero(unknowns());
+    x[0] = x[2] = 1.0 / n_;
+    x[1] = x[3] = 2.0 / n_;
+    const int inner = n_ - 5;
+    if (inner == 0) return x;
+    const ControlPolygon fixed = polygon(x);
+    const int rows = static_cast<int>(at.size());
+    MatrixXd a(rows, inner);
+    MatrixXd rest(rows, 2);
+    for (int j = 0; j < rows; ++j) {
+      const Basis basis(n_, at[j]);
+      const Vector2 r = points[j] - combine(basis.value, fixed);
+      rest.row(j) << r.x, r.y;
+      for (int i = 0; i < inner; ++i) a(j, i) = basis.value[3 + i];
+    }
+    const MatrixXd solved = a.colPivHouseholderQr().solve(rest);
+    for (int i = 0; i < inner; ++i) {
+      x[4 + 2 * i] = solved(i, 0);
+      x[5 + 2 * i] = solved(i, 1);
+    }
+    return x;
+  }
+
+ private:
+  const UnitPiece& unit_;
+  int n_;
+  Vector2 end_, end_tangent_;
+};
+
+/// Smallest largest normal distance at places of the piece: damped Gauss-Newton steps on weighted
+/// distances, weights growing where the distance is large (Lawson's rule).
+class Fit {
+ public:
+  Fit(const UnitPiece& unit, int degree) : family_(unit, degree), degree_(degree) {
+    const int count = 4 * degree + 8;
+    for (int j = 0; j < count; ++j) {
+      const double v = 0.5 - 0.5 * std::cos(core::kPi * (j + 0.5) / count);
+      at_.push_back(v);
+      points_.push_back(displacement(unit.piece, v));
+      tangents_.push_back(core::unit_vector(turning(unit.piece, v)));
+    }
+    feet_ = at_;
+    weights_ = VectorXd::Constant(count, 1.0);
+  }
+
+  ControlPolygon run() {
+    best_ = family_.start(at_, points_);
+    descend(best_, 25);
+    for (int round = 0; round < 25 && least_ > 1e-14; ++round) {
+      reweight();
+      descend(last_, 2);
+    }
+    return family_.polygon(best_);
+  }
+
+ private:
+  /// Distances along the normals at x, feet moved along; false where a foot is lost.
+  bool distances(const VectorXd& x, VectorXd& r, MatrixXd* jacobian) {
+    const ControlPolygon b = family_.polygon(x);
+    const int rows = static_cast<int>(at_.size());
+    r.resize(rows);
+    if (jacobian) jacobian->resize(rows, family_.unknowns());
+    for (int j = 0; j < rows; ++j) {
+      double& t = feet_[j];
+      const Vector2 tangent = tangents_[j];
+      const Vector2 normal = core::perpendicular_left(tangent);
+      for (int step = 0; step < 4; ++step) {
+        const Basis basis(degree_, t);
+        const double pace = dot(combine(basis.slope, b), tangent);
+        if (!(pace > 0)) return false;
+        const double change = dot(combine(basis.value, b) - points_[j], tangent) / pace;
+        t = std::clamp(t - change, 0.0, 1.0);
+        if (std::abs(change) < 1e-13) break;
+      }
+      const Basis basis(degree_, t);
+      r[j] = dot(combine(basis.value, b) - points_[j], normal);
+      if (!jacobian) continue;
+      const Vector2 velocity = combine(basis.slope, b);
+      const double lean = dot(velocity, normal) / dot(velocity, tangent);
+      for (int k = 0; k < family_.unknowns(); ++k) {
+        const Vector2 d = family_.change(x, basis.value, k);
+        (*jacobian)(j, k) = dot(d, normal) - lean * dot(d, tangent);
+      }
+    }
+    return r.allFinite();
+  }
+
+  void keep_better(const VectorXd& x, const VectorXd& r) {
+    const double largest = r.cwiseAbs().maxCoeff();
+    if (!(largest < least_)) return;
+    least_ = largest;
+    best_ = x;
+  }
+
+  void descend(VectorXd x, int steps) {
+    VectorXd r;
+    MatrixXd jacobian;
+    feet_ = feet_of_best_.empty() ? at_ : feet_of_best_;
+    if (!distances(x, r, &jacobian)) return;
+    keep_better(x, r);
+    for (int step = 0; step < steps && least_ > 1e-15; ++step) {
+      const double cost = weights_.dot(r.cwiseAbs2());
+      const MatrixXd weighted = weights_.asDiagonal() * jacobian;
+      MatrixXd normal = jacobian.transpose() * weighted;
+      normal.diagonal().array() += damping_ * normal.diagonal().maxCoeff();
+      const VectorXd next = x - normal.ldlt().solve(weighted.transpose() * r);
+      const std::vector<double> feet = feet_;
+      VectorXd moved;
+      MatrixXd slopes;
+      const bool fine = distances(next, moved, &slopes);
+      if (!fine || !(weights_.dot(moved.cwiseAbs2()) <= cost)) {
+        feet_ = feet;
+        damping_ = std::min(damping_ * 30, 1e2);
+        if (damping_ >= 1e2) break;
+        continue;
+      }
+      const bool settled = weights_.dot(moved.cwiseAbs2()) > 0.999 * cost;
+      damping_ = std::max(damping_ / 10, 1e-13);
+      x = next;
+      r = moved;
+      jacobian = slopes;
+      keep_better(x, r);
+      if (settled) break;
+    }
+    feet_of_best_ = feet_;
+    last_ = x;
+    residuals_ = r;
+  }
+
+  void reweight() {
+    if (residuals_.size() != weights_.size()) return;
+    const double largest = residuals_.cwiseAbs().maxCoeff();
+    for (Eigen::Index j = 0; j < weights_.size(); ++j)
+      weights_[j] *= std::abs(residuals_[j]) + 1e-3 * largest;
+    weights_ *= static_cast<double>(weights_.size()) / weights_.sum();
+    damping_ = std::min(damping_, 1e-6);
+  }
+
+  Family family_;
+  int degree_;
+  std::vector<double> at_, feet_, feet_of_best_;
+  std::vector<Vector2> points_, tangents_;
+  VectorXd weights_, best_, last_, residuals_;
+  double damping_ = 1e-6;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+ControlPolygon best_polygon(const UnitPiece& unit, int degree) { return Fit(unit, degree).run(); }
+
+}  // namespace keyline::lac::detail
