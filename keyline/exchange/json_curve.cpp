@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/lac/chain.h"
+
 namespace keyline::exchange {
 namespace {
 

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/special_functions/erf.hpp>
-
 #include "keyline/fairing/fair.h"
+#include "keyline/numeric/normal.h"
 
 namespace keyline::fairing {
 
@@ -12,7 +11,7 @@ double default_tolerance(double noise, double length, std::size_t n) {
   // the factor taken here in nineteen runs of twenty.
   const double count = std::max<double>(1, static_cast<double>(n));
   const double each = 0.05 / count;
-  const double factor = std::numbers::sqrt2 * boost::math::erfc_inv(std::min(1.0, each));
+  const double factor = numeric::normal_two_sided(std::min(1.0, each));
   return std::max(noise * std::max(3.0, factor), 5e-4 * length);
 }
 
