@@ -1,0 +1,92 @@
+#include "keyline/lac/volume.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+
+namespace keyline::lac {
+namespace {
+
+using core::ErrorCode;
+using core::Pose2;
+
+TEST(ChordArea, OfArcsIsExact) {
+  for (const double angle : {0.01, 1.0, 3.0, 5.0}) {
+    const Segment arc{{{3, 1}, 0.4}, 0, angle * 2, 0.5, 0.5};
+    EXPECT_NEAR(chord_area(arc), 2 * (angle - std::sin(angle)), 1e-12);
+  }
+}
+
+TEST(ChordArea, IsAdditive) {
+  for (const double alpha : {-2.0, -0.5, 0.0, 1.0, 3.0}) {
+    const Segment s{{{1, 2}, 0.1}, alpha, 2, 0.2, 1.4};
+    const auto [a, b] = split(s, 0.4);
+    const core::Vector2 u = evaluate(s, 0.4) - evaluate(s, 0);
+    const core::Vector2 w = evaluate(s, 1) - evaluate(s, 0);
+    EXPECT_NEAR(chord_area(s), chord_area(a) + chord_area(b) + 0.5 * cross(u, w), 1e-13);
+  }
+}
+
+TEST(SolveVolume, GivesBackASegment) {
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (int i = 0; i < 60; ++i) {
+    const double alpha = -3 + 6 * any(random);
+    const double sign = i % 2 == 0 ? 1 : -1;
+    const Segment s{{{1, -2}, 6 * any(random)},
+                    alpha,
+                    2,
+                    sign * (0.1 + 0.7 * any(random)),
+                    sign * (0.1 + 0.7 * any(random))};
+    const double volume = std::abs(chord_area(s));
+    const auto found = solve_volume(s.start, end_pose(s).position, alpha, volume);
+    ASSERT_TRUE(found) << alpha << " " << found.error().message;
+    const Segment& f = found->solution.segment;
+    EXPECT_NEAR(found->volume, volume, 1e-11 * volume);
+    EXPECT_NEAR(std::abs(chord_area(f)), volume, 1e-10 * volume);
+    EXPECT_LT(distance(end_pose(f).position, end_pose(s).position), 1e-12);
+    EXPECT_NEAR(f.length, 2, 1e-8) << alpha;
+    EXPECT_LE(found->reachable.smallest, volume);
+  }
+}
+
+TEST(SolveVolume, VolumeGrowsWithTheArrivalAngle) {
+  for (const double alpha : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+    double before = 0;
+    for (const double volume : {0.1, 0.12, 0.14, 0.16, 0.2, 0.4}) {
+      const auto s = solve_volume({{0, 0}, 0.8}, {1, 0}, alpha, volume);
+      if (!s) continue;
+      EXPECT_GT(std::abs(s->solution.turning), before);
+      before = std::abs(s->solution.turning);
+    }
+    EXPECT_GT(before, 0) << alpha;
+  }
+}
+
+TEST(SolveVolume, NamesTheNearestVolume) {
+  const auto s = solve_volume({{0, 0}, 0.8}, {1, 0}, 2, 0.0001);
+  ASSERT_FALSE(s);
+  EXPECT_EQ(s.error().code, ErrorCode::undrawable);
+  EXPECT_NE(s.error().hint.find("nearest volume"), std::string::npos);
+  const double nearest = std::stod(s.error().hint.substr(15));
+  EXPECT_TRUE(solve_volume({{0, 0}, 0.8}, {1, 0}, 2, nearest * 1.0001));
+}
+
+TEST(SolveVolume, RefusesBadInput) {
+  const Pose2 start{{0, 0}, 0.3};
+  const auto code = [&](core::Point2 end, double alpha, double volume) {
+    return solve_volume(start, end, alpha, volume).error().code;
+  };
+  EXPECT_EQ(code({0, 0}, -1, 1), ErrorCode::bad_input);
+  EXPECT_EQ(code({1, 0}, std::nan(""), 1), ErrorCode::bad_input);
+  EXPECT_EQ(code({1, 0}, -1, -1), ErrorCode::bad_input);
+  EXPECT_EQ(code({1, 0}, -1, INFINITY), ErrorCode::bad_input);
+  EXPECT_TRUE(solve_volume({{0, 0}, 0}, {1, 0}, -1, 0));
+  EXPECT_EQ(solve_volume({{0, 0}, 0}, {1, 0}, -1, 1).error().code, ErrorCode::undrawable);
+}
+
+}  // namespace
+}  // namespace keyline::lac
