@@ -4,20 +4,14 @@
 #include <cmath>
 #include <string>
 
+#include "keyline/core/polygon.h"
+
 namespace keyline::curve {
 
 using core::ErrorCode;
 using core::fail;
 
 namespace {
-
-template <class P>
-double polygon_length(const Bezier<P>& c) {
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < c.control.size(); ++i)
-    sum += distance(c.control[i], c.control[i + 1]);
-  return sum;
-}
 
 template <class P>
 core::Result<void> validate_path(const std::vector<Bezier<P>>& path, double tolerance) {
@@ -59,7 +53,7 @@ core::Result<BSpline<P>> to_bspline(const std::vector<Bezier<P>>& path, double t
   for (const Bezier<P>& piece : path) {
     c.degree = std::max(c.degree, degree(piece));
     rational = rational || is_rational(piece);
-    total += polygon_length(piece);
+    total += core::polygon_length(piece.control);
   }
   double knot = 0;
   c.knots.assign(c.degree + 1, knot);
@@ -70,7 +64,7 @@ core::Result<BSpline<P>> to_bspline(const std::vector<Bezier<P>>& path, double t
     c.control.insert(c.control.end(), piece.control.begin() + skip, piece.control.end());
     if (rational)
       c.weights.insert(c.weights.end(), piece.weights.begin() + skip, piece.weights.end());
-    const double share = total > 0 ? polygon_length(path[i]) / total : 0;
+    const double share = total > 0 ? core::polygon_length(path[i].control) / total : 0;
     knot += std::max(share, 1e-6);
     c.knots.insert(c.knots.end(), c.degree, knot);
   }

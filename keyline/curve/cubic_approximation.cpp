@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 
+#include "keyline/core/polygon.h"
 #include "keyline/curve/bernstein.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/curve/cubic_fit.h"
@@ -48,7 +49,7 @@ using MakePanel = std::function<PanelFit(double t0, double t1)>;
 void refine(const MakePanel& make, double t0, double t1, double allowed, int depth, Panels& out) {
   const PanelFit fit = make(t0, t1);
   const double middle = 0.5 * (t0 + t1);
-  const double floor = 1e-15 * detail::polygon_length(fit.cubic);
+  const double floor = 1e-15 * core::polygon_length(fit.cubic.control);
   if (!(fit.error > std::max(allowed, floor)) || depth >= kMaxDepth ||
       !(t0 < middle && middle < t1)) {
     out.list.push_back({fit.cubic, t0, t1, true});
@@ -147,7 +148,8 @@ double size_of(const std::vector<Panel>& panels) {
 void join(std::vector<Panel>& panels) {
   const double size = size_of(panels);
   const Panel first = panels.front();
-  std::erase_if(panels, [](const Panel& p) { return !(detail::polygon_length(p.cubic) > 0); });
+  std::erase_if(panels,
+                [](const Panel& p) { return !(core::polygon_length(p.cubic.control) > 0); });
   if (panels.empty()) panels.push_back(first);
   panels.front().joined = false;
   for (std::size_t i = 1; i < panels.size(); ++i) {

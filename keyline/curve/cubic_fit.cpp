@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "keyline/core/polygon.h"
+
 namespace keyline::curve::detail {
 
 using core::Point2;
@@ -59,11 +61,6 @@ Vector2 end_tangent(const Cubic& c) {
   return first_direction({b[3] - b[2], b[3] - b[1], b[3] - b[0]});
 }
 
-double polygon_length(const Cubic& c) {
-  const auto& b = c.control;
-  return distance(b[0], b[1]) + distance(b[1], b[2]) + distance(b[2], b[3]);
-}
-
 namespace {
 
 /// Foot of p on q near u, by Newton's method kept in [0, 1].
@@ -113,7 +110,7 @@ class LengthTable {
 
 /// Length of a short cubic, to a few per cent.
 double rough_length(const Cubic& c) {
-  return 0.5 * (polygon_length(c) + distance(c.control[0], c.control[3]));
+  return 0.5 * (core::polygon_length(c.control) + distance(c.control[0], c.control[3]));
 }
 
 // ---- Deviation bound ----------------------------------------------------------------------

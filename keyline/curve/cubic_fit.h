@@ -21,7 +21,6 @@ Cubic subcurve(const Cubic& c, double u0, double u1);
 /// Unit tangents at the ends, also where control points coincide; zero for a point.
 core::Vector2 start_tangent(const Cubic& c);
 core::Vector2 end_tangent(const Cubic& c);
-double polygon_length(const Cubic& c);
 
 /// A bound of the largest distance between the row of cubics (each starting where the last ended)
 /// and q, in both directions: the row is carried onto q by a piecewise cubic change of parameter,

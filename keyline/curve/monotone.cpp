@@ -7,6 +7,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include "keyline/core/polygon.h"
 #include "keyline/curve/bounded.h"
 #include "keyline/curve/curvature_numerator.h"
 
@@ -217,13 +218,6 @@ class Search {
 
 // ---- The verdict --------------------------------------------------------------------------
 
-double polygon_length(const Bezier2& c) {
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < c.control.size(); ++i)
-    sum += distance(c.control[i], c.control[i + 1]);
-  return sum;
-}
-
 /// |b - a| as a fraction of the larger of the two or of 1/length.
 double relative_change(double a, double b, double length) {
   if (!std::isfinite(a) || !std::isfinite(b)) return a == b ? 0 : 1;
@@ -306,7 +300,7 @@ Stretches examine(const Bezier2& c, double length, double tolerance) {
   constexpr int kFilterBudget = 500;
   constexpr int kExactDepth = 32;
   constexpr int kExactBudget = 20000;
-  const auto filtered =
+  auto filtered =
       Search<Bounded>(plain_rate_form(bounded_form(c)), kFilterDepth, kFilterBudget).take();
   Tally tally;
   count(c, filtered, {0, 1, length}, tally);
@@ -339,7 +333,7 @@ void count_joint(const Bezier2& a, const Bezier2& b, double t, double length, do
 
 MonotoneVerdict certify_monotone_curvature(const Bezier2& c, double tolerance) {
   require_numbers(c);
-  const double length = polygon_length(c);
+  const double length = core::polygon_length(c.control);
   if (!(length > 0)) return {};
   Tally tally;
   count(c, examine(c, length, tolerance), {0, 1, length}, tally);
@@ -352,7 +346,7 @@ MonotoneVerdict certify_monotone_curvature(const BSpline2& c, double tolerance) 
   double length = 0;
   for (const Bezier2& piece : pieces) {
     require_numbers(piece);
-    length += polygon_length(piece);
+    length += core::polygon_length(piece.control);
   }
   if (!(length > 0)) return {};
   Tally tally;

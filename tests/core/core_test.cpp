@@ -1,10 +1,16 @@
+#include <array>
+#include <limits>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/error.h"
+#include "keyline/core/polygon.h"
 #include "keyline/core/pose.h"
 #include "keyline/core/progress.h"
 #include "keyline/core/similarity.h"
+#include "keyline/core/text.h"
 #include "keyline/core/tolerance.h"
 
 namespace keyline::core {
@@ -52,6 +58,26 @@ TEST(Progress, StopReachesEveryCopy) {
   token.request_stop();
   EXPECT_TRUE(copy_stopped());
   EXPECT_FALSE(CancellationToken{}.stop_requested());
+}
+
+TEST(Polygon, LengthOpenAndClosed) {
+  const std::vector<Point2> corner{{0, 0}, {3, 0}, {3, 4}};
+  EXPECT_EQ(polygon_length(corner), 7);
+  EXPECT_EQ(polygon_length(corner, true), 12);
+  EXPECT_EQ(polygon_length(std::array<Point3, 2>{{{0, 0, 0}, {1, 2, 2}}}), 3);
+}
+
+TEST(Polygon, FewerThanTwoPointsHaveNoLength) {
+  EXPECT_EQ(polygon_length(std::vector<Point2>{}, true), 0);
+  EXPECT_EQ(polygon_length(std::vector<Point2>{{1, 2}}, true), 0);
+}
+
+TEST(Text, NumbersAreShort) {
+  EXPECT_EQ(number_text(0.25, 9), "0.25");
+  EXPECT_EQ(number_text(1.0 / 3, 4), "0.3333");
+  EXPECT_EQ(number_text(-1.5e-9, 9), "-1.5e-09");
+  EXPECT_EQ(number_text(std::numeric_limits<double>::infinity(), 3), "inf");
+  EXPECT_EQ(number_text(-std::numeric_limits<double>::max(), 99), "-1.7976931348623157e+308");
 }
 
 TEST(Tolerance, LargerOfAbsoluteAndRelative) {
