@@ -133,14 +133,15 @@ std::optional<ShortChain> shoot(const UnitG2& request, ShortChain chain, double*
   Variables variables = variables_of(request, chain);
   Walk here = walk(request, chain, variables);
   double size = size_of(here.miss);
-  for (int i = 0; i < kIterations && size > 1e-16; ++i) {
+  for (int i = 0; i < kIterations && size > 4e-16; ++i) {
     Miss step = here.miss;
     auto matrix = here.by;
     if (!solve_small(matrix, step)) break;
     for (double& s : step) s = -s;
     double share = allowed_share(chain, variables, step);
     bool better = false;
-    for (int halving = 0; halving < 7 && !better; ++halving, share *= 0.5) {
+    const int tries = size < 1e-12 ? 1 : 7;  // down at rounding a shorter step gains nothing
+    for (int halving = 0; halving < tries && !better; ++halving, share *= 0.5) {
       const ShortChain next = moved(chain, variables, step, share);
       if (!within_reason(request, next)) continue;
       const Variables next_variables = variables_of(request, next);

@@ -339,7 +339,8 @@ bool Spline::step() {
   const auto variables = variables_;
   const double before = size_;
   double share = allowed_share();
-  for (int halving = 0; halving < 8; ++halving, share *= 0.5) {
+  const int tries = before < 1e-11 ? 1 : 8;  // down at rounding a shorter step gains nothing
+  for (int halving = 0; halving < tries; ++halving, share *= 0.5) {
     variables_ = variables;
     move(from, share);
     refresh();
@@ -378,11 +379,12 @@ SplineState guessed_state(const SplineProblem& problem) {
 
 bool solve_spline_newton(const SplineProblem& problem, SplineState& state, int& iterations) {
   Spline spline(problem, state);
-  for (int i = 0; i < kSteps && spline.size() > 1e-15; ++i) {
+  const double rounding = 1e-15 * std::sqrt(4.0 * static_cast<double>(problem.slots()));
+  for (int i = 0; i < kSteps && spline.size() > rounding; ++i) {
     ++iterations;
     if (!spline.step()) break;
   }
-  return spline.size() <= kAccepted;
+  return spline.size() <= std::max(kAccepted, 4 * rounding);
 }
 
 std::vector<Piece> pieces_of_span(const SplineProblem& problem, const SplineState& state,
