@@ -132,6 +132,48 @@ void search_three(const UnitG2& request, Best& best) {
   }
 }
 
+/// From the one segment between the poses, cut in three: its end curvatures are moved to the ones
+/// asked for, step by step.
+void follow_from_one(const UnitG2& request, const Segment& one, double outer, Best& best) {
+  const Piece whole = piece_of(one);
+  const double share = outer / (1 + 2 * outer);
+  ShortChain chain;
+  chain.pieces = 3;
+  chain.outer = outer;
+  chain.length = {0, whole.length * (1 - 2 * share), 0};
+  chain.curvature = {whole.curvature_start, curvature(whole, share), curvature(whole, 1 - share),
+                     whole.curvature_end};
+  ++best.starts;
+  double gone = 0;
+  double residual = 0;
+  for (double step = 0.25; gone < 1 && step > 0.02;) {
+    const double next = std::min(1.0, gone + step);
+    UnitG2 between = request;
+    between.curvature_start = std::lerp(one.curvature_start, request.curvature_start, next);
+    between.curvature_end = std::lerp(one.curvature_end, request.curvature_end, next);
+    ShortChain start = chain;
+    start.curvature[0] = between.curvature_start;
+    start.curvature[3] = between.curvature_end;
+    const auto found = detail::shoot(between, start, &residual);
+    step *= found ? 1.5 : 0.4;
+    if (!found) continue;
+    chain = *found;
+    gone = next;
+  }
+  if (gone < 1) return;
+  if (auto s = measured(chain_of(request, chain), residual)) best.offer(std::move(*s));
+}
+
+/// Where no start led to an answer.
+void search_by_following(const UnitG2& request, Best& best) {
+  const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
+  if (!one) return;
+  for (const double outer : {0.5, 0.2, 0.08, 0.03, 0.01}) {
+    follow_from_one(request, one->segment, outer, best);
+    if (best.solution) return;
+  }
+}
+
 /// The single piece, where it happens to have the curvatures asked for.
 std::optional<G2Solution> single(const UnitG2& request) {
   const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
@@ -152,6 +194,7 @@ Best search(const UnitG2& request) {
   }
   search_two(request, best);
   if (!best.solution) search_three(request, best);
+  if (!best.solution) search_by_following(request, best);
   return best;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/g2_hermite.h"
@@ -206,7 +207,7 @@ bool bend_slopes(SplineProblem& problem, const std::vector<double>& wanted, Spli
                  int& iterations, double& share) {
   share = 0;
   double step = 1;
-  while (share < 1 && step > 0.01) {
+  while (share < 1 && step > 0.05) {
     const double next_share = std::min(1.0, share + step);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       problem.alpha[i] = next_share >= 1 ? wanted[i] : -1 + next_share * (wanted[i] + 1);
@@ -223,36 +224,26 @@ bool bend_slopes(SplineProblem& problem, const std::vector<double>& wanted, Spli
   return share >= 1;
 }
 
-/// Spans beside points whose curvature is about to vanish get slope -1; how many did.
-std::size_t give_way(const SplineProblem& problem, const SplineState& state, double limit,
-                     std::vector<double>& wanted) {
-  const std::size_t n = problem.spans();
-  std::vector<bool> weak(n, false);
-  double weakest = limit;
-  std::size_t at = n;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (wanted[i] < 0) continue;
-    const double a = std::abs(state.curvature[i]);
-    const double b = std::abs(curvature_after(state, i));
-    const double ratio = std::min(a, b) / std::max(a, b);
-    weak[i] = ratio < 0.02;
-    if (ratio < weakest) {
-      weakest = ratio;
-      at = i;
-    }
+/// The tenth of the spans (one at least) in which curvature is nearest to vanishing get slope -1;
+/// false where all have it already.
+bool give_way(const SplineProblem& problem, const SplineState& state, std::vector<double>& wanted) {
+  std::vector<std::pair<double, std::size_t>> by_ratio;
+  for (std::size_t i = 0; i < problem.spans(); ++i) {
+    if (wanted[i] == -1) continue;
+    const double a = state.curvature[i];
+    const double b = curvature_after(state, i);
+    const double ratio = std::min(std::abs(a), std::abs(b)) / std::max(std::abs(a), std::abs(b));
+    by_ratio.emplace_back(a * b > 0 ? ratio : 0, i);
   }
-  if (at < n) weak[at] = true;
-  std::size_t changed = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!weak[i]) continue;
-    wanted[i] = -1;
-    ++changed;
-  }
-  return changed;
+  if (by_ratio.empty()) return false;
+  std::sort(by_ratio.begin(), by_ratio.end());
+  for (std::size_t k = 0; k < by_ratio.size() / 10 + 1; ++k) wanted[by_ratio[k].second] = -1;
+  return true;
 }
 
-/// From the clothoid spline to the slopes wanted. Spans in which curvature changes sign or tends to
-/// zero keep -1: `wanted` becomes what was reached.
+/// From the clothoid spline to the slopes wanted. Spans in which curvature changes sign (for slopes
+/// from 0 on), then, as long as no curve is found, those in which it is nearest to vanishing keep
+/// -1: `wanted` becomes what was reached.
 core::Result<void> reach_slopes(SplineProblem& problem, std::vector<double>& wanted,
                                 SplineState& state, int& iterations) {
   const SplineState clothoids = state;
@@ -263,7 +254,7 @@ core::Result<void> reach_slopes(SplineProblem& problem, std::vector<double>& wan
   for (int round = 0; round < 40; ++round) {
     state = clothoids;
     if (bend_slopes(problem, wanted, state, iterations, share)) return {};
-    if (give_way(problem, state, 2, wanted) == 0) break;
+    if (!give_way(problem, state, wanted)) break;
   }
   const auto far = std::max_element(wanted.begin(), wanted.end(), [](double a, double b) {
     return std::abs(a + 1) < std::abs(b + 1);

@@ -14,6 +14,9 @@ namespace {
 
 using core::Point2;
 
+/// No tangent is further than this from a chord at its point: beyond, a span would have to loop.
+constexpr double kWidest = 0.6 * core::kPi;
+
 /// Directions at the points: the turn at a point is shared between its spans as their lengths are;
 /// at a free end the span is symmetric.
 std::vector<double> directions(std::span<const Point2> points, const SplineOptions& options) {
@@ -26,7 +29,10 @@ std::vector<double> directions(std::span<const Point2> points, const SplineOptio
     const auto before = chord((i + spans - 1) % spans);
     const auto after = chord(i);
     const double share = norm(before) / (norm(before) + norm(after));
-    direction[i] = core::direction_of(before) + share * core::angle_between(before, after);
+    const double turn = core::angle_between(before, after);
+    const double least = std::max(0.0, std::abs(turn) - kWidest);
+    const double at_first = std::clamp(share * std::abs(turn), least, std::max(least, kWidest));
+    direction[i] = core::direction_of(before) + std::copysign(at_first, turn);
   }
   if (options.closed) return direction;
   const double first = core::direction_of(chord(0));
@@ -67,17 +73,14 @@ std::vector<double> curvatures(std::span<const Point2> points, const SplineOptio
   return sum;
 }
 
-}  // namespace
-
-core::Result<SplineSolution> solve_spline_span_by_span(std::span<const Point2> points,
-                                                       const SplineOptions& options,
-                                                       const std::vector<double>& wanted) {
-  const auto direction = directions(points, options);
-  const auto curvature = curvatures(points, options, direction);
+/// All spans for themselves, between given directions and curvatures.
+core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
+                                         const std::vector<double>& wanted,
+                                         const std::vector<double>& direction,
+                                         const std::vector<double>& curvature) {
   SplineSolution solution;
   solution.span_by_span = true;
   solution.chain.start = {points[0], direction[0]};
-  solution.chain.closed = options.closed;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::size_t j = (i + 1) % points.size();
     const CurvatureElement start{{points[i], direction[i]}, curvature[i]};
@@ -97,13 +100,40 @@ core::Result<SplineSolution> solve_spline_span_by_span(std::span<const Point2> p
       solution.span.push_back(i);
     }
   }
+  return solution;
+}
+
+double deviation_of(std::span<const Point2> points, const SplineSolution& solution) {
+  double largest = 0;
   const auto poses = joints(solution.chain);
   for (std::size_t k = 1; k < poses.size(); ++k) {
-    const bool inside = k < solution.span.size() && solution.span[k] == solution.span[k - 1];
+    if (k < solution.span.size() && solution.span[k] == solution.span[k - 1]) continue;
     const Point2 point = points[(solution.span[k - 1] + 1) % points.size()];
-    if (!inside)
-      solution.deviation = std::max(solution.deviation, distance(poses[k].position, point));
+    largest = std::max(largest, distance(poses[k].position, point));
   }
+  return largest;
+}
+
+}  // namespace
+
+core::Result<SplineSolution> solve_spline_span_by_span(std::span<const Point2> points,
+                                                       const SplineOptions& options,
+                                                       const std::vector<double>& wanted) {
+  const auto direction = directions(points, options);
+  const auto curvature = curvatures(points, options, direction);
+  core::Result<SplineSolution> solution;
+  // Flatter at the points where they are too sharp for what is between.
+  for (const double share : {1.0, 0.5, 0.2}) {
+    std::vector<double> softened = curvature;
+    for (double& k : softened) k *= share;
+    if (options.start.curvature) softened.front() = *options.start.curvature;
+    if (options.end.curvature) softened.back() = *options.end.curvature;
+    solution = solve_spans(points, wanted, direction, softened);
+    if (solution) break;
+  }
+  if (!solution) return solution;
+  solution->chain.closed = options.closed;
+  solution->deviation = deviation_of(points, *solution);
   return solution;
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 using core::Vector2;
 
-constexpr int kSteps = 60;
+constexpr int kSteps = 40;
+constexpr double kWildCurvature = 16;  ///< times the span's length: not a way to go
 constexpr double kAccepted = 2e-13;
 
 /// What a span contributes: angle from its start tangent to the chord and from the chord to its end
@@ -171,6 +172,11 @@ SpanValue Spline::value_of_split(std::size_t i) const {
 void Spline::refresh() {
   choose_variables();
   spans_.resize(problem_.spans());
+  size_ = 1e300;
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    const double k = std::max(std::abs(state_.curvature[i]), std::abs(state_.curvature[after(i)]));
+    if (!(k * state_.length[i] < kWildCurvature)) return;
+  }
   for (std::size_t i = 0; i < spans_.size(); ++i) spans_[i] = value_of(i);
   fill_misses();
 }
@@ -380,6 +386,7 @@ SplineState guessed_state(const SplineProblem& problem) {
 bool solve_spline_newton(const SplineProblem& problem, SplineState& state, int& iterations) {
   Spline spline(problem, state);
   const double rounding = 1e-15 * std::sqrt(4.0 * static_cast<double>(problem.slots()));
+  if (spline.size() >= 1e300) return false;
   for (int i = 0; i < kSteps && spline.size() > rounding; ++i) {
     ++iterations;
     if (!spline.step()) break;
