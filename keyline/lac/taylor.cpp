@@ -126,6 +126,18 @@ Vector2 sum(const TaylorSeries& s, double x) {
   return x * v;
 }
 
+double quick_remainder_bound(const TaylorSeries& s, double reach) {
+  if (!s.analytic || !(reach < s.radius)) return std::numeric_limits<double>::infinity();
+  // Far out in the circle, yet where the velocity is still of size one.
+  const double pace = std::abs(s.value) + std::sqrt(std::abs(s.rate)) + s.turning;
+  const double r = std::min(std::max(0.85 * s.radius, std::sqrt(reach * s.radius)),
+                            std::max(0.4 * s.degree / std::max(pace, 1e-3), 2 * reach));
+  if (!(r > reach) || !(r < s.radius)) return std::numeric_limits<double>::infinity();
+  const double shrink = reach / r;
+  return velocity_bound(s, r) * r * std::pow(shrink, s.degree + 1) /
+         ((s.degree + 1) * (1 - shrink));
+}
+
 double remainder_bound(const TaylorSeries& s, double reach) {
   const double never = std::numeric_limits<double>::infinity();
   if (!s.analytic || !(reach < s.radius)) return never;

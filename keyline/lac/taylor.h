@@ -59,5 +59,7 @@ core::Vector2 sum(const TaylorSeries& series, double x);
 /// made positive is again such a power, of the same alpha). Least over several r; infinite where
 /// reach >= radius.
 double remainder_bound(const TaylorSeries& series, double reach);
+/// The same with one r only: sound, up to ten times larger, twenty times quicker.
+double quick_remainder_bound(const TaylorSeries& series, double reach);
 
 }  // namespace keyline::lac::detail
