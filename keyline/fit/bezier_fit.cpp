@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "keyline/core/polygon.h"
 #include "keyline/fit/parametrization.h"
 
 namespace keyline::fit {
@@ -38,65 +39,75 @@ Eigen::VectorXd bernstein(int degree, double t) {
   return b;
 }
 
-/// Least squares for the handle lengths and the free inner points, the parameters given.
-/// Unknowns: length of the first handle, of the last, then x and y of points 2 … degree - 2.
+/// Normal equations for the handle lengths and the free inner points, the parameters given.
+/// Unknowns: length of the first handle, of the last, then x and y of points 2 … degree - 2, these
+/// counted from the first point.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+};
+
 /// Where tangents are given, residuals along them count only a little: a foot may slide, and the
 /// alternation converges like Gauss-Newton on the distances.
-curve::Bezier2 solve(const Problem& problem, int degree, const std::vector<double>& t,
-                     const std::vector<Vector2>& tangents) {
+NormalEquations assemble(const Problem& problem, int degree, const std::vector<double>& t,
+                         const std::vector<Vector2>& tangents) {
   const int inner = degree - 3;
   const int unknowns = 2 + 2 * inner;
-  const Point2 first = problem.samples.front();
-  const Point2 last = problem.samples.back();
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+  const Vector2 chord = problem.samples.back() - problem.samples.front();
+  NormalEquations n{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns);
   for (std::size_t i = 0; i < t.size(); ++i) {
     const Eigen::VectorXd b = bernstein(degree, t[i]);
     rows.col(0) << b[1] * problem.start.x, b[1] * problem.start.y;
     rows.col(1) << -b[degree - 1] * problem.end.x, -b[degree - 1] * problem.end.y;
     for (int j = 0; j < inner; ++j) {
-      // Inner points count from the first.
       rows(0, 2 + 2 * j) = b[j + 2];
       rows(1, 3 + 2 * j) = b[j + 2];
     }
     const double at_last = b[degree - 1] + b[degree];
-    const Point2& p = problem.samples[i];
-    Eigen::Vector2d rest((p.x - first.x) - at_last * (last.x - first.x),
-                         (p.y - first.y) - at_last * (last.y - first.y));
+    const Vector2 offset = problem.samples[i] - problem.samples.front();
+    const Eigen::Vector2d rest(offset.x - at_last * chord.x, offset.y - at_last * chord.y);
+    Eigen::Matrix2d frame = Eigen::Matrix2d::Identity();
     if (!tangents.empty()) {
       const Vector2 along = tangents[i];
-      Eigen::Matrix2d frame;
       frame << kSliding * along.x, kSliding * along.y, -along.y, along.x;
-      normal += (frame * rows).transpose() * (frame * rows);
-      right += (frame * rows).transpose() * (frame * rest);
-      continue;
     }
-    normal += rows.transpose() * rows;
-    right += rows.transpose() * rest;
+    const Eigen::MatrixXd weighted = frame * rows;
+    n.matrix += weighted.transpose() * weighted;
+    n.right += weighted.transpose() * (frame * rest);
   }
-  normal.diagonal().array() += 1e-13 * normal.trace();
-  Eigen::VectorXd x = normal.ldlt().solve(right);
-  const double least = 1e-3 * problem.size / degree;
+  n.matrix.diagonal().array() += 1e-13 * n.matrix.trace();
+  return n;
+}
+
+/// The unknowns; a handle that would turn back is held at the least length.
+Eigen::VectorXd solve(NormalEquations n, double least_handle) {
+  Eigen::VectorXd x = n.matrix.ldlt().solve(n.right);
   for (int k = 0; k < 2; ++k) {
-    if (x[k] >= least) continue;
-    // The handle would turn back: hold it at the least length and solve for the rest.
-    right -= normal.col(k) * least;
-    normal.row(k).setZero();
-    normal.col(k).setZero();
-    normal(k, k) = 1;
-    right[k] = least;
-    x = normal.ldlt().solve(right);
+    if (x[k] >= least_handle) continue;
+    n.right -= n.matrix.col(k) * least_handle;
+    n.matrix.row(k).setZero();
+    n.matrix.col(k).setZero();
+    n.matrix(k, k) = 1;
+    n.right[k] = least_handle;
+    x = n.matrix.ldlt().solve(n.right);
   }
+  return x;
+}
+
+/// Curve of least squares for given parameters of the samples.
+curve::Bezier2 best_curve(const Problem& problem, int degree, const std::vector<double>& t,
+                          const std::vector<Vector2>& tangents) {
+  const Eigen::VectorXd x =
+      solve(assemble(problem, degree, t, tangents), 1e-3 * problem.size / degree);
+  const Point2 first = problem.samples.front();
+  const Point2 last = problem.samples.back();
   curve::Bezier2 result;
-  result.control.resize(static_cast<std::size_t>(degree) + 1);
-  result.control.front() = first;
-  result.control[1] = first + x[0] * problem.start;
-  for (int j = 0; j < inner; ++j) {
-    result.control[static_cast<std::size_t>(j) + 2] = first + Vector2{x[2 + 2 * j], x[3 + 2 * j]};
-  }
-  result.control[static_cast<std::size_t>(degree) - 1] = last + -x[1] * problem.end;
-  result.control.back() = last;
+  result.control = {first, first + x[0] * problem.start};
+  for (Eigen::Index k = 2; k < x.size(); k += 2)
+    result.control.push_back(first + Vector2{x[k], x[k + 1]});
+  result.control.push_back(last - x[1] * problem.end);
+  result.control.push_back(last);
   return result;
 }
 
@@ -152,7 +163,7 @@ BezierFit fit_degree(const Problem& problem, int degree, const std::vector<doubl
   std::vector<double> t = start;
   std::vector<Vector2> tangents;
   for (int i = 0; i <= options.iterations; ++i) {
-    const curve::Bezier2 c = solve(problem, degree, t, tangents);
+    const curve::Bezier2 c = best_curve(problem, degree, t, tangents);
     const double deviation = correct_feet(problem, c, t);
     if (i >= 2) tangents = tangents_at(c, t);
     if (!(deviation < best.deviation)) continue;
@@ -184,10 +195,8 @@ core::Result<BezierFit> fit_bezier(std::span<const Point2> samples, Vector2 star
   const std::vector<double> t = parametrize(samples, Parametrization::chord);
   if (t.empty())
     return core::fail(ErrorCode::bad_input, "at least two different points are needed");
-  Problem problem{samples, start_tangent / start, end_tangent / end, 0};
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    problem.size += distance(samples[i - 1], samples[i]);
-  }
+  const Problem problem{samples, start_tangent / start, end_tangent / end,
+                        core::polygon_length(samples)};
   BezierFit best;
   best.deviation = std::numeric_limits<double>::infinity();
   for (int degree = options.lowest_degree; degree <= options.highest_degree; ++degree) {

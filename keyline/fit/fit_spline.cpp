@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "keyline/fit/canonical.h"
-#include "keyline/fit/periodic.h"
+#include "keyline/fit/final_spline.h"
 
 namespace keyline::fit {
 namespace {
@@ -67,11 +66,6 @@ KnotSearchOptions search_options(const SplineFitOptions& o) {
   return s;
 }
 
-double sum_of_weights(const SplineData& data) {
-  if (data.weights.empty()) return static_cast<double>(data.parameters.size());
-  return std::accumulate(data.weights.begin(), data.weights.end(), 0.0);
-}
-
 /// Knots in [0, 1] in the direction of the data, the criterion in the data's unit, and the report.
 struct Found {
   std::vector<double> knots;
@@ -89,8 +83,8 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
   BayesCriterion criterion;
   criterion.count = static_cast<double>(canonical.data.parameters.size());
   criterion.order = options.order;
-  criterion.floor =
-      finest * sum_of_weights(canonical.data) * static_cast<double>(canonical.data.columns.size());
+  criterion.floor = finest * detail::sum_of_weights(canonical.data) *
+                    static_cast<double>(canonical.data.columns.size());
   found.criterion = criterion;
   found.criterion.floor /= canonical.scale * canonical.scale;
   detail::CondensedData condensed{canonical.data, 0};
@@ -110,62 +104,6 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
   found.report.generations = searched.generations;
   found.report.evaluations = searched.evaluations;
   return found;
-}
-
-/// Removes the knot nearest behind another one.
-void remove_closest(std::vector<double>& knots) {
-  auto closest = knots.begin();
-  for (auto it = knots.begin() + 1; it < knots.end(); ++it) {
-    if (closest == knots.begin() || it[0] - it[-1] < closest[0] - closest[-1]) closest = it;
-  }
-  knots.erase(closest);
-}
-
-/// The final fit. Where rounding puts the knots just beyond the limit of rank, the closest pair
-/// loses one; empty only where the data do not even carry a spline without knots.
-std::optional<LeastSquaresSpline> final_fit(const SplineData& data, core::Interval domain,
-                                            std::vector<double> knots, int order) {
-  SplineSolver solver(data, domain, order);
-  while (!solver.solve(knots)) {
-    if (knots.empty()) return std::nullopt;
-    remove_closest(knots);
-  }
-  LeastSquaresSpline result;
-  result.order = order;
-  result.knots.assign(solver.knots().begin(), solver.knots().end());
-  for (std::size_t k = 0; k < data.columns.size(); ++k) {
-    auto& column = result.coefficients.emplace_back();
-    for (std::size_t i = 0; i < knots.size() + static_cast<std::size_t>(order); ++i) {
-      column.push_back(solver.coefficient(i, k));
-    }
-  }
-  return result;
-}
-
-struct Misfit {
-  double sse = 0;
-  double rms = 0;
-  double largest = 0;
-};
-
-/// Weighted squares and largest distance of the data from the spline.
-Misfit misfit(const LeastSquaresSpline& spline, const SplineData& data) {
-  Misfit result;
-  for (std::size_t i = 0; i < data.parameters.size(); ++i) {
-    double squares = 0;
-    for (std::size_t k = 0; k < data.columns.size(); ++k) {
-      const double r = evaluate(spline, data.parameters[i], k) - data.columns[k][i];
-      squares += r * r;
-    }
-    result.sse += (data.weights.empty() ? 1 : data.weights[i]) * squares;
-    result.largest = std::max(result.largest, std::sqrt(squares));
-  }
-  result.rms = std::sqrt(result.sse / sum_of_weights(data));
-  return result;
-}
-
-std::vector<double> interior_of(const LeastSquaresSpline& spline) {
-  return {spline.knots.begin() + spline.order, spline.knots.end() - spline.order};
 }
 
 core::Result<void> check_points(std::span<const Point2> points, int order) {
@@ -199,14 +137,19 @@ struct OrderedPoints {
   std::vector<double> weights;
 };
 
-OrderedPoints ordered(std::span<const Point2> points, const std::vector<double>& parameters,
-                      const std::vector<double>& weights) {
-  std::vector<std::size_t> order(points.size());
+/// Indices of the values in increasing order, equal ones as they came.
+std::vector<std::size_t> increasing(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return parameters[a] < parameters[b]; });
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  return order;
+}
+
+OrderedPoints ordered(std::span<const Point2> points, const std::vector<double>& parameters,
+                      const std::vector<double>& weights) {
   OrderedPoints result;
-  for (const std::size_t i : order) {
+  for (const std::size_t i : increasing(parameters)) {
     result.points.push_back(points[i]);
     result.parameters.push_back(parameters[i]);
     if (!weights.empty()) result.weights.push_back(weights[i]);
@@ -242,26 +185,37 @@ std::vector<double> one_turn(const std::vector<double>& knots) {
   return result;
 }
 
-/// The loop's first point shared between both ends: half its weight at 0 and half at 1.
-SplineData with_both_ends(SplineData data) {
-  if (data.weights.empty()) data.weights.assign(data.parameters.size(), 1.0);
-  data.weights.front() /= 2;
-  data.parameters.push_back(data.parameters.front() + 1);
-  data.weights.push_back(data.weights.front());
-  for (auto& column : data.columns) column.push_back(column.front());
-  for (double& t : data.parameters) t = std::min(t, 1.0);
+/// The points counted from `origin`, coordinates in columns.
+SplineData planar_data(const OrderedPoints& run, Point2 origin) {
+  SplineData data{run.parameters, {{}, {}}, run.weights};
+  for (const Point2& p : run.points) {
+    data.columns[0].push_back(p.x - origin.x);
+    data.columns[1].push_back(p.y - origin.y);
+  }
   return data;
 }
 
-/// The closed curve of the knots, without some of them where data are too few.
-std::optional<LeastSquaresSpline> closed_fit(const SplineData& open, std::vector<double> knots,
-                                             int order) {
-  const SplineData data = with_both_ends(open);
-  while (!knots.empty()) {
-    if (auto spline = detail::periodic_spline(data, knots, order)) return spline;
-    remove_closest(knots);
+curve::BSpline2 planar_curve(const LeastSquaresSpline& spline, Point2 origin) {
+  curve::BSpline2 curve;
+  curve.degree = spline.order - 1;
+  curve.knots = spline.knots;
+  for (std::size_t i = 0; i < spline.coefficients[0].size(); ++i) {
+    const core::Vector2 v{spline.coefficients[0][i], spline.coefficients[1][i]};
+    curve.control.push_back(origin + v);
   }
-  return detail::periodic_spline(data, {0}, order);
+  return curve;
+}
+
+/// A function's values in the order of their abscissae.
+SplineData function_data(std::span<const double> x, std::span<const double> y,
+                         const std::vector<double>& weights) {
+  SplineData data{{}, {{}}, {}};
+  for (const std::size_t i : increasing(x)) {
+    data.parameters.push_back(x[i]);
+    data.columns[0].push_back(y[i]);
+    if (!weights.empty()) data.weights.push_back(weights[i]);
+  }
+  return data;
 }
 
 }  // namespace
@@ -302,24 +256,16 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
       find_knots(detail::canonical_curve(searched.points, searched.parameters, searched.weights),
                  curve_rounding(points, options.rounding), options);
   if (!found) return std::unexpected(found.error());
-  SplineData data{run.parameters, {{}, {}}, run.weights};
-  for (const Point2& p : run.points) {
-    data.columns[0].push_back(p.x - points.front().x);
-    data.columns[1].push_back(p.y - points.front().y);
-  }
-  const auto spline = options.closed ? closed_fit(data, one_turn(found->knots), options.order)
-                                     : final_fit(data, {0, 1}, found->knots, options.order);
+  const SplineData data = planar_data(run, points.front());
+  const auto spline = options.closed
+                          ? detail::closed_fit(data, one_turn(found->knots), options.order)
+                          : detail::final_fit(data, {0, 1}, found->knots, options.order);
   if (!spline) {
     return core::fail(ErrorCode::bad_input, "too few different points for a spline of this order");
   }
-  fit.interior_knots = interior_of(*spline);
-  fit.curve.degree = options.order - 1;
-  fit.curve.knots = spline->knots;
-  for (std::size_t i = 0; i < spline->coefficients[0].size(); ++i) {
-    const core::Vector2 v{spline->coefficients[0][i], spline->coefficients[1][i]};
-    fit.curve.control.push_back(points.front() + v);
-  }
-  const Misfit m = misfit(*spline, data);
+  fit.interior_knots = detail::interior_of(*spline);
+  fit.curve = planar_curve(*spline, points.front());
+  const detail::Misfit m = detail::misfit(*spline, data);
   fit.sse = m.sse;
   fit.rms = m.rms;
   fit.deviation = m.largest;
@@ -342,16 +288,7 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
   if (auto ok = check_points(points, options.order); !ok) return std::unexpected(ok.error());
   const auto w = all_weights(x.size(), weights, options.must_pass);
   if (!w) return std::unexpected(w.error());
-  std::vector<std::size_t> by_x(x.size());
-  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-  std::stable_sort(by_x.begin(), by_x.end(),
-                   [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
-  SplineData data{{}, {{}}, {}};
-  for (const std::size_t i : by_x) {
-    data.parameters.push_back(x[i]);
-    data.columns[0].push_back(y[i]);
-    if (!w->empty()) data.weights.push_back((*w)[i]);
-  }
+  const SplineData data = function_data(x, y, *w);
   const core::Interval range{data.parameters.front(), data.parameters.back()};
   const auto [least, most] = std::minmax_element(y.begin(), y.end());
   if (!(range.low < range.high) || !std::isfinite(core::length(range)) ||
@@ -366,12 +303,12 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
   std::vector<double> knots;
   for (const double t : found->knots) knots.push_back(core::at(range, t));
   std::erase_if(knots, [&](double t) { return !(t > range.low && t < range.high); });
-  const auto spline = final_fit(data, range, knots, options.order);
+  const auto spline = detail::final_fit(data, range, knots, options.order);
   if (!spline) {
     return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order");
   }
-  const Misfit m = misfit(*spline, data);
-  FunctionFit fit{*spline, interior_of(*spline), m.sse, 0, m.largest, m.rms, found->report};
+  const detail::Misfit m = detail::misfit(*spline, data);
+  FunctionFit fit{*spline, detail::interior_of(*spline), m.sse, 0, m.largest, m.rms, found->report};
   fit.spline.sum_of_squares = m.sse;
   fit.bic = found->criterion(fit.sse, fit.interior_knots.size());
   return fit;

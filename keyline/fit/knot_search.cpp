@@ -158,6 +158,30 @@ numeric::GeneticOptions genetic_options(const KnotSearchOptions& options) {
   return genetic;
 }
 
+/// Steps of progress a polish counts for: a quarter of a trial's generations.
+int polish_steps(const KnotSearchOptions& options) { return 1 + options.generations / 4; }
+
+int steps_of(const KnotSearchOptions& options) {
+  const bool polished = options.placement == KnotPlacement::polished;
+  return options.trials * (options.generations + (polished ? polish_steps(options) : 0));
+}
+
+/// Polishes every end of a trial: trials in parallel where there are enough of them, otherwise the
+/// candidates of one.
+void polish(std::vector<detail::ScoredKnots>& ends, std::span<SplineSolver> solvers,
+            const BayesCriterion& criterion, const KnotSearchOptions& options,
+            SearchProgress& progress) {
+  const bool trials_in_parallel = ends.size() >= 2 * solvers.size();
+  numeric::parallel_for(
+      ends.size(), trials_in_parallel ? options.threads : 1, [&](std::size_t i, int worker) {
+        const auto used =
+            trials_in_parallel ? solvers.subspan(static_cast<std::size_t>(worker), 1) : solvers;
+        ends[i] = detail::polish_knots(used, criterion, ends[i].knots, options.polish_rounds,
+                                       options.progress);
+        for (int k = 0; k < polish_steps(options); ++k) progress.step(ends[i].bic);
+      });
+}
+
 }  // namespace
 
 double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_knots) const {
@@ -170,12 +194,7 @@ double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_kn
 KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& criterion,
                               const KnotSearchOptions& options) {
   KnotProblem problem(solver, criterion, options);
-  // A polish counts as a quarter of a trial's generations in the progress shown.
-  const int polish_steps = 1 + options.generations / 4;
-  SearchProgress progress(
-      options.progress,
-      options.trials * (options.generations +
-                        (options.placement == KnotPlacement::polished ? polish_steps : 0)));
+  SearchProgress progress(options.progress, steps_of(options));
   const auto trials =
       numeric::evolve_trials(problem, genetic_options(options),
                              [&](int, int, double best) { return progress.step(best); });
@@ -191,17 +210,7 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
     if (!options.smart_start) {
       ends.push_back(detail::refined_knots(problem.solvers()[0], criterion, true));
     }
-    // Trials in parallel where there are enough of them, otherwise the candidates of one.
-    const auto solvers = problem.solvers();
-    const bool trials_in_parallel = ends.size() >= 2 * solvers.size();
-    numeric::parallel_for(
-        ends.size(), trials_in_parallel ? options.threads : 1, [&](std::size_t i, int worker) {
-          const auto used =
-              trials_in_parallel ? solvers.subspan(static_cast<std::size_t>(worker), 1) : solvers;
-          ends[i] = detail::polish_knots(used, criterion, ends[i].knots, options.polish_rounds,
-                                         options.progress);
-          for (int k = 0; k < polish_steps; ++k) progress.step(ends[i].bic);
-        });
+    polish(ends, problem.solvers(), criterion, options, progress);
   }
   result.bic = kInfinity;
   for (auto& end : ends) {

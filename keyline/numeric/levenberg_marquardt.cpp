@@ -27,6 +27,50 @@ NormalEquations assemble(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd&
   return n;
 }
 
+/// A damped step: where it leads and what it gains.
+struct Step {
+  Eigen::VectorXd x;
+  Eigen::VectorXd scaled;  // in the scaled unknowns
+  double length = 0;
+};
+
+Step damped_step(const NormalEquations& normal, double damping, const Eigen::VectorXd& x) {
+  Eigen::MatrixXd damped = normal.matrix;
+  damped.diagonal().array() += damping;
+  Step step;
+  step.scaled = damped.ldlt().solve(-normal.gradient);
+  const Eigen::VectorXd move = normal.scale.cwiseProduct(step.scaled);
+  step.length = move.norm();
+  step.x = x + move;
+  return step;
+}
+
+/// How large the steps may be: raised faster and faster while steps fail, lowered by the gain of
+/// one that succeeds (Nielsen's rule).
+class Damping {
+ public:
+  explicit Damping(double initial) : value_(initial) {}
+  double value() const { return value_; }
+  void lower(double gain) {
+    value_ = std::max(1e-15, value_ * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
+    growth_ = 2;
+  }
+  /// False where no step is short enough any more.
+  bool raise() {
+    value_ *= growth_;
+    growth_ *= 2;
+    return value_ <= 1e16;
+  }
+
+ private:
+  double value_;
+  double growth_ = 2;
+};
+
+bool is_flat(const NormalEquations& normal, double cost, double tolerance) {
+  return normal.gradient.lpNorm<Eigen::Infinity>() <= tolerance * std::sqrt(2 * cost);
+}
+
 }  // namespace
 
 LevenbergMarquardtReport minimize_least_squares(const ResidualFunction& function,
@@ -40,47 +84,30 @@ LevenbergMarquardtReport minimize_least_squares(const ResidualFunction& function
   report.cost = residuals.squaredNorm() / 2;
   report.status = LevenbergMarquardtStatus::iteration_limit;
   NormalEquations normal = assemble(jacobian, residuals);
-  double damping = options.initial_damping;
-  double growth = 2;
+  Damping damping(options.initial_damping);
+  const auto converged = [&report] {
+    report.status = LevenbergMarquardtStatus::converged;
+    return report;
+  };
   while (report.iterations < options.max_iterations) {
-    if (normal.gradient.lpNorm<Eigen::Infinity>() <=
-        options.gradient_tolerance * std::sqrt(2 * report.cost)) {
-      report.status = LevenbergMarquardtStatus::converged;
-      break;
-    }
+    if (is_flat(normal, report.cost, options.gradient_tolerance)) return converged();
     ++report.iterations;
-    Eigen::MatrixXd damped = normal.matrix;
-    damped.diagonal().array() += damping;
-    const Eigen::VectorXd scaled = damped.ldlt().solve(-normal.gradient);
-    const Eigen::VectorXd step = normal.scale.cwiseProduct(scaled);
-    if (step.norm() <= options.step_tolerance * (x.norm() + options.step_tolerance)) {
-      report.status = LevenbergMarquardtStatus::converged;
-      break;
-    }
-    const Eigen::VectorXd trial = x + step;
-    const bool inside = trial.allFinite() && function(trial, trial_residuals, nullptr);
+    const Step step = damped_step(normal, damping.value(), x);
+    if (step.length <= options.step_tolerance * (x.norm() + options.step_tolerance))
+      return converged();
+    const bool inside = step.x.allFinite() && function(step.x, trial_residuals, nullptr);
     const double cost = inside ? trial_residuals.squaredNorm() / 2 : report.cost;
-    const double predicted = scaled.dot(damping * scaled - normal.gradient) / 2;
+    const double predicted = step.scaled.dot(damping.value() * step.scaled - normal.gradient) / 2;
     const double gain = inside && std::isfinite(cost) ? (report.cost - cost) / predicted : -1;
     if (!(gain > 0)) {
-      damping *= growth;
-      growth *= 2;
-      if (damping > 1e16) {
-        report.status = LevenbergMarquardtStatus::converged;
-        break;
-      }
+      if (!damping.raise()) return converged();
       continue;
     }
-    const double decrease = report.cost - cost;
-    x = trial;
-    damping = std::max(1e-15, damping * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
-    growth = 2;
-    const bool settled = decrease <= options.cost_tolerance * report.cost;
+    x = step.x;
+    damping.lower(gain);
+    const bool settled = report.cost - cost <= options.cost_tolerance * report.cost;
     report.cost = cost;
-    if (settled || !function(x, residuals, &jacobian)) {
-      report.status = LevenbergMarquardtStatus::converged;
-      break;
-    }
+    if (settled || !function(x, residuals, &jacobian)) return converged();
     normal = assemble(jacobian, residuals);
   }
   return report;
