@@ -113,7 +113,7 @@ bool within_reason(const UnitG2& request, const ShortChain& chain) {
     const double length = chain.length_of(i);
     if (!(length > 1e-7 && length < 24)) return false;
     const double k = std::max(std::abs(chain.curvature[i]), std::abs(chain.curvature[i + 1]));
-    if (!(k * length < (request.alpha < 0 ? 20 : 80))) return false;
+    if (!(k * length < largest_bend(request.alpha))) return false;
     if (request.alpha >= 0 && !(chain.curvature[i + 1] != 0)) return false;
     total += length;
   }

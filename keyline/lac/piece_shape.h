@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,6 +45,10 @@ struct PieceShape {
 /// alpha and the curvatures as in a valid Piece without cusp.
 PieceShape piece_shape(double alpha, double k0, double k1, const CurvatureVariable& v0,
                        const CurvatureVariable& v1);
+
+/// Curvature times length beyond which a piece on the way to an answer counts as astray: from an
+/// inflection to such an end it turns by 8 rad.
+inline double largest_bend(double alpha) { return alpha < 0 ? std::min(80.0, 8 - 8 / alpha) : 80; }
 
 /// Turning to the left and to the right together, of a piece without cusp.
 double absolute_turning(const Piece& piece);

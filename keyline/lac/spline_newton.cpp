@@ -12,7 +12,6 @@ namespace {
 using core::Vector2;
 
 constexpr int kSteps = 40;
-constexpr double kWildCurvature = 16;  ///< times the span's length: not a way to go
 constexpr double kAccepted = 2e-13;
 
 /// What a span contributes: angle from its start tangent to the chord and from the chord to its end
@@ -175,7 +174,7 @@ void Spline::refresh() {
   size_ = 1e300;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     const double k = std::max(std::abs(state_.curvature[i]), std::abs(state_.curvature[after(i)]));
-    if (!(k * state_.length[i] < kWildCurvature)) return;
+    if (!(k * state_.length[i] < largest_bend(problem_.alpha[i]))) return;
   }
   for (std::size_t i = 0; i < spans_.size(); ++i) spans_[i] = value_of(i);
   fill_misses();

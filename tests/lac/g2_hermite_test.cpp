@@ -4,6 +4,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/hermite.h"
@@ -107,6 +108,22 @@ TEST(SolveG2, MeetsRandomRequestsThatMayInflect) {
     ASSERT_LT(misfit(solution->chain, start, end), 1e-12) << i;
   }
   EXPECT_EQ(solved, count);
+}
+
+TEST(SolveG2, MeetsWhateverIsAsked) {
+  EXPECT_TRUE(rc::check([] {
+    const auto fraction = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+    const CurvatureElement start{{{0, 0}, fraction()}, 3 * fraction()};
+    const CurvatureElement end{{{2, fraction()}, fraction()}, 3 * fraction()};
+    const double alpha = -0.1 - std::abs(3 * fraction());
+    const auto s = solve_g2(start, end, alpha);
+    RC_ASSERT(s.has_value());
+    const auto at = end_pose(s->chain);
+    RC_ASSERT(distance(at.position, end.pose.position) < 2e-12);
+    RC_ASSERT(std::abs(at.direction - end.pose.direction) < 1e-12);
+    RC_ASSERT(s->chain.pieces.back().curvature_end == end.curvature);
+    RC_ASSERT(s->chain.pieces.front().curvature_start == start.curvature);
+  }));
 }
 
 TEST(SolveG2, KeepsTheSignOfCurvatureForSlopesFromZeroOn) {
