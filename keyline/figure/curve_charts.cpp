@@ -84,8 +84,8 @@ std::vector<Band> piece_bands(const SampledCurve& curve) {
   for (const std::size_t joint : joints) {
     const double to = curve.arc_length[joint];
     if (!(to > from)) continue;
-    const std::size_t number = bands.size() + 1;
-    bands.push_back({from, to, std::to_string(number), number % 2 == 0});
+    const std::size_t index = bands.size();
+    bands.push_back({from, to, detail::piece_name(curve, index), index % 2 == 1});
     from = to;
   }
   return bands;

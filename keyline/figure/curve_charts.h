@@ -18,6 +18,7 @@ struct SampledCurve {
   std::vector<double> tangent_angle = {};  ///< radians
   std::vector<double> curvature = {};      ///< signed, positive turning left
   std::vector<std::size_t> joints = {};    ///< samples at which one piece ends and the next starts
+  std::vector<std::string> piece_names = {};  ///< written at the pieces; empty: 1, 2, 3 …
 };
 
 struct ChartOptions {

@@ -109,4 +109,21 @@ Drawing tile(const std::vector<Drawing>& drawings, int columns, double gap) {
   return page;
 }
 
+Drawing stack(const std::vector<Drawing>& drawings, double gap) {
+  Drawing page;
+  if (drawings.empty()) return page;
+  page.unit = drawings[0].unit;
+  page.width = page.height = 0;
+  for (const Drawing& d : drawings) {
+    if (d.unit != page.unit) throw core::InvalidInput("stack: drawings differ in unit");
+    if (page.height > 0) page.height += gap;
+    Group group{d.title, std::nullopt, d.items};
+    shift(group, {0, page.height});
+    page.add(std::move(group));
+    page.width = std::max(page.width, d.width);
+    page.height += d.height;
+  }
+  return page;
+}
+
 }  // namespace keyline::figure

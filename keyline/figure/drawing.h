@@ -121,6 +121,9 @@ double text_width(std::string_view text, double size, bool bold = false);
 /// All must share one unit (InvalidInput otherwise). Names of their groups stay.
 Drawing tile(const std::vector<Drawing>& drawings, int columns, double gap = 16);
 
+/// Lays drawings out below one another, each as high as it is. Units as for tile().
+Drawing stack(const std::vector<Drawing>& drawings, double gap = 16);
+
 struct SvgOptions {
   std::string id_prefix = "k";  ///< start of every id, so that several fit in one HTML page
   bool standalone = true;       ///< false: no XML declaration, for inlining in HTML

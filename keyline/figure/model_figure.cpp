@@ -90,6 +90,10 @@ std::vector<std::size_t> borders_of(const SampledCurve& curve) {
 
 }  // namespace
 
+std::string piece_name(const SampledCurve& curve, std::size_t index) {
+  return index < curve.piece_names.size() ? curve.piece_names[index] : std::to_string(index + 1);
+}
+
 void add_piece_numbers(ModelFigure& figure, const SampledCurve& curve) {
   if (curve.joints.empty()) return;
   const std::vector<std::size_t> borders = borders_of(curve);
@@ -105,7 +109,7 @@ void add_piece_numbers(ModelFigure& figure, const SampledCurve& curve) {
     if (crowded || !core::is_finite(at)) continue;
     placed.push_back(at);
     figure.drawing.add(Label{.at = at,
-                             .text = std::to_string(i),
+                             .text = piece_name(curve, i - 1),
                              .size = 10.5,
                              .color = kSoftInk,
                              .anchor = Anchor::middle,

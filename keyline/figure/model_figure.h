@@ -28,7 +28,10 @@ void add_line(ModelFigure& figure, const std::vector<core::Point2>& points, cons
 /// The curve's line and its joints.
 void add_curve(ModelFigure& figure, const SampledCurve& curve, const Stroke& stroke);
 
-/// The number of each piece on the inner side of the curve, left out where it would crowd; none
+/// What stands at the piece of that index: its name, or its number from 1.
+std::string piece_name(const SampledCurve& curve, std::size_t index);
+
+/// The name of each piece on the inner side of the curve, left out where it would crowd; none
 /// for a curve of one piece.
 void add_piece_numbers(ModelFigure& figure, const SampledCurve& curve);
 

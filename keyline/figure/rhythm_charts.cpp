@@ -39,6 +39,13 @@ Drawing lcg_chart(const LcgPiece& piece, double width, double height) {
   plot.height = height;
   plot.x.title = "log\u2081\u2080 \u03C1";
   plot.y.title = "log\u2081\u2080 |\u03C1 ds/d\u03C1|";
+  if (!piece.measured.empty())
+    plot.series.push_back(Series{.name = "before",
+                                 .points = piece.measured,
+                                 .kind = SeriesKind::points,
+                                 .color = lighter(kRaw, 0.3),
+                                 .size = 2.4,
+                                 .sets_range = false});
   plot.series.push_back(Series{.points = piece.points,
                                .kind = SeriesKind::points,
                                .color = lighter(palette(0), 0.35),
@@ -60,6 +67,13 @@ Drawing lddc_chart(const LddcPiece& piece, double width, double height) {
                                .kind = SeriesKind::bars,
                                .color = lighter(palette(0), 0.6),
                                .bar_width = piece.bin_width});
+  if (!piece.measured.empty())
+    plot.series.push_back(Series{.name = "before",
+                                 .points = piece.measured,
+                                 .color = kRaw,
+                                 .width = 1.1,
+                                 .dash = {3, 2},
+                                 .sets_range = false});
   plot.series.push_back(
       Series{.name = "C curve", .points = piece.c_curve, .color = palette(0), .width = 1.4});
   add_lines(plot, piece.lines, "slope");
@@ -73,8 +87,10 @@ Drawing lddc_chart(const LddcPiece& piece, double width, double height) {
   add_end(piece.point_b, "B");
   plot.series.push_back(ends);
   std::vector<double> heights;
-  for (const Series& series : plot.series)
+  for (const Series& series : plot.series) {
+    if (!series.sets_range) continue;
     for (const Point2& p : series.points) heights.push_back(p.y);
+  }
   const core::Interval range = axis_range(heights, Scale::linear);
   plot.y.low = range.low - 0.08 * length(range);
   plot.y.high = range.high + 0.04 * length(range);

@@ -21,6 +21,7 @@ struct FittedLine {
 struct LcgPiece {
   std::string name = {};
   std::vector<core::Point2> points = {};
+  std::vector<core::Point2> measured = {};  ///< of the curve before, cut where they leave the range
   std::vector<FittedLine> lines = {};
   std::optional<double> variance = {};  ///< of the points about the lines
 };
@@ -34,7 +35,8 @@ struct LddcPiece {
   std::string name = {};
   std::vector<core::Point2> bars = {};  ///< middle of the bin, height; empty bins left out
   double bin_width = 0.05;
-  std::vector<core::Point2> c_curve = {};  ///< line over the tops of the bars
+  std::vector<core::Point2> c_curve = {};   ///< line over the tops of the bars
+  std::vector<core::Point2> measured = {};  ///< C curve before, cut where it leaves the range
   std::vector<FittedLine> lines = {};
   std::optional<core::Point2> point_a = {};  ///< the paper's index of volume: A …
   std::optional<core::Point2> point_b = {};  ///< … and its distance to B

@@ -1,5 +1,6 @@
 #include "keyline/curve/monotone.h"
 #include "keyline/operations/analysis_json.h"
+#include "keyline/operations/analyze_report.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
 
@@ -60,22 +61,28 @@ std::function<MonotoneAnswer()> certificate_of(const document::Path& path) {
 
 core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) {
   const document::Path path = path_of(request, "curve");
-  analysis::AnalyzeOptions options;
-  options.noise = number_or(request, "noise", 0);
-  if (options.noise < 0)
-    return core::fail(core::ErrorCode::bad_input, "the noise is negative", "give 0 or more",
-                      "noise");
-  const auto plot = integer_between(request, "plot_samples", options.plot_samples, 2, 1'000'000);
+  const double noise = number_or(request, "noise", 0);
+  const auto plot = integer_between(request, "plot_samples", 401, 2, 1'000'000);
   if (!plot) return std::unexpected(plot.error());
-  options.plot_samples = *plot;
-  options.certify = certificate_of(path);
-  const auto found = path.curves.size() == 1 ? analysis::analyze(path.curves[0], options)
-                                             : analysis::analyze(path, options);
+  const auto found = analyze_path(path, noise, *plot);
   if (!found) return std::unexpected(found.error());
   return curve_analysis_json(*found);
 }
 
 }  // namespace
+
+core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, double noise,
+                                                   int plot_samples) {
+  if (!(noise >= 0))
+    return core::fail(core::ErrorCode::bad_input, "the noise is negative", "give 0 or more",
+                      "noise");
+  analysis::AnalyzeOptions options;
+  options.noise = noise;
+  options.plot_samples = plot_samples;
+  options.certify = certificate_of(path);
+  return path.curves.size() == 1 ? analysis::analyze(path.curves[0], options)
+                                 : analysis::analyze(path, options);
+}
 
 Operation curve_analyze_operation() {
   using Type = Field::Type;
