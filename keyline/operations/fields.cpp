@@ -60,6 +60,9 @@ Result<void> check_type(const json& value, const Field& field) {
       return discard(exchange::points_from_json(value, field.name, 1));
     case Field::Type::numbers:
       return check_numbers(value, field);
+    case Field::Type::number_or_numbers:
+      return value.is_array() ? check_numbers(value, field)
+                              : discard(exchange::number_from_json(value, field.name));
     case Field::Type::curve:
       return discard(exchange::path_from_json(value, field.name));
     case Field::Type::curves:
@@ -144,6 +147,37 @@ Result<std::optional<double>> positive_number(const json& request, const char* n
     return fail(ErrorCode::bad_input, std::string("\"") + name + "\" is not greater than zero",
                 "give a number greater than zero", name);
   return value;
+}
+
+Result<std::vector<double>> numbers_of_count(const json& request, const char* name,
+                                             std::size_t least, std::size_t most) {
+  const json& value = request.at(name);
+  const std::vector<double> list =
+      value.is_array() ? value.get<std::vector<double>>() : std::vector{value.get<double>()};
+  if (list.size() >= least && list.size() <= most) return list;
+  const std::string count =
+      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+  return fail(ErrorCode::bad_input,
+              std::string("\"") + name + "\" holds " + std::to_string(list.size()) + " numbers",
+              "give " + count, name);
+}
+
+Result<double> share_of(const json& request, const char* name) {
+  const double value = request.at(name).get<double>();
+  if (value > 0 && value < 1) return value;
+  return fail(ErrorCode::bad_input, std::string("\"") + name + "\" is out of range",
+              "give a number between 0 and 1, both excluded", name);
+}
+
+Result<std::array<core::Point2, 3>> three_handles(const json& request) {
+  const std::vector<core::Point2> points = points_of(request, "points");
+  if (points.size() == 3) return std::array{points[0], points[1], points[2]};
+  return fail(ErrorCode::bad_input, "three handles are wanted",
+              "give P0, P1 and P2: the ends and where their tangents meet", "points");
+}
+
+core::Point2 point_of(const json& request, const char* name) {
+  return exchange::point_from_json(request.at(name), name).value();
 }
 
 std::vector<core::Point2> points_of(const json& request, const char* name) {

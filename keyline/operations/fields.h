@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,15 @@ core::Result<int> integer_between(const nlohmann::json& request, const char* nam
 core::Result<std::optional<double>> positive_number(const nlohmann::json& request,
                                                     const char* name);
 
+/// Between least and most numbers, else bad_input; a bare number counts as a list of one.
+core::Result<std::vector<double>> numbers_of_count(const nlohmann::json& request, const char* name,
+                                                   std::size_t least, std::size_t most);
+/// A number strictly between 0 and 1, else bad_input. Precondition: the field is there.
+core::Result<double> share_of(const nlohmann::json& request, const char* name);
+/// The three handles P0, P1, P2 of "points", else bad_input.
+core::Result<std::array<core::Point2, 3>> three_handles(const nlohmann::json& request);
+
+core::Point2 point_of(const nlohmann::json& request, const char* name);
 std::vector<core::Point2> points_of(const nlohmann::json& request, const char* name);
 std::vector<double> numbers_of(const nlohmann::json& request, const char* name);
 document::Path path_of(const nlohmann::json& request, const char* name);

@@ -8,12 +8,10 @@ namespace keyline::operations {
 namespace {
 
 core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) {
-  const std::vector<core::Point2> points = points_of(request, "points");
-  if (points.size() != 3)
-    return core::fail(core::ErrorCode::bad_input, "three handles are wanted",
-                      "give P0, P1 and P2: the ends and where their tangents meet", "points");
-  const auto solved =
-      lac::solve_g1(points[0], points[1], points[2], number_or(request, "alpha", -1));
+  const auto handles = three_handles(request);
+  if (!handles) return std::unexpected(handles.error());
+  const auto& [p0, p1, p2] = *handles;
+  const auto solved = lac::solve_g1(p0, p1, p2, number_or(request, "alpha", -1));
   if (!solved) return std::unexpected(solved.error());
   return nlohmann::json{
       {"curve", exchange::to_json(document::PlanarCurve{lac::chain_of(solved->segment)})},

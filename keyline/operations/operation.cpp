@@ -44,6 +44,8 @@ json type_schema(Field::Type type) {
       return list_of(point_schema());
     case Field::Type::numbers:
       return list_of({{"type", "number"}});
+    case Field::Type::number_or_numbers:
+      return {{"oneOf", json::array({{{"type", "number"}}, list_of({{"type", "number"}})})}};
     case Field::Type::curve:
       return curve_schema();
     case Field::Type::curves:

@@ -20,7 +20,19 @@ struct Context {
 
 /// One field of a request: what the schema says of it and what reading it checks.
 struct Field {
-  enum class Type { number, integer, boolean, string, point, points, numbers, curve, curves, any };
+  enum class Type {
+    number,
+    integer,
+    boolean,
+    string,
+    point,
+    points,
+    numbers,
+    number_or_numbers,
+    curve,
+    curves,
+    any
+  };
   std::string name;
   Type type = Type::any;
   bool required = false;

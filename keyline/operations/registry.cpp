@@ -4,7 +4,8 @@ namespace keyline::operations {
 
 std::vector<Operation> all_operations() {
   return {curve_analyze_operation(), curve_continuity_operation(), fair_operation(),
-          fit_spline_operation(), lac_segment_operation()};
+          fit_spline_operation(),    lac_compound_operation(),     lac_hermite_operation(),
+          lac_region_operation(),    lac_segment_operation()};
 }
 
 }  // namespace keyline::operations

@@ -11,6 +11,9 @@ Operation curve_analyze_operation();
 Operation curve_continuity_operation();
 Operation fair_operation();
 Operation fit_spline_operation();
+Operation lac_compound_operation();
+Operation lac_hermite_operation();
+Operation lac_region_operation();
 Operation lac_segment_operation();
 
 /// All of the above.
