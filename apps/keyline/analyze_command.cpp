@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_curve.h"
+#include "keyline/figure/drawing.h"
 #include "keyline/fit/fit_spline.h"
-#include "keyline/operations/operation.h"
+#include "keyline/operations/analysis_json.h"
+#include "keyline/operations/analyze_report.h"
+#include "keyline/operations/fair_report.h"
+#include "keyline/operations/pictures.h"
+#include "keyline/report/html_report.h"
 
 #include "commands.h"
 #include "input.h"
@@ -22,6 +26,7 @@ struct Subject {
   std::string name;
   document::Path path;
   double noise = 0;
+  analysis::CurveAnalysis analysis = {};
 };
 
 /// Points are analysed through their spline, as in steps 2 to 4 of fairing.
@@ -50,7 +55,9 @@ Result<std::vector<Subject>> subjects_of(const AnalyzeCommand& command) {
     auto document = load_document(command.input);
     if (!document) return std::unexpected(document.error());
     for (auto& named : document->paths)
-      subjects.push_back({named.name, std::move(named.path), command.input.noise.value_or(0)});
+      subjects.push_back({.name = named.name,
+                          .path = std::move(named.path),
+                          .noise = command.input.noise.value_or(0)});
     return subjects;
   }
   const core::Progress progress = interactive_progress(command.common.quiet);
@@ -85,33 +92,68 @@ void print_summary(const std::string& name, const json& result) {
   }
 }
 
+operations::ReportOptions report_options(const AnalyzeCommand& command, const Subject& subject) {
+  operations::ReportOptions options;
+  options.title = subject.name.empty() ? "Curve analysis" : "Curve analysis: " + subject.name;
+  options.subtitle = command.input.files.front();
+  options.unit = command.input.unit;
+  options.command = command.common.command_line;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  options.options = {{"noise", fmt::format("{:.4g}", subject.noise)},
+                     {"seed", std::to_string(command.common.seed)}};
+  return options;
+}
+
+void add_pictures(Writers& writers, const AnalyzeCommand& command,
+                  const std::vector<Subject>& subjects) {
+  writers[".html"] = [&]() -> Result<std::string> {
+    std::vector<report::Report> reports;
+    for (const Subject& subject : subjects)
+      reports.push_back(operations::analyze_report(subject.analysis, subject.path,
+                                                   report_options(command, subject)));
+    return report::html_report(operations::joined_report(reports, "Curve analysis"));
+  };
+  const auto picture = [&] {
+    std::vector<figure::Drawing> drawings;
+    for (const Subject& subject : subjects)
+      drawings.push_back(operations::analyze_picture(subject.analysis, subject.path,
+                                                     report_options(command, subject)));
+    return figure::tile(drawings, 1);
+  };
+  writers[".pdf"] = [picture] { return figure::write_pdf(picture()); };
+  writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
+}
+
 }  // namespace
 
 int run_analyze(const AnalyzeCommand& command) {
-  if (auto known = check_outputs(command.common, {".json", ".csv", ".svg"}); !known)
+  const CommonOptions& common = command.common;
+  if (auto known = check_outputs(common, {".json", ".csv", ".svg", ".html", ".pdf", ".png"});
+      !known)
     return report_failure(known.error());
-  const auto subjects = subjects_of(command);
+  auto subjects = subjects_of(command);
   if (!subjects) return report_failure(subjects.error());
   json all = json::array();
   std::vector<OutputCurve> curves;
   double size = HUGE_VAL;
-  for (const Subject& subject : *subjects) {
-    const json request{{"curve", exchange::to_json(subject.path)}, {"noise", subject.noise}};
-    auto result = operations::perform("curve.analyze", request, {command.common.threads, {}});
-    if (!result) return report_failure(result.error(), command.input.files.front());
-    size = std::min(size, (*result)["length"].get<double>());
+  for (Subject& subject : *subjects) {
+    auto found = operations::analyze_path(subject.path, subject.noise);
+    if (!found) return report_failure(found.error(), command.input.files.front());
+    subject.analysis = std::move(*found);
+    json result = operations::curve_analysis_json(subject.analysis);
+    size = std::min(size, subject.analysis.length);
     curves.push_back({subject.name, subject.path});
-    if (!command.common.json && !command.common.quiet) print_summary(subject.name, *result);
-    (*result)["name"] = subject.name;
-    all.push_back(std::move(*result));
+    if (!common.json && !common.quiet) print_summary(subject.name, result);
+    if (!subject.name.empty()) result["name"] = subject.name;
+    all.push_back(std::move(result));
   }
   const json shown = all.size() == 1 ? all[0] : json{{"curves", all}};
   Writers writers =
-      curve_writers(curves, command.common.tolerance.value_or(1e-5 * size), command.input.unit);
+      curve_writers(curves, common.tolerance.value_or(1e-5 * size), command.input.unit);
   writers[".json"] = [&]() -> Result<std::string> { return shown.dump(1) + "\n"; };
-  if (auto done = write_outputs(command.common, writers); !done)
-    return report_failure(done.error());
-  if (command.common.json) fmt::print("{}\n", shown.dump());
+  add_pictures(writers, command, *subjects);
+  if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
+  if (common.json) fmt::print("{}\n", shown.dump());
   return kDone;
 }
 

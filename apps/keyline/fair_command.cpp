@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/figure/drawing.h"
+#include "keyline/operations/fair_report.h"
 #include "keyline/operations/fair_request.h"
+#include "keyline/operations/pictures.h"
+#include "keyline/report/html_report.h"
 
 #include "commands.h"
 #include "input.h"
@@ -138,6 +142,49 @@ Result<std::vector<Faired>> fair_all(const FairCommand& command) {
   return all;
 }
 
+operations::ReportOptions report_options(const FairCommand& command, const Faired& faired) {
+  operations::ReportOptions options;
+  std::string files;
+  for (const std::string& file : command.input.files) files += (files.empty() ? "" : ", ") + file;
+  options.title = faired.line.id.empty() ? "Faired key-line" : "Faired key-line: " + faired.line.id;
+  options.subtitle = files;
+  options.unit = command.input.unit;
+  options.command = command.common.command_line;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  options.options = {
+      {"tolerance", fmt::format("{:.6g}{}", faired.result.tolerance,
+                                command.common.tolerance ? "" : " (by the default rule)")},
+      {"order of the spline", std::to_string(command.order)},
+      {"corners", command.keep_corners ? "kept" : "rounded"},
+      {"seed", std::to_string(command.common.seed)}};
+  if (command.pieces > 0) options.options.emplace_back("pieces", std::to_string(command.pieces));
+  if (!command.clamp.empty()) options.options.emplace_back("clamp", command.clamp);
+  if (!command.region.empty()) options.options.emplace_back("region", command.region);
+  for (const std::string& text : command.interpretations)
+    options.options.emplace_back("interpretation", text);
+  return options;
+}
+
+/// Pages of several key-lines follow each other in one report; pictures stand below each other.
+void add_pictures(Writers& writers, const FairCommand& command, const std::vector<Faired>& all) {
+  writers[".html"] = [&]() -> Result<std::string> {
+    std::vector<report::Report> reports;
+    for (const Faired& faired : all)
+      reports.push_back(
+          operations::fair_report(faired.line, faired.result, report_options(command, faired)));
+    return report::html_report(operations::joined_report(reports, "Faired key-lines"));
+  };
+  const auto picture = [&] {
+    std::vector<figure::Drawing> drawings;
+    for (const Faired& faired : all)
+      drawings.push_back(
+          operations::fair_picture(faired.line, faired.result, report_options(command, faired)));
+    return figure::tile(drawings, 1);
+  };
+  writers[".pdf"] = [picture] { return figure::write_pdf(picture()); };
+  writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
+}
+
 nlohmann::json result_json(const std::vector<Faired>& all) {
   if (all.size() == 1) return operations::fair_json(all.front().result);
   nlohmann::json list = nlohmann::json::array();
@@ -153,7 +200,9 @@ nlohmann::json result_json(const std::vector<Faired>& all) {
 
 int run_fair(const FairCommand& command) {
   const std::string& file = command.input.files.front();
-  if (auto known = check_outputs(command.common, {".svg", ".json", ".csv"}); !known)
+  if (auto known =
+          check_outputs(command.common, {".svg", ".json", ".csv", ".html", ".pdf", ".png"});
+      !known)
     return report_failure(known.error());
   const auto all = fair_all(command);
   if (!all) return report_failure(all.error());
@@ -163,7 +212,8 @@ int run_fair(const FairCommand& command) {
     curves.push_back({faired.line.id, operations::fair_curve(faired.result)});
     tolerance = std::min(tolerance, 0.1 * faired.result.tolerance);
   }
-  const Writers writers = curve_writers(curves, tolerance, command.input.unit);
+  Writers writers = curve_writers(curves, tolerance, command.input.unit);
+  add_pictures(writers, command, *all);
   if (auto done = write_outputs(command.common, writers); !done)
     return report_failure(done.error());
   if (command.common.json) fmt::print("{}\n", result_json(*all).dump());
