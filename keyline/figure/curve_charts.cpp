@@ -290,7 +290,9 @@ Drawing overlay(const Overlay& overlay, const ChartOptions& options) {
   std::string subtitle = "Largest deviation " + detail::with_unit(largest, options.unit);
   if (overlay.tolerance > 0)
     subtitle += ", tolerance " + detail::with_unit(overlay.tolerance, options.unit);
-  subtitle += "; deviations drawn " + short_number(exaggeration) + " times too long";
+  subtitle += exaggeration == 1
+                  ? "; deviations drawn to scale"
+                  : "; deviations drawn " + short_number(exaggeration) + " times too long";
   const bool beyond = overlay.tolerance > 0 && largest > overlay.tolerance;
   ModelFigure figure = detail::start_figure(model, "Before and after", subtitle,
                                             overlay_legend(overlay, beyond), options);

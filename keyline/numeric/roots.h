@@ -11,9 +11,10 @@ namespace keyline::numeric {
 /// A zero of continuous f in [low, high], where f changes sign between the ends, within an
 /// absolute error of tolerance (never finer than the spacing of doubles). Alefeld, Potra and Shi's
 /// algorithm 748, at most 200 evaluations.
-/// Returns: empty if f has one sign at both ends or an end gives NaN.
+/// Returns: empty if f has one sign at both ends, an end gives NaN, or not low < high.
 template <class F>
 std::optional<double> bracketed_root(F&& f, double low, double high, double tolerance) {
+  if (!(low < high)) return std::nullopt;  // panels next to a breakpoint may be of no width
   const double at_low = f(low);
   const double at_high = f(high);
   if (at_low == 0) return low;

@@ -57,10 +57,11 @@ void set_numbers(const CurveAnalysis& a, const std::string& unit, report::Report
       {"Inflections", fmt::format("{}", a.split.inflections.size()), {}},
       {"Extrema of curvature", fmt::format("{}", a.split.extrema.size()), {}},
       {"Corners", fmt::format("{}", a.split.corners.size()), {}}};
+  detail::let_units_wrap(report.numbers);
 }
 
 report::Section curvature_section(const figure::SampledCurve& curve, const std::string& unit) {
-  const figure::ChartOptions chart{.unit = unit};
+  const figure::ChartOptions chart{.unit = unit, .largest_height = 480};
   report::Section section{"Curvature", {}, {}, {}};
   section.figures = {
       {figure::curvature_plot({curve}, chart),

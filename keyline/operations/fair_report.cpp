@@ -21,7 +21,9 @@ using fairing::FairResult;
 using figure::SampledCurve;
 
 constexpr std::size_t kMostPoints = 2000;
+constexpr double kMostHeight = 480;  // of a figure, px
 constexpr int kGraphSamples = 201;
+constexpr double kGraphCutoff = 3e-3;  // curvature below this share of the largest is not shown
 
 /// Everything the sections are made of.
 struct Material {
@@ -91,7 +93,8 @@ void set_numbers(const Material& m, report::Report& report) {
       {"Length", length_text(r.length, unit), {}},
       {"Continuity", order < 0 ? "gap" : fmt::format("G{}", std::min(order, 3)),
        "lowest inside a chain"}};
-  if (r.pieces.size() == chains && order == 3) report.numbers.pop_back();
+  if (detail::chain_joints(r).empty()) report.numbers.pop_back();
+  detail::let_units_wrap(report.numbers);
 }
 
 report::Section overlay_section(const Material& m) {
@@ -149,6 +152,21 @@ std::vector<double> piece_starts(const Material& m) {
   return starts;
 }
 
+/// Curvature at n equal steps along a piece.
+analysis::CurvatureProfile profile_of(const lac::Piece& piece, int n) {
+  analysis::CurvatureProfile profile;
+  for (int i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) / (n - 1);
+    const double rate = lac::curvature_rate(piece, t);
+    const double bend = lac::curvature(piece, t);
+    if (!std::isfinite(rate) || !std::isfinite(bend)) continue;  // a cusp or a sharp inflection
+    profile.arc_length.push_back(t * piece.length);
+    profile.curvature.push_back(bend);
+    profile.curvature_rate.push_back(rate);
+  }
+  return profile;
+}
+
 detail::PieceGraphs graphs_of(const Material& m, std::size_t index, double from) {
   const FairPiece& piece = m.result.pieces[index];
   detail::PieceGraphs graphs;
@@ -156,13 +174,14 @@ detail::PieceGraphs graphs_of(const Material& m, std::size_t index, double from)
   graphs.length = piece.length;
   const lac::Piece* shape = lac_piece(m.result, piece);
   if (!shape || shape->curvature_start == shape->curvature_end) return graphs;
-  const lac::Chain own{{}, {*shape}, false};
-  graphs.lcg = analysis::logarithmic_curvature_graph(own, kGraphSamples);
-  graphs.lddc = analysis::curvature_distribution_diagram(own);
+  graphs.lcg =
+      analysis::logarithmic_curvature_graph(profile_of(*shape, kGraphSamples), kGraphCutoff);
+  const auto fine = analysis::complete(profile_of(*shape, 2 * analysis::kLddcPoints + 1));
+  if (fine) graphs.lddc = analysis::curvature_distribution_diagram(*fine);
   const auto before =
       analysis::complete(detail::profile_between(m.spline, from, from + piece.length));
   if (!before) return graphs;
-  graphs.before = analysis::logarithmic_curvature_graph(*before);
+  graphs.before = analysis::logarithmic_curvature_graph(*before, kGraphCutoff);
   graphs.before_lddc = analysis::curvature_distribution_diagram(*before);
   return graphs;
 }
@@ -286,7 +305,7 @@ report::Report fair_report(const acquire::KeyLine& line, const FairResult& resul
                    options,
                    detail::faired_samples(result),
                    detail::spline_samples(result),
-                   {.unit = options.unit}};
+                   {.unit = options.unit, .largest_height = kMostHeight}};
   report::Report report;
   report.title = title_of(m);
   report.subtitle = options.subtitle;

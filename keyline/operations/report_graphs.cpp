@@ -17,6 +17,7 @@ constexpr std::size_t kFewPieces = 6;       // with charts of full size
 constexpr std::size_t kMostPieces = 40;     // with charts at all
 constexpr std::size_t kPiecesPerSheet = 6;  // compact: two to a row
 constexpr std::size_t kGraphPoints = 60;
+constexpr double kRounding = 1e-12;    // a variance below it is that of an exact line
 constexpr double kCompactWidth = 252;  // px
 constexpr double kCompactHeight = 236;
 
@@ -42,7 +43,8 @@ figure::LcgPiece lcg_of(const PieceGraphs& piece) {
                                                [](Point2 a, Point2 b) { return a.x < b.x; });
   graph.lines.push_back(
       {low->x, high->x, piece.lcg.slope, piece.lcg.intercept / std::numbers::ln10});
-  graph.variance = piece.lcg.variance / (std::numbers::ln10 * std::numbers::ln10);
+  const double variance = piece.lcg.variance / (std::numbers::ln10 * std::numbers::ln10);
+  if (variance > kRounding) graph.variance = variance;
   return graph;
 }
 
@@ -118,10 +120,12 @@ void add_graphs(report::Section& section, const std::vector<PieceGraphs>& pieces
     std::vector<const PieceGraphs*> longest = shown;
     std::stable_sort(longest.begin(), longest.end(),
                      [](const auto* a, const auto* b) { return a->length > b->length; });
-    const double least = longest[kMostPieces - 1]->length;
-    std::erase_if(shown, [least](const auto* piece) { return piece->length < least; });
-    section.paragraphs.push_back(
-        fmt::format("Shown are the {} longest of {} pieces.", shown.size(), longest.size()));
+    longest.resize(kMostPieces);
+    std::erase_if(shown, [&longest](const auto* piece) {
+      return std::find(longest.begin(), longest.end(), piece) == longest.end();
+    });
+    section.paragraphs.push_back(fmt::format("Shown are the {} longest of {} pieces.", shown.size(),
+                                             pieces.size() - without.size()));
   }
   if (shown.size() <= kFewPieces) {
     for (const PieceGraphs* piece : shown) add_full(section, *piece);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -89,6 +90,18 @@ report::JointRow joint_row(const std::string& between, const analysis::JointCont
   row.rate_jump = jump_text(joint.curvature_rate_jump, unit.empty() ? "" : per + "\u00B2");
   row.order = joint.order < 0 ? "gap" : fmt::format("G{}", joint.order);
   return row;
+}
+
+void let_units_wrap(std::vector<report::KeyNumber>& numbers) {
+  constexpr std::string_view kNoBreak = "\u00A0";
+  const auto loosen = [kNoBreak](std::string& text) {
+    for (auto at = text.find(kNoBreak); at != std::string::npos; at = text.find(kNoBreak, at))
+      text.replace(at, kNoBreak.size(), " ");
+  };
+  for (report::KeyNumber& number : numbers) {
+    loosen(number.value);
+    loosen(number.note);
+  }
 }
 
 }  // namespace keyline::operations::detail

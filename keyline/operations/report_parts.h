@@ -28,6 +28,9 @@ std::string readings_text(const std::vector<analysis::Interpretation>& interpret
 report::JointRow joint_row(const std::string& between, const analysis::JointContinuity& joint,
                            const std::string& unit);
 
+/// Values may break at their unit: they stand in narrow boxes.
+void let_units_wrap(std::vector<report::KeyNumber>& numbers);
+
 /// What stands in the two diagrams of a piece.
 struct PieceGraphs {
   std::string name;   ///< "Piece 3 · minus"

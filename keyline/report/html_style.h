@@ -31,7 +31,7 @@ p { margin: 0.5rem 0; max-width: 46rem; }
 .numbers div { border: 1px solid #dee2e6; border-radius: 4px; padding: 0.65rem 0.85rem; }
 .numbers dt { color: #5a6268; font-size: 0.83rem; }
 .numbers dd { margin: 0; }
-.numbers .value { font-size: 1.35rem; font-weight: 600; line-height: 1.3;
+.numbers .value { font-size: 1.1rem; font-weight: 600; line-height: 1.3;
   font-variant-numeric: tabular-nums; }
 .numbers .aside { color: #5a6268; font-size: 0.83rem; }
 figure { margin: 1rem 0 1.5rem; }

@@ -90,6 +90,7 @@ TEST(Roots, FindsTheSignChange) {
   EXPECT_NEAR(*root, std::cbrt(2.0), 1e-15);
   EXPECT_FALSE(bracketed_root([](double x) { return x * x + 1; }, -1, 1, 1e-9));
   EXPECT_FALSE(bracketed_root([](double) { return std::nan(""); }, -1, 1, 1e-9));
+  EXPECT_FALSE(bracketed_root([](double x) { return x - 1; }, 2, 0, 1e-9));
 }
 
 }  // namespace
