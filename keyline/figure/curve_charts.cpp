@@ -190,14 +190,17 @@ Drawing curvature_comb(const SampledCurve& curve, const ChartOptions& options) {
 
 namespace {
 
-/// Centres of curvature; a gap where the curvature vanishes or changes sign.
+/// Centres of curvature; a gap where the curvature vanishes or changes sign. Very far ones are
+/// drawn nearer on their normal: cutting a line of any length at the border would lose its digits.
 std::vector<Point2> evolute_points(const SampledCurve& curve) {
   constexpr Point2 kGap{NAN, NAN};
+  const double farthest = 1e5 * diagonal(box_of(curve.points));
   std::vector<Point2> centers;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const double k = curve.curvature[i];
     if (i > 0 && !(curve.curvature[i - 1] * k > 0)) centers.push_back(kGap);
-    const Point2 center = curve.points[i] + left_normal(curve, i) / k;
+    const double radius = std::clamp(1 / k, -farthest, farthest);
+    const Point2 center = curve.points[i] + radius * left_normal(curve, i);
     centers.push_back(k != 0 && core::is_finite(center) ? center : kGap);
   }
   return centers;

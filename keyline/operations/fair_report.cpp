@@ -23,7 +23,6 @@ using figure::SampledCurve;
 constexpr std::size_t kMostPoints = 2000;
 constexpr double kMostHeight = 480;  // of a figure, px
 constexpr int kGraphSamples = 201;
-constexpr double kGraphCutoff = 3e-3;  // curvature below this share of the largest is not shown
 
 /// Everything the sections are made of.
 struct Material {
@@ -174,14 +173,13 @@ detail::PieceGraphs graphs_of(const Material& m, std::size_t index, double from)
   graphs.length = piece.length;
   const lac::Piece* shape = lac_piece(m.result, piece);
   if (!shape || shape->curvature_start == shape->curvature_end) return graphs;
-  graphs.lcg =
-      analysis::logarithmic_curvature_graph(profile_of(*shape, kGraphSamples), kGraphCutoff);
+  graphs.lcg = analysis::logarithmic_curvature_graph(profile_of(*shape, kGraphSamples));
   const auto fine = analysis::complete(profile_of(*shape, 2 * analysis::kLddcPoints + 1));
   if (fine) graphs.lddc = analysis::curvature_distribution_diagram(*fine);
   const auto before =
       analysis::complete(detail::profile_between(m.spline, from, from + piece.length));
   if (!before) return graphs;
-  graphs.before = analysis::logarithmic_curvature_graph(*before, kGraphCutoff);
+  graphs.before = analysis::logarithmic_curvature_graph(*before);
   graphs.before_lddc = analysis::curvature_distribution_diagram(*before);
   return graphs;
 }

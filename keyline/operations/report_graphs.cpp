@@ -17,19 +17,25 @@ constexpr std::size_t kFewPieces = 6;       // with charts of full size
 constexpr std::size_t kMostPieces = 40;     // with charts at all
 constexpr std::size_t kPiecesPerSheet = 6;  // compact: two to a row
 constexpr std::size_t kGraphPoints = 60;
+constexpr double kDecades = 2.5;       // of radius in a graph
 constexpr double kRounding = 1e-12;    // a variance below it is that of an exact line
 constexpr double kCompactWidth = 252;  // px
 constexpr double kCompactHeight = 236;
 
-/// Decadic instead of natural logarithms, thinned.
+/// Decadic instead of natural logarithms, thinned. Radii far above the smallest, around an
+/// inflection or a straight end, would fill the graph and are left out.
 std::vector<Point2> graph_points(const analysis::Lcg& lcg) {
+  std::vector<Point2> near;
+  double least = HUGE_VAL;
+  for (const auto& p : lcg.points) least = std::min(least, p.log_radius);
+  for (const auto& p : lcg.points)
+    if (p.log_radius <= least + kDecades * std::numbers::ln10)
+      near.push_back({p.log_radius / std::numbers::ln10, p.log_rate / std::numbers::ln10});
   std::vector<Point2> points;
-  const std::size_t n = lcg.points.size();
-  const std::size_t step = std::max<std::size_t>(1, (n + kGraphPoints - 1) / kGraphPoints);
-  for (std::size_t i = 0; i < n; ++i)
-    if (i % step == 0 || i + 1 == n)
-      points.push_back({lcg.points[i].log_radius / std::numbers::ln10,
-                        lcg.points[i].log_rate / std::numbers::ln10});
+  const std::size_t step =
+      std::max<std::size_t>(1, (near.size() + kGraphPoints - 1) / kGraphPoints);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (i % step == 0 || i + 1 == near.size()) points.push_back(near[i]);
   return points;
 }
 

@@ -88,6 +88,16 @@ TEST(Evolute, BreaksAtTheInflection) {
   EXPECT_LE(d.height, 620);
 }
 
+TEST(Evolute, KeepsItsScaleNextToAnInflection) {
+  const auto scale_bar = [](const Drawing& d) {
+    return std::get<Label>(d.items.back().value).text;
+  };
+  SampledCurve curve = s_curve();
+  const std::string before = scale_bar(evolute_chart(curve));
+  curve.curvature[510] = 1e-22 * (curve.curvature[510] < 0 ? -1 : 1);
+  EXPECT_EQ(scale_bar(evolute_chart(curve)), before);
+}
+
 TEST(Overlay, StatesDeviationAndExaggeration) {
   Overlay o;
   o.curve = s_curve();
