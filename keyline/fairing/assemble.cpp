@@ -28,57 +28,34 @@ RegionPoints points_in_region(const std::vector<core::Point2>& points, core::Int
   return found;
 }
 
-std::vector<PointPlace> place_points(const RunResult& result, const Run& run) {
-  FitChain chain;
-  chain.closed = result.chain.closed;
-  const std::vector<core::Pose2> poses = lac::joints(result.chain);
+namespace {
+
+/// The chain as laid out, in the form the fit takes, without feet.
+FitChain as_fit_chain(const lac::Chain& chain) {
+  FitChain out;
+  out.closed = chain.closed;
+  const std::vector<core::Pose2> poses = lac::joints(chain);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const bool last = i + 1 == poses.size();
-    const lac::Piece& piece = result.chain.pieces[last ? i - 1 : i];
-    chain.joints.push_back({poses[i].position, poses[i].direction,
-                            last ? piece.curvature_end : piece.curvature_start});
+    const lac::Piece& piece = chain.pieces[last ? i - 1 : i];
+    out.joints.push_back({poses[i].position, poses[i].direction,
+                          last ? piece.curvature_end : piece.curvature_start});
   }
-  std::vector<double> end{0};
-  for (const lac::Piece& piece : result.chain.pieces) {
-    chain.pieces.push_back({.length = piece.length, .alpha = piece.alpha});
-    end.push_back(end.back() + piece.length);
-  }
-  // First guess: shares of the length; then where the chain's own samples lie nearest, in order.
-  const int samples = static_cast<int>(std::clamp<std::size_t>(4 * run.points.size(), 400, 8000));
-  const std::vector<core::Point2> track = lac::sample(result.chain, samples);
-  const double step = end.back() / (samples - 1);
+  for (const lac::Piece& piece : chain.pieces)
+    out.pieces.push_back({.length = piece.length, .alpha = piece.alpha});
+  return out;
+}
+
+}  // namespace
+
+std::vector<PointPlace> place_points(const RunResult& result, const Run& run) {
+  FitChain chain = as_fit_chain(result.chain);
+  const int last = static_cast<int>(chain.pieces.size()) - 1;
   std::vector<FitPoint> points;
-  double at = 0;
-  const double total = polygon_length(run.points, run.closed);
-  // Closed chains start wherever their solving did: begin at the sample nearest the first point.
-  std::size_t base = 0;
-  if (chain.closed) {
-    for (std::size_t k = 1; k < track.size(); ++k)
-      if (core::distance(track[k], run.points[0]) < core::distance(track[base], run.points[0]))
-        base = k;
-  }
   for (std::size_t j = 0; j < run.points.size(); ++j) {
-    if (j > 0) at += core::distance(run.points[j - 1], run.points[j]);
-    const long guess = std::lround(at / total * (samples - 1));
-    const long reach = std::max<long>(5, samples / 25);
-    long best = guess;
-    double least = HUGE_VAL;
-    for (long k = guess - reach; k <= guess + reach; ++k) {
-      long where = k;
-      if (chain.closed)
-        where = ((static_cast<long>(base) + k) % (samples - 1) + samples - 1) % (samples - 1);
-      else if (k < 0 || k >= samples)
-        continue;
-      const double d = core::distance(track[where], run.points[j]);
-      if (d < least) {
-        least = d;
-        best = where;
-      }
-    }
-    const double s = std::clamp(step * static_cast<double>(best), 0.0, end.back());
-    const auto next = std::upper_bound(end.begin() + 1, end.end() - 1, s);
-    const int piece = static_cast<int>(next - end.begin()) - 1;
-    chain.feet.push_back({piece, (s - end[piece]) / chain.pieces[piece].length});
+    Foot foot = result.fit.feet[result.point_of[j]];
+    if (result.reversed) foot = {last - foot.piece, 1 - foot.fraction};
+    chain.feet.push_back(foot);
     points.push_back({.position = run.points[j]});
   }
   const std::vector<double> offset = settle_feet(chain, points, kSettleRounds);

@@ -98,6 +98,8 @@ Window cut_window(const FitChain& chain, const std::vector<FitPoint>& points, in
   w.chain.pieces.assign(chain.pieces.begin() + first, chain.pieces.begin() + first + count);
   w.chain.hold_start = chain.closed || first > 0 ? Hold::curvature : chain.hold_start;
   w.chain.hold_end = chain.closed || first + count < n ? Hold::curvature : chain.hold_end;
+  w.chain.first_at_start = chain.first_at_start && first == 0;
+  w.chain.last_at_end = chain.last_at_end && first + count == n;
   for (std::size_t j = 0; j < points.size(); ++j) {
     const Foot& foot = chain.feet[j];
     if (foot.piece < first || foot.piece >= first + count) continue;
@@ -115,6 +117,8 @@ FitChain paste_window(const FitChain& whole, const Window& w, int count) {
   next.turning = whole.turning;
   next.hold_start = whole.hold_start;
   next.hold_end = whole.hold_end;
+  next.first_at_start = whole.first_at_start;
+  next.last_at_end = whole.last_at_end;
   const auto tail = w.first + count;
   next.joints.assign(whole.joints.begin(), whole.joints.begin() + w.first);
   next.joints.insert(next.joints.end(), w.chain.joints.begin(), w.chain.joints.end());

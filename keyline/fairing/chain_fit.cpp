@@ -4,235 +4,22 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
-#include "keyline/fairing/riccati.h"
-#include "keyline/lac/sensitivity.h"
+#include "keyline/fairing/evaluation.h"
 
 namespace keyline::fairing {
 namespace {
 
 using detail::Boundary;
+using detail::Evaluation;
+using detail::kAlphaAt;
+using detail::kCurvature;
+using detail::kLengthAt;
+using detail::kNextCurvature;
+using detail::Model;
 using detail::Stage;
-using lac::PieceTable;
-
-// Positions in a stage's vector of seven.
-enum { kX, kY, kDirection, kCurvature, kLengthAt, kAlphaAt, kNextCurvature };
 
 constexpr double kInflectionSlope = -0.25;  // upper limit where curvature reaches zero
-constexpr double kGapWeight = 0.5;
 constexpr double kEndWeight = 1e9;
-
-struct Model {
-  std::vector<Stage> stages;
-  double cost = 0;
-  double merit = 0;
-  double max_offset = 0;
-  double max_gap = 0;
-};
-
-struct Frame {
-  double c;
-  double s;
-};
-
-/// Everything about one evaluation of a chain: tables of the pieces, feet of the points.
-class Evaluation {
- public:
-  Evaluation(FitChain& chain, const std::vector<FitPoint>& points, const ChainFitOptions& options)
-      : chain_(chain), points_(points), options_(options) {
-    tables_.resize(chain.pieces.size());
-    for (std::size_t i = 0; i < tables_.size(); ++i) {
-      const FitPiece& piece = chain.pieces[i];
-      tables_[i].build(chain.joints[i].curvature, chain.joints[i + 1].curvature, piece.length,
-                       piece.alpha, options.fine);
-    }
-  }
-
-  Model model() {
-    Model m;
-    m.stages.resize(tables_.size());
-    for (std::size_t i = 0; i < tables_.size(); ++i) add_dynamics(m, static_cast<int>(i));
-    for (std::size_t j = 0; j < points_.size(); ++j) add_point(m, j);
-    for (std::size_t i = 0; i < tables_.size(); ++i) add_prior(m, static_cast<int>(i));
-    const double weight = kGapWeight * static_cast<double>(points_.size());
-    m.merit = m.cost + weight * gap_square_;
-    return m;
-  }
-
-  /// One Newton step of every foot along the chain; offsets as they are found there.
-  void move_feet() {
-    for (std::size_t j = 0; j < points_.size(); ++j) move_foot(j);
-  }
-
-  double offset(std::size_t j) const {
-    const Foot& foot = chain_.feet[j];
-    const auto value = tables_[foot.piece].at(foot.fraction);
-    const core::Point2 at = place(foot.piece, frame(foot.piece), value.x, value.y);
-    const double angle = chain_.joints[foot.piece].direction + value.angle;
-    const core::Vector2 tangent{std::cos(angle), std::sin(angle)};
-    const core::Vector2 miss = points_[j].position - at;
-    const double side = core::cross(tangent, miss);
-    if (!beyond_end(foot)) return side;
-    return std::copysign(core::norm(miss), side);
-  }
-
- private:
-  bool beyond_end(const Foot& foot) const {
-    const bool first = foot.fraction <= 0 && foot.piece == 0;
-    const bool last = foot.fraction >= 1 && foot.piece + 1 == static_cast<int>(tables_.size());
-    return !chain_.closed && (first || last);
-  }
-
-  Frame frame(int piece) const {
-    const double d = chain_.joints[piece].direction;
-    return {std::cos(d), std::sin(d)};
-  }
-  core::Point2 place(int piece, Frame f, double x, double y) const {
-    const core::Point2 o = chain_.joints[piece].position;
-    return {o.x + f.c * x - f.s * y, o.y + f.s * x + f.c * y};
-  }
-
-  void add_dynamics(Model& m, int i) {
-    Stage& stage = m.stages[i];
-    const FitPiece& piece = chain_.pieces[i];
-    const FitJoint& from = chain_.joints[i];
-    const FitJoint& to = chain_.joints[i + 1];
-    const auto& end = tables_[i].end();
-    const Frame f = frame(i);
-    const core::Point2 at = place(i, f, end.x, end.y);
-    auto& j = stage.step;
-    j.setZero();
-    j(0, kX) = 1;
-    j(1, kY) = 1;
-    j(0, kDirection) = -(at.y - from.position.y);
-    j(1, kDirection) = at.x - from.position.x;
-    j(2, kDirection) = 1;
-    const int columns[4] = {kCurvature, kNextCurvature, kLengthAt, kAlphaAt};
-    for (int q = 0; q < 4; ++q) {
-      j(0, columns[q]) = f.c * end.dx[q] - f.s * end.dy[q];
-      j(1, columns[q]) = f.s * end.dx[q] + f.c * end.dy[q];
-      j(2, columns[q]) = end.dangle[q];
-    }
-    stage.gap << at.x - to.position.x, at.y - to.position.y,
-        from.direction + end.angle - to.direction, 0;
-    if (piece.kind == PieceKind::arc) {
-      // An arc's curvature is one: the next joint's follows this one's.
-      for (int r = 0; r < 3; ++r) j(r, kCurvature) += j(r, kNextCurvature);
-      j(3, kCurvature) = 1;
-      for (int r = 0; r < 4; ++r) j(r, kNextCurvature) = 0;
-    } else {
-      j(3, kNextCurvature) = 1;
-    }
-    stage.fixed[1] = slope_held(piece) || piece.kind != PieceKind::curve;
-    const bool before_line = i + 1 < static_cast<int>(chain_.pieces.size()) &&
-                             chain_.pieces[i + 1].kind == PieceKind::line;
-    stage.fixed[2] = piece.kind != PieceKind::curve || before_line ||
-                     (i + 1 == static_cast<int>(chain_.pieces.size()) && chain_.closed &&
-                      chain_.pieces[0].kind == PieceKind::line);
-    const double turn = stage.gap(2) * piece.length;
-    const double square = stage.gap.head<2>().squaredNorm() + turn * turn;
-    gap_square_ += square;
-    m.max_gap = std::max(m.max_gap, std::sqrt(square));
-  }
-
-  /// Residual and its derivative by the stage's seven variables.
-  void add_residual(Model& m, int i, double r, const detail::Vector7& d, double weight) {
-    detail::Vector7 g = d;
-    if (chain_.pieces[i].kind == PieceKind::arc) {
-      g(kCurvature) += g(kNextCurvature);
-      g(kNextCurvature) = 0;
-    }
-    m.stages[i].hessian.selfadjointView<Eigen::Lower>().rankUpdate(g, weight);
-    m.stages[i].gradient += weight * r * g;
-    m.cost += weight * r * r;
-  }
-
-  void add_point(Model& m, std::size_t j) {
-    const Foot& foot = chain_.feet[j];
-    const int i = foot.piece;
-    const auto value = tables_[i].at(foot.fraction);
-    const Frame f = frame(i);
-    const core::Point2 at = place(i, f, value.x, value.y);
-    const core::Vector2 miss = at - points_[j].position;
-    const double local = value.angle;
-    const double direction = chain_.joints[i].direction + local;
-    const core::Vector2 tangent{std::cos(direction), std::sin(direction)};
-    const core::Vector2 arm = at - chain_.joints[i].position;
-    const auto derivative = [&](core::Vector2 n) {
-      const double lx = f.c * n.x + f.s * n.y;
-      const double ly = -f.s * n.x + f.c * n.y;
-      detail::Vector7 d;
-      d(kX) = n.x;
-      d(kY) = n.y;
-      d(kDirection) = -arm.y * n.x + arm.x * n.y;
-      d(kCurvature) = lx * value.dx[0] + ly * value.dy[0];
-      d(kNextCurvature) = lx * value.dx[1] + ly * value.dy[1];
-      d(kLengthAt) = lx * value.dx[2] + ly * value.dy[2];
-      d(kAlphaAt) = lx * value.dx[3] + ly * value.dy[3];
-      return d;
-    };
-    const core::Vector2 normal{-tangent.y, tangent.x};
-    const double weight = points_[j].weight;
-    const double r = core::dot(miss, normal);
-    add_residual(m, i, r, derivative(normal), weight);
-    const bool first = !chain_.closed && j == 0;
-    const bool last = !chain_.closed && j + 1 == points_.size();
-    double along = core::dot(miss, tangent);
-    if (first || last) add_residual(m, i, along, derivative(tangent), weight);
-    if (!beyond_end(foot)) along = 0;
-    const double spread = std::max(std::abs(-r + points_[j].high), std::abs(-r + points_[j].low));
-    m.max_offset = std::max(m.max_offset, std::hypot(spread, along));
-  }
-
-  void add_prior(Model& m, int i) {
-    const FitPiece& piece = chain_.pieces[i];
-    Stage& stage = m.stages[i];
-    if (options_.length_prior > 0) {
-      const double w = options_.length_prior * options_.scale / options_.usual_length;
-      const double r = w * (piece.length - options_.usual_length);
-      stage.hessian(kLengthAt, kLengthAt) += w * w;
-      stage.gradient(kLengthAt) += w * r;
-      m.cost += r * r;
-    }
-    if (piece.kind != PieceKind::curve || slope_held(piece) || options_.slope_prior == 0) return;
-    const double w = options_.slope_prior * options_.scale;
-    const double r = w * (piece.alpha + 1);
-    stage.hessian(kAlphaAt, kAlphaAt) += w * w;
-    stage.gradient(kAlphaAt) += w * r;
-    m.cost += r * r;
-  }
-
-  void move_foot(std::size_t j) {
-    Foot& foot = chain_.feet[j];
-    const int count = static_cast<int>(tables_.size());
-    for (int hop = 0; hop < 4; ++hop) {
-      const PieceTable& table = tables_[foot.piece];
-      const auto value = table.at(foot.fraction);
-      const Frame f = frame(foot.piece);
-      const core::Point2 at = place(foot.piece, f, value.x, value.y);
-      const double direction = chain_.joints[foot.piece].direction + value.angle;
-      const core::Vector2 tangent{std::cos(direction), std::sin(direction)};
-      const core::Vector2 miss = points_[j].position - at;
-      const double side = core::cross(tangent, miss);
-      const double bend = 1 - table.curvature(foot.fraction) * side;
-      const double step = core::dot(miss, tangent) / std::max(0.25, bend) / table.length();
-      const double to = foot.fraction + std::clamp(step, -0.5, 0.5);
-      const bool back = to < 0 && (chain_.closed || foot.piece > 0);
-      const bool on = to > 1 && (chain_.closed || foot.piece + 1 < count);
-      if (!back && !on) {
-        foot.fraction = std::clamp(to, 0.0, 1.0);
-        return;
-      }
-      foot.piece = (foot.piece + (on ? 1 : count - 1)) % count;
-      foot.fraction = on ? 0 : 1;
-    }
-  }
-
-  FitChain& chain_;
-  const std::vector<FitPoint>& points_;
-  const ChainFitOptions& options_;
-  std::vector<PieceTable> tables_;
-  double gap_square_ = 0;
-};
 
 /// The boundary of a closed chain or of an open one with held ends.
 Boundary boundary_of(const FitChain& chain) {
@@ -318,66 +105,92 @@ void damp(std::vector<Stage>& stages, const FitChain& chain, double lambda, doub
   }
 }
 
+/// Levenberg and Marquardt's iteration with the gaps between pieces as constraints.
+class Descent {
+ public:
+  Descent(FitChain& chain, const std::vector<FitPoint>& points, const ChainFitOptions& options)
+      : chain_(chain), points_(points), options_(options) {
+    for (int round = 0; round < 2; ++round) Evaluation(chain, points, options).move_feet();
+    model_ = Evaluation(chain, points, options).model();
+    lambda_ = options.close_gaps ? 1e-9 : 1e-2;
+  }
+
+  ChainFitReport run() {
+    ChainFitReport report;
+    while (report.iterations < options_.iterations && !finished_) {
+      iterate(report);
+      ++report.iterations;
+    }
+    report.converged = converged_;
+    report.cost = model_.cost;
+    report.max_offset = model_.max_offset;
+    report.max_gap = model_.max_gap;
+    return report;
+  }
+
+ private:
+  void iterate(const ChainFitReport& report) {
+    std::vector<Stage> stages = model_.stages;
+    damp(stages, chain_, lambda_, 100 * options_.scale * options_.scale);
+    const detail::Step step = solve_stages(stages, boundary_of(chain_));
+    if (!step.sound) {
+      lambda_ = std::max(lambda_ * 10, 1e-8);
+      finished_ = lambda_ > kMostDamping;
+      return;
+    }
+    FitChain next = moved(chain_, step, step_limit(chain_, step));
+    Evaluation evaluation(next, points_, options_);
+    evaluation.move_feet();
+    Model trial = evaluation.model();
+    if (better(trial))
+      accept(std::move(next), std::move(trial), report.iterations);
+    else
+      refuse();
+  }
+
+  bool better(const Model& trial) const {
+    if (!std::isfinite(trial.merit)) return false;
+    return options_.close_gaps ? trial.max_gap < 0.7 * model_.max_gap : trial.merit < model_.merit;
+  }
+
+  void refuse() {
+    lambda_ *= 5;
+    refused_ = true;
+    if (options_.close_gaps && model_.max_gap < 1e-14) finished_ = true;
+    if (lambda_ > kMostDamping) finished_ = converged_ = true;
+  }
+
+  void accept(FitChain next, Model trial, int iteration) {
+    const double gain = (model_.merit - trial.merit) / std::max(model_.merit, 1e-300);
+    chain_ = std::move(next);
+    model_ = std::move(trial);
+    if (!refused_) lambda_ = std::max(lambda_ * 0.3, 1e-12);
+    refused_ = false;
+    if (options_.close_gaps) return;
+    calm_ = gain < options_.gradient_tolerance ? calm_ + 1 : 0;
+    if (calm_ >= 2 || model_.merit < 1e-30) finished_ = converged_ = true;
+    const bool slow = iteration >= 3 && gain < 0.3;
+    if (options_.hopeless > 0 && slow && model_.max_offset > options_.hopeless) finished_ = true;
+  }
+
+  static constexpr double kMostDamping = 1e8;
+
+  FitChain& chain_;
+  const std::vector<FitPoint>& points_;
+  const ChainFitOptions& options_;
+  Model model_;
+  double lambda_ = 1e-2;
+  int calm_ = 0;
+  bool refused_ = false;
+  bool finished_ = false;
+  bool converged_ = false;
+};
+
 }  // namespace
 
 ChainFitReport fit_chain(FitChain& chain, const std::vector<FitPoint>& points,
                          const ChainFitOptions& options) {
-  ChainFitReport report;
-  {
-    Evaluation start(chain, points, options);
-    start.move_feet();
-    start.move_feet();
-  }
-  Model model = Evaluation(chain, points, options).model();
-  double lambda = options.close_gaps ? 1e-9 : 1e-2;
-  int calm = 0;
-  bool refused = false;
-  const double unit = 100 * options.scale * options.scale;
-  for (report.iterations = 0; report.iterations < options.iterations; ++report.iterations) {
-    std::vector<Stage> stages = model.stages;
-    damp(stages, chain, lambda, unit);
-    const detail::Step step = solve_stages(stages, boundary_of(chain));
-    if (!step.sound) {
-      lambda = std::max(lambda * 10, 1e-8);
-      if (lambda > 1e8) break;
-      continue;
-    }
-    FitChain next = moved(chain, step, step_limit(chain, step));
-    Evaluation evaluation(next, points, options);
-    evaluation.move_feet();
-    Model trial = evaluation.model();
-    const bool finite = std::isfinite(trial.merit);
-    const bool better = finite && (options.close_gaps ? trial.max_gap < 0.7 * model.max_gap
-                                                      : trial.merit < model.merit);
-    if (!better) {
-      if (options.close_gaps && model.max_gap < 1e-14) break;
-      lambda *= 5;
-      refused = true;
-      if (lambda > 1e8) {
-        report.converged = true;
-        break;
-      }
-      continue;
-    }
-    const double gain = (model.merit - trial.merit) / std::max(model.merit, 1e-300);
-    chain = std::move(next);
-    model = std::move(trial);
-    if (!refused) lambda = std::max(lambda * 0.3, 1e-12);
-    refused = false;
-    if (options.close_gaps) continue;
-    calm = gain < options.gradient_tolerance ? calm + 1 : 0;
-    if (calm >= 2 || model.merit < 1e-30) {
-      report.converged = true;
-      break;
-    }
-    if (options.hopeless > 0 && report.iterations >= 3 && gain < 0.3 &&
-        model.max_offset > options.hopeless)
-      break;
-  }
-  report.cost = model.cost;
-  report.max_offset = model.max_offset;
-  report.max_gap = model.max_gap;
-  return report;
+  return Descent(chain, points, options).run();
 }
 
 std::vector<double> offsets(const FitChain& chain, const std::vector<FitPoint>& points) {

@@ -19,7 +19,8 @@ struct FitPoint {
   double weight = 1;
   double low = 0;    ///< <= 0: the run's lowest offset
   double high = 0;   ///< >= 0: the run's highest offset
-  double count = 1;  ///< how many points the run holds
+  double count = 1;  ///< how many points the run holds; 0: a guide, not measured
+  double share = 1;  ///< offsets from this point count this much; below 1 for guides
 };
 
 /// Slopes beyond this are not told apart from it by any data.
@@ -65,6 +66,8 @@ struct FitChain {
   double turning = 0;  ///< of the whole closed chain, a multiple of 2 pi
   Hold hold_start = Hold::free;
   Hold hold_end = Hold::free;
+  bool first_at_start = false;  ///< the first point's foot is the start…
+  bool last_at_end = false;     ///< …the last one's the end
 };
 
 struct ChainFitOptions {
@@ -92,7 +95,7 @@ struct ChainFitReport {
 ChainFitReport fit_chain(FitChain& chain, const std::vector<FitPoint>& points,
                          const ChainFitOptions& options);
 
-/// Signed distances of the points, positive to the left of the chain, feet as they stand in it;
+/// Signed distances of the points (times their share), positive to the left, feet as they stand;
 /// beyond the ends of an open chain the distance from the end.
 std::vector<double> offsets(const FitChain& chain, const std::vector<FitPoint>& points);
 

@@ -38,6 +38,15 @@ void measure_spread(FitPoint& mean, std::span<const core::Point2> run, core::Vec
 
 }  // namespace
 
+std::size_t condensed_index(std::size_t j, std::size_t n, std::size_t most) {
+  if (n <= most || j == 0) return j;
+  if (j + 1 == n) return most - 1;
+  const std::size_t bins = most - 2;
+  std::size_t b = (j - 1) * bins / (n - 2);
+  while (1 + (n - 2) * (b + 1) / bins <= j) ++b;
+  return b + 1;
+}
+
 std::vector<FitPoint> condense(std::span<const core::Point2> points,
                                std::span<const double> weights, std::size_t most) {
   std::vector<FitPoint> result;

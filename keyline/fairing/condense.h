@@ -12,4 +12,7 @@ namespace keyline::fairing::detail {
 std::vector<FitPoint> condense(std::span<const core::Point2> points,
                                std::span<const double> weights, std::size_t most);
 
+/// Which of them holds point j of n.
+std::size_t condensed_index(std::size_t j, std::size_t n, std::size_t most);
+
 }  // namespace keyline::fairing::detail

@@ -83,6 +83,7 @@ FitChain dense_chain(const std::vector<FitPoint>& points, bool closed, int piece
   const Track track = make_track(points, closed);
   FitChain chain;
   chain.closed = closed;
+  chain.first_at_start = chain.last_at_end = !closed;
   const double length = track.total / pieces;
   for (int i = 0; i <= pieces; ++i) {
     FitJoint joint = local_pose(track, length * i, 0.7 * length);
@@ -104,6 +105,7 @@ FitChain dense_chain(const std::vector<FitPoint>& points, bool closed, int piece
     const int piece = static_cast<int>(at);
     chain.feet.push_back({piece, at - piece});
   }
+  if (!closed) chain.feet.back() = {pieces - 1, 1.0};
   return chain;
 }
 

@@ -69,6 +69,7 @@ class Job {
     runs_ = detail::runs_of(line_, options_);
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (auto done = fair_one(k, {}); !done) return std::unexpected(done.error());
+    tie_corners();
     return finish();
   }
 
@@ -86,6 +87,24 @@ class Job {
                            ? 0
                            : std::max(1, static_cast<int>(std::lround(options_.pieces * share)));
     return {result_.tolerance, line_.noise, pieces, options_.threads, core::part_of(whole, 0.4, 1)};
+  }
+
+  /// Neighbouring chains end in one place at a corner: half way between their ends.
+  void tie_corners() {
+    const std::size_t n = runs_.size();
+    if (runs_.front().closed) return;
+    std::vector<std::optional<core::Point2>> start(n);
+    std::vector<std::optional<core::Point2>> end(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t next = (k + 1) % n;
+      if (next == 0 && !result_.closed) break;
+      if (runs_[k].clamp_end != Clamp::none || runs_[next].clamp_start != Clamp::none) continue;
+      const core::Point2 from = lac::end_pose(solved_[k].chain).position;
+      const core::Point2 to = solved_[next].chain.start.position;
+      end[k] = start[next] = from + 0.5 * (to - from);
+    }
+    for (std::size_t k = 0; k < n; ++k)
+      if (start[k] || end[k]) detail::tie_ends(solved_[k], start[k], end[k]);
   }
 
   Result<curve::BSpline2> spline_of(std::size_t k) {

@@ -6,6 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/fairing/condense.h"
+#include "keyline/fairing/guides.h"
 #include "keyline/fairing/run_frame.h"
 #include "keyline/fairing/settle.h"
 
@@ -44,7 +45,7 @@ bool try_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, con
 }
 
 /// Jets of the spline at the run's two ends, for clamps, in the canonical frame.
-void clamp_ends(ChainSearchResult&, FitChain& chain, const Run& run, const RunFrame& frame,
+void clamp_ends(FitChain& chain, const Run& run, const RunFrame& frame,
                 const curve::BSpline2& spline) {
   const auto hold = [](Clamp clamp) { return static_cast<Hold>(static_cast<int>(clamp)); };
   chain.hold_start = hold(frame.reversed ? run.clamp_end : run.clamp_start);
@@ -65,29 +66,66 @@ void clamp_ends(ChainSearchResult&, FitChain& chain, const Run& run, const RunFr
   set(chain.joints.back(), chain.hold_end, false);
 }
 
+/// The search, once more with a tighter tolerance where polishing loses what it had found.
+void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve::BSpline2& spline,
+           const RunOptions& options) {
+  const std::vector<FitPoint> measured = result.points;
+  for (const double share : {1.0, 0.93, 0.8}) {
+    RunOptions tighter = options;
+    tighter.tolerance *= share;
+    result.points = with_guides(measured, run.closed, tighter.tolerance / run.length);
+    ChainSearchResult search =
+        search_chain(result.points, run.closed, search_options(run, tighter));
+    const bool found = search.within_tolerance;
+    if (share == 1) result.exact = try_exact(search, measured, run, options);
+    if (result.exact) result.points = measured;
+    for (std::size_t j = 0; j < result.points.size(); ++j)
+      result.points[j].weight = search.weights[j];
+    result.fit = std::move(search.chain);
+    result.cancelled = search.cancelled;
+    result.start_pieces = search.start_pieces;
+    if (result.exact) result.accept = {std::max(kExactness, 6 * result.accept.noise), 0};
+    if (!run.closed) clamp_ends(result.fit, run, frame, spline);
+    if (found && options.pieces == 0)
+      result.straightened = straighten(result.fit, result.points, result.accept);
+    result.within_tolerance = polish(result.fit, result.points, result.accept);
+    if (result.within_tolerance || !found || options.pieces > 0 || search.cancelled) break;
+  }
+}
+
 }  // namespace
 
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
-  std::vector<FitPoint> points = condense(frame.points, frame.weights, kMostFitPoints);
-  ChainSearchResult search = search_chain(points, run.closed, search_options(run, options));
   RunResult result;
-  result.exact = try_exact(search, points, run, options);
-  for (std::size_t j = 0; j < points.size(); ++j) points[j].weight = search.weights[j];
-  result.fit = std::move(search.chain);
-  result.points = std::move(points);
+  result.points = condense(frame.points, frame.weights, kMostFitPoints);
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
-  result.cancelled = search.cancelled;
-  result.start_pieces = search.start_pieces;
-  Acceptance accept{options.tolerance / run.length, options.noise / run.length};
-  if (result.exact) accept = {std::max(kExactness, 6 * accept.noise), 0};
-  if (!run.closed) clamp_ends(search, result.fit, run, frame, spline);
-  if (search.within_tolerance && options.pieces == 0)
-    result.straightened = straighten(result.fit, result.points, accept);
-  result.within_tolerance = polish(result.fit, result.points, accept);
+  result.accept = {options.tolerance / run.length, options.noise / run.length};
+  solve(result, run, frame, spline, options);
+  std::vector<std::size_t> measured;
+  for (std::size_t j = 0; j < result.points.size(); ++j)
+    if (result.points[j].count > 0) measured.push_back(j);
+  result.point_of.resize(run.points.size());
+  for (std::size_t j = 0; j < frame.order.size(); ++j)
+    result.point_of[frame.order[j]] =
+        measured[condensed_index(j, frame.order.size(), kMostFitPoints)];
   result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
   return result;
+}
+
+void tie_ends(RunResult& result, const std::optional<core::Point2>& start,
+              const std::optional<core::Point2>& end) {
+  const auto tie = [&](FitJoint& joint, Hold& hold, const std::optional<core::Point2>& at) {
+    if (!at) return;
+    joint.position = core::apply(result.to_canonical, *at);
+    hold = std::max(hold, Hold::position);
+  };
+  FitChain& chain = result.fit;
+  tie(chain.joints.front(), chain.hold_start, result.reversed ? end : start);
+  tie(chain.joints.back(), chain.hold_end, result.reversed ? start : end);
+  result.within_tolerance = polish(chain, result.points, result.accept);
+  result.chain = lay_out(chain, result.to_canonical, result.reversed);
 }
 
 }  // namespace keyline::fairing::detail

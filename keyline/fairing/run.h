@@ -46,7 +46,9 @@ struct RunResult {
   FitChain fit;
   std::vector<FitPoint> points;  ///< canonical, condensed, weighted as last fitted
   core::Similarity2 to_canonical;
-  bool reversed = false;  ///< the canonical frame runs the other way
+  bool reversed = false;              ///< the canonical frame runs the other way
+  std::vector<std::size_t> point_of;  ///< of each point of the run: which of `points` holds it
+  Acceptance accept;
   bool within_tolerance = false;
   bool exact = false;  ///< reproduces the points to rounding
   bool cancelled = false;
@@ -57,6 +59,10 @@ struct RunResult {
 /// The shortest chain within the tolerance, solved in a frame of the run's own (size 1, direction
 /// of travel by the shape), polished and laid out as one exact forward chain.
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options);
+
+/// Moves the ends of an open run's chain to given places (corners shared with a neighbour).
+void tie_ends(RunResult& result, const std::optional<core::Point2>& start,
+              const std::optional<core::Point2>& end);
 
 /// Solves again with some pieces told what to be; indices count along the result's chain.
 /// Wishes that an inflection or a straight neighbour forbids are changed; `notes` says so.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/fairing/meet.h"
+
 namespace keyline::fairing::detail {
 namespace {
 
@@ -89,27 +91,74 @@ int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Accep
   return changed;
 }
 
-bool polish(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept) {
-  const FitChain rough = chain;
-  ChainFitOptions fit;
-  fit.fine = true;
-  fit.scale = accept.tolerance;
-  fit.slope_prior = 1e-5;
-  const auto run = [&](int iterations, double gradient) {
-    chain = rough;
-    fit.iterations = iterations;
-    fit.gradient_tolerance = gradient;
-    fit.close_gaps = false;
-    fit_chain(chain, points, fit);
-    fit.close_gaps = true;
-    fit.iterations = 20;
-    const ChainFitReport report = fit_chain(chain, points, fit);
-    return accepts(accept, report, points, offsets(chain, points)) && report.max_gap < 1e-11;
-  };
-  return run(60, 1e-9) || run(6, 1e-3) || run(0, 1e-3) || run(60, 1e-9);
-}
+namespace {
 
-lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed) {
+/// Makes a chain fit for laying out: refined, then without gaps.
+class Polisher {
+ public:
+  Polisher(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept)
+      : chain_(chain), points_(points), accept_(accept), best_(chain) {
+    fit_.fine = true;
+    fit_.scale = accept.tolerance;
+    fit_.slope_prior = 1e-5;
+  }
+
+  bool run() {
+    const FitChain rough = chain_;
+    for (const int iterations : {60, 6, 0}) {
+      chain_ = rough;
+      if (refine(iterations, iterations > 6 ? 1e-9 : 1e-3)) return true;
+    }
+    chain_ = rough;
+    const std::vector<FitPoint> original = points_;
+    for (int round = 0; round < kPolishSqueezes; ++round) {
+      weigh_up(original);
+      if (refine(10, 1e-3)) return true;
+    }
+    chain_ = best_;
+    return false;
+  }
+
+ private:
+  bool refine(int iterations, double gradient) {
+    fit_.iterations = iterations;
+    fit_.gradient_tolerance = gradient;
+    fit_.close_gaps = false;
+    if (iterations > 0) fit_chain(chain_, points_, fit_);
+    fit_.close_gaps = true;
+    fit_.iterations = 20;
+    const ChainFitReport report = fit_chain(chain_, points_, fit_);
+    if (report.max_gap < kClosedGap && report.max_offset < least_) {
+      best_ = chain_;
+      least_ = report.max_offset;
+    }
+    return report.max_gap < kClosedGap &&
+           accepts(accept_, report, points_, offsets(chain_, points_));
+  }
+
+  /// Lawson's weights, gently.
+  void weigh_up(const std::vector<FitPoint>& original) {
+    const std::vector<double> off = offsets(chain_, points_);
+    for (std::size_t j = 0; j < off.size(); ++j) {
+      const double share = std::abs(off[j]) / accept_.tolerance;
+      points_[j].weight =
+          std::min(1e4 * original[j].weight, points_[j].weight * (0.4 + 1.6 * share * share));
+    }
+  }
+
+  static constexpr double kClosedGap = 1e-9;
+  static constexpr int kPolishSqueezes = 8;
+
+  FitChain& chain_;
+  std::vector<FitPoint>& points_;
+  const Acceptance& accept_;
+  ChainFitOptions fit_;
+  FitChain best_;
+  double least_ = HUGE_VAL;
+};
+
+/// The chain laid out from its start, without regard to where it should end.
+lac::Chain laid_forward(const FitChain& chain) {
   lac::Chain out;
   out.start = {chain.joints.front().position, chain.joints.front().direction};
   out.closed = chain.closed;
@@ -123,6 +172,27 @@ lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical,
     const bool crosses = piece.curvature_start * piece.curvature_end <= 0;
     if (crosses && piece.alpha >= 0) piece.alpha = -1;
     if (piece.curvature_start == piece.curvature_end) piece.alpha = -1;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept) {
+  return Polisher(chain, points, accept).run();
+}
+
+lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed) {
+  lac::Chain out = laid_forward(chain);
+  const FitJoint& last = chain.joints.back();
+  if (out.closed) {
+    meet_target(out, {out.start, true});
+  } else if (chain.hold_end != Hold::free) {
+    meet_target(out, {.pose = {last.position, last.direction},
+                      .direction = chain.hold_end >= Hold::direction,
+                      .start_direction_free = chain.hold_start < Hold::direction,
+                      .start_curvature_free = chain.hold_start < Hold::curvature,
+                      .end_curvature_free = chain.hold_end < Hold::curvature});
   }
   lac::Chain placed = transform(out, core::inverse(to_canonical));
   return reversed ? reverse(placed) : placed;

@@ -13,11 +13,12 @@ namespace keyline::fairing::detail {
 /// that. Returns how many.
 int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept);
 
-/// Least squares to the last digits; gaps between pieces close. True where the points pass.
-bool polish(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept);
+/// Least squares to the last digits; gaps between pieces close. Where the points do not pass then,
+/// those far off are given more weight. True where they pass; else the chain nearest to it.
+bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept);
 
 /// One forward chain, G2 at its joints by construction, in the frame `to_canonical` maps from,
-/// run the other way where `reversed`.
+/// run the other way where `reversed`; closed chains and held ends meet their targets to rounding.
 lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed);
 
 }  // namespace keyline::fairing::detail

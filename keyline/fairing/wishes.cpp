@@ -103,7 +103,8 @@ void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wish
   if (result.reversed) std::reverse(wishes.begin(), wishes.end());
   for (const PieceWish& wish : wishes)
     apply(result.fit, wish, result.reversed ? n - 1 - wish.piece : wish.piece, notes);
-  const Acceptance accept{options.tolerance / run.length, options.noise / run.length};
+  result.accept = {options.tolerance / run.length, options.noise / run.length};
+  const Acceptance& accept = result.accept;
   ChainFitOptions fit;
   fit.scale = accept.tolerance;
   fit.iterations = 80;

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/fairing/chain_fit.h"
+#include "keyline/fairing/riccati.h"
+#include "keyline/lac/sensitivity.h"
+
+namespace keyline::fairing::detail {
+
+/// Positions of a stage's seven variables.
+enum StageVariable { kX, kY, kDirection, kCurvature, kLengthAt, kAlphaAt, kNextCurvature };
+
+/// The quadratic model of the fit about a chain, and what the chain reaches.
+struct Model {
+  std::vector<Stage> stages;
+  double cost = 0;
+  double merit = 0;  ///< cost and gaps together
+  double max_offset = 0;
+  double max_gap = 0;
+};
+
+/// A chain evaluated once: tables of its pieces. The chain's feet may be moved; nothing else of it
+/// may change meanwhile.
+class Evaluation {
+ public:
+  Evaluation(FitChain& chain, const std::vector<FitPoint>& points, const ChainFitOptions& options);
+
+  Model model();
+
+  /// One Newton step of every foot along the chain. Feet of points pinned to an end stay there.
+  void move_feet();
+
+  double offset(std::size_t j) const;
+
+ private:
+  struct Frame {
+    double c;
+    double s;
+  };
+  /// A point's foot: place, tangent and normal there, and the table's local values.
+  struct Stand {
+    Frame frame;
+    lac::PieceTable::Value value;
+    core::Point2 at;
+    core::Vector2 tangent;
+  };
+
+  bool beyond_end(const Foot& foot) const;
+  bool pinned(std::size_t j) const;
+  Frame frame(int piece) const;
+  core::Point2 place(int piece, Frame f, double x, double y) const;
+  Stand stand(const Foot& foot) const;
+  Vector7 derivative(const Foot& foot, const Stand& s, core::Vector2 along) const;
+  void add_dynamics(Model& m, int i);
+  void fix_controls(Stage& stage, int i) const;
+  void add_residual(Model& m, int i, double r, const Vector7& d, double weight);
+  void add_point(Model& m, std::size_t j);
+  void add_prior(Model& m, int i);
+  void add_seam(Model& m);
+  void keep_still(Model& m) const;
+  void move_foot(std::size_t j);
+
+  FitChain& chain_;
+  const std::vector<FitPoint>& points_;
+  const ChainFitOptions& options_;
+  std::vector<lac::PieceTable> tables_;
+  double gap_square_ = 0;
+};
+
+}  // namespace keyline::fairing::detail
