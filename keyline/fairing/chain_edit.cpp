@@ -38,8 +38,11 @@ double slope_of_mean(double k0, double mean, double k1) {
 }
 
 /// Slope, and where no slope does it the end curvatures, that turn a merged piece by `mean` per
-/// length.
-void guess_merged(FitJoint& from, FitPiece& piece, FitJoint& to, double mean) {
+/// length. Curvatures that are held stay.
+void guess_merged(FitChain& chain, int at, double mean) {
+  FitJoint& from = chain.joints[at];
+  FitJoint& to = chain.joints[at + 2];
+  FitPiece& piece = chain.pieces[at];
   const double low = std::min(from.curvature, to.curvature);
   const double high = std::max(from.curvature, to.curvature);
   const double margin = 0.02 * (high - low);
@@ -49,8 +52,11 @@ void guess_merged(FitJoint& from, FitPiece& piece, FitJoint& to, double mean) {
   }
   piece.alpha = -1;
   const double shift = mean - 0.5 * (low + high);
-  from.curvature += shift;
-  to.curvature += shift;
+  const bool from_held = at == 0 && (chain.closed || chain.hold_start == Hold::curvature);
+  const bool to_held = at + 3 == static_cast<int>(chain.joints.size()) &&
+                       (chain.closed || chain.hold_end == Hold::curvature);
+  if (!from_held) from.curvature += shift;
+  if (!to_held) to.curvature += shift;
 }
 
 }  // namespace
@@ -64,7 +70,7 @@ FitChain without_joint(const FitChain& chain, int at) {
   kept.length = first + second;
   kept.kind = PieceKind::curve;
   const double turning = next.joints[at + 1].direction - next.joints[at - 1].direction;
-  guess_merged(next.joints[at - 1], kept, next.joints[at + 1], turning / kept.length);
+  guess_merged(next, at - 1, turning / kept.length);
   next.joints.erase(next.joints.begin() + at);
   next.pieces.erase(next.pieces.begin() + at);
   for (Foot& foot : next.feet) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyline/core/angle.h"
 #include "keyline/fairing/chain_edit.h"
 #include "keyline/numeric/parallel.h"
 
@@ -14,6 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = -kNever;
 constexpr int kReach = 4;  // pieces on either side that a merge may move
 constexpr int kSqueezeRounds = 5;
+constexpr double kTie = 1e-3;  // costs closer than this part of the squared tolerance are equal
 
 /// A trend over runs of about `run` points: mean offset beyond what noise explains.
 bool has_trend(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
@@ -167,8 +169,12 @@ class Merger {
 
   bool merge_cheapest(std::vector<double>& cost, bool squeeze) {
     while (!options_.progress.stop_requested()) {
-      const auto cheapest = std::min_element(cost.begin(), cost.end());
-      if (*cheapest == kNever || *cheapest == kUnknown) return false;
+      const double least = *std::min_element(cost.begin(), cost.end());
+      if (least == kNever || least == kUnknown) return false;
+      // Of equals (symmetric shapes have them) the first, whatever rounding says.
+      const double band = kTie * options_.accept.tolerance * options_.accept.tolerance;
+      const auto cheapest =
+          std::find_if(cost.begin(), cost.end(), [&](double c) { return c <= least + band; });
       const int joint = static_cast<int>(cheapest - cost.begin());
       ++trials_;
       Trial trial = attempt(joint, squeeze);
@@ -206,6 +212,14 @@ class Merger {
   int start_pieces_ = 0;
 };
 
+void hold_end(FitJoint& joint, Hold& hold, const HeldEnd& end) {
+  hold = end.hold;
+  if (hold >= Hold::position) joint.position = end.joint.position;
+  if (hold >= Hold::direction)
+    joint.direction += core::wrap_angle(end.joint.direction - joint.direction);
+  if (hold >= Hold::curvature) joint.curvature = end.joint.curvature;
+}
+
 /// Dense clothoid chains, twice as many pieces each time, until one is accepted.
 void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points, bool closed,
                   const ChainSearchOptions& options) {
@@ -220,6 +234,8 @@ void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points
   while (true) {
     FitChain dense = dense_chain(points, closed, pieces);
     for (FitPiece& piece : dense.pieces) hold_slope(piece, -1);
+    hold_end(dense.joints.front(), dense.hold_start, options.start);
+    hold_end(dense.joints.back(), dense.hold_end, options.end);
     fit.usual_length = 1.0 / pieces;
     const ChainFitReport report = fit_chain(dense, points, fit);
     const bool good = accepts(options.accept, report, points, offsets(dense, points));

@@ -15,11 +15,19 @@ struct Acceptance {
   double noise = 0;
 };
 
+/// An end of an open chain and as much of it as is held.
+struct HeldEnd {
+  Hold hold = Hold::free;
+  FitJoint joint;
+};
+
 struct ChainSearchOptions {
   Acceptance accept;
   int start_pieces = 48;
   int most_pieces = 400;
   int wanted_pieces = 0;  ///< 0: as few as the tolerance allows; else this many
+  HeldEnd start;
+  HeldEnd end;
   int threads = 0;
   core::Progress progress;
 };

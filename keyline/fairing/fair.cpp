@@ -93,18 +93,17 @@ class Job {
   void tie_corners() {
     const std::size_t n = runs_.size();
     if (runs_.front().closed) return;
-    std::vector<std::optional<core::Point2>> start(n);
-    std::vector<std::optional<core::Point2>> end(n);
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t next = (k + 1) % n;
       if (next == 0 && !result_.closed) break;
       if (runs_[k].clamp_end != Clamp::none || runs_[next].clamp_start != Clamp::none) continue;
       const core::Point2 from = lac::end_pose(solved_[k].chain).position;
       const core::Point2 to = solved_[next].chain.start.position;
-      end[k] = start[next] = from + 0.5 * (to - from);
+      runs_[k].tie_end = runs_[next].tie_start = from + 0.5 * (to - from);
     }
     for (std::size_t k = 0; k < n; ++k)
-      if (start[k] || end[k]) detail::tie_ends(solved_[k], start[k], end[k]);
+      if (runs_[k].tie_start || runs_[k].tie_end)
+        detail::tie_ends(solved_[k], runs_[k], result_.splines[k], run_options(k));
   }
 
   Result<curve::BSpline2> spline_of(std::size_t k) {

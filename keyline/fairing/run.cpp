@@ -25,45 +25,66 @@ ChainSearchOptions search_options(const Run& run, const RunOptions& options) {
   return search;
 }
 
-/// Exact data deserve the chain that reproduces them, where it is about as short as the one the
-/// tolerance asks for.
-bool try_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, const Run& run,
-               const RunOptions& options) {
-  const double noise = options.noise / run.length;
-  const double exact = std::max(kExactness, 6 * noise);
-  if (options.pieces > 0 || exact * 20 > options.tolerance / run.length) return false;
-  if (!best.within_tolerance || points.size() < 30) return false;
-  ChainSearchOptions search = search_options(run, options);
-  search.accept = {exact, 0};
-  search.most_pieces = std::min<int>(96, static_cast<int>(points.size() / 4));
-  search.start_pieces = std::min(48, search.most_pieces);
-  ChainSearchResult found = search_chain(points, run.closed, search);
-  if (!found.within_tolerance) return false;
-  if (found.chain.pieces.size() > 2 * best.chain.pieces.size() + 3) return false;
-  best = std::move(found);
+/// Full least squares without any pull; true where the chain then reproduces the points.
+bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, double exact) {
+  ChainFitOptions fit;
+  fit.fine = true;
+  fit.iterations = 150;
+  fit.gradient_tolerance = 1e-6;
+  fit.slope_prior = 0;
+  fit.scale = std::max(exact, 1e-2 * found.fit.max_offset);
+  fit.hopeless = 0;
+  FitChain chain = found.chain;
+  const ChainFitReport report = fit_chain(chain, points, fit);
+  if (!(report.max_offset <= exact && report.max_gap <= 0.05 * exact)) return false;
+  found.chain = std::move(chain);
+  found.fit = report;
+  found.weights.clear();
+  for (const FitPoint& p : points) found.weights.push_back(p.weight);
   return true;
 }
 
-/// Jets of the spline at the run's two ends, for clamps, in the canonical frame.
-void clamp_ends(FitChain& chain, const Run& run, const RunFrame& frame,
-                const curve::BSpline2& spline) {
-  const auto hold = [](Clamp clamp) { return static_cast<Hold>(static_cast<int>(clamp)); };
-  chain.hold_start = hold(frame.reversed ? run.clamp_end : run.clamp_start);
-  chain.hold_end = hold(frame.reversed ? run.clamp_start : run.clamp_end);
-  const auto set = [&](FitJoint& joint, Hold held, bool canonical_start) {
-    if (held == Hold::free) return;
-    const bool at_start = canonical_start != frame.reversed;
-    const curve::Jet2 end = jet(spline, at_start ? 0.0 : 1.0);
-    joint.position = core::apply(frame.to_canonical, end.point);
-    if (held == Hold::position) return;
-    const double turned =
-        tangent_angle(end) + frame.to_canonical.rotation + (frame.reversed ? core::kPi : 0);
-    joint.direction += core::wrap_angle(turned - joint.direction);
-    if (held == Hold::direction) return;
-    joint.curvature = (frame.reversed ? -1 : 1) * curvature(end) / frame.to_canonical.scale;
-  };
-  set(chain.joints.front(), chain.hold_start, true);
-  set(chain.joints.back(), chain.hold_end, false);
+/// Exact data deserve the chain that reproduces them, where it is about as short as the one the
+/// tolerance asks for: that one itself once converged, one for a tighter tolerance, or the shortest
+/// found that reproduces the points.
+bool try_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, bool closed,
+               ChainSearchOptions search) {
+  const double exact = std::max(kExactness, 6 * search.accept.noise);
+  if (search.wanted_pieces > 0 || exact * 20 > search.accept.tolerance) return false;
+  if (!best.within_tolerance || points.size() < 30) return false;
+  const std::size_t most = 2 * best.chain.pieces.size() + 3;
+  search.most_pieces = std::min<int>(96, static_cast<int>(points.size() / 4));
+  search.start_pieces = std::min(48, search.most_pieces);
+  const double loose = search.accept.tolerance;
+  for (const double share : {1.0, 0.1, 0.01, 0.0}) {
+    search.accept = {std::max(exact, share * loose), 0};
+    const bool known = share == 1 && best.chain.feet.size() == points.size();
+    ChainSearchResult found = known ? best : search_chain(points, closed, search);
+    if (!found.within_tolerance || found.chain.pieces.size() > most) return false;
+    const bool reached = share == 0 || converges(found, points, exact);
+    if (!reached) continue;
+    best = std::move(found);
+    return true;
+  }
+  return false;
+}
+
+/// What is held at the canonical start or end of a run: its clamp, by the spline, or its tie.
+HeldEnd held_end(const Run& run, const RunFrame& frame, const curve::BSpline2& spline,
+                 bool canonical_start) {
+  if (run.closed) return {};
+  const bool at_start = canonical_start != frame.reversed;
+  const Clamp clamp = at_start ? run.clamp_start : run.clamp_end;
+  const auto& tie = at_start ? run.tie_start : run.tie_end;
+  HeldEnd held{static_cast<Hold>(static_cast<int>(clamp)), {}};
+  if (tie) return {Hold::position, {core::apply(frame.to_canonical, *tie), 0, 0}};
+  if (held.hold == Hold::free) return held;
+  const curve::Jet2 end = jet(spline, at_start ? 0.0 : 1.0);
+  held.joint.position = core::apply(frame.to_canonical, end.point);
+  held.joint.direction =
+      tangent_angle(end) + frame.to_canonical.rotation + (frame.reversed ? core::kPi : 0);
+  held.joint.curvature = (frame.reversed ? -1 : 1) * curvature(end) / frame.to_canonical.scale;
+  return held;
 }
 
 /// The search, once more with a tighter tolerance where polishing loses what it had found.
@@ -74,10 +95,12 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
     RunOptions tighter = options;
     tighter.tolerance *= share;
     result.points = with_guides(measured, run.closed, tighter.tolerance / run.length);
-    ChainSearchResult search =
-        search_chain(result.points, run.closed, search_options(run, tighter));
+    ChainSearchOptions searching = search_options(run, tighter);
+    searching.start = held_end(run, frame, spline, true);
+    searching.end = held_end(run, frame, spline, false);
+    ChainSearchResult search = search_chain(result.points, run.closed, searching);
     const bool found = search.within_tolerance;
-    if (share == 1) result.exact = try_exact(search, measured, run, options);
+    if (share == 1) result.exact = try_exact(search, measured, run.closed, searching);
     if (result.exact) result.points = measured;
     for (std::size_t j = 0; j < result.points.size(); ++j)
       result.points[j].weight = search.weights[j];
@@ -85,7 +108,6 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
     result.cancelled = search.cancelled;
     result.start_pieces = search.start_pieces;
     if (result.exact) result.accept = {std::max(kExactness, 6 * result.accept.noise), 0};
-    if (!run.closed) clamp_ends(result.fit, run, frame, spline);
     if (found && options.pieces == 0)
       result.straightened = straighten(result.fit, result.points, result.accept);
     result.within_tolerance = polish(result.fit, result.points, result.accept);
@@ -114,18 +136,23 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
   return result;
 }
 
-void tie_ends(RunResult& result, const std::optional<core::Point2>& start,
-              const std::optional<core::Point2>& end) {
-  const auto tie = [&](FitJoint& joint, Hold& hold, const std::optional<core::Point2>& at) {
-    if (!at) return;
-    joint.position = core::apply(result.to_canonical, *at);
-    hold = std::max(hold, Hold::position);
+void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
+              const RunOptions& options) {
+  const RunFrame frame = make_frame(run);
+  const RunResult loose = result;
+  const auto tie = [](FitJoint& joint, Hold& hold, const HeldEnd& end) {
+    if (end.hold == Hold::free) return;
+    joint.position = end.joint.position;
+    hold = std::max(hold, end.hold);
   };
   FitChain& chain = result.fit;
-  tie(chain.joints.front(), chain.hold_start, result.reversed ? end : start);
-  tie(chain.joints.back(), chain.hold_end, result.reversed ? start : end);
+  tie(chain.joints.front(), chain.hold_start, held_end(run, frame, spline, true));
+  tie(chain.joints.back(), chain.hold_end, held_end(run, frame, spline, false));
   result.within_tolerance = polish(chain, result.points, result.accept);
-  result.chain = lay_out(chain, result.to_canonical, result.reversed);
+  if (!result.within_tolerance && loose.within_tolerance)
+    result = fair_run(run, spline, options);
+  else
+    result.chain = lay_out(chain, result.to_canonical, result.reversed);
 }
 
 }  // namespace keyline::fairing::detail

@@ -19,6 +19,8 @@ struct Run {
   bool closed = false;
   Clamp clamp_start = Clamp::none;
   Clamp clamp_end = Clamp::none;
+  std::optional<core::Point2> tie_start;  ///< where the chain must start: a corner shared
+  std::optional<core::Point2> tie_end;
   double length = 0;
 };
 
@@ -60,9 +62,10 @@ struct RunResult {
 /// of travel by the shape), polished and laid out as one exact forward chain.
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options);
 
-/// Moves the ends of an open run's chain to given places (corners shared with a neighbour).
-void tie_ends(RunResult& result, const std::optional<core::Point2>& start,
-              const std::optional<core::Point2>& end);
+/// The run once more with its ends tied (tie_start, tie_end of the run): the chain found before is
+/// moved there where the points still pass; else the search starts anew.
+void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
+              const RunOptions& options);
 
 /// Solves again with some pieces told what to be; indices count along the result's chain.
 /// Wishes that an inflection or a straight neighbour forbids are changed; `notes` says so.

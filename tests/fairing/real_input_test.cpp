@@ -1,0 +1,70 @@
+#include "real_input.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "judge.h"
+
+namespace keyline::fairing {
+namespace {
+
+using testing::Judgement;
+using testing::RealLine;
+
+/// KEYLINE_FULL=1 fairs everything; without it every `step`-th curve of the large families.
+bool full() { return std::getenv("KEYLINE_FULL") != nullptr; }
+
+/// Fairs with default options; fails where the second opinion finds fault.
+Judgement fair_and_judge(const RealLine& input) {
+  SCOPED_TRACE(input.name);
+  const auto result = fair(input.line);
+  if (!result) {
+    ADD_FAILURE() << result.error().message;
+    return {};
+  }
+  const Judgement j = testing::judge(*result, input.line.points);
+  EXPECT_EQ(j.fault, "");
+  EXPECT_LE(j.length_ratio, 1.1);  // sparse points: a chain is longer than its polygon
+  if (std::getenv("KEYLINE_TABLE"))
+    std::printf("| %s | %zu | %d | %.2f |\n", input.name.c_str(), input.line.points.size(),
+                j.pieces, j.deviation / result->tolerance);
+  return j;
+}
+
+void fair_all(const std::vector<RealLine>& lines, std::size_t step = 1) {
+  for (std::size_t i = 0; i < lines.size(); i += full() ? 1 : step) fair_and_judge(lines[i]);
+}
+
+class RealInput : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!testing::real_files_present()) GTEST_SKIP() << "no folder " << KEYLINE_SHARED_DATA;
+  }
+};
+
+TEST_F(RealInput, Airfoils) { fair_all(testing::profiles("airfoil")); }
+TEST_F(RealInput, Tracks) { fair_all(testing::profiles("track")); }
+TEST_F(RealInput, Contours) { fair_all(testing::profiles("contour"), 4); }
+TEST_F(RealInput, BezierCars) { fair_all(testing::bezier_cars()); }
+TEST_F(RealInput, HullStations) { fair_all(testing::hull_stations(), 4); }
+TEST_F(RealInput, CarSections) { fair_all(testing::car_sections()); }
+
+/// What a rough version once reached; ours may not need more.
+TEST_F(RealInput, NoMorePiecesThanTheFirstTrials) {
+  struct Case {
+    const char* file;
+    const char* id;
+    std::size_t every;
+    int most;
+  };
+  for (const Case& c :
+       {Case{"airfoil/hq17.dat", "", 1, 10}, Case{"airfoil/e387.dat", "", 1, 8},
+        Case{"contour/hearts_open.csv", "", 1, 18}, Case{"contour/trilo_open.csv", "", 1, 16},
+        Case{"track/Norisring.csv", "", 2, 29}})
+    EXPECT_LE(fair_and_judge(testing::profile(c.file, c.id, c.every)).pieces, c.most) << c.file;
+}
+
+}  // namespace
+}  // namespace keyline::fairing

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "truth.h"
+
+/// Points of chains made up at random: the chains come back.
+namespace keyline::fairing {
+namespace {
+
+using testing::Difference;
+
+int cases() { return std::getenv("KEYLINE_FULL") ? 50 : 15; }
+
+Difference find_again(int seed, double noise, int decimals = 0) {
+  const lac::Chain truth = testing::random_chain(seed);
+  const auto points = testing::measure(truth, 400, noise, 1000 + seed, decimals);
+  const auto result = fair(testing::line_through(points));
+  return testing::compare(truth, result.value());
+}
+
+/// The middle one of a list.
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+TEST(Synthetic, ExactPointsGiveTheirChainBack) {
+  int found = 0;
+  std::vector<double> joints;
+  std::vector<double> slopes;
+  for (int seed = 1; seed <= cases(); ++seed) {
+    const Difference d = find_again(seed, 0);
+    EXPECT_LE(d.largest, 5e-4) << seed;
+    if (!d.same_count || d.joints > 1e-3 || d.slopes > 0.05) continue;
+    ++found;
+    joints.push_back(d.joints);
+    slopes.push_back(d.slopes);
+  }
+  EXPECT_GE(found, cases() * 85 / 100);
+  EXPECT_LE(median(joints), 1e-8);
+  EXPECT_LE(median(slopes), 1e-6);
+}
+
+TEST(Synthetic, RoundedPointsGiveTheirChainBack) {
+  int found = 0;
+  for (int seed = 1; seed <= cases(); ++seed) {
+    const Difference d = find_again(seed, 0, 8);
+    EXPECT_LE(d.largest, 5e-4) << seed;
+    if (d.same_count && d.joints <= 1e-2 && d.slopes <= 0.2) ++found;
+  }
+  EXPECT_GE(found, cases() * 80 / 100);
+}
+
+TEST(Synthetic, NoisyPointsGiveACurveNearerThanTheNoise) {
+  for (const double noise : {1e-4, 3e-4, 1e-3}) {
+    for (int seed = 1; seed <= cases() / 2; ++seed) {
+      const Difference d = find_again(seed, noise);
+      EXPECT_LE(d.rms, noise) << "seed " << seed << ", noise " << noise;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace keyline::fairing
