@@ -14,11 +14,31 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostFitPoints = 1200;
+constexpr double kGrid = 0x1p-33;    // of the length: steps of the points in the search
 constexpr double kExactness = 2e-7;  // of the length: what counts as reproduced to rounding
+
+/// Numbers cut to what matters, so that moved, turned, scaled and reversed points, which differ in
+/// their last digits, take the same way through the search, bit by bit.
+std::vector<FitPoint> cut_digits(std::vector<FitPoint> points) {
+  const auto cut = [](double x) { return kGrid * std::round(x / kGrid); };
+  for (FitPoint& p : points) {
+    p.position = {cut(p.position.x), cut(p.position.y)};
+    p.low = cut(p.low);
+    p.high = cut(p.high);
+  }
+  return points;
+}
+double cut_digits(double x) {
+  int exponent = 0;
+  const double share = std::frexp(x, &exponent);
+  return std::ldexp(std::round(share * 0x1p24), exponent - 24);
+}
 
 ChainSearchOptions search_options(const Run& run, const RunOptions& options) {
   ChainSearchOptions search;
-  search.accept = {options.tolerance / run.length, options.noise / run.length};
+  // A little less than the tolerance, for what the cut digits may move.
+  search.accept = {cut_digits((1 - 1e-6) * options.tolerance / run.length),
+                   cut_digits(options.noise / run.length)};
   search.wanted_pieces = options.pieces;
   search.threads = options.threads;
   search.progress = options.progress;
@@ -94,7 +114,8 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
   for (const double share : {1.0, 0.93, 0.8}) {
     RunOptions tighter = options;
     tighter.tolerance *= share;
-    result.points = with_guides(measured, run.closed, tighter.tolerance / run.length);
+    result.points =
+        with_guides(cut_digits(measured), run.closed, cut_digits(tighter.tolerance / run.length));
     ChainSearchOptions searching = search_options(run, tighter);
     searching.start = held_end(run, frame, spline, true);
     searching.end = held_end(run, frame, spline, false);
@@ -123,7 +144,7 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
   result.points = condense(frame.points, frame.weights, kMostFitPoints);
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
-  result.accept = {options.tolerance / run.length, options.noise / run.length};
+  result.accept = search_options(run, options).accept;
   solve(result, run, frame, spline, options);
   std::vector<std::size_t> measured;
   for (std::size_t j = 0; j < result.points.size(); ++j)
