@@ -1,0 +1,126 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/curve/concept.h"
+
+#include "truth.h"
+
+/// What the options ask for is what comes out.
+namespace keyline::fairing {
+namespace {
+
+using testing::line_through;
+
+const lac::Chain kBow{{{0, 0}, 0.2}, {{-1, 40, 0.005, 0.04}, {0.8, 35, 0.04, 0.01}}, false};
+
+acquire::KeyLine bow() { return line_through(testing::measure(kBow, 160, 2e-4, 3)); }
+
+const lac::Chain& only_chain(const FairResult& result) {
+  return std::get<lac::Chain>(result.curves.at(0));
+}
+
+TEST(FairOptions, ClampsHold) {
+  FairOptions options;
+  options.clamp_start = Clamp::g1;
+  options.clamp_end = Clamp::g2;
+  const FairResult result = fair(bow(), options).value();
+  const lac::Chain& chain = only_chain(result);
+  const curve::BSpline2& spline = result.splines[0];
+  EXPECT_LE(core::distance(evaluate(chain, 0), evaluate(spline, 0)), 1e-9 * result.length);
+  EXPECT_LE(core::distance(evaluate(chain, 1), evaluate(spline, 1)), 1e-9 * result.length);
+  const auto turn = [&](double t) {
+    return std::remainder(lac::tangent_angle(chain, t) - curve::tangent_angle(spline, t),
+                          2 * 3.141592653589793);
+  };
+  EXPECT_NEAR(turn(0), 0, 1e-9);
+  EXPECT_NEAR(turn(1), 0, 1e-9);
+  EXPECT_NEAR(lac::curvature(chain, 1), curve::curvature(spline, 1), 1e-9);
+}
+
+TEST(FairOptions, RegionKeepsTheRest) {
+  FairOptions options;
+  options.region = core::Interval{0.25, 0.7};
+  const FairResult result = fair(bow(), options).value();
+  ASSERT_EQ(result.curves.size(), 3U);
+  EXPECT_TRUE(std::holds_alternative<curve::BSpline2>(result.curves[0]));
+  EXPECT_TRUE(std::holds_alternative<lac::Chain>(result.curves[1]));
+  for (const auto& joint : result.joints) EXPECT_LE(joint.gap, 1e-9 * result.length);
+}
+
+TEST(FairOptions, MustPassPasses) {
+  FairOptions options;
+  options.must_pass = {50, 100};
+  const FairResult result = fair(bow(), options).value();
+  for (const std::size_t j : options.must_pass)
+    EXPECT_LE(std::abs(result.offsets[j]), 0.05 * result.tolerance);
+}
+
+TEST(FairOptions, WantedNumberOfPieces) {
+  FairOptions options;
+  options.pieces = 4;
+  EXPECT_EQ(fair(bow(), options).value().pieces.size(), 4U);
+}
+
+TEST(FairOptions, SlopeAskedForIsHeld) {
+  FairOptions options;
+  options.interpretations = {{.piece = 0, .rhythm = {}, .slope = -0.5}};
+  const FairResult result = fair(bow(), options).value();
+  EXPECT_EQ(only_chain(result).pieces[0].alpha, -0.5);
+}
+
+TEST(FairOptions, InflectionForbidsAPositiveSlopeAndSaysSo) {
+  const lac::Chain s{{{0, 0}, 0}, {{-1, 80, 0.02, -0.02}}, false};
+  FairOptions options;
+  options.interpretations = {{.piece = 0, .rhythm = {}, .slope = 0.7}};
+  const FairResult result = fair(line_through(lac::sample(s, 120)), options).value();
+  EXPECT_LT(only_chain(result).pieces[0].alpha, 0);
+  bool told = false;
+  for (const std::string& note : result.notes)
+    told = told || note.find("inflection") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
+TEST(FairOptions, CornersEndChainsThatMeet) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i <= 60; ++i) points.push_back({i / 60.0, 0.05 * std::sin(i / 20.0)});
+  const core::Point2 corner = points.back();
+  for (int i = 1; i <= 60; ++i) points.push_back({corner.x - 0.004 * i, corner.y + i / 60.0});
+  const FairResult result = fair(line_through(points)).value();
+  ASSERT_EQ(result.curves.size(), 2U);
+  const auto& first = std::get<lac::Chain>(result.curves[0]);
+  const auto& second = std::get<lac::Chain>(result.curves[1]);
+  EXPECT_LE(core::distance(lac::end_pose(first).position, second.start.position), 1e-9);
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_EQ(result.pieces.back().rhythm, analysis::Rhythm::straight);
+}
+
+TEST(FairOptions, CancelledWorkSaysSo) {
+  FairOptions options;
+  options.progress.cancellation = core::CancellationToken::make();
+  options.progress.cancellation.request_stop();
+  const auto result = fair(bow(), options);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, core::ErrorCode::cancelled);
+}
+
+/// Line, arc, line, as drawn with a compass.
+TEST(FairOptions, LinesAndArcsOfTheDataComeOut) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i <= 40; ++i) points.push_back({0.05 * i, 0});
+  for (int i = 1; i <= 60; ++i) {
+    const double t = 3.141592653589793 * i / 60;
+    points.push_back({2 + std::sin(t), 1 - std::cos(t)});
+  }
+  for (int i = 1; i <= 40; ++i) points.push_back({2 - 0.05 * i, 2});
+  const FairResult result = fair(line_through(points)).value();
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_EQ(result.pieces.front().rhythm, analysis::Rhythm::straight);
+  EXPECT_EQ(result.pieces.back().rhythm, analysis::Rhythm::straight);
+  bool arc = false;
+  for (const FairPiece& piece : result.pieces) arc = arc || piece.rhythm == analysis::Rhythm::arc;
+  EXPECT_TRUE(arc);
+}
+
+}  // namespace
+}  // namespace keyline::fairing

@@ -1,0 +1,192 @@
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "keyline/fairing/chain_edit.h"
+#include "keyline/fairing/condense.h"
+#include "keyline/fairing/guides.h"
+#include "keyline/fairing/meet.h"
+#include "keyline/fairing/riccati.h"
+#include "keyline/lac/segment.h"
+#include "keyline/lac/sensitivity.h"
+#include "keyline/numeric/random.h"
+
+/// The parts that the chain fit is made of, each against something plain.
+namespace keyline::fairing::detail {
+namespace {
+
+Stage random_stage(numeric::Random& random) {
+  Stage stage;
+  Matrix7 root;
+  for (double& x : root.reshaped()) x = random.normal();
+  stage.hessian = root * root.transpose() + 0.1 * Matrix7::Identity();
+  for (double& x : stage.gradient) x = random.normal();
+  for (double& x : stage.step.reshaped()) x = random.normal();
+  for (double& x : stage.gap) x = random.normal();
+  return stage;
+}
+
+/// Multipliers and unknowns in one dense system: states 0 … n, then controls.
+Eigen::VectorXd dense_solution(const std::vector<Stage>& stages, const Matrix4& end_hessian,
+                               const Vector4& end_gradient) {
+  const int n = static_cast<int>(stages.size());
+  const int states = 4 * (n + 1);
+  const int unknowns = states + 3 * n;
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(unknowns + 4 * n, unknowns + 4 * n);
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(k.rows());
+  for (int i = 0; i < n; ++i) {
+    const auto at = [&](int v) { return v < 4 ? 4 * i + v : states + 3 * i + v - 4; };
+    for (int r = 0; r < 7; ++r) {
+      rhs(at(r)) -= stages[i].gradient(r);
+      for (int c = 0; c < 7; ++c) k(at(r), at(c)) += stages[i].hessian(r, c);
+    }
+    for (int r = 0; r < 4; ++r) {
+      const int row = unknowns + 4 * i + r;
+      rhs(row) = -stages[i].gap(r);
+      for (int c = 0; c < 7; ++c) k(row, at(c)) = k(at(c), row) = stages[i].step(r, c);
+      k(row, 4 * (i + 1) + r) = k(4 * (i + 1) + r, row) = -1;
+    }
+  }
+  k.block<4, 4>(4 * n, 4 * n) += end_hessian;
+  rhs.segment<4>(4 * n) -= end_gradient;
+  return k.fullPivLu().solve(rhs);
+}
+
+TEST(Riccati, AgreesWithTheDenseSystem) {
+  numeric::Random random(5);
+  std::vector<Stage> stages;
+  for (int i = 0; i < 6; ++i) stages.push_back(random_stage(random));
+  Boundary boundary;
+  boundary.end_hessian = 3 * Matrix4::Identity();
+  boundary.end_gradient = Vector4(1, -2, 0.5, 4);
+  const Step step = solve_stages(stages, boundary);
+  ASSERT_TRUE(step.sound);
+  const Eigen::VectorXd dense = dense_solution(stages, boundary.end_hessian, boundary.end_gradient);
+  for (int i = 0; i <= 6; ++i)
+    EXPECT_LE((step.state[i] - dense.segment<4>(4 * i)).norm(), 1e-8 * dense.norm());
+  for (int i = 0; i < 6; ++i)
+    EXPECT_LE((step.control[i] - dense.segment<3>(28 + 3 * i)).norm(), 1e-8 * dense.norm());
+}
+
+TEST(Riccati, ClosedChainsMeetAndHeldControlsStay) {
+  numeric::Random random(6);
+  std::vector<Stage> stages;
+  for (int i = 0; i < 5; ++i) stages.push_back(random_stage(random));
+  stages[2].fixed[1] = true;
+  Boundary boundary;
+  boundary.closed = true;
+  boundary.end_hessian = 1e9 * Matrix4::Identity();
+  const Step step = solve_stages(stages, boundary);
+  ASSERT_TRUE(step.sound);
+  EXPECT_LE((step.state.back() - step.state.front()).norm(), 1e-6);
+  EXPECT_EQ(step.control[2](1), 0);
+}
+
+TEST(PieceTable, AgreesWithSegmentsAndDifferences) {
+  struct Case {
+    double k0, k1, length, alpha;
+  };
+  for (const Case& c : {Case{1, 3, 0.8, 0.7}, Case{2, -1.5, 1, -0.6}, Case{0.5, 2, 1, -2},
+                        Case{3, 0.4, 0.7, 0}, Case{1, 1, 1, -1}}) {
+    lac::PieceTable table;
+    table.build(c.k0, c.k1, c.length, c.alpha, true);
+    const lac::Piece piece{c.alpha, c.length, c.k0, c.k1};
+    for (const double v : {0.0, 0.3, 0.77, 1.0}) {
+      const auto value = table.at(v);
+      const core::Vector2 exact = lac::displacement(piece, v);
+      EXPECT_NEAR(value.x, exact.x, 1e-10);
+      EXPECT_NEAR(value.y, exact.y, 1e-10);
+      EXPECT_NEAR(value.angle, lac::turning(piece, v), 1e-10);
+    }
+    const double h = 1e-6;
+    lac::PieceTable up;
+    lac::PieceTable down;
+    up.build(c.k0, c.k1, c.length, c.alpha + h, true);
+    down.build(c.k0, c.k1, c.length, c.alpha - h, true);
+    EXPECT_NEAR(table.end().dy[lac::kAlpha], (up.end().y - down.end().y) / (2 * h), 1e-6);
+    if (c.k0 == c.k1) continue;  // beside equal curvatures tables are built otherwise
+    up.build(c.k0 + h, c.k1, c.length, c.alpha, true);
+    down.build(c.k0 - h, c.k1, c.length, c.alpha, true);
+    EXPECT_NEAR(table.end().dy[lac::kCurvatureStart], (up.end().y - down.end().y) / (2 * h), 1e-6);
+  }
+}
+
+TEST(Condense, KeepsEndsCountsAndWeights) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({0.001 * i, i % 2 == 0 ? 1e-3 : -1e-3});
+  const auto fit = condense(points, {}, 100);
+  ASSERT_EQ(fit.size(), 100U);
+  double count = 0;
+  for (const FitPoint& p : fit) count += p.count;
+  EXPECT_EQ(count, 1000);
+  EXPECT_EQ(fit.front().position, points.front());
+  EXPECT_EQ(fit.back().position, points.back());
+  EXPECT_NEAR(fit[50].high, 1e-3, 2e-4);
+  std::vector<double> seen(100, 0);
+  for (std::size_t j = 0; j < 1000; ++j) ++seen[condensed_index(j, 1000, 100)];
+  for (std::size_t b = 0; b < 100; ++b) EXPECT_EQ(seen[b], fit[b].count);
+}
+
+TEST(Guides, StandOnlyInWideGaps) {
+  std::vector<FitPoint> points;
+  for (const double x : {0.0, 0.001, 0.002, 0.4, 0.401}) points.push_back({.position = {x, 0}});
+  const auto guided = with_guides(points, false, 5e-4);
+  ASSERT_EQ(guided.size(), 7U);
+  EXPECT_EQ(guided[3].count, 0);
+  EXPECT_LT(guided[3].share, 0.1);
+  EXPECT_NEAR(guided[3].position.y, 0, 1e-12);
+}
+
+FitChain two_clothoids() {
+  FitChain chain;
+  chain.joints = {{{0, 0}, 0, 0}, {{0.5, 0.02}, 0.25, 1}, {{0.9, 0.2}, 0.75, 2}};
+  chain.pieces = {{.length = 0.5}, {.length = 0.5}};
+  chain.feet = {{0, 0.0}, {0, 0.5}, {1, 0.5}, {1, 1.0}};
+  return chain;
+}
+
+TEST(ChainEdit, MergedPieceHasBothLengthsAndTheTurning) {
+  const FitChain merged = without_joint(two_clothoids(), 1);
+  ASSERT_EQ(merged.pieces.size(), 1U);
+  EXPECT_DOUBLE_EQ(merged.pieces[0].length, 1);
+  EXPECT_DOUBLE_EQ(merged.feet[1].fraction, 0.25);
+  EXPECT_DOUBLE_EQ(merged.feet[2].fraction, 0.75);
+}
+
+TEST(ChainEdit, HeldCurvaturesStayWhenPiecesMerge) {
+  FitChain chain = two_clothoids();
+  chain.joints[2].direction = 3;  // more than any piece between these curvatures turns
+  chain.hold_start = Hold::curvature;
+  const FitChain merged = without_joint(chain, 1);
+  EXPECT_EQ(merged.joints.front().curvature, 0);
+  EXPECT_NE(merged.joints.back().curvature, 2);
+}
+
+TEST(ChainEdit, WindowsComeBackWhereTheyWereCut) {
+  const FitChain chain = two_clothoids();
+  const std::vector<FitPoint> points(4);
+  const Window w = cut_window(chain, points, 1, 1);
+  EXPECT_EQ(w.points.size(), 2U);
+  EXPECT_EQ(w.chain.hold_start, Hold::curvature);
+  EXPECT_EQ(w.chain.hold_end, Hold::free);
+  const FitChain back = paste_window(chain, w, 1);
+  ASSERT_EQ(back.pieces.size(), 2U);
+  EXPECT_EQ(back.feet[3].piece, 1);
+  EXPECT_EQ(back.joints[1].position, chain.joints[1].position);
+}
+
+TEST(MeetTarget, EndComesToThePlace) {
+  lac::Chain chain{{{0, 0}, 0}, {{-1, 1, 0.5, 1}, {0.5, 1, 1, 3}, {-2, 1, 3, 0.5}}, false};
+  core::Pose2 wanted = lac::end_pose(chain);
+  wanted.position.x += 1e-4;
+  wanted.direction -= 1e-4;
+  EXPECT_LE(meet_target(chain, {.pose = wanted, .direction = true}), 1e-14);
+  EXPECT_LE(core::distance(lac::end_pose(chain).position, wanted.position), 1e-14);
+  EXPECT_EQ(chain.pieces.front().curvature_start, 0.5);
+  EXPECT_EQ(chain.pieces.back().curvature_end, 0.5);
+  EXPECT_EQ(chain.pieces[0].curvature_end, chain.pieces[1].curvature_start);
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail
