@@ -17,10 +17,11 @@ namespace keyline::fairing {
 struct FitPoint {
   core::Point2 position;
   double weight = 1;
-  double low = 0;    ///< <= 0: the run's lowest offset
-  double high = 0;   ///< >= 0: the run's highest offset
-  double count = 1;  ///< how many points the run holds; 0: a guide, not measured
-  double share = 1;  ///< offsets from this point count this much; below 1 for guides
+  double low = 0;          ///< <= 0: the run's lowest offset
+  double high = 0;         ///< >= 0: the run's highest offset
+  double count = 1;        ///< how many points the run holds; 0: a guide, not measured
+  bool must_pass = false;  ///< its weight is never changed
+  double share = 1;        ///< offsets from this point count this much; below 1 for guides
 };
 
 /// Slopes beyond this are not told apart from it by any data.

@@ -121,6 +121,7 @@ class Merger {
     for (int round = 0; round < kSqueezeRounds && !trial.good; ++round) {
       const std::vector<double> off = offsets(w.chain, w.points);
       for (std::size_t j = 0; j < off.size(); ++j) {
+        if (w.points[j].must_pass) continue;
         const double share = std::abs(off[j]) / options_.accept.tolerance;
         w.points[j].weight =
             std::min(1e4 * original[j].weight, w.points[j].weight * (0.3 + 2 * share * share));

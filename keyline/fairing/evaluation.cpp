@@ -31,7 +31,8 @@ Model Evaluation::model() {
     keep_still(m);
   else
     for (std::size_t i = 0; i < tables_.size(); ++i) add_prior(m, static_cast<int>(i));
-  const double weight = kGapWeight * static_cast<double>(points_.size());
+  double weight = 0;
+  for (const FitPoint& p : points_) weight += kGapWeight * std::max(1.0, p.weight);
   m.merit = m.cost + weight * gap_square_;
   return m;
 }

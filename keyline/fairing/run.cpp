@@ -142,6 +142,10 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
   const RunFrame frame = make_frame(run);
   RunResult result;
   result.points = condense(frame.points, frame.weights, kMostFitPoints);
+  for (std::size_t j = 0; j < frame.order.size(); ++j)
+    if (std::find(run.must_pass.begin(), run.must_pass.end(), frame.order[j]) !=
+        run.must_pass.end())
+      result.points[condensed_index(j, frame.order.size(), kMostFitPoints)].must_pass = true;
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
   result.accept = search_options(run, options).accept;

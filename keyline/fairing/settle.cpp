@@ -35,7 +35,7 @@ FitChain with_kind(const FitChain& chain, int at, PieceKind kind) {
     if (!next.closed && (side < 0 || side >= n)) continue;
     FitPiece& neighbour = next.pieces[(side + n) % n];
     if (neighbour.kind == PieceKind::curve && !slope_held(neighbour))
-      neighbour.alpha = std::clamp(neighbour.alpha, -3.0, -0.5);
+      neighbour.alpha = std::clamp(neighbour.alpha, -3.0, -1.0);
   }
   return next;
 }
@@ -59,36 +59,59 @@ bool worth_trying(const FitChain& chain, int at, PieceKind kind, double toleranc
   return change * l * l < 3 * tolerance && !touches_line(chain, at);
 }
 
+/// The chain with its pieces made lines or arcs, one after another.
+class Straightener {
+ public:
+  Straightener(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept)
+      : chain_(chain), points_(points), accept_(accept) {
+    fit_.iterations = 25;
+    fit_.gradient_tolerance = 1e-4;
+    fit_.scale = accept.tolerance;
+    cost_ = cost_of(points, offsets(chain, points));
+  }
+
+  int run() {
+    int changed = 0;
+    const int count = static_cast<int>(chain_.pieces.size());
+    for (int at = 0; at < count; ++at) {
+      if (become(at, PieceKind::line) || become(at, PieceKind::arc)) ++changed;
+    }
+    // An arc beside a piece that has since found its place may be a line after all.
+    for (int at = 0; at < count; ++at)
+      if (chain_.pieces[at].kind == PieceKind::arc) become(at, PieceKind::line);
+    return changed;
+  }
+
+ private:
+  bool become(int at, PieceKind kind) {
+    if (!worth_trying(chain_, at, kind, accept_.tolerance)) return false;
+    double here = 0;
+    for (std::size_t j = 0; j < points_.size(); ++j)
+      if (chain_.feet[j].piece == at) here += points_[j].weight;
+    FitChain trial = with_kind(chain_, at, kind);
+    const ChainFitReport report = fit_chain(trial, points_, fit_);
+    const std::vector<double> found = offsets(trial, points_);
+    const double after = cost_of(points_, found);
+    const double allowed = 12 * accept_.noise * accept_.noise +
+                           here * std::pow(0.05 * accept_.tolerance, 2) + 0.02 * cost_;
+    if (after - cost_ > allowed || !accepts(accept_, report, points_, found)) return false;
+    chain_ = std::move(trial);
+    cost_ = after;
+    return true;
+  }
+
+  FitChain& chain_;
+  const std::vector<FitPoint>& points_;
+  const Acceptance& accept_;
+  ChainFitOptions fit_;
+  double cost_ = 0;
+};
+
 }  // namespace
 
 int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept) {
-  int changed = 0;
-  ChainFitOptions fit;
-  fit.iterations = 12;
-  fit.gradient_tolerance = 1e-4;
-  fit.scale = accept.tolerance;
   if (chain.pieces.size() == 1 && chain.closed) return 0;
-  double before = cost_of(points, offsets(chain, points));
-  for (int at = 0; at < static_cast<int>(chain.pieces.size()); ++at) {
-    double here = 0;
-    for (std::size_t j = 0; j < points.size(); ++j)
-      if (chain.feet[j].piece == at) here += points[j].weight;
-    for (const PieceKind kind : {PieceKind::line, PieceKind::arc}) {
-      if (!worth_trying(chain, at, kind, accept.tolerance)) continue;
-      FitChain trial = with_kind(chain, at, kind);
-      const ChainFitReport report = fit_chain(trial, points, fit);
-      const std::vector<double> found = offsets(trial, points);
-      const double after = cost_of(points, found);
-      const double allowed = 12 * accept.noise * accept.noise +
-                             here * std::pow(0.05 * accept.tolerance, 2) + 0.02 * before;
-      if (after - before > allowed || !accepts(accept, report, points, found)) continue;
-      chain = std::move(trial);
-      before = after;
-      ++changed;
-      break;
-    }
-  }
-  return changed;
+  return Straightener(chain, points, accept).run();
 }
 
 namespace {
@@ -140,6 +163,7 @@ class Polisher {
   void weigh_up(const std::vector<FitPoint>& original) {
     const std::vector<double> off = offsets(chain_, points_);
     for (std::size_t j = 0; j < off.size(); ++j) {
+      if (points_[j].must_pass) continue;
       const double share = std::abs(off[j]) / accept_.tolerance;
       points_[j].weight =
           std::min(1e4 * original[j].weight, points_[j].weight * (0.4 + 1.6 * share * share));
