@@ -12,7 +12,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kRounds = 12;
+constexpr int kRounds = 30;
 
 bool is_arc(const lac::Piece& piece) { return piece.curvature_start == piece.curvature_end; }
 

@@ -28,9 +28,9 @@ void judge_seam(Judgement& j, const lac::Chain& chain) {
   j.curvature_jump = std::max(j.curvature_jump, relative(k1 - k0, k1, length));
 }
 
-void judge_corner(Judgement& j, const lac::Chain& before, const lac::Chain& after) {
+void judge_corner(Judgement& j, const lac::Chain& before, const lac::Chain& after, double length) {
   const double gap = core::distance(lac::end_pose(before).position, after.start.position);
-  j.gap = std::max(j.gap, gap / (lac::arc_length(before) + lac::arc_length(after)));
+  j.gap = std::max(j.gap, gap / length);
 }
 
 void judge_pieces(Judgement& j, const lac::Chain& chain) {
@@ -129,7 +129,7 @@ Judgement judge(const FairResult& result, const std::vector<core::Point2>& point
     length += lac::arc_length(chain);
     judge_pieces(j, chain);
     if (chain.closed) judge_seam(j, chain);
-    if (before) judge_corner(j, *before, chain);
+    if (before) judge_corner(j, *before, chain, result.length);
     before = &chain;
     for (const lac::Segment& s : lac::segments(chain)) {
       tracks.segments.push_back(s);
@@ -137,7 +137,7 @@ Judgement judge(const FairResult& result, const std::vector<core::Point2>& point
     }
   }
   if (result.closed && result.curves.size() > 1)
-    judge_corner(j, *before, std::get<lac::Chain>(result.curves.front()));
+    judge_corner(j, *before, std::get<lac::Chain>(result.curves.front()), result.length);
   for (const core::Point2 p : points) j.deviation = std::max(j.deviation, deviation_of(tracks, p));
   j.length_ratio = length / polygon(points, result.closed);
   find_fault(j, result);
