@@ -47,9 +47,9 @@ bool certified(const Bezier2& b) {
   return curve::certify_monotone_curvature(b).answer == curve::MonotoneVerdict::yes;
 }
 
-void append(CadBeziers& out, Bezier2 piece, double bound) {
+void append(CadBeziers& out, Bezier2 piece, double bound, bool known_monotone = false) {
   if (!out.pieces.empty()) piece.control.front() = out.pieces.back().control.back();
-  out.not_monotone += certified(piece) ? 0 : 1;
+  out.not_monotone += known_monotone || certified(piece) ? 0 : 1;
   out.deviation = std::max(out.deviation, bound);
   out.pieces.push_back(std::move(piece));
 }
@@ -62,7 +62,7 @@ bool append_cubics(const Segment& part, const CadOptions& o, CadBeziers& out) {
     Bezier2 b;
     b.control.reserve(4);
     for (const Vector2 v : c.cubic.control) b.control.push_back(place_point(part, unit, v));
-    append(out, std::move(b), c.bound * unit.length);
+    append(out, std::move(b), c.bound * unit.length, c.monotone);
   }
   return !cubics.empty();
 }

@@ -15,7 +15,7 @@ struct CadOptions {
   int degree = 3;           ///< 3 or 5
   double tolerance = 1e-4;  ///< largest distance, > 0, in the document's unit
   /// Keep the curvature of every Bézier monotone where the segment's is, with more pieces if need
-  /// be. Otherwise only the number of pieces counts.
+  /// be, down to 1 % of its length. Otherwise only the number of pieces counts.
   bool monotone = true;
 };
 

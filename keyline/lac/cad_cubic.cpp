@@ -127,19 +127,10 @@ class HandleSolve {
     }
   }
 
-  /// `fine`: the difference of distances that does not matter.
-  CubicTry run(double guess, double fine) {
-    const double d = solve(std::clamp(guess, -kMost, kMost), fine);
-    odd(d);
-    CubicTry c{cubic(d), p_ > 0.3 && p_ < 1.6, d, 0};
-    for (const double f : kTops) {
-      const Vector2 p = table_.point(v0_ + f * width_);
-      const Vector2 tangent = table_.velocity(v0_ + f * width_);
-      double t = f;
-      for (int i = 0; i < 2; ++i) t = step_foot(c.cubic, p, tangent, t);
-      c.error = std::max(c.error, std::abs(cross(tangent, value(c.cubic, t) - p)));
-    }
-    if (!std::isfinite(c.error)) c.sound = false;
+  CubicTry run(const HandleGuess& guess) {
+    const double d = solve(std::clamp(guess.tilt, -kMost, kMost), guess.fine);
+    CubicTry c = measured(d);
+    if (!met_ && c.error <= guess.hopeful) c = measured(scan(guess.fine));
     return c;
   }
 
@@ -181,12 +172,27 @@ class HandleSolve {
     return difference;
   }
 
+  CubicTry measured(double d) {
+    odd(d);
+    CubicTry c{cubic(d), p_ > 0.3 && p_ < 1.6, d, 0};
+    for (const double f : kTops) {
+      const Vector2 p = table_.point(v0_ + f * width_);
+      const Vector2 tangent = table_.velocity(v0_ + f * width_);
+      double t = f + (f < 0.5 ? t_[0] - kInner : t_[1] + kInner - 1);
+      t = step_foot(c.cubic, p, tangent, t);
+      c.error = std::max(c.error, std::abs(cross(tangent, value(c.cubic, t) - p)));
+    }
+    if (!std::isfinite(c.error)) c.sound = false;
+    return c;
+  }
+
   double solve(double guess, double fine) {
     double d0 = guess, d1 = guess + 0.02;
     double f0 = odd(d0);
+    met_ = true;
     if (std::abs(f0) <= fine) return d0;
     double f1 = odd(d1);
-    for (int step = 0; step < 7; ++step) {
+    for (int step = 0; step < 5; ++step) {
       if (std::abs(f1) <= fine) return d1;
       const double next = d1 - f1 * (d1 - d0) / (f1 - f0);
       if (!(std::abs(next) < kMost)) break;
@@ -195,7 +201,8 @@ class HandleSolve {
       d1 = next;
       f1 = odd(d1);
     }
-    return std::abs(f1) <= fine ? d1 : scan(fine);
+    met_ = std::abs(f1) <= fine;
+    return d1;
   }
 
   /// The root nearest to 0 among changes of sign, else the least difference.
@@ -237,13 +244,14 @@ class HandleSolve {
   std::array<double, 2> t_{kInner, 1 - kInner};
   std::array<Frame, 2> inner_;
   double p_ = 2.0 / 3;
+  bool met_ = false;
 };
 
 }  // namespace
 
 CubicTry try_cubic(const SeriesTable& table, double v0, double v1, const Frame& start,
                    const Frame& end, const HandleGuess& guess) {
-  return HandleSolve(table, v0, v1, start, end).run(guess.tilt, guess.fine);
+  return HandleSolve(table, v0, v1, start, end).run(guess);
 }
 
 // ---- Bound --------------------------------------------------------------------------------

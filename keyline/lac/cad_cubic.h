@@ -53,7 +53,8 @@ struct CubicTry {
 
 struct HandleGuess {
   double tilt = 0;
-  double fine = 0;  ///< difference of normal distances not worth another step
+  double fine = 0;     ///< difference of normal distances not worth another step
+  double hopeful = 0;  ///< errors up to which a failed search is worth a scan for other roots
 };
 
 /// The cubic over [v0, v1] with the frames as its ends whose normal distance vanishes at 0.337 and
@@ -69,6 +70,7 @@ struct CubicPiece {
   Cubic cubic;
   double v0 = 0, v1 = 1;
   double bound = 0;
+  bool monotone = false;  ///< certified; false where not asked for
 };
 
 /// As few cubics as the tolerance, a fraction of the length, allows; empty if it cannot be met.

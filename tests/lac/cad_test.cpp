@@ -87,7 +87,7 @@ TEST(Cad, QuinticsNeedFewerPieces) {
 }
 
 TEST(Cad, BoundHoldsOnRandomSegments) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const double alpha = *rc::gen::inRange(-500, 501) / 100.0;
     const double q = *rc::gen::inRange(-200, 201) / 100.0;
     const double bend = *rc::gen::inRange(-200, 201) / 100.0;
@@ -98,7 +98,7 @@ TEST(Cad, BoundHoldsOnRandomSegments) {
     RC_ASSERT(b.has_value());
     RC_ASSERT(b->deviation <= tolerance);
     RC_ASSERT(sampled_deviation(s, *b, 12) <= b->deviation + 4e-15);
-  });
+  }));
 }
 
 TEST(Cad, ScaleChangesNothing) {

@@ -68,7 +68,7 @@ TEST(Taylor, InvoluteInAngleHasItsOwnCoefficients) {
 }
 
 TEST(Taylor, SumsToTheCurveWithinTheRemainder) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const double alpha = *rc::gen::inRange(-300, 301) / 100.0;
     const double q = *rc::gen::inRange(-150, 151) / 100.0;
     const double about = *rc::gen::inRange(0, 101) / 100.0;
@@ -88,7 +88,7 @@ TEST(Taylor, SumsToTheCurveWithinTheRemainder) {
         RC_ASSERT(error <= remainder_bound(s, std::abs(x)) + 2e-14);
       }
     }
-  });
+  }));
 }
 
 // The polynomial itself (Horner's rule in long double) against de Casteljau on the converted form.
@@ -163,7 +163,7 @@ TEST(Quasi, AllFormsConvergeWithDegree) {
 }
 
 TEST(Quasi, DeviationBoundIsNeverBelowSamples) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const double alpha = *rc::gen::inRange(-400, 401) / 100.0;
     const double turning = *rc::gen::inRange(20, 200) / 100.0;
     const double share = *rc::gen::inRange(46, 55) / 100.0;
@@ -177,7 +177,7 @@ TEST(Quasi, DeviationBoundIsNeverBelowSamples) {
     RC_ASSERT(sampled <= r->deviation);
     if (form != QuasiForm::discrete_arc && form != QuasiForm::discrete_angle) return;
     RC_ASSERT(r->deviation <= 1.2 * sampled_deviation(r->target, r->curve, 60) + 1e-12);
-  });
+  }));
 }
 
 TEST(Quasi, RationalCubicAndBestKeepTheirEnds) {
