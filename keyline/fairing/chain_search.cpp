@@ -111,7 +111,7 @@ class Merger {
   bool good(const ChainFitReport& fit, const std::vector<FitPoint>& points,
             const std::vector<double>& found) const {
     if (options_.wanted_pieces > 0)
-      return fit.max_gap <= 0.05 * options_.accept.tolerance && pieces() > options_.wanted_pieces;
+      return fit.max_gap <= options_.accept.tolerance && pieces() > options_.wanted_pieces;
     return accepts(options_.accept, fit, points, found);
   }
 

@@ -135,7 +135,8 @@ void Evaluation::fix_controls(Stage& stage, int i) const {
   } else {
     j(3, kNextCurvature) = 1;
   }
-  stage.fixed[1] = slope_held(piece) || piece.kind != PieceKind::curve;
+  // Slopes stay when gaps close: at their limits they could not move as the step says.
+  stage.fixed[1] = slope_held(piece) || piece.kind != PieceKind::curve || options_.close_gaps;
   const int count = static_cast<int>(chain_.pieces.size());
   const bool before_line = i + 1 < count
                                ? chain_.pieces[i + 1].kind == PieceKind::line

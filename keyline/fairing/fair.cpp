@@ -56,6 +56,7 @@ class Job {
  public:
   Job(const acquire::KeyLine& line, const FairOptions& options) : line_(line), options_(options) {
     result_.length = detail::polygon_length(line.points, line.closed);
+    if (line.length > 0) result_.length = std::min(result_.length, line.length);
     result_.noise = line.noise;
     result_.tolerance = options.tolerance > 0
                             ? options.tolerance

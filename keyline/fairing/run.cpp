@@ -14,7 +14,8 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostFitPoints = 1200;
-constexpr double kGrid = 0x1p-33;    // of the length: steps of the points in the search
+constexpr std::size_t kMostExactPieces = 12;  // longer chains are not drawn exactly by anyone
+constexpr double kGrid = 0x1p-33;             // of the length: steps of the points in the search
 constexpr double kExactness = 2e-7;  // of the length: what counts as reproduced to rounding
 
 /// Numbers cut to what matters, so that moved, turned, scaled and reversed points, which differ in
@@ -72,6 +73,7 @@ bool try_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, boo
   const double exact = std::max(kExactness, 6 * search.accept.noise);
   if (search.wanted_pieces > 0 || exact * 20 > search.accept.tolerance) return false;
   if (!best.within_tolerance || points.size() < 30) return false;
+  if (best.chain.pieces.size() > kMostExactPieces) return false;
   const std::size_t most = 2 * best.chain.pieces.size() + 3;
   search.most_pieces = std::min<int>(96, static_cast<int>(points.size() / 4));
   search.start_pieces = std::min(48, search.most_pieces);
@@ -79,7 +81,7 @@ bool try_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, boo
   for (const double share : {1.0, 0.1, 0.01, 0.0}) {
     search.accept = {std::max(exact, share * loose), 0};
     const bool known = share == 1 && best.chain.feet.size() == points.size();
-    ChainSearchResult found = known ? best : search_chain(points, closed, search);
+    ChainSearchResult found = known ? best : search_chain(cut_digits(points), closed, search);
     if (!found.within_tolerance || found.chain.pieces.size() > most) return false;
     const bool reached = share == 0 || converges(found, points, exact);
     if (!reached) continue;
@@ -111,7 +113,7 @@ HeldEnd held_end(const Run& run, const RunFrame& frame, const curve::BSpline2& s
 void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve::BSpline2& spline,
            const RunOptions& options) {
   const std::vector<FitPoint> measured = result.points;
-  for (const double share : {1.0, 0.93, 0.8}) {
+  for (const double share : {0.98, 0.9, 0.8}) {
     RunOptions tighter = options;
     tighter.tolerance *= share;
     result.points =
@@ -121,7 +123,7 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
     searching.end = held_end(run, frame, spline, false);
     ChainSearchResult search = search_chain(result.points, run.closed, searching);
     const bool found = search.within_tolerance;
-    if (share == 1) result.exact = try_exact(search, measured, run.closed, searching);
+    if (share > 0.95) result.exact = try_exact(search, measured, run.closed, searching);
     if (result.exact) result.points = measured;
     for (std::size_t j = 0; j < result.points.size(); ++j)
       result.points[j].weight = search.weights[j];

@@ -14,13 +14,20 @@ void add_point(Run& run, const acquire::KeyLine& line, std::size_t index,
   run.index.push_back(index);
 }
 
+/// The polygon's length overstates that of the curve where points are denser than their noise; the
+/// key-line knows its own.
+double overstated(const acquire::KeyLine& line) {
+  const double polygon = polygon_length(line.points, line.closed);
+  return line.length > 0 && line.length < polygon ? line.length / polygon : 1;
+}
+
 /// Points first … first + count of the line, wrapping around where it is closed.
 Run stretch(const acquire::KeyLine& line, std::size_t first, std::size_t count,
             const std::vector<std::size_t>& must_pass) {
   Run run;
   for (std::size_t k = 0; k <= count; ++k)
     add_point(run, line, (first + k) % line.points.size(), must_pass);
-  run.length = polygon_length(run.points, false);
+  run.length = overstated(line) * polygon_length(run.points, false);
   return run;
 }
 
@@ -47,7 +54,7 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
   if (line.closed && cuts.empty()) {
     Run run = stretch(line, 0, n - 1, options.must_pass);
     run.closed = true;
-    run.length = polygon_length(run.points, true);
+    run.length = overstated(line) * polygon_length(run.points, true);
     return {run};
   }
   if (line.closed) {
