@@ -69,7 +69,7 @@ double torsion(const Jet3& jet) {
   if (!(v > 0)) return 0;
   const Vector3 binormal = cross(jet.first / v, jet.second / v);
   const double size = norm(binormal);
-  return size > 0 ? dot(binormal / size, jet.third / v) / size : 0;
+  return size > 0 ? dot(binormal / size, jet.third / v) / v / size : 0;
 }
 
 }  // namespace keyline::curve
