@@ -1,0 +1,196 @@
+#include "keyline/lac/space.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/curve/concept.h"
+#include "keyline/lac/space_hermite.h"
+
+namespace keyline::lac {
+namespace {
+
+using core::Point3;
+using core::Vector3;
+
+static_assert(curve::SpaceCurve<SpaceChain>);
+
+TEST(SpaceCurve, ConstantCurvatureAndTorsionMakeAHelix) {
+  const double k = 0.8, w = 0.5, length = 20;
+  const SpaceChain helix{{}, {{-1.5, 2, length, k, k, w, w}}};
+  ASSERT_TRUE(validate(helix));
+  const double c = std::hypot(k, w), r = k / (c * c), rise = w / c;
+  for (const double t : {0.0, 0.1, 0.5, 0.77, 1.0}) {
+    const double s = t * length;
+    // Radius r about an axis along (w, 0, k)/c through the point (0, r, 0).
+    const Vector3 axis{w / c, 0, k / c};
+    const Vector3 forward = cross({0, -1, 0}, axis) * -1.0;
+    const Vector3 around =
+        r * (1 - std::cos(c * s)) * Vector3{0, 1, 0} + r * std::sin(c * s) * forward;
+    const Point3 wanted = Point3{} + around + rise * s * axis;
+    EXPECT_LT(distance(evaluate(helix, t), wanted), 1e-12 * length) << t;
+  }
+}
+
+TEST(SpaceCurve, WithoutTorsionIsThePlaneCurve) {
+  for (const double alpha : {-3.0, -1.0, 0.0, 0.5, 2.0}) {
+    for (const double last : {0.2, 3.0, -2.0, 0.0}) {
+      if (last <= 0 && alpha >= 0) continue;
+      const SpaceChain space{{}, {{alpha, 1, 2, 1.3, last, 0, 0}}};
+      const Segment plane{{{0, 0}, 0}, alpha, 2, 1.3, last};
+      for (const double t : {0.1, 0.5, 0.9, 1.0}) {
+        const Point3 p = evaluate(space, t);
+        const core::Point2 q = evaluate(plane, t);
+        EXPECT_LT(distance(p, {q.x, q.y, 0}), 2e-12) << alpha << ' ' << last << ' ' << t;
+      }
+    }
+  }
+}
+
+TEST(SpaceCurve, JetHoldsCurvatureAndTorsion) {
+  const SpaceChain chain{{}, {{-1, 0.5, 2, 1, 0.4, 0.3, 0.9}, {2, -2, 3, 0.4, 0.7, 0.9, -0.2}}};
+  ASSERT_TRUE(validate(chain));
+  EXPECT_EQ(largest_joint_gap(chain).curvature, 0);
+  EXPECT_EQ(largest_joint_gap(chain).torsion, 0);
+  for (const double t : {0.05, 0.3, 0.5, 0.8}) {
+    const curve::Jet3 j = jet(chain, t);
+    EXPECT_NEAR(speed(j), 5, 1e-12);
+    EXPECT_NEAR(curve::curvature(j), curvature(chain, t), 1e-12);
+    EXPECT_NEAR(curve::torsion(j), torsion(chain, t), 1e-11);
+    const double h = 1e-4;
+    const Vector3 slope = (evaluate(chain, t + h) - evaluate(chain, t - h)) / (2 * h);
+    EXPECT_LT(norm(slope - j.first), 1e-6);
+  }
+  const SpaceChain back = reverse(chain);
+  for (const double t : {0.0, 0.2, 0.6, 1.0})
+    EXPECT_LT(distance(evaluate(back, t), evaluate(chain, 1 - t)), 1e-12);
+}
+
+TEST(SpaceCurve, GraphsHaveTheSlopes) {
+  for (const auto& [alpha, beta] : {std::pair{-1.5, 0.7}, {0.0, 2.0}, {1.0, -1.0}, {2.5, 0.0}}) {
+    const SpaceGraphs g = logarithmic_graphs({alpha, beta, 1.5, 1, 0.6, 0.2, 0.5});
+    EXPECT_TRUE(g.curvature_defined && g.torsion_defined);
+    EXPECT_NEAR(g.curvature_slope, alpha, 1e-9);
+    EXPECT_NEAR(g.torsion_slope, beta, 1e-9);
+  }
+  EXPECT_FALSE(logarithmic_graphs({1, 1, 1, 1, 1, 0, 0}).curvature_defined);
+}
+
+TEST(SpaceCurve, StandardFormIsWhatItSays) {
+  const auto piece = standard_piece({2, -1, 0.3, 0.2, 0.5}, 1.5);
+  ASSERT_TRUE(piece);
+  EXPECT_NEAR(piece->curvature_end, 1 / std::sqrt(1 + 2 * 0.3 * 1.5), 1e-15);
+  EXPECT_NEAR(piece->torsion_end, 0.5 - 0.2 * 1.5, 1e-15);
+  EXPECT_FALSE(standard_piece({2, -1, -0.5, 0, 0}, 1.5));
+  EXPECT_FALSE(standard_piece({2, -1, NAN, 0, 0}, 1.5));
+}
+
+TEST(SpaceCurve, QuinticsMeetTheTolerance) {
+  const SpaceChain chain{{}, {{-1, 0.5, 2, 1, 0.4, 0.3, 0.9}, {2, -2, 3, 0.4, 0.7, 0.9, -0.2}}};
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    const SpaceBeziers beziers = approximate_by_quintics(chain, tolerance);
+    EXPECT_LE(beziers.deviation, tolerance);
+    EXPECT_LT(distance(beziers.pieces.back().control.back(), evaluate(chain, 1)), 1e-13);
+  }
+  EXPECT_LE(approximate_by_quintics(chain, 1e-9).pieces.size(), 64U);
+}
+
+TEST(SpaceCurve, RefusesWhatIsNone) {
+  SpaceChain chain{{}, {{1, 1, 1, 1, -1, 0, 0}}};
+  EXPECT_EQ(validate(chain).error().path, "pieces[0]");
+  chain.pieces[0] = {2, 1, 1, 1, INFINITY, 0, 0};
+  EXPECT_FALSE(validate(chain));
+  chain.pieces[0] = {-1, 1, 1, 1, 2, 1, -1};
+  EXPECT_FALSE(validate(chain));
+  chain.pieces[0] = {-1, 1, 1, 1, 2, 1, 1};
+  EXPECT_TRUE(validate(chain));
+  chain.start.binormal = {0, 0, -1};
+  EXPECT_EQ(validate(chain).error().path, "frame");
+  EXPECT_FALSE(validate(SpaceChain{}));
+}
+
+/// Largest distance of the ends and angle of the tangents off the data.
+double miss(const SpaceChain& chain, const SpaceHermite& d) {
+  const SpaceFrame end = frame_at(chain, 1);
+  const double place =
+      std::max(distance(chain.start.position, d.start), distance(end.position, d.end)) /
+      distance(d.start, d.end);
+  const auto off = [](Vector3 a, Vector3 b) { return norm(a - b / norm(b)); };
+  return std::max(
+      {place, off(chain.start.tangent, d.start_tangent), off(end.tangent, d.end_tangent)});
+}
+
+TEST(SolveG1Space, FindsTheCurveItsDataWereTakenFrom) {
+  struct Case {
+    SpaceStandardForm form;
+    double length;
+  };
+  for (const Case& c : {Case{{-1, -1, 0.2, 0.1, 0.3}, 1.5}, Case{{0, 0, 0.3, -0.2, -0.4}, 1.2},
+                        Case{{1, 2, 0.4, 0.5, 0.6}, 1}, Case{{2, -0.5, 0.3, 0, 0.2}, 2},
+                        Case{{0.5, 1, -0.2, 0.3, -0.5}, 1.4}, Case{{-2, 0.5, 0.1, 0.2, 1}, 1}}) {
+    SCOPED_TRACE(c.form.alpha);
+    const auto piece = standard_piece(c.form, c.length);
+    ASSERT_TRUE(piece);
+    const SpaceFrame end = frame_at({{}, {*piece}}, 1);
+    const SpaceHermite data{{0, 0, 0}, end.position, {2, 0, 0}, end.tangent};
+    const auto solved = solve_g1_space(data, c.form.alpha, c.form.beta, c.form.omega);
+    ASSERT_TRUE(solved) << solved.error().hint;
+    EXPECT_NEAR(solved->lambda, c.form.lambda, 1e-9);
+    EXPECT_NEAR(solved->nu, c.form.nu, 1e-9);
+    EXPECT_NEAR(solved->length, c.length, 1e-9);
+    EXPECT_LT(miss(solved->chain, data), 1e-12);
+  }
+}
+
+TEST(SolveG1Space, MeetsRandomDataAndMovesWithThem) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int drawn = 0;
+  const int asked = 24;
+  for (int n = 0; n < asked; ++n) {
+    const SpaceHermite data{
+        {5, -2, 1},
+        {8, -1, 3},
+        Vector3{3, 1, 2} + 1.2 * Vector3{unit(random), unit(random), unit(random)},
+        Vector3{3, 1, 2} + 1.2 * Vector3{unit(random), unit(random), unit(random)}};
+    const auto solved = solve_g1_space(data, -1, -1, 0.2 * unit(random));
+    if (!solved) {
+      EXPECT_EQ(solved.error().code, core::ErrorCode::undrawable);
+      continue;
+    }
+    ++drawn;
+    EXPECT_LT(miss(solved->chain, data), 2e-12);
+  }
+  EXPECT_GT(drawn, 3 * asked / 4);
+}
+
+TEST(SolveG1Space, InAPlaneIsThePlaneCurve) {
+  const double h = 1 / std::sqrt(2.0);
+  const SpaceHermite data{{1, 1, 1}, {3, 1 + h, 1 + h}, {1, 0, 0}, {1, 2 * h, 2 * h}};
+  const auto solved = solve_g1_space(data, -1, 0.5, 0.3);
+  ASSERT_TRUE(solved);
+  EXPECT_TRUE(solved->planar);
+  EXPECT_LT(miss(solved->chain, data), 1e-12);
+  EXPECT_EQ(solved->nu, 0);
+  EXPECT_GT(solved->chain.pieces[0].curvature_start, 0);
+  const auto line = solve_g1_space({{0, 0, 0}, {1, 2, 2}, {1, 2, 2}, {2, 4, 4}}, 1, 1, 1);
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(arc_length(line->chain), 3, 1e-15);
+  EXPECT_EQ(line->chain.pieces[0].curvature_start, 0);
+}
+
+TEST(SolveG1Space, BadInputIsNormalInput) {
+  const SpaceHermite good{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}};
+  EXPECT_EQ(solve_g1_space(good, NAN, 1, 1).error().path, "alpha");
+  SpaceHermite bad = good;
+  bad.end = bad.start;
+  EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "end");
+  bad = good;
+  bad.end_tangent = {0, 0, 0};
+  EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "tangents");
+}
+
+}  // namespace
+}  // namespace keyline::lac
