@@ -1,9 +1,12 @@
 #include "keyline/operations/derived_forms.h"
 
 #include <cmath>
+#include <string_view>
 
 #include "keyline/curve/conversion.h"
 #include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json_space.h"
+#include "keyline/lac/space.h"
 
 namespace keyline::operations {
 namespace {
@@ -60,12 +63,18 @@ Result<curve::PiecewiseBezier> pieces_for(const json& form, const char* name,
   return all;
 }
 
-Result<void> add_samples(const json& wanted, const document::Path& path, json& result) {
+Result<int> sample_count(const json& wanted) {
   if (!wanted.is_number_integer() || wanted.get<std::int64_t>() < 2 ||
       wanted.get<std::int64_t>() > kMostSamples)
     return fail(ErrorCode::bad_input, "\"samples\" is out of range",
                 "give a whole number from 2 to 10000000", "samples");
-  const int n = wanted.get<int>();
+  return wanted.get<int>();
+}
+
+Result<void> add_samples(const json& wanted, const document::Path& path, json& result) {
+  const auto count = sample_count(wanted);
+  if (!count) return std::unexpected(count.error());
+  const int n = *count;
   curve::Polyline2 line;
   if (path.curves.size() == 1 && std::holds_alternative<lac::Chain>(path.curves[0].value))
     line.points = lac::sample(std::get<lac::Chain>(path.curves[0].value), n);
@@ -95,6 +104,37 @@ Result<void> add_nurbs(const json& form, const document::Path& path, json& resul
   return {};
 }
 
+/// The same for a curve in space: quintics, or what degree from 5 on is asked for.
+Result<void> add_space_forms(const json& request, const lac::SpaceChain& chain, json& result) {
+  if (request.contains("samples")) {
+    const auto n = sample_count(request["samples"]);
+    if (!n) return std::unexpected(n.error());
+    result["polyline"] = exchange::polyline_json(lac::sample(chain, *n));
+  }
+  for (const char* name : {"bezier", "nurbs"}) {
+    if (!request.contains(name)) continue;
+    const auto tolerance = tolerance_of(request[name], name);
+    if (!tolerance) return std::unexpected(tolerance.error());
+    const auto degree = degree_of(request[name], name);
+    if (!degree) return std::unexpected(degree.error());
+    auto made = lac::approximate_by_quintics(chain, *tolerance);
+    for (curve::Bezier3& piece : made.pieces)
+      if (*degree > 5) piece = elevate_degree(piece, *degree - 5);
+    json& form = result[name];
+    if (std::string_view(name) == "nurbs") {
+      const auto spline = curve::to_bspline(made.pieces, *tolerance);
+      if (!spline) return std::unexpected(spline.error());
+      form = exchange::to_json(*spline);
+    } else {
+      form = {{"type", "path"}, {"curves", json::array()}, {"closed", false}};
+      for (const curve::Bezier3& piece : made.pieces)
+        form["curves"].push_back(exchange::to_json(piece));
+    }
+    form["deviation"] = made.deviation;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> add_derived_forms(const json& request, json& result) {
@@ -104,6 +144,11 @@ Result<void> add_derived_forms(const json& request, json& result) {
   if (!result.contains("curve"))
     return fail(ErrorCode::unsupported, "the result holds no curve to convert",
                 "leave out samples, bezier and nurbs");
+  if (result["curve"]["type"] == "log-aesthetic-space") {
+    const auto chain = exchange::space_chain_from_json(result["curve"], "curve");
+    if (!chain) return std::unexpected(chain.error());
+    return add_space_forms(request, *chain, result);
+  }
   const auto path = exchange::path_from_json(result["curve"], "curve");
   if (!path) return std::unexpected(path.error());
   if (request.contains("samples"))

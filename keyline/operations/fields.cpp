@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json_space.h"
 
 namespace keyline::operations {
 namespace {
@@ -35,6 +36,15 @@ Result<void> check_curves(const json& value, const Field& field) {
   return {};
 }
 
+Result<void> check_points3(const json& value, const Field& field) {
+  if (!value.is_array()) return wrong(field, "a list of points");
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto p = exchange::point3_from_json(value[i], field.name + "[" + std::to_string(i) + "]");
+    if (!p) return std::unexpected(p.error());
+  }
+  return {};
+}
+
 Result<void> check_numbers(const json& value, const Field& field) {
   if (!value.is_array()) return wrong(field, "a list of numbers");
   for (std::size_t i = 0; i < value.size(); ++i) {
@@ -58,6 +68,10 @@ Result<void> check_type(const json& value, const Field& field) {
       return discard(exchange::point_from_json(value, field.name));
     case Field::Type::points:
       return discard(exchange::points_from_json(value, field.name, 1));
+    case Field::Type::point3:
+      return discard(exchange::point3_from_json(value, field.name));
+    case Field::Type::points3:
+      return check_points3(value, field);
     case Field::Type::numbers:
       return check_numbers(value, field);
     case Field::Type::number_or_numbers:

@@ -39,8 +39,10 @@ json type_schema(Field::Type type) {
     case Field::Type::string:
       return {{"type", "string"}};
     case Field::Type::point:
+    case Field::Type::point3:
       return point_schema();
     case Field::Type::points:
+    case Field::Type::points3:
       return list_of(point_schema());
     case Field::Type::numbers:
       return list_of({{"type", "number"}});

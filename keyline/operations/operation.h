@@ -27,6 +27,8 @@ struct Field {
     string,
     point,
     points,
+    point3,
+    points3,
     numbers,
     number_or_numbers,
     curve,

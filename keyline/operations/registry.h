@@ -11,10 +11,15 @@ Operation curve_analyze_operation();
 Operation curve_continuity_operation();
 Operation fair_operation();
 Operation fit_spline_operation();
+Operation lac_blend_operation();
 Operation lac_compound_operation();
 Operation lac_hermite_operation();
+Operation lac_quasi_operation();
 Operation lac_region_operation();
 Operation lac_segment_operation();
+Operation lac_space_operation();
+Operation lac_spline_operation();
+Operation lac_volume_operation();
 
 /// All of the above.
 std::vector<Operation> all_operations();
