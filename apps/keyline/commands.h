@@ -58,8 +58,21 @@ int run_analyze(const AnalyzeCommand& command);
 
 struct DrawCommand {
   CommonOptions common;
-  std::vector<std::string> points;
-  std::vector<double> alpha{-1};
+  std::vector<std::string> points;  ///< "x,y", or "x,y,z" with --space
+  std::vector<double> alpha;
+  std::optional<double> ratio;
+  std::string form;
+  int degree = 8;
+  std::string about;
+  std::vector<double> directions;
+  std::vector<double> curvatures;
+  std::optional<double> volume;
+  bool spline = false;
+  bool closed = false;
+  bool space = false;
+  double beta = -1;
+  double omega = 0;
+  std::string show;
 };
 int run_draw(const DrawCommand& command);
 

@@ -1,13 +1,16 @@
-#include <charconv>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "keyline/analysis/profile.h"
 #include "keyline/exchange/json_curve.h"
+#include "keyline/operations/draw_figure.h"
 #include "keyline/operations/operation.h"
+#include "keyline/report/html_report.h"
 
 #include "commands.h"
+#include "draw_request.h"
 #include "output.h"
 #include "terminal.h"
 
@@ -18,61 +21,114 @@ using core::ErrorCode;
 using core::Result;
 using nlohmann::json;
 
-Result<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    return core::fail(ErrorCode::bad_input, "\"" + std::string(text) + "\" is no number",
-                      "give points as x,y", "--points");
-  return value;
+/// One line per piece, and what the operation tells beside the curve.
+void print_summary(const json& result) {
+  const json& curve = result["curve"];
+  if (curve.contains("pieces")) {
+    fmt::print("{:>5} {:>8} {:>14} {:>14} {:>14}\n", "piece", "slope", "length", "curvature from",
+               "to");
+    int index = 0;
+    for (const json& piece : curve["pieces"]) {
+      const bool cusp = piece.contains("radius");
+      const json& ends = cusp ? piece["radius"] : piece["curvature"];
+      fmt::print("{:>5} {:>8.5g} {:>14.9g} {:>14.9g} {:>14.9g}{}\n", index++,
+                 piece["alpha"].get<double>(), piece["length"].get<double>(), ends[0].get<double>(),
+                 ends[1].get<double>(), cusp ? "  (radii)" : "");
+    }
+  }
+  std::string line;
+  for (const char* name : {"lambda", "nu", "theta", "volume", "deviation", "monotone", "lcg",
+                           "joint", "about", "slopes", "reversed"})
+    if (result.contains(name) && !result[name].is_null())
+      line += fmt::format("{}{} {}", line.empty() ? "" : "  ", name, result[name].dump());
+  if (result.contains("report"))
+    for (const json& span : result["report"]["overridden"])
+      line += fmt::format("{}span {} got slope -1", line.empty() ? "" : "  ", span["span"].dump());
+  if (!line.empty()) fmt::print("{}\n", line);
 }
 
-Result<json> points_of(const std::vector<std::string>& texts) {
-  json points = json::array();
-  for (const std::string& text : texts) {
-    json point = json::array();
-    std::size_t from = 0;
-    while (from <= text.size()) {
-      const std::size_t to = std::min(text.find(',', from), text.size());
-      const auto value = number(std::string_view(text).substr(from, to - from));
-      if (!value) return std::unexpected(value.error());
-      point.push_back(*value);
-      from = to + 1;
-    }
-    points.push_back(std::move(point));
-  }
-  return points;
+Result<std::optional<operations::RegionQuestion>> region_of(const DrawCommand& command,
+                                                            const json& request) {
+  const bool three = request.contains("points") && request["points"].size() == 3;
+  if (!three || command.spline || command.alpha.size() > 2) return std::nullopt;
+  const auto points = exchange::points_from_json(request["points"], "points", 3);
+  if (!points) return std::unexpected(points.error());
+  auto alpha = command.alpha;
+  if (alpha.empty()) alpha = {-1};
+  auto question = operations::region_question(*points, alpha, command.ratio.value_or(0.5));
+  if (!question) return std::unexpected(question.error());
+  return *question;
+}
+
+/// Figures in place of the bare curve where the format or --show asks for them.
+void add_figures(const DrawCommand& command, const document::Path& path,
+                 const operations::DrawShow& show,
+                 const std::optional<operations::RegionQuestion>& region, Writers& writers) {
+  operations::ReportOptions options;
+  options.title = "Curve from handles";
+  options.command = command.common.command_line;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  const auto picture = [=](auto write) -> Writer {
+    return [=]() -> Result<std::string> {
+      const auto drawing = operations::draw_picture(path, show, region, options);
+      if (!drawing) return std::unexpected(drawing.error());
+      return write(*drawing);
+    };
+  };
+  if (!command.show.empty())
+    writers[".svg"] = picture(
+        [](const figure::Drawing& d) -> Result<std::string> { return figure::write_svg(d); });
+  writers[".pdf"] = picture([](const figure::Drawing& d) { return figure::write_pdf(d); });
+  writers[".png"] = picture([](const figure::Drawing& d) { return figure::write_png(d); });
+  writers[".html"] = [=]() -> Result<std::string> {
+    const auto report = operations::draw_report(path, show, region, options);
+    if (!report) return std::unexpected(report.error());
+    return report::html_report(*report);
+  };
+}
+
+Result<Writers> writers_of(const DrawCommand& command, const json& request, const json& result) {
+  if (result["curve"]["type"] == "log-aesthetic-space")
+    return Writers{{".json", [curve = result["curve"]]() -> Result<std::string> {
+                      return curve.dump(1) + "\n";
+                    }}};
+  auto path = exchange::path_from_json(result["curve"], "curve");
+  if (!path) return std::unexpected(path.error());
+  const auto show = operations::parse_show(command.show);
+  if (!show) return std::unexpected(show.error());
+  const auto region = region_of(command, request);
+  if (!region) return std::unexpected(region.error());
+  if (show->region && !*region)
+    return core::fail(ErrorCode::bad_input, "a drawable region belongs to three handles",
+                      "give --points P0 P1 P2, or leave out region", "--show");
+  const double length = analysis::ArcLengthTable(analysis::view(*path)).length();
+  Writers writers =
+      curve_writers({{"", *path}}, command.common.tolerance.value_or(1e-5 * length), "");
+  add_figures(command, *path, *show, *region, writers);
+  return writers;
 }
 
 }  // namespace
 
 int run_draw(const DrawCommand& command) {
-  if (auto known = check_outputs(command.common, {".svg", ".json", ".csv"}); !known)
-    return report_failure(known.error());
-  const auto points = points_of(command.points);
-  if (!points) return report_failure(points.error());
-  if (command.alpha.size() != 1)
-    return report_failure({ErrorCode::bad_input, "one slope is wanted", "give one --alpha", ""});
-  const json request{{"points", *points}, {"alpha", command.alpha[0]}};
-  const auto result = operations::perform("lac.segment", request, {command.common.threads, {}});
+  const std::vector<std::string> known =
+      command.space ? std::vector<std::string>{".json"}
+                    : std::vector<std::string>{".svg", ".json", ".csv", ".pdf", ".png", ".html"};
+  if (auto can = check_outputs(command.common, known); !can) return report_failure(can.error());
+  const auto asked = draw_request(command);
+  if (!asked) return report_failure(asked.error());
+  const auto result =
+      operations::perform(asked->operation, asked->request, {command.common.threads, {}});
   if (!result) return report_failure(result.error());
-  auto path = exchange::path_from_json((*result)["curve"], "curve");
-  if (!path) return report_failure(path.error());
-  const double length = analysis::ArcLengthTable(analysis::view(*path)).length();
-  const Writers writers =
-      curve_writers({{"", std::move(*path)}}, command.common.tolerance.value_or(1e-5 * length), "");
-  if (auto done = write_outputs(command.common, writers); !done)
+  const auto writers = writers_of(command, asked->request, *result);
+  if (!writers) return report_failure(writers.error());
+  if (auto done = write_outputs(command.common, *writers); !done)
     return report_failure(done.error());
   if (command.common.json) {
     fmt::print("{}\n", result->dump());
-    return kDone;
+  } else if (!command.common.quiet) {
+    print_summary(*result);
   }
-  if (command.common.quiet) return kDone;
-  const json& piece = (*result)["curve"]["pieces"][0];
-  fmt::print("alpha {}  length {:.10g}  lambda {:.10g}  turning {:.10g}{}\n", piece["alpha"].dump(),
-             piece["length"].get<double>(), (*result)["lambda"].get<double>(),
-             (*result)["theta"].get<double>(),
-             (*result)["reversed"].get<bool>() ? "  (radius falls from P0 to P2)" : "");
   return kDone;
 }
 

@@ -88,6 +88,46 @@ CLI::App* add_fair(CLI::App& app, FairCommand& fair) {
   return sub;
 }
 
+CLI::App* add_draw(CLI::App& app, DrawCommand& draw) {
+  auto* sub = app.add_subcommand("draw", "a log-aesthetic curve from handles or through points");
+  sub->add_option(
+         "--points", draw.points,
+         "handles P0 P1 P2 as x,y; two ends with --directions or --volume; any number with "
+         "--spline; P0 T0 T2 P2 as x,y,z with --space")
+      ->required()
+      ->expected(1, 100000);
+  sub->add_option("--alpha", draw.alpha,
+                  "slope (default -1); two, as a0,a1, for a compound rhythm; one per span with "
+                  "--spline")
+      ->delimiter(',');
+  sub->add_option("--ratio", draw.ratio, "compound: share of the turning with the first slope");
+  sub->add_option("--form", draw.form,
+                  "quasi-log-aesthetic Bezier: taylor-angle taylor-arc discrete-angle discrete-arc "
+                  "rational-cubic best");
+  sub->add_option("--degree", draw.degree, "of the Bezier, 3 to 30")->capture_default_str();
+  sub->add_option("--about", draw.about, "Taylor: 0 to 1, where to expand; or auto");
+  sub->add_option("--directions", draw.directions,
+                  "start,end direction of travel in radians, in place of P1")
+      ->delimiter(',');
+  sub->add_option("--curvatures", draw.curvatures, "start,end signed curvature (G2)")
+      ->delimiter(',');
+  sub->add_option("--volume", draw.volume,
+                  "area over the chord, with one --directions value at the start");
+  sub->add_flag("--spline", draw.spline, "a G2 spline through all points");
+  sub->add_flag("--closed", draw.closed, "the spline returns to its first point");
+  sub->add_flag("--space", draw.space, "a space curve; see --points");
+  sub->add_option("--beta", draw.beta, "space: slope of the torsion graph")->capture_default_str();
+  sub->add_option("--omega", draw.omega, "space: rate of the radius of torsion")
+      ->capture_default_str();
+  sub->add_option("--show", draw.show,
+                  "figures in svg, pdf, png and html: comb,evolute,lcg,region");
+  add_common(*sub, draw.common);
+  sub->footer(
+      "Example: keyline draw --points 0,0 2,0 3,1.5 --alpha -1,1.5 --ratio 0.4 -o curve.svg\n"
+      "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report).");
+  return sub;
+}
+
 bool has_command(const CLI::App& app, const std::string& name) {
   for (const CLI::App* sub : app.get_subcommands({}))
     if (sub->get_name() == name) return true;
@@ -112,14 +152,7 @@ int run(int argc, char** argv) {
   analyze_sub->footer("Example: keyline analyze examples/clothoid.csv -o report.html");
 
   DrawCommand draw;
-  auto* draw_sub = app.add_subcommand("draw", "a curve from handles");
-  draw_sub->add_option("--points", draw.points, "handles P0 P1 P2 as x,y")
-      ->required()
-      ->expected(1, 64);
-  draw_sub->add_option("--alpha", draw.alpha, "slope of the logarithmic curvature graph")
-      ->delimiter(',');
-  add_common(*draw_sub, draw.common);
-  draw_sub->footer("Example: keyline draw --points 0,0 2,0 3,1.5 --alpha -1 -o curve.svg");
+  CLI::App* draw_sub = add_draw(app, draw);
 
   ConvertCommand convert;
   auto* convert_sub = app.add_subcommand("convert", "a curve from one format to another");
