@@ -90,13 +90,13 @@ Line handles(const std::vector<Point2>& p) { return {"", p, figure::kRaw, 1, {3,
 
 // ---- The figures --------------------------------------------------------------------------
 
-const std::vector<Point2> kTriangle{{0, 0}, {1.15, 0.95}, {2.4, 0.55}};
+const std::vector<Point2> kTriangle{{0, 0}, {0.42, 1.05}, {2.2, 0.75}};
 
 /// One triangle, every slope that meets it.
 Drawing family() {
   Scene scene{"One triangle, many slopes", {handles(kTriangle)}, kTriangle};
   int i = 0;
-  for (const double alpha : {-3.0, -1.0, 0.0, 1.0, 2.0, 4.0}) {
+  for (const double alpha : {-1.0, -0.4, 0.5, 1.4, 2.0}) {
     const auto solved = lac::solve_g1(kTriangle[0], kTriangle[1], kTriangle[2], alpha);
     if (!solved) continue;
     scene.lines.push_back({"slope " + number(alpha), sample(solved->segment, 200),
@@ -235,10 +235,11 @@ Drawing space() {
     scene.width = 400;
     int i = 0;
     for (const double beta : {-2.0, -1.0, 1.0}) {
-      const auto solved = value(
-          lac::solve_g1_space({{0, 0, 0}, {3, 1, 0.6}, {1, 0, 0}, {0.6, 1, 0.9}}, -1, beta, 0.15));
+      const auto solved =
+          lac::solve_g1_space({{0, 0, 0}, {3, 1, 0.5}, {1, 0, 0}, {1, 0.6, 0.5}}, -1, beta, 0.1);
+      if (!solved) continue;
       Line line{"β = " + number(beta), {}, figure::palette(static_cast<std::size_t>(i++))};
-      for (const core::Point3 p : sample(solved.chain, 120))
+      for (const core::Point3 p : sample(solved->chain, 120))
         line.points.push_back({p.x, above ? p.z : p.y});
       scene.lines.push_back(std::move(line));
     }
