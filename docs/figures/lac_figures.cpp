@@ -12,8 +12,6 @@
 #include "keyline/lac/compound.h"
 #include "keyline/lac/hermite.h"
 #include "keyline/lac/region.h"
-#include "keyline/lac/space.h"
-#include "keyline/lac/space_hermite.h"
 #include "keyline/lac/spline.h"
 
 namespace {
@@ -187,7 +185,7 @@ Drawing compound(double alpha0, double alpha1, double ratio) {
 
 Drawing compounds() {
   std::vector<Drawing> all;
-  for (const auto& [a0, a1] : {std::pair{-1.0, 1.5}, {1.5, -1.0}, {-1.0, -2.0}, {0.5, 2.0}})
+  for (const auto& [a0, a1] : {std::pair{-1.0, 1.5}, {1.5, -1.0}, {-1.0, 0.5}, {0.5, 2.0}})
     all.push_back(compound(a0, a1, 0.5));
   return figure::tile(all, 2);
 }
@@ -227,27 +225,6 @@ Drawing spline() {
   return draw(scene);
 }
 
-/// From the front and from above, for three rates of torsion.
-Drawing space() {
-  std::vector<Drawing> views;
-  for (const bool above : {false, true}) {
-    Scene scene{above ? "From above (x, z)" : "From the front (x, y)", {}, {}};
-    scene.width = 400;
-    int i = 0;
-    for (const double beta : {-2.0, -1.0, 1.0}) {
-      const auto solved =
-          lac::solve_g1_space({{0, 0, 0}, {3, 1, 0.5}, {1, 0, 0}, {1, 0.6, 0.5}}, -1, beta, 0.1);
-      if (!solved) continue;
-      Line line{"β = " + number(beta), {}, figure::palette(static_cast<std::size_t>(i++))};
-      for (const core::Point3 p : sample(solved->chain, 120))
-        line.points.push_back({p.x, above ? p.z : p.y});
-      scene.lines.push_back(std::move(line));
-    }
-    views.push_back(draw(scene));
-  }
-  return figure::tile(views, 2);
-}
-
 void write(const std::string& folder, const char* name, const Drawing& drawing) {
   std::ofstream(folder + "/" + name) << figure::write_svg(drawing);
 }
@@ -266,6 +243,5 @@ int main(int argc, char** argv) {
   write(argv[1], "lac-ratio.svg", ratios());
   write(argv[1], "lac-s-shape.svg", s_shapes());
   write(argv[1], "lac-spline.svg", spline());
-  write(argv[1], "lac-space.svg", space());
   return 0;
 }
