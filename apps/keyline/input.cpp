@@ -32,12 +32,6 @@ using core::Result;
 
 constexpr std::uintmax_t kLargestFile = 512u << 20;
 
-std::string extension_of(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-  return extension;
-}
-
 template <class T>
 Result<T> in_file(Result<T> result, const std::string& file) {
   if (result || result.error().path.starts_with(file)) return result;
@@ -220,6 +214,12 @@ Result<document::Document> document_of_svg(const std::string& text, const std::s
 }
 
 }  // namespace
+
+std::string extension_of(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
+  return extension;
+}
 
 InputKind kind_of(const std::string& file) {
   const std::string extension = extension_of(file);

@@ -15,6 +15,9 @@ namespace keyline::app {
 /// What an input file holds: points still to be acquired, or curves.
 enum class InputKind { points, json, svg };
 
+/// ".svg" and the like, in lower case; empty where the name has none.
+std::string extension_of(const std::string& file);
+
 InputKind kind_of(const std::string& file);
 
 /// Key-lines to fair, one per curve of the input. Several files are parts of one.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -15,18 +14,14 @@
 #include "keyline/exchange/points_writer.h"
 #include "keyline/exchange/svg_writer.h"
 
+#include "input.h"
+
 namespace keyline::app {
 namespace {
 
 using core::Result;
 
 constexpr int kSamples = 1001;
-
-std::string extension_of(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-  return extension;
-}
 
 nlohmann::json exact_json(const std::vector<OutputCurve>& curves) {
   const auto one = [](const document::Path& path) {
