@@ -53,21 +53,22 @@ int run_batch(const CommonOptions& common) {
   return kDone;
 }
 
-int run_operations(const CommonOptions& common, const std::string& name) {
-  if (name.empty()) {
+int run_operations(const OperationsCommand& command) {
+  if (command.name.empty()) {
     nlohmann::json list = nlohmann::json::array();
     for (const auto& operation : operations::operations()) {
-      if (common.json)
+      if (command.common.json)
         list.push_back({{"name", operation.name}, {"summary", operation.summary}});
       else
         fmt::print("{:<18} {}\n", operation.name, operation.summary);
     }
-    if (common.json) fmt::print("{}\n", list.dump());
+    if (command.common.json) fmt::print("{}\n", list.dump());
     return kDone;
   }
-  const operations::Operation* operation = operations::find_operation(name);
+  const operations::Operation* operation = operations::find_operation(command.name);
   if (!operation)
-    return report_failure({core::ErrorCode::bad_input, "there is no operation \"" + name + "\"",
+    return report_failure({core::ErrorCode::bad_input,
+                           "there is no operation \"" + command.name + "\"",
                            "keyline operations lists them", ""});
   fmt::print("{}\n", operations::request_schema(*operation).dump(2));
   return kDone;

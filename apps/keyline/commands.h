@@ -83,6 +83,11 @@ struct ConvertCommand {
 int run_convert(const ConvertCommand& command);
 
 int run_batch(const CommonOptions& common);
-int run_operations(const CommonOptions& common, const std::string& name);
+
+struct OperationsCommand {
+  CommonOptions common;
+  std::string name;  ///< of the one to describe; empty: list all
+};
+int run_operations(const OperationsCommand& command);
 
 }  // namespace keyline::app

@@ -1,0 +1,187 @@
+#include "command_line.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.h"
+
+namespace keyline::app {
+namespace {
+
+/// What runs a command once its options are parsed and the line that was typed is known.
+template <class Options>
+std::function<int(const std::string&)> runs(std::shared_ptr<Options> options,
+                                            int (*run)(const Options&)) {
+  return [options = std::move(options), run](const std::string& typed) {
+    options->common.command_line = typed;
+    return run(*options);
+  };
+}
+
+void add_common(CLI::App& app, CommonOptions& common, bool outputs = true) {
+  if (outputs)
+    app.add_option("-o,--output", common.outputs,
+                   "file to write; may be repeated; the extension chooses the format")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+  app.add_flag("--json", common.json, "print the result object on standard output");
+  app.add_option("--tolerance", common.tolerance, "largest deviation, in the input's unit")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--seed", common.seed, "of everything random; the same seed, the same result")
+      ->capture_default_str();
+  app.add_option("--threads", common.threads, "0: all; the result does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--quiet", common.quiet, "no messages but errors");
+}
+
+void add_input(CLI::App& app, InputOptions& input) {
+  app.add_option("INPUT", input.files,
+                 "points (csv, tsv, dat, xyz), curves (json, svg); - for "
+                 "standard input; several files are parts of one key-line")
+      ->required()
+      ->type_name("FILE");
+  const char* points = "Reading points";
+  app.add_option("--columns", input.columns, "names or numbers of the columns: x y [z]")
+      ->expected(2, 3)
+      ->delimiter(',')
+      ->group(points);
+  app.add_option("--weights", input.weights, "column of weights")->group(points);
+  app.add_option("--id", input.id, "column that tells curves apart")->group(points);
+  app.add_option("--select", input.select, "take only the curve of this id or name")->group(points);
+  app.add_option("--section", input.section, "cut a cloud or lattice by a plane, as in y=0")
+      ->group(points);
+  app.add_option("--band", input.band, "half thickness of the section of a cloud")
+      ->check(CLI::PositiveNumber)
+      ->group(points);
+  app.add_option("--row", input.row, "row of a lattice of range data, from 0")->group(points);
+  app.add_option("--column", input.column, "column of a lattice, from 0")->group(points);
+  app.add_option("--noise", input.noise, "standard deviation of the points; else estimated")
+      ->check(CLI::NonNegativeNumber)
+      ->group(points);
+  auto* closed = app.add_flag("--closed", input.closed, "the points are a closed outline");
+  auto* open = app.add_flag("--open", input.open, "they are not");
+  closed->excludes(open)->group(points);
+  open->group(points);
+  app.add_flag("--keep-order", input.keep_order, "never put points in another order")
+      ->group(points);
+  app.add_flag("--keep-strays", input.keep_strays, "never drop a point as stray")->group(points);
+  app.add_option("--unit", input.unit, "of the coordinates, for drawings: mm, cm, m, in, pt, px")
+      ->group(points);
+}
+
+Command add_fair(CLI::App& app) {
+  auto options = std::make_shared<FairCommand>();
+  FairCommand& fair = *options;
+  auto* sub =
+      app.add_subcommand("fair", "the main job: points or a curve in, a faired key-line out");
+  add_input(*sub, fair.input);
+  add_common(*sub, fair.common);
+  sub->add_option("--pieces", fair.pieces, "wanted number of pieces; 0: as few as possible")
+      ->check(CLI::Range(0, 400));
+  sub->add_option("--clamp", fair.clamp,
+                  "hold ends: start:G1,end:G2 (G0 position, G1 direction, "
+                  "G2 curvature)");
+  sub->add_option("--region", fair.region, "a:b, fair only this part of the length (0 to 1)");
+  sub->add_option("--interpretation", fair.interpretations,
+                  "PIECE:RHYTHM or PIECE:slope=NUMBER, pieces counted from 0; rhythms: straight "
+                  "arc minus zero plus plus+minus minus+plus")
+      ->allow_extra_args(false);
+  sub->add_option("--must-pass", fair.must_pass, "indices of points to pass, from 0")
+      ->delimiter(',');
+  sub->add_flag("!--no-keep-corners,--keep-corners", fair.keep_corners,
+                "corners end chains (default)");
+  sub->add_option("--order", fair.order, "of the spline, 4 to 6")
+      ->check(CLI::Range(4, 6))
+      ->capture_default_str();
+  sub->footer(
+      "Example: keyline fair examples/bonnet-scan.csv -o faired.svg -o report.html\n"
+      "Formats: svg, json (the exact chain), csv (samples), html (report), pdf, png.");
+  return {sub, runs(options, run_fair)};
+}
+
+Command add_draw(CLI::App& app) {
+  auto options = std::make_shared<DrawCommand>();
+  DrawCommand& draw = *options;
+  auto* sub = app.add_subcommand("draw", "a log-aesthetic curve from handles or through points");
+  sub->add_option(
+         "--points", draw.points,
+         "handles P0 P1 P2 as x,y; two ends with --directions or --volume; any number with "
+         "--spline; P0 T0 T2 P2 as x,y,z with --space")
+      ->required()
+      ->expected(1, 100000);
+  sub->add_option("--alpha", draw.alpha,
+                  "slope (default -1); two, as a0,a1, for a compound rhythm; one per span with "
+                  "--spline")
+      ->delimiter(',');
+  sub->add_option("--ratio", draw.ratio, "compound: share of the turning with the first slope");
+  sub->add_option("--form", draw.form,
+                  "quasi-log-aesthetic Bezier: taylor-angle taylor-arc discrete-angle discrete-arc "
+                  "rational-cubic best");
+  sub->add_option("--degree", draw.degree, "of the Bezier, 3 to 30")->capture_default_str();
+  sub->add_option("--about", draw.about, "Taylor: 0 to 1, where to expand; or auto");
+  sub->add_option("--directions", draw.directions,
+                  "start,end direction of travel in radians, in place of P1")
+      ->delimiter(',');
+  sub->add_option("--curvatures", draw.curvatures, "start,end signed curvature (G2)")
+      ->delimiter(',');
+  sub->add_option("--volume", draw.volume,
+                  "area over the chord, with one --directions value at the start");
+  sub->add_flag("--spline", draw.spline, "a G2 spline through all points");
+  sub->add_flag("--closed", draw.closed, "the spline returns to its first point");
+  sub->add_flag("--space", draw.space, "a space curve; see --points");
+  sub->add_option("--beta", draw.beta, "space: slope of the torsion graph")->capture_default_str();
+  sub->add_option("--omega", draw.omega, "space: rate of the radius of torsion")
+      ->capture_default_str();
+  sub->add_option("--show", draw.show,
+                  "figures in svg, pdf, png and html: comb,evolute,lcg,region");
+  add_common(*sub, draw.common);
+  sub->footer(
+      "Example: keyline draw --points 0,0 2,0 3,1.5 --alpha -1,1.5 --ratio 0.4 -o curve.svg\n"
+      "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report).");
+  return {sub, runs(options, run_draw)};
+}
+
+Command add_analyze(CLI::App& app) {
+  auto options = std::make_shared<AnalyzeCommand>();
+  auto* sub = app.add_subcommand("analyze", "curvature, rhythm and character of a curve");
+  add_input(*sub, options->input);
+  add_common(*sub, options->common);
+  sub->footer("Example: keyline analyze examples/clothoid.csv -o report.html");
+  return {sub, runs(options, run_analyze)};
+}
+
+Command add_convert(CLI::App& app) {
+  auto options = std::make_shared<ConvertCommand>();
+  auto* sub = app.add_subcommand("convert", "a curve from one format to another");
+  add_input(*sub, options->input);
+  add_common(*sub, options->common);
+  sub->footer("Example: keyline convert faired.json -o faired.svg --tolerance 0.001");
+  return {sub, runs(options, run_convert)};
+}
+
+Command add_batch(CLI::App& app) {
+  auto options = std::make_shared<CommonOptions>();
+  auto* sub = app.add_subcommand(
+      "batch", "requests as lines of JSON on standard input, answers in the same order");
+  add_common(*sub, *options, false);
+  return {sub, [options](const std::string&) { return run_batch(*options); }};
+}
+
+Command add_operations(CLI::App& app) {
+  auto options = std::make_shared<OperationsCommand>();
+  auto* sub = app.add_subcommand("operations", "what can be requested; with a name, its schema");
+  sub->add_option("NAME", options->name, "of an operation");
+  add_common(*sub, options->common, false);
+  return {sub, runs(options, run_operations)};
+}
+
+}  // namespace
+
+std::vector<Command> add_commands(CLI::App& app) {
+  return {add_fair(app),    add_analyze(app), add_draw(app),
+          add_convert(app), add_batch(app),   add_operations(app)};
+}
+
+}  // namespace keyline::app
