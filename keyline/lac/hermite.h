@@ -43,7 +43,7 @@ struct SegmentSolution {
 /// Fails: bad_input (not finite, P0 = P2), undrawable (the chord angle is outside the drawable
 /// region, see region.h; the hint names the nearest chord angle and the nearest alpha that serve),
 /// undrawable as well where the ratio of the curvatures would leave the range of doubles (alpha
-/// within 0.06 of 0 or 1, close to the region's border).
+/// within 0.06 of 0 or 1, close to the region's border; solve_g1_chain, clamped.h, serves there).
 core::Result<SegmentSolution> solve_g1(core::Point2 p0, core::Point2 p1, core::Point2 p2,
                                        double alpha);
 

@@ -1,6 +1,6 @@
 #include "keyline/exchange/json_curve.h"
+#include "keyline/lac/clamped.h"
 #include "keyline/lac/g2_hermite.h"
-#include "keyline/lac/hermite.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
 
@@ -11,14 +11,15 @@ using core::Result;
 using nlohmann::json;
 
 Result<json> with_tangents(const core::Pose2& start, const core::Pose2& end, double alpha) {
-  const auto solved = lac::solve_g1_directions(start, end, alpha);
+  const auto solved = lac::solve_g1_directions_chain(start, end, alpha);
   if (!solved) return std::unexpected(solved.error());
-  const lac::Segment& segment = solved->segment;
-  const bool inflects = segment.curvature_start * segment.curvature_end < 0;
-  return json{{"curve", exchange::to_json(document::PlanarCurve{lac::chain_of(segment)})},
-              {"theta", lac::total_turning(segment)},
+  const lac::Piece& first = solved->chain.pieces.front();
+  const bool inflects = first.curvature_start * first.curvature_end < 0;
+  return json{{"curve", exchange::to_json(document::PlanarCurve{solved->chain})},
+              {"theta", lac::total_turning(solved->chain)},
               {"shape", inflects ? "S" : "C"},
-              {"reversed", solved->reversed}};
+              {"reversed", solved->reversed},
+              {"clamped", solved->clamped}};
 }
 
 Result<json> with_curvatures(const lac::CurvatureElement& start, const lac::CurvatureElement& end,

@@ -1,6 +1,5 @@
 #include "keyline/exchange/json_curve.h"
-#include "keyline/lac/chain.h"
-#include "keyline/lac/hermite.h"
+#include "keyline/lac/clamped.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
 
@@ -11,14 +10,14 @@ core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) 
   const auto handles = three_handles(request);
   if (!handles) return std::unexpected(handles.error());
   const auto& [p0, p1, p2] = *handles;
-  const auto solved = lac::solve_g1(p0, p1, p2, number_or(request, "alpha", -1));
+  const auto solved = lac::solve_g1_chain(p0, p1, p2, number_or(request, "alpha", -1));
   if (!solved) return std::unexpected(solved.error());
-  return nlohmann::json{
-      {"curve", exchange::to_json(document::PlanarCurve{lac::chain_of(solved->segment)})},
-      {"lambda", solved->lambda},
-      {"theta", solved->turning},
-      {"chord_angle", solved->chord_angle},
-      {"reversed", solved->reversed}};
+  return nlohmann::json{{"curve", exchange::to_json(document::PlanarCurve{solved->chain})},
+                        {"lambda", solved->lambda},
+                        {"theta", solved->turning},
+                        {"chord_angle", solved->chord_angle},
+                        {"reversed", solved->reversed},
+                        {"clamped", solved->clamped}};
 }
 
 }  // namespace
