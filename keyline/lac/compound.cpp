@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/arm.h"
 #include "keyline/lac/chord_search.h"
 #include "keyline/numeric/roots.h"
@@ -174,11 +174,7 @@ bool is_valid(const CompoundRhythm& r) {
          r.turning_share < 1;
 }
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
+std::string number(double x) { return core::number_text(x, 9); }
 
 /// The rhythm on the way from the given one to a full region (sharp slope at most 1, flat one in
 /// [0, 1]) that first holds the chord angle psi >= theta/2.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/g2_shooting.h"
 #include "keyline/lac/hermite.h"
 #include "keyline/lac/piece_shape.h"
@@ -19,17 +19,11 @@ using core::Vector2;
 using detail::ShortChain;
 using detail::UnitG2;
 
-constexpr double kWildTurning = 1.5 * core::kPi;
-constexpr double kWildLength = 12;
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
-
 /// Best solution so far, in units of the chord.
 struct Best {
+  std::optional<Segment> one;  ///< the segment between the poses without regard to curvature
+  double wild_turning = 1.5 * core::kPi;  ///< of a piece, and
+  double wild_length = 12;                ///< of the chain, from which on it does not count
   std::optional<G2Solution> solution;
   int starts = 0;
 
@@ -45,18 +39,31 @@ struct Best {
   }
 };
 
+/// A start for the request: what counts as wild or astray is measured by the one segment.
+Best best_for(UnitG2& request) {
+  Best best;
+  const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
+  if (!one) return best;
+  best.one = one->segment;
+  best.wild_turning =
+      std::max(best.wild_turning, 1.25 * detail::absolute_turning(piece_of(one->segment)));
+  best.wild_length = std::max(best.wild_length, 2 * one->segment.length);
+  request.longest = std::max(request.longest, 2.5 * one->segment.length);
+  return best;
+}
+
 /// Measures a chain of unit chord; empty where it counts as wild.
-std::optional<G2Solution> measured(Chain chain, double residual) {
+std::optional<G2Solution> measured(const Best& best, Chain chain, double residual) {
   G2Solution s;
   double length = 0;
   for (const Piece& piece : chain.pieces) {
     const double turned = detail::absolute_turning(piece);
-    if (!(turned <= kWildTurning)) return std::nullopt;
+    if (!(turned <= best.wild_turning)) return std::nullopt;
     s.absolute_turning += turned;
     s.bending_energy += detail::bending_energy(piece);
     length += piece.length;
   }
-  if (!(length <= kWildLength)) return std::nullopt;
+  if (!(length <= best.wild_length)) return std::nullopt;
   s.chain = std::move(chain);
   s.residual = residual;
   return s;
@@ -76,7 +83,7 @@ void try_start(const UnitG2& request, const ShortChain& start, Best& best) {
   double residual = 0;
   const auto found = detail::shoot(request, start, &residual);
   if (!found) return;
-  if (auto s = measured(chain_of(request, *found), residual)) best.offer(std::move(*s));
+  if (auto s = measured(best, chain_of(request, *found), residual)) best.offer(std::move(*s));
 }
 
 /// Keeps a guessed curvature usable where curvature must not change sign.
@@ -106,9 +113,8 @@ void search_two(const UnitG2& request, Best& best) {
 }
 
 /// The piece between the poses without regard to curvature, or an arc about as long.
-Piece between(const UnitG2& request) {
-  const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
-  if (one) return piece_of(one->segment);
+Piece between(const UnitG2& request, const Best& best) {
+  if (best.one) return piece_of(*best.one);
   const double turning = request.to - request.from;
   const double h = std::min(std::abs(turning) / 2, 2.5);
   const double length = h > 0 ? h / std::sin(h) : 1;
@@ -116,7 +122,7 @@ Piece between(const UnitG2& request) {
 }
 
 void search_three(const UnitG2& request, Best& best) {
-  const Piece middle = between(request);
+  const Piece middle = between(request, best);
   for (const double outer : {1.0, 0.5, 0.2, 0.08, 0.02}) {
     for (const double stretch : {1.0, 1.3, 2.0}) {
       ShortChain start;
@@ -134,7 +140,8 @@ void search_three(const UnitG2& request, Best& best) {
 
 /// From the one segment between the poses, cut in three: its end curvatures are moved to the ones
 /// asked for, step by step.
-void follow_from_one(const UnitG2& request, const Segment& one, double outer, Best& best) {
+void follow_from_one(const UnitG2& request, double outer, Best& best) {
+  const Segment& one = *best.one;
   const Piece whole = piece_of(one);
   const double share = outer / (1 + 2 * outer);
   ShortChain chain;
@@ -146,7 +153,7 @@ void follow_from_one(const UnitG2& request, const Segment& one, double outer, Be
   ++best.starts;
   double gone = 0;
   double residual = 0;
-  for (double step = 0.25; gone < 1 && step > 0.02;) {
+  for (double step = 0.25; gone < 1 && step > 0.005;) {
     const double next = std::min(1.0, gone + step);
     UnitG2 between = request;
     between.curvature_start = std::lerp(one.curvature_start, request.curvature_start, next);
@@ -161,34 +168,32 @@ void follow_from_one(const UnitG2& request, const Segment& one, double outer, Be
     gone = next;
   }
   if (gone < 1) return;
-  if (auto s = measured(chain_of(request, chain), residual)) best.offer(std::move(*s));
+  if (auto s = measured(best, chain_of(request, chain), residual)) best.offer(std::move(*s));
 }
 
 /// Where no start led to an answer.
 void search_by_following(const UnitG2& request, Best& best) {
-  const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
-  if (!one) return;
-  for (const double outer : {0.5, 0.2, 0.08, 0.03, 0.01}) {
-    follow_from_one(request, one->segment, outer, best);
+  if (!best.one) return;
+  for (const double outer : {0.5, 0.2, 0.08, 0.03, 0.01, 0.003, 0.001, 0.0003}) {
+    follow_from_one(request, outer, best);
     if (best.solution) return;
   }
 }
 
 /// The single piece, where it happens to have the curvatures asked for.
-std::optional<G2Solution> single(const UnitG2& request) {
-  const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
-  if (!one) return std::nullopt;
-  const Piece piece = piece_of(one->segment);
+std::optional<G2Solution> single(const UnitG2& request, const Best& best) {
+  if (!best.one) return std::nullopt;
+  const Piece piece = piece_of(*best.one);
   const double k = std::max(std::abs(piece.curvature_start), std::abs(piece.curvature_end));
   const double miss = std::max(std::abs(piece.curvature_start - request.curvature_start),
                                std::abs(piece.curvature_end - request.curvature_end));
   if (!(miss <= 1e-12 * k)) return std::nullopt;
-  return measured(Chain{{{}, request.from}, {piece}, false}, 0);
+  return measured(best, Chain{{{}, request.from}, {piece}, false}, 0);
 }
 
-Best search(const UnitG2& request) {
-  Best best;
-  if (auto one = single(request)) {
+Best search(UnitG2 request) {
+  Best best = best_for(request);
+  if (auto one = single(request, best)) {
     best.offer(std::move(*one));
     return best;
   }
@@ -215,8 +220,8 @@ std::unexpected<core::Failure> no_chain(const UnitG2& request, double chord, con
   const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
   if (one) {
     hint = "one segment serves with the curvatures " +
-           number(one->segment.curvature_start / chord) + " and " +
-           number(one->segment.curvature_end / chord);
+           core::number_text(one->segment.curvature_start / chord, 9) + " and " +
+           core::number_text(one->segment.curvature_end / chord, 9);
   }
   if (request.alpha != -1) {
     UnitG2 clothoid = request;

@@ -107,17 +107,25 @@ double allowed_share(const ShortChain& chain, const Variables& variables, const 
   return share;
 }
 
+/// Whether the longer arm of a piece bends more than largest_bend allows.
+bool astray(double alpha, double k0, double k1, double length) {
+  const double high = std::max(std::abs(k0), std::abs(k1)) * length;
+  if (high < largest_bend(alpha)) return false;
+  if (!(alpha < 0 && k0 * k1 < 0)) return true;
+  const double low = std::min(std::abs(k0), std::abs(k1)) * length;
+  return !(high < largest_bend(alpha) * (1 + std::pow(low / high, -alpha)));
+}
+
 bool within_reason(const UnitG2& request, const ShortChain& chain) {
   double total = 0;
   for (int i = 0; i < chain.pieces; ++i) {
     const double length = chain.length_of(i);
-    if (!(length > 1e-7 && length < 24)) return false;
-    const double k = std::max(std::abs(chain.curvature[i]), std::abs(chain.curvature[i + 1]));
-    if (!(k * length < largest_bend(request.alpha))) return false;
+    if (!(length > 1e-7 && length < request.longest)) return false;
+    if (astray(request.alpha, chain.curvature[i], chain.curvature[i + 1], length)) return false;
     if (request.alpha >= 0 && !(chain.curvature[i + 1] != 0)) return false;
     total += length;
   }
-  return total < 24;
+  return total < request.longest;
 }
 
 }  // namespace

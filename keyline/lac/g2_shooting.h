@@ -15,6 +15,7 @@ struct UnitG2 {
   double curvature_start = 0;
   double curvature_end = 0;
   double alpha = -1;
+  double longest = 24;  ///< a chain that becomes longer on the way counts as astray
 };
 
 /// Three unknowns decide a chain of two pieces (curvature at the joint, both lengths) or of three

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/arm.h"
 #include "keyline/lac/chord_kernel.h"
 #include "keyline/lac/one_signed.h"
@@ -19,11 +19,7 @@ using core::Vector2;
 /// Below this turning a curve differs from its chord by less than rounding.
 constexpr double kStraight = 4e-16;
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
-  return text;
-}
+std::string number(double x) { return core::number_text(x, 9); }
 
 std::unexpected<core::Failure> undrawable(double alpha, double theta, double psi, double sign) {
   const double limit = detail::limit_chord_angle(alpha, theta);

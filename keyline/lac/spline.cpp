@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/g2_hermite.h"
 #include "keyline/lac/piece_shape.h"
 #include "keyline/lac/spline_local.h"
@@ -24,11 +24,7 @@ using detail::SplineState;
 constexpr double kWildTurning = 1.5 * core::kPi;
 constexpr double kWildLength = 12;
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
+std::string number(double x) { return core::number_text(x, 6); }
 
 std::string item(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";

@@ -110,6 +110,23 @@ TEST(SolveG2, MeetsRandomRequestsThatMayInflect) {
   EXPECT_EQ(solved, count);
 }
 
+TEST(SolveG2, MeetsWildRequests) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double alpha = i % 2 == 0 ? -1 : -5 + 4.9 * any(random);
+    const auto start = element(0, 0, 3.1 * any(random), 10 * any(random));
+    const auto end = element(1, 0, 3.1 * any(random), 10 * any(random));
+    const auto solution = solve_g2(start, end, alpha);
+    ASSERT_TRUE(solution) << i << ' ' << alpha << solution.error().message;
+    ASSERT_LT(misfit(solution->chain, start, end), 1e-12) << i;
+    // No wilder than the one segment that has no regard to curvature.
+    const auto one = solve_g1_directions(start.pose, end.pose, alpha);
+    ASSERT_TRUE(one);
+    EXPECT_LE(arc_length(solution->chain), std::max(12.0, 2 * one->segment.length));
+  }
+}
+
 TEST(SolveG2, MeetsWhateverIsAsked) {
   EXPECT_TRUE(rc::check([] {
     const auto fraction = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
