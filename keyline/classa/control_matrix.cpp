@@ -1,0 +1,97 @@
+#include "keyline/classa/control_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+
+#include "keyline/core/angle.h"
+
+namespace keyline::classa {
+
+using core::ErrorCode;
+using core::fail;
+using core::Point2;
+using core::Vector2;
+using Complex = std::complex<double>;
+
+bool is_class_a(const ControlMatrix& m, double slack) {
+  const double c = std::cos(m.alpha);
+  return c > 0 && m.s > 0 && (m.s >= 1 / c - slack || m.s <= c + slack);
+}
+
+double plane_distance(const ControlMatrix& a, const ControlMatrix& b) {
+  return std::hypot(std::abs(a.alpha) - std::abs(b.alpha), a.s - b.s);
+}
+
+core::Result<void> validate(const MatrixCurve& c) {
+  if (!is_finite(c.start))
+    return fail(ErrorCode::bad_input, "the start is not finite", {}, "start");
+  if (!is_finite(c.tangent) || norm(c.tangent) == 0 || !std::isfinite(norm(c.tangent)))
+    return fail(ErrorCode::bad_input, "the tangent has no direction",
+                "give a finite vector that is not zero", "tangent");
+  if (!(std::isfinite(c.beta) && c.beta > 0))
+    return fail(ErrorCode::bad_input, "beta has to be positive", {}, "beta");
+  if (!(std::abs(c.matrix.alpha) < core::kPi))
+    return fail(ErrorCode::bad_input, "alpha has to lie between -pi and pi", {}, "alpha");
+  if (!(std::isfinite(c.matrix.s) && c.matrix.s > 0))
+    return fail(ErrorCode::bad_input, "s has to be positive", {}, "s");
+  if (c.degree < 1 || c.degree > curve::kMaxBezierDegree)
+    return fail(ErrorCode::bad_input,
+                "the degree has to lie between 1 and " + std::to_string(curve::kMaxBezierDegree),
+                {}, "degree");
+  return {};
+}
+
+curve::Bezier2 to_bezier(const MatrixCurve& c) {
+  curve::Bezier2 bezier;
+  bezier.control.push_back(c.start);
+  Vector2 edge = c.beta * c.tangent;
+  for (int i = 0; i < c.degree; ++i) {
+    bezier.control.push_back(bezier.control.back() + edge);
+    edge = c.matrix.s * core::rotate_ccw(edge, c.matrix.alpha);
+  }
+  return bezier;
+}
+
+Vector2 end_in_frame(const ControlMatrix& m, int degree) {
+  const Complex z = std::polar(m.s, m.alpha);
+  Complex sum = 0;
+  for (int i = 0; i < degree; ++i) sum = sum * z + 1.0;
+  return {sum.real(), sum.imag()};
+}
+
+double end_angle(const ControlMatrix& m, int degree) {
+  if ((degree - 1) * std::abs(m.alpha) <= core::kPi)
+    return core::direction_of(end_in_frame(m, degree));
+  // (z^n - 1)/(z - 1) with the powers taken out that turn more than half way round.
+  if (m.s <= 1) {
+    return std::arg(1.0 - std::polar(std::pow(m.s, degree), degree * m.alpha)) -
+           std::arg(1.0 - std::polar(m.s, m.alpha));
+  }
+  return (degree - 1) * m.alpha +
+         std::arg(1.0 - std::polar(std::pow(m.s, -degree), -degree * m.alpha)) -
+         std::arg(1.0 - std::polar(1 / m.s, -m.alpha));
+}
+
+std::vector<std::optional<ControlMatrix>> ratios(std::span<const Point2> control) {
+  std::vector<Vector2> edges;
+  double longest = 0;
+  for (std::size_t i = 0; i + 1 < control.size(); ++i) {
+    edges.push_back(control[i + 1] - control[i]);
+    longest = std::max(longest, norm(edges.back()));
+  }
+  const double least = 1e-12 * longest;
+  std::vector<std::optional<ControlMatrix>> r;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double before = norm(edges[i]);
+    const double after = norm(edges[i + 1]);
+    if (before > least && after > least)
+      r.push_back(ControlMatrix{core::angle_between(edges[i], edges[i + 1]), after / before});
+    else
+      r.push_back(std::nullopt);
+  }
+  return r;
+}
+
+}  // namespace keyline::classa

@@ -1,0 +1,55 @@
+#include "keyline/classa/plane_of.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace keyline::classa::detail {
+
+using core::Point3;
+using core::Vector3;
+
+namespace {
+
+/// A unit vector at right angles to the unit vector a.
+Vector3 any_normal(Vector3 a) {
+  const Vector3 axis = std::abs(a.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
+  const Vector3 n = cross(a, axis);
+  return n / norm(n);
+}
+
+template <class Length>
+Vector3 longest(std::span<const Point3> points, const Length& length) {
+  Vector3 best;
+  double most = -1;
+  for (const Point3& p : points) {
+    const Vector3 v = p - points.front();
+    if (length(v) > most) {
+      most = length(v);
+      best = v;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Flattened flatten(std::span<const Point3> points) {
+  Flattened flat;
+  if (points.empty()) return flat;
+  const Vector3 span = longest(points, [](Vector3 v) { return norm(v); });
+  flat.size = norm(span);
+  const Vector3 x = flat.size > 0 ? span / flat.size : Vector3{1, 0, 0};
+  const auto beside = [&x](Vector3 v) { return v - dot(v, x) * x; };
+  const Vector3 off = beside(longest(points, [&](Vector3 v) { return norm(beside(v)); }));
+  const bool line = norm(off) <= 1e-14 * flat.size;
+  const Vector3 y = line ? any_normal(x) : off / norm(off);
+  const Vector3 z = cross(x, y);
+  for (const Point3& p : points) {
+    const Vector3 v = p - points.front();
+    flat.points.push_back({dot(v, x), dot(v, y)});
+    flat.off_plane = std::max(flat.off_plane, std::abs(dot(v, z)));
+  }
+  return flat;
+}
+
+}  // namespace keyline::classa::detail

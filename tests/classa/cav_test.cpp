@@ -1,0 +1,174 @@
+#include "keyline/classa/cav.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/core/similarity.h"
+#include "keyline/numeric/random.h"
+
+namespace keyline::classa {
+namespace {
+
+using core::ErrorCode;
+using core::kPi;
+using core::Point2;
+using core::Point3;
+
+const MatrixCurve kOya{{0, 0}, {1, 2}, 1, {kPi / 4, 1.05}, 3};
+
+CavOptions with_end_tolerance(double tolerance) {
+  CavOptions options;
+  options.end_tolerance = tolerance;
+  return options;
+}
+
+TEST(Cav, ExampleOfThePaper) {  // [Oya] section 4.1
+  const auto value = cav(kOya, with_end_tolerance(0.01));
+  ASSERT_TRUE(value) << value.error().message;
+  EXPECT_EQ(value->type, 3);
+  EXPECT_NEAR(value->matrix->alpha, kPi / 4, 1e-15);
+  EXPECT_NEAR(value->matrix->s, 1.05, 1e-15);
+  EXPECT_NEAR(value->energy, 0.3925273087800361, 1e-10);
+  ASSERT_TRUE(value->minimum);
+  EXPECT_NEAR(value->minimum->alpha, 0.64737420, 2e-8);
+  EXPECT_NEAR(value->minimum->s, 1.44038877, 2e-8);
+  EXPECT_NEAR(value->minimum->beta, 0.64347980, 2e-8);
+  EXPECT_NEAR(value->minimum->energy, 0.32873049786, 1e-10);
+  const double l = std::hypot(kPi / 4 - value->minimum->alpha, 1.05 - value->minimum->s);
+  EXPECT_NEAR(value->cav, diagonals(kDefaultAlphaMax).boundary * (1 + l), 1e-12);
+  EXPECT_EQ(value->monotone.answer, curve::MonotoneVerdict::no);
+}
+
+TEST(Cav, DiagonalsGiveEquation10) {
+  const Diagonals d = diagonals(kDefaultAlphaMax);
+  EXPECT_EQ(std::round(8 * std::pow(d.boundary * d.plane, 2)), 110);
+  EXPECT_EQ(std::round(8 * std::pow(d.boundary * d.plane, 3)), 407);
+}
+
+TEST(Cav, TypesOfTable1) {
+  const auto minimum = minimum_energy({.chord = {4, 3}, .degree = 4});
+  ASSERT_TRUE(minimum);
+  const MatrixCurve best{{1, 1}, {1, 0}, minimum->beta, {minimum->alpha, minimum->s}, 4};
+  const auto one = cav(best, with_end_tolerance(0));
+  ASSERT_TRUE(one) << one.error().message;
+  EXPECT_EQ(one->type, 1);
+  EXPECT_EQ(one->cav, 0);
+  const auto two = cav(MatrixCurve{{0, 0}, {1, 0}, 2, {0.5, 1.6}, 3});
+  ASSERT_TRUE(two);
+  EXPECT_EQ(two->type, 2);
+  EXPECT_GT(two->cav, 0);
+  EXPECT_EQ(two->monotone.answer, curve::MonotoneVerdict::yes);
+  const auto four = cav(curve::Bezier2{{{0, 0}, {1, 0}, {2, 0.5}, {2.5, 2}}, {}});
+  ASSERT_TRUE(four);
+  EXPECT_EQ(four->type, 4);
+  EXPECT_NEAR(four->cav, 13.74, 0.01);
+  EXPECT_FALSE(four->matrix);
+  const auto s_shaped = cav(curve::Bezier2{{{0, 0}, {1, 0}, {2, 1}, {3, 1}}, {}});
+  ASSERT_TRUE(s_shaped);
+  EXPECT_EQ(s_shaped->type, 5);
+  EXPECT_NEAR(s_shaped->cav, 50.9, 0.1);
+  const auto sharp = cav(curve::Bezier2{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}});  // alpha = pi/2
+  ASSERT_TRUE(sharp);
+  EXPECT_EQ(sharp->type, 5);
+  const auto zero_edge = cav(curve::Bezier2{{{0, 0}, {1, 0}, {1, 0}, {2, 1}}, {}});
+  ASSERT_TRUE(zero_edge);
+  EXPECT_EQ(zero_edge->type, 5);
+}
+
+TEST(Cav, ReversingAndMovingChangeNothing) {
+  numeric::Random random(7);
+  for (int i = 0; i < 60; ++i) {
+    MatrixCurve c{{random.uniform(-5, 5), 2}, {1, random.uniform(-2, 2)}, 2.5, {}, 3};
+    c.matrix = {random.uniform(-1, 1), random.uniform(0.5, 2.2)};
+    c.degree = 2 + static_cast<int>(random.index(5));
+    curve::Bezier2 bezier = to_bezier(c);
+    if (i % 3 == 0) bezier.control[1].x += 0.2;
+    const auto value = cav(bezier);
+    ASSERT_TRUE(value) << value.error().message;
+    const core::Similarity2 map{3.7, random.uniform(-3, 3), {100, -20}};
+    for (const auto& other : {reverse(bezier), transform(bezier, map)}) {
+      const auto again = cav(other);
+      ASSERT_TRUE(again);
+      EXPECT_EQ(again->type, value->type);
+      EXPECT_NEAR(again->cav, value->cav, 1e-5);
+      ASSERT_EQ(again->minimum.has_value(), value->minimum.has_value());
+      if (value->minimum) {
+        EXPECT_NEAR(again->minimum->s, value->minimum->s, 1e-5);
+      }
+    }
+  }
+}
+
+TEST(Cav, LiteralDirectionUsesTheFallingBranch) {
+  const MatrixCurve shrinking{{0, 0}, {1, 0}, 1, {0.5, 0.7}, 3};
+  CavOptions options;
+  options.direction = Direction::as_given;
+  const auto literal = cav(shrinking, options);
+  ASSERT_TRUE(literal);
+  EXPECT_FALSE(literal->reversed);
+  EXPECT_EQ(literal->type, 2);
+  EXPECT_NEAR(literal->matrix->s, 0.7, 1e-14);
+  EXPECT_LE(literal->minimum->s, std::cos(literal->minimum->alpha) + 1e-12);
+  const auto growing = cav(shrinking);
+  ASSERT_TRUE(growing);
+  EXPECT_TRUE(growing->reversed);
+  EXPECT_NEAR(growing->matrix->s, 1 / 0.7, 1e-14);
+  EXPECT_GE(growing->minimum->s * std::cos(growing->minimum->alpha), 1 - 1e-12);
+}
+
+TEST(Cav, StraightCurvesAreAtTheirMinimum) {
+  for (const auto& control :
+       {std::vector<Point2>{{0, 0}, {1, 2}}, std::vector<Point2>{{0, 0}, {1, 2}, {2, 4}},
+        std::vector<Point2>{{3, 1}, {4, 1}, {6, 1}, {10, 1}}}) {
+    const auto value = cav(curve::Bezier2{control, {}});
+    ASSERT_TRUE(value) << value.error().message;
+    EXPECT_EQ(value->type, 1);
+    EXPECT_EQ(value->cav, 0);
+    EXPECT_EQ(value->energy, 0);
+  }
+}
+
+TEST(Cav, InSpace) {
+  const curve::Bezier2 flat = to_bezier(kOya);
+  std::vector<Point3> tilted;
+  for (const Point2& p : flat.control) tilted.push_back({p.x + 3, 0.6 * p.y, 0.8 * p.y});
+  const auto plane = cav(flat);
+  const auto space = cav(tilted);
+  ASSERT_TRUE(plane && space);
+  EXPECT_EQ(space->type, 3);
+  EXPECT_NEAR(space->cav, plane->cav, 1e-6);
+  tilted[2].z += 0.1;
+  const auto twisted = cav(tilted);
+  ASSERT_TRUE(twisted);
+  EXPECT_EQ(twisted->type, 5);
+}
+
+TEST(Cav, BadInput) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto code = [](const auto& result) {
+    return result ? ErrorCode::internal : result.error().code;
+  };
+  CavOptions options;
+  for (const double alpha_max : {0.0, -1.0, kPi / 2, 2.0, nan}) {
+    options.alpha_max = alpha_max;
+    EXPECT_EQ(code(cav(kOya, options)), ErrorCode::bad_input);
+  }
+  EXPECT_EQ(code(cav(kOya, with_end_tolerance(-1))), ErrorCode::bad_input);
+  EXPECT_EQ(code(cav(kOya, with_end_tolerance(100))), ErrorCode::bad_input);
+  MatrixCurve c = kOya;
+  c.tangent = {0, 0};
+  EXPECT_EQ(code(cav(c)), ErrorCode::bad_input);
+  EXPECT_EQ(code(cav(curve::Bezier2{{{1, 1}, {1, 1}, {1, 1}}, {}})), ErrorCode::bad_input);
+  EXPECT_EQ(code(cav(curve::Bezier2{{{1, 1}, {nan, 1}, {1, 3}}, {}})), ErrorCode::bad_input);
+  EXPECT_EQ(code(cav(curve::Bezier2{{{1, 1}}, {}})), ErrorCode::bad_input);
+  EXPECT_EQ(code(cav(curve::Bezier2{{{1, 1}, {2, 1}, {1, 3}}, {1, 2, 1}})), ErrorCode::unsupported);
+  EXPECT_EQ(code(cav(std::vector<Point3>{{1, 1, 1}, {1, 1, 1}})), ErrorCode::bad_input);
+  EXPECT_TRUE(cav(MatrixCurve{{0, 0}, {1, 0}, 1, {0.05, 1.1}, 15}));
+}
+
+}  // namespace
+}  // namespace keyline::classa

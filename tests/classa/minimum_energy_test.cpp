@@ -1,0 +1,170 @@
+#include "keyline/classa/minimum_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "keyline/classa/strain_energy.h"
+#include "keyline/core/angle.h"
+#include "keyline/numeric/random.h"
+
+namespace keyline::classa {
+namespace {
+
+using core::kPi;
+using core::Vector2;
+
+/// Least energy on a dense grid of the plane, each (alpha, s) with the longest first edge that
+/// still ends within the tolerance: nothing in common with the search but Eq. 7.
+double grid_minimum(const EnergyConditions& c, int steps) {
+  const double chord = norm(c.chord);
+  const double offset = core::angle_between(c.tangent, c.chord);
+  const bool left = c.left.value_or(offset >= 0);
+  double least = HUGE_VAL;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      const double alpha = at(c.alpha, i / static_cast<double>(steps));
+      const double edge = c.branch == Branch::growing ? 1 / std::cos(alpha) : std::cos(alpha);
+      const double u = j / static_cast<double>(steps);
+      const double s = c.branch == Branch::growing ? edge * std::exp(u * u * 3) : edge * (1 - u);
+      if (!contains(c.s, s) || s <= 0) continue;
+      const Vector2 reach = end_in_frame({alpha, s}, c.degree);
+      const double off = core::direction_of(reach) - (left ? offset : -offset);
+      const double across = chord * std::sin(off);
+      if (std::cos(off) <= 0 || std::abs(across) > c.end_tolerance) continue;
+      const double length =
+          chord * std::cos(off) + std::sqrt(c.end_tolerance * c.end_tolerance - across * across);
+      least = std::min(least, matrix_energy({alpha, s}, c.degree).value * norm(reach) / length);
+    }
+  }
+  return least;
+}
+
+void expect_meets(const EnergyMinimum& m, const EnergyConditions& c) {
+  EXPECT_LE(norm(m.chord - c.chord), c.end_tolerance + 1e-12 * norm(c.chord));
+  const ControlMatrix matrix{m.left ? m.alpha : -m.alpha, m.s};
+  const MatrixCurve made{{0, 0}, c.tangent, m.beta, matrix, c.degree};
+  const auto end = to_bezier(made).control.back();
+  EXPECT_LE(norm(Vector2{end.x, end.y} - m.chord), 1e-12 * norm(c.chord));
+  EXPECT_NEAR(strain_energy(made), m.energy, 1e-11 * m.energy);
+  EXPECT_TRUE(is_class_a(matrix, 1e-12));
+  EXPECT_TRUE(contains(c.s, m.s));
+  EXPECT_LE(m.alpha, c.alpha.high);
+}
+
+TEST(MinimumEnergy, NoWorseThanADenseGrid) {
+  numeric::Random random(2015);
+  const int steps = std::getenv("KEYLINE_FULL") ? 1000 : 200;
+  int feasible = 0;
+  for (int i = 0; feasible < 200; ++i) {
+    ASSERT_LT(i, 1000);
+    EnergyConditions c;
+    c.degree = 2 + static_cast<int>(random.index(7));
+    const bool falling = random.chance(0.25);
+    c.branch = falling ? Branch::falling : Branch::growing;
+    const double given = random.uniform(0.02, 1.0);
+    const double s = falling ? std::cos(given) * random.uniform(0.4, 1.05)
+                             : random.uniform(0.95, 2.5) / std::cos(given);
+    const Vector2 reach = end_in_frame({given, s}, c.degree);
+    c.tangent = random.uniform(0.1, 10) * core::unit_vector(random.uniform(-3, 3));
+    const double turn = core::direction_of(c.tangent);
+    c.chord = random.uniform(0.2, 5) * core::rotate_ccw(reach, turn);
+    if (random.chance(0.5)) c.left = true;
+    c.end_tolerance = norm(c.chord) * (random.chance(0.3) ? 1e-3 : random.uniform(0.005, 0.2));
+    if (random.chance(0.2)) c.alpha = {random.uniform(0, 0.3), random.uniform(0.5, 1.2)};
+    if (random.chance(0.2)) c.s = {random.uniform(0.1, 1), random.uniform(1.2, 3)};
+    const double grid = grid_minimum(c, steps);
+    const auto minimum = minimum_energy(c);
+    if (!minimum) {
+      EXPECT_EQ(grid, HUGE_VAL) << i << " " << minimum.error().message;
+      continue;
+    }
+    ++feasible;
+    EXPECT_LE(minimum->energy, grid * (1 + 1e-12) + 1e-15)
+        << i << " degree " << c.degree << " at " << minimum->alpha << ", " << minimum->s;
+    expect_meets(*minimum, c);
+  }
+}
+
+/// With the end held exactly one freedom is left: compare with a fine scan along it.
+TEST(MinimumEnergy, ExactEnd) {
+  numeric::Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    EnergyConditions c;
+    c.degree = 2 + static_cast<int>(random.index(6));
+    const double given = random.uniform(0.05, 1.0);
+    const ControlMatrix m{given, random.uniform(1, 2.5) / std::cos(given)};
+    c.chord = end_in_frame(m, c.degree);
+    c.left = true;
+    const auto minimum = minimum_energy(c);
+    ASSERT_TRUE(minimum) << minimum.error().message;
+    expect_meets(*minimum, c);
+    EXPECT_LE(minimum->energy, matrix_energy(m, c.degree).value * (1 + 1e-12));
+    const double angle = end_angle(m, c.degree);
+    for (int k = 1; k < 4000; ++k) {
+      const double alpha = c.alpha.high * k / 4000;
+      const double s = scale_at_end_angle(alpha, angle, c.degree, {1 / std::cos(alpha), 100});
+      const Vector2 reach = end_in_frame({alpha, s}, c.degree);
+      if (std::abs(end_angle({alpha, s}, c.degree) - angle) > 1e-9) continue;
+      const double energy = matrix_energy({alpha, s}, c.degree).value * norm(reach);
+      EXPECT_LE(minimum->energy, energy / norm(c.chord) * (1 + 1e-12)) << alpha;
+    }
+  }
+}
+
+TEST(MinimumEnergy, IsItsOwnMinimum) {
+  EnergyConditions c{.tangent = {1, 2}, .chord = {-1, 5}, .degree = 5};
+  const auto once = minimum_energy(c);
+  ASSERT_TRUE(once);
+  c.chord = once->chord;
+  const auto twice = minimum_energy(c);
+  ASSERT_TRUE(twice);
+  EXPECT_NEAR(twice->alpha, once->alpha, 1e-7);
+  EXPECT_NEAR(twice->s, once->s, 1e-7);
+}
+
+TEST(MinimumEnergy, SaysWhenNothingIsFeasible) {
+  EnergyConditions c{.chord = {0.1, 1}, .degree = 2, .alpha = {0, 0.4}};
+  const auto none = minimum_energy(c);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, core::ErrorCode::undrawable);
+  EXPECT_NE(none.error().message.find("no Class A curve of degree 2"), std::string::npos);
+  c.degree = 6;  // more edges turn farther
+  EXPECT_TRUE(minimum_energy(c));
+  c.s = {0.1, 0.9};  // no room on the growing branch
+  EXPECT_FALSE(minimum_energy(c));
+  c = {.chord = {0, 0}};
+  EXPECT_FALSE(minimum_energy(c));
+  c = {.chord = {-1, 0}, .left = true};  // straight back: three edges turn half way round at most
+  EXPECT_FALSE(minimum_energy(c));
+}
+
+TEST(MinimumEnergy, StraightConditions) {
+  const auto m = minimum_energy({.tangent = {2, 0}, .chord = {6, 0}, .end_tolerance = 0.06});
+  ASSERT_TRUE(m);
+  EXPECT_EQ(m->alpha, 0);
+  EXPECT_EQ(m->s, 1);
+  EXPECT_EQ(m->energy, 0);
+  EXPECT_NEAR(m->beta, 6.06 / 6, 1e-14);
+}
+
+TEST(MinimumEnergy, BadConditions) {
+  const auto refused = [](const EnergyConditions& c) {
+    const auto m = minimum_energy(c);
+    return !m && m.error().code == core::ErrorCode::bad_input;
+  };
+  EXPECT_TRUE(refused({.tangent = {0, 0}}));
+  EXPECT_TRUE(refused({.chord = {NAN, 0}}));
+  EXPECT_TRUE(refused({.degree = 1}));
+  EXPECT_TRUE(refused({.degree = 31}));
+  EXPECT_TRUE(refused({.end_tolerance = -1}));
+  EXPECT_TRUE(refused({.end_tolerance = 1}));
+  EXPECT_TRUE(refused({.alpha = {0, kPi / 2}}));
+  EXPECT_TRUE(refused({.alpha = {0.5, 0.4}}));
+  EXPECT_TRUE(refused({.s = {0, 1}}));
+}
+
+}  // namespace
+}  // namespace keyline::classa
