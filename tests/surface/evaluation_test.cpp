@@ -6,6 +6,8 @@
 
 #include "keyline/surface/surface.h"
 
+#include "test_surfaces.h"
+
 namespace keyline::surface {
 namespace {
 
@@ -13,15 +15,6 @@ using core::distance;
 using core::norm;
 using core::Point3;
 using core::Vector3;
-
-Net wavy_net(int rows, int columns) {
-  Net net{rows, columns, {}};
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j)
-      net.points.push_back({i + 0.2 * std::sin(3.0 * j), j + 0.3 * std::cos(2.0 * i),
-                            std::sin(1.3 * i) * std::cos(0.9 * j)});
-  return net;
-}
 
 std::vector<double> wavy_weights(std::size_t count) {
   std::vector<double> w;

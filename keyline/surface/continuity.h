@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/surface/surface.h"
+
+namespace keyline::surface {
+
+/// Border of a surface: u = 0, u = 1, v = 0 or v = 1, run along growing v or u.
+enum class Edge { u0, u1, v0, v1 };
+
+/// How far two surfaces may differ along a common edge and still count as joined. Curvature and its
+/// rate across the edge are compared relative to the larger of the two, curvature no smaller than
+/// 1 / size, its rate than 1 / size^2, with size the length of the edge. Gap and angle are the
+/// usual class A ones, for lengths in millimetres.
+struct EdgeTolerance {
+  double gap = 0.001;
+  double angle = 0.016 * 3.14159265358979323846 / 180;
+  double curvature = 0.01;       ///< relative
+  double curvature_rate = 0.05;  ///< relative
+};
+
+/// What happens at one place of the edge, from the first surface to the second. `angle` is the
+/// fold: between the direction out of the first surface and that into the second, both at right
+/// angles to the edge, in [0, pi]. `curvature_jump` is the largest difference of normal curvature
+/// over all directions; `rate_jump` that of the derivative by arc length of the curvature of the
+/// normal section across the edge, in 1/length^2. Both need a normal on each side: `defined`.
+struct EdgeSample {
+  double along = 0;  ///< parameter of the first edge
+  core::Point3 position;
+  double gap = 0;
+  bool defined = true;
+  double angle = 0;
+  double curvature_jump = 0;
+  double rate_jump = 0;
+  double relative_curvature_jump = 0;
+  double relative_rate_jump = 0;
+};
+
+/// Largest values along the edge and the order they amount to: -1 a gap, 0…3 for G0…G3.
+struct EdgeContinuity {
+  std::array<Edge, 2> edges{};
+  std::vector<EdgeSample> samples;
+  double gap = 0, angle = 0, curvature_jump = 0, rate_jump = 0;
+  double relative_curvature_jump = 0, relative_rate_jump = 0;
+  EdgeTolerance tolerance;
+  int order = -1;
+};
+
+/// Compares `count` places of the first edge with the nearest ones of the second edge, in whichever
+/// sense that runs; a second edge that is longer is compared over the common part. Without edges
+/// the pair with the least gap is taken.
+/// Fails: bad_input for count < 2 or above 100,000, a tolerance that is negative or not finite.
+core::Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& second,
+                                             const std::optional<std::array<Edge, 2>>& edges = {},
+                                             const EdgeTolerance& tolerance = {}, int count = 101);
+
+/// "u0", "u1", "v0", "v1".
+const char* edge_name(Edge edge);
+std::optional<Edge> edge_named(const std::string& name);
+
+/// Parameters of the surface at `along` in [0, 1] of the edge.
+std::array<double, 2> edge_parameters(Edge edge, double along);
+
+}  // namespace keyline::surface

@@ -1,0 +1,114 @@
+#include "keyline/surface/continuity.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "test_surfaces.h"
+
+namespace keyline::surface {
+namespace {
+
+EdgeContinuity joint(const Surface& a, const Surface& b,
+                     const std::optional<std::array<Edge, 2>>& edges = {}) {
+  auto found = edge_continuity(a, b, edges);
+  EXPECT_TRUE(found) << found.error().message;
+  return found ? *found : EdgeContinuity{};
+}
+
+TEST(EdgeContinuity, HalvesOfOnePatchAreG3HoweverTheyRun) {
+  const auto [a, b] = halves_u(crowned_patch());
+  for (const Surface& second :
+       {Surface{b}, Surface{transposed(b)}, Surface{reversed_u(b)},
+        Surface{transposed(reversed_u(transposed(b)))}, Surface{elevate_degree(b, 1, 2)}}) {
+    const EdgeContinuity c = joint(a, second);
+    EXPECT_EQ(c.edges[0], Edge::u1);
+    EXPECT_EQ(c.order, 3);
+    EXPECT_LT(c.gap, 1e-11);
+    EXPECT_LT(c.angle, 1e-12);
+    EXPECT_LT(c.relative_curvature_jump, 1e-9);
+    EXPECT_LT(c.relative_rate_jump, 1e-7);
+  }
+}
+
+TEST(EdgeContinuity, EachRowOfTheNetTakesOneOrder) {
+  const auto [a, b] = halves_u(crowned_patch());
+  const double by[4] = {0.5, 1, 2, 60};
+  const int order[4] = {-1, 0, 1, 2};
+  for (int row = 0; row < 4; ++row) {
+    SCOPED_TRACE(row);
+    BezierSurface moved = b;
+    for (int j = 0; j < 4; ++j) moved.net.at(row, j).z += by[row];
+    EXPECT_EQ(joint(a, moved, std::array{Edge::u1, Edge::u0}).order, order[row]);
+  }
+}
+
+TEST(EdgeContinuity, JumpsHaveTheirSize) {
+  // A flat top runs into a quarter cylinder: curvature 0 to 1/r, the rate 0 on both sides.
+  const double r = 4;
+  BezierSurface flat{{2, 2, {}}, {}};
+  flat.net.points = {{-5, 0, r}, {-5, 7, r}, {0, 0, r}, {0, 7, r}};
+  EdgeContinuity c = joint(flat, quarter_cylinder(0, 0, r, 7));
+  EXPECT_EQ(c.order, 1);
+  EXPECT_NEAR(c.curvature_jump, 1 / r, 1e-12);
+  EXPECT_NEAR(c.relative_curvature_jump, 1, 1e-12);
+  EXPECT_NEAR(c.rate_jump, 0, 1e-12);
+  // Two radii, tangent along the top.
+  c = joint(quarter_cylinder(0, 0, 2, 7), quarter_cylinder(0, -2, 4, 7),
+            std::array{Edge::u0, Edge::u0});
+  EXPECT_NEAR(c.angle, std::numbers::pi, 1e-12);  // they lie on the same side: a fold back
+  // A fold of 0.3 rad.
+  BezierSurface tilted = flat;
+  tilted.net.points = {{0, 0, r},
+                       {0, 7, r},
+                       {5 * std::cos(0.3), 0, r - 5 * std::sin(0.3)},
+                       {5 * std::cos(0.3), 7, r - 5 * std::sin(0.3)}};
+  c = joint(flat, tilted);
+  EXPECT_EQ(c.order, 0);
+  EXPECT_NEAR(c.angle, 0.3, 1e-12);
+  for (auto& p : tilted.net.points) p.z += 0.01;
+  c = joint(flat, tilted);
+  EXPECT_EQ(c.order, -1);
+  EXPECT_NEAR(c.gap, 0.01, 1e-12);
+}
+
+TEST(EdgeContinuity, RateAcrossAnExtrudedCurveIsTheCurvesOwn) {
+  // Extruded cubic z(x): curvature rate across x = 0 is z''' at a horizontal start.
+  const auto ribbon = [](double side, double third) {
+    BezierSurface s{{4, 2, {}}, {}};
+    for (int i = 0; i < 4; ++i)
+      for (const double y : {0.0, 3.0})
+        s.net.points.push_back({side * i / 3.0, y, (i == 3 ? side * third / 6 : 0.0)});
+    return s;
+  };
+  const EdgeContinuity c = joint(ribbon(-1, 0.5), ribbon(1, 2));
+  EXPECT_NEAR(c.rate_jump, 1.5, 1e-12);
+  EXPECT_EQ(c.order, 2);
+}
+
+TEST(EdgeContinuity, TolerancesAreTheCallers) {
+  const auto [a, b] = halves_u(crowned_patch());
+  BezierSurface moved = b;
+  for (auto& p : moved.net.points) p.z += 0.005;
+  EXPECT_EQ(joint(a, moved).order, -1);
+  EdgeTolerance wide;
+  wide.gap = 0.01;
+  const auto c = edge_continuity(a, moved, {}, wide);
+  ASSERT_TRUE(c);
+  EXPECT_EQ(c->order, 3);
+  wide.angle = -1;
+  EXPECT_EQ(edge_continuity(a, moved, {}, wide).error().path, "angle");
+  EXPECT_EQ(edge_continuity(a, moved, {}, {}, 1).error().path, "samples");
+  EXPECT_EQ(edge_named("v1"), Edge::v1);
+  EXPECT_FALSE(edge_named("w"));
+}
+
+TEST(EdgeContinuity, CollapsedEdgesAreComparedByPosition) {
+  const Surface s = sphere_octant(1);
+  const EdgeContinuity c = joint(s, s, std::array{Edge::v1, Edge::v1});
+  EXPECT_EQ(c.gap, 0);
+  EXPECT_FALSE(c.samples[50].defined);
+}
+
+}  // namespace
+}  // namespace keyline::surface
