@@ -4,6 +4,7 @@
 
 #include "keyline/exchange/json_curve.h"
 #include "keyline/exchange/json_space.h"
+#include "keyline/exchange/json_surface.h"
 
 namespace keyline::operations {
 namespace {
@@ -32,6 +33,16 @@ Result<void> check_curves(const json& value, const Field& field) {
     const auto path =
         exchange::path_from_json(value[i], field.name + "[" + std::to_string(i) + "]");
     if (!path) return std::unexpected(path.error());
+  }
+  return {};
+}
+
+Result<void> check_surfaces(const json& value, const Field& field) {
+  if (!value.is_array() || value.empty()) return wrong(field, "a list of surfaces");
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto s =
+        exchange::surface_from_json(value[i], field.name + "[" + std::to_string(i) + "]");
+    if (!s) return std::unexpected(s.error());
   }
   return {};
 }
@@ -81,6 +92,10 @@ Result<void> check_type(const json& value, const Field& field) {
       return discard(exchange::path_from_json(value, field.name));
     case Field::Type::curves:
       return check_curves(value, field);
+    case Field::Type::surface:
+      return discard(exchange::surface_from_json(value, field.name));
+    case Field::Type::surfaces:
+      return check_surfaces(value, field);
     case Field::Type::any:
       break;
   }
@@ -204,6 +219,14 @@ std::vector<double> numbers_of(const json& request, const char* name) {
   const auto it = request.find(name);
   if (it == request.end()) return {};
   return it->get<std::vector<double>>();
+}
+
+core::Point3 point3_of(const json& request, const char* name) {
+  return exchange::point3_from_json(request.at(name), name).value();
+}
+
+surface::Surface surface_of(const json& request, const char* name) {
+  return exchange::surface_from_json(request.at(name), name).value();
 }
 
 document::Path path_of(const json& request, const char* name) {

@@ -7,6 +7,7 @@
 
 #include "keyline/document/planar_curve.h"
 #include "keyline/operations/operation.h"
+#include "keyline/surface/surface.h"
 
 /// Reading a request's fields. The functions without `Result` may assume what check_fields
 /// has checked: presence of the required ones, types and finiteness.
@@ -40,6 +41,8 @@ core::Result<std::array<core::Point2, 3>> three_handles(const nlohmann::json& re
 core::Point2 point_of(const nlohmann::json& request, const char* name);
 std::vector<core::Point2> points_of(const nlohmann::json& request, const char* name);
 std::vector<double> numbers_of(const nlohmann::json& request, const char* name);
+core::Point3 point3_of(const nlohmann::json& request, const char* name);
+surface::Surface surface_of(const nlohmann::json& request, const char* name);
 document::Path path_of(const nlohmann::json& request, const char* name);
 
 }  // namespace keyline::operations

@@ -26,6 +26,12 @@ json curve_schema() {
            {{"type", {{"enum", {"polyline", "bezier", "bspline", "log-aesthetic", "path"}}}}}}};
 }
 
+json surface_schema() {
+  return {{"type", "object"},
+          {"required", {"type", "points"}},
+          {"properties", {{"type", {{"enum", {"bezier-surface", "bspline-surface"}}}}}}};
+}
+
 json list_of(json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
 json type_schema(Field::Type type) {
@@ -52,6 +58,10 @@ json type_schema(Field::Type type) {
       return curve_schema();
     case Field::Type::curves:
       return list_of(curve_schema());
+    case Field::Type::surface:
+      return surface_schema();
+    case Field::Type::surfaces:
+      return list_of(surface_schema());
     case Field::Type::any:
       break;
   }

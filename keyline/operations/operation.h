@@ -33,6 +33,8 @@ struct Field {
     number_or_numbers,
     curve,
     curves,
+    surface,
+    surfaces,
     any
   };
   std::string name;

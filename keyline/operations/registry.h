@@ -20,6 +20,8 @@ Operation lac_segment_operation();
 Operation lac_space_operation();
 Operation lac_spline_operation();
 Operation lac_volume_operation();
+Operation surface_continuity_operation();
+Operation surface_interrogate_operation();
 
 /// All of the above.
 std::vector<Operation> all_operations();
