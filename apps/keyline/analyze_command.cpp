@@ -51,11 +51,11 @@ Result<Subject> spline_of(const acquire::KeyLine& line, const CommonOptions& com
 
 Result<std::vector<Subject>> subjects_of(const AnalyzeCommand& command) {
   std::vector<Subject> subjects;
-  if (kind_of(command.input.files.front()) != InputKind::points) {
+  if (!holds_points(command.input.files.front())) {
     auto document = load_document(command.input);
     if (!document) return std::unexpected(document.error());
     for (auto& named : document->paths)
-      subjects.push_back({.name = named.name,
+      subjects.push_back({.name = named.label.name,
                           .path = std::move(named.path),
                           .noise = command.input.noise.value_or(0)});
     return subjects;
@@ -128,13 +128,13 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
 
 int run_analyze(const AnalyzeCommand& command) {
   const CommonOptions& common = command.common;
-  if (auto known = check_outputs(common, {".json", ".csv", ".svg", ".html", ".pdf", ".png"});
-      !known)
+  if (auto known = check_outputs(common, curve_extensions({".html", ".pdf", ".png"})); !known)
     return report_failure(known.error());
   auto subjects = subjects_of(command);
   if (!subjects) return report_failure(subjects.error());
   json all = json::array();
-  std::vector<OutputCurve> curves;
+  document::Document curves;
+  curves.unit = command.input.unit;
   double size = HUGE_VAL;
   for (Subject& subject : *subjects) {
     auto found = operations::analyze_path(subject.path, subject.noise);
@@ -142,14 +142,13 @@ int run_analyze(const AnalyzeCommand& command) {
     subject.analysis = std::move(*found);
     json result = operations::curve_analysis_json(subject.analysis);
     size = std::min(size, subject.analysis.length);
-    curves.push_back({subject.name, subject.path});
+    curves.paths.push_back({{subject.name, {}, {}}, subject.path, 0});
     if (!common.json && !common.quiet) print_summary(subject.name, result);
     if (!subject.name.empty()) result["name"] = subject.name;
     all.push_back(std::move(result));
   }
   const json shown = all.size() == 1 ? all[0] : json{{"curves", all}};
-  Writers writers =
-      curve_writers(curves, common.tolerance.value_or(1e-5 * size), command.input.unit);
+  Writers writers = curve_writers(curves, common.tolerance.value_or(1e-5 * size), common);
   writers[".json"] = [&]() -> Result<std::string> { return shown.dump(1) + "\n"; };
   add_pictures(writers, command, *subjects);
   if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());

@@ -1,8 +1,12 @@
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include "keyline/analysis/profile.h"
+#include "keyline/exchange/atomic_file.h"
+#include "keyline/exchange/document_file.h"
+#include "keyline/exchange/json_document.h"
 
 #include "commands.h"
 #include "input.h"
@@ -12,46 +16,60 @@
 namespace keyline::app {
 namespace {
 
-core::Result<document::Document> read_any(const InputOptions& input) {
-  if (kind_of(input.files.front()) != InputKind::points) return load_document(input);
+using core::Result;
+
+/// Points as acquired: sorted, without strays.
+Result<document::Document> document_of_points(const InputOptions& input) {
   const auto lines = load_key_lines(input);
   if (!lines) return std::unexpected(lines.error());
   document::Document document;
+  document.unit = input.unit;
   for (const acquire::KeyLine& line : *lines) {
     document::Path path;
     path.closed = line.closed;
     curve::Polyline2 polyline{line.points};
     if (line.closed) polyline.points.push_back(polyline.points.front());
     path.curves.push_back({std::move(polyline)});
-    document.paths.push_back({line.id, "", std::move(path), 0});
+    document.paths.push_back({{line.id, {}, {}}, std::move(path), 0});
   }
   return document;
+}
+
+std::string counted(std::size_t count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+std::string contents(const document::Document& document) {
+  std::string text;
+  for (const auto& [count, thing] : {std::pair{document.paths.size(), "planar curve"},
+                                     std::pair{document.space_curves.size(), "space curve"}})
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, thing);
+  return text + (document.unit.empty() ? "" : " in " + document.unit);
 }
 
 }  // namespace
 
 int run_convert(const ConvertCommand& command) {
-  if (command.common.outputs.empty())
+  const CommonOptions& common = command.common;
+  if (common.outputs.empty() && !common.json)
     return report_failure({core::ErrorCode::bad_input, "no output is named", "add -o FILE", ""});
-  if (auto known = check_outputs(command.common, {".svg", ".json", ".csv"}); !known)
+  if (auto known = check_outputs(common, curve_extensions()); !known)
     return report_failure(known.error());
-  const auto document = read_any(command.input);
+  const auto document = holds_points(command.input.files.front())
+                            ? document_of_points(command.input)
+                            : load_document(command.input);
   if (!document) return report_failure(document.error());
-  for (const std::string& skipped : document->skipped)
-    say(command.common.quiet, "skipped: " + skipped);
-  std::vector<OutputCurve> curves;
-  double size = 0;
-  for (const document::NamedPath& named : document->paths) {
-    curves.push_back({named.name, named.path});
-    size = std::max(size, analysis::ArcLengthTable(analysis::view(named.path)).length());
+  say(common.quiet, fmt::format("{}: {}", command.input.files.front(), contents(*document)));
+  for (const std::string& skipped : document->skipped) say(common.quiet, "skipped: " + skipped);
+  exchange::WriteOptions options;
+  options.tolerance = common.tolerance.value_or(0);
+  for (const std::string& file : common.outputs) {
+    const auto written = exchange::write_document(*document, file, options);
+    if (!written) return report_failure(written.error());
+    for (const std::string& note : written->notes) say(common.quiet, file + ": " + note);
+    say(common.quiet, fmt::format("{}: deviation {:.3g}", file, written->deviation));
   }
-  const double tolerance = command.common.tolerance.value_or(1e-5 * size);
-  const std::string unit = command.input.unit.empty() ? document->unit : command.input.unit;
-  if (auto done = write_outputs(command.common, curve_writers(curves, tolerance, unit)); !done)
-    return report_failure(done.error());
-  say(command.common.quiet,
-      fmt::format("{} curve{} written; cubic Beziers in svg are within {:.3g} of the input",
-                  curves.size(), curves.size() == 1 ? "" : "s", tolerance));
+  if (common.json) fmt::print("{}\n", exchange::to_json(*document).dump());
   return kDone;
 }
 

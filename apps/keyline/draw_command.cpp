@@ -102,8 +102,8 @@ Result<Writers> writers_of(const DrawCommand& command, const json& request, cons
     return core::fail(ErrorCode::bad_input, "a drawable region belongs to three handles",
                       "give --points P0 P1 P2, or leave out region", "--show");
   const double length = analysis::ArcLengthTable(analysis::view(*path)).length();
-  Writers writers =
-      curve_writers({{"", *path}}, command.common.tolerance.value_or(1e-5 * length), "");
+  Writers writers = curve_writers(document_of("", *path),
+                                  command.common.tolerance.value_or(1e-5 * length), command.common);
   add_figures(command, *path, *show, *region, writers);
   return writers;
 }
@@ -111,9 +111,9 @@ Result<Writers> writers_of(const DrawCommand& command, const json& request, cons
 }  // namespace
 
 int run_draw(const DrawCommand& command) {
-  const std::vector<std::string> known =
-      command.space ? std::vector<std::string>{".json"}
-                    : std::vector<std::string>{".svg", ".json", ".csv", ".pdf", ".png", ".html"};
+  const std::vector<std::string> known = command.space
+                                             ? std::vector<std::string>{".json"}
+                                             : curve_extensions({".pdf", ".png", ".html"});
   if (auto can = check_outputs(command.common, known); !can) return report_failure(can.error());
   const auto asked = draw_request(command);
   if (!asked) return report_failure(asked.error());

@@ -200,19 +200,19 @@ nlohmann::json result_json(const std::vector<Faired>& all) {
 
 int run_fair(const FairCommand& command) {
   const std::string& file = command.input.files.front();
-  if (auto known =
-          check_outputs(command.common, {".svg", ".json", ".csv", ".html", ".pdf", ".png"});
+  if (auto known = check_outputs(command.common, curve_extensions({".html", ".pdf", ".png"}));
       !known)
     return report_failure(known.error());
   const auto all = fair_all(command);
   if (!all) return report_failure(all.error());
-  std::vector<OutputCurve> curves;
+  document::Document curves;
+  curves.unit = command.input.unit;
   double tolerance = HUGE_VAL;
   for (const Faired& faired : *all) {
-    curves.push_back({faired.line.id, operations::fair_curve(faired.result)});
+    curves.paths.push_back({{faired.line.id, {}, {}}, operations::fair_curve(faired.result), 0});
     tolerance = std::min(tolerance, 0.1 * faired.result.tolerance);
   }
-  Writers writers = curve_writers(curves, tolerance, command.input.unit);
+  Writers writers = curve_writers(curves, tolerance, command.common);
   add_pictures(writers, command, *all);
   if (auto done = write_outputs(command.common, writers); !done)
     return report_failure(done.error());

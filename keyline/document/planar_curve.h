@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -41,20 +40,5 @@ Path reverse(const Path& path);
 Path transform(const Path& path, const core::Similarity2& map);
 /// Not empty, members valid.
 core::Result<void> validate(const Path& path);
-
-/// A path with where it comes from and how it is drawn.
-struct NamedPath {
-  std::string name;
-  std::string layer;
-  Path path;
-  double stroke_width = 0;  ///< in the document's unit; 0: none given
-};
-
-/// What a file holds once transforms are applied.
-struct Document {
-  std::string unit;  ///< "mm", "in", "pt", "px" or empty where the file gives none
-  std::vector<NamedPath> paths;
-  std::vector<std::string> skipped;  ///< what was in the file and is not here, in words
-};
 
 }  // namespace keyline::document

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
+#include "keyline/exchange/json_parts.h"
 #include "keyline/lac/chain.h"
 
 namespace keyline::exchange {
@@ -14,37 +13,17 @@ using core::ErrorCode;
 using core::fail;
 using core::Point2;
 using core::Result;
+using detail::in;
+using detail::member;
+using detail::numbers;
+using detail::type_of;
 using document::Path;
 using document::PlanarCurve;
 using nlohmann::json;
 
-constexpr std::size_t kMostPoints = 20'000'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-json points_json(const std::vector<Point2>& points) {
-  json list = json::array();
-  for (const Point2 p : points) list.push_back(to_json(p));
-  return list;
-}
-
-json curve_json(const curve::Polyline2& c) {
-  return {{"type", "polyline"}, {"points", points_json(c.points)}};
-}
-
-json curve_json(const curve::Bezier2& c) {
-  json j{{"type", "bezier"}, {"points", points_json(c.control)}};
-  if (!c.weights.empty()) j["weights"] = c.weights;
-  return j;
-}
-
-json curve_json(const curve::BSpline2& c) {
-  json j{{"type", "bspline"},
-         {"degree", c.degree},
-         {"knots", c.knots},
-         {"points", points_json(c.control)}};
-  if (!c.weights.empty()) j["weights"] = c.weights;
-  return j;
-}
+using detail::curve_json;
 
 json curve_json(const lac::Chain& c) {
   json pieces = json::array();
@@ -62,81 +41,6 @@ json curve_json(const lac::Chain& c) {
           {"direction", c.start.direction},
           {"closed", c.closed},
           {"pieces", std::move(pieces)}};
-}
-
-std::string in(const std::string& where, const std::string& key) {
-  return where.empty() ? key : where + "." + key;
-}
-std::string in(const std::string& where, std::size_t index) {
-  return where + "[" + std::to_string(index) + "]";
-}
-
-Result<const json*> member(const json& j, const char* key, const std::string& where) {
-  const auto it = j.find(key);
-  if (it == j.end())
-    return fail(ErrorCode::bad_input, std::string("\"") + key + "\" is missing",
-                std::string("add \"") + key + "\"", in(where, key));
-  return &*it;
-}
-
-Result<std::vector<double>> numbers(const json& j, const std::string& where) {
-  if (!j.is_array())
-    return fail(ErrorCode::bad_input, "a list of numbers is wanted here", "give [a, b, …]", where);
-  std::vector<double> list;
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const auto n = number_from_json(j[i], in(where, i));
-    if (!n) return std::unexpected(n.error());
-    list.push_back(*n);
-  }
-  return list;
-}
-
-Result<std::vector<double>> weights_of(const json& j, const std::string& where) {
-  if (!j.contains("weights")) return std::vector<double>{};
-  return numbers(j["weights"], in(where, "weights"));
-}
-
-Result<std::vector<Point2>> points_member(const json& j, const std::string& where,
-                                          std::size_t least) {
-  const auto m = member(j, "points", where);
-  if (!m) return std::unexpected(m.error());
-  return points_from_json(**m, in(where, "points"), least);
-}
-
-Result<PlanarCurve> read_polyline(const json& j, const std::string& where) {
-  auto points = points_member(j, where, 2);
-  if (!points) return std::unexpected(points.error());
-  return PlanarCurve{curve::Polyline2{std::move(*points)}};
-}
-
-Result<PlanarCurve> read_bezier(const json& j, const std::string& where) {
-  auto points = points_member(j, where, 2);
-  if (!points) return std::unexpected(points.error());
-  auto weights = weights_of(j, where);
-  if (!weights) return std::unexpected(weights.error());
-  return PlanarCurve{curve::Bezier2{std::move(*points), std::move(*weights)}};
-}
-
-Result<PlanarCurve> read_bspline(const json& j, const std::string& where) {
-  auto points = points_member(j, where, 2);
-  if (!points) return std::unexpected(points.error());
-  auto weights = weights_of(j, where);
-  if (!weights) return std::unexpected(weights.error());
-  const auto degree = member(j, "degree", where);
-  if (!degree) return std::unexpected(degree.error());
-  if (!(*degree)->is_number_integer())
-    return fail(ErrorCode::bad_input, "the degree is not a whole number", "give for example 3",
-                in(where, "degree"));
-  const auto knots = member(j, "knots", where);
-  if (!knots) return std::unexpected(knots.error());
-  auto values = numbers(**knots, in(where, "knots"));
-  if (!values) return std::unexpected(values.error());
-  const auto n = (*degree)->get<std::int64_t>();
-  if (n < 1 || n > 30)
-    return fail(ErrorCode::bad_input, "the degree is outside 1…30", "use a degree from 1 to 30",
-                in(where, "degree"));
-  return PlanarCurve{curve::BSpline2{static_cast<int>(n), std::move(*values), std::move(*points),
-                                     std::move(*weights)}};
 }
 
 /// "curvature":[κ0,κ1] or "radius":[ρ0,ρ1], the latter with 0 for a cusp.
@@ -207,23 +111,19 @@ Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
   return PlanarCurve{std::move(chain)};
 }
 
+template <class T>
+Result<PlanarCurve> planar(Result<T> read) {
+  if (!read) return std::unexpected(std::move(read.error()));
+  return PlanarCurve{std::move(*read)};
+}
+
 Result<PlanarCurve> read_by_type(const json& j, const std::string& type, const std::string& where) {
-  if (type == "polyline") return read_polyline(j, where);
-  if (type == "bezier") return read_bezier(j, where);
-  if (type == "bspline") return read_bspline(j, where);
+  if (type == "polyline") return planar(detail::read_polyline<Point2>(j, where));
+  if (type == "bezier") return planar(detail::read_bezier<Point2>(j, where));
+  if (type == "bspline") return planar(detail::read_bspline<Point2>(j, where));
   if (type == "log-aesthetic") return read_chain(j, where);
   return fail(ErrorCode::bad_input, "\"" + type + "\" is not a planar curve type",
               "use polyline, bezier, bspline, log-aesthetic or path", in(where, "type"));
-}
-
-Result<std::string> type_of(const json& j, const std::string& where) {
-  if (!j.is_object())
-    return fail(ErrorCode::bad_input, "a curve is wanted here", "give {\"type\":…}", where);
-  const auto type = member(j, "type", where);
-  if (!type) return std::unexpected(type.error());
-  if (!(*type)->is_string())
-    return fail(ErrorCode::bad_input, "the type is not a string", "", in(where, "type"));
-  return (*type)->get<std::string>();
 }
 
 }  // namespace
@@ -266,18 +166,7 @@ Result<Point2> point_from_json(const json& j, const std::string& where) {
 
 Result<std::vector<Point2>> points_from_json(const json& j, const std::string& where,
                                              std::size_t least) {
-  if (!j.is_array() || j.size() < least || j.size() > kMostPoints)
-    return fail(ErrorCode::bad_input,
-                "a list of at least " + std::to_string(least) + " points is wanted here",
-                "give [[x, y], …]", where);
-  std::vector<Point2> points;
-  points.reserve(j.size());
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const auto p = point_from_json(j[i], in(where, i));
-    if (!p) return std::unexpected(p.error());
-    points.push_back(*p);
-  }
-  return points;
+  return detail::read_points<Point2>(j, where, least);
 }
 
 Result<PlanarCurve> curve_from_json(const json& j, const std::string& where) {
@@ -285,11 +174,7 @@ Result<PlanarCurve> curve_from_json(const json& j, const std::string& where) {
   if (!type) return std::unexpected(type.error());
   auto c = read_by_type(j, *type, where);
   if (!c) return c;
-  if (auto sound = validate(*c); !sound) {
-    core::Failure failure = sound.error();
-    failure.path = failure.path.empty() ? where : in(where, failure.path);
-    return std::unexpected(std::move(failure));
-  }
+  if (auto sound = validate(*c); !sound) return detail::placed(sound.error(), where);
   return c;
 }
 

@@ -1,10 +1,9 @@
 #include "keyline/exchange/json_space.h"
 
+#include <algorithm>
 #include <array>
 
-#include <nlohmann/json.hpp>
-
-#include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json_parts.h"
 
 namespace keyline::exchange {
 namespace {
@@ -13,36 +12,12 @@ using core::ErrorCode;
 using core::fail;
 using core::Point3;
 using core::Result;
+using detail::in;
+using detail::member;
+using detail::number_member;
 using nlohmann::json;
 
-json points_json(const std::vector<Point3>& points) {
-  json list = json::array();
-  for (const Point3 p : points) list.push_back(to_json(p));
-  return list;
-}
-
 json vector_json(core::Vector3 v) { return json::array({v.x, v.y, v.z}); }
-
-std::string in(const std::string& where, const std::string& key) {
-  return where.empty() ? key : where + "." + key;
-}
-std::string in(const std::string& where, std::size_t index) {
-  return where + "[" + std::to_string(index) + "]";
-}
-
-Result<const json*> member(const json& j, const char* key, const std::string& where) {
-  const auto it = j.find(key);
-  if (it == j.end())
-    return fail(ErrorCode::bad_input, std::string("\"") + key + "\" is missing",
-                std::string("add \"") + key + "\"", in(where, key));
-  return &*it;
-}
-
-Result<double> number_member(const json& j, const char* key, const std::string& where) {
-  const auto m = member(j, key, where);
-  if (!m) return std::unexpected(m.error());
-  return number_from_json(**m, in(where, key));
-}
 
 Result<std::array<double, 2>> pair_member(const json& j, const char* key,
                                           const std::string& where) {
@@ -138,23 +113,19 @@ json to_json(const lac::SpaceChain& c) {
       {"pieces", std::move(pieces)}};
 }
 
-json to_json(const curve::Bezier3& c) {
-  json j{{"type", "bezier"}, {"points", points_json(c.control)}};
-  if (!c.weights.empty()) j["weights"] = c.weights;
-  return j;
-}
+json to_json(const curve::Bezier3& c) { return detail::curve_json(c); }
 
-json to_json(const curve::BSpline3& c) {
-  json j{{"type", "bspline"},
-         {"degree", c.degree},
-         {"knots", c.knots},
-         {"points", points_json(c.control)}};
-  if (!c.weights.empty()) j["weights"] = c.weights;
-  return j;
-}
+json to_json(const curve::BSpline3& c) { return detail::curve_json(c); }
 
 json polyline_json(const std::vector<Point3>& points) {
-  return {{"type", "polyline"}, {"points", points_json(points)}};
+  return detail::curve_json(curve::Polyline3{points});
+}
+
+json to_json(const document::SpaceCurve& c) {
+  if (const auto* chain = std::get_if<lac::SpaceChain>(&c.value)) return to_json(*chain);
+  if (const auto* line = std::get_if<curve::Polyline3>(&c.value)) return detail::curve_json(*line);
+  if (const auto* bezier = std::get_if<curve::Bezier3>(&c.value)) return to_json(*bezier);
+  return to_json(std::get<curve::BSpline3>(c.value));
 }
 
 Result<Point3> point3_from_json(const json& j, const std::string& where) {
@@ -178,12 +149,35 @@ Result<lac::SpaceChain> space_chain_from_json(const json& j, const std::string& 
   auto pieces = read_pieces(j, where);
   if (!pieces) return std::unexpected(pieces.error());
   lac::SpaceChain chain{*frame, std::move(*pieces)};
-  if (auto sound = lac::validate(chain); !sound) {
-    core::Failure failure = sound.error();
-    failure.path = in(where, failure.path);
-    return std::unexpected(std::move(failure));
-  }
+  if (auto sound = lac::validate(chain); !sound) return detail::placed(sound.error(), where);
   return chain;
+}
+
+bool is_space_curve(const json& j) {
+  if (!j.is_object()) return false;
+  if (j.value("type", json()) == "log-aesthetic-space") return true;
+  const auto points = j.find("points");
+  if (points == j.end() || !points->is_array()) return false;
+  return std::any_of(points->begin(), points->end(), [](const json& p) {
+    return p.is_array() && p.size() == 3 && p[2].is_number() && p[2].get<double>() != 0;
+  });
+}
+
+Result<document::SpaceCurve> space_curve_from_json(const json& j, const std::string& where) {
+  const auto type = detail::type_of(j, where);
+  if (!type) return std::unexpected(type.error());
+  const auto checked = [&](auto read) -> Result<document::SpaceCurve> {
+    if (!read) return std::unexpected(std::move(read.error()));
+    document::SpaceCurve c{std::move(*read)};
+    if (auto sound = validate(c); !sound) return detail::placed(sound.error(), where);
+    return c;
+  };
+  if (*type == "log-aesthetic-space") return checked(space_chain_from_json(j, where));
+  if (*type == "polyline") return checked(detail::read_polyline<Point3>(j, where));
+  if (*type == "bezier") return checked(detail::read_bezier<Point3>(j, where));
+  if (*type == "bspline") return checked(detail::read_bspline<Point3>(j, where));
+  return fail(ErrorCode::bad_input, "\"" + *type + "\" is not a space curve type",
+              "use polyline, bezier, bspline or log-aesthetic-space", in(where, "type"));
 }
 
 }  // namespace keyline::exchange

@@ -94,13 +94,15 @@ struct PageUnit {
 };
 
 const PageUnit* unit_of(std::string_view name) {
-  static constexpr std::array<PageUnit, 7> kUnits = {{{"", "", 1},
+  static constexpr std::array<PageUnit, 9> kUnits = {{{"", "", 1},
                                                       {"px", "", 1},
                                                       {"mm", "mm", 1},
                                                       {"cm", "cm", 1},
                                                       {"in", "in", 1},
                                                       {"pt", "pt", 1},
-                                                      {"m", "mm", 1000}}};
+                                                      {"m", "mm", 1000},
+                                                      {"km", "mm", 1e6},
+                                                      {"ft", "in", 12}}};
   const auto found = std::find_if(kUnits.begin(), kUnits.end(),
                                   [name](const PageUnit& unit) { return unit.name == name; });
   return found == kUnits.end() ? nullptr : &*found;
@@ -118,6 +120,18 @@ core::Result<void> check_piece(const Bezier2& piece, const std::string& path) {
   return {};
 }
 
+core::Result<void> check_path(const SvgPath& path, const std::string& place) {
+  if (!path.color.empty() && !is_color(path.color))
+    return core::fail(ErrorCode::bad_input, "a colour is not of the form #rrggbb", {},
+                      place + ".color");
+  if (!(path.width >= 0 && std::isfinite(path.width)))
+    return core::fail(ErrorCode::bad_input, "a line width is negative or not finite", {},
+                      place + ".width");
+  for (const Bezier2& piece : path.pieces)
+    if (auto ok = check_piece(piece, place); !ok) return ok;
+  return {};
+}
+
 core::Result<void> check(const std::vector<SvgLayer>& layers) {
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const std::string place = "layers[" + std::to_string(i) + "]";
@@ -128,9 +142,9 @@ core::Result<void> check(const std::vector<SvgLayer>& layers) {
       return core::fail(ErrorCode::bad_input, "a line width is negative or not finite", {},
                         place + ".width");
     for (std::size_t j = 0; j < layers[i].paths.size(); ++j)
-      for (const Bezier2& piece : layers[i].paths[j].pieces)
-        if (auto ok = check_piece(piece, place + ".paths[" + std::to_string(j) + "]"); !ok)
-          return ok;
+      if (auto ok = check_path(layers[i].paths[j], place + ".paths[" + std::to_string(j) + "]");
+          !ok)
+        return ok;
   }
   return {};
 }
@@ -197,6 +211,8 @@ void append_layer(std::string& svg, const SvgLayer& layer, std::size_t index, do
     const SvgPath& path = layer.paths[i];
     append(svg, {"<path id=\"", id, "-path", std::to_string(i + 1), "\""});
     if (!path.name.empty()) append(svg, {" inkscape:label=\"", label(path.name), "\""});
+    if (!path.color.empty()) append(svg, {" stroke=\"", path.color, "\""});
+    if (path.width > 0) append(svg, {" stroke-width=\"", number(path.width), "\""});
     append(svg, {" d=\"", path_data(path), "\"/>\n"});
   }
   svg += "</g>\n";

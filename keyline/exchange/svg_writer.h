@@ -13,7 +13,9 @@ namespace keyline::exchange {
 struct SvgPath {
   std::string name = {};
   std::vector<curve::Bezier2> pieces = {};
-  bool closed = false;  ///< ends where it starts
+  bool closed = false;     ///< ends where it starts
+  std::string color = {};  ///< "#rrggbb"; empty: the layer's
+  double width = 0;        ///< of the line, in the drawing's unit; 0: the layer's
 };
 
 /// A named layer with one look.

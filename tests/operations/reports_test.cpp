@@ -178,28 +178,6 @@ TEST(JoinedReport, TakesTheWorstVerdict) {
   EXPECT_TRUE(joined_report({}, "None").sections.empty());
 }
 
-TEST(FairSvg, ReadsBackWithItsMetadata) {
-  const Faired f = faired_example("bottle.csv");
-  const std::string exact = exchange::to_json(fair_curve(f.result)).dump();
-  const auto svg = fair_svg(f.result, 0.01, "mm", exact);
-  ASSERT_TRUE(svg) << svg.error().message;
-  const auto read = exchange::read_svg(*svg);
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->metadata, exact);
-  EXPECT_EQ(read->unit, "mm");
-  ASSERT_FALSE(read->curves.empty());
-  EXPECT_EQ(read->curves[0].pieces[0].control[0], evaluate(fair_curve(f.result), 0));
-  EXPECT_FALSE(fair_svg(f.result, 0, "mm", exact));
-}
-
-TEST(FairSvg, AClosedCurveCloses) {
-  const Faired f = faired(circle(60, true));
-  const auto read = exchange::read_svg(fair_svg(f.result, 1e-3, "mm", "{}").value());
-  ASSERT_TRUE(read);
-  ASSERT_EQ(read->curves.size(), 1U);
-  EXPECT_TRUE(read->curves[0].closed);
-}
-
 document::Path bezier_path() {
   return {{{curve::Bezier2{{{0, 0}, {1, 0}, {2, 0.3}, {2.6, 1.2}}, {}}}}, false};
 }

@@ -1,0 +1,97 @@
+#include "keyline/document/document.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+namespace keyline::document {
+namespace {
+
+/// Which things to keep; empty where the text means nothing.
+std::vector<bool> chosen(const std::vector<Label>& all, const std::string& wanted) {
+  std::vector<bool> keep(all.size(), false);
+  for (const auto member : {&Label::name, &Label::layer}) {
+    bool any = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      keep[i] = all[i].*member == wanted;
+      any = any || keep[i];
+    }
+    if (any) return keep;
+  }
+  std::size_t index = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto [stop, error] = std::from_chars(wanted.data(), end, index);
+  if (error != std::errc() || stop != end || index < 1 || index > all.size()) return {};
+  keep[index - 1] = true;
+  return keep;
+}
+
+std::string known_names(const std::vector<Label>& all) {
+  constexpr std::size_t kMost = 8;
+  std::string list;
+  std::size_t count = 0;
+  for (const Label& label : all) {
+    if (label.name.empty()) continue;
+    if (++count > kMost) return list + " and others";
+    list += (list.empty() ? "" : ", ") + label.name;
+  }
+  return list;
+}
+
+template <class T>
+void keep_only(std::vector<T>& things, const std::vector<bool>& keep, std::size_t& at) {
+  std::vector<T> kept;
+  for (T& thing : things)
+    if (keep[at++]) kept.push_back(std::move(thing));
+  things = std::move(kept);
+}
+
+}  // namespace
+
+std::size_t size(const Document& document) {
+  return document.paths.size() + document.space_curves.size();
+}
+
+std::vector<Label> labels(const Document& document) {
+  std::vector<Label> all;
+  for (const auto& thing : document.paths) all.push_back(thing.label);
+  for (const auto& thing : document.space_curves) all.push_back(thing.label);
+  return all;
+}
+
+core::Result<void> select(Document& document, const std::string& wanted) {
+  if (wanted.empty()) return {};
+  const std::vector<Label> all = labels(document);
+  const std::vector<bool> keep = chosen(all, wanted);
+  if (keep.empty()) {
+    const std::string names = known_names(all);
+    return core::fail(core::ErrorCode::bad_input,
+                      "no curve or layer is named \"" + wanted + "\" and none has that number",
+                      names.empty() ? "give a number from 1 to " + std::to_string(all.size())
+                                    : "there are " + names + "; or give a number from 1 to " +
+                                          std::to_string(all.size()),
+                      "--select");
+  }
+  std::size_t at = 0;
+  keep_only(document.paths, keep, at);
+  keep_only(document.space_curves, keep, at);
+  return {};
+}
+
+double millimetres(const std::string& unit) {
+  static constexpr std::array<std::pair<std::string_view, double>, 8> kUnits = {
+      {{"mm", 1},
+       {"cm", 10},
+       {"m", 1000},
+       {"km", 1e6},
+       {"in", 25.4},
+       {"ft", 304.8},
+       {"pt", 25.4 / 72},
+       {"px", 25.4 / 96}}};
+  for (const auto& [name, length] : kUnits)
+    if (unit == name) return length;
+  return 0;
+}
+
+}  // namespace keyline::document

@@ -1,0 +1,183 @@
+#include "keyline/exchange/document_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "keyline/exchange/atomic_file.h"
+#include "keyline/exchange/csv_writer.h"
+#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/svg_document.h"
+
+namespace keyline::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+using document::Document;
+
+constexpr std::size_t kHead = 1024;  // bytes looked at to tell a format
+
+/// The points of every curve as a polyline.
+Result<Document> points_document(const fs::path& file) {
+  const auto curves = read_points(file);
+  if (!curves) return std::unexpected(curves.error());
+  Document document;
+  for (const acquire::RawCurve& raw : *curves) {
+    const document::Label label{raw.id, {}, {}};
+    std::vector<core::Point3> points;
+    std::copy_if(raw.points.begin(), raw.points.end(), std::back_inserter(points),
+                 [](core::Point3 p) { return core::is_finite(p); });
+    if (points.size() < raw.points.size())
+      document.skipped.push_back(std::to_string(raw.points.size() - points.size()) +
+                                 " points without all coordinates");
+    if (points.size() < 2) continue;
+    if (raw.has_z) {
+      document.space_curves.push_back({label, {curve::Polyline3{std::move(points)}}});
+      continue;
+    }
+    curve::Polyline2 line;
+    for (const core::Point3 p : points) line.points.push_back({p.x, p.y});
+    document.paths.push_back({label, {{{std::move(line)}}, false}, 0});
+  }
+  return document;
+}
+
+Result<Document> document_of(Format format, const fs::path& file) {
+  if (format == Format::points) return points_document(file);
+  const auto content = read_file(file);
+  if (!content) return std::unexpected(content.error());
+  switch (format) {
+    case Format::json:
+      return read_json(*content);
+    case Format::svg:
+      return read_svg_document(*content);
+    case Format::points:
+      break;
+  }
+  return fail(ErrorCode::internal, "no reader for this format");
+}
+
+struct Corners {
+  core::Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  core::Point3 high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void take(core::Point3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  void take(core::Point2 p) { take(core::Point3{p.x, p.y, 0}); }
+};
+
+/// Breakpoints and places between them.
+template <class C>
+void sample_into(Corners& corners, const C& curve) {
+  constexpr int kBetween = 4;
+  const auto at = breakpoints(curve);
+  for (std::size_t i = 1; i < at.size(); ++i)
+    for (int k = 0; k <= kBetween; ++k)
+      corners.take(evaluate(curve, at[i - 1] + (at[i] - at[i - 1]) * k / kBetween));
+}
+
+}  // namespace
+
+core::Failure in_file(core::Failure failure, const std::string& file) {
+  if (failure.path.starts_with(file)) return failure;
+  if (failure.path.starts_with("line "))
+    failure.path = file + ":" + failure.path.substr(5);
+  else
+    failure.path = failure.path.empty() ? file : file + ": " + failure.path;
+  return failure;
+}
+
+Result<std::string> head_of(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    return fail(ErrorCode::io, "is a directory", "name a file", file.string());
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    return fail(ErrorCode::io,
+                "cannot be opened: " + std::generic_category().message(errno == 0 ? EIO : errno),
+                "check the name and the rights", file.string());
+  std::string head(kHead, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
+Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
+  if (const auto head = head_of(file); !head) return std::unexpected(head.error());
+  std::ifstream in(file, std::ios::binary);
+  std::string content;
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (!error && size <= largest) content.reserve(size);
+  std::string chunk(std::size_t{1} << 20, '\0');
+  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
+    content.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
+    if (content.size() > largest)
+      return fail(ErrorCode::bad_input,
+                  "the file is larger than " + std::to_string(largest >> 20) + " MB", "split it",
+                  file.string());
+  }
+  if (in.bad())
+    return fail(ErrorCode::io, "reading failed", "check the device or the network", file.string());
+  return content;
+}
+
+Result<Document> read_document(const fs::path& file) {
+  const auto head = head_of(file);
+  if (!head) return std::unexpected(head.error());
+  auto document = document_of(format_of(file, *head), file);
+  if (!document) return std::unexpected(in_file(document.error(), file.string()));
+  if (size(*document) == 0)
+    return fail(ErrorCode::bad_input,
+                document->skipped.empty()
+                    ? "the file holds no curve"
+                    : "the file holds no curve; skipped: " + document->skipped.front(),
+                "give a file with curves", file.string());
+  return document;
+}
+
+double extent(const Document& document) {
+  Corners corners;
+  for (const auto& named : document.paths) sample_into(corners, named.path);
+  for (const auto& named : document.space_curves) sample_into(corners, named.curve);
+  const double size = distance(corners.low, corners.high);
+  return std::isfinite(size) ? size : 0;
+}
+
+Result<Written> format_document(const Document& document, const std::string& extension,
+                                const WriteOptions& options) {
+  const double size = options.tolerance > 0 ? 0 : extent(document);
+  const double tolerance = options.tolerance > 0 ? options.tolerance : size > 0 ? 1e-5 * size : 1;
+  if (extension == ".json") return Written{to_json(document).dump(1) + "\n", 0, {}};
+  if (extension == ".csv") return write_csv(document, options.samples);
+  if (extension == ".svg") return write_svg_document(document, tolerance);
+  std::string list;
+  for (const std::string& name : written_extensions()) list += (list.empty() ? "" : " ") + name;
+  return fail(ErrorCode::bad_input, "\"" + extension + "\" is no format that can be written",
+              "use one of " + list);
+}
+
+Result<Written> write_document(const Document& document, const fs::path& file,
+                               const WriteOptions& options) {
+  auto written = format_document(document, extension_of(file), options);
+  if (!written) return std::unexpected(in_file(written.error(), file.string()));
+  if (auto done = write_atomically(file, written->content); !done)
+    return std::unexpected(in_file(done.error(), file.string()));
+  written->content.clear();
+  return written;
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "keyline/core/error.h"
+#include "keyline/document/document.h"
+#include "keyline/exchange/format.h"
+#include "keyline/exchange/written.h"
+
+/// Files of every format to documents and back.
+namespace keyline::exchange {
+
+/// The whole of a file.
+/// Fails: io where it cannot be opened or read; bad_input where it holds more than `largest` bytes.
+core::Result<std::string> read_file(const std::filesystem::path& file,
+                                    std::uintmax_t largest = std::uintmax_t{512} << 20);
+
+/// The first 1024 bytes of a file, for format_of(); io as read_file().
+core::Result<std::string> head_of(const std::filesystem::path& file);
+
+/// Everything a file holds, in its own unit, transforms applied. The format is that of the
+/// extension, or, where it says nothing, of the content. Tables of points become polylines; nothing
+/// is sorted or dropped (room acquire does that).
+/// Returns: a document that holds something; `skipped` lists what it does not hold.
+/// Fails: io for files that cannot be read, bad_input with "file:line" or "file: place" for
+///        contents; bad_input where there is nothing in it to read.
+core::Result<document::Document> read_document(const std::filesystem::path& file);
+
+struct WriteOptions {
+  double tolerance = 0;  ///< largest deviation; 0: 1e-5 of the longest thing in the document
+  int samples = 1001;    ///< rows per curve of a table
+};
+
+/// The document in the format of `extension` (with its dot, of written_extensions()).
+/// Exact curves stay exact where the format has them; the deviation of the rest is in the answer.
+/// Fails: bad_input for other extensions and for what the format's writer refuses.
+core::Result<Written> format_document(const document::Document& document,
+                                      const std::string& extension,
+                                      const WriteOptions& options = {});
+
+/// The same into a file, which is written whole or not at all; `content` of the answer is empty.
+core::Result<Written> write_document(const document::Document& document,
+                                     const std::filesystem::path& file,
+                                     const WriteOptions& options = {});
+
+/// Diagonal of the box around control points and samples of everything in the document; 0 for
+/// nothing.
+double extent(const document::Document& document);
+
+/// A failure with the file in front of its place: "file:12" for "line 12", else "file: place".
+core::Failure in_file(core::Failure failure, const std::string& file);
+
+}  // namespace keyline::exchange

@@ -1,0 +1,146 @@
+#include "keyline/exchange/json_document.h"
+
+#include <algorithm>
+
+#include "keyline/exchange/json_parts.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+using detail::in;
+using document::Document;
+using document::Label;
+using nlohmann::json;
+
+json path_json(const document::Path& path) {
+  const bool chain =
+      path.curves.size() == 1 && std::holds_alternative<lac::Chain>(path.curves[0].value);
+  // A closed path of one curve other than a chain says so only as a path.
+  const bool plain = path.curves.size() == 1 && (chain || !path.closed);
+  return plain ? to_json(path.curves.front()) : to_json(path);
+}
+
+void add_label(json& j, const Label& label) {
+  if (!label.name.empty()) j["name"] = label.name;
+  if (!label.layer.empty()) j["layer"] = label.layer;
+  if (!label.color.empty()) j["color"] = label.color;
+}
+
+json item_json(const Label& label, json curve) {
+  json item{{"curve", std::move(curve)}};
+  add_label(item, label);
+  return item;
+}
+
+std::string text_of(const json& j, const char* key) {
+  const auto it = j.find(key);
+  return it != j.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+Label label_of(const json& j) {
+  Label label{text_of(j, "name"), text_of(j, "layer"), text_of(j, "color")};
+  const bool color =
+      label.color.size() == 7 && label.color[0] == '#' &&
+      label.color.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (!color) label.color.clear();
+  return label;
+}
+
+Result<void> add_value(Document& document, const json& value, const std::string& where, Label label,
+                       double stroke_width) {
+  if (is_space_curve(value)) {
+    auto curve = space_curve_from_json(value, where);
+    if (!curve) return std::unexpected(curve.error());
+    document.space_curves.push_back({std::move(label), std::move(*curve)});
+    return {};
+  }
+  auto path = path_from_json(value, where);
+  if (!path) return std::unexpected(path.error());
+  document.paths.push_back({std::move(label), std::move(*path), stroke_width});
+  return {};
+}
+
+Result<void> add_item(Document& document, const json& item, const std::string& where) {
+  const bool wrapped = item.is_object() && item.contains("curve");
+  if (!wrapped)
+    return add_value(document, item, where, item.is_object() ? label_of(item) : Label{}, 0);
+  double width = 0;
+  if (item.contains("stroke_width")) {
+    const auto number = number_from_json(item["stroke_width"], in(where, "stroke_width"));
+    if (!number) return std::unexpected(number.error());
+    if (*number < 0)
+      return fail(ErrorCode::bad_input, "the stroke width is negative", "give 0 or more",
+                  in(where, "stroke_width"));
+    width = *number;
+  }
+  return add_value(document, item["curve"], in(where, "curve"), label_of(item), width);
+}
+
+Result<Document> document_of_list(const json& j) {
+  Document document;
+  document.unit = text_of(j, "unit");
+  const json& list = j["curves"];
+  if (!list.is_array())
+    return fail(ErrorCode::bad_input, "a list of curves is wanted here", "give [{\"curve\":…}, …]",
+                "curves");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (auto done = add_item(document, list[i], in("curves", i)); !done)
+      return std::unexpected(done.error());
+  if (const auto skipped = j.find("skipped"); skipped != j.end() && skipped->is_array())
+    for (const json& line : *skipped)
+      if (line.is_string()) document.skipped.push_back(line.get<std::string>());
+  return document;
+}
+
+}  // namespace
+
+json to_json(const Document& document) {
+  if (document.paths.size() == 1 && document.space_curves.empty() && document.skipped.empty() &&
+      document.paths[0].label.layer.empty() && document.paths[0].stroke_width == 0) {
+    json one = path_json(document.paths[0].path);
+    add_label(one, document.paths[0].label);
+    if (!document.unit.empty()) one["unit"] = document.unit;
+    return one;
+  }
+  json list = json::array();
+  for (const auto& named : document.paths) {
+    list.push_back(item_json(named.label, path_json(named.path)));
+    if (named.stroke_width > 0) list.back()["stroke_width"] = named.stroke_width;
+  }
+  for (const auto& named : document.space_curves)
+    list.push_back(item_json(named.label, to_json(named.curve)));
+  json j{{"curves", std::move(list)}};
+  if (!document.unit.empty()) j["unit"] = document.unit;
+  if (!document.skipped.empty()) j["skipped"] = document.skipped;
+  return j;
+}
+
+Result<Document> document_from_json(const json& j) {
+  const bool typed = j.is_object() && j.contains("type");
+  if (j.is_object() && !typed && j.contains("curves")) return document_of_list(j);
+  Document document;
+  if (j.is_object()) document.unit = text_of(j, "unit");
+  const bool wrapped = j.is_object() && !typed && j.contains("curve");
+  const auto done = wrapped ? add_value(document, j["curve"], "curve", label_of(j), 0)
+                            : add_value(document, j, "", j.is_object() ? label_of(j) : Label{}, 0);
+  if (!done) return std::unexpected(done.error());
+  return document;
+}
+
+Result<Document> read_json(std::string_view text) {
+  json j;
+  try {
+    j = json::parse(text);
+  } catch (const json::parse_error& e) {
+    const auto upto = std::min<std::size_t>(e.byte, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(upto), '\n');
+    return fail(ErrorCode::bad_input, "this is not JSON",
+                "mend it around byte " + std::to_string(e.byte), "line " + std::to_string(line));
+  }
+  return document_from_json(j);
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "keyline/core/error.h"
+#include "keyline/document/document.h"
+
+/// Documents as JSON: one value of the public interface, or
+///
+/// {"unit":"mm", "curves":[{"name":…, "layer":…, "color":"#rrggbb", "stroke_width":w, "curve":{…}},
+///  …], "skipped":["…"]}
+///
+/// with everything but the curves optional. The answer of an operation that returns one
+/// (`{"curve":{…}}`) is read too. docs/formats/document.schema.json states it as JSON Schema.
+namespace keyline::exchange {
+
+/// A document of one planar curve without layer is that curve's value, with its name, colour and
+/// unit as further fields; anything else the form above. Reads back to the same doubles.
+nlohmann::json to_json(const document::Document& document);
+
+/// Fails: bad_input with the place of the mistake within the value, for example
+/// "curves[2].curve.points[0]".
+core::Result<document::Document> document_from_json(const nlohmann::json& j);
+
+/// The same from text; for what is no JSON the path is "line N".
+core::Result<document::Document> read_json(std::string_view text);
+
+}  // namespace keyline::exchange

@@ -1,0 +1,128 @@
+#include "keyline/exchange/svg_document.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/cubic_path.h"
+#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/svg_reader.h"
+#include "keyline/exchange/svg_writer.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::Result;
+using document::Document;
+using nlohmann::json;
+
+constexpr const char* kFingerprint = "drawing";
+
+/// FNV-1a over the coordinates as they were read, to tell a drawing that was changed.
+std::string fingerprint(const SvgContents& svg) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&hash](std::uint64_t value) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash = (hash ^ (value & 0xff)) * 1099511628211ULL;
+      value >>= 8;
+    }
+  };
+  for (const SvgCurve& curve : svg.curves) {
+    mix(curve.pieces.size());
+    for (const curve::Bezier2& piece : curve.pieces)
+      for (const core::Point2 p : piece.control) {
+        mix(std::bit_cast<std::uint64_t>(p.x));
+        mix(std::bit_cast<std::uint64_t>(p.y));
+      }
+  }
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash >> shift) & 15];
+  return text;
+}
+
+/// True for metadata that stand for the drawing as it is now.
+bool is_current(const json& metadata, const SvgContents& svg) {
+  if (!metadata.is_object()) return false;
+  const auto stated = metadata.find(kFingerprint);
+  return stated == metadata.end() || *stated == fingerprint(svg);
+}
+
+Document document_of(const SvgContents& svg) {
+  Document document;
+  document.unit = svg.unit;
+  for (const SvgCurve& curve : svg.curves) {
+    document::NamedPath named{{curve.name, curve.layer, {}}, {{}, curve.closed}, 0};
+    for (const curve::Bezier2& piece : curve.pieces) named.path.curves.push_back({piece});
+    if (!named.path.curves.empty()) document.paths.push_back(std::move(named));
+  }
+  for (const SvgSkipped& skipped : svg.skipped)
+    document.skipped.push_back("line " + std::to_string(skipped.line) + ": " + skipped.what);
+  return document;
+}
+
+/// One layer per name, in the order of first appearance.
+SvgLayer& layer_of(std::vector<SvgLayer>& layers, const document::NamedPath& named) {
+  const std::string own = named.label.name.empty() ? "key-line" : named.label.name;
+  const std::string& wanted = named.label.layer.empty() ? own : named.label.layer;
+  const auto found = std::find_if(layers.begin(), layers.end(),
+                                  [&](const SvgLayer& layer) { return layer.name == wanted; });
+  if (found != layers.end()) return *found;
+  layers.push_back({.name = wanted});
+  return layers.back();
+}
+
+/// The unit the file is written in; a drawing without unit is taken as mm.
+std::string svg_unit(const std::string& unit) { return unit.empty() ? "mm" : unit; }
+
+}  // namespace
+
+Result<Document> read_svg_document(std::string_view bytes) {
+  const auto svg = read_svg(bytes);
+  if (!svg) return std::unexpected(svg.error());
+  if (svg->metadata.empty()) return document_of(*svg);
+  const json metadata = json::parse(svg->metadata, nullptr, false);
+  if (is_current(metadata, *svg)) {
+    auto exact = document_from_json(metadata);
+    if (exact) return exact;
+  }
+  Document document = document_of(*svg);
+  document.skipped.push_back(
+      "the exact curves in the metadata: the drawing was changed after they were written");
+  return document;
+}
+
+Result<Written> write_svg_document(const Document& document, double tolerance) {
+  Written written;
+  std::vector<SvgLayer> layers;
+  for (const document::NamedPath& named : document.paths) {
+    CubicPath cubics = cubic_path(named.path, named.label.name, tolerance);
+    written.deviation = std::max(written.deviation, cubics.deviation);
+    cubics.path.color = named.label.color;
+    cubics.path.width = named.stroke_width;
+    layer_of(layers, named).paths.push_back(std::move(cubics.path));
+  }
+  if (!document.space_curves.empty())
+    written.notes.push_back(std::to_string(document.space_curves.size()) +
+                            " space curves are not in the drawing: SVG is planar");
+  SvgWriteOptions options;
+  options.unit = svg_unit(document.unit);
+  options.title = "Keyline: cubic B\u00E9ziers within " + core::number_text(written.deviation, 3) +
+                  " of the exact curve";
+  const auto plain = write_svg(layers, options);
+  if (!plain) return std::unexpected(plain.error());
+  const auto read = read_svg(*plain);
+  if (!read) return std::unexpected(read.error());
+  json metadata = to_json(document);
+  metadata[kFingerprint] = fingerprint(*read);
+  options.metadata = metadata.dump();
+  auto text = write_svg(layers, options);
+  if (!text) return std::unexpected(text.error());
+  written.content = std::move(*text);
+  return written;
+}
+
+}  // namespace keyline::exchange

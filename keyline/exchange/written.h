@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace keyline::exchange {
+
+/// A document as the bytes of a file, and what that took.
+struct Written {
+  std::string content;
+  double deviation = 0;            ///< bound of the distance from the document's curves
+  std::vector<std::string> notes;  ///< what the format could not hold, in words
+};
+
+}  // namespace keyline::exchange

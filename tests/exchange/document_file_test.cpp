@@ -1,0 +1,173 @@
+#include "keyline/exchange/document_file.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/svg_document.h"
+#include "keyline/exchange/svg_reader.h"
+
+namespace keyline::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+using document::Document;
+using testing::HasSubstr;
+
+/// A folder that goes with the test.
+class Files : public testing::Test {
+ protected:
+  Files() : folder_(fs::temp_directory_path() / ("keyline-" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Files() override { fs::remove_all(folder_); }
+  fs::path file(const std::string& name, const std::string& content = {}) {
+    if (!content.empty()) std::ofstream(folder_ / name, std::ios::binary) << content;
+    return folder_ / name;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+/// A chain with irrational numbers, an arc, a spline and a rail in space.
+Document mixed() {
+  Document d;
+  d.unit = "mm";
+  lac::Chain chain{{{1.0 / 3, -2.0 / 7}, 0.1}, {{-1, 50, 0, 0.03}, {1.5, 20, 0.03, 0.1}}, false};
+  d.paths.push_back({{"roof", "body", "#aa1100"}, {{{chain}}, false}, 0.25});
+  d.paths.push_back({{"arc", "body", ""},
+                     {{{curve::Bezier2{{{1, 0}, {1, 1}, {0, 1}}, {1, std::sqrt(0.5), 1}}}}, false},
+                     0});
+  curve::BSpline2 spline{2, {0, 0, 0, 0.5, 1, 1, 1}, {{0, 0}, {1, 2}, {3, 2}, {4, 0}}, {}};
+  d.paths.push_back({{"sill", "", ""}, {{{spline}}, false}, 0});
+  d.space_curves.push_back({{"rail", "", ""}, {curve::Polyline3{{{0, 0, 1}, {1, 2, 3}}}}});
+  return d;
+}
+
+TEST(JsonDocument, ReadsBackTheSame) {
+  const Document d = mixed();
+  const std::string text = to_json(d).dump();
+  const auto read = read_json(text);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(to_json(*read).dump(), text);
+  EXPECT_EQ(read->paths[0].label, d.paths[0].label);
+  EXPECT_EQ(std::get<lac::Chain>(read->paths[0].path.curves[0].value),
+            std::get<lac::Chain>(d.paths[0].path.curves[0].value));
+  EXPECT_EQ(read->paths[0].stroke_width, 0.25);
+  EXPECT_EQ(read->space_curves.size(), 1U);
+}
+
+TEST(JsonDocument, OneCurveIsItsValue) {
+  Document d;
+  d.unit = "m";
+  d.paths.push_back(mixed().paths[0]);
+  d.paths[0].label = {"roof", "", ""};
+  d.paths[0].stroke_width = 0;
+  const auto j = to_json(d);
+  EXPECT_EQ(j["type"], "log-aesthetic");
+  const auto read = document_from_json(j);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->unit, "m");
+  EXPECT_EQ(read->paths[0].label.name, "roof");
+}
+
+TEST(JsonDocument, NamesThePlaceOfAMistake) {
+  const auto bad =
+      read_json(R"({"curves":[{"curve":{"type":"bezier","points":[[0,0],[1,"x"]]}}]})");
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().path, "curves[0].curve.points[1][1]");
+  const auto cut = read_json("{\n\"curves\":[\n{");
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().path, "line 3");
+}
+
+TEST(SvgDocument, ReadsBackTheExactCurves) {
+  const Document d = mixed();
+  const auto svg = write_svg_document(d, 0.001);
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_GT(svg->deviation, 0);
+  EXPECT_LE(svg->deviation, 0.001);
+  ASSERT_EQ(svg->notes.size(), 1U);
+  EXPECT_THAT(svg->notes[0], HasSubstr("1 space curves"));
+  const auto read = read_svg_document(svg->content);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(to_json(*read).dump(), to_json(d).dump());
+}
+
+TEST(SvgDocument, HoldsLayersColoursAndWidths) {
+  const auto svg = write_svg_document(mixed(), 0.001);
+  ASSERT_TRUE(svg);
+  const auto read = read_svg(svg->content);
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->curves.size(), 3U);
+  EXPECT_EQ(read->curves[0].layer, "body");
+  EXPECT_EQ(read->curves[1].layer, "body");
+  EXPECT_EQ(read->curves[2].layer, "sill");
+  EXPECT_THAT(svg->content, HasSubstr("stroke=\"#aa1100\""));
+  EXPECT_THAT(svg->content, HasSubstr("stroke-width=\"0.25\""));
+}
+
+TEST(SvgDocument, AChangedDrawingCounts) {
+  std::string text = write_svg_document(mixed(), 0.001)->content;
+  const std::size_t at = text.find("<g id=\"layer1\"");
+  ASSERT_NE(at, std::string::npos);
+  text.insert(at + 2, " transform=\"translate(5 0)\"");
+  const auto read = read_svg_document(text);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->paths.size(), 3U);
+  EXPECT_TRUE(std::holds_alternative<curve::Bezier2>(read->paths[0].path.curves[0].value));
+  EXPECT_THAT(read->skipped.back(), HasSubstr("changed"));
+}
+
+TEST_F(Files, TheExtensionChoosesTheFormat) {
+  const Document d = mixed();
+  for (const std::string extension : {".json", ".svg"}) {
+    const fs::path target = file("a" + extension);
+    const auto written = write_document(d, target);
+    ASSERT_TRUE(written) << written.error().message;
+    const auto read = read_document(target);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(to_json(*read).dump(), to_json(d).dump()) << extension;
+  }
+  EXPECT_FALSE(write_document(d, file("a.bmp")));
+}
+
+TEST_F(Files, TheContentChoosesWhereTheNameSaysNothing) {
+  EXPECT_TRUE(read_document(file("a", to_json(mixed()).dump())));
+  EXPECT_TRUE(read_document(file("b", write_svg_document(mixed(), 1)->content)));
+  const auto points = read_document(file("c", "x,y\n0,0\n1,2\n3,4\n"));
+  ASSERT_TRUE(points);
+  EXPECT_TRUE(std::holds_alternative<curve::Polyline2>(points->paths[0].path.curves[0].value));
+}
+
+TEST_F(Files, FailuresNameTheFileAndTheLine) {
+  const auto nothing = read_document(file("none.json"));
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().code, core::ErrorCode::io);
+  const fs::path broken = file("a.json", "{\n\"type\":");
+  const auto bad = read_document(broken);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().path, broken.string() + ":2");
+  const auto empty = read_document(file("a.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>"));
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().code, core::ErrorCode::bad_input);
+}
+
+TEST_F(Files, ATableHoldsEveryCurve) {
+  Document d = mixed();
+  const auto csv = format_document(d, ".csv", {.samples = 11});
+  ASSERT_TRUE(csv);
+  EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 1 + 3 * 11);
+  d.paths.clear();
+  const auto space = format_document(d, ".csv");
+  ASSERT_TRUE(space);
+  EXPECT_EQ(space->content, "x,y,z\n0,0,1\n1,2,3\n");
+}
+
+}  // namespace
+}  // namespace keyline::exchange
