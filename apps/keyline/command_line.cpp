@@ -49,7 +49,8 @@ void add_input(CLI::App& app, InputOptions& input) {
       ->group(points);
   app.add_option("--weights", input.weights, "column of weights")->group(points);
   app.add_option("--id", input.id, "column that tells curves apart")->group(points);
-  app.add_option("--select", input.select, "take only what has this name, lies on this layer, or has this number");
+  app.add_option("--select", input.select,
+                 "take only what has this name, lies on this layer, or has this number");
   app.add_option("--section", input.section, "cut a cloud or lattice by a plane, as in y=0")
       ->group(points);
   app.add_option("--band", input.band, "half thickness of the section of a cloud")

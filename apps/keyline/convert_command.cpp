@@ -42,7 +42,8 @@ std::string counted(std::size_t count, const char* thing) {
 std::string contents(const document::Document& document) {
   std::string text;
   for (const auto& [count, thing] : {std::pair{document.paths.size(), "planar curve"},
-                                     std::pair{document.space_curves.size(), "space curve"}})
+                                     std::pair{document.space_curves.size(), "space curve"},
+                                     std::pair{document.surfaces.size(), "surface"}})
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, thing);
   return text + (document.unit.empty() ? "" : " in " + document.unit);
 }

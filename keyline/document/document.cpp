@@ -50,13 +50,14 @@ void keep_only(std::vector<T>& things, const std::vector<bool>& keep, std::size_
 }  // namespace
 
 std::size_t size(const Document& document) {
-  return document.paths.size() + document.space_curves.size();
+  return document.paths.size() + document.space_curves.size() + document.surfaces.size();
 }
 
 std::vector<Label> labels(const Document& document) {
   std::vector<Label> all;
   for (const auto& thing : document.paths) all.push_back(thing.label);
   for (const auto& thing : document.space_curves) all.push_back(thing.label);
+  for (const auto& thing : document.surfaces) all.push_back(thing.label);
   return all;
 }
 
@@ -67,7 +68,7 @@ core::Result<void> select(Document& document, const std::string& wanted) {
   if (keep.empty()) {
     const std::string names = known_names(all);
     return core::fail(core::ErrorCode::bad_input,
-                      "no curve or layer is named \"" + wanted + "\" and none has that number",
+                      "nothing and no layer is named \"" + wanted + "\" and none has that number",
                       names.empty() ? "give a number from 1 to " + std::to_string(all.size())
                                     : "there are " + names + "; or give a number from 1 to " +
                                           std::to_string(all.size()),
@@ -76,6 +77,7 @@ core::Result<void> select(Document& document, const std::string& wanted) {
   std::size_t at = 0;
   keep_only(document.paths, keep, at);
   keep_only(document.space_curves, keep, at);
+  keep_only(document.surfaces, keep, at);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "keyline/core/error.h"
 #include "keyline/document/planar_curve.h"
 #include "keyline/document/space_curve.h"
+#include "keyline/surface/surface.h"
 
 namespace keyline::document {
 
@@ -28,18 +29,25 @@ struct NamedSpaceCurve {
   SpaceCurve curve;
 };
 
+struct NamedSurface {
+  Label label;
+  surface::Surface surface;
+  int trims = 0;  ///< edges that cut a face out of it in the file; the surface here is whole
+};
+
 /// What a file holds once transforms are applied: things with their place, in one unit.
 struct Document {
   std::string unit;  ///< "mm", "cm", "m", "in", "ft", "pt", "px" or empty where none is given
   std::vector<NamedPath> paths;
   std::vector<NamedSpaceCurve> space_curves;
+  std::vector<NamedSurface> surfaces;
   std::vector<std::string> skipped;  ///< what was in the file and is not here, in words
 };
 
 /// Number of things of all kinds.
 std::size_t size(const Document& document);
 
-/// Their labels: paths, then space curves; the order that indices count in.
+/// Their labels: paths, space curves, surfaces; the order that indices count in.
 std::vector<Label> labels(const Document& document);
 
 /// Keeps what `wanted` means and drops the rest: all things of that name; if there are none, all of

@@ -71,6 +71,9 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
   if (document.paths.empty() && document.space_curves.empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve to write as points",
                       "choose a format that holds surfaces");
+  if (!document.surfaces.empty())
+    written.notes.push_back(std::to_string(document.surfaces.size()) +
+                            " surfaces are not in the table");
   std::string& text = written.content;
   if (document.paths.empty()) {
     text = several ? "id,x,y,z\n" : "x,y,z\n";

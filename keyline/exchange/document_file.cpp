@@ -153,6 +153,8 @@ double extent(const Document& document) {
   Corners corners;
   for (const auto& named : document.paths) sample_into(corners, named.path);
   for (const auto& named : document.space_curves) sample_into(corners, named.curve);
+  for (const auto& named : document.surfaces)
+    for (const core::Point3 p : net_of(named.surface).points) corners.take(p);
   const double size = distance(corners.low, corners.high);
   return std::isfinite(size) ? size : 0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keyline/exchange/json_parts.h"
+#include "keyline/exchange/json_surface.h"
 
 namespace keyline::exchange {
 namespace {
@@ -29,8 +30,8 @@ void add_label(json& j, const Label& label) {
   if (!label.color.empty()) j["color"] = label.color;
 }
 
-json item_json(const Label& label, json curve) {
-  json item{{"curve", std::move(curve)}};
+json item_json(const Label& label, const char* kind, json value) {
+  json item{{kind, std::move(value)}};
   add_label(item, label);
   return item;
 }
@@ -51,6 +52,12 @@ Label label_of(const json& j) {
 
 Result<void> add_value(Document& document, const json& value, const std::string& where, Label label,
                        double stroke_width) {
+  if (is_surface_json(value)) {
+    auto read = surface_from_json(value, where);
+    if (!read) return std::unexpected(read.error());
+    document.surfaces.push_back({std::move(label), std::move(*read), 0});
+    return {};
+  }
   if (is_space_curve(value)) {
     auto curve = space_curve_from_json(value, where);
     if (!curve) return std::unexpected(curve.error());
@@ -60,6 +67,17 @@ Result<void> add_value(Document& document, const json& value, const std::string&
   auto path = path_from_json(value, where);
   if (!path) return std::unexpected(path.error());
   document.paths.push_back({std::move(label), std::move(*path), stroke_width});
+  return {};
+}
+
+Result<void> add_surface(Document& document, const json& item, const std::string& where) {
+  if (!item.is_object() || !item.contains("surface"))
+    return fail(ErrorCode::bad_input, "a surface is wanted here", "give {\"surface\":{…}}", where);
+  auto read = surface_from_json(item["surface"], in(where, "surface"));
+  if (!read) return std::unexpected(read.error());
+  const auto trims = item.find("trims");
+  const bool counted = trims != item.end() && trims->is_number_unsigned() && *trims < 1'000'000;
+  document.surfaces.push_back({label_of(item), std::move(*read), counted ? trims->get<int>() : 0});
   return {};
 }
 
@@ -82,37 +100,60 @@ Result<void> add_item(Document& document, const json& item, const std::string& w
 Result<Document> document_of_list(const json& j) {
   Document document;
   document.unit = text_of(j, "unit");
-  const json& list = j["curves"];
-  if (!list.is_array())
-    return fail(ErrorCode::bad_input, "a list of curves is wanted here", "give [{\"curve\":…}, …]",
-                "curves");
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (auto done = add_item(document, list[i], in("curves", i)); !done)
-      return std::unexpected(done.error());
+  for (const auto& [key, add] : {std::pair{"curves", &add_item}, {"surfaces", &add_surface}}) {
+    const auto list = j.find(key);
+    if (list == j.end()) continue;
+    if (!list->is_array())
+      return fail(ErrorCode::bad_input, "a list is wanted here", "give [{…}, …]", key);
+    for (std::size_t i = 0; i < list->size(); ++i)
+      if (auto done = add(document, (*list)[i], in(key, i)); !done)
+        return std::unexpected(done.error());
+  }
   if (const auto skipped = j.find("skipped"); skipped != j.end() && skipped->is_array())
     for (const json& line : *skipped)
       if (line.is_string()) document.skipped.push_back(line.get<std::string>());
   return document;
 }
 
+json surfaces_json(const Document& document) {
+  json list = json::array();
+  for (const auto& named : document.surfaces) {
+    list.push_back(item_json(named.label, "surface", to_json(named.surface)));
+    if (named.trims > 0) list.back()["trims"] = named.trims;
+  }
+  return list;
+}
+
+/// A single unlabelled thing is written as the value it is.
+bool is_one_path(const Document& document) {
+  return document.paths.size() == 1 && size(document) == 1 && document.skipped.empty() &&
+         document.paths[0].label.layer.empty() && document.paths[0].stroke_width == 0;
+}
+
+bool is_one_surface(const Document& document) {
+  return document.surfaces.size() == 1 && size(document) == 1 && document.skipped.empty() &&
+         document.surfaces[0].label.layer.empty() && document.surfaces[0].trims == 0;
+}
+
 }  // namespace
 
 json to_json(const Document& document) {
-  if (document.paths.size() == 1 && document.space_curves.empty() && document.skipped.empty() &&
-      document.paths[0].label.layer.empty() && document.paths[0].stroke_width == 0) {
-    json one = path_json(document.paths[0].path);
-    add_label(one, document.paths[0].label);
+  if (is_one_path(document) || is_one_surface(document)) {
+    const bool path = !document.paths.empty();
+    json one = path ? path_json(document.paths[0].path) : to_json(document.surfaces[0].surface);
+    add_label(one, path ? document.paths[0].label : document.surfaces[0].label);
     if (!document.unit.empty()) one["unit"] = document.unit;
     return one;
   }
   json list = json::array();
   for (const auto& named : document.paths) {
-    list.push_back(item_json(named.label, path_json(named.path)));
+    list.push_back(item_json(named.label, "curve", path_json(named.path)));
     if (named.stroke_width > 0) list.back()["stroke_width"] = named.stroke_width;
   }
   for (const auto& named : document.space_curves)
-    list.push_back(item_json(named.label, to_json(named.curve)));
+    list.push_back(item_json(named.label, "curve", to_json(named.curve)));
   json j{{"curves", std::move(list)}};
+  if (!document.surfaces.empty()) j["surfaces"] = surfaces_json(document);
   if (!document.unit.empty()) j["unit"] = document.unit;
   if (!document.skipped.empty()) j["skipped"] = document.skipped;
   return j;
@@ -120,7 +161,8 @@ json to_json(const Document& document) {
 
 Result<Document> document_from_json(const json& j) {
   const bool typed = j.is_object() && j.contains("type");
-  if (j.is_object() && !typed && j.contains("curves")) return document_of_list(j);
+  if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
+    return document_of_list(j);
   Document document;
   if (j.is_object()) document.unit = text_of(j, "unit");
   const bool wrapped = j.is_object() && !typed && j.contains("curve");

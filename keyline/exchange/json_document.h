@@ -11,13 +11,13 @@
 /// Documents as JSON: one value of the public interface, or
 ///
 /// {"unit":"mm", "curves":[{"name":…, "layer":…, "color":"#rrggbb", "stroke_width":w, "curve":{…}},
-///  …], "skipped":["…"]}
+///  …], "surfaces":[{"name":…, "surface":{…}, "trims":n}, …], "skipped":["…"]}
 ///
-/// with everything but the curves optional. The answer of an operation that returns one
+/// with everything but one of the lists optional. The answer of an operation that returns one
 /// (`{"curve":{…}}`) is read too. docs/formats/document.schema.json states it as JSON Schema.
 namespace keyline::exchange {
 
-/// A document of one planar curve without layer is that curve's value, with its name, colour and
+/// A document of one planar curve or surface without layer is its value, with name, colour and
 /// unit as further fields; anything else the form above. Reads back to the same doubles.
 nlohmann::json to_json(const document::Document& document);
 

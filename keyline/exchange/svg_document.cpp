@@ -108,6 +108,9 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
   if (!document.space_curves.empty())
     written.notes.push_back(std::to_string(document.space_curves.size()) +
                             " space curves are not in the drawing: SVG is planar");
+  if (!document.surfaces.empty())
+    written.notes.push_back(std::to_string(document.surfaces.size()) +
+                            " surfaces are not in the drawing");
   SvgWriteOptions options;
   options.unit = svg_unit(document.unit);
   options.title = "Keyline: cubic B\u00E9ziers within " + core::number_text(written.deviation, 3) +

@@ -46,6 +46,8 @@ Document mixed() {
   curve::BSpline2 spline{2, {0, 0, 0, 0.5, 1, 1, 1}, {{0, 0}, {1, 2}, {3, 2}, {4, 0}}, {}};
   d.paths.push_back({{"sill", "", ""}, {{{spline}}, false}, 0});
   d.space_curves.push_back({{"rail", "", ""}, {curve::Polyline3{{{0, 0, 1}, {1, 2, 3}}}}});
+  surface::BezierSurface patch{{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1.0 / 3}}}, {}};
+  d.surfaces.push_back({{"hood", "skin", ""}, patch, 4});
   return d;
 }
 
@@ -76,6 +78,19 @@ TEST(JsonDocument, OneCurveIsItsValue) {
   EXPECT_EQ(read->paths[0].label.name, "roof");
 }
 
+TEST(JsonDocument, OneSurfaceIsItsValue) {
+  Document d;
+  d.surfaces.push_back(mixed().surfaces[0]);
+  d.surfaces[0].trims = 0;
+  d.surfaces[0].label.layer.clear();
+  const auto j = to_json(d);
+  EXPECT_EQ(j["type"], "bezier-surface");
+  const auto read = document_from_json(j);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->surfaces[0].label.name, "hood");
+  EXPECT_EQ(read->surfaces[0].surface, d.surfaces[0].surface);
+}
+
 TEST(JsonDocument, NamesThePlaceOfAMistake) {
   const auto bad =
       read_json(R"({"curves":[{"curve":{"type":"bezier","points":[[0,0],[1,"x"]]}}]})");
@@ -92,7 +107,7 @@ TEST(SvgDocument, ReadsBackTheExactCurves) {
   ASSERT_TRUE(svg) << svg.error().message;
   EXPECT_GT(svg->deviation, 0);
   EXPECT_LE(svg->deviation, 0.001);
-  ASSERT_EQ(svg->notes.size(), 1U);
+  ASSERT_EQ(svg->notes.size(), 2U);
   EXPECT_THAT(svg->notes[0], HasSubstr("1 space curves"));
   const auto read = read_svg_document(svg->content);
   ASSERT_TRUE(read);
@@ -163,6 +178,7 @@ TEST_F(Files, ATableHoldsEveryCurve) {
   const auto csv = format_document(d, ".csv", {.samples = 11});
   ASSERT_TRUE(csv);
   EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 1 + 3 * 11);
+  EXPECT_EQ(csv->notes.size(), 2U);
   d.paths.clear();
   const auto space = format_document(d, ".csv");
   ASSERT_TRUE(space);
