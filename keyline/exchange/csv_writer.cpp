@@ -64,7 +64,7 @@ void add_space(std::string& text, const std::string& id, const document::SpaceCu
 
 core::Result<Written> write_csv(const document::Document& document, int samples) {
   Written written;
-  const bool several = size(document) > 1;
+  const bool several = document.paths.size() + document.space_curves.size() > 1;
   const auto id = [several](const document::Label& label) {
     return several ? field(label.name) + ',' : std::string();
   };
