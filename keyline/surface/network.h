@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "keyline/classa/cav.h"
+#include "keyline/core/error.h"
+#include "keyline/core/progress.h"
+#include "keyline/surface/surface.h"
+
+/// Surface aesthetic value of
+/// [Oya] Oya, Hanafusa, Aoyama, "Efficient Shape-editing Method for Curves and Surfaces based on
+/// the Quantification of Aesthetic Properties".
+namespace keyline::surface {
+
+/// A row or column of a Bézier patch's net, read as the control polygon of a curve. A bicubic patch
+/// has A1…A4 (rows, along v) and A5…A8 (columns, along u); other degrees have all rows, then all
+/// columns, numbered on.
+struct NetworkCurve {
+  std::string name;
+  bool is_row = true;
+  int index = 0;  ///< of the row or column
+  std::vector<core::Point3> control;
+};
+std::vector<NetworkCurve> network_curves(const Net& net);
+
+struct NetworkValue {
+  std::string name;
+  classa::CurveValue value;
+};
+
+/// [Oya] Eq. 8.
+struct SurfaceValue {
+  double sav = 0;  ///< sum of the curves' CAVs
+  std::vector<NetworkValue> curves;
+  std::size_t worst = 0;  ///< curve of the largest CAV, the first of equals
+};
+
+/// Curves without a length and closed ones have no control matrix: type 5.
+/// Errors: bad_input for alpha_max outside (0, pi/2) and as classa::cav; unsupported for a rational
+/// patch; undrawable as classa::cav, with the curve's name as path.
+core::Result<SurfaceValue> sav(const BezierSurface& s, const classa::CavOptions& options = {});
+
+/// The same for each Bézier patch of a surface.
+struct PatchValue {
+  int row = 0;  ///< span in u
+  int column = 0;
+  SurfaceValue value;
+};
+
+/// Patches are shared among threads (<= 0: all of the machine's); the result does not depend on how
+/// many. Errors: as sav, with "patch [i][j]: " before the path, and cancelled.
+core::Result<std::vector<PatchValue>> sav_by_patch(const Surface& s,
+                                                   const classa::CavOptions& options = {},
+                                                   int threads = 1,
+                                                   const core::Progress& progress = {});
+
+}  // namespace keyline::surface
