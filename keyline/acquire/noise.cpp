@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -18,20 +19,41 @@ struct Window {
   int degree;
 };
 
-// Short windows of low degree cope with sparse points, the longer ones of high degree with bends.
-constexpr std::array<Window, 5> kWindows{{{5, 2}, {5, 3}, {6, 3}, {7, 4}, {8, 5}}};
+// Short windows of low degree cope with sparse points, the longer ones of high degree with bends;
+// the long ones with freedom to spare tell most about dense points.
+constexpr std::array<Window, 7> kWindows{
+    {{5, 2}, {5, 3}, {6, 3}, {7, 4}, {8, 5}, {10, 4}, {13, 5}}};
 constexpr std::size_t kMostWindows = 4000;
+constexpr double kAlike = 1.35;    // variances up to this times the least agree with it
+constexpr double kAskew = 2;       // mean over median beyond which there is more than chance
+constexpr double kKept = 2.0 / 3;  // share of the windows looked at: the rest may hold corners
 
-/// Ratio of the median of a chi-squared variable to its degrees of freedom (1 to 3).
-double median_ratio(int freedom) {
-  constexpr std::array<double, 4> median{0, 0.45493642, 1.38629436, 2.36597388};
-  return median[static_cast<std::size_t>(freedom)] / freedom;
+/// Of chi-squared variables over their degrees of freedom: the median, and the mean of the least
+/// two thirds.
+struct Usual {
+  double median;
+  double kept_mean;
+};
+Usual usual(int freedom) {
+  switch (freedom) {
+    case 1:
+      return {0.45494, 0.27487};
+    case 2:
+      return {0.69315, 0.45069};
+    case 5:
+      return {0.87029, 0.64268};
+    default:
+      return {0.90655, 0.69751};  // 7
+  }
 }
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double kept_mean(std::vector<double>& values) {
+  const auto count = std::max<std::size_t>(
+      1, static_cast<std::size_t>(kKept * static_cast<double>(values.size()) + 0.5));
+  const auto end = values.begin() + static_cast<std::ptrdiff_t>(count);
+  if (end != values.end()) std::nth_element(values.begin(), end, values.end());
+  std::sort(values.begin(), end);  // so that the sum does not depend on the windows' order
+  return std::accumulate(values.begin(), end, 0.0) / static_cast<double>(count);
 }
 
 /// Calls visit(span of m points, `stride` apart) for windows spread evenly over the curve.
@@ -65,7 +87,8 @@ double advancing_share(std::span<const core::Point2> points, bool closed, std::s
   return windows == 0 ? 1 : static_cast<double>(advancing) / static_cast<double>(windows);
 }
 
-double estimate_in(std::span<const core::Point2> points, bool closed, Window w,
+/// Variance in windows of one kind; infinite where there is none.
+double variance_in(std::span<const core::Point2> points, bool closed, Window w,
                    std::size_t stride) {
   std::vector<double> variances;
   const int freedom = w.points - w.degree - 1;
@@ -75,7 +98,13 @@ double estimate_in(std::span<const core::Point2> points, bool closed, Window w,
                 if (fit) variances.push_back(fit->squared_residuals() / freedom);
               });
   if (variances.empty()) return std::numeric_limits<double>::infinity();
-  return std::sqrt(median_of(variances) / median_ratio(freedom));
+  const Usual chance = usual(freedom);
+  const double mean = kept_mean(variances) / chance.kept_mean;
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::nth_element(variances.begin(), middle, variances.end());
+  const double median = *middle / chance.median;
+  // The mean is the surer of the two where chance is all there is; bends spoil it first.
+  return mean <= kAskew * median ? mean : median;
 }
 
 /// Exponent of the last decimal place value is written with (-2 for 0.25, 1 for 130), and its
@@ -135,13 +164,25 @@ std::size_t noise_stride(std::span<const core::Point2> points, bool closed) {
 
 double estimate_noise(std::span<const core::Point2> points, bool closed) {
   const std::size_t stride = noise_stride(points, closed);
+  std::array<double, kWindows.size()> variance;
   double least = std::numeric_limits<double>::infinity();
-  for (const Window& w : kWindows) {
-    if (points.size() < static_cast<std::size_t>(w.points) + 2 * (w.degree == 5 ? 2u : 0u))
-      continue;
-    least = std::min(least, estimate_in(points, closed, w, stride));
+  for (std::size_t k = 0; k < kWindows.size(); ++k) {
+    const Window& w = kWindows[k];
+    const std::size_t enough = static_cast<std::size_t>(w.degree == 5 ? w.points + 4 : w.points);
+    variance[k] = points.size() < enough ? std::numeric_limits<double>::infinity()
+                                         : variance_in(points, closed, w, stride);
+    least = std::min(least, variance[k]);
   }
-  return std::isfinite(least) ? least : 0;
+  if (!std::isfinite(least)) return 0;
+  // Curvature only enlarges an estimate, chance also lowers it: those near the least are averaged.
+  double sum = 0, weight = 0;
+  for (std::size_t k = 0; k < kWindows.size(); ++k) {
+    if (!(variance[k] <= kAlike * least)) continue;
+    const double freedom = 1 - static_cast<double>(kWindows[k].degree + 1) / kWindows[k].points;
+    sum += freedom * variance[k];
+    weight += freedom;
+  }
+  return std::sqrt(sum / weight);
 }
 
 double estimate_rounding(const RawCurve& raw) {

@@ -9,11 +9,11 @@
 namespace keyline::acquire {
 
 /// Standard deviation of the position error of ordered points, normal to the curve, from the
-/// residuals of local polynomials (several degrees and window widths; the least of their median
-/// estimates, since curvature can only enlarge them). Median based: up to a third of the windows
-/// may hold corners or strays. 0 for fewer than 5 points, and of the order of 1e-12 of the size
-/// for points exactly on a smooth, densely sampled curve. Waves longer than about ten points are
-/// shape to this estimate, not noise.
+/// residuals of local polynomials of several degrees and window widths: the mean of the least two
+/// thirds of each kind's variances, since the rest may hold corners or strays; of the kinds, those
+/// that agree with the least, since curvature can only enlarge them. 0 for fewer than 5 points, and
+/// of the order of 1e-12 of the size for points exactly on a smooth, densely sampled curve. Waves
+/// longer than about ten points are shape to this estimate, not noise.
 double estimate_noise(std::span<const core::Point2> points, bool closed);
 
 /// Number of points from one window point to the next at which steps along the curve stand clear

@@ -60,7 +60,8 @@ std::vector<PointPlace> place_points(const RunResult& result, const Run& run) {
   }
   const std::vector<double> offset = settle_feet(chain, points, kSettleRounds);
   std::vector<PointPlace> places(points.size());
-  for (std::size_t j = 0; j < points.size(); ++j) places[j] = {offset[j], chain.feet[j].piece};
+  for (std::size_t j = 0; j < points.size(); ++j)
+    places[j] = {offset[j], chain.feet[j].piece, chain.feet[j].fraction};
   return places;
 }
 

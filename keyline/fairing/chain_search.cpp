@@ -15,7 +15,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = -kNever;
 constexpr int kReach = 4;  // pieces on either side that a merge may move
 constexpr int kSqueezeRounds = 5;
-constexpr double kTie = 1e-3;  // costs closer than this part of the squared tolerance are equal
+constexpr int kNoisyStart = 4;  // first number of pieces tried: short ones follow the noise
+constexpr double kTie = 1e-3;   // costs closer than this part of the squared tolerance are equal
+
+constexpr double kBias = 0.2;  // of the noise: a bias that is let pass, however many points show it
+constexpr double kChance = 3.5;  // standard errors of a mean that are chance
 
 /// A trend over runs of about `run` points: mean offset beyond what noise explains.
 bool has_trend(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
@@ -31,7 +35,8 @@ bool has_trend(const std::vector<FitPoint>& points, const std::vector<double>& o
       count -= points[first].count;
       ++first;
     }
-    if (count >= run && std::abs(sum / count) > noise * (0.5 + 3.5 / std::sqrt(count))) return true;
+    if (count >= run && std::abs(sum / count) > noise * (kBias + kChance / std::sqrt(count)))
+      return true;
   }
   return false;
 }
@@ -52,8 +57,7 @@ class Merger {
 
   void run() {
     merge_all(false);
-    const bool noisy = options_.accept.noise * 2.5 > options_.accept.tolerance;
-    if (!noisy && !wanted_reached()) merge_all(true);
+    if (!noisy(options_.accept) && !wanted_reached()) merge_all(true);
   }
 
   FitChain& chain() { return chain_; }
@@ -229,7 +233,8 @@ void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points
   fit.length_prior = 1;
   const int count = static_cast<int>(points.size());
   const int least = closed ? 3 : 1;
-  int pieces = std::clamp(count / 3, least, options.start_pieces);
+  const int first = noisy(options.accept) ? kNoisyStart : options.start_pieces;
+  int pieces = std::clamp(count / 3, least, std::max(least, first));
   const int most = std::max(pieces, std::min(options.most_pieces, 4 * count / 5));
   result.fit.max_offset = kNever;
   while (true) {
@@ -247,7 +252,7 @@ void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points
     }
     result.within_tolerance = good;
     if (good || pieces >= most || options.progress.stop_requested()) break;
-    pieces = std::min(most, 2 * pieces);
+    pieces = std::min(most, noisy(options.accept) ? (3 * pieces + 1) / 2 : 2 * pieces);
   }
   for (FitPiece& piece : result.chain.pieces) {
     piece.alpha_low = -kSteepestSlope;
@@ -257,11 +262,13 @@ void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points
 
 }  // namespace
 
+bool noisy(const Acceptance& accept) { return accept.noise * 6 >= accept.tolerance; }
+
 bool accepts(const Acceptance& accept, const ChainFitReport& fit,
              const std::vector<FitPoint>& points, const std::vector<double>& offsets) {
   if (!(fit.max_offset <= accept.tolerance && fit.max_gap <= 0.05 * accept.tolerance)) return false;
-  if (accept.noise * 6 < accept.tolerance) return true;
-  for (double run = 9; run <= 0.5 * static_cast<double>(points.size()); run *= 4)
+  if (!noisy(accept)) return true;
+  for (double run = 4; run <= 0.5 * static_cast<double>(points.size()); run *= 2)
     if (has_trend(points, offsets, accept.noise, run)) return false;
   return true;
 }

@@ -15,6 +15,9 @@ struct Acceptance {
   double noise = 0;
 };
 
+/// True where the noise is what limits: trends are looked for, largest offsets are not fought.
+bool noisy(const Acceptance& accept);
+
 /// An end of an open chain and as much of it as is held.
 struct HeldEnd {
   Hold hold = Hold::free;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "keyline/fairing/assemble.h"
+#include "keyline/fairing/free_ends.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
 
@@ -182,6 +183,8 @@ class Job {
   }
 
   Result<FairResult> finish() {
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      detail::place_free_ends(solved_[k], runs_[k], run_options(k));
     if (auto read = read_all(); !read) return std::unexpected(read.error());
     if (!options_.interpretations.empty()) {
       if (auto done = reinterpret(); !done) return std::unexpected(done.error());

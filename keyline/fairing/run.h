@@ -74,8 +74,9 @@ void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wish
 
 /// Where every point of the run stands beside the chain.
 struct PointPlace {
-  double offset = 0;  ///< signed distance, positive left of the chain
-  int piece = 0;      ///< of the chain as laid out
+  double offset = 0;    ///< signed distance, positive left of the chain
+  int piece = 0;        ///< of the chain as laid out…
+  double fraction = 0;  ///< …and of its length
 };
 std::vector<PointPlace> place_points(const RunResult& result, const Run& run);
 

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/acquire/noise.h"
 #include "keyline/core/angle.h"
+#include "keyline/numeric/random.h"
 
 namespace keyline::acquire {
 namespace {
@@ -108,6 +110,30 @@ TEST(AcquireKeyLine, AxisPlanesKeepCoordinates) {
   EXPECT_EQ(line->plane.axis_x, (core::Vector3{1, 0, 0}));
   EXPECT_EQ(line->plane.axis_y, (core::Vector3{0, 0, 1}));
   EXPECT_EQ(line->points[7], (core::Point2{0.7000000000000001, std::sin(7 * 0.1)}));
+}
+
+/// A parabola's points with normal errors, many times: neither too high nor too low, little
+/// scatter.
+TEST(EstimateNoise, IsUnbiased) {
+  numeric::Random random(3);
+  double sum = 0;
+  double least = 2;
+  double most = 0;
+  constexpr int kTimes = 40;
+  for (int k = 0; k < kTimes; ++k) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 300; ++i) {
+      const double x = i / 300.0;
+      points.push_back({x + 1e-3 * random.normal(), 0.3 * x * x + 1e-3 * random.normal()});
+    }
+    const double found = estimate_noise(points, false) / 1e-3;
+    sum += found;
+    least = std::min(least, found);
+    most = std::max(most, found);
+  }
+  EXPECT_NEAR(sum / kTimes, 1, 0.04);
+  EXPECT_GT(least, 0.75);
+  EXPECT_LT(most, 1.25);
 }
 
 }  // namespace

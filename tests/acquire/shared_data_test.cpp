@@ -39,7 +39,7 @@ constexpr SharedCase kCases[] = {
     {"track/Norisring.csv", Kind::outline, 1e-7, 1e-3},
     {"track/Spa.csv", Kind::outline, 1e-7, 1e-3},
     {"contour/bot_open.csv", Kind::outline, 0.2, 0.8},
-    {"contour/hearts_open.csv", Kind::outline, 2e-5, 1e-3},
+    {"contour/hearts_open.csv", Kind::outline, 2e-5, 1.2e-3},
     {"contour/mosquito_open.csv", Kind::outline, 2e-6, 2e-3},
     {"contour/nsfishes_open.csv", Kind::outline, 0.2, 0.8},
     {"contour/trilo_open.csv", Kind::outline, 2e-3, 4e-2},

@@ -16,14 +16,6 @@ using testing::RealLine;
 /// KEYLINE_FULL=1 fairs everything; without it every `step`-th curve of the large families.
 bool full() { return std::getenv("KEYLINE_FULL") != nullptr; }
 
-/// Curves that no chain was found for at the default tolerance, and how much of it they need: the
-/// answer has to say so itself.
-double allowed(const std::string& name) {
-  // A pixel outline, 51 of its points repeated: one of the rest stands off beside a tight bend.
-  if (name == "bot_open sierranevada") return 1.2;
-  return 1;
-}
-
 /// Fairs with default options; fails where the second opinion finds fault.
 Judgement fair_and_judge(const RealLine& input) {
   SCOPED_TRACE(input.name);
@@ -31,10 +23,6 @@ Judgement fair_and_judge(const RealLine& input) {
   if (!result) {
     ADD_FAILURE() << result.error().message;
     return {};
-  }
-  if (!result->within_tolerance) {
-    result->tolerance *= allowed(input.name);
-    result->within_tolerance = result->max_deviation <= result->tolerance;
   }
   const Judgement j = testing::judge(*result, input.line.points);
   EXPECT_EQ(j.fault, "");

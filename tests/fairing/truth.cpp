@@ -90,6 +90,7 @@ Difference compare(const lac::Chain& truth, const FairResult& result) {
     }
   }
   const auto segments = lac::segments(truth);
+  d.surplus = static_cast<int>(joints.size()) - static_cast<int>(segments.size());
   d.same_count = joints.size() == segments.size() && result.curves.size() == 1;
   for (std::size_t i = 0; d.same_count && i < segments.size(); ++i) {
     if (i > 0)

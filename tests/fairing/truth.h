@@ -25,6 +25,7 @@ acquire::KeyLine line_through(const std::vector<core::Point2>& points);
 /// How far an answer is from the truth; lengths as parts of the length.
 struct Difference {
   bool same_count = false;
+  int surplus = 0;    ///< pieces more than the truth has
   double joints = 0;  ///< largest distance of a joint, where counts agree
   double slopes = 0;  ///< largest difference of a slope, where counts agree
   double largest = 0;
