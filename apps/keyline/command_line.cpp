@@ -144,6 +144,33 @@ Command add_draw(CLI::App& app) {
   return {sub, runs(options, run_draw)};
 }
 
+Command add_sketch(CLI::App& app) {
+  auto options = std::make_shared<SketchCommand>();
+  SketchCommand& sketch = *options;
+  auto* sub = app.add_subcommand("sketch", "a picture of a drawing in, its lines as curves out");
+  sub->add_option("IMAGE", sketch.file, "drawing: png, jpeg, tiff or webp")
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--threshold", sketch.threshold, "0 to 1: what is darker is ink; else by region")
+      ->check(CLI::Range(0.0, 1.0));
+  sub->add_option("--log-gain", sketch.gain, "the a of y = a log x; else such that paper is white")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--gap", sketch.gap, "longest gap to bridge, in pixels")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--specks", sketch.specks, "pieces of ink of fewer pixels are dirt")
+      ->check(CLI::NonNegativeNumber);
+  auto* scale = sub->add_option("--scale", sketch.scale, "mm per pixel; without it lengths are px")
+                    ->check(CLI::PositiveNumber);
+  sub->add_option("--dpi", sketch.dpi, "pixels per inch; lengths are mm then")
+      ->check(CLI::PositiveNumber)
+      ->excludes(scale);
+  add_common(*sub, sketch.common);
+  sub->footer(
+      "Example: keyline sketch drawing.png -o drawing.svg\n"
+      "Formats: svg, json (the exact quintics), csv (samples).");
+  return {sub, runs(options, run_sketch)};
+}
+
 Command add_analyze(CLI::App& app) {
   auto options = std::make_shared<AnalyzeCommand>();
   auto* sub = app.add_subcommand("analyze", "curvature, rhythm and character of a curve");
@@ -181,7 +208,7 @@ Command add_operations(CLI::App& app) {
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app) {
-  return {add_fair(app),    add_analyze(app), add_draw(app),
+  return {add_fair(app),    add_analyze(app), add_draw(app),      add_sketch(app),
           add_convert(app), add_batch(app),   add_operations(app)};
 }
 

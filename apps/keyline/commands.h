@@ -76,6 +76,18 @@ struct DrawCommand {
 };
 int run_draw(const DrawCommand& command);
 
+struct SketchCommand {
+  CommonOptions common;
+  std::string file;
+  std::optional<double> threshold;
+  std::optional<double> gain;
+  std::optional<double> gap;
+  std::optional<int> specks;
+  std::optional<double> scale;  ///< mm per pixel
+  std::optional<double> dpi;
+};
+int run_sketch(const SketchCommand& command);
+
 struct ConvertCommand {
   CommonOptions common;
   InputOptions input;

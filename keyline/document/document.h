@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "keyline/core/error.h"
+#include "keyline/curve/bounding_box.h"
 #include "keyline/document/planar_curve.h"
 #include "keyline/document/space_curve.h"
 #include "keyline/surface/surface.h"
@@ -41,6 +43,7 @@ struct Document {
   std::vector<NamedPath> paths;
   std::vector<NamedSpaceCurve> space_curves;
   std::vector<NamedSurface> surfaces;
+  std::optional<curve::Box2> page;   ///< what a drawing shows; empty: tight around the curves
   std::vector<std::string> skipped;  ///< what was in the file and is not here, in words
 };
 

@@ -113,6 +113,7 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
                             " surfaces are not in the drawing");
   SvgWriteOptions options;
   options.unit = svg_unit(document.unit);
+  options.page = document.page;
   options.title = "Keyline: cubic B\u00E9ziers within " + core::number_text(written.deviation, 3) +
                   " of the exact curve";
   const auto plain = write_svg(layers, options);

@@ -186,10 +186,11 @@ std::optional<curve::Box2> extent_of(const std::vector<SvgLayer>& layers) {
 
 std::string page_attributes(const std::vector<SvgLayer>& layers, const SvgWriteOptions& options,
                             const PageUnit& unit, double& stroke) {
-  const curve::Box2 box = extent_of(layers).value_or(curve::Box2{{0, 0}, {1, 1}});
+  const curve::Box2 box =
+      options.page ? *options.page : extent_of(layers).value_or(curve::Box2{{0, 0}, {1, 1}});
   double size = std::max(curve::width(box), curve::height(box));
   if (!(size > 0)) size = 1;
-  const double margin = options.margin * size;
+  const double margin = options.page ? 0 : options.margin * size;
   stroke = options.stroke_width > 0 ? options.stroke_width : size / 400;
   const double w = curve::width(box) + 2 * margin;
   const double h = curve::height(box) + 2 * margin;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "keyline/core/error.h"
 #include "keyline/curve/bezier.h"
+#include "keyline/curve/bounding_box.h"
 
 namespace keyline::exchange {
 
@@ -30,6 +32,7 @@ struct SvgWriteOptions {
   std::string unit = "mm";  ///< of the coordinates: mm, cm, in, pt, px, m, or empty for px
   double stroke_width = 0;  ///< in that unit; 0: a four-hundredth of the drawing's size
   double margin = 0.03;     ///< on every side, as a share of the drawing's larger side
+  std::optional<curve::Box2> page = {};  ///< what is shown, y up, without margin; empty: the curves
   std::string title = {};
   std::string metadata = {};  ///< JSON that read_svg() gives back exactly; empty: none
 };
@@ -37,6 +40,7 @@ struct SvgWriteOptions {
 /// Writes curves as an SVG document: real size in the unit given, viewBox tight around the curves
 /// plus margin, one group (an Inkscape layer) per layer. Coordinates are the curves' own with y
 /// negated (SVG counts it downwards), printed so that they read back to the same doubles.
+/// Where a page is given, the viewBox is that page.
 ///
 /// Fails: bad_input for numbers that are not finite, a colour that is none, an unknown unit, text
 ///        that is not UTF-8 or, in metadata, control characters; unsupported for rational pieces

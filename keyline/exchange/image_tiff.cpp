@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <tiffio.h>
+
+#include "keyline/exchange/image_reader.h"
+
+namespace keyline::exchange::detail {
+namespace {
+
+using core::Result;
+using sketch::Image;
+
+struct Source {
+  std::string_view bytes;
+  toff_t at = 0;
+};
+
+tmsize_t read_bytes(thandle_t handle, void* out, tmsize_t count) {
+  auto& s = *static_cast<Source*>(handle);
+  if (s.at >= s.bytes.size()) return 0;
+  const auto n = std::min<toff_t>(static_cast<toff_t>(count), s.bytes.size() - s.at);
+  std::memcpy(out, s.bytes.data() + s.at, n);
+  s.at += n;
+  return static_cast<tmsize_t>(n);
+}
+
+tmsize_t write_nothing(thandle_t, void*, tmsize_t) { return 0; }
+
+toff_t seek(thandle_t handle, toff_t offset, int whence) {
+  auto& s = *static_cast<Source*>(handle);
+  s.at = whence == SEEK_SET ? offset : whence == SEEK_CUR ? s.at + offset : s.bytes.size() + offset;
+  return s.at;
+}
+
+int close_nothing(thandle_t) { return 0; }
+toff_t size_of(thandle_t handle) { return static_cast<Source*>(handle)->bytes.size(); }
+int map_nothing(thandle_t, void**, toff_t*) { return 0; }
+void unmap_nothing(thandle_t, void*, toff_t) {}
+
+struct Closer {
+  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+};
+
+/// libtiff reports through handlers of the whole process; ours keep quiet.
+void silence() {
+  static const bool kDone = [] {
+    TIFFSetErrorHandler(nullptr);
+    TIFFSetWarningHandler(nullptr);
+    return true;
+  }();
+  (void)kDone;
+}
+
+struct Layout {
+  std::uint16_t bits = 1;
+  std::uint16_t samples = 1;
+  std::uint16_t photometric = PHOTOMETRIC_MINISWHITE;
+  std::uint16_t planar = PLANARCONFIG_CONTIG;
+  std::uint16_t orientation = 1;
+  bool tiled = false;
+};
+
+Layout layout_of(TIFF* tiff) {
+  Layout l;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &l.bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &l.samples);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &l.photometric);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &l.planar);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &l.orientation);
+  l.tiled = TIFFIsTiled(tiff) != 0;
+  return l;
+}
+
+/// 16 bit pictures in rows are read at full depth; libtiff's own conversion gives 8 bits.
+bool is_deep(const Layout& l) {
+  const bool grey =
+      l.photometric == PHOTOMETRIC_MINISBLACK || l.photometric == PHOTOMETRIC_MINISWHITE;
+  const bool known = (grey && l.samples <= 2) ||
+                     (l.photometric == PHOTOMETRIC_RGB && (l.samples == 3 || l.samples == 4));
+  return l.bits == 16 && known && !l.tiled && l.planar == PLANARCONFIG_CONTIG;
+}
+
+bool read_deep(TIFF* tiff, const Layout& l, Image& image) {
+  const auto row_size = static_cast<std::size_t>(TIFFScanlineSize(tiff));
+  const std::size_t samples = l.samples;
+  if (row_size < samples * 2 * static_cast<std::size_t>(image.width())) return false;
+  std::vector<std::uint16_t> row(row_size / 2 + 1);
+  for (int y = 0; y < image.height(); ++y) {
+    if (TIFFReadScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) < 0) return false;
+    for (int x = 0; x < image.width(); ++x) {
+      const std::uint16_t* p = row.data() + samples * static_cast<std::size_t>(x);
+      const bool colour = samples >= 3;
+      double v = colour ? luminance(p[0], p[1], p[2]) : p[0];
+      if (l.photometric == PHOTOMETRIC_MINISWHITE) v = 65535 - v;
+      const bool alpha = samples == 2 || samples == 4;
+      image.luminance.at(x, y) = over_white(v, alpha ? p[samples - 1] / 65535.0 : 1);
+    }
+  }
+  return true;
+}
+
+/// Through libtiff's conversion to RGBA (premultiplied), top row first, as the file orders rows.
+bool read_converted(TIFF* tiff, Image& image) {
+  char why[1024] = "";
+  if (!TIFFRGBAImageOK(tiff, why)) return false;
+  TIFFRGBAImage converter;
+  if (!TIFFRGBAImageBegin(&converter, tiff, 1, why)) return false;
+  converter.req_orientation = converter.orientation;  // rows as they stand; turned later
+  const auto w = static_cast<std::uint32_t>(image.width());
+  const auto h = static_cast<std::uint32_t>(image.height());
+  std::vector<std::uint32_t> pixels(image.luminance.data.size());
+  const bool good = TIFFRGBAImageGet(&converter, pixels.data(), w, h) != 0;
+  TIFFRGBAImageEnd(&converter);
+  for (std::size_t i = 0; good && i < pixels.size(); ++i) {
+    const std::uint32_t p = pixels[i];
+    const double white = 255.0 - TIFFGetA(p);
+    image.luminance.data[i] = luminance((TIFFGetR(p) + white) * 257, (TIFFGetG(p) + white) * 257,
+                                        (TIFFGetB(p) + white) * 257);
+  }
+  return good;
+}
+
+double density(TIFF* tiff) {
+  float resolution = 0;
+  std::uint16_t unit = RESUNIT_INCH;
+  if (!TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &resolution)) return 0;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
+  if (!(resolution > 0) || unit == RESUNIT_NONE) return 0;
+  return unit == RESUNIT_CENTIMETER ? resolution / 10.0 : resolution / 25.4;
+}
+
+}  // namespace
+
+Result<Image> read_tiff(std::string_view bytes) {
+  silence();
+  Source source{bytes, 0};
+  const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen("picture", "rm", &source, read_bytes,
+                                                          write_nothing, seek, close_nothing,
+                                                          size_of, map_nothing, unmap_nothing));
+  if (!tiff) return damaged("its TIFF directory cannot be read");
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
+  const Layout layout = layout_of(tiff.get());
+  // fax and deflate pack a thousandfold at the best
+  const double raw = static_cast<double>(width) * height * layout.bits * layout.samples / 8;
+  auto image = new_image(width, height, raw / 4000, bytes.size());
+  if (!image) return image;
+  const bool good =
+      is_deep(layout) ? read_deep(tiff.get(), layout, *image) : read_converted(tiff.get(), *image);
+  if (!good) return damaged("its TIFF pixels cannot be decoded");
+  image->pixels_per_mm = density(tiff.get());
+  apply_orientation(*image, layout.orientation);
+  return image;
+}
+
+}  // namespace keyline::exchange::detail

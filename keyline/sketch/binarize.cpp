@@ -1,0 +1,250 @@
+#include "keyline/sketch/binarize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+namespace keyline::sketch {
+namespace {
+
+using Gray = Raster<std::uint16_t>;
+
+constexpr int kBins = 256;
+constexpr double kFaintest = 0.015;   ///< least depth of ink whatever the noise
+constexpr double kNoiseFactor = 4.5;  ///< ink is this many standard deviations off paper
+constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to ink
+constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
+constexpr int kLocalRadius = 3;
+
+struct Histogram {
+  std::array<double, kBins> weight{};
+  double total = 0;
+};
+
+/// Depth to bin: 0 at the paper, 1 black.
+int bin_of(double depth) { return std::clamp(static_cast<int>(depth * kBins), 0, kBins - 1); }
+
+struct Otsu {
+  double threshold = 0;
+  double separation = 0;
+  double ink_weight = 0;
+};
+
+/// Threshold of largest variance between the classes (Otsu 1979).
+Otsu otsu(const Histogram& h) {
+  double sum = 0;
+  for (int i = 0; i < kBins; ++i) sum += i * h.weight[static_cast<std::size_t>(i)];
+  Otsu best;
+  double best_variance = -1;
+  double below = 0;
+  double sum_below = 0;
+  for (int i = 0; i + 1 < kBins; ++i) {
+    below += h.weight[static_cast<std::size_t>(i)];
+    sum_below += i * h.weight[static_cast<std::size_t>(i)];
+    const double above = h.total - below;
+    if (below <= 0 || above <= 0) continue;
+    const double gap = (sum - sum_below) / above - sum_below / below;
+    const double variance = below * above * gap * gap;
+    if (variance <= best_variance) continue;
+    best_variance = variance;
+    best = {(sum_below / below + 0.5 * gap + 0.5) / kBins, gap / kBins, above};
+  }
+  return best;
+}
+
+struct Box {
+  int x0, y0, x1, y1;
+};
+
+Box region_box(const Gray& g, int index) {
+  const auto cut = [](int size, int i) {
+    return static_cast<int>(static_cast<long>(size) * i / kRegions);
+  };
+  const int r = index / kRegions;
+  const int c = index % kRegions;
+  return {cut(g.width, c), cut(g.height, r), cut(g.width, c + 1), cut(g.height, r + 1)};
+}
+
+/// Depths of pixels near edges, weighted by the edge's strength.
+Histogram edge_histogram(const Gray& level, const Box& box, double floor) {
+  Histogram h;
+  const int x0 = std::max(box.x0, 1);
+  const int y0 = std::max(box.y0, 1);
+  const int x1 = std::min(box.x1, level.width - 1);
+  const int y1 = std::min(box.y1, level.height - 1);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const double dx = level.at(x + 1, y) - level.at(x - 1, y);
+      const double dy = level.at(x, y + 1) - level.at(x, y - 1);
+      const double edge = (std::abs(dx) + std::abs(dy)) / Tone::kWhite;
+      if (edge < floor) continue;
+      h.weight[static_cast<std::size_t>(bin_of(1 - level.at(x, y) / Tone::kWhite))] += edge;
+      h.total += edge;
+    }
+  return h;
+}
+
+struct Regions {
+  std::array<double, kRegionCount> depth{};  ///< threshold as a depth below white
+  std::array<bool, kRegionCount> empty{};
+};
+
+/// Empty regions take the mean of the others, nearer ones counting more.
+void fill_empty(Regions& regions, double otherwise) {
+  const Regions known = regions;
+  for (int i = 0; i < kRegionCount; ++i) {
+    if (!known.empty[static_cast<std::size_t>(i)]) continue;
+    double weight = 0;
+    double sum = 0;
+    for (int j = 0; j < kRegionCount; ++j) {
+      if (known.empty[static_cast<std::size_t>(j)]) continue;
+      const double dx = i % kRegions - j % kRegions;
+      const double dy = i / kRegions - j / kRegions;
+      const double w = 1 / std::pow(dx * dx + dy * dy, 1.5);
+      weight += w;
+      sum += w * known.depth[static_cast<std::size_t>(j)];
+    }
+    regions.depth[static_cast<std::size_t>(i)] = weight > 0 ? sum / weight : otherwise;
+  }
+}
+
+Regions automatic_regions(const Tone& tone, double faintest) {
+  Regions regions;
+  for (int i = 0; i < kRegionCount; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Histogram h = edge_histogram(tone.level, region_box(tone.level, i), 1.2 * faintest);
+    const Otsu found = otsu(h);
+    // ten pixels' worth of edge are no ink yet
+    regions.empty[k] = found.separation < 1.5 * faintest || h.total < 20 * found.separation ||
+                       found.threshold < faintest;
+    regions.depth[k] = found.threshold;
+  }
+  fill_empty(regions, std::numeric_limits<double>::infinity());
+  return regions;
+}
+
+/// Thresholds of a row of pixels, blended bilinearly between the centres of the regions.
+class Blend {
+ public:
+  Blend(const Regions& regions, int width, int height)
+      : regions_(regions), width_(width), height_(height) {}
+
+  void set_row(int y) {
+    const double v = std::clamp((y + 0.5) * kRegions / height_ - 0.5, 0.0, kRegions - 1.0);
+    const int r0 = static_cast<int>(v);
+    const int r1 = std::min(r0 + 1, kRegions - 1);
+    for (int c = 0; c < kRegions; ++c)
+      row_[static_cast<std::size_t>(c)] = mix(at(r0, c), at(r1, c), v - r0);
+  }
+  double operator()(int x) const {
+    const double u = std::clamp((x + 0.5) * kRegions / width_ - 0.5, 0.0, kRegions - 1.0);
+    const auto c0 = static_cast<std::size_t>(u);
+    const std::size_t c1 = std::min<std::size_t>(c0 + 1, kRegions - 1);
+    return mix(row_[c0], row_[c1], u - static_cast<double>(c0));
+  }
+
+ private:
+  static double mix(double a, double b, double u) { return u <= 0 ? a : (1 - u) * a + u * b; }
+  double at(int r, int c) const {
+    return regions_.depth[static_cast<std::size_t>(r * kRegions + c)];
+  }
+  const Regions& regions_;
+  int width_;
+  int height_;
+  std::array<double, kRegions> row_{};
+};
+
+cv::Mat as_mat(Gray& g) { return {g.height, g.width, CV_16U, g.data.data()}; }
+
+constexpr std::uint8_t kPaper = 0;
+constexpr std::uint8_t kWeak = 2;
+constexpr std::uint8_t kStrong = 1;
+
+/// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak).
+void mark(const Gray& level, const Gray& darkest, const Regions& regions, double faintest,
+          Binary& marks) {
+  Blend threshold(regions, level.width, level.height);
+  for (int y = 0; y < level.height; ++y) {
+    threshold.set_row(y);
+    for (int x = 0; x < level.width; ++x) {
+      const double depth = 1 - level.at(x, y) / Tone::kWhite;
+      if (depth < faintest) continue;
+      const double strong = std::max(threshold(x), faintest);
+      const double weak = std::max(kWeakShare * strong, faintest);
+      const double deepest = 1 - darkest.at(x, y) / Tone::kWhite;
+      if (depth < weak || depth < kLocalShare * deepest) continue;
+      marks.at(x, y) = depth >= strong ? kStrong : kWeak;
+    }
+  }
+}
+
+/// Weak pixels connected to strong ones become ink, the others paper.
+void keep_connected(Binary& marks) {
+  std::vector<std::size_t> stack;
+  const auto w = static_cast<std::size_t>(marks.width);
+  const auto spread = [&](std::size_t i) {
+    const int x = static_cast<int>(i % w);
+    const int y = static_cast<int>(i / w);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (marks.contains(x + dx, y + dy) && marks.at(x + dx, y + dy) == kWeak) {
+          marks.at(x + dx, y + dy) = kStrong;
+          stack.push_back(marks.index(x + dx, y + dy));
+        }
+  };
+  for (std::size_t i = 0; i < marks.data.size(); ++i) {
+    if (marks.data[i] != kStrong) continue;
+    spread(i);
+    while (!stack.empty()) {
+      const std::size_t j = stack.back();
+      stack.pop_back();
+      spread(j);
+    }
+  }
+  for (std::uint8_t& v : marks.data)
+    if (v == kWeak) v = kPaper;
+}
+
+/// Given thresholds over the automatic ones.
+void apply_given(const BinarizeOptions& options, Binarized& result, Regions& regions) {
+  for (std::size_t i = 0; i < kRegionCount; ++i) {
+    if (i < options.regions.size() && options.regions[i])
+      regions.depth[i] = 1 - *options.regions[i];
+    result.thresholds[i] = std::isfinite(regions.depth[i]) ? 1 - regions.depth[i] : 0;
+    result.empty[i] = regions.empty[i];
+  }
+}
+
+void plain_threshold(const Gray& level, double threshold, Binary& ink) {
+  const double limit = threshold * Tone::kWhite;
+  for (std::size_t i = 0; i < level.data.size(); ++i) ink.data[i] = level.data[i] < limit ? 1 : 0;
+}
+
+}  // namespace
+
+Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
+  Binarized result;
+  result.ink = Binary(tone.level.width, tone.level.height);
+  if (options.threshold) {
+    result.thresholds.fill(*options.threshold);
+    plain_threshold(tone.level, *options.threshold, result.ink);
+    return result;
+  }
+  Gray smooth = tone.level;
+  const double faintest = std::max(kFaintest, kNoiseFactor * tone.noise);
+  if (tone.noise > 0.004) cv::GaussianBlur(as_mat(smooth), as_mat(smooth), {3, 3}, 0.7);
+  Regions regions = automatic_regions(tone, faintest);
+  apply_given(options, result, regions);
+  Gray darkest = smooth;
+  cv::Mat target = as_mat(darkest);
+  cv::erode(
+      as_mat(smooth), target,
+      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kLocalRadius + 1, 2 * kLocalRadius + 1}));
+  mark(smooth, darkest, regions, faintest, result.ink);
+  keep_connected(result.ink);
+  return result;
+}
+
+}  // namespace keyline::sketch

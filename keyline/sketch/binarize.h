@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "keyline/sketch/thinning.h"
+#include "keyline/sketch/tone.h"
+
+namespace keyline::sketch {
+
+/// Regions of the picture with a threshold of their own: 8 × 8, row by row from the top left.
+inline constexpr int kRegions = 8;
+inline constexpr int kRegionCount = kRegions * kRegions;
+
+/// Thresholds are levels y of the log picture, 0 … 1: what is darker is ink.
+struct BinarizeOptions {
+  std::optional<double> threshold;  ///< one for all; empty: by region
+  /// By region, over what is found automatically; a region left empty stays automatic. As many as
+  /// regions, or none.
+  std::vector<std::optional<double>> regions;
+};
+
+struct Binarized {
+  Binary ink;
+  std::array<double, kRegionCount> thresholds{};
+  std::array<bool, kRegionCount> empty{};  ///< regions without ink: threshold of their neighbours
+};
+
+/// Ink and paper told apart.
+///
+/// Every region's threshold is Otsu's over its pixels near edges (both sides of a line then count
+/// alike, however little ink there is); regions without ink take their neighbours' thresholds; in
+/// between thresholds are blended bilinearly, so that no seam shows. Automatic thresholds work
+/// with hysteresis: a fainter line counts where it hangs together with what passes the threshold,
+/// and, where it is well above the noise, a pixel is ink that is at least about half as deep as the
+/// deepest within a few pixels, which keeps the width of faint and dark lines alike.
+/// Given thresholds are used as they are.
+Binarized binarize(const Tone& tone, const BinarizeOptions& options = {});
+
+}  // namespace keyline::sketch

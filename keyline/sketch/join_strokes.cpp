@@ -1,0 +1,375 @@
+#include "keyline/sketch/join_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "keyline/core/polygon.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::distance;
+using core::Point2;
+using core::Vector2;
+
+/// One end of an edge: where the line is itself again, and which way it leaves.
+struct Branch {
+  int edge = 0;
+  bool at_end = false;     ///< the edge's `to` rather than its `from`
+  std::size_t anchor = 0;  ///< index of the first point clear of the junction
+  Point2 place;            ///< that point
+  Vector2 outward{1, 0};   ///< unit, away from the junction
+  int mate = -1;           ///< branch it goes on with
+  bool free = false;       ///< ends in paper
+};
+
+double angle_between(Vector2 a, Vector2 b) {
+  return std::abs(std::atan2(core::cross(a, b), core::dot(a, b)));
+}
+
+/// How much a line turns that comes in on one branch and leaves on the other.
+double turn_between(const Branch& a, const Branch& b) {
+  const Vector2 chord = b.place - a.place;
+  if (core::norm(chord) < 1.0) return angle_between(-a.outward, b.outward);
+  return angle_between(-a.outward, chord) + angle_between(chord, b.outward);
+}
+
+class Joiner {
+ public:
+  Joiner(const StrokeGraph& graph, const JoinOptions& options) : graph_(graph), options_(options) {
+    make_clusters();
+    make_branches();
+    for (std::size_t c = 0; c < members_.size(); ++c) match(members_[c]);
+    bridge_gaps();
+  }
+
+  std::vector<RawStroke> strokes() {
+    std::vector<RawStroke> all;
+    std::vector<bool> used(graph_.edges.size());
+    for (const bool cycles : {false, true})
+      for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+        const GraphEdge& edge = graph_.edges[e];
+        if (!edge.alive || used[e] || bridge_[e] || edge.points.size() < 2) continue;
+        if (edge.from < 0) {
+          used[e] = true;
+          all.push_back(whole(edge, true));
+          continue;
+        }
+        const int start = branch_of(static_cast<int>(e), false);
+        const int end = branch_of(static_cast<int>(e), true);
+        if (at(start).mate < 0) {
+          all.push_back(walk(start, used));
+        } else if (at(end).mate < 0) {
+          all.push_back(walk(end, used));
+        } else if (cycles) {
+          all.push_back(walk(start, used));
+        }
+      }
+    return all;
+  }
+
+ private:
+  const GraphEdge& edge(int i) const { return graph_.edges[static_cast<std::size_t>(i)]; }
+  const GraphNode& node(int i) const { return graph_.nodes[static_cast<std::size_t>(i)]; }
+  Branch& at(int i) { return branches_[static_cast<std::size_t>(i)]; }
+  int branch_of(int e, bool at_end) const { return 2 * e + (at_end ? 1 : 0); }
+
+  int root(int n) {
+    while (parent_[static_cast<std::size_t>(n)] != n) n = parent_[static_cast<std::size_t>(n)];
+    return n;
+  }
+
+  /// Half the usual width of an edge.
+  static double half_width(const GraphEdge& e) {
+    std::vector<float> r = e.radii;
+    std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
+    return r[r.size() / 2];
+  }
+
+  Branch make_branch(int e, bool at_end, double skip) const {
+    const GraphEdge& line = edge(e);
+    const std::size_t n = line.points.size();
+    const auto point = [&](std::size_t i) { return line.points[at_end ? n - 1 - i : i]; };
+    Branch b;
+    b.edge = e;
+    b.at_end = at_end;
+    const double whole = length_of(line);
+    skip = std::min(skip, 0.4 * whole);
+    double run = 0;
+    std::size_t i = 0;
+    while (i + 1 < n && run < skip) run += distance(point(i), point(i + 1)), ++i;
+    const double reach = std::max(5.0, 4 * half_width(line));
+    std::size_t j = i;
+    double fitted = 0;
+    while (j + 1 < n && fitted < reach) fitted += distance(point(j), point(j + 1)), ++j;
+    b.anchor = at_end ? n - 1 - i : i;
+    b.place = point(i);
+    b.outward = direction(point, i, j);
+    return b;
+  }
+
+  /// Principal direction of points i … j, pointing from i to j.
+  template <class PointAt>
+  static Vector2 direction(const PointAt& point, std::size_t i, std::size_t j) {
+    Point2 mean;
+    const double count = static_cast<double>(j - i + 1);
+    for (std::size_t k = i; k <= j; ++k) mean = mean + (point(k) - Point2{}) / count;
+    double xx = 0, xy = 0, yy = 0;
+    for (std::size_t k = i; k <= j; ++k) {
+      const Vector2 d = point(k) - mean;
+      xx += d.x * d.x;
+      xy += d.x * d.y;
+      yy += d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+    Vector2 u{std::cos(angle), std::sin(angle)};
+    if (core::dot(u, point(j) - point(i)) < 0) u = -u;
+    return u;
+  }
+
+  bool is_junction(int n) const { return n >= 0 && node(n).edges.size() >= 3; }
+
+  /// Short edges between junctions disappear into one cluster.
+  void make_clusters() {
+    parent_.resize(graph_.nodes.size());
+    std::iota(parent_.begin(), parent_.end(), 0);
+    bridge_.assign(graph_.edges.size(), false);
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const GraphEdge& line = graph_.edges[e];
+      if (!line.alive || !is_junction(line.from) || !is_junction(line.to)) continue;
+      const double length = length_of(line);
+      const double radius = std::max(node(line.from).radius, node(line.to).radius);
+      const bool inside = length < 1.3 * radius + 1;
+      if (line.from == line.to ? inside : inside || is_shared_stretch(static_cast<int>(e))) {
+        bridge_[e] = true;
+        parent_[static_cast<std::size_t>(root(line.from))] = root(line.to);
+      }
+    }
+    members_.assign(graph_.nodes.size(), {});
+  }
+
+  /// True where two lines cross at a small angle along this edge: its four neighbours pair up
+  /// across it, nearly straight.
+  bool is_shared_stretch(int e) const {
+    const GraphEdge& line = edge(e);
+    const double wide = std::max(node(line.from).radius, node(line.to).radius);
+    if (length_of(line) > 8 * wide) return false;
+    if (node(line.from).edges.size() != 3 || node(line.to).edges.size() != 3) return false;
+    std::vector<Branch> left;
+    std::vector<Branch> right;
+    for (const auto& [n, side] : {std::pair{line.from, &left}, std::pair{line.to, &right}})
+      for (const int other : node(n).edges) {
+        if (other == e) continue;
+        if (length_of(edge(other)) < 2 * wide) return false;
+        side->push_back(make_branch(other, edge(other).to == n, 1.5 * wide + 1));
+      }
+    if (left.size() != 2 || right.size() != 2) return false;
+    const double straight =
+        std::max(turn_between(left[0], right[0]), turn_between(left[1], right[1]));
+    const double crossed =
+        std::max(turn_between(left[0], right[1]), turn_between(left[1], right[0]));
+    return std::min(straight, crossed) < 0.6;
+  }
+
+  void make_branches() {
+    branches_.resize(2 * graph_.edges.size());
+    std::vector<double> radius(graph_.nodes.size(), 0);
+    for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
+      double& r = radius[static_cast<std::size_t>(root(static_cast<int>(n)))];
+      r = std::max(r, graph_.nodes[n].radius);
+    }
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const GraphEdge& line = graph_.edges[e];
+      if (!line.alive || line.from < 0 || bridge_[e] || line.points.size() < 2) continue;
+      for (const bool end : {false, true}) {
+        const int n = end ? line.to : line.from;
+        const bool junction = is_junction(n);
+        const int cluster = root(n);
+        const double r = radius[static_cast<std::size_t>(cluster)];
+        const int id = branch_of(static_cast<int>(e), end);
+        at(id) = make_branch(static_cast<int>(e), end, junction ? 1.2 * r + 1 : 0.7 * r);
+        at(id).free = node(n).edges.size() == 1;
+        members_[static_cast<std::size_t>(cluster)].push_back(id);
+      }
+    }
+  }
+
+  /// The cheapest way to pair branches from position `first` on.
+  double best_pairing(const std::vector<int>& list, std::vector<int>& mate, std::size_t first,
+                      double spent, double best, std::vector<int>& best_mate) {
+    if (spent >= best) return best;
+    while (first < list.size() && mate[first] != -2) ++first;
+    if (first == list.size()) {
+      best_mate = mate;
+      return spent;
+    }
+    mate[first] = -1;
+    best = best_pairing(list, mate, first + 1, spent + 0.5 * options_.turn, best, best_mate);
+    for (std::size_t k = first + 1; k < list.size(); ++k) {
+      if (mate[k] != -2) continue;
+      const double cost = turn_between(at(list[first]), at(list[k]));
+      if (cost > options_.turn) continue;
+      mate[first] = static_cast<int>(k);
+      mate[k] = static_cast<int>(first);
+      best = best_pairing(list, mate, first + 1, spent + cost, best, best_mate);
+      mate[k] = -2;
+    }
+    mate[first] = -2;
+    return best;
+  }
+
+  void match(const std::vector<int>& list) {
+    constexpr std::size_t kMost = 10;  ///< more lines than that through one place: taken in parts
+    for (std::size_t from = 0; from < list.size(); from += kMost) {
+      const std::vector<int> part(
+          list.begin() + static_cast<long>(from),
+          list.begin() + static_cast<long>(std::min(list.size(), from + kMost)));
+      if (part.size() < 2) continue;
+      if (list.size() == 2) {  // no junction at all
+        at(part[0]).mate = part[1];
+        at(part[1]).mate = part[0];
+        continue;
+      }
+      std::vector<int> mate(part.size(), -2);
+      std::vector<int> best(part.size(), -1);
+      best_pairing(part, mate, 0, 0, std::numeric_limits<double>::infinity(), best);
+      for (std::size_t k = 0; k < part.size(); ++k)
+        if (best[k] >= 0) at(part[k]).mate = part[static_cast<std::size_t>(best[k])];
+    }
+  }
+
+  /// Free ends in a grid of cells as large as the gap, nearest and straightest pairs first.
+  void bridge_gaps() {
+    std::vector<int> ends;
+    for (std::size_t i = 0; i < branches_.size(); ++i)
+      if (branches_[i].free && branches_[i].mate < 0) ends.push_back(static_cast<int>(i));
+    std::sort(ends.begin(), ends.end(),
+              [&](int a, int b) { return end_point(a).x < end_point(b).x; });
+    struct Pair {
+      double cost;
+      int a, b;
+    };
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      for (std::size_t j = i + 1; j < ends.size(); ++j) {
+        const Vector2 d = end_point(ends[j]) - end_point(ends[i]);
+        if (d.x > options_.gap) break;
+        const double gap = core::norm(d);
+        if (gap > options_.gap || !long_enough(ends[i], ends[j], gap)) continue;
+        const double turn = turn_between(at(ends[i]), at(ends[j]));
+        if (turn < 0.8 * options_.turn)
+          pairs.push_back({gap / options_.gap + turn, ends[i], ends[j]});
+      }
+    std::sort(pairs.begin(), pairs.end(),
+              [](const Pair& p, const Pair& q) { return p.cost < q.cost; });
+    for (const Pair& p : pairs) {
+      if (at(p.a).mate >= 0 || at(p.b).mate >= 0) continue;
+      at(p.a).mate = p.b;
+      at(p.b).mate = p.a;
+    }
+  }
+
+  Point2 end_point(int b) {
+    const GraphEdge& line = edge(at(b).edge);
+    return at(b).at_end ? line.points.back() : line.points.front();
+  }
+
+  /// A closed loop is made of a line longer than its gap only; two ends of a dash make no loop.
+  bool long_enough(int a, int b, double gap) {
+    const double least = std::min(length_of(edge(at(a).edge)), length_of(edge(at(b).edge)));
+    return at(a).edge == at(b).edge ? least > 4 * gap : least > 0.5 * gap;
+  }
+
+  static RawStroke whole(const GraphEdge& line, bool closed) {
+    RawStroke s{line.points, line.radii, std::vector<std::uint8_t>(line.points.size(), 1),
+                closed,      false,      false};
+    return s;
+  }
+
+  void add_point(RawStroke& s, Point2 p, float r, bool sure) {
+    s.points.push_back(p);
+    s.radii.push_back(r);
+    s.sure.push_back(sure ? 1 : 0);
+  }
+
+  /// Guessed points between p and q, both left out.
+  void add_guess(RawStroke& s, Point2 p, Point2 q, float r) {
+    const int steps = static_cast<int>(std::lround(distance(p, q)));
+    for (int k = 1; k < steps; ++k)
+      add_point(s, core::mix(p, q, k / static_cast<double>(steps)), r, false);
+  }
+
+  /// From the unmatched end of a stroke into its line: up to the node along the branch's direction.
+  void add_dead_end(RawStroke& s, const Branch& b, bool before) {
+    if (b.free) return;
+    const GraphEdge& line = edge(b.edge);
+    const Point2 foot = b.at_end ? line.points.back() : line.points.front();
+    const double reach = std::max(0.0, core::dot(b.place - foot, b.outward));
+    const Point2 end = b.place - reach * b.outward;
+    const float r = line.radii[b.anchor];
+    if (before) {
+      add_point(s, end, r, false);
+      add_guess(s, end, b.place, r);
+    } else {
+      add_guess(s, b.place, end, r);
+      add_point(s, end, r, false);
+    }
+  }
+
+  void add_edge_points(RawStroke& s, const Branch& in, const Branch& out) {
+    const GraphEdge& line = edge(in.edge);
+    const auto n = static_cast<long>(line.points.size());
+    // a free end keeps all its points
+    const long first =
+        in.free && in.mate < 0 ? (in.at_end ? n - 1 : 0) : static_cast<long>(in.anchor);
+    const long last =
+        out.free && out.mate < 0 ? (out.at_end ? n - 1 : 0) : static_cast<long>(out.anchor);
+    const long step = in.at_end ? -1 : 1;
+    for (long i = first; step > 0 ? i <= last : i >= last; i += step)
+      add_point(s, line.points[static_cast<std::size_t>(i)],
+                line.radii[static_cast<std::size_t>(i)], true);
+  }
+
+  RawStroke walk(int start, std::vector<bool>& used) {
+    RawStroke s;
+    int in = start;
+    s.free_start = at(start).free && at(start).mate < 0;
+    if (at(start).mate < 0) add_dead_end(s, at(start), true);
+    while (true) {
+      const Branch& entry = at(in);
+      used[static_cast<std::size_t>(entry.edge)] = true;
+      const int out = branch_of(entry.edge, !entry.at_end);
+      add_edge_points(s, entry, at(out));
+      const int next = at(out).mate;
+      if (next < 0) {
+        add_dead_end(s, at(out), false);
+        s.free_end = at(out).free;
+        return s;
+      }
+      const float r = edge(entry.edge).radii[at(out).anchor];
+      add_guess(s, at(out).place, at(next).place, r);
+      if (used[static_cast<std::size_t>(at(next).edge)]) {
+        s.closed = true;
+        return s;
+      }
+      in = next;
+    }
+  }
+
+  const StrokeGraph& graph_;
+  JoinOptions options_;
+  std::vector<int> parent_;
+  std::vector<bool> bridge_;
+  std::vector<std::vector<int>> members_;
+  std::vector<Branch> branches_;
+};
+
+}  // namespace
+
+std::vector<RawStroke> join_strokes(const StrokeGraph& graph, const JoinOptions& options) {
+  return Joiner(graph, options).strokes();
+}
+
+}  // namespace keyline::sketch

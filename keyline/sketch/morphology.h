@@ -1,0 +1,26 @@
+#pragma once
+
+#include "keyline/sketch/thinning.h"
+
+namespace keyline::sketch {
+
+/// One step of plain erosion (ink with paper beside or above or below it goes) or dilation: what
+/// the feature-based kind is compared with.
+void erode(Binary& ink);
+void dilate(Binary& ink);
+
+/// Feature-based erosion and dilation, `times` of each in turn: only features that stand out of an
+/// edge by a pixel (bumps on a flat base) or lie in it (dents), and single pixels, are taken away
+/// or filled. Flat, sloping and rounded edges, right-angled corners, ends and connections of thin
+/// lines stay where they are.
+void smooth_edges(Binary& ink, int times);
+
+/// Pieces of ink (8-connected) of fewer than `specks` pixels become paper, holes (4-connected) of
+/// fewer than `pinholes` pixels ink. Returns how many pieces and holes went.
+struct Removed {
+  int specks = 0;
+  int pinholes = 0;
+};
+Removed remove_specks(Binary& ink, int specks, int pinholes);
+
+}  // namespace keyline::sketch

@@ -1,0 +1,206 @@
+#include "keyline/sketch/refine_stroke.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/core/polygon.h"
+#include "keyline/sketch/polyline_tools.h"
+#include "keyline/sketch/whittaker.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::distance;
+using core::norm;
+using core::Point2;
+using core::Vector2;
+
+constexpr double kStep = 0.25;  ///< of a profile, pixels
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+/// Index clamped, or wrapped round.
+std::size_t neighbour(std::size_t i, long step, std::size_t n, bool closed) {
+  const long k = static_cast<long>(i) + step;
+  const long m = static_cast<long>(n);
+  if (closed) return static_cast<std::size_t>(((k % m) + m) % m);
+  return static_cast<std::size_t>(std::clamp(k, 0L, m - 1));
+}
+
+Vector2 tangent_at(const std::vector<Point2>& p, std::size_t i, long reach, bool closed) {
+  const Vector2 d =
+      p[neighbour(i, reach, p.size(), closed)] - p[neighbour(i, -reach, p.size(), closed)];
+  const double length = norm(d);
+  return length > 0 ? d / length : Vector2{1, 0};
+}
+
+/// Median of the radii over some forty points around each.
+std::vector<double> usual_radii(const RawStroke& raw) {
+  const std::size_t n = raw.radii.size();
+  std::vector<double> usual(n);
+  constexpr std::size_t kBlock = 16;
+  std::vector<double> scratch;
+  for (std::size_t start = 0; start < n; start += kBlock) {
+    const std::size_t low = start > 16 ? start - 16 : 0;
+    const std::size_t high = std::min(n, start + kBlock + 16);
+    scratch.assign(raw.radii.begin() + static_cast<long>(low),
+                   raw.radii.begin() + static_cast<long>(high));
+    const double m = median(scratch);
+    for (std::size_t i = start; i < std::min(n, start + kBlock); ++i) usual[i] = m;
+  }
+  return usual;
+}
+
+}  // namespace
+
+Refiner::Refiner(const Tone& tone) : tone_(tone), darkness_of_level_(65536) {
+  for (std::size_t i = 0; i < darkness_of_level_.size(); ++i)
+    darkness_of_level_[i] = static_cast<float>(std::clamp(
+        1 - std::exp((static_cast<double>(i) / Tone::kWhite - 1) / tone.gain), 0.0, 1.0));
+}
+
+double Refiner::darkness(Point2 p) const {
+  const int w = tone_.level.width;
+  const int h = tone_.level.height;
+  const double x = std::clamp(p.x - 0.5, 0.0, w - 1.0);
+  const double y = std::clamp(p.y - 0.5, 0.0, h - 1.0);
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, w - 1);
+  const int y1 = std::min(y0 + 1, h - 1);
+  const double u = x - x0;
+  const double v = y - y0;
+  const auto at = [&](int i, int j) -> double { return darkness_of_level_[tone_.level.at(i, j)]; };
+  return (1 - v) * ((1 - u) * at(x0, y0) + u * at(x1, y0)) +
+         v * ((1 - u) * at(x0, y1) + u * at(x1, y1));
+}
+
+Refiner::Profile Refiner::profile(Point2 p, Vector2 normal, double half_width) const {
+  const int reach = static_cast<int>((1.6 * half_width + 2.5) / kStep);
+  std::vector<double> value(static_cast<std::size_t>(2 * reach + 1));
+  const auto at = [&](int k) -> double& { return value[static_cast<std::size_t>(k + reach)]; };
+  for (int k = -reach; k <= reach; ++k) at(k) = darkness(p + (k * kStep) * normal);
+  const int near = static_cast<int>(std::max(1.0, 0.6 * half_width) / kStep);
+  int top = 0;
+  for (int k = -near; k <= near; ++k)
+    if (at(k) > at(top) + 1e-9) top = k;
+  const double peak = at(top);
+  if (peak < 0.02) return {};
+  // flanks: where the profile falls to half, on either side
+  const auto flank = [&](int step, double& where) {
+    for (int k = top; std::abs(k + step) <= reach; k += step)
+      if (at(k + step) < 0.5 * peak) {
+        const double u = (at(k) - 0.5 * peak) / (at(k) - at(k + step));
+        where = (k + step * u) * kStep;
+        return true;
+      }
+    return false;
+  };
+  double low = 0;
+  double high = 0;
+  if (!flank(-1, low) || !flank(1, high)) return {};
+  Profile result{true, 0.5 * (low + high), high - low};
+  if (result.width < 4) {  // thin: the centre of gravity uses every grey value
+    double sum = 0;
+    double moment = 0;
+    const auto margin = static_cast<int>(1.0 / kStep);
+    for (int k = static_cast<int>(low / kStep) - margin;
+         k <= static_cast<int>(high / kStep) + margin; ++k) {
+      if (std::abs(k) > reach) continue;
+      const double v = std::max(0.0, at(k) - 0.15 * peak);
+      sum += v;
+      moment += v * k * kStep;
+    }
+    if (sum > 0) result.centre = std::clamp(moment / sum, low, high);
+  }
+  return result;
+}
+
+double Refiner::extension(Point2 end, Vector2 direction, double half_width) const {
+  const double inside = darkness(end - std::min(half_width, 2.0) * direction);
+  double reach = 0;
+  const double most = 2.5 * half_width + 3;
+  while (reach < most && darkness(end + reach * direction) > 0.5 * inside) reach += kStep;
+  if (reach >= most) return 0;
+  return reach - half_width;
+}
+
+/// Lengthens or shortens the end of the stroke to where the pen's centre stopped.
+void Refiner::trim_end(std::vector<Point2>& points, std::vector<double>& widths,
+                       double half_width) const {
+  const std::size_t n = points.size();
+  const auto back = static_cast<std::size_t>(std::clamp(2 * half_width, 4.0, 12.0));
+  if (n < back + 2) return;
+  const Vector2 d = points[n - 1] - points[n - 1 - back];
+  if (norm(d) < 1e-9) return;
+  const Vector2 direction = d / norm(d);
+  double extra = extension(points.back(), direction, half_width);
+  if (extra > 0) {
+    points.push_back(points.back() + extra * direction);
+    widths.push_back(widths.back());
+    return;
+  }
+  while (extra < -1e-9 && points.size() > n / 2 + 2) {
+    const double last = distance(points[points.size() - 2], points.back());
+    if (last > -extra) {
+      points.back() = core::mix(points.back(), points[points.size() - 2], -extra / last);
+      return;
+    }
+    extra += last;
+    points.pop_back();
+    widths.pop_back();
+  }
+}
+
+FineStroke Refiner::refine(const RawStroke& raw) const {
+  const std::size_t n = raw.points.size();
+  const std::vector<double> usual = usual_radii(raw);
+  const double half = median(usual);
+  std::vector<double> weights(n, 1);
+  std::vector<Point2> centres = raw.points;
+  std::vector<double> widths(usual);
+  std::vector<Point2> line =
+      smooth_points(raw.points, weights, lambda_of_wavelength(8 + 3 * half), raw.closed);
+  for (int round = 0; round < 2; ++round) {
+    std::size_t good = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      weights[i] = 0;
+      widths[i] = 2 * usual[i];
+      const double to_end = std::min(raw.free_start ? static_cast<double>(i) : 1e9,
+                                     raw.free_end ? static_cast<double>(n - 1 - i) : 1e9);
+      if (!raw.sure[i] || to_end < 0.7 * usual[i]) continue;
+      const auto reach = static_cast<long>(2 + usual[i]);
+      const Vector2 normal = core::perpendicular_left(tangent_at(line, i, reach, raw.closed));
+      const Profile found = profile(line[i], normal, usual[i]);
+      if (!found.good || std::abs(found.centre) > 0.6 * usual[i] + 1 ||
+          found.width > 3 * usual[i] + 1.5 || found.width < 0.8 * usual[i])
+        continue;
+      centres[i] = line[i] + found.centre * normal;
+      widths[i] = found.width;
+      weights[i] = 1;
+      ++good;
+    }
+    if (good < 2 || 4 * good < n)
+      for (std::size_t i = 0; i < n; ++i)
+        if (weights[i] == 0) weights[i] = raw.sure[i] ? 0.1 : 0.01, centres[i] = raw.points[i];
+    line = smooth_points(centres, weights, lambda_of_wavelength(8 + half), raw.closed);
+  }
+  FineStroke fine;
+  fine.closed = raw.closed;
+  fine.width = median(widths);
+  if (raw.free_end) trim_end(line, widths, 0.5 * fine.width);
+  if (raw.free_start) {
+    std::reverse(line.begin(), line.end());
+    std::reverse(widths.begin(), widths.end());
+    trim_end(line, widths, 0.5 * fine.width);
+    std::reverse(line.begin(), line.end());
+    std::reverse(widths.begin(), widths.end());
+  }
+  resample(line, widths, 1.0, raw.closed, fine.points, fine.widths);
+  return fine;
+}
+
+}  // namespace keyline::sketch

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/core/point.h"
+#include "keyline/sketch/join_strokes.h"
+#include "keyline/sketch/tone.h"
+
+namespace keyline::sketch {
+
+/// A stroke's centre line, a pixel between points, with the ink's width along it.
+struct FineStroke {
+  std::vector<core::Point2> points;  ///< pixels, y down
+  std::vector<double> widths;
+  double width = 0;  ///< median
+  bool closed = false;
+};
+
+/// Takes strokes from pixels to where the ink's grey values say they are.
+class Refiner {
+ public:
+  explicit Refiner(const Tone& tone);
+
+  /// Along the normal of every sure point the ink's profile is read from the grey values; the
+  /// middle between its flanks is the centre. Points in junctions, gaps and where the profile is
+  /// not that of one line are interpolated. Free ends reach to where the ink ends less half the
+  /// width (the pen was round).
+  ///
+  /// Accuracy: a few hundredths of a pixel on clean lines 2 to 12 pixels wide, away from junctions.
+  FineStroke refine(const RawStroke& raw) const;
+
+ private:
+  struct Profile {
+    bool good = false;
+    double centre = 0;
+    double width = 0;
+  };
+  Profile profile(core::Point2 p, core::Vector2 normal, double half_width) const;
+  double darkness(core::Point2 p) const;
+  double extension(core::Point2 end, core::Vector2 direction, double half_width) const;
+  void trim_end(std::vector<core::Point2>& points, std::vector<double>& widths,
+                double half_width) const;
+
+  const Tone& tone_;
+  std::vector<float> darkness_of_level_;
+};
+
+}  // namespace keyline::sketch

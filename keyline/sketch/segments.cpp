@@ -1,0 +1,183 @@
+#include "keyline/sketch/segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace keyline::sketch {
+namespace {
+
+using core::cross;
+using core::distance;
+using core::Point2;
+using core::Vector2;
+
+/// Points by running index; closed ones come round again.
+struct Line {
+  const std::vector<Point2>& points;
+  bool closed;
+  Point2 at(long i) const {
+    const long n = static_cast<long>(points.size());
+    return points[static_cast<std::size_t>(closed ? ((i % n) + n) % n : std::clamp(i, 0L, n - 1))];
+  }
+};
+
+Vector2 direction(const Line& line, long from, long to) {
+  std::vector<Point2> part;
+  for (long i = from; i <= to; ++i) part.push_back(line.at(i));
+  return principal_axis(part, 0, part.size() - 1).direction;
+}
+
+double signed_turn(Vector2 a, Vector2 b) { return std::atan2(cross(a, b), core::dot(a, b)); }
+
+struct Arms {
+  long gap;
+  long arm;
+};
+
+Arms arms_of(const SegmentOptions& options) {
+  const auto gap = static_cast<long>(std::lround(1 + 0.6 * options.width));
+  return {gap, gap + std::max(6L, std::lround(4 + options.width))};
+}
+
+/// Turn at point i that the bend of its arms does not account for.
+double sharpness(const Line& line, long i, const Arms& a) {
+  const Vector2 before = direction(line, i - a.arm, i - a.gap);
+  const Vector2 after = direction(line, i + a.gap, i + a.arm);
+  const double turn = signed_turn(before, after);
+  const long middle = (a.arm + a.gap) / 2;
+  const double half = 0.5 * static_cast<double>(a.arm - a.gap);
+  const double bend_before =
+      signed_turn(direction(line, i - a.arm, i - middle), direction(line, i - middle, i - a.gap)) /
+      half;
+  const double bend_after =
+      signed_turn(direction(line, i + a.gap, i + middle), direction(line, i + middle, i + a.arm)) /
+      half;
+  const double smooth = 0.5 * (bend_before + bend_after) * static_cast<double>(a.arm + a.gap);
+  if (turn * smooth <= 0) return std::abs(turn);
+  return std::max(0.0, std::abs(turn) - std::abs(smooth));
+}
+
+/// Splits first … last into groups, each straight within the tolerance.
+void add_groups(const std::vector<Point2>& p, std::size_t first, std::size_t last, double tolerance,
+                std::vector<Axis>& axes, std::vector<std::size_t>& ends) {
+  const Axis axis = principal_axis(p, first, last);
+  if (axis.largest_offset > tolerance && last - first >= 7) {
+    const std::size_t middle = (first + last) / 2;
+    add_groups(p, first, middle, tolerance, axes, ends);
+    add_groups(p, middle, last, tolerance, axes, ends);
+    return;
+  }
+  axes.push_back(axis);
+  ends.push_back(last);
+}
+
+Point2 projection(const Axis& axis, Point2 p) {
+  return axis.centre + core::dot(p - axis.centre, axis.direction) * axis.direction;
+}
+
+std::optional<Point2> intersection(const Axis& a, const Axis& b) {
+  const double sine = cross(a.direction, b.direction);
+  if (std::abs(sine) < 0.02) return std::nullopt;
+  const double u = cross(b.centre - a.centre, b.direction) / sine;
+  return a.centre + u * a.direction;
+}
+
+/// Where neighbouring axes meet, near the point between their groups.
+Point2 meeting(const Axis& a, const Axis& b, Point2 between, double reach) {
+  const auto x = intersection(a, b);
+  if (x && distance(*x, between) <= reach) return *x;
+  return core::mix(projection(a, between), projection(b, between), 0.5);
+}
+
+SegmentRun make_run(const std::vector<Point2>& points, std::size_t first, std::size_t last,
+                    bool closed, double tolerance) {
+  SegmentRun run{first, last, closed, {}, {}};
+  std::vector<Point2> p;
+  for (std::size_t i = first; i <= last; ++i) p.push_back(points[i % points.size()]);
+  if (closed) p.push_back(p.front());
+  const std::size_t n = p.size();
+  const double wanted = std::ceil(1 + std::log2(static_cast<double>(n)));
+  const auto groups = std::clamp<std::size_t>(static_cast<std::size_t>(wanted), closed ? 4 : 1,
+                                              std::max<std::size_t>(closed ? 4 : 1, (n - 1) / 5));
+  std::vector<std::size_t> ends;
+  for (std::size_t g = 0; g < groups; ++g)
+    add_groups(p, (n - 1) * g / groups, (n - 1) * (g + 1) / groups, tolerance, run.axes, ends);
+  if (!closed) run.vertices.push_back(projection(run.axes.front(), p.front()));
+  for (std::size_t g = 0; g + (closed ? 0 : 1) < run.axes.size(); ++g) {
+    const std::size_t next = (g + 1) % run.axes.size();
+    const std::size_t from = g == 0 ? 0 : ends[g - 1];
+    const std::size_t after = next == 0 ? ends[0] : ends[next] - ends[g];
+    const double reach = 0.6 * static_cast<double>(std::min(ends[g] - from, after));
+    run.vertices.push_back(meeting(run.axes[g], run.axes[next], p[ends[g]], reach));
+  }
+  if (!closed) run.vertices.push_back(projection(run.axes.back(), p.back()));
+  return run;
+}
+
+/// Runs that end in one corner meet where their axes do.
+void meet_at_corner(SegmentRun& before, SegmentRun& after, Point2 corner, double reach) {
+  const Point2 x = meeting(before.axes.back(), after.axes.front(), corner, reach);
+  before.vertices.back() = x;
+  after.vertices.front() = x;
+}
+
+}  // namespace
+
+std::vector<std::size_t> find_corners(const std::vector<Point2>& points, bool closed,
+                                      const SegmentOptions& options) {
+  const Line line{points, closed};
+  const Arms arms = arms_of(options);
+  const long n = static_cast<long>(points.size());
+  std::vector<std::size_t> corners;
+  if (n < 2 * arms.arm + 1) return corners;
+  std::vector<double> sharp(points.size(), 0);
+  const long margin = closed ? 0 : arms.arm;
+  for (long i = margin; i < n - margin; ++i) {
+    // a quick look first: most places are nearly straight
+    const Vector2 u = line.at(i) - line.at(i - arms.arm);
+    const Vector2 v = line.at(i + arms.arm) - line.at(i);
+    if (std::abs(signed_turn(u, v)) < 0.6 * options.corner_angle) continue;
+    sharp[static_cast<std::size_t>(i)] = sharpness(line, i, arms);
+  }
+  for (long i = 0; i < n; ++i) {
+    const double here = sharp[static_cast<std::size_t>(i)];
+    if (here < options.corner_angle) continue;
+    bool top = true;
+    for (long k = -arms.arm; k <= arms.arm && top; ++k) {
+      const long j = closed ? ((i + k) % n + n) % n : i + k;
+      if (k == 0 || j < 0 || j >= n) continue;
+      const double other = sharp[static_cast<std::size_t>(j)];
+      top = other < here || (other == here && k > 0);
+    }
+    if (top) corners.push_back(static_cast<std::size_t>(i));
+  }
+  return corners;
+}
+
+std::vector<SegmentRun> fit_segments(const std::vector<Point2>& points, bool closed,
+                                     const SegmentOptions& options) {
+  const std::vector<std::size_t> corners = find_corners(points, closed, options);
+  const std::size_t n = points.size();
+  std::vector<SegmentRun> runs;
+  std::vector<std::size_t> cuts = corners;
+  if (closed && corners.empty()) {
+    runs.push_back(make_run(points, 0, n - 1, true, options.straightness));
+    return runs;
+  }
+  if (closed) {
+    cuts.push_back(corners.front() + n);
+  } else {
+    cuts.insert(cuts.begin(), 0);
+    cuts.push_back(n - 1);
+  }
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    runs.push_back(make_run(points, cuts[k], cuts[k + 1], false, options.straightness));
+  const double reach = 2 * options.width + 6;
+  for (std::size_t k = 0; k + 1 < runs.size(); ++k)
+    meet_at_corner(runs[k], runs[k + 1], points[runs[k].last % n], reach);
+  if (closed) meet_at_corner(runs.back(), runs.front(), points[runs.front().first % n], reach);
+  return runs;
+}
+
+}  // namespace keyline::sketch

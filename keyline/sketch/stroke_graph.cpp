@@ -1,0 +1,276 @@
+#include "keyline/sketch/stroke_graph.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <unordered_map>
+
+#include "keyline/core/polygon.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::distance;
+using core::Point2;
+
+struct Pixel {
+  int x, y;
+};
+
+/// Neighbours a line goes on to: those across an edge, and diagonal ones that no neighbour across
+/// an edge leads to.
+std::array<Pixel, 8> next_pixels(const Binary& lines, Pixel p, int& count) {
+  static constexpr std::array<std::array<int, 2>, 8> kStep = {
+      {{0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}}};
+  const unsigned n = neighbours_of(lines, p.x, p.y);
+  std::array<Pixel, 8> next{};
+  count = 0;
+  for (unsigned k = 0; k < 8; ++k) {
+    if (((n >> k) & 1U) == 0) continue;
+    if (k % 2 == 1 && (((n >> (k - 1)) & 1U) || ((n >> ((k + 1) % 8)) & 1U))) continue;
+    next[static_cast<std::size_t>(count++)] = {p.x + kStep[k][0], p.y + kStep[k][1]};
+  }
+  return next;
+}
+
+class Builder {
+ public:
+  Builder(const Binary& lines, const Binary& ink)
+      : lines_(lines), visited_(lines.width, lines.height) {
+    const cv::Mat mask(ink.height, ink.width, CV_8U, const_cast<std::uint8_t*>(ink.data.data()));
+    cv::Mat padded;
+    cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+    cv::distanceTransform(padded, distance_, cv::DIST_L2, cv::DIST_MASK_5);
+  }
+
+  StrokeGraph build() {
+    find_nodes();
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      for (const Pixel p : members_[k]) follow_all(p, static_cast<int>(k));
+    for (int y = 0; y < lines_.height; ++y)
+      for (int x = 0; x < lines_.width; ++x)
+        if (lines_.at(x, y) && !visited_.at(x, y)) closed_line({x, y});
+    return std::move(graph_);
+  }
+
+ private:
+  static Point2 centre(Pixel p) { return {p.x + 0.5, p.y + 0.5}; }
+  float radius(Pixel p) const {
+    // the transform counts from the centre of the next pixel of paper; ink ends half a pixel before
+    return std::max(0.5F, distance_.at<float>(p.y + 1, p.x + 1) - 0.5F);
+  }
+  long key(Pixel p) const { return static_cast<long>(lines_.index(p.x, p.y)); }
+
+  int degree(Pixel p) const {
+    int count = 0;
+    next_pixels(lines_, p, count);
+    return count;
+  }
+
+  /// Ends, single pixels, and clusters of touching junction pixels.
+  void find_nodes() {
+    for (int y = 0; y < lines_.height; ++y)
+      for (int x = 0; x < lines_.width; ++x) {
+        if (!lines_.at(x, y) || visited_.at(x, y)) continue;
+        const int d = degree({x, y});
+        if (d != 2) add_node({x, y}, d >= 3);
+      }
+  }
+
+  void add_node(Pixel start, bool junction) {
+    const int index = static_cast<int>(graph_.nodes.size());
+    std::vector<Pixel> cluster = {start};
+    visited_.at(start.x, start.y) = 1;
+    for (std::size_t k = 0; junction && k < cluster.size(); ++k) {
+      int count = 0;
+      const auto next = next_pixels(lines_, cluster[k], count);
+      for (int i = 0; i < count; ++i) {
+        const Pixel q = next[static_cast<std::size_t>(i)];
+        if (visited_.at(q.x, q.y) || degree(q) < 3) continue;
+        visited_.at(q.x, q.y) = 1;
+        cluster.push_back(q);
+      }
+    }
+    GraphNode node;
+    for (const Pixel p : cluster) {
+      node.position.x += (p.x + 0.5) / static_cast<double>(cluster.size());
+      node.position.y += (p.y + 0.5) / static_cast<double>(cluster.size());
+      node.radius = std::max<double>(node.radius, radius(p));
+      node_of_[key(p)] = index;
+    }
+    graph_.nodes.push_back(std::move(node));
+    members_.push_back(std::move(cluster));
+  }
+
+  void follow_all(Pixel p, int node) {
+    int count = 0;
+    const auto next = next_pixels(lines_, p, count);
+    if (count == 0 && graph_.nodes[static_cast<std::size_t>(node)].edges.empty()) {
+      add_edge({node, node, {centre(p)}, {radius(p)}, true});
+      return;
+    }
+    for (int i = 0; i < count; ++i) {
+      const Pixel q = next[static_cast<std::size_t>(i)];
+      const auto other = node_of_.find(key(q));
+      if (other != node_of_.end()) {
+        // two nodes side by side: one edge, made from the lower index
+        if (other->second > node)
+          add_edge({node, other->second, {centre(p), centre(q)}, {radius(p), radius(q)}, true});
+      } else if (!visited_.at(q.x, q.y)) {
+        follow(p, q, node);
+      }
+    }
+  }
+
+  void follow(Pixel from, Pixel p, int node) {
+    GraphEdge edge{node, -1, {centre(from)}, {radius(from)}, true};
+    Pixel before = from;
+    while (true) {
+      edge.points.push_back(centre(p));
+      edge.radii.push_back(radius(p));
+      const auto at = node_of_.find(key(p));
+      if (at != node_of_.end()) {
+        edge.to = at->second;
+        break;
+      }
+      visited_.at(p.x, p.y) = 1;
+      int count = 0;
+      const auto next = next_pixels(lines_, p, count);
+      Pixel on = p;
+      for (int i = 0; i < count; ++i) {
+        const Pixel q = next[static_cast<std::size_t>(i)];
+        if (q.x != before.x || q.y != before.y) on = q;
+      }
+      if (on.x == p.x && on.y == p.y) break;
+      before = p;
+      p = on;
+    }
+    add_edge(std::move(edge));
+  }
+
+  void closed_line(Pixel start) {
+    GraphEdge edge;
+    Pixel p = start;
+    Pixel before = {-9, -9};
+    while (!visited_.at(p.x, p.y)) {
+      visited_.at(p.x, p.y) = 1;
+      edge.points.push_back(centre(p));
+      edge.radii.push_back(radius(p));
+      int count = 0;
+      const auto next = next_pixels(lines_, p, count);
+      Pixel on = p;
+      for (int i = 0; i < count; ++i) {
+        const Pixel q = next[static_cast<std::size_t>(i)];
+        if ((q.x != before.x || q.y != before.y) && !visited_.at(q.x, q.y)) on = q;
+      }
+      before = p;
+      p = on;
+    }
+    graph_.edges.push_back(std::move(edge));
+  }
+
+  void add_edge(GraphEdge edge) {
+    if (edge.to < 0) {
+      GraphNode end{edge.points.back(), edge.radii.back(), {}};
+      edge.to = static_cast<int>(graph_.nodes.size());
+      graph_.nodes.push_back(std::move(end));
+    }
+    const int index = static_cast<int>(graph_.edges.size());
+    graph_.nodes[static_cast<std::size_t>(edge.from)].edges.push_back(index);
+    graph_.nodes[static_cast<std::size_t>(edge.to)].edges.push_back(index);
+    graph_.edges.push_back(std::move(edge));
+  }
+
+  const Binary& lines_;
+  Binary visited_;
+  cv::Mat distance_;
+  StrokeGraph graph_;
+  std::vector<std::vector<Pixel>> members_;
+  std::unordered_map<long, int> node_of_;
+};
+
+GraphNode& node_at(StrokeGraph& g, int i) { return g.nodes[static_cast<std::size_t>(i)]; }
+GraphEdge& edge_at(StrokeGraph& g, int i) { return g.edges[static_cast<std::size_t>(i)]; }
+
+void detach(StrokeGraph& g, int node, int edge) {
+  auto& list = node_at(g, node).edges;
+  const auto at = std::find(list.begin(), list.end(), edge);
+  if (at != list.end()) list.erase(at);
+}
+
+void reverse_edge(GraphEdge& e) {
+  std::swap(e.from, e.to);
+  std::reverse(e.points.begin(), e.points.end());
+  std::reverse(e.radii.begin(), e.radii.end());
+}
+
+/// The two lines at a node left with two become one; a line that returns to it becomes closed.
+void join_at(StrokeGraph& g, int node) {
+  if (node_at(g, node).edges.size() != 2) return;
+  const int a = node_at(g, node).edges[0];
+  const int b = node_at(g, node).edges[1];
+  if (a == b) {
+    edge_at(g, a).from = edge_at(g, a).to = -1;
+    node_at(g, node).edges.clear();
+    return;
+  }
+  GraphEdge& first = edge_at(g, a);
+  GraphEdge& second = edge_at(g, b);
+  if (first.to != node) reverse_edge(first);
+  if (second.from != node) reverse_edge(second);
+  first.points.insert(first.points.end(), second.points.begin(), second.points.end());
+  first.radii.insert(first.radii.end(), second.radii.begin(), second.radii.end());
+  first.to = second.to;
+  second.alive = false;
+  node_at(g, node).edges.clear();
+  auto& list = node_at(g, first.to).edges;
+  std::replace(list.begin(), list.end(), b, a);
+}
+
+/// True for an end that leaves the disc of the line it sits on by less than half that line's width.
+bool is_spur(StrokeGraph& g, int edge) {
+  const GraphEdge& e = edge_at(g, edge);
+  if (!e.alive || e.from < 0 || e.from == e.to) return false;
+  const bool free_from = node_at(g, e.from).edges.size() == 1;
+  const bool free_to = node_at(g, e.to).edges.size() == 1;
+  if (free_from == free_to) return false;
+  const GraphNode& foot = node_at(g, free_from ? e.to : e.from);
+  if (foot.edges.size() < 3) return false;
+  return length_of(e) < 1.5 * foot.radius + 1.5;
+}
+
+void prune_spurs(StrokeGraph& g) {
+  for (int round = 0; round < 3; ++round) {
+    // shortest first: of a forked end the longer fork stays as the line's end
+    std::vector<std::pair<double, int>> spurs;
+    for (int i = 0; i < static_cast<int>(g.edges.size()); ++i)
+      if (is_spur(g, i)) spurs.emplace_back(length_of(edge_at(g, i)), i);
+    std::sort(spurs.begin(), spurs.end());
+    bool changed = false;
+    for (const auto& [length, i] : spurs) {
+      if (!is_spur(g, i)) continue;
+      GraphEdge& e = edge_at(g, i);
+      e.alive = false;
+      const int foot = node_at(g, e.from).edges.size() == 1 ? e.to : e.from;
+      detach(g, e.from, i);
+      detach(g, e.to, i);
+      join_at(g, foot);
+      changed = true;
+    }
+    if (!changed) return;
+  }
+}
+
+}  // namespace
+
+double length_of(const GraphEdge& edge) { return core::polygon_length(edge.points); }
+
+StrokeGraph build_graph(const Binary& lines, const Binary& ink) {
+  StrokeGraph graph = Builder(lines, ink).build();
+  prune_spurs(graph);
+  return graph;
+}
+
+}  // namespace keyline::sketch

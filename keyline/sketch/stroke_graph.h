@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/core/point.h"
+#include "keyline/sketch/thinning.h"
+
+namespace keyline::sketch {
+
+/// Where lines end (degree 1) or meet (3 or more). Positions in pixels, y down.
+struct GraphNode {
+  core::Point2 position;
+  double radius = 0;       ///< half the ink's width there
+  std::vector<int> edges;  ///< indices; an edge that returns is listed twice
+};
+
+/// A line between two nodes, or a closed one without nodes (from and to are -1). Points run from
+/// the node `from` to the node `to`, pixel centre by pixel centre.
+struct GraphEdge {
+  int from = -1;
+  int to = -1;
+  std::vector<core::Point2> points;
+  std::vector<float> radii;  ///< half the ink's width at the points
+  bool alive = true;
+};
+
+/// The lines of a thinned picture as a graph.
+struct StrokeGraph {
+  std::vector<GraphNode> nodes;
+  std::vector<GraphEdge> edges;
+};
+
+/// The graph of `lines`, thinned from `ink`. Single pixels and blobs whose line is shorter than
+/// they are wide give an edge of one point or few. Spurs (ends that hardly leave the width of the
+/// line they sit on) are cut and the lines through their feet made one.
+StrokeGraph build_graph(const Binary& lines, const Binary& ink);
+
+/// Length along the points.
+double length_of(const GraphEdge& edge);
+
+}  // namespace keyline::sketch

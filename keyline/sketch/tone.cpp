@@ -1,0 +1,105 @@
+#include "keyline/sketch/tone.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "keyline/sketch/background.h"
+
+namespace keyline::sketch {
+namespace {
+
+using Gray = Raster<std::uint16_t>;
+
+constexpr int kImpulse = 9000;  ///< salt and pepper differ by this much from all neighbours
+
+/// Pixels much darker or much lighter than every neighbour become the neighbours' median. Isolated
+/// ones only: a line one pixel wide has neighbours of its own kind along it.
+void remove_impulses(Gray& image) {
+  const int w = image.width;
+  const int h = image.height;
+  if (w < 3 || h < 3) return;
+  const auto row_of = [&](int y) {
+    return std::vector<std::uint16_t>(
+        image.data.begin() + static_cast<long>(image.index(0, y)),
+        image.data.begin() + static_cast<long>(image.index(0, y)) + w);
+  };
+  std::vector<std::uint16_t> above = row_of(0);
+  std::vector<std::uint16_t> here = row_of(1);
+  for (int y = 1; y + 1 < h; ++y) {
+    const std::uint16_t* below = &image.at(0, y + 1);
+    for (int x = 1; x + 1 < w; ++x) {
+      const int value = here[x];
+      const bool darker = here[x - 1] - value >= kImpulse;
+      if (!darker && value - here[x - 1] < kImpulse) continue;
+      std::array<std::uint16_t, 8> around = {above[x - 1], above[x],    above[x + 1],
+                                             here[x - 1],  here[x + 1], below[x - 1],
+                                             below[x],     below[x + 1]};
+      if (!std::all_of(around.begin(), around.end(), [&](int other) {
+            return (darker ? other - value : value - other) >= kImpulse;
+          }))
+        continue;
+      std::nth_element(around.begin(), around.begin() + 4, around.end());
+      image.at(x, y) = around[4];
+    }
+    above.swap(here);
+    if (y + 2 < h) here = row_of(y + 1);
+  }
+}
+
+/// Luminance to x of the formula, 1 … 256.
+double intensity(double luminance) { return 1 + luminance / 65535 * 255; }
+
+/// Value below which the given share of a sample of pixels lies.
+double percentile(const Gray& image, double share) {
+  std::vector<std::uint16_t> sample;
+  const std::size_t step = std::max<std::size_t>(1, image.data.size() / 200000);
+  for (std::size_t i = 0; i < image.data.size(); i += step) sample.push_back(image.data[i]);
+  const auto at =
+      sample.begin() + static_cast<long>(share * static_cast<double>(sample.size() - 1));
+  std::nth_element(sample.begin(), at, sample.end());
+  return *at;
+}
+
+/// Median absolute difference of pixels some steps apart, as a standard deviation of one pixel.
+double noise_at_lag(const Gray& level, int lag) {
+  if (level.width <= lag) return 0;
+  std::vector<int> sample;
+  const std::size_t step = std::max<std::size_t>(1, level.data.size() / 100000);
+  for (std::size_t i = 0; i + static_cast<std::size_t>(lag) < level.data.size(); i += step)
+    sample.push_back(std::abs(level.data[i] - level.data[i + static_cast<std::size_t>(lag)]));
+  const auto middle = sample.begin() + static_cast<long>(sample.size() / 2);
+  std::nth_element(sample.begin(), middle, sample.end());
+  return *middle / (0.6745 * std::sqrt(2.0)) / Tone::kWhite;
+}
+
+std::vector<std::uint16_t> level_table(double gain) {
+  std::vector<std::uint16_t> table(65536);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double y = gain * std::log(intensity(static_cast<double>(i)));
+    table[i] = static_cast<std::uint16_t>(std::clamp(y * Tone::kWhite, 0.0, 65535.0));
+  }
+  return table;
+}
+
+}  // namespace
+
+Tone transform_intensity(const Image& image, const ToneOptions& options) {
+  Tone tone;
+  tone.light_on_dark = options.polarity == Polarity::light_on_dark ||
+                       (options.polarity == Polarity::automatic && is_light_on_dark(image));
+  tone.level = image.luminance;
+  if (tone.light_on_dark)
+    for (std::uint16_t& v : tone.level.data) v = static_cast<std::uint16_t>(65535 - v);
+  remove_impulses(tone.level);
+  const double paper = std::max(intensity(percentile(tone.level, 0.8)), 2.0);
+  tone.gain = options.gain.value_or(1 / std::log(paper));
+  const std::vector<std::uint16_t> table = level_table(tone.gain);
+  for (std::uint16_t& v : tone.level.data) v = table[v];
+  tone.flattened = flatten_background(tone.level, options.flatten);
+  tone.noise = std::max(noise_at_lag(tone.level, 1), noise_at_lag(tone.level, 4));
+  return tone;
+}
+
+}  // namespace keyline::sketch

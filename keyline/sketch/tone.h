@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "keyline/sketch/image.h"
+
+namespace keyline::sketch {
+
+enum class Polarity { automatic, dark_on_light, light_on_dark };
+enum class Flatten { automatic, on, off };
+
+struct ToneOptions {
+  /// The a of y = a·log x (x from 1 to 256, y = 1 is white); empty: such that the paper is white.
+  std::optional<double> gain;
+  Polarity polarity = Polarity::automatic;
+  Flatten flatten = Flatten::automatic;  ///< automatic: where the paper's brightness varies
+};
+
+/// The picture after the light intensity transformation.
+struct Tone {
+  /// kWhite times y: paper is kWhite and near it, ink is lower. Lines light on dark are turned
+  /// into dark on light first.
+  Raster<std::uint16_t> level;
+  double gain = 0;
+  bool light_on_dark = false;
+  bool flattened = false;
+  double noise = 0;  ///< standard deviation of y on paper
+
+  static constexpr double kWhite = 60000;  ///< some headroom above for what outshines the paper
+  /// How much darker than paper, in y.
+  double depth(std::size_t i) const { return 1 - level.data[i] / kWhite; }
+};
+
+/// Light intensity transformation y = a·log x ([Sketch] Eq. 11), after single stray pixels (salt
+/// and pepper) were taken out; on request or need the paper's own brightness, estimated from
+/// blocks, is divided out.
+Tone transform_intensity(const Image& image, const ToneOptions& options = {});
+
+/// Paper and ink told apart by which tail of the blocks' brightness is longer.
+bool is_light_on_dark(const Image& image);
+
+}  // namespace keyline::sketch
