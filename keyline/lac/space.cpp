@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/space_shooting.h"
+#include "keyline/lac/space_stretch.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
@@ -30,21 +33,25 @@ void put(State& s, std::size_t i, Vector3 v) {
   s[i + 2] = v.z;
 }
 
-/// Frenet's equations of one piece in the fraction of its length.
+/// Frenet's equations of one piece, in the fraction of its length or a stretch's variable.
 class Frenet {
  public:
   explicit Frenet(const SpacePiece& p)
       : curvature_(curvature_law(p)), torsion_(torsion_law(p)), length_(p.length) {}
 
-  void operator()(const State& state, State& rate, double t) const {
+  void operator()(const State& state, State& rate, double s) const {
+    const double t = stretch.place(s);
+    const double speed = stretch.rate(s);
     const Vector3 tangent = part_of(state, 3);
     const Vector3 normal = part_of(state, 6);
-    const double bend = length_ * curvature(curvature_, t);
-    const double twist = length_ * curvature(torsion_, t);
-    put(rate, 0, tangent);
+    const double bend = speed * length_ * curvature(curvature_, t);
+    const double twist = speed * length_ * curvature(torsion_, t);
+    put(rate, 0, speed * tangent);
     put(rate, 3, bend * normal);
     put(rate, 6, twist * cross(tangent, normal) - bend * tangent);
   }
+
+  detail::Stretch stretch;
 
  private:
   Piece curvature_;
@@ -52,26 +59,41 @@ class Frenet {
   double length_;
 };
 
+/// Where a law vanishes, the ends included.
+detail::LawZero zero_of(const Piece& law) {
+  const double k0 = law.curvature_start;
+  const double k1 = law.curvature_end;
+  if (!(law.alpha < 0) || k0 == k1) return {};
+  return {k0 == 0 ? 0 : k1 == 0 ? 1 : inflection(law), law.alpha};
+}
+
 /// Frames along one piece at growing t.
 class Walker {
  public:
   Walker(const SpaceFrame& start, const SpacePiece& piece)
-      : origin_(start.position), length_(piece.length), rates_(piece) {
+      : origin_(start.position),
+        length_(piece.length),
+        rates_(piece),
+        stretches_(
+            detail::stretches_between(zero_of(curvature_law(piece)), zero_of(torsion_law(piece)))) {
     put(state_, 3, start.tangent);
     put(state_, 6, start.normal);
-    for (const Piece& law : {curvature_law(piece), torsion_law(piece)})
-      if (const double zero = inflection(law); zero > 0) stops_.push_back(zero);
-    std::sort(stops_.begin(), stops_.end());
     const double turn =
         piece.length * std::max({std::abs(piece.curvature_start), std::abs(piece.curvature_end),
                                  std::abs(piece.torsion_start), std::abs(piece.torsion_end), 1e-3});
-    step_ = std::min(0.25, 0.2 / turn);
+    first_step_ = std::min(0.25, 0.2 / turn);
+    step_ = first_step_;
+    rates_.stretch = stretches_.all[0];
   }
 
   SpaceFrame at(double t) {
-    for (const double stop : stops_)
-      if (stop > t_ && stop < t) advance(stop);
-    if (t > t_) advance(t);
+    while (now_ + 1 < stretches_.count && t > rates_.stretch.to) {
+      advance(1);
+      rates_.stretch = stretches_.all[++now_];
+      s_ = 0;
+      step_ = first_step_;
+    }
+    advance(rates_.stretch.variable(t));
     const Vector3 tangent = part_of(state_, 3) / norm(part_of(state_, 3));
     Vector3 normal = part_of(state_, 6);
     normal = normal - dot(normal, tangent) * tangent;
@@ -83,22 +105,22 @@ class Walker {
   /// One step against two of half the length. (Fehlberg's own estimate is blind to what depends on
   /// t alone: it takes its stages at both ends of the step with opposite signs.)
   void advance(double to) {
-    while (t_ < to) {
-      const bool whole = step_ >= to - t_;
-      const double step = whole ? to - t_ : step_;
+    while (s_ < to) {
+      const bool whole = step_ >= to - s_;
+      const double step = whole ? to - s_ : step_;
       State once{};
       State half{};
       State twice{};
-      stepper_.do_step(rates_, state_, t_, once, step);
-      stepper_.do_step(rates_, state_, t_, half, step / 2);
-      stepper_.do_step(rates_, half, t_ + step / 2, twice, step / 2);
+      stepper_.do_step(rates_, state_, s_, once, step);
+      stepper_.do_step(rates_, state_, s_, half, step / 2);
+      stepper_.do_step(rates_, half, s_ + step / 2, twice, step / 2);
       double error = 0;
       for (std::size_t i = 0; i < once.size(); ++i)
         error = std::max(error, std::abs(once[i] - twice[i]));
       const double factor = error > 0 ? 0.9 * std::pow(kLocalError / error, 0.125) : 3.0;
       if (error <= kLocalError || step < kLeastStep) {
         state_ = twice;
-        t_ = whole ? to : t_ + step;
+        s_ = whole ? to : s_ + step;
       }
       if (!whole || factor < 1)
         step_ = std::max(kLeastStep / 2, step * std::clamp(factor, 0.2, 3.0));
@@ -110,9 +132,11 @@ class Walker {
   double length_;
   Frenet rates_;
   State state_{};
-  double t_ = 0;
+  detail::Stretches stretches_;
+  int now_ = 0;
+  double s_ = 0;
   double step_ = 0.1;
-  std::vector<double> stops_;
+  double first_step_ = 0.1;
 };
 
 struct Location {
@@ -197,11 +221,14 @@ std::vector<SpaceFrame> frames(const SpaceChain& chain, std::span<const double> 
   std::vector<SpaceFrame> all;
   all.reserve(t.size());
   std::size_t piece = 0;
-  Walker walker(chain.start, chain.pieces[0]);
+  std::optional<Walker> walker(std::in_place, chain.start, chain.pieces[0]);
   for (const double each : t) {
     const Location at = locate(chain, each);
-    while (piece < at.piece) walker = Walker(walker.at(1), chain.pieces[++piece]);
-    all.push_back(walker.at(at.t));
+    while (piece < at.piece) {
+      const SpaceFrame joint = walker->at(1);
+      walker.emplace(joint, chain.pieces[++piece]);
+    }
+    all.push_back(walker->at(at.t));
   }
   return all;
 }
@@ -264,27 +291,14 @@ SpaceChain reverse(const SpaceChain& chain) {
   return back;
 }
 
-namespace {
-
-/// y with y^-p = x^-p + p d for p != 0 (signed powers for p < 0), x e^-d for p = 0; NaN past the
-/// end of the curve. Standard form: p the slope, d the rate times arc length.
-double carried(double x, double p, double d) {
-  if (p < 0) return numeric::signed_power(numeric::signed_power(x, -p) + p * d, -1 / p);
-  const double part = p * d * std::pow(std::abs(x), p);
-  if (part == 0 && p != 0) return x;
-  return p == 0 ? x * std::exp(-d) : part > -1 ? x * std::exp(-std::log1p(part) / p) : NAN;
-}
-
-}  // namespace
-
 Result<SpacePiece> standard_piece(const SpaceStandardForm& form, double length) {
   const SpacePiece piece{form.alpha,
                          form.beta,
                          length,
                          1,
-                         carried(1, form.alpha, form.lambda * length),
+                         detail::carried(1, form.alpha, form.lambda * length),
                          form.nu,
-                         carried(form.nu, form.beta, form.omega * length)};
+                         detail::carried(form.nu, form.beta, form.omega * length)};
   if (!std::isfinite(form.lambda) || !std::isfinite(form.omega) ||
       std::isnan(piece.curvature_end) || std::isnan(piece.torsion_end))
     return core::fail(ErrorCode::bad_input, "the standard form ends before this length",

@@ -121,8 +121,10 @@ struct SpaceBeziers {
   double deviation = 0;
 };
 
-/// Within `tolerance` (> 0, absolute; InvalidInput otherwise). The deviation is one and a half
-/// times the largest distance at equal arc length over 13 places of every piece.
+/// Within `tolerance` (> 0, absolute; InvalidInput otherwise), each quintic as long as it may be.
+/// The deviation is a bound of the distance at equal arc length, from bounds of the curve's
+/// derivatives and the error of Hermite interpolation; it exceeds a tolerance only where that is
+/// below about 4e-13 of the length.
 SpaceBeziers approximate_by_quintics(const SpaceChain& chain, double tolerance);
 
 }  // namespace keyline::lac

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
-
-#include <Eigen/LU>
+#include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/hermite.h"
-#include "keyline/numeric/roots.h"
+#include "keyline/lac/piece_shape.h"
+#include "keyline/lac/space_shooting.h"
 
 namespace keyline::lac {
 namespace {
@@ -18,7 +18,9 @@ using core::ErrorCode;
 using core::Point3;
 using core::Result;
 using core::Vector3;
-using Unknowns = Eigen::Vector3d;  ///< lambda times length, total torsion, length
+using detail::SpaceShot;
+using detail::SpaceUnknowns;
+using Miss = std::array<double, 3>;
 
 /// What does not depend on place: both tangents against the chord, and how far the end tangent is
 /// turned about the chord out of the plane of the start tangent (0: the arc of a plane curve).
@@ -55,148 +57,212 @@ Vector3 end_tangent(const Invariants& i) {
   return {std::cos(i.last), -s * std::cos(i.twist), -s * std::sin(i.twist)};
 }
 
-/// nu for which the torsion over the length comes to `total`; empty where there is none.
-std::optional<double> nu_of(const SpaceStandardForm& form, double length, double total) {
-  if (form.omega == 0) return total / length;
-  if (total == 0 && form.beta >= 0) return 0.0;
-  const auto excess = [&](double nu) {
-    SpaceStandardForm with = form;
-    with.nu = nu;
-    const auto piece = standard_piece(with, length);
-    return piece ? total_turning(torsion_law(*piece)) - total : std::copysign(HUGE_VAL, nu);
-  };
-  const double mean = total / length;
-  const double least = form.beta >= 0 ? 0.0 : -HUGE_VAL;
-  double step = std::abs(mean) + std::abs(form.omega * length) + 1e-9;
-  double low = mean;
-  double high = mean;
-  if (form.beta >= 0) {  // one sign: between no torsion at all and more than enough
-    for (int i = 0; i < 60 && excess(high) * mean < 0; ++i) high *= 2;
-    low = form.omega > 0 ? mean : least;
-  } else {
-    for (int i = 0; i < 60 && excess(high) < 0; ++i, step *= 2) high += step;
-    for (int i = 0; i < 60 && excess(low) > 0; ++i, step *= 2) low -= step;
-  }
-  if (low > high) std::swap(low, high);
-  if (low == high) return low;
-  return numeric::bracketed_root(excess, low, high, 0);
+/// Angle of the start tangent against the chord, and direction of the end tangent, less the wanted
+/// ones, for a curve in its standard frame.
+Miss miss_of(Vector3 chord, Vector3 tangent, const Invariants& wanted) {
+  const Vector3 there = into(chord_frame(chord, {1, 0, 0}), tangent);
+  const double c = std::cos(wanted.last);
+  const Vector3 along{-std::sin(wanted.last), -c * std::cos(wanted.twist),
+                      -c * std::sin(wanted.twist)};
+  const Vector3 around{0, std::sin(wanted.twist), -std::cos(wanted.twist)};
+  const double x = dot(there, along);
+  const double y = dot(there, around);
+  const double sine = std::hypot(x, y);
+  // Far off, the angle still tells how far.
+  const double angle = std::atan2(sine, dot(there, end_tangent(wanted)));
+  const double scale = sine > 1e-8 ? angle / sine : angle > 1 ? HUGE_VAL : 1;
+  return {angle_between({1, 0, 0}, chord) - wanted.first, scale * x, scale * y};
 }
 
-/// A curve of the family in the standard frame.
+double size_of(const Miss& miss) {
+  double size = 0;
+  for (const double m : miss) size = std::isfinite(m) ? std::max(size, std::abs(m)) : 1e300;
+  return size;
+}
+
+bool reasonable(const SpaceUnknowns& x) {
+  return std::isfinite(x.bend) && std::isfinite(x.twist) && x.length > 1e-6 && x.length < 100 &&
+         std::abs(x.twist) < 4 * core::kPi;
+}
+
+/// Newton's step for a miss, with the derivatives of a shot; empty where the matrix is singular.
+std::optional<Miss> newton_step(const SpaceShot& shot, const Miss& at, const Invariants& wanted) {
+  constexpr double kSize = 1e-6;
+  std::array<std::array<double, 3>, 3> slope{};
+  const Miss base = miss_of(shot.chord, shot.tangent, wanted);
+  for (int i = 0; i < 3; ++i) {
+    const Miss near = miss_of(shot.chord + kSize * shot.chord_by[i],
+                              shot.tangent + kSize * shot.tangent_by[i], wanted);
+    for (int row = 0; row < 3; ++row) slope[row][i] = (near[row] - base[row]) / kSize;
+  }
+  Miss step = at;
+  if (!detail::solve_small(slope, step)) return std::nullopt;
+  return size_of(step) < 1e6 ? std::optional(step) : std::nullopt;
+}
+
+SpaceUnknowns moved(const SpaceUnknowns& x, const Miss& step, double share) {
+  return {x.bend - share * step[0], x.twist - share * step[1],
+          x.length * std::exp(-share * std::clamp(step[2] / x.length, -1.0, 1.0))};
+}
+
+/// A shot that starts and ends apart, and its miss.
+struct Aimed {
+  SpaceShot shot;
+  Miss miss{};
+};
+std::optional<Aimed> aim(const SpaceStandardForm& form, const SpaceUnknowns& x,
+                         const Invariants& wanted) {
+  if (!reasonable(x)) return std::nullopt;
+  const auto shot = detail::shoot_space(form, x);
+  if (!shot || !(norm(shot->chord) > 1e-3)) return std::nullopt;
+  return Aimed{*shot, miss_of(shot->chord, shot->tangent, wanted)};
+}
+
+/// Newton's method on quick shots, with steps shortened until the miss falls.
+bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enough, SpaceUnknowns& x,
+           int& iterations) {
+  auto here = aim(form, x, wanted);
+  for (int i = 0; here && i < 12; ++i) {
+    const double size = size_of(here->miss);
+    if (size <= enough) return true;
+    const auto step = newton_step(here->shot, here->miss, wanted);
+    if (!step) return false;
+    ++iterations;
+    double share = 1;
+    for (;; share /= 2) {
+      if (share < 0.02) return false;
+      const SpaceUnknowns next = moved(x, *step, share);
+      const auto there = aim(form, next, wanted);
+      if (!there || !(size_of(there->miss) < (1 - 0.1 * share) * size)) continue;
+      x = next;
+      here = there;
+      break;
+    }
+  }
+  return here && size_of(here->miss) <= enough;
+}
+
+/// A curve of the family in the standard frame, integrated exactly.
 struct Member {
   SpaceStandardForm form;
   SpaceChain chain;
   SpaceFrame end;
 };
 
-std::optional<Member> member(SpaceStandardForm form, const Unknowns& x) {
-  const double length = x[2];
-  if (!(length > 0) || !x.allFinite() || length > 100) return std::nullopt;
-  form.lambda = x[0] / length;
-  const auto nu = nu_of(form, length, x[1]);
-  if (!nu) return std::nullopt;
-  form.nu = *nu;
-  const auto piece = standard_piece(form, length);
+std::optional<Member> member(SpaceStandardForm form, const SpaceUnknowns& x) {
+  const auto torsion = detail::start_torsion(form.beta, form.omega, x);
+  if (!torsion || !reasonable(x)) return std::nullopt;
+  form.lambda = x.bend / x.length;
+  form.nu = *torsion / x.length;
+  const auto piece = standard_piece(form, x.length);
   if (!piece) return std::nullopt;
   Member m{form, {{}, {*piece}}, {}};
   m.end = frame_at(m.chain, 1);
-  if (!(norm(m.end.position - Point3{}) > 1e-3 * length)) return std::nullopt;
   return m;
 }
 
-/// Angle of the start tangent and direction of the end tangent against the wanted ones.
-std::optional<Unknowns> miss(const SpaceStandardForm& form, const Unknowns& x,
-                             const Invariants& wanted) {
-  const auto m = member(form, x);
-  if (!m) return std::nullopt;
-  const Vector3 chord = m->end.position - Point3{};
-  const Vector3 tangent = into(chord_frame(chord, {1, 0, 0}), m->end.tangent);
-  const Vector3 off = tangent - end_tangent(wanted);
-  const double c = std::cos(wanted.last);
-  const Vector3 along{-std::sin(wanted.last), -c * std::cos(wanted.twist),
-                      -c * std::sin(wanted.twist)};
-  const Vector3 around{0, std::sin(wanted.twist), -std::cos(wanted.twist)};
-  return Unknowns{angle_between({1, 0, 0}, chord) - wanted.first, dot(off, along),
-                  dot(off, around)};
-}
-
-std::optional<Unknowns> newton_step(const SpaceStandardForm& form, const Unknowns& x,
-                                    const Unknowns& at, const Invariants& wanted) {
-  Eigen::Matrix3d slope;
-  const double sizes[3] = {1e-6, 1e-6, 1e-6 * x[2]};
-  for (int i = 0; i < 3; ++i) {
-    Unknowns near = x;
-    near[i] += sizes[i];
-    auto there = miss(form, near, wanted);
-    double size = sizes[i];
-    if (!there) {
-      near[i] = x[i] - size;
-      size = -size;
-      there = miss(form, near, wanted);
+/// From six digits to all of them: exact misses, the derivatives of quick shots.
+std::optional<Member> polished(const SpaceStandardForm& form, const Invariants& wanted,
+                               SpaceUnknowns x, int& iterations) {
+  std::optional<Member> best;
+  double least = 1e-12;
+  double before = 1e300;
+  for (int i = 0; i < 30; ++i) {
+    auto m = member(form, x);
+    if (!m) break;
+    const Miss miss = miss_of(m->end.position - Point3{}, m->end.tangent, wanted);
+    const double size = size_of(miss);
+    if (size <= least) {
+      least = size;
+      best = std::move(m);
     }
-    if (!there) return std::nullopt;
-    slope.col(i) = (*there - at) / size;
-  }
-  const Unknowns step = slope.partialPivLu().solve(at);
-  return step.allFinite() ? std::optional(step) : std::nullopt;
-}
-
-/// Newton's method with steps shortened until the miss falls.
-bool solve(const SpaceStandardForm& form, const Invariants& wanted, double enough, Unknowns& x,
-           int& iterations) {
-  auto at = miss(form, x, wanted);
-  for (int i = 0; at && i < 25; ++i) {
-    if (at->lpNorm<Eigen::Infinity>() <= enough) return true;
-    const auto step = newton_step(form, x, *at, wanted);
-    if (!step) return false;
+    if (size <= 4e-14 || (best && size > 0.5 * before)) break;
+    before = size;
+    const auto shot = detail::shoot_space(form, x);
+    const auto step = shot ? newton_step(*shot, miss, wanted) : std::nullopt;
+    if (!step) break;
     ++iterations;
-    double share = 1;
-    auto there = miss(form, x - *step, wanted);
-    while ((!there || there->norm() > at->norm()) && share > 1e-3) {
-      share /= 2;
-      there = miss(form, x - share * *step, wanted);
-    }
-    if (!there || !(there->norm() < at->norm()))  // rounding, or stuck
-      return at->lpNorm<Eigen::Infinity>() <= std::max(enough, 1e-12);
-    x -= share * *step;
-    at = there;
+    x = moved(x, *step, 1);
   }
-  return at && at->lpNorm<Eigen::Infinity>() <= std::max(enough, 1e-12);
+  return best;
 }
+
+/// A way from a curve that is known to the data.
+struct Way {
+  Invariants from;
+  SpaceUnknowns start;
+};
 
 struct Reached {
-  Unknowns x;
-  double share = 0;  ///< of the way from the circular arc to the data
+  SpaceUnknowns x;
+  double share = 0;  ///< of the way to the data
   int iterations = 0;
 };
 
-/// From the arc that turns as much to the data, in steps as long as Newton's method follows.
-Reached follow(const SpaceStandardForm& form, const Invariants& wanted) {
-  const double mean = (wanted.first + wanted.last) / 2;
-  Reached reached{{0, 0, 2 * mean}, 0, 0};
-  Unknowns before = reached.x;
+/// Along the way in steps as long as Newton's method follows; omega grows from 0 on it.
+Reached follow(const SpaceStandardForm& form, const Invariants& wanted, const Way& way) {
+  Reached reached{way.start, 0, 0};
+  SpaceUnknowns before = reached.x;
   double at_before = 0;
   double step = 0.25;
-  while (reached.share < 1 && step > 0.01) {
+  while (reached.share < 1 && step > 0.003) {
     const double to = std::min(1.0, reached.share + step);
-    const Invariants there{mean + to * (wanted.first - mean), mean + to * (wanted.last - mean),
-                           to * wanted.twist};
-    Unknowns x = reached.x;
-    if (reached.share > at_before)
-      x += (to - reached.share) / (reached.share - at_before) * (reached.x - before);
+    const Invariants there{std::lerp(way.from.first, wanted.first, to),
+                           std::lerp(way.from.last, wanted.last, to),
+                           std::lerp(way.from.twist, wanted.twist, to)};
+    SpaceStandardForm part = form;
+    part.omega = to * form.omega;
+    SpaceUnknowns x = reached.x;
+    if (reached.share > at_before) {
+      const double on = (to - reached.share) / (reached.share - at_before);
+      x.bend += on * (reached.x.bend - before.bend);
+      x.twist += on * (reached.x.twist - before.twist);
+      x.length += on * (reached.x.length - before.length);
+    }
     // On the way the curve need not be exact.
-    const double enough = to < 1 ? 1e-4 * mean : 4e-14;
-    if (solve(form, there, enough, x, reached.iterations)) {
+    const double enough = (to < 1 ? 1e-3 : 1e-8) * std::min(1.0, wanted.first + wanted.last);
+    if (steer(part, there, enough, x, reached.iterations)) {
       before = reached.x;
       at_before = reached.share;
       reached.x = x;
       reached.share = to;
-      step *= 1.5;
+      step *= 2;
     } else {
-      step /= 2;
+      step /= 2.5;
     }
   }
   return reached;
+}
+
+/// From the plane curve with both angles kept, C-shaped (twist 0) or S-shaped (twist +-pi).
+std::optional<Way> from_plane(const Invariants& wanted, double alpha, double twist) {
+  const double to = twist == 0 ? -wanted.last : wanted.last;
+  const auto solved = solve_g1_directions({{0, 0}, wanted.first}, {{1, 0}, to}, alpha);
+  if (!solved) return std::nullopt;
+  const Segment& s = solved->segment;
+  const double bend = std::abs(s.curvature_start);
+  const double length = bend * s.length;
+  if (!(length > 1e-5)) return std::nullopt;
+  const double sense = s.curvature_start < 0 ? -1 : 1;
+  const double rate = -sense * curvature_rate(s, 0) / (bend * bend);
+  if (!std::isfinite(rate)) return std::nullopt;
+  return Way{{wanted.first, wanted.last, twist}, {rate * length, 0, length}};
+}
+
+/// Likely ways first: from the nearer plane curve, from the circular arc that turns as much, from
+/// the other plane curve.
+std::vector<Way> ways(const Invariants& wanted, double alpha) {
+  const double mean = (wanted.first + wanted.last) / 2;
+  const Way arc{{mean, mean, 0}, {0, 0, 2 * mean}};
+  const auto c_shaped = from_plane(wanted, alpha, 0);
+  const auto s_shaped =
+      alpha < 0 ? from_plane(wanted, alpha, std::copysign(core::kPi, wanted.twist)) : std::nullopt;
+  const bool folded = std::abs(wanted.twist) > core::kPi / 2;
+  std::vector<Way> all;
+  if (const auto& near = folded ? s_shaped : c_shaped) all.push_back(*near);
+  all.push_back(arc);
+  if (const auto& far = folded ? c_shaped : s_shaped) all.push_back(*far);
+  return all;
 }
 
 /// The member moved so that it starts and ends where it should.
@@ -280,22 +346,29 @@ Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, do
   if (std::abs(dot(cross(chord, data.start_tangent), data.end_tangent)) < 1e-12)
     return solve_in_plane(data, wanted, alpha, beta);
   const SpaceStandardForm form{alpha, beta, 0, omega, 0};
-  const Reached reached = follow(form, wanted);
-  if (reached.share < 1) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.3g %%", 100 * reached.share);
-    return core::fail(ErrorCode::undrawable, "no space curve of these slopes meets the tangents",
-                      std::string("one was followed ") + text +
-                          " of the way from an arc: turn the tangents towards the chord, or take "
-                          "slopes nearer to 0 and a smaller omega");
+  double furthest = 0;
+  int iterations = 0;
+  std::optional<Member> found;
+  for (const Way& way : ways(wanted, alpha)) {
+    const Reached reached = follow(form, wanted, way);
+    iterations += reached.iterations;
+    furthest = std::max(furthest, reached.share);
+    if (reached.share == 1) found = polished(form, wanted, reached.x, iterations);
+    if (found) break;
   }
-  const Member m = *member(form, reached.x);
+  if (!found) {
+    return core::fail(ErrorCode::undrawable, "no space curve of these slopes meets the tangents",
+                      "one was followed " + core::number_text(100 * furthest, 3) +
+                          " % of the way from a plane curve: turn the tangents towards the chord, "
+                          "or take slopes nearer to 0 and a smaller omega");
+  }
+  const Member& m = *found;
   SpaceSolution solution;
   solution.chain = placed(m, data);
   solution.lambda = m.form.lambda;
   solution.nu = m.form.nu;
   solution.length = m.chain.pieces[0].length;
-  solution.iterations = reached.iterations;
+  solution.iterations = iterations;
   return solution;
 }
 

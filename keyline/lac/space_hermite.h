@@ -27,11 +27,12 @@ struct SpaceSolution {
 /// The log-aesthetic space curve with slopes alpha (curvature) and beta (torsion) through two
 /// points with given tangents; omega, the standard form's rate of torsion, is given in units of the
 /// radius of curvature at the start, which is the reference point. Solved for lambda, nu and length
-/// (three shape invariants, three unknowns): Newton's method led from a circular arc to the data.
+/// (three shape invariants, three unknowns): Newton's method led from a plane curve or a circular
+/// arc to the data (docs/design/space-hermite.md).
 ///
 /// Where ends and tangents lie in one plane (within 1e-12) the answer is the plane curve of
 /// solve_g1_directions, whatever beta and omega: a plane curve has no torsion to have a slope.
-/// Accuracy: ends to rounding, tangents 1e-12 rad. Some ten milliseconds.
+/// Accuracy: ends to rounding, tangents 1e-12 rad. One to three milliseconds.
 /// Fails: bad_input; undrawable with, in the hint, how far towards the data a curve was found.
 core::Result<SpaceSolution> solve_g1_space(const SpaceHermite& data, double alpha, double beta,
                                            double omega);

@@ -87,14 +87,43 @@ TEST(SpaceCurve, StandardFormIsWhatItSays) {
   EXPECT_FALSE(standard_piece({2, -1, NAN, 0, 0}, 1.5));
 }
 
-TEST(SpaceCurve, QuinticsMeetTheTolerance) {
-  const SpaceChain chain{{}, {{-1, 0.5, 2, 1, 0.4, 0.3, 0.9}, {2, -2, 3, 0.4, 0.7, 0.9, -0.2}}};
-  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
-    const SpaceBeziers beziers = approximate_by_quintics(chain, tolerance);
-    EXPECT_LE(beziers.deviation, tolerance);
-    EXPECT_LT(distance(beziers.pieces.back().control.back(), evaluate(chain, 1)), 1e-13);
+/// Largest distance at equal arc length, sampled.
+double sampled_departure(const SpaceBeziers& beziers, const SpaceChain& chain) {
+  double most = 0;
+  double done = 0;
+  const double length = arc_length(chain);
+  for (const curve::Bezier3& piece : beziers.pieces) {
+    // Points 0 and 1 are a fifth of the quintic's arc length apart.
+    const double h = 5 * distance(piece.control[0], piece.control[1]) / length;
+    for (int i = 0; i <= 8; ++i)
+      most = std::max(most, distance(evaluate(piece, i / 8.0), evaluate(chain, done + h * i / 8)));
+    done += h;
   }
-  EXPECT_LE(approximate_by_quintics(chain, 1e-9).pieces.size(), 64U);
+  EXPECT_NEAR(done, 1, 1e-12);
+  return most;
+}
+
+TEST(SpaceCurve, QuinticsMeetTheTolerance) {
+  const SpaceChain chains[] = {
+      {{}, {{-1, 0.5, 2, 1, 0.4, 0.3, 0.9}, {2, -2, 3, 0.4, 0.7, 0.9, -0.2}}},
+      {{}, {{-2.3, -1, 2, 1, -0.6, 0.3, -0.9}}},
+      {{}, {{-0.5, 0, 3, 1, 0, 0.3, 0.9}}},
+      {{}, {{1, 1, 3, 0.5, 0.5, 0, 0}}},
+  };
+  for (const SpaceChain& chain : chains) {
+    ASSERT_TRUE(validate(chain));
+    std::size_t before = 0;
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+      const SpaceBeziers beziers = approximate_by_quintics(chain, tolerance);
+      EXPECT_LE(beziers.deviation, tolerance);
+      const double sampled = sampled_departure(beziers, chain);
+      EXPECT_LE(sampled, beziers.deviation);
+      EXPECT_LT(distance(beziers.pieces.back().control.back(), evaluate(chain, 1)), 1e-12);
+      EXPECT_GE(beziers.pieces.size(), before);
+      before = beziers.pieces.size();
+    }
+    EXPECT_LE(before, 72U);
+  }
 }
 
 TEST(SpaceCurve, RefusesWhatIsNone) {
@@ -164,6 +193,36 @@ TEST(SolveG1Space, MeetsRandomDataAndMovesWithThem) {
     EXPECT_LT(miss(solved->chain, data), 2e-12);
   }
   EXPECT_GT(drawn, 3 * asked / 4);
+}
+
+TEST(SolveG1Space, MeetsTangentsFarFromTheChord) {
+  struct Slopes {
+    double alpha, beta, omega;
+    int least;  // of 60; slopes from 0 on have a drawable region, in space too
+  };
+  for (const Slopes& s : {Slopes{-1, -1, 0.1, 59}, Slopes{-2, 0.5, 0, 60}, Slopes{0.5, 1, 0.2, 54},
+                          Slopes{0, 0, -0.3, 40}}) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    int drawn = 0;
+    for (int n = 0; n < 60; ++n) {
+      const auto tangent = [&] {
+        const double off = 2 * std::abs(unit(random));
+        const double around = core::kPi * unit(random);
+        return Vector3{std::cos(off), std::sin(off) * std::cos(around),
+                       std::sin(off) * std::sin(around)};
+      };
+      const SpaceHermite data{{0, 0, 0}, {1, 0, 0}, tangent(), tangent()};
+      const auto solved = solve_g1_space(data, s.alpha, s.beta, s.omega);
+      if (!solved) {
+        EXPECT_EQ(solved.error().code, core::ErrorCode::undrawable);
+        continue;
+      }
+      ++drawn;
+      EXPECT_LT(miss(solved->chain, data), 1e-12) << s.alpha << ' ' << n;
+    }
+    EXPECT_GE(drawn, s.least) << s.alpha;
+  }
 }
 
 TEST(SolveG1Space, InAPlaneIsThePlaneCurve) {
