@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/core/progress.h"
+#include "keyline/surface/network.h"
+
+namespace keyline::surface {
+
+/// What an edit leaves where it is: the corner b00 with the tangent directions of A1 and A5 there;
+/// the four corners; all four boundary curves.
+enum class Keep { start, corners, boundary };
+
+struct EditOptions {
+  Keep keep = Keep::start;
+  double amount = 1;                 ///< 0 the given net … 1 the target, control points between
+  std::optional<double> limit = {};  ///< largest departure, in the surface's unit
+  std::optional<double> end_tolerance = 0;  ///< of each curve's minimum, as in CavOptions; with 0 a
+                                            ///< curve at its own minimum scores 0 exactly
+  double alpha_max = classa::kDefaultAlphaMax;
+  core::Progress progress = {};
+};
+
+/// One target that was found, SAV against departure at amount 1.
+struct TradeOff {
+  std::string name;
+  double departure = 0;
+  double sav = 0;
+};
+
+struct EditResult {
+  BezierSurface surface;
+  SurfaceValue before;
+  SurfaceValue after;
+  double departure = 0;  ///< of `surface` from the given one; see departure() in closest_point.h
+  double amount = 1;     ///< as used: less than asked for where the limit demands it
+  std::string target;    ///< the trade-off that was taken
+  std::vector<TradeOff> tradeoff;  ///< by growing departure
+};
+
+/// Editing of [Oya] §4.3: the surface whose network curves are Class A and of least energy.
+///
+/// Targets: "translational" (start kept), rows and columns translates of A1 and A5, both taken to
+/// their minimum; "one matrix", the nearest net all of whose curves have one matrix each; from it
+/// in steps to "least energy", in which every one stands at its own minimum (solve_one_matrix);
+/// "rows" and "columns", those curves alone taken to their minimum between the ends that are kept.
+/// The target of least SAV within the limit is taken, the nearer one of equals; where none lies
+/// within the limit, the nearest of them as far as the limit allows.
+///
+/// Errors: as sav; bad_input for amount outside [0, 1], a limit that is negative or not finite, a
+/// row or column with an edge of no length; undrawable where no target was found; cancelled.
+core::Result<EditResult> edit(const BezierSurface& s, const EditOptions& options = {});
+
+}  // namespace keyline::surface

@@ -1,0 +1,228 @@
+#include "keyline/surface/one_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "keyline/numeric/levenberg_marquardt.h"
+
+namespace keyline::surface::detail {
+namespace {
+
+using core::dot;
+using core::norm;
+using core::Point3;
+using core::Vector3;
+
+constexpr double kDepartureWeight = 0.1;
+
+/// Residuals of the curves and of the departure, with unknowns as shares of the net's extent.
+class System {
+ public:
+  System(const OneMatrixProblem& problem, double size, double equation_weight)
+      : p_(problem), size_(size), equation_weight_(equation_weight) {
+    const Net& net = p_.net;
+    for (std::size_t i = 0; i < net.points.size(); ++i) {
+      const int count = p_.freedom[i] == Freedom::free ? 3 : p_.freedom[i] == Freedom::along;
+      for (int k = 0; k < count; ++k) unknowns_.push_back({i, k});
+    }
+    int row = 0;
+    for (int c = 0; c < net.rows + net.columns; ++c) {
+      first_.push_back(row);
+      row += residuals_of(c);
+    }
+    departure_row_ = row;
+  }
+
+  int unknowns() const { return static_cast<int>(unknowns_.size()); }
+  int equations() const { return departure_row_; }
+  int residuals() const { return departure_row_ + unknowns(); }
+
+  Eigen::VectorXd coordinates(const Net& net) const {
+    Eigen::VectorXd x(unknowns());
+    for (int j = 0; j < unknowns(); ++j) x[j] = coordinate(net, unknowns_[j]) / size_;
+    return x;
+  }
+
+  Net net_at(const Eigen::VectorXd& x) const {
+    Net net = p_.net;
+    for (int j = 0; j < unknowns(); ++j) set(net, unknowns_[j], x[j] * size_);
+    return net;
+  }
+
+  bool evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) const {
+    Net net = net_at(x);
+    r.resize(residuals());
+    for (std::size_t c = 0; c < first_.size(); ++c)
+      if (!fill(net, static_cast<int>(c), r)) return false;
+    for (int j = 0; j < unknowns(); ++j)
+      r[departure_row_ + j] = kDepartureWeight * (x[j] - coordinate(p_.net, unknowns_[j]) / size_);
+    if (jacobian) differentiate(net, x, *jacobian);
+    return true;
+  }
+
+ private:
+  struct Unknown {
+    std::size_t point;
+    int axis;
+  };
+
+  int degree_of(int curve) const {
+    return (curve < p_.net.rows ? p_.net.columns : p_.net.rows) - 1;
+  }
+  int residuals_of(int curve) const {
+    return 3 * std::max(degree_of(curve) - 2, 0) + (p_.growth[curve] ? 1 : 0);
+  }
+
+  Vector3 ray(std::size_t point) const {
+    const Vector3 d = p_.net.points[point] - p_.net.points[0];
+    return d / norm(d);
+  }
+
+  double coordinate(const Net& net, const Unknown& u) const {
+    const Point3& p = net.points[u.point];
+    if (p_.freedom[u.point] == Freedom::along) return dot(p - p_.net.points[0], ray(u.point));
+    return u.axis == 0 ? p.x : u.axis == 1 ? p.y : p.z;
+  }
+
+  void set(Net& net, const Unknown& u, double value) const {
+    Point3& p = net.points[u.point];
+    if (p_.freedom[u.point] == Freedom::along)
+      p = p_.net.points[0] + value * ray(u.point);
+    else
+      (u.axis == 0 ? p.x : u.axis == 1 ? p.y : p.z) = value;
+  }
+
+  std::vector<Vector3> edges_of(const Net& net, int curve) const {
+    const bool row = curve < net.rows;
+    std::vector<Vector3> edges;
+    for (int i = 0; i < degree_of(curve); ++i)
+      edges.push_back(row ? net.at(curve, i + 1) - net.at(curve, i)
+                          : net.at(i + 1, curve - net.rows) - net.at(i, curve - net.rows));
+    return edges;
+  }
+
+  /// Residuals of one curve; false where an edge has no length.
+  bool fill(const Net& net, int curve, Eigen::VectorXd& r) const {
+    const auto e = edges_of(net, curve);
+    int row = first_[curve];
+    for (const Vector3& edge : e)
+      if (!(norm(edge) > 1e-9 * size_)) return false;
+    for (std::size_t i = 2; i < e.size(); ++i) {
+      const double a = dot(e[i - 2], e[i - 2]);
+      const Vector3 left = e[i] - (2 * dot(e[i - 2], e[i - 1]) / a) * e[i - 1] +
+                           (dot(e[i - 1], e[i - 1]) / a) * e[i - 2];
+      for (const double x : {left.x, left.y, left.z}) r[row++] = equation_weight_ * x / size_;
+    }
+    if (p_.growth[curve] && e.size() > 1)
+      r[row] = p_.growth_weight *
+               (std::log(norm(e.back()) / norm(e.front())) / static_cast<double>(e.size() - 1) -
+                *p_.growth[curve]);
+    else if (p_.growth[curve])
+      r[row] = 0;
+    return true;
+  }
+
+  /// Central differences: a point stands in one row and one column only.
+  void differentiate(Net& net, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) const {
+    constexpr double h = 1e-6;
+    jacobian.setZero(residuals(), unknowns());
+    Eigen::VectorXd more(residuals());
+    Eigen::VectorXd less(residuals());
+    for (int j = 0; j < unknowns(); ++j) {
+      const Unknown& u = unknowns_[j];
+      const int row = static_cast<int>(u.point) / net.columns;
+      const int column = net.rows + static_cast<int>(u.point) % net.columns;
+      for (const int c : {row, column}) {
+        const int count = residuals_of(c);
+        set(net, u, (x[j] + h) * size_);
+        const bool above = fill(net, c, more);
+        set(net, u, (x[j] - h) * size_);
+        const bool below = fill(net, c, less);
+        if (above && below)
+          jacobian.col(j).segment(first_[c], count) =
+              (more.segment(first_[c], count) - less.segment(first_[c], count)) / (2 * h);
+      }
+      set(net, u, x[j] * size_);
+      jacobian(departure_row_ + j, j) = kDepartureWeight;
+    }
+  }
+
+  const OneMatrixProblem& p_;
+  double size_;
+  double equation_weight_;
+  std::vector<Unknown> unknowns_;
+  std::vector<int> first_;  ///< residual at which each curve's begin
+  int departure_row_ = 0;
+};
+
+/// Rows of the equations to be met exactly.
+std::vector<int> exact_rows(const OneMatrixProblem& p, bool with_growth) {
+  std::vector<int> rows;
+  int row = 0;
+  for (int c = 0; c < p.net.rows + p.net.columns; ++c) {
+    const int degree = (c < p.net.rows ? p.net.columns : p.net.rows) - 1;
+    for (int i = 0; i < 3 * std::max(degree - 2, 0); ++i) rows.push_back(row++);
+    if (!p.growth[c]) continue;
+    if (with_growth) rows.push_back(row);
+    ++row;
+  }
+  return rows;
+}
+
+/// Shortest steps that meet the linearised equations, shortened until they help.
+void polish(const System& system, const std::vector<int>& rows, Eigen::VectorXd& x) {
+  constexpr double kDependent = 1e-7;  // differences do not tell flatter directions from rounding
+  Eigen::VectorXd r;
+  Eigen::MatrixXd jacobian;
+  for (int step = 0; step < 30; ++step) {
+    if (!system.evaluate(x, r, &jacobian)) return;
+    const Eigen::VectorXd left = r(rows);
+    if (left.lpNorm<Eigen::Infinity>() < 1e-14) return;
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(kDependent);
+    solver.compute(jacobian(rows, Eigen::all));
+    const Eigen::VectorXd whole = solver.solve(left);
+    bool better = false;
+    for (double share = 1; share > 1e-4 && !better; share *= 0.5) {
+      const Eigen::VectorXd next = x - share * whole;
+      Eigen::VectorXd after;
+      if (!system.evaluate(next, after, nullptr)) continue;
+      better = Eigen::VectorXd(after(rows)).norm() < left.norm();
+      if (better) x = next;
+    }
+    if (!better) return;
+  }
+}
+
+}  // namespace
+
+OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start,
+                              bool exact_growth) {
+  const double size = extent(problem.net);
+  Eigen::VectorXd x = System(problem, size, 1).coordinates(start);
+  numeric::LevenbergMarquardtOptions options;
+  options.cost_tolerance = 1e-9;
+  for (const double weight : {10.0, 1000.0}) {
+    const System system(problem, size, weight);
+    options.max_iterations = weight < 100 ? 60 : 120;
+    const auto f = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+      return system.evaluate(at, r, j);
+    };
+    numeric::minimize_least_squares(f, x, options);
+  }
+  OneMatrixProblem plain = problem;
+  plain.growth_weight = 1;
+  const System system(plain, size, 1);
+  polish(system, exact_rows(problem, exact_growth), x);
+  OneMatrixNet result{system.net_at(x), 0, 0};
+  Eigen::VectorXd r;
+  if (!system.evaluate(x, r, nullptr)) return {problem.net, 1, 1};
+  const auto hard = exact_rows(problem, false);
+  result.violation = hard.empty() ? 0 : Eigen::VectorXd(r(hard)).lpNorm<Eigen::Infinity>();
+  result.growth_error = r.head(system.equations()).lpNorm<Eigen::Infinity>();
+  return result;
+}
+
+}  // namespace keyline::surface::detail

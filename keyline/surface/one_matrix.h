@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "keyline/surface/net.h"
+
+/// Internals of room surface: nets all of whose rows and columns have one control matrix each.
+///
+/// Edges e0, e1, e2 follow from one another by a turn and a scaling in their plane exactly where
+///   e2 = 2 (e0.e1)/(e0.e0) e1 - (e1.e1)/(e0.e0) e0,
+/// three equations that hold the plane as well. A bicubic net has 24 of them and 36 free
+/// coordinates when its corners are held.
+namespace keyline::surface::detail {
+
+/// How a control point may move.
+enum class Freedom { held, along, free };  ///< along: on the ray from net.at(0, 0) through it
+
+/// Wanted growth of the edges of one curve: ln(s), or nothing.
+using Growth = std::optional<double>;
+
+struct OneMatrixProblem {
+  Net net;                       ///< start, and what the result should stay near
+  std::vector<Freedom> freedom;  ///< in the order of net.points
+  std::vector<Growth> growth;    ///< in the order of network_curves; signed
+  double growth_weight = 0;      ///< against the departure of the net as share of its size
+};
+
+struct OneMatrixNet {
+  Net net;
+  double violation = 0;     ///< largest left-over of the equations as share of the net's extent
+  double growth_error = 0;  ///< largest |ln(s) - wanted|
+};
+
+/// The net nearest to problem.net (least squares) that meets the equations, from `start`: penalty
+/// steps of Levenberg and Marquardt, then Gauss-Newton on the equations alone. With `exact_growth`
+/// the wanted growth counts as equations too. Nets with an edge of no length are not changed.
+OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start, bool exact_growth);
+
+}  // namespace keyline::surface::detail

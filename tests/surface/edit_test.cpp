@@ -1,0 +1,152 @@
+#include "keyline/surface/edit.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/surface/closest_point.h"
+
+#include "test_surfaces.h"
+
+namespace keyline::surface {
+namespace {
+
+using core::cross;
+using core::norm;
+
+/// A crowned patch pushed out of shape by hand, so to say: SAV between 250 and 410.
+BezierSurface distorted_patch() {
+  BezierSurface s = crowned_patch();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double a = 1.7 * i + 2.9 * j;
+      s.net.at(i, j) = s.net.at(i, j) +
+                       core::Vector3{4 * std::sin(a), 4 * std::cos(1.3 * a), 5 * std::sin(2.1 * a)};
+    }
+  return s;
+}
+
+double angle_between(core::Vector3 a, core::Vector3 b) {
+  return std::atan2(norm(cross(a, b)), core::dot(a, b));
+}
+
+EditResult edited(const BezierSurface& s, const EditOptions& options) {
+  auto result = edit(s, options);
+  EXPECT_TRUE(result) << result.error().message;
+  return result ? *result : EditResult{};
+}
+
+TEST(SurfaceEdit, DistortedPatchWithStartKeptReachesZero) {
+  const BezierSurface s = distorted_patch();
+  const EditResult r = edited(s, {});
+  EXPECT_GT(r.before.sav, 250);
+  EXPECT_LT(r.before.sav, 410);
+  for (const auto& c : r.before.curves) EXPECT_GE(c.value.type, 4);
+  EXPECT_LT(r.after.sav, 1e-5);
+  const auto judged = sav(r.surface);  // by the default end tolerance
+  ASSERT_TRUE(judged);
+  EXPECT_LE(judged->sav, 1);
+  EXPECT_EQ(r.surface.net.at(0, 0), s.net.at(0, 0));
+  EXPECT_LT(angle_between(r.surface.net.at(0, 1) - s.net.at(0, 0), s.net.at(0, 1) - s.net.at(0, 0)),
+            1e-9);
+  EXPECT_LT(angle_between(r.surface.net.at(1, 0) - s.net.at(0, 0), s.net.at(1, 0) - s.net.at(0, 0)),
+            1e-9);
+  EXPECT_NEAR(r.departure, departure(s, r.surface), 1e-9);
+}
+
+TEST(SurfaceEdit, CornersKeptTradesSavAgainstDeparture) {
+  const BezierSurface s = distorted_patch();
+  EditOptions options;
+  options.keep = Keep::corners;
+  const EditResult r = edited(s, options);
+  for (const auto& [i, j] : {std::pair{0, 0}, {0, 3}, {3, 0}, {3, 3}})
+    EXPECT_LT(core::distance(r.surface.net.at(i, j), s.net.at(i, j)), 1e-9);
+  EXPECT_LT(r.after.sav, 0.05);
+  EXPECT_GE(r.tradeoff.size(), 4U);
+  options.limit = 0.5 * r.departure;
+  const EditResult less = edited(s, options);
+  EXPECT_LE(less.departure, *options.limit);
+  EXPECT_GT(less.after.sav, r.after.sav);
+  EXPECT_LT(less.after.sav, r.before.sav);
+}
+
+TEST(SurfaceEdit, BoundaryKeptChangesTheInsideOnly) {
+  const BezierSurface s = distorted_patch();
+  EditOptions options;
+  options.keep = Keep::boundary;
+  const EditResult r = edited(s, options);
+  EXPECT_LT(r.after.sav, r.before.sav - 20);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const bool inside = i % 3 != 0 && j % 3 != 0;
+      EXPECT_TRUE(inside || core::distance(r.surface.net.at(i, j), s.net.at(i, j)) < 1e-9);
+    }
+}
+
+TEST(SurfaceEdit, SlidesFromGivenToTarget) {
+  const BezierSurface s = distorted_patch();
+  EditOptions options;
+  options.amount = 0;
+  const EditResult none = edited(s, options);
+  EXPECT_EQ(none.surface, s);
+  EXPECT_EQ(none.after.sav, none.before.sav);
+  double before = 0;
+  for (const double amount : {0.3, 0.8}) {
+    options.amount = amount;
+    const EditResult r = edited(s, options);
+    EXPECT_GT(r.departure, before);
+    before = r.departure;
+  }
+}
+
+TEST(SurfaceEdit, LimitBelowEveryTargetGoesAsFarAsItMay) {
+  const BezierSurface s = distorted_patch();
+  EditOptions options;
+  options.limit = 0.5;
+  const EditResult r = edited(s, options);
+  EXPECT_LE(r.departure, 0.5);
+  EXPECT_GT(r.departure, 0.49);
+  EXPECT_LT(r.amount, 1);
+}
+
+TEST(SurfaceEdit, HigherDegreesHaveTheTranslationalTarget) {
+  const BezierSurface s = elevate_degree(distorted_patch(), 3, 2);
+  const EditResult r = edited(s, {});
+  EXPECT_LT(r.after.sav, 1e-5);
+  EXPECT_EQ(r.target, "translational");
+}
+
+TEST(SurfaceEdit, SaysWhatIsWrong) {
+  BezierSurface s = distorted_patch();
+  EditOptions options;
+  options.amount = 1.5;
+  EXPECT_EQ(edit(s, options).error().path, "amount");
+  options = {};
+  options.limit = -1;
+  EXPECT_EQ(edit(s, options).error().path, "limit");
+  s.net.at(0, 2) = s.net.at(0, 1);
+  EXPECT_EQ(edit(s).error().path, "A1");
+  EXPECT_EQ(edit(sphere_octant(1)).error().code, core::ErrorCode::unsupported);
+  options = {};
+  options.progress.cancellation = core::CancellationToken::make();
+  options.progress.cancellation.request_stop();
+  EXPECT_EQ(edit(distorted_patch(), options).error().code, core::ErrorCode::cancelled);
+}
+
+TEST(ClosestPoint, FindsThePointItStartedFrom) {
+  const Surface s = crowned_patch();
+  const ClosestPoint nearest(s);
+  for (const double u : {0.0, 0.21, 0.77})
+    for (const double v : {0.05, 0.5, 1.0}) {
+      const SurfaceJet j = jet(s, u, v);
+      const auto n = cross(j.u, j.v) / norm(cross(j.u, j.v));
+      const SurfacePoint p = nearest(j.point + 3 * n);
+      EXPECT_NEAR(p.u, u, 1e-6);
+      EXPECT_NEAR(p.v, v, 1e-6);
+      EXPECT_NEAR(p.distance, 3, 1e-9);
+    }
+  EXPECT_LT(departure(s, elevate_degree(crowned_patch(), 1, 2)), 1e-9);
+}
+
+}  // namespace
+}  // namespace keyline::surface
