@@ -1,11 +1,13 @@
 #include "keyline/classa/control_matrix.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/numeric/roots.h"
 
 namespace keyline::classa {
 
@@ -72,6 +74,55 @@ double end_angle(const ControlMatrix& m, int degree) {
   return (degree - 1) * m.alpha +
          std::arg(1.0 - std::polar(std::pow(m.s, -degree), -degree * m.alpha)) -
          std::arg(1.0 - std::polar(1 / m.s, -m.alpha));
+}
+
+namespace {
+
+/// Zero of the polynomial with the n coefficients c (highest last), which rises through it between
+/// low and high: Newton's method, halving where it leaves the bracket.
+double rising_root(const double* c, int n, double low, double high) {
+  double x = low;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    double value = 0;
+    double slope = 0;
+    for (int i = n - 1; i >= 0; --i) {
+      slope = slope * x + value;
+      value = value * x + c[i];
+    }
+    if (value == 0) return x;
+    (value < 0 ? low : high) = x;
+    double next = x - value / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - x) <= 2e-16 * x) return next;
+    x = next;
+  }
+  return x;
+}
+
+}  // namespace
+
+double scale_at_end_angle(double alpha, double angle, int degree, const core::Interval& s) {
+  if (!(s.low < s.high)) return s.low;
+  if ((degree - 1) * alpha > core::kPi) {  // winding: the angle itself tells the turns apart
+    const auto f = [&](double x) { return end_angle({alpha, std::exp(x)}, degree) - angle; };
+    if (f(std::log(s.low)) >= 0) return s.low;
+    if (f(std::log(s.high)) <= 0) return s.high;
+    const auto root = numeric::bracketed_root(f, std::log(s.low), std::log(s.high), 1e-16);
+    return std::exp(root.value_or(std::log(s.low)));
+  }
+  if (angle <= 0) return s.low;
+  if (angle >= (degree - 1) * alpha) return s.high;
+  // The part of 1 + z + … + z^(n-1) across the angle, by powers of s.
+  std::array<double, curve::kMaxBezierDegree> across;
+  for (int k = 0; k < degree; ++k) across[k] = std::sin(k * alpha - angle);
+  const auto value = [&](double x) {
+    double sum = 0;
+    for (int k = degree - 1; k >= 0; --k) sum = sum * x + across[k];
+    return sum;
+  };
+  if (value(s.low) >= 0) return s.low;
+  if (value(s.high) <= 0) return s.high;
+  return rising_root(across.data(), degree, s.low, s.high);
 }
 
 std::vector<std::optional<ControlMatrix>> ratios(std::span<const Point2> control) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/core/error.h"
+#include "keyline/core/interval.h"
 #include "keyline/core/point.h"
 #include "keyline/curve/bezier.h"
 
@@ -53,6 +54,10 @@ core::Vector2 end_in_frame(const ControlMatrix& m, int degree);
 /// alpha in [0, pi/2), s > 0. On s >= 1/cos(alpha) and on s <= cos(alpha) it grows with s for every
 /// degree up to 13, and for any degree as long as (degree-1) alpha <= pi.
 double end_angle(const ControlMatrix& m, int degree);
+
+/// The s in the range at which end_angle({alpha, s}, degree) = angle; the nearer end of the range
+/// where it is not reached. Needs end_angle to grow with s there.
+double scale_at_end_angle(double alpha, double angle, int degree, const core::Interval& s);
 
 /// One matrix for each two consecutive edges, alpha in (-pi, pi]; empty where one of the edges is
 /// shorter than 1e-12 of the longest. A curve of degree 1 has none.

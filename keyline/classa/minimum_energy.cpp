@@ -26,9 +26,9 @@ using core::Vector2;
 
 namespace {
 
-constexpr int kCells = 48;        // of alpha, to find where an end angle can be reached
-constexpr int kAlphaStarts = 12;  // per feasible range
-constexpr int kRimStarts = 12;    // points around the allowed end
+constexpr int kCells = 48;       // of alpha, to find where an end angle can be reached
+constexpr int kAlphaStarts = 9;  // per feasible range
+constexpr int kRimStarts = 8;    // points around the allowed end
 
 /// The conditions in the frame of the first edge, turning left, chord of length 1.
 struct Frame {
@@ -495,15 +495,6 @@ EnergyMinimum finish(const EnergyConditions& c, const Frame& f, const Candidate&
 }
 
 }  // namespace
-
-double scale_at_end_angle(double alpha, double angle, int degree, const Interval& s) {
-  const auto f = [&](double x) { return end_angle({alpha, std::exp(x)}, degree) - angle; };
-  const double low = std::log(s.low);
-  const double high = std::log(s.high);
-  if (!(low < high) || f(low) >= 0) return s.low;
-  if (f(high) <= 0) return s.high;
-  return std::exp(numeric::bracketed_root(f, low, high, 1e-16).value_or(low));
-}
 
 core::Result<EnergyMinimum> minimum_energy(const EnergyConditions& conditions) {
   if (auto checked = check(conditions); !checked) return std::unexpected(checked.error());

@@ -50,8 +50,4 @@ struct EnergyMinimum {
 /// where no Class A curve meets the conditions, with what would have to give.
 core::Result<EnergyMinimum> minimum_energy(const EnergyConditions& conditions);
 
-/// The s within [low, high] at which end_angle(alpha, s) = angle; ends of the range where it lies
-/// outside. Needs end_angle to grow with s there.
-double scale_at_end_angle(double alpha, double angle, int degree, const core::Interval& s);
-
 }  // namespace keyline::classa
