@@ -85,34 +85,57 @@ void place(CurveValue& value, const CavOptions& o) {
   }
 }
 
-core::Result<CurveValue> value_of(std::vector<Point2> control, bool planar, const CavOptions& o) {
+CurveReading read(std::vector<Point2> control, bool planar, const CavOptions& o) {
+  CurveReading r;
+  r.control = std::move(control);
+  r.reversed = o.direction == Direction::growing && shrinks(r.control);
+  if (r.reversed) std::reverse(r.control.begin(), r.control.end());
+  r.matrix = read_matrix(r.control, o.alpha_max, o.tolerance);
+  if (!planar) r.matrix.type = 5;
+  r.conditions = conditions_of(r.control, r.matrix, o);
+  return r;
+}
+
+core::Result<CurveValue> value_of(const curve::Bezier2& given, bool planar, const CavOptions& o) {
+  const CurveReading r = read(given.control, planar, o);
   CurveValue value;
-  value.degree = static_cast<int>(control.size()) - 1;
-  const curve::Bezier2 given{control, {}};
+  value.degree = curve::degree(given);
   value.energy = strain_energy(given);
   value.monotone = curve::certify_monotone_curvature(given);
-  value.reversed = o.direction == Direction::growing && shrinks(control);
-  if (value.reversed) std::reverse(control.begin(), control.end());
-  MatrixReading reading = read_matrix(control, o.alpha_max, o.tolerance);
-  if (!planar) reading.type = 5;
-  value.type = reading.type;
-  value.left = reading.left;
-  if (reading.type == 3)
-    value.matrix = ControlMatrix{std::abs(reading.matrix.alpha), reading.matrix.s};
-  auto minimum = minimum_energy(conditions_of(control, reading, o));
+  value.reversed = r.reversed;
+  value.type = r.matrix.type;
+  value.left = r.matrix.left;
+  if (value.type == 3)
+    value.matrix = ControlMatrix{std::abs(r.matrix.matrix.alpha), r.matrix.matrix.s};
+  core::Result<EnergyMinimum> minimum =
+      o.minimum ? core::Result<EnergyMinimum>(*o.minimum) : minimum_energy(r.conditions);
   if (minimum) {
     value.minimum = *minimum;
-  } else if (reading.type == 3 || minimum.error().code == ErrorCode::bad_input) {
+  } else if (value.type == 3 || minimum.error().code == ErrorCode::bad_input) {
     return std::unexpected(std::move(minimum.error()));
   } else {
     value.no_minimum = minimum.error().message;
   }
   const Diagonals d = diagonals(o.alpha_max);
-  if (reading.type == 3)
+  if (value.type == 3)
     place(value, o);
   else
-    value.cav = std::pow(d.boundary * d.plane, reading.type - 2);
+    value.cav = std::pow(d.boundary * d.plane, value.type - 2);
   return value;
+}
+
+/// A value of either curve type once numbers, weights and extent are in order.
+template <class Curve>
+core::Result<void> check_curve(const Curve& c, const CavOptions& options) {
+  if (auto checked = check(options); !checked) return checked;
+  if (auto checked = validate(c); !checked) return checked;
+  if (is_rational(c))
+    return fail(ErrorCode::unsupported, "a rational curve has no control matrix",
+                "approximate it by a polynomial Bezier curve", "weights");
+  if (all_coincide(c.control))
+    return fail(ErrorCode::bad_input, "all control points coincide", "give a curve with a length",
+                "points");
+  return {};
 }
 
 }  // namespace
@@ -153,16 +176,14 @@ MatrixReading read_matrix(std::span<const Point2> control, double alpha_max, dou
   return reading;
 }
 
+core::Result<CurveReading> read_curve(const curve::Bezier2& c, const CavOptions& options) {
+  if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
+  return read(c.control, true, options);
+}
+
 core::Result<CurveValue> cav(const curve::Bezier2& c, const CavOptions& options) {
-  if (auto checked = check(options); !checked) return std::unexpected(checked.error());
-  if (auto checked = validate(c); !checked) return std::unexpected(checked.error());
-  if (is_rational(c))
-    return fail(ErrorCode::unsupported, "a rational curve has no control matrix",
-                "approximate it by a polynomial Bezier curve", "weights");
-  if (all_coincide(c.control))
-    return fail(ErrorCode::bad_input, "all control points coincide", "give a curve with a length",
-                "points");
-  return value_of(c.control, true, options);
+  if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
+  return value_of(c, true, options);
 }
 
 core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOptions& options) {
@@ -170,17 +191,10 @@ core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOpt
 }
 
 core::Result<CurveValue> cav(const curve::Bezier3& c, const CavOptions& options) {
-  if (auto checked = check(options); !checked) return std::unexpected(checked.error());
-  if (auto checked = validate(c); !checked) return std::unexpected(checked.error());
-  if (is_rational(c))
-    return fail(ErrorCode::unsupported, "a rational curve has no control matrix",
-                "approximate it by a polynomial Bezier curve", "weights");
-  if (all_coincide(c.control))
-    return fail(ErrorCode::bad_input, "all control points coincide", "give a curve with a length",
-                "points");
+  if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
   detail::Flattened flat = detail::flatten(c.control);
   const bool planar = flat.off_plane <= options.tolerance * flat.size;
-  return value_of(std::move(flat.points), planar, options);
+  return value_of({std::move(flat.points), {}}, planar, options);
 }
 
 core::Result<CurveValue> cav(const MatrixCurve& c, const CavOptions& options) {

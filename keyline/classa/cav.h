@@ -28,6 +28,9 @@ struct CavOptions {
   std::optional<Branch> branch = {};  ///< of the minimum; empty: that of the curve's own direction
   std::optional<core::Interval> alpha = {};  ///< of the minimum; empty: [0, alpha_max]
   core::Interval s = {0.01, 100};            ///< of the minimum
+  /// Measure from this place instead of looking for the minimum: an edited curve is compared with
+  /// the minimum of the curve it comes from.
+  std::optional<EnergyMinimum> minimum = {};
 };
 
 /// Where a curve stands ([Oya] Tab. 1 and 2).
@@ -80,5 +83,15 @@ struct MatrixReading {
 };
 MatrixReading read_matrix(std::span<const core::Point2> control, double alpha_max,
                           double tolerance);
+
+/// A curve made ready to be placed: read in its direction, with the conditions of its minimum.
+struct CurveReading {
+  std::vector<core::Point2> control;  ///< in the direction it is read in
+  bool reversed = false;
+  MatrixReading matrix;
+  EnergyConditions conditions;
+};
+/// Errors as of cav(), those of the minimum apart.
+core::Result<CurveReading> read_curve(const curve::Bezier2& c, const CavOptions& options);
 
 }  // namespace keyline::classa
