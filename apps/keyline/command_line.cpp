@@ -185,7 +185,9 @@ Command add_convert(CLI::App& app) {
   auto* sub = app.add_subcommand("convert", "a curve from one format to another");
   add_input(*sub, options->input);
   add_common(*sub, options->common);
-  sub->footer("Example: keyline convert faired.json -o faired.svg --tolerance 0.001");
+  sub->add_flag("--polylines", options->polylines,
+                "dxf: one polyline per curve, arcs as bulges, in place of splines");
+  sub->footer("Example: keyline convert faired.json -o faired.dxf --tolerance 0.001");
   return {sub, runs(options, run_convert)};
 }
 

@@ -91,6 +91,7 @@ int run_sketch(const SketchCommand& command);
 struct ConvertCommand {
   CommonOptions common;
   InputOptions input;
+  bool polylines = false;
 };
 int run_convert(const ConvertCommand& command);
 

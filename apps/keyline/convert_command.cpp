@@ -64,6 +64,7 @@ int run_convert(const ConvertCommand& command) {
   for (const std::string& skipped : document->skipped) say(common.quiet, "skipped: " + skipped);
   exchange::WriteOptions options;
   options.tolerance = common.tolerance.value_or(0);
+  options.polylines = command.polylines;
   for (const std::string& file : common.outputs) {
     const auto written = exchange::write_document(*document, file, options);
     if (!written) return report_failure(written.error());

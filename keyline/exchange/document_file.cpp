@@ -12,6 +12,8 @@
 
 #include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/csv_writer.h"
+#include "keyline/exchange/dxf_reader.h"
+#include "keyline/exchange/dxf_writer.h"
 #include "keyline/exchange/json_document.h"
 #include "keyline/exchange/points_reader.h"
 #include "keyline/exchange/svg_document.h"
@@ -61,6 +63,8 @@ Result<Document> document_of(Format format, const fs::path& file) {
       return read_json(*content);
     case Format::svg:
       return read_svg_document(*content);
+    case Format::dxf:
+      return read_dxf(*content);
     case Format::points:
       break;
   }
@@ -92,7 +96,8 @@ void sample_into(Corners& corners, const C& curve) {
 
 core::Failure in_file(core::Failure failure, const std::string& file) {
   if (failure.path.starts_with(file)) return failure;
-  if (failure.path.starts_with("line "))
+  const bool line = failure.path.starts_with("line ");
+  if (line)
     failure.path = file + ":" + failure.path.substr(5);
   else
     failure.path = failure.path.empty() ? file : file + ": " + failure.path;
@@ -166,6 +171,8 @@ Result<Written> format_document(const Document& document, const std::string& ext
   if (extension == ".json") return Written{to_json(document).dump(1) + "\n", 0, {}};
   if (extension == ".csv") return write_csv(document, options.samples);
   if (extension == ".svg") return write_svg_document(document, tolerance);
+  if (extension == ".dxf")
+    return write_dxf(document, {.tolerance = tolerance, .polylines = options.polylines});
   std::string list;
   for (const std::string& name : written_extensions()) list += (list.empty() ? "" : " ") + name;
   return fail(ErrorCode::bad_input, "\"" + extension + "\" is no format that can be written",

@@ -30,8 +30,9 @@ core::Result<std::string> head_of(const std::filesystem::path& file);
 core::Result<document::Document> read_document(const std::filesystem::path& file);
 
 struct WriteOptions {
-  double tolerance = 0;  ///< largest deviation; 0: 1e-5 of the longest thing in the document
-  int samples = 1001;    ///< rows per curve of a table
+  double tolerance = 0;    ///< largest deviation; 0: 1e-5 of the longest thing in the document
+  int samples = 1001;      ///< rows per curve of a table
+  bool polylines = false;  ///< dxf: polylines in place of splines
 };
 
 /// The document in the format of `extension` (with its dot, of written_extensions()).

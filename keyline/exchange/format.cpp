@@ -5,13 +5,16 @@
 #include <optional>
 #include <utility>
 
+#include "keyline/exchange/dxf_tags.h"
+
 namespace keyline::exchange {
 namespace {
 
 std::optional<Format> known(const std::string& extension) {
-  static constexpr std::array<std::pair<std::string_view, Format>, 3> kKnown = {{
+  static constexpr std::array<std::pair<std::string_view, Format>, 4> kKnown = {{
       {".json", Format::json},
       {".svg", Format::svg},
+      {".dxf", Format::dxf},
       {".csv", Format::points},
   }};
   for (const auto& [name, format] : kKnown)
@@ -37,12 +40,13 @@ std::string extension_of(const std::filesystem::path& file) {
 
 Format format_of(const std::filesystem::path& file, std::string_view head) {
   if (const auto format = known(extension_of(file))) return *format;
+  if (detail::looks_like_dxf(head)) return Format::dxf;
   const std::string_view start = start_of(head);
   if (start.starts_with('{') || start.starts_with('[')) return Format::json;
   if (start.starts_with('<')) return Format::svg;
   return Format::points;
 }
 
-std::vector<std::string> written_extensions() { return {".svg", ".json", ".csv"}; }
+std::vector<std::string> written_extensions() { return {".svg", ".json", ".csv", ".dxf"}; }
 
 }  // namespace keyline::exchange

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace keyline::exchange::detail {
+
+/// AutoCAD's colour of an index 1 … 255 as "#rrggbb"; empty for others. 7 (black or white,
+/// whichever shows) is black; 10 … 249 are hues of 15 degrees in five shades, full and half
+/// saturated, to within a unit or two of the printed palette.
+std::string aci_color(int index);
+
+/// 0xRRGGBB as "#rrggbb".
+std::string true_color(int value);
+
+/// Value of "#rrggbb"; -1 for other text.
+int color_value(const std::string& text);
+
+}  // namespace keyline::exchange::detail
