@@ -12,18 +12,20 @@ namespace {
 using Gray = Raster<std::uint16_t>;
 
 constexpr int kBins = 256;
-constexpr double kFaintest = 0.015;   ///< least depth of ink whatever the noise
+constexpr double kFull = 65535;       ///< darkness of black; paper has 0
+constexpr double kFaintest = 0.05;    ///< least darkness of ink whatever the noise
 constexpr double kNoiseFactor = 4.5;  ///< ink is this many standard deviations off paper
 constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to ink
 constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
 constexpr int kLocalRadius = 3;
+constexpr double kNoisy = 0.02;  ///< noise in darkness from which a little blur helps
 
 struct Histogram {
   std::array<double, kBins> weight{};
   double total = 0;
 };
 
-/// Depth to bin: 0 at the paper, 1 black.
+/// Darkness to bin: 0 at the paper, 1 black.
 int bin_of(double depth) { return std::clamp(static_cast<int>(depth * kBins), 0, kBins - 1); }
 
 struct Otsu {
@@ -67,27 +69,27 @@ Box region_box(const Gray& g, int index) {
   return {cut(g.width, c), cut(g.height, r), cut(g.width, c + 1), cut(g.height, r + 1)};
 }
 
-/// Depths of pixels near edges, weighted by the edge's strength.
-Histogram edge_histogram(const Gray& level, const Box& box, double floor) {
+/// Darkness of pixels near edges, weighted by the edge's strength.
+Histogram edge_histogram(const Gray& dark, const Box& box, double floor) {
   Histogram h;
   const int x0 = std::max(box.x0, 1);
   const int y0 = std::max(box.y0, 1);
-  const int x1 = std::min(box.x1, level.width - 1);
-  const int y1 = std::min(box.y1, level.height - 1);
+  const int x1 = std::min(box.x1, dark.width - 1);
+  const int y1 = std::min(box.y1, dark.height - 1);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      const double dx = level.at(x + 1, y) - level.at(x - 1, y);
-      const double dy = level.at(x, y + 1) - level.at(x, y - 1);
-      const double edge = (std::abs(dx) + std::abs(dy)) / Tone::kWhite;
+      const double dx = dark.at(x + 1, y) - dark.at(x - 1, y);
+      const double dy = dark.at(x, y + 1) - dark.at(x, y - 1);
+      const double edge = (std::abs(dx) + std::abs(dy)) / kFull;
       if (edge < floor) continue;
-      h.weight[static_cast<std::size_t>(bin_of(1 - level.at(x, y) / Tone::kWhite))] += edge;
+      h.weight[static_cast<std::size_t>(bin_of(dark.at(x, y) / kFull))] += edge;
       h.total += edge;
     }
   return h;
 }
 
 struct Regions {
-  std::array<double, kRegionCount> depth{};  ///< threshold as a depth below white
+  std::array<double, kRegionCount> depth{};  ///< threshold as darkness
   std::array<bool, kRegionCount> empty{};
 };
 
@@ -110,11 +112,11 @@ void fill_empty(Regions& regions, double otherwise) {
   }
 }
 
-Regions automatic_regions(const Tone& tone, double faintest) {
+Regions automatic_regions(const Gray& dark, double faintest) {
   Regions regions;
   for (int i = 0; i < kRegionCount; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const Histogram h = edge_histogram(tone.level, region_box(tone.level, i), 1.2 * faintest);
+    const Histogram h = edge_histogram(dark, region_box(dark, i), 1.2 * faintest);
     const Otsu found = otsu(h);
     // ten pixels' worth of edge are no ink yet
     regions.empty[k] = found.separation < 1.5 * faintest || h.total < 20 * found.separation ||
@@ -163,19 +165,18 @@ constexpr std::uint8_t kWeak = 2;
 constexpr std::uint8_t kStrong = 1;
 
 /// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak).
-void mark(const Gray& level, const Gray& darkest, const Regions& regions, double faintest,
+void mark(const Gray& dark, const Gray& darkest, const Regions& regions, double faintest,
           Binary& marks) {
-  Blend threshold(regions, level.width, level.height);
-  for (int y = 0; y < level.height; ++y) {
+  Blend threshold(regions, dark.width, dark.height);
+  for (int y = 0; y < dark.height; ++y) {
     threshold.set_row(y);
-    for (int x = 0; x < level.width; ++x) {
-      const double depth = 1 - level.at(x, y) / Tone::kWhite;
-      if (depth < faintest) continue;
+    for (int x = 0; x < dark.width; ++x) {
+      const double here = dark.at(x, y) / kFull;
+      if (here < faintest) continue;
       const double strong = std::max(threshold(x), faintest);
-      const double weak = std::max(kWeakShare * strong, faintest);
-      const double deepest = 1 - darkest.at(x, y) / Tone::kWhite;
-      if (depth < weak || depth < kLocalShare * deepest) continue;
-      marks.at(x, y) = depth >= strong ? kStrong : kWeak;
+      if (here < std::max(kWeakShare * strong, faintest)) continue;
+      if (here < kLocalShare * darkest.at(x, y) / kFull) continue;
+      marks.at(x, y) = here >= strong ? kStrong : kWeak;
     }
   }
 }
@@ -207,14 +208,28 @@ void keep_connected(Binary& marks) {
     if (v == kWeak) v = kPaper;
 }
 
-/// Given thresholds over the automatic ones.
-void apply_given(const BinarizeOptions& options, Binarized& result, Regions& regions) {
+/// Given thresholds over the automatic ones; levels y of the log picture outside, darkness inside.
+void apply_given(const BinarizeOptions& options, double gain, Binarized& result, Regions& regions) {
   for (std::size_t i = 0; i < kRegionCount; ++i) {
     if (i < options.regions.size() && options.regions[i])
-      regions.depth[i] = 1 - *options.regions[i];
-    result.thresholds[i] = std::isfinite(regions.depth[i]) ? 1 - regions.depth[i] : 0;
+      regions.depth[i] = darkness_of(*options.regions[i], gain);
+    result.thresholds[i] =
+        std::isfinite(regions.depth[i])
+            ? std::clamp(1 + gain * std::log(std::max(1 - regions.depth[i], 1e-9)), 0.0, 1.0)
+            : 0;
     result.empty[i] = regions.empty[i];
   }
+}
+
+/// Darkness of every pixel: with it the grey of a pixel half covered by ink lies halfway.
+Gray darkness_raster(const Tone& tone) {
+  std::vector<std::uint16_t> table(65536);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = static_cast<std::uint16_t>(
+        std::lround(kFull * darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain)));
+  Gray dark = tone.level;
+  for (std::uint16_t& v : dark.data) v = table[v];
+  return dark;
 }
 
 void plain_threshold(const Gray& level, double threshold, Binary& ink) {
@@ -232,17 +247,18 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
     plain_threshold(tone.level, *options.threshold, result.ink);
     return result;
   }
-  Gray smooth = tone.level;
-  const double faintest = std::max(kFaintest, kNoiseFactor * tone.noise);
-  if (tone.noise > 0.004) cv::GaussianBlur(as_mat(smooth), as_mat(smooth), {3, 3}, 0.7);
-  Regions regions = automatic_regions(tone, faintest);
-  apply_given(options, result, regions);
-  Gray darkest = smooth;
+  Gray dark = darkness_raster(tone);
+  const double noise = tone.noise / tone.gain;
+  const double faintest = std::max(kFaintest, kNoiseFactor * noise);
+  Regions regions = automatic_regions(dark, faintest);
+  apply_given(options, tone.gain, result, regions);
+  if (noise > kNoisy) cv::GaussianBlur(as_mat(dark), as_mat(dark), {3, 3}, 0.7);
+  Gray darkest(dark.width, dark.height);
   cv::Mat target = as_mat(darkest);
-  cv::erode(
-      as_mat(smooth), target,
+  cv::dilate(
+      as_mat(dark), target,
       cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kLocalRadius + 1, 2 * kLocalRadius + 1}));
-  mark(smooth, darkest, regions, faintest, result.ink);
+  mark(dark, darkest, regions, faintest, result.ink);
   keep_connected(result.ink);
   return result;
 }

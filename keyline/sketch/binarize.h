@@ -30,11 +30,12 @@ struct Binarized {
 /// Ink and paper told apart.
 ///
 /// Every region's threshold is Otsu's over its pixels near edges (both sides of a line then count
-/// alike, however little ink there is); regions without ink take their neighbours' thresholds; in
-/// between thresholds are blended bilinearly, so that no seam shows. Automatic thresholds work
-/// with hysteresis: a fainter line counts where it hangs together with what passes the threshold,
-/// and, where it is well above the noise, a pixel is ink that is at least about half as deep as the
-/// deepest within a few pixels, which keeps the width of faint and dark lines alike.
+/// alike, however little ink there is), taken over the darkness of the flattened picture, in which
+/// an edge lies halfway between ink and paper; regions without ink take their neighbours'
+/// thresholds; in between thresholds are blended bilinearly, so that no seam shows. Automatic
+/// thresholds work with hysteresis: a fainter line counts where it hangs together with what passes
+/// the threshold; and a pixel is ink only if it is about half as dark as the darkest within a few
+/// pixels, which keeps faint and dark lines alike at their width.
 /// Given thresholds are used as they are.
 Binarized binarize(const Tone& tone, const BinarizeOptions& options = {});
 

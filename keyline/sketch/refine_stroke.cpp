@@ -58,8 +58,8 @@ std::vector<double> usual_radii(const RawStroke& raw) {
 
 Refiner::Refiner(const Tone& tone) : tone_(tone), darkness_of_level_(65536) {
   for (std::size_t i = 0; i < darkness_of_level_.size(); ++i)
-    darkness_of_level_[i] = static_cast<float>(std::clamp(
-        1 - std::exp((static_cast<double>(i) / Tone::kWhite - 1) / tone.gain), 0.0, 1.0));
+    darkness_of_level_[i] =
+        static_cast<float>(darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain));
 }
 
 double Refiner::darkness(Point2 p) const {

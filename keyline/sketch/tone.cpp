@@ -85,6 +85,10 @@ std::vector<std::uint16_t> level_table(double gain) {
 
 }  // namespace
 
+double darkness_of(double y, double gain) {
+  return std::clamp(1 - std::exp((y - 1) / gain), 0.0, 1.0);
+}
+
 Tone transform_intensity(const Image& image, const ToneOptions& options) {
   Tone tone;
   tone.light_on_dark = options.polarity == Polarity::light_on_dark ||

@@ -28,9 +28,11 @@ struct Tone {
   double noise = 0;  ///< standard deviation of y on paper
 
   static constexpr double kWhite = 60000;  ///< some headroom above for what outshines the paper
-  /// How much darker than paper, in y.
-  double depth(std::size_t i) const { return 1 - level.data[i] / kWhite; }
 };
+
+/// Share of the paper's light that is missing at level y: 0 on paper, 1 in black. Unlike y it grows
+/// evenly with the part of a pixel that ink covers.
+double darkness_of(double y, double gain);
 
 /// Light intensity transformation y = a·log x ([Sketch] Eq. 11), after single stray pixels (salt
 /// and pepper) were taken out; on request or need the paper's own brightness, estimated from
