@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "keyline/sketch/trace.h"
+
+#include "drawing_generator.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::Point2;
+
+std::vector<Point2> sampled(const Stroke& stroke) {
+  std::vector<Point2> points;
+  for (const curve::Bezier2& piece : stroke.curve) {
+    const int n = std::max(4, static_cast<int>(core::distance(piece.control[0], piece.control[5])));
+    for (int i = 0; i < n; ++i) points.push_back(evaluate(piece, (i + 0.5) / n));
+  }
+  return points;
+}
+
+/// Distance of p from the polygon through the points.
+double distance_to(const std::vector<Point2>& points, Point2 p) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (core::distance(points[i], p) < core::distance(points[best], p)) best = i;
+  double least = core::distance(points[best], p);
+  for (const std::size_t k : {best, best + 1}) {
+    if (k == 0 || k >= points.size()) continue;
+    const core::Vector2 edge = points[k] - points[k - 1];
+    const double u = core::dot(p - points[k - 1], edge) / core::dot(edge, edge);
+    least = std::min(
+        least, core::distance(core::mix(points[k - 1], points[k], std::clamp(u, 0.0, 1.0)), p));
+  }
+  return least;
+}
+
+struct Score {
+  std::size_t wanted = 0;
+  std::size_t found = 0;    ///< strokes of the answer
+  std::size_t matched = 0;  ///< true strokes with one of the answer all along, and its only one
+  double worst_ratio = 0;   ///< largest 95th percentile over what is allowed for the width
+};
+
+double percentile95(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v[static_cast<std::size_t>(0.95 * static_cast<double>(v.size() - 1))];
+}
+
+Score score_of(const testing::TrueDrawing& truth, const TraceResult& result) {
+  Score score{truth.strokes.size(), result.strokes.size(), 0, 0};
+  std::vector<std::vector<Point2>> answers;
+  for (const Stroke& s : result.strokes) answers.push_back(sampled(s));
+  for (const testing::TrueStroke& t : truth.strokes) {
+    std::size_t mates = 0;
+    bool whole = false;
+    for (const auto& answer : answers) {
+      std::vector<double> off;
+      for (const Point2 p : answer) off.push_back(distance_to(t.points, p));
+      const double far = percentile95(off);
+      if (far > t.width + 2) continue;
+      ++mates;
+      std::size_t covered = 0;
+      for (const Point2 p : t.points)
+        covered += distance_to(answer, p) < 0.5 * t.width + 1.5 ? 1 : 0;
+      whole = static_cast<double>(covered) > 0.97 * static_cast<double>(t.points.size());
+      const double allowed = t.width <= 6 ? 0.6 : 0.1 * t.width;
+      score.worst_ratio = std::max(score.worst_ratio, far / allowed);
+    }
+    score.matched += mates == 1 && whole ? 1 : 0;
+  }
+  return score;
+}
+
+TEST(Truth, DrawingsComeBackStrokeByStroke) {
+  const bool full = std::getenv("KEYLINE_FULL") != nullptr;
+  const int count = full ? 60 : 12;
+  int right = 0;
+  std::size_t strokes = 0;
+  std::size_t matched = 0;
+  for (int seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const testing::TrueDrawing truth = testing::make_drawing(static_cast<std::uint64_t>(seed));
+    const auto result = trace(truth.image);
+    ASSERT_TRUE(result) << result.error().message;
+    const Score score = score_of(truth, *result);
+    const bool all = score.found == score.wanted && score.matched == score.wanted;
+    right += all ? 1 : 0;
+    strokes += score.wanted;
+    matched += score.matched;
+    EXPECT_LE(score.worst_ratio, 1) << "95th percentile over what is allowed";
+    if (!all)
+      std::printf("seed %d: %zu strokes, %zu found, %zu one to one\n", seed, score.wanted,
+                  score.found, score.matched);
+  }
+  std::printf("%d of %d drawings, %zu of %zu strokes one to one\n", right, count, matched, strokes);
+  EXPECT_GE(right, 0.95 * count);
+}
+
+}  // namespace
+}  // namespace keyline::sketch
