@@ -25,6 +25,30 @@ std::uint16_t percentile_in(const Gray& image, int x0, int y0, int x1, int y1, d
   return *at;
 }
 
+constexpr int kRim = 4;  ///< blocks around the picture
+
+/// The grid continued beyond its rim by mirroring it in the rim's value: a slope goes on.
+cv::Mat with_rim(const cv::Mat& grid) {
+  cv::Mat wide(grid.rows + 2 * kRim, grid.cols + 2 * kRim, CV_32F);
+  const auto mirror = [](int i, int n) { return n == 1 ? 0 : std::abs(i) % (n - 1); };
+  for (int r = 0; r < wide.rows; ++r)
+    for (int c = 0; c < wide.cols; ++c) {
+      const int y = r - kRim;
+      const int x = c - kRim;
+      const int v = std::clamp(y, 0, grid.rows - 1);
+      const int u = std::clamp(x, 0, grid.cols - 1);
+      const int over_y = mirror(y - v, grid.rows);
+      const int over_x = mirror(x - u, grid.cols);
+      const int back_y = v == 0 ? over_y : v - over_y;
+      const int back_x = u == 0 ? over_x : u - over_x;
+      wide.at<float>(r, c) = y == v && x == u
+                                 ? grid.at<float>(y, x)
+                                 : 2 * grid.at<float>(v, u) - grid.at<float>(back_y, back_x);
+    }
+  return wide;
+}
+
+/// Paper's level by blocks, kRim blocks more on every side.
 cv::Mat paper_of_blocks(const Gray& level) {
   const int columns = std::max(1, level.width / kBlock);
   const int rows = std::max(1, level.height / kBlock);
@@ -39,6 +63,7 @@ cv::Mat paper_of_blocks(const Gray& level) {
           level, cut(level.width, columns, c), cut(level.height, rows, r),
           cut(level.width, columns, c + 1), cut(level.height, rows, r + 1), kPaperShare, scratch);
     }
+  paper = with_rim(paper);
   const cv::Mat square = cv::Mat::ones(5, 5, CV_8U);
   cv::morphologyEx(paper, paper, cv::MORPH_CLOSE, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
   cv::GaussianBlur(paper, paper, {5, 5}, 1.0, 1.0, cv::BORDER_REPLICATE);
@@ -47,11 +72,11 @@ cv::Mat paper_of_blocks(const Gray& level) {
 
 /// Paper at a pixel: bilinear between the blocks' centres.
 void subtract(Gray& level, const cv::Mat& paper) {
-  const double sx = static_cast<double>(paper.cols) / level.width;
-  const double sy = static_cast<double>(paper.rows) / level.height;
+  const double sx = static_cast<double>(paper.cols - 2 * kRim) / level.width;
+  const double sy = static_cast<double>(paper.rows - 2 * kRim) / level.height;
   std::vector<float> row(static_cast<std::size_t>(paper.cols));
   for (int y = 0; y < level.height; ++y) {
-    const double v = std::clamp((y + 0.5) * sy - 0.5, 0.0, paper.rows - 1.0);
+    const double v = std::clamp((y + 0.5) * sy - 0.5 + kRim, 0.0, paper.rows - 1.0);
     const int r0 = static_cast<int>(v);
     const int r1 = std::min(r0 + 1, paper.rows - 1);
     const auto fy = static_cast<float>(v - r0);
@@ -59,7 +84,7 @@ void subtract(Gray& level, const cv::Mat& paper) {
       row[static_cast<std::size_t>(c)] =
           (1 - fy) * paper.at<float>(r0, c) + fy * paper.at<float>(r1, c);
     for (int x = 0; x < level.width; ++x) {
-      const double u = std::clamp((x + 0.5) * sx - 0.5, 0.0, paper.cols - 1.0);
+      const double u = std::clamp((x + 0.5) * sx - 0.5 + kRim, 0.0, paper.cols - 1.0);
       const auto c0 = static_cast<std::size_t>(u);
       const std::size_t c1 = std::min(c0 + 1, row.size() - 1);
       const double base = row[c0] + (u - static_cast<double>(c0)) * (row[c1] - row[c0]);
@@ -94,7 +119,7 @@ bool flatten_background(Gray& level, Flatten flatten) {
   double low = 0;
   double high = 0;
   cv::minMaxLoc(paper, &low, &high);
-  const double slack = 0.01 * Tone::kWhite;
+  const double slack = 0.003 * Tone::kWhite;
   if (flatten == Flatten::automatic && high - low < slack && std::abs(high - Tone::kWhite) < slack)
     return false;
   subtract(level, paper);

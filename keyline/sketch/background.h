@@ -10,8 +10,8 @@ namespace keyline::sketch {
 /// Takes the paper's own brightness out of log levels, so that paper lies at Tone::kWhite all
 /// over: its level is a high percentile of blocks of some 32 pixels, closed over (dark areas of up
 /// to five blocks do not count as paper) and smoothed, and the difference to white is added.
-/// Flatten::automatic does so only where the paper varies by more than a hundredth of its level
-/// or is not white. Returns whether it was done.
+/// Flatten::automatic does so only where the paper varies by more than 2 % of its light or is not
+/// white. Returns whether it was done.
 bool flatten_background(Raster<std::uint16_t>& level, Flatten flatten);
 
 }  // namespace keyline::sketch

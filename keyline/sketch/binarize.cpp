@@ -18,7 +18,8 @@ constexpr double kNoiseFactor = 4.5;  ///< ink is this many standard deviations 
 constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to ink
 constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
 constexpr int kLocalRadius = 3;
-constexpr double kNoisy = 0.02;  ///< noise in darkness from which a little blur helps
+constexpr double kBlotShare = 0.2;  ///< of the strongest region's contrast: less is no ink
+constexpr double kNoisy = 0.02;     ///< noise in darkness from which a little blur helps
 
 struct Histogram {
   std::array<double, kBins> weight{};
@@ -114,14 +115,21 @@ void fill_empty(Regions& regions, double otherwise) {
 
 Regions automatic_regions(const Gray& dark, double faintest) {
   Regions regions;
+  std::array<Otsu, kRegionCount> found;
+  std::array<double, kRegionCount> separation{};
   for (int i = 0; i < kRegionCount; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Histogram h = edge_histogram(dark, region_box(dark, i), 1.2 * faintest);
-    const Otsu found = otsu(h);
+    found[k] = otsu(h);
     // ten pixels' worth of edge are no ink yet
-    regions.empty[k] = found.separation < 1.5 * faintest || h.total < 20 * found.separation ||
-                       found.threshold < faintest;
-    regions.depth[k] = found.threshold;
+    regions.empty[k] = found[k].separation < 1.5 * faintest || h.total < 20 * found[k].separation ||
+                       found[k].threshold < faintest;
+    if (!regions.empty[k]) separation[k] = found[k].separation;
+  }
+  const double usual = *std::max_element(separation.begin(), separation.end());
+  for (std::size_t k = 0; k < kRegionCount; ++k) {
+    if (found[k].separation < kBlotShare * usual) regions.empty[k] = true;
+    regions.depth[k] = found[k].threshold;
   }
   fill_empty(regions, std::numeric_limits<double>::infinity());
   return regions;

@@ -25,15 +25,17 @@ struct Branch {
   bool free = false;       ///< ends in paper
 };
 
-double angle_between(Vector2 a, Vector2 b) {
-  return std::abs(std::atan2(core::cross(a, b), core::dot(a, b)));
-}
-
-/// How much a line turns that comes in on one branch and leaves on the other.
-double turn_between(const Branch& a, const Branch& b) {
+/// How much a line has to bend that comes in on one branch and leaves on the other: half its turn,
+/// as a plain arc makes it, and all that an arc does not explain.
+double bend_between(const Branch& a, const Branch& b) {
   const Vector2 chord = b.place - a.place;
-  if (core::norm(chord) < 1.0) return angle_between(-a.outward, b.outward);
-  return angle_between(-a.outward, chord) + angle_between(chord, b.outward);
+  const auto turn = [](Vector2 u, Vector2 v) {
+    return std::atan2(core::cross(u, v), core::dot(u, v));
+  };
+  if (core::norm(chord) < 1.0) return std::abs(turn(-a.outward, b.outward));
+  const double first = turn(-a.outward, chord);
+  const double second = turn(chord, b.outward);
+  return 0.5 * std::abs(first + second) + std::abs(first - second);
 }
 
 class Joiner {
@@ -100,7 +102,7 @@ class Joiner {
     double run = 0;
     std::size_t i = 0;
     while (i + 1 < n && run < skip) run += distance(point(i), point(i + 1)), ++i;
-    const double reach = std::max(5.0, 4 * half_width(line));
+    const double reach = std::max(10.0, 7 * half_width(line));
     std::size_t j = i;
     double fitted = 0;
     while (j + 1 < n && fitted < reach) fitted += distance(point(j), point(j + 1)), ++j;
@@ -110,23 +112,30 @@ class Joiner {
     return b;
   }
 
-  /// Principal direction of points i … j, pointing from i to j.
+  /// Direction of the line at point i, from the parabola through points i … j.
   template <class PointAt>
   static Vector2 direction(const PointAt& point, std::size_t i, std::size_t j) {
-    Point2 mean;
-    const double count = static_cast<double>(j - i + 1);
-    for (std::size_t k = i; k <= j; ++k) mean = mean + (point(k) - Point2{}) / count;
-    double xx = 0, xy = 0, yy = 0;
+    const Vector2 chord = point(j) - point(i);
+    if (j < i + 6) return core::norm(chord) > 0 ? chord / core::norm(chord) : Vector2{1, 0};
+    // least squares of p(s) = c + v s + w s² over s in [-1, 1], v and w by orthogonal polynomials
+    const double n = static_cast<double>(j - i + 1);
+    Vector2 linear{};
+    Vector2 square{};
+    double linear_norm = 0;
+    double square_norm = 0;
+    double mean_square = 0;
+    const auto at = [&](std::size_t k) { return 2 * static_cast<double>(k - i) / (n - 1) - 1; };
+    for (std::size_t k = i; k <= j; ++k) mean_square += at(k) * at(k) / n;
     for (std::size_t k = i; k <= j; ++k) {
-      const Vector2 d = point(k) - mean;
-      xx += d.x * d.x;
-      xy += d.x * d.y;
-      yy += d.y * d.y;
+      const double s = at(k);
+      const double q = s * s - mean_square;
+      linear = linear + s * (point(k) - point(i));
+      square = square + q * (point(k) - point(i));
+      linear_norm += s * s;
+      square_norm += q * q;
     }
-    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-    Vector2 u{std::cos(angle), std::sin(angle)};
-    if (core::dot(u, point(j) - point(i)) < 0) u = -u;
-    return u;
+    const Vector2 d = linear / linear_norm - (2 / square_norm) * square;
+    return core::norm(d) > 0 ? d / core::norm(d) : Vector2{1, 0};
   }
 
   bool is_junction(int n) const { return n >= 0 && node(n).edges.size() >= 3; }
@@ -167,9 +176,9 @@ class Joiner {
       }
     if (left.size() != 2 || right.size() != 2) return false;
     const double straight =
-        std::max(turn_between(left[0], right[0]), turn_between(left[1], right[1]));
+        std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
     const double crossed =
-        std::max(turn_between(left[0], right[1]), turn_between(left[1], right[0]));
+        std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
     return std::min(straight, crossed) < 0.6;
   }
 
@@ -209,7 +218,7 @@ class Joiner {
     best = best_pairing(list, mate, first + 1, spent + 0.5 * options_.turn, best, best_mate);
     for (std::size_t k = first + 1; k < list.size(); ++k) {
       if (mate[k] != -2) continue;
-      const double cost = turn_between(at(list[first]), at(list[k]));
+      const double cost = bend_between(at(list[first]), at(list[k]));
       if (cost > options_.turn) continue;
       mate[first] = static_cast<int>(k);
       mate[k] = static_cast<int>(first);
@@ -258,7 +267,7 @@ class Joiner {
         if (d.x > options_.gap) break;
         const double gap = core::norm(d);
         if (gap > options_.gap || !long_enough(ends[i], ends[j], gap)) continue;
-        const double turn = turn_between(at(ends[i]), at(ends[j]));
+        const double turn = bend_between(at(ends[i]), at(ends[j]));
         if (turn < 0.8 * options_.turn)
           pairs.push_back({gap / options_.gap + turn, ends[i], ends[j]});
       }

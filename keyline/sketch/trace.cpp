@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
+#include "keyline/fit/quintic_chain.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/morphology.h"
 #include "keyline/sketch/quintics.h"
@@ -34,6 +35,33 @@ double usual_width(const Binary& ink) {
   return border > 0 ? std::max(1.0, 2 * area / border) : 1;
 }
 
+/// Points of a run; its ends are those of its line segments (the corners).
+std::vector<Point2> points_of(const SegmentRun& run, const std::vector<Point2>& points) {
+  std::vector<Point2> part;
+  for (std::size_t i = run.first; i <= run.last; ++i) part.push_back(points[i % points.size()]);
+  if (run.closed) return part;
+  part.front() = run.vertices.front();
+  part.back() = run.vertices.back();
+  const auto too_near = [](Point2 p, Point2 end) { return core::distance(p, end) < 0.5; };
+  while (part.size() > 2 && too_near(part[1], part.front())) part.erase(part.begin() + 1);
+  while (part.size() > 2 && too_near(part[part.size() - 2], part.back()))
+    part.erase(part.end() - 2);
+  return part;
+}
+
+/// Quintics of a run: [Sketch] section 5 as it stands, or as few as follow the points.
+std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke& fine,
+                                        const TraceOptions& options) {
+  std::vector<curve::Bezier2> pieces = elevated(quadratics(run.vertices, run.closed));
+  make_curvature_continuous(pieces, run.closed);
+  if (options.tolerance <= 0) return pieces;
+  const auto part = points_of(run, fine.points);
+  if (part.size() < 4) return pieces;
+  const double tolerance = std::max(options.tolerance, 0.1 * fine.width);
+  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48});
+  return chain.within_tolerance ? chain.pieces : pieces;
+}
+
 /// The curve of a refined stroke: line segments, quadratics, quintics, joints.
 Stroke curve_of(const FineStroke& fine, const TraceOptions& options) {
   Stroke stroke;
@@ -43,16 +71,15 @@ Stroke curve_of(const FineStroke& fine, const TraceOptions& options) {
   const auto runs = fit_segments(fine.points, fine.closed,
                                  {options.straightness, options.corner_angle, fine.width});
   for (const SegmentRun& run : runs) {
-    std::vector<curve::Bezier2> pieces = elevated(quadratics(run.vertices, run.closed));
-    make_curvature_continuous(pieces, run.closed);
+    const std::vector<curve::Bezier2> pieces = quintics_of(run, fine, options);
     if (!stroke.curve.empty()) stroke.corners.push_back(stroke.curve.size());
-    if (runs.size() > 1 && stroke.curve.empty() && fine.closed) stroke.corners.push_back(0);
+    if (stroke.curve.empty() && fine.closed && !run.closed) stroke.corners.push_back(0);
     stroke.curve.insert(stroke.curve.end(), pieces.begin(), pieces.end());
     const std::size_t skip = stroke.segments.empty() ? 0 : 1;
     stroke.segments.insert(stroke.segments.end(), run.vertices.begin() + static_cast<long>(skip),
                            run.vertices.end());
   }
-  if (runs.size() > 1 && fine.closed) stroke.segments.pop_back();
+  if (!runs.front().closed && fine.closed) stroke.segments.pop_back();
   return stroke;
 }
 

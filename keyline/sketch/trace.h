@@ -24,6 +24,10 @@ struct TraceOptions {
   std::optional<double> gap;   ///< longest gap bridged, pixels; empty: by the stroke width
   double straightness = 0.75;  ///< of a group of points, pixels: see SegmentOptions
   double corner_angle = 0.6;   ///< radians
+  /// Largest distance of a stroke's points from its curve in pixels (at least a tenth of the width
+  /// is allowed): as few quintics as that takes. 0: two or more per line segment group, as in
+  /// [Sketch] section 5.
+  double tolerance = 0.5;
   core::Progress progress;
 };
 

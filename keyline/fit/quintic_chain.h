@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/core/point.h"
+#include "keyline/curve/bezier.h"
+
+namespace keyline::fit {
+
+struct QuinticChainOptions {
+  double tolerance = 0.5;  ///< largest distance of a point from the curve, in the points' unit
+  int max_pieces = 48;
+};
+
+struct QuinticChain {
+  std::vector<curve::Bezier2> pieces;  ///< quintics, G2 at every joint
+  double max_deviation = 0;            ///< of the points
+  double rms_deviation = 0;
+  bool within_tolerance = false;  ///< false: max_pieces were not enough; the best is returned
+};
+
+/// As few quintic Béziers as it takes to follow ordered points within a tolerance, joined with
+/// equal tangent and curvature.
+///
+/// Every joint has a place, a direction and a curvature, every piece four lengths along its end
+/// tangents (the third handles stand off by Eqs. 9 and 10 of [Sketch], which makes joints G2
+/// whatever the values): all are found together by Gauss–Newton on the distances of the points
+/// along the curve's normals, feet of the points moving along. Pieces are added one by one; joints
+/// are laid so that each piece has about its share of length and turning.
+///
+/// points: at least two, no two neighbours equal (InvalidInput otherwise); closed: the first is not
+///         repeated. An open chain starts and ends exactly in the first and last point.
+QuinticChain fit_quintic_chain(const std::vector<core::Point2>& points, bool closed,
+                               const QuinticChainOptions& options = {});
+
+}  // namespace keyline::fit
