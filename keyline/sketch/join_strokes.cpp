@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "keyline/core/polygon.h"
+#include "keyline/sketch/branch.h"
 
 namespace keyline::sketch {
 namespace {
@@ -13,30 +15,6 @@ namespace {
 using core::distance;
 using core::Point2;
 using core::Vector2;
-
-/// One end of an edge: where the line is itself again, and which way it leaves.
-struct Branch {
-  int edge = 0;
-  bool at_end = false;     ///< the edge's `to` rather than its `from`
-  std::size_t anchor = 0;  ///< index of the first point clear of the junction
-  Point2 place;            ///< that point
-  Vector2 outward{1, 0};   ///< unit, away from the junction
-  int mate = -1;           ///< branch it goes on with
-  bool free = false;       ///< ends in paper
-};
-
-/// How much a line has to bend that comes in on one branch and leaves on the other: half its turn,
-/// as a plain arc makes it, and all that an arc does not explain.
-double bend_between(const Branch& a, const Branch& b) {
-  const Vector2 chord = b.place - a.place;
-  const auto turn = [](Vector2 u, Vector2 v) {
-    return std::atan2(core::cross(u, v), core::dot(u, v));
-  };
-  if (core::norm(chord) < 1.0) return std::abs(turn(-a.outward, b.outward));
-  const double first = turn(-a.outward, chord);
-  const double second = turn(chord, b.outward);
-  return 0.5 * std::abs(first + second) + std::abs(first - second);
-}
 
 class Joiner {
  public:
@@ -83,61 +61,6 @@ class Joiner {
     return n;
   }
 
-  /// Half the usual width of an edge.
-  static double half_width(const GraphEdge& e) {
-    std::vector<float> r = e.radii;
-    std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
-    return r[r.size() / 2];
-  }
-
-  Branch make_branch(int e, bool at_end, double skip) const {
-    const GraphEdge& line = edge(e);
-    const std::size_t n = line.points.size();
-    const auto point = [&](std::size_t i) { return line.points[at_end ? n - 1 - i : i]; };
-    Branch b;
-    b.edge = e;
-    b.at_end = at_end;
-    const double whole = length_of(line);
-    skip = std::min(skip, 0.4 * whole);
-    double run = 0;
-    std::size_t i = 0;
-    while (i + 1 < n && run < skip) run += distance(point(i), point(i + 1)), ++i;
-    const double reach = std::max(10.0, 7 * half_width(line));
-    std::size_t j = i;
-    double fitted = 0;
-    while (j + 1 < n && fitted < reach) fitted += distance(point(j), point(j + 1)), ++j;
-    b.anchor = at_end ? n - 1 - i : i;
-    b.place = point(i);
-    b.outward = direction(point, i, j);
-    return b;
-  }
-
-  /// Direction of the line at point i, from the parabola through points i … j.
-  template <class PointAt>
-  static Vector2 direction(const PointAt& point, std::size_t i, std::size_t j) {
-    const Vector2 chord = point(j) - point(i);
-    if (j < i + 6) return core::norm(chord) > 0 ? chord / core::norm(chord) : Vector2{1, 0};
-    // least squares of p(s) = c + v s + w s² over s in [-1, 1], v and w by orthogonal polynomials
-    const double n = static_cast<double>(j - i + 1);
-    Vector2 linear{};
-    Vector2 square{};
-    double linear_norm = 0;
-    double square_norm = 0;
-    double mean_square = 0;
-    const auto at = [&](std::size_t k) { return 2 * static_cast<double>(k - i) / (n - 1) - 1; };
-    for (std::size_t k = i; k <= j; ++k) mean_square += at(k) * at(k) / n;
-    for (std::size_t k = i; k <= j; ++k) {
-      const double s = at(k);
-      const double q = s * s - mean_square;
-      linear = linear + s * (point(k) - point(i));
-      square = square + q * (point(k) - point(i));
-      linear_norm += s * s;
-      square_norm += q * q;
-    }
-    const Vector2 d = linear / linear_norm - (2 / square_norm) * square;
-    return core::norm(d) > 0 ? d / core::norm(d) : Vector2{1, 0};
-  }
-
   bool is_junction(int n) const { return n >= 0 && node(n).edges.size() >= 3; }
 
   /// Short edges between junctions disappear into one cluster.
@@ -156,7 +79,56 @@ class Joiner {
         parent_[static_cast<std::size_t>(root(line.from))] = root(line.to);
       }
     }
+    join_knots();
     members_.assign(graph_.nodes.size(), {});
+  }
+
+  /// Where several lines cross in nearly one place the edges between the crossings are too short
+  /// to tell a direction: such a knot is one cluster if all lines that come out of it pair up.
+  void join_knots() {
+    std::vector<int> knot(graph_.nodes.size());
+    std::iota(knot.begin(), knot.end(), 0);
+    const auto top = [&](int n) {
+      while (knot[static_cast<std::size_t>(n)] != n) n = knot[static_cast<std::size_t>(n)];
+      return n;
+    };
+    std::vector<int> shorts;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const GraphEdge& line = graph_.edges[e];
+      if (!line.alive || !is_junction(line.from) || !is_junction(line.to)) continue;
+      const double radius = std::max(node(line.from).radius, node(line.to).radius);
+      if (length_of(line) > 4 * radius + 5) continue;
+      shorts.push_back(static_cast<int>(e));
+      knot[static_cast<std::size_t>(top(line.from))] = top(line.to);
+    }
+    std::map<int, std::vector<int>> inner;
+    for (const int e : shorts) inner[top(edge(e).from)].push_back(e);
+    for (const auto& [name, edges] : inner)
+      if (edges.size() >= 2 && all_pair_up(edges))
+        for (const int e : edges) {
+          bridge_[static_cast<std::size_t>(e)] = true;
+          parent_[static_cast<std::size_t>(root(edge(e).from))] = root(edge(e).to);
+        }
+  }
+
+  bool all_pair_up(const std::vector<int>& inner) const {
+    double radius = 0;
+    std::set<int> nodes;
+    for (const int e : inner)
+      for (const int n : {edge(e).from, edge(e).to}) {
+        nodes.insert(n);
+        radius = std::max(radius, node(n).radius);
+      }
+    std::vector<Branch> out;
+    for (const int n : nodes)
+      for (const int e : node(n).edges)
+        if (std::find(inner.begin(), inner.end(), e) == inner.end()) {
+          if (edge(e).from == edge(e).to || length_of(edge(e)) < 2 * radius) return false;
+          out.push_back(sketch::make_branch(graph_, e, edge(e).to == n, 1.2 * radius + 1));
+        }
+    if (out.size() < 4 || out.size() > 10) return false;
+    const std::vector<int> mates = pair_up(out, 0.6);
+    return std::find(mates.begin(), mates.end(), -1) == mates.end();
   }
 
   /// True where two lines cross at a small angle along this edge: its four neighbours pair up
@@ -172,7 +144,7 @@ class Joiner {
       for (const int other : node(n).edges) {
         if (other == e) continue;
         if (length_of(edge(other)) < 2 * wide) return false;
-        side->push_back(make_branch(other, edge(other).to == n, 1.5 * wide + 1));
+        side->push_back(sketch::make_branch(graph_, other, edge(other).to == n, 1.5 * wide + 1));
       }
     if (left.size() != 2 || right.size() != 2) return false;
     const double straight =
@@ -198,55 +170,25 @@ class Joiner {
         const int cluster = root(n);
         const double r = radius[static_cast<std::size_t>(cluster)];
         const int id = branch_of(static_cast<int>(e), end);
-        at(id) = make_branch(static_cast<int>(e), end, junction ? 1.2 * r + 1 : 0.7 * r);
+        at(id) =
+            sketch::make_branch(graph_, static_cast<int>(e), end, junction ? 1.2 * r + 1 : 0.7 * r);
         at(id).free = node(n).edges.size() == 1;
         members_[static_cast<std::size_t>(cluster)].push_back(id);
       }
     }
   }
 
-  /// The cheapest way to pair branches from position `first` on.
-  double best_pairing(const std::vector<int>& list, std::vector<int>& mate, std::size_t first,
-                      double spent, double best, std::vector<int>& best_mate) {
-    if (spent >= best) return best;
-    while (first < list.size() && mate[first] != -2) ++first;
-    if (first == list.size()) {
-      best_mate = mate;
-      return spent;
-    }
-    mate[first] = -1;
-    best = best_pairing(list, mate, first + 1, spent + 0.5 * options_.turn, best, best_mate);
-    for (std::size_t k = first + 1; k < list.size(); ++k) {
-      if (mate[k] != -2) continue;
-      const double cost = bend_between(at(list[first]), at(list[k]));
-      if (cost > options_.turn) continue;
-      mate[first] = static_cast<int>(k);
-      mate[k] = static_cast<int>(first);
-      best = best_pairing(list, mate, first + 1, spent + cost, best, best_mate);
-      mate[k] = -2;
-    }
-    mate[first] = -2;
-    return best;
-  }
-
   void match(const std::vector<int>& list) {
-    constexpr std::size_t kMost = 10;  ///< more lines than that through one place: taken in parts
-    for (std::size_t from = 0; from < list.size(); from += kMost) {
-      const std::vector<int> part(
-          list.begin() + static_cast<long>(from),
-          list.begin() + static_cast<long>(std::min(list.size(), from + kMost)));
-      if (part.size() < 2) continue;
-      if (list.size() == 2) {  // no junction at all
-        at(part[0]).mate = part[1];
-        at(part[1]).mate = part[0];
-        continue;
-      }
-      std::vector<int> mate(part.size(), -2);
-      std::vector<int> best(part.size(), -1);
-      best_pairing(part, mate, 0, 0, std::numeric_limits<double>::infinity(), best);
-      for (std::size_t k = 0; k < part.size(); ++k)
-        if (best[k] >= 0) at(part[k]).mate = part[static_cast<std::size_t>(best[k])];
+    if (list.size() == 2) {  // no junction at all
+      at(list[0]).mate = list[1];
+      at(list[1]).mate = list[0];
+      return;
     }
+    std::vector<Branch> branches;
+    for (const int id : list) branches.push_back(at(id));
+    const std::vector<int> mates = pair_up(branches, options_.turn);
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (mates[k] >= 0) at(list[k]).mate = list[static_cast<std::size_t>(mates[k])];
   }
 
   /// Free ends in a grid of cells as large as the gap, nearest and straightest pairs first.
