@@ -8,7 +8,9 @@ namespace keyline::operations {
 
 /// One function per operation, each in its own file.
 Operation curve_analyze_operation();
+Operation curve_cav_operation();
 Operation curve_continuity_operation();
+Operation curve_edit_operation();
 Operation fair_operation();
 Operation fit_spline_operation();
 Operation lac_blend_operation();

@@ -1,0 +1,71 @@
+#include "keyline/classa/farin.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/classa/control_matrix.h"
+#include "keyline/numeric/random.h"
+
+namespace keyline::classa {
+namespace {
+
+using curve::MonotoneVerdict;
+
+/// Found by a random search over matrices that meet every condition of Farin's with room to spare;
+/// curvature falls, rises by a twentieth of its largest value, and falls again: what Cao and Wang
+/// (2008) said can happen.
+const SpaceMatrixCurve kCounterexample{
+    {}, {-0.99, 0.09, 0.09}, {{{1.04, -0.7, -2.8}, {0.99, 4.89, -1.15}, {2.73, -0.04, 3.44}}}, 3};
+
+TEST(Farin, ConditionsDoNotImplyMonotoneCurvature) {
+  const FarinConditions farin = farin_conditions(kCounterexample);
+  EXPECT_TRUE(farin.segment);
+  EXPECT_TRUE(farin.expands);
+  EXPECT_TRUE(farin.singular_values);
+  EXPECT_GT(farin.sigma[2] * farin.sigma[2], farin.sigma[0] + 0.5);
+  const curve::Bezier3 c = to_bezier(kCounterexample);
+  const MonotoneVerdict verdict = certify_monotone_curvature(c);
+  EXPECT_EQ(verdict.answer, MonotoneVerdict::no);
+  // By sampling, with nothing in common with the certificate.
+  double rise = 0;
+  double lowest = curvature(c, 0.0);
+  for (int i = 1; i <= 1000; ++i) {
+    lowest = std::min(lowest, curvature(c, i / 1000.0));
+    rise = std::max(rise, curvature(c, i / 1000.0) - lowest);
+  }
+  EXPECT_GT(rise, 0.05);
+}
+
+/// A planar matrix in space is judged as in the plane.
+TEST(Farin, AgreesWithThePlanarCertificate) {
+  numeric::Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    const ControlMatrix m{random.uniform(0.05, 1), random.uniform(0.8, 2)};
+    if (std::abs(m.s * std::cos(m.alpha) - 1) < 1e-3) continue;
+    const double c = m.s * std::cos(m.alpha);
+    const double s = m.s * std::sin(m.alpha);
+    const SpaceMatrixCurve turned{{1, 2, 3}, {0, 1, 0}, {{{1, 0, 0}, {0, c, -s}, {0, s, c}}}, 4};
+    const MatrixCurve flat{{0, 0}, {1, 0}, 1, m, 4};
+    const auto space = certify_monotone_curvature(to_bezier(turned));
+    const auto plane = curve::certify_monotone_curvature(to_bezier(flat));
+    EXPECT_EQ(space.answer, plane.answer) << m.alpha << " " << m.s;
+  }
+}
+
+TEST(Farin, StraightAndBad) {
+  const SpaceMatrixCurve straight{{}, {1, 1, 1}, {{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}}, 3};
+  EXPECT_EQ(certify_monotone_curvature(to_bezier(straight)).answer, MonotoneVerdict::yes);
+  SpaceMatrixCurve bad = kCounterexample;
+  bad.tangent = {};
+  EXPECT_FALSE(validate(bad));
+  bad = kCounterexample;
+  bad.matrix[1][1] = NAN;
+  EXPECT_FALSE(validate(bad));
+  bad = kCounterexample;
+  bad.matrix[1][1] = 1e200;
+  EXPECT_FALSE(validate(bad));
+}
+
+}  // namespace
+}  // namespace keyline::classa
