@@ -14,10 +14,60 @@ namespace {
 
 constexpr std::size_t kMostPieces = 100000;
 constexpr double kShortest = 0.01;       ///< of the length: not made shorter for monotone curvature
-constexpr double kCoarsestTable = 1e-9;  ///< a short cubic must not follow the table's errors
+constexpr double kCoarsestTable = 1e-7;  ///< a short cubic must not follow the table's errors
 constexpr int kMostRefused = 8;          ///< cubics whose curvature is not monotone
 
+/// a times b in Bernstein's basis.
+template <std::size_t A, std::size_t B>
+std::array<double, A + B - 1> product(const std::array<double, A>& a,
+                                      const std::array<double, B>& b) {
+  constexpr double kBinomial[6][6] = {{1},          {1, 1},          {1, 2, 1},
+                                      {1, 3, 3, 1}, {1, 4, 6, 4, 1}, {1, 5, 10, 10, 5, 1}};
+  std::array<double, A + B - 1> c{};
+  for (std::size_t i = 0; i < A; ++i)
+    for (std::size_t j = 0; j < B; ++j)
+      c[i + j] += a[i] * b[j] * (kBinomial[A - 1][i] * kBinomial[B - 1][j]);
+  for (std::size_t k = 0; k < c.size(); ++k) c[k] /= kBinomial[A + B - 2][k];
+  return c;
+}
+
+/// True where the numerator of dkappa/dt, (C' x C''')(C' . C') - 3 (C' x C'')(C' . C''), has
+/// Bernstein coefficients of one sign, well above rounding: enough for monotone curvature.
+bool plainly_monotone(const Cubic& c) {
+  const auto& b = c.control;
+  const std::array<Vector2, 3> d{b[1] - b[0], b[2] - b[1], b[3] - b[2]};  // C' / 3
+  const std::array<Vector2, 2> e{d[1] - d[0], d[2] - d[1]};               // C'' / 6
+  const Vector2 f = e[1] - e[0];                                          // C''' / 6
+  const std::array<double, 3> x{d[0].x, d[1].x, d[2].x};
+  const std::array<double, 3> y{d[0].y, d[1].y, d[2].y};
+  const std::array<double, 2> u{e[0].x, e[1].x};
+  const std::array<double, 2> v{e[0].y, e[1].y};
+  const auto xu = product(x, u), yv = product(y, v), xv = product(x, v), yu = product(y, u);
+  const auto xx = product(x, x), yy = product(y, y);
+  std::array<double, 5> speed{};
+  std::array<double, 4> along{};
+  for (std::size_t i = 0; i < 5; ++i) speed[i] = xx[i] + yy[i];
+  for (std::size_t i = 0; i < 4; ++i) along[i] = xu[i] + yv[i];
+  // d x e and d x f are of degrees 2 and 1: their leading terms cancel.
+  const double first_bend = xv[0] - yu[0];
+  const std::array<double, 3> bend{first_bend, (3 * (xv[1] - yu[1]) - first_bend) / 2,
+                                   xv[3] - yu[3]};
+  const auto first = product(std::array{cross(d[0], f), cross(d[2], f)}, speed);
+  const auto second = product(bend, along);
+  double least = HUGE_VAL;
+  double most = -HUGE_VAL;
+  double size = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double n = first[i] - 6 * second[i];
+    least = std::min(least, n);
+    most = std::max(most, n);
+    size = std::max(size, std::abs(first[i]) + 6 * std::abs(second[i]));
+  }
+  return least > 1e-12 * size || most < -1e-12 * size;
+}
+
 bool is_monotone(const Cubic& c) {
+  if (plainly_monotone(c)) return true;
   curve::Bezier2 b;
   for (const Vector2 v : c.control) b.control.push_back({v.x, v.y});
   return curve::certify_monotone_curvature(b).answer == curve::MonotoneVerdict::yes;
@@ -30,7 +80,7 @@ class Cover {
       : unit_(unit),
         tolerance_(tolerance),
         monotone_(monotone && unit.piece.curvature_start != unit.piece.curvature_end),
-        table_(unit, std::min(2e-3 * tolerance, kCoarsestTable)) {}
+        table_(unit, std::min(3e-3 * tolerance, kCoarsestTable)) {}
 
   std::vector<CubicPiece> run() {
     std::vector<CubicPiece> pieces;
@@ -68,7 +118,8 @@ class Cover {
   /// much exactly is learnt from one cubic for the next.
   CubicTry tried(double v0, double v1, const Frame& start, const Frame& end, bool last) {
     const double l = log_ratio(v0, v1);
-    const HandleGuess guess{std::clamp(tilt_rate_ * l, -0.25, 0.25), 0.05 * tolerance_,
+    const HandleGuess guess{std::clamp(tilt_rate_ * l, -0.25, 0.25),
+                            (last ? 0.1 : 0.2) * tolerance_,
                             last ? 64 * tolerance_ : 8 * tolerance_};
     const CubicTry c = try_cubic(table_, v0, v1, start, end, guess);
     if (c.sound && std::abs(l) > 1e-6 && c.error < 4 * tolerance_)
@@ -111,7 +162,7 @@ class Cover {
           c.sound ? cubic_bound(table_, v0, v1, c.cubic, tolerance_) : 64 * tolerance_;
       if (bound <= tolerance_) {
         Laid laid{{c.cubic, v0, v1, bound}, end};
-        if (monotone_) laid.piece.monotone = is_monotone(c.cubic);
+        laid.piece.monotone = monotone_ ? is_monotone(c.cubic) : plainly_monotone(c.cubic);
         if (!monotone_ || laid.piece.monotone || width < kShortest) return laid;
         if (!longest) longest = laid;
         if (++refused > kMostRefused) break;

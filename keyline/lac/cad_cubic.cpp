@@ -10,28 +10,6 @@ namespace keyline::lac::detail {
 
 using core::Vector2;
 
-namespace {
-
-Vector2 value(const Cubic& c, double t) {
-  const double s = 1 - t;
-  const auto& b = c.control;
-  return s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
-}
-
-Vector2 slope(const Cubic& c, double t) {
-  const double s = 1 - t;
-  const auto& b = c.control;
-  return 3 * (s * s * (b[1] - b[0]) + 2 * s * t * (b[2] - b[1]) + t * t * (b[3] - b[2]));
-}
-
-/// One step of the foot of p on the cubic, against the direction given.
-double step_foot(const Cubic& c, Vector2 p, Vector2 direction, double t) {
-  const double pace = dot(slope(c, t), direction);
-  return pace > 0 ? t - dot(value(c, t) - p, direction) / pace : t;
-}
-
-}  // namespace
-
 Frame exact_frame(const UnitPiece& unit, double v) {
   return {displacement(unit.piece, v), core::unit_vector(turning(unit.piece, v))};
 }
@@ -45,10 +23,19 @@ void SeriesTable::cut(const UnitPiece& unit, double from, double to, double allo
   TaylorSeries series = taylor_series(unit, SeriesVariable::arc_length, middle, kDegree);
   double remainder = quick_remainder_bound(series, 0.5 * (to - from));
   if (!(remainder <= allowed)) {
-    const double bend = (to - from) * std::abs(turning(unit.piece, to) - turning(unit.piece, from));
+    const double width = to - from;
+    const double bend = width > 0.01
+                            ? HUGE_VAL
+                            : width * std::abs(turning(unit.piece, to) - turning(unit.piece, from));
     if (!(bend <= allowed) && depth < 60) {
-      cut(unit, from, middle, allowed, depth + 1);
-      cut(unit, middle, to, allowed, depth + 1);
+      // The remainder falls with the power kDegree + 1 of the width.
+      const double wanted =
+          std::isfinite(remainder) ? std::pow(remainder / allowed, 1.0 / (kDegree + 1)) : 2.0;
+      const int parts = static_cast<int>(std::clamp(std::ceil(wanted), 2.0, 4.0));
+      for (int i = 0; i < parts; ++i) {
+        const double end = i + 1 == parts ? to : from + (i + 1) * width / parts;
+        cut(unit, from + i * width / parts, end, allowed, depth + 1);
+      }
       return;
     }
     series.coefficient.fill({});
@@ -252,121 +239,6 @@ class HandleSolve {
 CubicTry try_cubic(const SeriesTable& table, double v0, double v1, const Frame& start,
                    const Frame& end, const HandleGuess& guess) {
   return HandleSolve(table, v0, v1, start, end).run(guess);
-}
-
-// ---- Bound --------------------------------------------------------------------------------
-
-namespace {
-
-constexpr int kMapDegree = 3;
-constexpr int kCarried = 3 * kMapDegree;
-
-template <int N>
-const std::array<double, N>& chebyshev_nodes() {
-  static const std::array<double, N> nodes = [] {
-    std::array<double, N> x;
-    for (int j = 0; j < N; ++j) x[j] = std::cos(core::kPi * (j + 0.5) / N);
-    return x;
-  }();
-  return nodes;
-}
-
-/// t as polynomial of x in [-1, 1]: (1 + x) / 2 + (1 - x^2) (k0 + k1 x), through two feet.
-/// Within [0, 1] because |k0 + k1 x| <= 1/4 (else both 0).
-struct ParameterMap {
-  double k0 = 0, k1 = 0;
-};
-
-ParameterMap parameter_map(const SeriesTable& table, double v0, double v1, const Cubic& c) {
-  constexpr double p = 0.5;
-  const auto off = [&](double x) {
-    const double v = v0 + (v1 - v0) * 0.5 * (1 + x);
-    const Vector2 at = table.point(v);
-    const Vector2 d = table.velocity(v);
-    double t = 0.5 * (1 + x);
-    for (int i = 0; i < 2; ++i) t = step_foot(c, at, d, t);
-    return (t - 0.5 * (1 + x)) / ((1 - x) * (1 + x));
-  };
-  const double low = off(-p);
-  const double high = off(p);
-  const ParameterMap map{0.5 * (low + high), 0.5 * (high - low) / p};
-  return std::abs(map.k0) + std::abs(map.k1) <= 0.25 ? map : ParameterMap{};
-}
-
-/// What N Chebyshev nodes of [w0, w1] say about difference D = cubic - curve and velocity C'.
-struct NodeValues {
-  double across = 0;  ///< largest |D x C'|
-  double square = 0;  ///< largest |D|^2
-  double pace = 0;    ///< largest ||C'|^2 - 1|
-};
-
-template <int N>
-NodeValues node_values(const SeriesTable::Stretch& s, double w0, double w1, double v0, double v1,
-                       const Cubic& c, const ParameterMap& map) {
-  const auto& nodes = chebyshev_nodes<N>();
-  const Vector2 origin = c.control[0];
-  const Vector2 c1 = 3 * (c.control[1] - origin);
-  const Vector2 c2 = 3 * (c.control[2] - origin) - 2 * c1;
-  const Vector2 c3 = c.control[3] - origin - c1 - c2;
-  const Vector2 shift{s.x[0] - origin.x, s.y[0] - origin.y};
-  const double scale = 2 / (v1 - v0);
-  const int n = s.degree;
-  NodeValues largest;
-  for (int j = 0; j < N; ++j) {
-    const double v = 0.5 * (w0 + w1 + (w1 - w0) * nodes[j]);
-    const double x = (v - v0) * scale - 1;
-    const double t = (1 + x) * (0.5 + (1 - x) * (map.k0 + map.k1 * x));
-    const double u = v - s.middle;
-    double px = s.x[n], py = s.y[n];
-    double qx = px, qy = py;  // by Horner's rule with its derivative
-    for (int i = n - 1; i > 0; --i) {
-      px = s.x[i] + u * px;
-      py = s.y[i] + u * py;
-      qx = px + u * qx;
-      qy = py + u * qy;
-    }
-    const double dx = t * (c1.x + t * (c2.x + t * c3.x)) - u * px - shift.x;
-    const double dy = t * (c1.y + t * (c2.y + t * c3.y)) - u * py - shift.y;
-    largest.across = std::max(largest.across, std::abs(dx * qy - dy * qx));
-    largest.square = std::max(largest.square, dx * dx + dy * dy);
-    largest.pace = std::max(largest.pace, std::abs(qx * qx + qy * qy - 1));
-  }
-  return largest;
-}
-
-/// Bound for all of [w0, w1]. A point at D = a along + b across the curve is within |b| of it, up
-/// to what the curve bends over the length a: a^2 / 2 times curvature.
-template <int N>
-double stretch_bound(const SeriesTable::Stretch& s, double w0, double w1, double v0, double v1,
-                     const Cubic& c, const ParameterMap& map) {
-  const NodeValues at = node_values<N>(s, w0, w1, v0, v1, c, map);
-  const auto whole = [](double value, int degree) {
-    return value / std::cos(std::min(degree, N - 1) * core::kPi / (2 * N));
-  };
-  const int degree = std::max(kCarried, s.degree);
-  const double pace = 1 - whole(at.pace, 2 * s.degree - 2);
-  const double any = whole(std::sqrt(at.square), degree);
-  if (!(pace > 0.5) || !(any < 0.1) || std::isinf(s.curvature)) return any + s.remainder;
-  const double across = whole(at.across, degree + s.degree - 1) / std::sqrt(pace);
-  return std::min(any, across + any * any * s.curvature) + s.remainder;
-}
-
-}  // namespace
-
-double cubic_bound(const SeriesTable& table, double v0, double v1, const Cubic& c, double wanted) {
-  const ParameterMap map = parameter_map(table, v0, v1, c);
-  double largest = 0;
-  for (const auto& s : table.stretches()) {
-    const double w0 = std::max(v0, s.from);
-    const double w1 = std::min(v1, s.to);
-    if (!(w0 < w1)) continue;
-    double bound = stretch_bound<48>(s, w0, w1, v0, v1, c, map);
-    if (bound > wanted && bound < 1.4 * wanted)
-      bound = std::min(bound, stretch_bound<192>(s, w0, w1, v0, v1, c, map));
-    if (!std::isfinite(bound)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, bound);
-  }
-  return largest + 2e-15;
 }
 
 }  // namespace keyline::lac::detail

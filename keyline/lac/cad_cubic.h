@@ -44,6 +44,22 @@ struct Cubic {
   std::array<core::Vector2, 4> control;
 };
 
+inline core::Vector2 value(const Cubic& c, double t) {
+  const double s = 1 - t;
+  const auto& b = c.control;
+  return s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
+}
+inline core::Vector2 slope(const Cubic& c, double t) {
+  const double s = 1 - t;
+  const auto& b = c.control;
+  return 3 * (s * s * (b[1] - b[0]) + 2 * s * t * (b[2] - b[1]) + t * t * (b[3] - b[2]));
+}
+/// One step of the foot of p on the cubic, against the direction given.
+inline double step_foot(const Cubic& c, core::Vector2 p, core::Vector2 direction, double t) {
+  const double pace = dot(slope(c, t), direction);
+  return pace > 0 ? t - dot(value(c, t) - p, direction) / pace : t;
+}
+
 struct CubicTry {
   Cubic cubic;
   bool sound = false;  ///< handles of sensible length, feet found
@@ -62,7 +78,8 @@ struct HandleGuess {
 CubicTry try_cubic(const SeriesTable& table, double v0, double v1, const Frame& start,
                    const Frame& end, const HandleGuess& guess);
 
-/// Bound of the distance between the piece over [v0, v1] and the cubic, both ways.
+/// Bound of the distance between the piece over [v0, v1] and the cubic, both ways; `wanted` is the
+/// bound that matters, to a thousandth of which it need not be exact.
 double cubic_bound(const SeriesTable& table, double v0, double v1, const Cubic& cubic,
                    double wanted);
 
@@ -70,7 +87,7 @@ struct CubicPiece {
   Cubic cubic;
   double v0 = 0, v1 = 1;
   double bound = 0;
-  bool monotone = false;  ///< certified; false where not asked for
+  bool monotone = false;  ///< certified; not looked into further where not asked for
 };
 
 /// As few cubics as the tolerance, a fraction of the length, allows; empty if it cannot be met.
