@@ -149,8 +149,32 @@ Vector2 arm_vector(const Arm& arm, double lambda) {
   return sum;
 }
 
+InflectionArm inflection_arm(double turned, double m) {
+  // The exponential's series, term by term.
+  InflectionArm arm{{1, 0}, {0, 0}};
+  Vector2 term{1, 0};  // (i turned)^(k-1) / (k-1)!
+  for (int k = 1; k < 60; ++k) {
+    const double share = 1 / (m * k + 1);
+    arm.by_turned = arm.by_turned + share * core::perpendicular_left(term);
+    term = (turned / k) * core::perpendicular_left(term);
+    arm.chord = arm.chord + share * term;
+    if (std::abs(term.x) + std::abs(term.y) < 1e-18) break;
+  }
+  return arm;
+}
+
 Vector2 arm_vector_at(const Arm& arm, double fraction, double complement) {
   if (arm.range == 0) return arc_vector(arm.turning, fraction);
+  const bool inflects = std::isinf(arm.range) && arm.b > arm.a && arm.a > 0;
+  if (inflects && std::abs(arm.turning) < kLargestSeriesTurning) {
+    // From the inflection, where the tangent angle goes as the power m of the distance.
+    const double m = 1 + 1 / arm.a;
+    const Vector2 whole = inflection_arm(-arm.turning, m).chord;
+    if (complement <= 0) return core::rotate_ccw(whole, arm.turning);
+    const double turned = -arm.turning * std::pow(complement, m);
+    const Vector2 rest = complement * inflection_arm(turned, m).chord;
+    return core::rotate_ccw(whole - rest, arm.turning);
+  }
   return arm_vector(arm, arm.lambda_at(fraction, complement));
 }
 

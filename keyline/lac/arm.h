@@ -78,6 +78,16 @@ class PanelWalk {
   double at_ = 0;
 };
 
+/// Chord of the unit arm that leaves an inflection with tangent angle turned * x^m at the fraction
+/// x of its length, in the frame of the inflection's tangent, and its derivative by turned.
+/// |turned| <= kLargestSeriesTurning, m > 1; accuracy 1e-15.
+struct InflectionArm {
+  core::Vector2 chord;
+  core::Vector2 by_turned;
+};
+inline constexpr double kLargestSeriesTurning = 4;  ///< cancellation costs e^4 / 10 roundings
+InflectionArm inflection_arm(double turned, double m);
+
 /// Vector from the heavy end to lambda, in the frame of the heavy end's tangent (pointing into the
 /// arm), as a fraction of the arm's length.
 core::Vector2 arm_vector(const Arm& arm, double lambda);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/arm.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::lac::detail {
@@ -133,27 +134,6 @@ PieceShape logarithmic_shape(double alpha, double k0, double k1, const Curvature
 /// Product of two vectors as complex numbers, and the conjugate.
 Vector2 times(Vector2 a, Vector2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
 Vector2 conjugate(Vector2 a) { return {a.x, -a.y}; }
-
-/// Chord of the unit arm that leaves an inflection with tangent angle turned * x^m at the fraction
-/// x of its length, and its derivative by turned: the series of the exponential, term by term.
-struct InflectionArm {
-  Vector2 chord;
-  Vector2 by_turned;
-};
-constexpr double kLargestSeriesTurning = 4;  ///< cancellation costs e^4 roundings
-
-InflectionArm inflection_arm(double turned, double m) {
-  InflectionArm arm{{1, 0}, {0, 0}};
-  Vector2 term{1, 0};  // (i turned)^(k-1) / (k-1)!
-  for (int k = 1; k < 60; ++k) {
-    const double share = 1 / (m * k + 1);
-    arm.by_turned = arm.by_turned + share * core::perpendicular_left(term);
-    term = (turned / k) * core::perpendicular_left(term);
-    arm.chord = arm.chord + share * term;
-    if (std::abs(term.x) + std::abs(term.y) < 1e-18) break;
-  }
-  return arm;
-}
 
 /// Piece of slope alpha < 0 seen from its inflection, which may lie outside: z = kappa^p is linear
 /// in the arc length and zero there.
