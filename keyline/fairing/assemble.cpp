@@ -65,8 +65,8 @@ std::vector<PointPlace> place_points(const RunResult& result, const Run& run) {
   return places;
 }
 
-void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve,
-              double start) {
+void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,
+              const RunOptions& options) {
   const std::vector<PointPlace> places = place_points(solved, run);
   std::vector<int> count(solved.chain.pieces.size(), 0);
   std::vector<double> deviation(solved.chain.pieces.size(), 0);
@@ -80,7 +80,8 @@ void read_run(FairResult& result, const RunResult& solved, const Run& run, int c
     if (std::abs(place.offset) >= std::abs(kept)) kept = place.offset;
   }
   const double rms = std::sqrt(square / static_cast<double>(places.size()));
-  std::vector<FairPiece> pieces = read_pieces(solved.chain, std::max(result.noise, rms), count);
+  std::vector<FairPiece> pieces =
+      read_pieces(solved.chain, std::max(result.noise, rms), count, options);
   for (FairPiece& piece : pieces) {
     piece.curve = curve;
     piece.start += start;

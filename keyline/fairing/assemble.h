@@ -20,7 +20,8 @@ struct RegionPoints {
 RegionPoints points_in_region(const std::vector<core::Point2>& points, core::Interval region);
 
 /// Adds a run's pieces and its points' offsets.
-void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start);
+void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,
+              const RunOptions& options);
 
 /// Largest and mean square deviation of the offsets collected, and whether they pass.
 void measure_deviation(FairResult& result);

@@ -18,7 +18,7 @@ constexpr int kSqueezeRounds = 5;
 constexpr int kNoisyStart = 4;  // first number of pieces tried: short ones follow the noise
 constexpr double kTie = 1e-3;   // costs closer than this part of the squared tolerance are equal
 
-constexpr double kBias = 0.2;  // of the noise: a bias that is let pass, however many points show it
+constexpr double kBias = 0.3;  // of the noise: a bias that is let pass, however many points show it
 constexpr double kChance = 3.5;  // standard errors of a mean that are chance
 
 /// A trend over runs of about `run` points: mean offset beyond what noise explains.
@@ -57,7 +57,7 @@ class Merger {
 
   void run() {
     merge_all(false);
-    if (!noisy(options_.accept) && !wanted_reached()) merge_all(true);
+    if (!wanted_reached()) merge_all(true);
   }
 
   FitChain& chain() { return chain_; }

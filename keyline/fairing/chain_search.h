@@ -15,7 +15,7 @@ struct Acceptance {
   double noise = 0;
 };
 
-/// True where the noise is what limits: trends are looked for, largest offsets are not fought.
+/// True where the noise is what limits: trends in the offsets are looked for.
 bool noisy(const Acceptance& accept);
 
 /// An end of an open chain and as much of it as is held.

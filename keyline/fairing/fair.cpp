@@ -135,7 +135,6 @@ class Job {
     }
     split(spline, k);
     solved_.push_back(detail::fair_run(runs_[k], spline, run_options(k)));
-    result_.cancelled = result_.cancelled || solved_.back().cancelled;
     note_run(result_, solved_.back(), k);
     result_.splines.push_back(std::move(spline));
     return {};
@@ -190,6 +189,7 @@ class Job {
       if (auto done = reinterpret(); !done) return std::unexpected(done.error());
     }
     detail::assemble(result_, solved_, kept_before_, kept_after_);
+    result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
   }
 
@@ -200,7 +200,7 @@ class Job {
     result_.within_tolerance = true;
     double start = 0;
     for (std::size_t k = 0; k < solved_.size(); ++k) {
-      detail::read_run(result_, solved_[k], runs_[k], static_cast<int>(k), start);
+      detail::read_run(result_, solved_[k], runs_[k], static_cast<int>(k), start, run_options(k));
       start += lac::arc_length(solved_[k].chain);
     }
     detail::measure_deviation(result_);

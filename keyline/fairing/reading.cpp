@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/analysis/volume.h"
+#include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -33,12 +34,12 @@ analysis::Rhythm rhythm_of(const lac::Piece& piece) {
 }
 
 std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
-                                   const std::vector<int>& points_per_piece) {
+                                   const std::vector<int>& points_per_piece,
+                                   const RunOptions& options) {
   std::vector<FairPiece> pieces;
   double start = 0;
   const std::vector<lac::Segment> segments = lac::segments(chain);
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const lac::Chain own = lac::chain_of(segments[i]);
     FairPiece piece;
     piece.piece = static_cast<int>(i);
     piece.start = start;
@@ -46,11 +47,14 @@ std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
     piece.rhythm = rhythm_of(chain.pieces[i]);
     if (piece.rhythm != analysis::Rhythm::straight && piece.rhythm != analysis::Rhythm::arc)
       piece.slopes = {segments[i].alpha};
-    piece.volume = analysis::volume(own);
-    piece.interpretations = readings_of(own, noise, points_per_piece[i]);
+    piece.volume = analysis::volume(lac::chain_of(segments[i]));
     start += piece.length;
     pieces.push_back(std::move(piece));
   }
+  numeric::parallel_for(pieces.size(), options.threads, [&](std::size_t i) {
+    if (options.progress.stop_requested()) return;
+    pieces[i].interpretations = readings_of(lac::chain_of(segments[i]), noise, points_per_piece[i]);
+  });
   return pieces;
 }
 

@@ -11,9 +11,10 @@ namespace keyline::fairing::detail {
 analysis::Rhythm rhythm_of(const lac::Piece& piece);
 
 /// The pieces of a chain as they read: own rhythm and slope, volume, and the readings that the
-/// points would also allow, given their noise and number.
+/// points would also allow, given their noise and number. Cancelled work leaves the readings out.
 std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
-                                   const std::vector<int>& points_per_piece);
+                                   const std::vector<int>& points_per_piece,
+                                   const RunOptions& options);
 
 /// Slope range and kind that a reading asks for; bad_input for "arcs", which no G2 chain can be.
 core::Result<PieceWish> wish_for(const InterpretationOverride& asked, int piece_in_chain);

@@ -128,12 +128,11 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
     for (std::size_t j = 0; j < result.points.size(); ++j)
       result.points[j].weight = search.weights[j];
     result.fit = std::move(search.chain);
-    result.cancelled = search.cancelled;
     result.start_pieces = search.start_pieces;
     if (result.exact) result.accept = {std::max(kExactness, 6 * result.accept.noise), 0};
     if (found && options.pieces == 0)
       result.straightened = straighten(result.fit, result.points, result.accept);
-    result.within_tolerance = polish(result.fit, result.points, result.accept);
+    result.within_tolerance = polish(result.fit, result.points, result.accept, result.exact);
     if (result.within_tolerance || !found || options.pieces > 0 || search.cancelled) break;
   }
 }
@@ -175,7 +174,7 @@ void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
   FitChain& chain = result.fit;
   tie(chain.joints.front(), chain.hold_start, held_end(run, frame, spline, true));
   tie(chain.joints.back(), chain.hold_end, held_end(run, frame, spline, false));
-  result.within_tolerance = polish(chain, result.points, result.accept);
+  result.within_tolerance = polish(chain, result.points, result.accept, result.exact);
   if (!result.within_tolerance && loose.within_tolerance)
     result = fair_run(run, spline, options);
   else

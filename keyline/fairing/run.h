@@ -53,7 +53,6 @@ struct RunResult {
   Acceptance accept;
   bool within_tolerance = false;
   bool exact = false;  ///< reproduces the points to rounding
-  bool cancelled = false;
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
 };

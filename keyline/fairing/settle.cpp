@@ -119,15 +119,17 @@ namespace {
 /// Makes a chain fit for laying out: refined, then without gaps.
 class Polisher {
  public:
-  Polisher(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept)
-      : chain_(chain), points_(points), accept_(accept), best_(chain) {
+  Polisher(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept, bool exact)
+      : chain_(chain), points_(points), accept_(accept), exact_(exact), best_(chain) {
     fit_.fine = true;
     fit_.scale = accept.tolerance;
-    fit_.slope_prior = 1e-5;
   }
 
   bool run() {
     const FitChain rough = chain_;
+    fit_.slope_prior = std::max(accept_.noise, 0.05 * accept_.tolerance) / (3 * accept_.tolerance);
+    if (!exact_ && refine(60, 1e-9)) return true;
+    fit_.slope_prior = 1e-5;
     for (const int iterations : {60, 6, 0}) {
       chain_ = rough;
       if (refine(iterations, iterations > 6 ? 1e-9 : 1e-3)) return true;
@@ -176,6 +178,7 @@ class Polisher {
   FitChain& chain_;
   std::vector<FitPoint>& points_;
   const Acceptance& accept_;
+  bool exact_;
   ChainFitOptions fit_;
   FitChain best_;
   double least_ = HUGE_VAL;
@@ -202,8 +205,8 @@ lac::Chain laid_forward(const FitChain& chain) {
 
 }  // namespace
 
-bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept) {
-  return Polisher(chain, points, accept).run();
+bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept, bool exact) {
+  return Polisher(chain, points, accept, exact).run();
 }
 
 lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed) {

@@ -15,7 +15,11 @@ int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Accep
 
 /// Least squares to the last digits; gaps between pieces close. Where the points do not pass then,
 /// those far off are given more weight. True where they pass; else the chain nearest to it.
-bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept);
+///
+/// Slopes that the points hardly tell (of pieces nearly straight or circular) are drawn to -1, each
+/// unit away counting as much as an offset of a third of the noise (or of a twentieth of the
+/// tolerance); not where `exact`, nor where the points do not pass then.
+bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept, bool exact);
 
 /// One forward chain, G2 at its joints by construction, in the frame `to_canonical` maps from,
 /// run the other way where `reversed`; closed chains and held ends meet their targets to rounding.

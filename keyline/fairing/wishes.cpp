@@ -110,7 +110,7 @@ void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wish
   fit.iterations = 80;
   fit.gradient_tolerance = 1e-6;
   fit_chain(result.fit, result.points, fit);
-  result.within_tolerance = polish(result.fit, result.points, accept);
+  result.within_tolerance = polish(result.fit, result.points, accept, result.exact);
   result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
 }
 

@@ -69,6 +69,34 @@ TEST(FairOptions, SlopeAskedForIsHeld) {
   EXPECT_EQ(only_chain(result).pieces[0].alpha, -0.5);
 }
 
+/// [Fairing], 4, curve B: points of a single R, replaced by a line of slope 2/3 "in the meaning of
+/// correcting what was produced in the facilitation".
+TEST(FairOptions, ASingleRBecomesSlopeTwoThirds) {
+  const lac::Chain screen{{{0, 0}, 0.6}, {{-1, 260, -1 / 900.0, -1 / 900.0}}, false};
+  const acquire::KeyLine line = line_through(testing::measure(screen, 130, 4e-4, 5));
+  const FairResult single = fair(line).value();
+  ASSERT_EQ(single.pieces.size(), 1U);
+  EXPECT_EQ(single.pieces[0].rhythm, analysis::Rhythm::arc);
+  FairOptions options;
+  options.interpretations = {{.piece = 0, .rhythm = {}, .slope = 2.0 / 3}};
+  const FairResult chosen = fair(line, options).value();
+  EXPECT_DOUBLE_EQ(only_chain(chosen).pieces[0].alpha, 2.0 / 3);
+  EXPECT_EQ(chosen.pieces[0].rhythm, analysis::Rhythm::plus);
+  EXPECT_TRUE(chosen.within_tolerance);
+}
+
+/// Slopes of pieces that are nearly arcs are not told by the points: they stay moderate.
+TEST(FairOptions, SlopesThatThePointsDoNotTellStayModerate) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    const lac::Chain roof{
+        {{0, 0}, 0.2}, {{-1, 200, -2e-3, -1e-3}, {-1, 220, -1e-3, -1.25e-3}}, false};
+    const FairResult result = fair(line_through(testing::measure(roof, 200, 5e-4, seed))).value();
+    EXPECT_TRUE(result.within_tolerance);
+    for (const lac::Piece& piece : only_chain(result).pieces)
+      EXPECT_LE(std::abs(piece.alpha + 1), 4) << seed;
+  }
+}
+
 TEST(FairOptions, InflectionForbidsAPositiveSlopeAndSaysSo) {
   const lac::Chain s{{{0, 0}, 0}, {{-1, 80, 0.02, -0.02}}, false};
   FairOptions options;
@@ -102,6 +130,38 @@ TEST(FairOptions, CancelledWorkSaysSo) {
   const auto result = fair(bow(), options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, core::ErrorCode::cancelled);
+}
+
+/// Stopped at its n-th report, early, amid the knots, amid the pieces: nothing yet, or a chain that
+/// is whole though not the shortest.
+TEST(FairOptions, CancelledAtAnyStageKeepsTheBest) {
+  const acquire::KeyLine line = line_through(testing::measure(testing::random_chain(5), 120, 0, 1));
+  std::vector<double> reports;
+  FairOptions watched;
+  watched.progress.sink = [&](double fraction, std::string_view) { reports.push_back(fraction); };
+  const FairResult whole = fair(line, watched).value();
+  ASSERT_GE(reports.size(), 10U);
+  const std::size_t n = reports.size();
+  int kept = 0;
+  for (const std::size_t stop : {std::size_t{1}, n / 4, n / 2, 3 * n / 4, n - 1}) {
+    FairOptions options;
+    options.progress.cancellation = core::CancellationToken::make();
+    std::size_t calls = 0;
+    options.progress.sink = [&](double, std::string_view) {
+      if (++calls >= stop) options.progress.cancellation.request_stop();
+    };
+    const auto result = fair(line, options);
+    if (!result) {
+      EXPECT_EQ(result.error().code, core::ErrorCode::cancelled) << stop;
+      continue;
+    }
+    ++kept;
+    EXPECT_TRUE(result->cancelled) << stop;
+    EXPECT_TRUE(lac::validate(only_chain(*result))) << stop;
+    EXPECT_GE(result->pieces.size(), whole.pieces.size()) << stop;
+    for (const auto& joint : result->joints) EXPECT_LE(joint.relative_curvature_jump, 1e-9);
+  }
+  EXPECT_GE(kept, 2);
 }
 
 /// Line, arc, line, as drawn with a compass.
