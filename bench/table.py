@@ -4,6 +4,7 @@
 Ours are the Google Benchmark programs FOLDER/*_bench, named "<subject>/<size>". A peer is a script
 beside this file that prints one JSON object per line: {"name": "<subject>/<size>", "peer": who,
 "seconds": time of one run}. A peer whose modules are missing says so on standard error and exits 77.
+A peer that is a C++ library is a benchmark of the program itself, "<subject>/peer:<who>/<size>".
 """
 
 import json
@@ -29,6 +30,16 @@ def ours(folder, pattern):
                               row["name"])
                 seconds[name] = row["real_time"] * UNIT[row["time_unit"]]
     return seconds
+
+
+def take_peers(seconds):
+    """Moves the peers among a program's own benchmarks to {name: [(peer, seconds), …]}."""
+    found = {}
+    for name in [name for name in seconds if "/peer:" in name]:
+        who = re.search(r"/peer:([^/]*)", name)
+        plain = name.replace(who.group(0), "")
+        found.setdefault(plain, []).append((who.group(1), seconds.pop(name)))
+    return found
 
 
 def peers(pattern):
@@ -62,6 +73,8 @@ def sort_key(name):
 def main():
     pattern = sys.argv[2] if len(sys.argv) > 2 else ""
     mine, others = ours(Path(sys.argv[1]), pattern), peers(pattern)
+    for name, rows in take_peers(mine).items():
+        others.setdefault(name, []).extend(rows)
     table = [("what", "keyline", "peer", "its time", "ratio")]
     for name in sorted(mine, key=lambda n: (n.split("/")[0], sort_key(n))):
         peers_of_it = others.get(name) or [("", None)]
