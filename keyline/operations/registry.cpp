@@ -19,7 +19,12 @@ std::vector<Operation> all_operations() {
           lac_spline_operation(),
           lac_volume_operation(),
           surface_continuity_operation(),
-          surface_interrogate_operation()};
+          surface_edit_operation(),
+          surface_interrogate_operation(),
+          surface_loft_operation(),
+          surface_revolve_operation(),
+          surface_sav_operation(),
+          surface_sweep_operation()};
 }
 
 }  // namespace keyline::operations

@@ -23,7 +23,12 @@ Operation lac_space_operation();
 Operation lac_spline_operation();
 Operation lac_volume_operation();
 Operation surface_continuity_operation();
+Operation surface_edit_operation();
 Operation surface_interrogate_operation();
+Operation surface_loft_operation();
+Operation surface_revolve_operation();
+Operation surface_sav_operation();
+Operation surface_sweep_operation();
 
 /// All of the above.
 std::vector<Operation> all_operations();

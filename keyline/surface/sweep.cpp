@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/curve/length.h"
 #include "keyline/surface/interpolate.h"
 #include "keyline/surface/tensor.h"
 
@@ -22,7 +23,8 @@ using curve::BSpline3;
 
 namespace {
 
-constexpr int kMostPlaces = 513;
+constexpr int kMostPlaces = 513;  ///< on each part of the rail
+constexpr std::size_t kMostParts = 64;
 constexpr int kBetween = 4;   ///< places checked between two of the interpolation
 constexpr int kSubsteps = 8;  ///< of the frame between two checked places
 
@@ -38,6 +40,7 @@ BSplineSurface with_rows(const BSpline3& profile, int degree_u, std::vector<doub
 }
 
 void repeat_weights(BSplineSurface& s, const std::vector<double>& weights) {
+  if (weights.empty()) return;
   for (int i = 0; i < s.net.rows; ++i)
     s.weights.insert(s.weights.end(), weights.begin(), weights.end());
 }
@@ -78,21 +81,51 @@ void carry(const Station& from, Station& to) {
   to.normal = c2 > 0 ? normal - (2 / c2) * dot(v2, normal) * v2 : normal;
 }
 
-/// Frames at `count` equal steps of the rail, both ends included.
-Result<std::vector<Station>> stations(const BSpline3& rail, int count) {
-  std::vector<Station> list;
-  auto before = place_on(rail, 0);
-  if (!before) return std::unexpected(before.error());
-  before->normal = any_across(before->tangent);
-  list.push_back(*before);
+/// The rail with its length as parameter, and the shares of it between which it is G2: where its
+/// curvature jumps the frame turns at another rate, a kink in what it carries.
+struct Rail {
+  const BSpline3& curve;
+  curve::ArcLengthMap map;
+  std::vector<double> parts{0};
+  double at(double share) const {
+    return curve::parameter_at_length(curve, map, share * curve::total_length(map));
+  }
+};
+
+Vector3 curvature_vector(const curve::Jet3& j) {
+  const double squared = dot(j.first, j.first);
+  return (j.second - (dot(j.second, j.first) / squared) * j.first) / squared;
+}
+
+Rail rail_of(const BSpline3& curve) {
+  Rail rail{curve, curve::arc_length_map(curve, 1e-10)};
+  const double length = curve::total_length(rail.map);
+  for (const double t : curve::breakpoints(curve)) {
+    if (t <= 0 || t >= 1) continue;
+    const Vector3 before = curvature_vector(curve::jet(curve, std::nextafter(t, 0)));
+    const Vector3 after = curvature_vector(curve::jet(curve, t));
+    if (norm(after - before) * length > 1e-6)
+      rail.parts.push_back(curve::length_at_parameter(curve, rail.map, t) / length);
+  }
+  rail.parts.push_back(1);
+  return rail;
+}
+
+/// Frames at `count` equal steps of the rail's length from one share to another; the first is
+/// `start`, carried on to the last.
+Result<std::vector<Station>> stations(const Rail& rail, const Station& start, double from,
+                                      double to, int count) {
+  std::vector<Station> list{start};
+  Station before = start;
   for (int i = 1; i < count; ++i) {
     for (int k = 1; k <= kSubsteps; ++k) {
-      auto next = place_on(rail, (i - 1 + static_cast<double>(k) / kSubsteps) / (count - 1));
+      const double share = (i - 1 + static_cast<double>(k) / kSubsteps) / (count - 1);
+      auto next = place_on(rail.curve, rail.at((1 - share) * from + share * to));
       if (!next) return std::unexpected(next.error());
-      carry(*before, *next);
-      before = next;
+      carry(before, *next);
+      before = *next;
     }
-    list.push_back(*before);
+    list.push_back(before);
   }
   return list;
 }
@@ -124,34 +157,68 @@ Result<void> check_corners(const BSpline3& rail) {
   return {};
 }
 
-/// Swept surface with `count` places of interpolation, and how far it is off between them.
-Result<MadeSurface> sweep_with(const BSpline3& profile, const BSpline3& rail, int count) {
-  const auto all = stations(rail, (count - 1) * kBetween + 1);
-  if (!all) return std::unexpected(all.error());
+/// Control values over one part of the rail with `count` places, and how far off between them.
+struct SweptPart {
+  std::vector<double> knots;  ///< over [0, 1]
+  std::vector<std::vector<Vector3>> control;
+  double deviation = 0;
+};
+
+SweptPart sweep_part(const BSpline3& profile, const Station& start,
+                     const std::vector<Station>& all) {
+  const int count = (static_cast<int>(all.size()) - 1) / kBetween + 1;
   std::vector<double> places;
   std::vector<std::vector<Vector3>> rows;
   for (int i = 0; i < count; ++i) {
     places.push_back(i / (count - 1.0));
-    rows.push_back(
-        carried_row(profile, all->front(), (*all)[static_cast<std::size_t>(i) * kBetween]));
+    rows.push_back(carried_row(profile, start, all[static_cast<std::size_t>(i) * kBetween]));
   }
-  const auto knots = detail::averaged_knots(places, 3);
-  const auto control = detail::interpolate(places, knots, 3, rows);
-  MadeSurface made{with_rows(profile, 3, knots, count), 0};
-  for (const auto& row : control)
-    for (const Vector3& v : row) made.surface.net.points.push_back(Point3{} + v);
-  repeat_weights(made.surface, profile.weights);
-  for (std::size_t i = 0; i < all->size(); ++i) {
+  SweptPart part;
+  part.knots = detail::averaged_knots(places, 3);
+  part.control = detail::interpolate(places, part.knots, 3, rows);
+  for (std::size_t i = 0; i < all.size(); ++i) {
     if (i % kBetween == 0) continue;
-    const auto basis = detail::spline_basis(3, knots, static_cast<double>(i) / (all->size() - 1));
-    const auto exact = carried_row(profile, all->front(), (*all)[i]);
+    const auto basis =
+        detail::spline_basis(3, part.knots, static_cast<double>(i) / (all.size() - 1));
+    const auto exact = carried_row(profile, start, all[i]);
     for (std::size_t j = 0; j < exact.size(); ++j) {
       Vector3 here;
       for (int k = 0; k < basis.count; ++k)
-        here = here + basis.values[0][k] * control[basis.first + k][j];
-      made.deviation = std::max(made.deviation, norm(here - exact[j]));
+        here = here + basis.values[0][k] * part.control[basis.first + k][j];
+      part.deviation = std::max(part.deviation, norm(here - exact[j]));
     }
   }
+  return part;
+}
+
+/// The part's rows and knots after what is there; joined where the rail is G1, with triple knots.
+void append(BSplineSurface& s, const SweptPart& part, double from, double to) {
+  std::vector<double>& knots = s.knots[0];
+  const bool first = knots.empty();
+  if (!first) knots.pop_back();
+  for (std::size_t i = first ? 0 : 4; i < part.knots.size(); ++i)
+    knots.push_back((1 - part.knots[i]) * from + part.knots[i] * to);
+  for (std::size_t i = first ? 0 : 1; i < part.control.size(); ++i, ++s.net.rows)
+    for (const Vector3& v : part.control[i]) s.net.points.push_back(Point3{} + v);
+}
+
+/// Swept surface with `count` places of interpolation on each part.
+Result<MadeSurface> sweep_with(const BSpline3& profile, const Rail& rail, int count) {
+  auto start = place_on(rail.curve, 0);
+  if (!start) return std::unexpected(start.error());
+  start->normal = any_across(start->tangent);
+  MadeSurface made{with_rows(profile, 3, {}, 0), 0};
+  Station here = *start;
+  for (std::size_t i = 1; i < rail.parts.size(); ++i) {
+    const auto all =
+        stations(rail, here, rail.parts[i - 1], rail.parts[i], (count - 1) * kBetween + 1);
+    if (!all) return std::unexpected(all.error());
+    const SweptPart part = sweep_part(profile, *start, *all);
+    append(made.surface, part, rail.parts[i - 1], rail.parts[i]);
+    made.deviation = std::max(made.deviation, part.deviation);
+    here = all->back();
+  }
+  repeat_weights(made.surface, profile.weights);
   return made;
 }
 
@@ -201,8 +268,12 @@ Result<MadeSurface> sweep(const BSpline3& profile, const BSpline3& rail, double 
     return fail(ErrorCode::bad_input, "the tolerance is not greater than zero",
                 "give a length greater than zero", "tolerance");
   if (auto sound = check_corners(rail); !sound) return std::unexpected(sound.error());
+  const Rail way = rail_of(rail);
+  if (way.parts.size() > kMostParts)
+    return fail(ErrorCode::unsupported, "the curvature of the rail jumps at too many places",
+                "smooth the rail, or split it", "rail");
   for (int count = 5; count <= kMostPlaces; count = 2 * count - 1) {
-    auto made = sweep_with(profile, rail, count);
+    auto made = sweep_with(profile, way, count);
     if (!made || made->deviation <= tolerance) return made;
   }
   return fail(ErrorCode::not_converged, "the sweep is not within the tolerance",

@@ -96,5 +96,108 @@ TEST(SurfaceOperations, ContinuityPassesOrFails) {
             "edges");
 }
 
+json bicubic(double distortion) {
+  json rows = json::array();
+  for (int i = 0; i < 4; ++i) {
+    json row = json::array();
+    for (int j = 0; j < 4; ++j) {
+      const double a = 1.7 * i + 2.9 * j;
+      row.push_back({100.0 * i + distortion * std::sin(a), 70.0 * j + distortion * std::cos(a),
+                     4.0 * i * i + 5.0 * j * j + distortion * std::sin(2.1 * a)});
+    }
+    rows.push_back(std::move(row));
+  }
+  return {{"type", "bezier-surface"}, {"points", rows}};
+}
+
+TEST(SurfaceOperations, SavNamesItsCurvesAndTheWorst) {
+  const json r = result_of({{"op", "surface.sav"}, {"surface", bicubic(5)}});
+  ASSERT_EQ(r["curves"].size(), 8U);
+  EXPECT_EQ(r["curves"][0]["name"], "A1");
+  double sum = 0;
+  for (const json& c : r["curves"]) sum += c["cav"].get<double>();
+  EXPECT_NEAR(r["sav"].get<double>(), sum, 1e-9);
+  EXPECT_TRUE(r["worst"].is_string());
+  EXPECT_EQ(error_of({{"op", "surface.sav"}, {"surface", bicubic(5)}, {"alpha_max", 1.6}})["path"],
+            "alpha_max");
+  json rational = saddle();
+  rational["weights"] = {{1, 1}, {1, 2}};
+  EXPECT_EQ(error_of({{"op", "surface.sav"}, {"surface", rational}})["code"], "unsupported");
+}
+
+TEST(SurfaceOperations, SavOfASplineGoesByPatch) {
+  const json spline{{"type", "bspline-surface"},
+                    {"degree", {1, 2}},
+                    {"knots", {{0, 0, 1, 2, 2}, {0, 0, 0, 1, 1, 1}}},
+                    {"points",
+                     {{{0, 0, 0}, {0, 1, 0.1}, {0, 2, 0.5}},
+                      {{1, 0, 0}, {1, 1, 0.1}, {1, 2, 0.5}},
+                      {{2, 0, 1}, {2, 1, 1.1}, {2, 2, 1.5}}}}};
+  const json r = result_of({{"op", "surface.sav"}, {"surface", spline}});
+  ASSERT_EQ(r["patches"].size(), 2U);
+  EXPECT_EQ(r["curves"].size(), 10U);
+  EXPECT_EQ(r["curves"][9]["patch"], json({1, 0}));
+}
+
+TEST(SurfaceOperations, EditBringsSavDownAndSaysByHowMuchItDeparts) {
+  const json r = result_of({{"op", "surface.edit"}, {"surface", bicubic(5)}});
+  EXPECT_GT(r["before"]["sav"].get<double>(), 100);
+  EXPECT_LT(r["after"]["sav"].get<double>(), 1e-5);
+  EXPECT_GT(r["departure"].get<double>(), 0);
+  EXPECT_GE(r["tradeoff"].size(), 3U);
+  const json again = result_of({{"op", "surface.sav"}, {"surface", r["surface"]}});
+  EXPECT_LE(again["sav"].get<double>(), 1);
+  EXPECT_EQ(error_of({{"op", "surface.edit"}, {"surface", bicubic(5)}, {"keep", "all"}})["path"],
+            "keep");
+}
+
+TEST(SurfaceOperations, SweepsTakeLogAestheticQuasiAndFreeProfiles) {
+  const json segment{{"op", "lac.segment"}, {"points", {{0, 0}, {2, 0}, {3, 1.5}}}, {"alpha", -1}};
+  const json lac = result_of(segment)["curve"];
+  const json quasi = result_of({{"op", "lac.quasi"},
+                                {"points", {{0, 0}, {2, 0}, {3, 1.5}}},
+                                {"alpha", 0},
+                                {"degree", 8},
+                                {"form", "taylor-angle"}})["curve"];
+  const json free{{"type", "bspline"},
+                  {"degree", 2},
+                  {"knots", {0, 0, 0, 1, 2, 2, 2}},
+                  {"points", {{0, 0}, {1, 0.5}, {2, 0}, {3, 1}}}};
+  for (const json& profile : {lac, quasi, free}) {
+    for (const json& rail : {json({0, 0, 4}), lac, free}) {
+      const json r = result_of(
+          {{"op", "surface.sweep"}, {"profile", profile}, {"rail", rail}, {"tolerance", 1e-3}});
+      EXPECT_EQ(r["surface"]["type"], "bspline-surface");
+      EXPECT_LE(r["deviation"].get<double>(), 1e-3);
+    }
+    const json turned = result_of({{"op", "surface.revolve"},
+                                   {"profile", profile},
+                                   {"axis", {{"point", {0, -1, 0}}, {"direction", {1, 0, 0}}}}});
+    EXPECT_LE(turned["deviation"].get<double>(), 1e-4);
+  }
+  const json loft =
+      result_of({{"op", "surface.loft"}, {"sections", {lac, quasi, free}}, {"heights", {0, 1, 3}}});
+  EXPECT_EQ(loft["surface"]["degree"][0], 2);
+}
+
+TEST(SurfaceOperations, SweepsSayWhatIsWrong) {
+  const json line{{"type", "polyline"}, {"points", {{0, 0}, {1, 1}}}};
+  const auto path = [](json request) { return error_of(std::move(request)).value("path", ""); };
+  EXPECT_EQ(path({{"op", "surface.sweep"}, {"profile", line}, {"rail", {0, 0, 0}}}), "rail");
+  EXPECT_EQ(path({{"op", "surface.sweep"}, {"profile", 3}, {"rail", {0, 0, 1}}}), "profile");
+  EXPECT_EQ(
+      path({{"op", "surface.sweep"}, {"profile", line}, {"rail", {0, 0, 1}}, {"plane", "across"}}),
+      "plane");
+  EXPECT_EQ(path({{"op", "surface.revolve"}, {"profile", line}, {"axis", 1}}), "axis");
+  EXPECT_EQ(
+      path({{"op", "surface.revolve"}, {"profile", line}, {"axis", {{"direction", {0, 0, 0}}}}}),
+      "axis");
+  EXPECT_EQ(path({{"op", "surface.loft"}, {"sections", {line}}}), "sections");
+  EXPECT_EQ(path({{"op", "surface.loft"}, {"sections", {line, line}}, {"heights", {1}}}),
+            "heights");
+  EXPECT_EQ(path({{"op", "surface.loft"}, {"sections", {line, {{"type", "polyline"}}}}}),
+            "sections[1].points");
+}
+
 }  // namespace
 }  // namespace keyline::operations

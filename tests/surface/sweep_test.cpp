@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/curve/length.h"
 #include "keyline/surface/curvature.h"
 
 #include "test_surfaces.h"
@@ -110,10 +111,22 @@ TEST(Sweep, CarriesTheProfileAsARigidBodyAlongASpaceRail) {
   for (double u = 0; u <= 1; u += 0.1) {
     const auto at = [&](double v) { return evaluate(made->surface, u, v); };
     EXPECT_NEAR(distance(at(0), at(1)), 2, 3e-6);
-    EXPECT_NEAR(distance(at(0.5), curve::evaluate(rail, u)), 0.75, 3e-6);
-    const auto tangent = curve::jet(rail, u).first;
+    const double t = curve::parameter_at_length(rail, u * curve::arc_length(rail));
+    EXPECT_NEAR(distance(at(0.5), curve::evaluate(rail, t)), 0.75, 3e-6);
+    const auto tangent = curve::jet(rail, t).first;
     EXPECT_NEAR(dot(at(0) - at(1), tangent) / norm(tangent), 0, 3e-6);  // stays across
   }
+}
+
+TEST(Sweep, FollowsARailWhoseCurvatureJumps) {
+  const BSpline3 rail{2, {0, 0, 0, 1, 2, 2, 2}, {{0, 0, 0}, {1, 0.5, 0}, {2, 0, 0}, {3, 1, 0}}, {}};
+  const BSpline3 profile{1, {0, 0, 1, 1}, {{0, 0, 0}, {0, 1, 2}}, {}};
+  const auto made = sweep(profile, rail, 1e-6);
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_TRUE(validate(made->surface));
+  for (double u = 0; u <= 1; u += 0.03)
+    EXPECT_NEAR(distance(evaluate(made->surface, u, 0), evaluate(made->surface, u, 1)),
+                std::sqrt(5), 3e-6);
 }
 
 TEST(Sweep, SaysWhatItCannot) {

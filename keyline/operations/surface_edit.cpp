@@ -1,0 +1,85 @@
+#include "keyline/exchange/json_surface.h"
+#include "keyline/operations/fields.h"
+#include "keyline/operations/registry.h"
+#include "keyline/operations/surface_value_json.h"
+#include "keyline/surface/edit.h"
+
+namespace keyline::operations {
+namespace {
+
+using core::ErrorCode;
+using core::Result;
+using nlohmann::json;
+using surface::Keep;
+
+Result<Keep> keep_of(const json& request) {
+  const std::string name = string_or(request, "keep", "start");
+  if (name == "start") return Keep::start;
+  if (name == "corners") return Keep::corners;
+  if (name == "boundary") return Keep::boundary;
+  return core::fail(ErrorCode::bad_input, "\"" + name + "\" cannot be kept",
+                    "use start, corners or boundary", "keep");
+}
+
+/// A B-spline surface that is one Bézier patch counts as that.
+Result<surface::BezierSurface> patch_of(const json& request) {
+  const surface::PatchGrid grid = surface::patches_of(surface_of(request, "surface"));
+  if (grid.patches.size() == 1) return grid.patches.front();
+  return core::fail(ErrorCode::unsupported,
+                    "the surface has " + std::to_string(grid.patches.size()) + " Bezier patches",
+                    "edit one patch at a time", "surface");
+}
+
+Result<json> run(const json& request, const Context& context) {
+  const auto patch = patch_of(request);
+  if (!patch) return std::unexpected(patch.error());
+  const auto keep = keep_of(request);
+  if (!keep) return std::unexpected(keep.error());
+  surface::EditOptions options;
+  options.keep = *keep;
+  options.amount = number_or(request, "amount", options.amount);
+  options.limit = optional_number(request, "limit");
+  options.alpha_max = number_or(request, "alpha_max", options.alpha_max);
+  options.end_tolerance = number_or(request, "end_tolerance", 0);
+  options.progress = context.progress;
+  const auto edited = surface::edit(*patch, options);
+  if (!edited) return std::unexpected(edited.error());
+  json tradeoff = json::array();
+  for (const surface::TradeOff& t : edited->tradeoff)
+    tradeoff.push_back({{"target", t.name}, {"departure", t.departure}, {"sav", t.sav}});
+  return json{{"surface", exchange::to_json(edited->surface)},
+              {"before", surface_value_json(edited->before)},
+              {"after", surface_value_json(edited->after)},
+              {"departure", edited->departure},
+              {"amount", edited->amount},
+              {"target", edited->target},
+              {"tradeoff", std::move(tradeoff)}};
+}
+
+}  // namespace
+
+Operation surface_edit_operation() {
+  using Type = Field::Type;
+  return {
+      "surface.edit",
+      "Takes a Bezier patch to the nearest one whose rows and columns are Class A and of least "
+      "energy (Oya, Hanafusa, Aoyama, 4.3), with the trade-off between SAV and departure.",
+      {{"surface", Type::surface, true, "a polynomial Bezier patch"},
+       {"keep", Type::string, false,
+        "start (the first corner and the tangents of its row and column), corners or boundary"},
+       {"amount", Type::number, false, "0 as given to 1 the target"},
+       {"limit", Type::number, false, "largest departure from the given surface, a length"},
+       {"alpha_max", Type::number, false, "as in surface.sav"},
+       {"end_tolerance", Type::number, false,
+        "as in surface.sav, but 0 unless given: ends are held, and a curve at its minimum scores "
+        "0"}},
+      run,
+      {{"surface",
+        {{"type", "bezier-surface"},
+         {"points",
+          {{{0, 0, 0}, {1, 0, 0}, {2.2, 0, 0.4}},
+           {{0, 1, 0}, {1, 1.1, 0}, {2.2, 1, 0.4}},
+           {{0, 2.3, 0.5}, {1, 2.3, 0.6}, {2.2, 2.3, 0.9}}}}}}}};
+}
+
+}  // namespace keyline::operations
