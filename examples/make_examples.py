@@ -270,8 +270,19 @@ def clothoid():
     return {"clothoid.csv": "x,y\n" + rows(points, "%.12f"), "clothoid-truth.json": truth(chain)}
 
 
+def cubic():
+    """The cubic of Oya, Hanafusa and Aoyama, section 4.1: edges v, Mv, M^2 v with v = (1, 2) and M a
+    rotation by pi/4 times 1.05. Not Class A."""
+    points, edge = [(0.0, 0.0)], complex(1, 2)
+    for _ in range(3):
+        points.append((points[-1][0] + edge.real, points[-1][1] + edge.imag))
+        edge *= 1.05 * complex(math.cos(math.pi / 4), math.sin(math.pi / 4))
+    listed = ",".join("[%.12f,%.12f]" % p for p in points)
+    return {"cubic.json": '{"type":"bezier","points":[%s]}\n' % listed}
+
+
 MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
-          unordered, outlines, clothoid)
+          unordered, outlines, clothoid, cubic)
 
 
 def main():

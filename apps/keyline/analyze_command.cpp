@@ -1,4 +1,6 @@
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +9,9 @@
 #include "keyline/fit/fit_spline.h"
 #include "keyline/operations/analysis_json.h"
 #include "keyline/operations/analyze_report.h"
+#include "keyline/operations/class_a_figure.h"
+#include "keyline/operations/class_a_json.h"
+#include "keyline/operations/class_a_request.h"
 #include "keyline/operations/fair_report.h"
 #include "keyline/operations/pictures.h"
 #include "keyline/report/html_report.h"
@@ -27,7 +32,40 @@ struct Subject {
   document::Path path;
   double noise = 0;
   analysis::CurveAnalysis analysis = {};
+  std::optional<classa::Evaluation> class_a = {};
 };
+
+/// The value of a curve that one Bezier curve stands for; in "class_a" of the result, or why not.
+void add_class_a(Subject& subject, std::optional<double> tolerance, json& result) {
+  auto bezier = operations::class_a_bezier(subject.path, tolerance);
+  auto value = bezier ? classa::evaluate_curve(std::move(*bezier), {})
+                      : Result<classa::Evaluation>(std::unexpected(bezier.error()));
+  if (value) {
+    result["class_a"] = operations::evaluation_json(*value);
+    subject.class_a = std::move(*value);
+  } else {
+    result["class_a"] = {{"reason", value.error().message}};
+  }
+}
+
+void print_class_a(const json& value) {
+  if (value.contains("reason")) {
+    fmt::print("class A: none; {}\n", value["reason"].get<std::string>());
+    return;
+  }
+  std::string line =
+      fmt::format("class A: {}  CAV {:.6g}", operations::type_in_words(value["type"].get<int>()),
+                  value["cav"].get<double>());
+  if (value.contains("approximation"))
+    line += fmt::format("  (degree {} within {:.3g})", value["degree"].get<int>(),
+                        value["approximation"]["deviation"].get<double>());
+  if (value.contains("nearest") && value["nearest"].is_object()) {
+    line += fmt::format("  nearest {:.3g} away", value["nearest"]["distance"].get<double>());
+    if (value["nearest"]["cav"].is_number())
+      line += fmt::format(", CAV {:.4g}", value["nearest"]["cav"].get<double>());
+  }
+  fmt::print("{}\n", line);
+}
 
 /// Points are analysed through their spline, as in steps 2 to 4 of fairing.
 Result<Subject> spline_of(const acquire::KeyLine& line, const CommonOptions& common,
@@ -90,6 +128,7 @@ void print_summary(const std::string& name, const json& result) {
                piece["rhythm"].get<std::string>(), slopes, piece["volume"].get<double>(),
                piece["impression"].get<std::string>());
   }
+  print_class_a(result["class_a"]);
 }
 
 operations::ReportOptions report_options(const AnalyzeCommand& command, const Subject& subject) {
@@ -108,9 +147,13 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
                   const std::vector<Subject>& subjects) {
   writers[".html"] = [&]() -> Result<std::string> {
     std::vector<report::Report> reports;
-    for (const Subject& subject : subjects)
+    for (const Subject& subject : subjects) {
       reports.push_back(operations::analyze_report(subject.analysis, subject.path,
                                                    report_options(command, subject)));
+      if (subject.class_a)
+        reports.back().sections.push_back(
+            operations::class_a_section(subject.name, *subject.class_a, {}));
+    }
     return report::html_report(operations::joined_report(reports, "Curve analysis"));
   };
   const auto picture = [&] {
@@ -141,6 +184,7 @@ int run_analyze(const AnalyzeCommand& command) {
     if (!found) return report_failure(found.error(), command.input.files.front());
     subject.analysis = std::move(*found);
     json result = operations::curve_analysis_json(subject.analysis);
+    add_class_a(subject, common.tolerance, result);
     size = std::min(size, subject.analysis.length);
     curves.paths.push_back({{subject.name, {}, {}}, subject.path, 0});
     if (!common.json && !common.quiet) print_summary(subject.name, result);

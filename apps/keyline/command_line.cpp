@@ -180,6 +180,33 @@ Command add_analyze(CLI::App& app) {
   return {sub, runs(options, run_analyze)};
 }
 
+Command add_edit(CLI::App& app) {
+  auto options = std::make_shared<EditCommand>();
+  EditCommand& edit = *options;
+  auto* sub = app.add_subcommand("edit", "a curve towards Class A and least strain energy");
+  add_input(*sub, edit.input);
+  add_common(*sub, edit.common);
+  sub->add_option("--to", edit.to, "alpha,s to move to; the minimum-energy point unless given")
+      ->delimiter(',')
+      ->expected(2);
+  sub->add_option("--amount", edit.amount, "0: the given curve, 1: all the way")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_option("--hold", edit.hold, "with --to: ends-and-tangent, ends or start")
+      ->capture_default_str();
+  sub->add_option("--direction", edit.direction, "growing edges, or as-given")
+      ->capture_default_str();
+  sub->add_option("--branch", edit.branch, "of the minimum: own, growing or falling")
+      ->capture_default_str();
+  sub->add_option("--alpha-max", edit.alpha_max, "largest rotation, radians (1.0982)");
+  sub->add_option("--end-tolerance", edit.end_tolerance,
+                  "how far the end may move, a length (0.01 of the chord)");
+  sub->footer(
+      "Example: keyline edit examples/cubic.json --end-tolerance 0.01 -o report.html\n"
+      "Formats: svg, json (the exact Bezier), csv (samples), html (report), pdf, png.");
+  return {sub, runs(options, run_edit)};
+}
+
 Command add_convert(CLI::App& app) {
   auto options = std::make_shared<ConvertCommand>();
   auto* sub = app.add_subcommand("convert", "a curve from one format to another");
@@ -210,8 +237,8 @@ Command add_operations(CLI::App& app) {
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app) {
-  return {add_fair(app),    add_analyze(app), add_draw(app),      add_sketch(app),
-          add_convert(app), add_batch(app),   add_operations(app)};
+  return {add_fair(app),   add_analyze(app), add_draw(app),  add_edit(app),
+          add_sketch(app), add_convert(app), add_batch(app), add_operations(app)};
 }
 
 }  // namespace keyline::app

@@ -56,6 +56,19 @@ struct AnalyzeCommand {
 };
 int run_analyze(const AnalyzeCommand& command);
 
+struct EditCommand {
+  CommonOptions common;
+  InputOptions input;
+  std::vector<double> to;  ///< alpha, s; empty: the minimum-energy point
+  double amount = 1;
+  std::string hold = "ends-and-tangent";
+  std::string direction = "growing";
+  std::string branch = "own";
+  std::optional<double> alpha_max;
+  std::optional<double> end_tolerance;
+};
+int run_edit(const EditCommand& command);
+
 struct DrawCommand {
   CommonOptions common;
   std::vector<std::string> points;  ///< "x,y", or "x,y,z" with --space

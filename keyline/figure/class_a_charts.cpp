@@ -6,6 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/error.h"
 #include "keyline/figure/frame.h"
+#include "keyline/figure/model_figure.h"
 #include "keyline/figure/plot.h"
 
 namespace keyline::figure {
@@ -87,8 +88,46 @@ Drawing alpha_s_chart(const AlphaSPlane& plane) {
   plot.series.push_back(Series{.name = "s = 1/cos \u03B1", .points = upper, .color = palette(0)});
   plot.series.push_back(
       Series{.name = "s = cos \u03B1", .points = lower, .color = palette(0), .dash = {6, 3}});
+  if (!plane.reach.empty())
+    plot.series.push_back(Series{.name = "same ends and start tangent",
+                                 .points = plane.reach,
+                                 .color = kSoftInk,
+                                 .width = 1.2,
+                                 .dash = {1.5, 2.5},
+                                 .sets_range = false});
   add_points(plot, plane);
   return draw(plot);
+}
+
+Drawing before_after_chart(const BeforeAfter& pair, const ChartOptions& options) {
+  std::vector<Point2> all = pair.before.points;
+  for (const auto& list : {pair.after.points, pair.before_control, pair.after_control})
+    all.insert(all.end(), list.begin(), list.end());
+  if (all.empty()) throw core::InvalidInput("before_after_chart: there is no curve");
+  Box model{all.front(), all.front()};
+  for (const Point2& p : all) include(model, p);
+  using Sample = detail::LegendEntry;
+  std::vector<Sample> legend;
+  if (!pair.before.points.empty())
+    legend.push_back(Sample{.name = "before", .color = kInk, .dash = {5, 3}});
+  if (!pair.after.points.empty()) legend.push_back(Sample{.name = "after", .color = palette(0)});
+  const std::string title = options.title.empty() ? "Before and after" : options.title;
+  detail::ModelFigure figure = detail::start_figure(model, title, {}, legend, options);
+  const auto add_control = [&](const std::vector<Point2>& control, const Color& color) {
+    if (control.empty()) return;
+    detail::add_line(figure, control, Stroke{color, 0.8, {2, 2}});
+    std::vector<Point2> marks;
+    for (const Point2& p : control) marks.push_back(to_page(figure.view, p));
+    figure.drawing.add(Marks{marks, Marker::dot, 3, color});
+  };
+  add_control(pair.before_control, kSoftInk);
+  add_control(pair.after_control, palette(0));
+  if (!pair.before.points.empty())
+    detail::add_line(figure, pair.before.points, Stroke{kInk, 1.6, {5, 3}});
+  if (!pair.after.points.empty())
+    detail::add_line(figure, pair.after.points, Stroke{palette(0), 1.8, {}});
+  detail::add_scale_bar(figure, options.unit);
+  return std::move(figure.drawing);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "keyline/core/interval.h"
 #include "keyline/figure/contour.h"
+#include "keyline/figure/curve_charts.h"
 #include "keyline/figure/drawing.h"
 
 namespace keyline::figure {
@@ -26,15 +27,29 @@ struct AlphaSPlane {
   double alpha_max = 1.0982;      ///< radians, in (0, pi/2)
   core::Interval s = {0.4, 2.4};  ///< shown; 0 < low < high
   std::vector<AlphaSPoint> points = {};
-  std::vector<core::Point2> path = {};  ///< (alpha, s): for example from given to minimum
-  std::optional<Grid> energy = {};      ///< over (alpha, s)
-  std::vector<double> levels = {};      ///< of the energy; empty: eight even ones
+  std::vector<core::Point2> path = {};   ///< (alpha, s): for example from given to minimum
+  std::vector<core::Point2> reach = {};  ///< (alpha, s) that keep both ends and the start tangent
+  std::optional<Grid> energy = {};       ///< over (alpha, s)
+  std::vector<double> levels = {};       ///< of the energy; empty: eight even ones
   double width = 560;
   double height = 460;
 };
 
 /// Throws InvalidInput for an alpha_max or range of s outside the bounds above.
 Drawing alpha_s_chart(const AlphaSPlane& plane);
+
+/// A curve before and after editing, with control polygons; the lists of the curves as in
+/// curve_charts.h (points alone are used), any control list may be empty.
+struct BeforeAfter {
+  SampledCurve before = {};
+  SampledCurve after = {};
+  std::vector<core::Point2> before_control = {};
+  std::vector<core::Point2> after_control = {};
+};
+
+/// Both curves at one scale: before dashed and dark, after in colour. Throws InvalidInput where
+/// both are empty.
+Drawing before_after_chart(const BeforeAfter& pair, const ChartOptions& options = {});
 
 /// What a colour scale beside a picture says.
 struct ColorScale {

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 TEST(Commands, HelpAndVersion) {
   EXPECT_EQ(run_keyline("--version").out, "keyline 0.1.0\n");
-  for (const char* name : {"fair", "analyze", "draw", "convert", "batch", "operations"}) {
+  for (const char* name : {"fair", "analyze", "draw", "edit", "convert", "batch", "operations"}) {
     const Outcome o = run_keyline(std::string(name) + " --help");
     EXPECT_EQ(o.status, 0);
     EXPECT_NE(o.out.find("--threads"), std::string::npos) << name;

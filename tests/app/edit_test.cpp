@@ -1,0 +1,58 @@
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+using nlohmann::json;
+
+const std::string kCubic = example("cubic.json");
+
+TEST(Edit, PaperExampleToItsMinimum) {
+  const Scratch s;
+  const std::string report = s.path("report.html");
+  const std::string curve = s.path("curve.json");
+  const Outcome o = run_keyline("edit " + kCubic + " --end-tolerance 0.01 --json -o " + report +
+                                " -o " + curve + " -o " + s.path("page.png"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json result = json::parse(o.out);
+  EXPECT_EQ(result["before"]["type"], 3);
+  EXPECT_EQ(result["after"]["type"], 1);
+  EXPECT_NEAR(result["target"]["alpha"].get<double>(), 0.6474, 5e-5);
+  EXPECT_NEAR(result["target"]["s"].get<double>(), 1.4404, 5e-5);
+  const std::string page = slurp(report);
+  EXPECT_NE(page.find("Curvature along both curves"), std::string::npos);
+  const Outcome again = run_keyline("analyze --json " + curve);
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["class_a"]["type"], 2);
+}
+
+TEST(Edit, HalfWayAndByHand) {
+  const Outcome half = run_keyline("edit " + kCubic + " --amount 0.5 --json");
+  ASSERT_EQ(half.status, 0) << half.err;
+  const double alpha = json::parse(half.out)["after"]["alpha"].get<double>();
+  EXPECT_LT(alpha, 0.785);
+  EXPECT_GT(alpha, 0.65);
+  const Outcome hand = run_keyline("edit " + kCubic + " --to 0.7,1.5 --hold ends --json");
+  ASSERT_EQ(hand.status, 0) << hand.err;
+  EXPECT_NEAR(json::parse(hand.out)["after"]["s"].get<double>(), 1.5, 1e-9);
+}
+
+TEST(Edit, Failures) {
+  expect_failure(run_keyline("edit " + kCubic + " --alpha-max 1.6"), 2, "alpha_max");
+  expect_failure(run_keyline("edit " + kCubic + " --hold nothing"), 2, "hold");
+  expect_failure(run_keyline("edit " + kCubic + " --amount 2"), 2, "amount");
+  expect_failure(run_keyline("edit nowhere.json"), 3, "nowhere.json");
+  const Scratch s;
+  const std::string closed =
+      s.write("closed.json", R"({"type":"bezier","points":[[0,0],[1,0],[1,1],[0,0]]})");
+  expect_failure(run_keyline("edit " + closed), 1, "ends where it starts");
+}
+
+}  // namespace
+}  // namespace keyline::app_test
