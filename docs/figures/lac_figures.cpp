@@ -6,85 +6,25 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
-#include "keyline/core/error.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/plot.h"
 #include "keyline/lac/compound.h"
 #include "keyline/lac/hermite.h"
 #include "keyline/lac/region.h"
+#include "keyline/lac/space_hermite.h"
 #include "keyline/lac/spline.h"
+
+#include "scene.h"
 
 namespace {
 
 using namespace keyline;
 using core::Point2;
+using docs::handles;
+using docs::number;
+using docs::Scene;
+using docs::value;
 using figure::Drawing;
-
-template <class T>
-T value(core::Result<T> result) {
-  if (!result) throw core::InvalidInput(result.error().message);
-  return *std::move(result);
-}
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", x);
-  return text;
-}
-
-// ---- Curves at one scale both ways, with names ---------------------------------------------
-
-struct Line {
-  std::string name;  ///< empty: not in the legend
-  std::vector<Point2> points;
-  figure::Color color = figure::kInk;
-  double width = 1.8;
-  std::vector<double> dash = {};
-};
-
-struct Scene {
-  std::string title;
-  std::vector<Line> lines;
-  std::vector<Point2> marks;
-  double width = 480;
-  double height = 320;
-};
-
-void add_legend(const Scene& scene, Drawing& drawing) {
-  double y = 40;
-  for (const Line& line : scene.lines) {
-    if (line.name.empty()) continue;
-    drawing.add(figure::Shape{.path = figure::polyline(std::vector<Point2>{{12, y}, {34, y}}),
-                              .stroke = figure::Stroke{line.color, line.width, line.dash}});
-    drawing.add(figure::Label{
-        .at = {40, y}, .text = line.name, .size = 11.5, .baseline = figure::Baseline::middle});
-    y += 16;
-  }
-}
-
-Drawing draw(const Scene& scene) {
-  Drawing drawing;
-  drawing.width = scene.width;
-  drawing.height = scene.height;
-  drawing.title = scene.title;
-  figure::Box model;
-  for (const Line& line : scene.lines)
-    for (const Point2 p : line.points) include(model, p);
-  double names = 0;
-  for (const Line& line : scene.lines) names = std::max(names, figure::text_width(line.name, 11.5));
-  const figure::Box page{{names > 0 ? names + 56 : 16, 36}, {scene.width - 16, scene.height - 16}};
-  const figure::Viewport view = fit_viewport(model, page);
-  drawing.add(figure::Label{.at = {12, 22}, .text = scene.title, .size = 14, .bold = true});
-  for (const Line& line : scene.lines)
-    drawing.add(figure::Shape{.path = figure::polyline(to_page(view, line.points)),
-                              .stroke = figure::Stroke{line.color, line.width, line.dash}});
-  if (!scene.marks.empty())
-    drawing.add(figure::Marks{.points = to_page(view, scene.marks), .size = 5});
-  add_legend(scene, drawing);
-  return drawing;
-}
-
-Line handles(const std::vector<Point2>& p) { return {"", p, figure::kRaw, 1, {3, 3}}; }
 
 // ---- The figures --------------------------------------------------------------------------
 
@@ -159,6 +99,7 @@ Drawing compound(double alpha0, double alpha1, double ratio) {
               {}};
   scene.width = 330;
   scene.height = 300;
+  scene.room = 0.7;
   const auto solved =
       lac::solve_compound(kTriangle[0], kTriangle[1], kTriangle[2], {alpha0, alpha1, ratio});
   if (!solved) {
@@ -172,12 +113,16 @@ Drawing compound(double alpha0, double alpha1, double ratio) {
     const curve::Jet2 j = jet(solved->chain, t);
     curve[t < joint ? 0 : 1].push_back(j.point);
     const Point2 centre = centre_of_curvature(j);
-    if (norm(centre - Point2{1.2, 0}) < 6) evolute[t < joint ? 0 : 1].push_back(centre);
+    evolute[t < joint ? 0 : 1].push_back(centre);
   }
   for (int k = 0; k < 2; ++k) {
     scene.lines.push_back({"", curve[k], figure::palette(static_cast<std::size_t>(k)), 2.2});
-    scene.lines.push_back(
-        {"", evolute[k], lighter(figure::palette(static_cast<std::size_t>(k)), 0.3), 1.2});
+    scene.lines.push_back({"",
+                           evolute[k],
+                           lighter(figure::palette(static_cast<std::size_t>(k)), 0.3),
+                           1.2,
+                           {},
+                           false});
   }
   scene.marks = {solved->joint};
   return draw(scene);
@@ -225,6 +170,28 @@ Drawing spline() {
   return draw(scene);
 }
 
+/// Space curves between the same ends with the same tangents, from two sides.
+Drawing space() {
+  const lac::SpaceHermite data{{0, 0, 0}, {3, 0, 0}, {1, 1.2, 0.6}, {1, -0.1, -0.6}};
+  Scene front{"From the front (x, y)", {}, {{0, 0}, {3, 0}}};
+  Scene above{"From above (x, z)", {}, {{0, 0}, {3, 0}}};
+  int i = 0;
+  for (const auto& [alpha, omega] : {std::pair{-3.0, 0.0}, {-1.0, 0.0}, {-1.0, 1.0}, {-0.3, 0.0}}) {
+    const auto solved = value(lac::solve_g1_space(data, alpha, -1, omega));
+    const figure::Color color = figure::palette(static_cast<std::size_t>(i++));
+    const std::string name = "α " + number(alpha) + ", ω " + number(omega);
+    docs::Line x_y{name, {}, color};
+    docs::Line x_z = x_y;
+    for (const core::Point3 p : sample(solved.chain, 200)) {
+      x_y.points.push_back({p.x, p.y});
+      x_z.points.push_back({p.x, p.z});
+    }
+    front.lines.push_back(std::move(x_y));
+    above.lines.push_back(std::move(x_z));
+  }
+  return figure::tile({draw(front), draw(above)}, 2);
+}
+
 void write(const std::string& folder, const char* name, const Drawing& drawing) {
   std::ofstream(folder + "/" + name) << figure::write_svg(drawing);
 }
@@ -243,5 +210,6 @@ int main(int argc, char** argv) {
   write(argv[1], "lac-ratio.svg", ratios());
   write(argv[1], "lac-s-shape.svg", s_shapes());
   write(argv[1], "lac-spline.svg", spline());
+  write(argv[1], "lac-space.svg", space());
   return 0;
 }
