@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyline/figure/drawing.h"
+#include "keyline/figure/surface_view.h"
+#include "keyline/operations/report_options.h"
+#include "keyline/report/report.h"
+#include "keyline/surface/edit.h"
+#include "keyline/surface/interrogate.h"
+#include "keyline/surface/network.h"
+
+namespace keyline::operations {
+
+/// What a picture of surfaces shows.
+struct SurfacePicture {
+  std::string title = {};
+  std::optional<surface::FieldKind> field = {};  ///< empty: lit, with lines of constant u and v
+  surface::Lighting lighting = {};               ///< common to all surfaces
+  std::string unit = {};
+  int grid = 0;  ///< points along u and v of each surface; 0: 161, fewer for many surfaces
+  double width = 470;
+  std::optional<core::Interval> range = {};  ///< of a curvature map; empty: without the outer 2 %
+  std::optional<core::Vector3> view = {};    ///< empty: obliquely on the mean normal
+};
+
+/// The surfaces in one picture, at one view and scale. principal shows the larger one.
+/// Fails as surface::interrogate does.
+core::Result<figure::Drawing> surface_picture(const std::vector<surface::Surface>& surfaces,
+                                              const SurfacePicture& options = {});
+
+/// Curvature of the network curves against arc length, rows on the left, columns on the right
+/// ([Oya] Figs. 9 to 12); positive where a curve bends towards the mean normal of the patch.
+figure::Drawing network_profiles(const surface::BezierSurface& s, const std::string& title,
+                                 const std::string& unit = {});
+
+/// One surface of a file with its value.
+struct SurfaceSubject {
+  std::string name;
+  surface::Surface surface;
+  std::vector<surface::PatchValue> values;  ///< empty where it has none
+  std::string no_value;                     ///< then: why
+};
+
+/// SAV by patch and curve with the worst named, pictures (lit, zebra, curvature), network profiles
+/// of the worst patch.
+core::Result<report::Report> surface_report(const SurfaceSubject& subject,
+                                            const ReportOptions& options = {});
+
+/// One page of the same pictures for all surfaces of a file.
+core::Result<figure::Drawing> surface_page(const std::vector<SurfaceSubject>& subjects,
+                                           const ReportOptions& options = {});
+
+/// Before and after an edit: zebra, mean curvature and network profiles on one page.
+core::Result<figure::Drawing> surface_edit_page(const surface::BezierSurface& given,
+                                                const surface::EditResult& edited,
+                                                const ReportOptions& options = {});
+
+/// The same as a report, with the table of curves before and after and the trade-off.
+core::Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
+                                                 const surface::EditResult& edited,
+                                                 const ReportOptions& options = {});
+
+}  // namespace keyline::operations
