@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/exchange/atomic_file.h"
+#include "keyline/exchange/cad_file.h"
 #include "keyline/exchange/csv_writer.h"
 #include "keyline/exchange/dxf_reader.h"
 #include "keyline/exchange/dxf_writer.h"
@@ -56,6 +57,8 @@ Result<Document> points_document(const fs::path& file) {
 
 Result<Document> document_of(Format format, const fs::path& file) {
   if (format == Format::points) return points_document(file);
+  if (format == Format::step) return read_cad(file, CadFormat::step);
+  if (format == Format::iges) return read_cad(file, CadFormat::iges);
   const auto content = read_file(file);
   if (!content) return std::unexpected(content.error());
   switch (format) {
@@ -65,7 +68,7 @@ Result<Document> document_of(Format format, const fs::path& file) {
       return read_svg_document(*content);
     case Format::dxf:
       return read_dxf(*content);
-    case Format::points:
+    default:
       break;
   }
   return fail(ErrorCode::internal, "no reader for this format");
@@ -173,6 +176,8 @@ Result<Written> format_document(const Document& document, const std::string& ext
   if (extension == ".svg") return write_svg_document(document, tolerance);
   if (extension == ".dxf")
     return write_dxf(document, {.tolerance = tolerance, .polylines = options.polylines});
+  if (extension == ".step") return write_cad(document, CadFormat::step, tolerance);
+  if (extension == ".iges") return write_cad(document, CadFormat::iges, tolerance);
   std::string list;
   for (const std::string& name : written_extensions()) list += (list.empty() ? "" : " ") + name;
   return fail(ErrorCode::bad_input, "\"" + extension + "\" is no format that can be written",

@@ -11,10 +11,15 @@ namespace keyline::exchange {
 namespace {
 
 std::optional<Format> known(const std::string& extension) {
-  static constexpr std::array<std::pair<std::string_view, Format>, 4> kKnown = {{
+  static constexpr std::array<std::pair<std::string_view, Format>, 9> kKnown = {{
       {".json", Format::json},
       {".svg", Format::svg},
       {".dxf", Format::dxf},
+      {".step", Format::step},
+      {".stp", Format::step},
+      {".p21", Format::step},
+      {".iges", Format::iges},
+      {".igs", Format::iges},
       {".csv", Format::points},
   }};
   for (const auto& [name, format] : kKnown)
@@ -42,11 +47,14 @@ Format format_of(const std::filesystem::path& file, std::string_view head) {
   if (const auto format = known(extension_of(file))) return *format;
   if (detail::looks_like_dxf(head)) return Format::dxf;
   const std::string_view start = start_of(head);
+  if (start.starts_with("ISO-10303-21")) return Format::step;
   if (start.starts_with('{') || start.starts_with('[')) return Format::json;
   if (start.starts_with('<')) return Format::svg;
   return Format::points;
 }
 
-std::vector<std::string> written_extensions() { return {".svg", ".json", ".csv", ".dxf"}; }
+std::vector<std::string> written_extensions() {
+  return {".svg", ".json", ".csv", ".dxf", ".step", ".iges"};
+}
 
 }  // namespace keyline::exchange

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "keyline/core/error.h"
+#include "keyline/document/document.h"
+
+namespace opencascade {
+template <class T>
+class handle;
+}
+class Geom_Curve;
+class Geom_Surface;
+class TopoDS_Shape;
+
+/// Curves and surfaces between Keyline and OCCT, exactly. Only keyline-cad uses this folder.
+namespace keyline::exchange::occt {
+
+/// A planar path (z = 0) or a space curve from the part of a curve between two parameters: lines,
+/// circular arcs in z = 0, else B-splines. Throws Standard_Failure for what OCCT cannot convert.
+void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& curve,
+               double first, double last, const document::Label& label);
+
+/// The B-spline form of the part of a surface in a box of parameters; B-spline and Bézier surfaces
+/// whole.
+surface::Surface surface_of(const opencascade::handle<Geom_Surface>& surface, double u1, double u2,
+                            double v1, double v2);
+
+/// An edge of a curve cad_parts() gives; a face of a whole surface. Throws std::runtime_error for
+/// what has no extent.
+TopoDS_Shape edge_of(const document::PlanarCurve& curve);
+TopoDS_Shape edge_of(const document::SpaceCurve& curve);
+TopoDS_Shape face_of(const surface::Surface& surface);
+
+}  // namespace keyline::exchange::occt

@@ -1,0 +1,103 @@
+#include <IGESControl_Reader.hxx>
+#include <IGESData_ColorEntity.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESGraph_Color.hxx>
+#include <Interface_Static.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <stdexcept>
+
+#include "keyline/exchange/dxf_color.h"
+#include "keyline/exchange/occt/reader.h"
+#include "keyline/exchange/occt/shape_walk.h"
+
+namespace keyline::exchange::occt {
+namespace {
+
+using document::Label;
+
+std::string trimmed(const Handle(TCollection_HAsciiString) & name) {
+  if (name.IsNull()) return {};
+  std::string text = name->ToCString();
+  text.erase(0, text.find_first_not_of(' '));
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+std::string color_of(const Handle(IGESData_IGESEntity) & entity) {
+  // IGES 5.3, section 2.2.4.4.13: numbers 1 to 8.
+  static constexpr int kColors[] = {0,        0x000000, 0xff0000, 0x00ff00, 0x0000ff,
+                                    0xffff00, 0xff00ff, 0x00ffff, 0xffffff};
+  const int rank = entity->RankColor();
+  if (rank >= 1 && rank <= 8) return detail::true_color(kColors[rank]);
+  const auto color = Handle(IGESGraph_Color)::DownCast(entity->Color());
+  if (color.IsNull()) return {};
+  double r = 0;
+  double g = 0;
+  double b = 0;
+  color->RGBIntensity(r, g, b);
+  const auto channel = [](double v) { return static_cast<int>(2.55 * v + 0.5) & 255; };
+  return detail::true_color(channel(r) << 16 | channel(g) << 8 | channel(b));
+}
+
+Label label_of(const Handle(IGESData_IGESEntity) & entity) {
+  Label label;
+  label.name = entity->HasName() ? trimmed(entity->NameValue()) : std::string();
+  if (label.name.empty() && entity->HasShortLabel()) label.name = trimmed(entity->ShortLabel());
+  if (entity->Level() > 0) label.layer = std::to_string(entity->Level());
+  label.color = color_of(entity);
+  return label;
+}
+
+/// Our name of the unit flag.
+const char* unit_of(int flag) {
+  switch (flag) {
+    case 1:
+      return "in";
+    case 4:
+      return "ft";
+    case 6:
+      return "m";
+    case 7:
+      return "km";
+    case 10:
+      return "cm";
+    default:
+      return "mm";
+  }
+}
+
+}  // namespace
+
+document::Document read_iges(const std::string& file) {
+  IGESControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
+    throw std::runtime_error("this is no IGES file that can be read; check that it is complete");
+  document::Document document;
+  IGESData_GlobalSection global = reader.IGESModel()->GlobalSection();
+  document.unit = unit_of(global.UnitFlag());
+  // Shapes in the file's own unit: the kernel's unit is made that of the file.
+  global.SetCascadeUnit(document::millimetres(document.unit));
+  reader.IGESModel()->SetGlobalSection(global);
+  Interface_Static::SetIVal("read.iges.bspline.continuity", 0);  // splines stay whole
+  const int roots = reader.NbRootsForTransfer();
+  const int done = reader.TransferRoots();
+  if (done < roots)
+    document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
+                               " things are no curves or surfaces that can be read");
+  const auto transfer = reader.WS()->TransferReader();
+  ShapeWalk walk(document, [&](const TopoDS_Shape& shape) {
+    for (const int mode : {1, 2, 3, 4})
+      if (const auto entity =
+              Handle(IGESData_IGESEntity)::DownCast(transfer->EntityFromShapeResult(shape, mode)))
+        return label_of(entity);
+    return Label{};
+  });
+  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i), {});
+  walk.finish();
+  return document;
+}
+
+}  // namespace keyline::exchange::occt

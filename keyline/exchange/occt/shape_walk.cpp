@@ -1,0 +1,137 @@
+#include "keyline/exchange/occt/shape_walk.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "keyline/exchange/occt/geometry.h"
+
+namespace keyline::exchange::occt {
+namespace {
+
+using document::Label;
+
+Label merged(const Label& outer, const Label& own) {
+  Label label = outer;
+  if (!own.name.empty()) label.name = own.name;
+  if (!own.layer.empty()) label.layer = own.layer;
+  if (!own.color.empty()) label.color = own.color;
+  return label;
+}
+
+struct Bounds {
+  double u1 = 0;
+  double u2 = 0;
+  double v1 = 0;
+  double v2 = 0;
+};
+
+/// True for an edge that runs along the border of the parameter box.
+bool on_border(const TopoDS_Edge& edge, const TopoDS_Face& face, const Bounds& b) {
+  double first = 0;
+  double last = 0;
+  const Handle(Geom2d_Curve) c = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  if (c.IsNull()) return false;
+  const double reach_u = 1e-6 * (b.u2 - b.u1);
+  const double reach_v = 1e-6 * (b.v2 - b.v1);
+  std::array<bool, 4> along = {true, true, true, true};
+  for (int i = 0; i <= 4; ++i) {
+    const gp_Pnt2d p = c->Value(first + (last - first) * i / 4);
+    along[0] = along[0] && std::abs(p.X() - b.u1) <= reach_u;
+    along[1] = along[1] && std::abs(p.X() - b.u2) <= reach_u;
+    along[2] = along[2] && std::abs(p.Y() - b.v1) <= reach_v;
+    along[3] = along[3] && std::abs(p.Y() - b.v2) <= reach_v;
+  }
+  return std::any_of(along.begin(), along.end(), [](bool yes) { return yes; });
+}
+
+/// Border of what surface_of() returns: the whole of a free-form surface, else the face's box.
+Bounds bounds_of(const TopoDS_Face& face, const Handle(Geom_Surface) & s) {
+  Bounds b;
+  const std::string kind = s->DynamicType()->Name();
+  if (kind == "Geom_BSplineSurface" || kind == "Geom_BezierSurface")
+    s->Bounds(b.u1, b.u2, b.v1, b.v2);
+  else
+    BRepTools::UVBounds(face, b.u1, b.u2, b.v1, b.v2);
+  return b;
+}
+
+}  // namespace
+
+void ShapeWalk::skip(const std::string& name, const char* why) {
+  constexpr std::size_t kMost = 1000;
+  if (document_.skipped.size() < kMost) document_.skipped.push_back(name + ": " + why);
+}
+
+void ShapeWalk::add(const TopoDS_Shape& shape, const Label& outer) {
+  Label label = merged(outer, own_label_(shape));
+  switch (shape.ShapeType()) {
+    case TopAbs_FACE:
+      return add_face(shape, label);
+    case TopAbs_EDGE:
+      return add_edge(shape, label);
+    case TopAbs_VERTEX:
+      ++points_;
+      return;
+    default:
+      break;
+  }
+  // A name of several things is none of each.
+  const bool single = shape.NbChildren() == 1;
+  if (!single && !label.name.empty() && label.name.back() != '/') label.name += '/';
+  for (TopoDS_Iterator part(shape); part.More(); part.Next()) add(part.Value(), label);
+}
+
+void ShapeWalk::add_face(const TopoDS_Shape& shape, Label label) {
+  ++faces_;
+  if (label.name.empty() || label.name.back() == '/')
+    label.name += "face-" + std::to_string(faces_);
+  try {
+    const TopoDS_Face face = TopoDS::Face(shape);
+    const Handle(Geom_Surface) s = BRep_Tool::Surface(face);
+    if (s.IsNull()) return skip(label.name, "a face without surface");
+    const Bounds b = bounds_of(face, s);
+    document::NamedSurface named{label, surface_of(s, b.u1, b.u2, b.v1, b.v2), 0};
+    if (auto sound = validate(named.surface); !sound)
+      return skip(label.name, sound.error().message.c_str());
+    for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
+      named.trims += !on_border(TopoDS::Edge(edge.Current()), face, b);
+    if (named.trims > 0)
+      skip(named.label.name, ("its " + std::to_string(named.trims) +
+                              " trimming edges: the whole underlying surface is here")
+                                 .c_str());
+    document_.surfaces.push_back(std::move(named));
+  } catch (const Standard_Failure& failure) {
+    skip(label.name, failure.GetMessageString());
+  }
+}
+
+void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
+  ++edges_;
+  if (label.name.empty() || label.name.back() == '/')
+    label.name += "edge-" + std::to_string(edges_);
+  try {
+    double first = 0;
+    double last = 0;
+    const Handle(Geom_Curve) c = BRep_Tool::Curve(TopoDS::Edge(shape), first, last);
+    if (c.IsNull()) return skip(label.name, "an edge without curve");
+    add_curve(document_, c, first, last, label);
+  } catch (const Standard_Failure& failure) {
+    skip(label.name, failure.GetMessageString());
+  }
+}
+
+void ShapeWalk::finish() {
+  if (points_ > 0) document_.skipped.push_back(std::to_string(points_) + " points");
+}
+
+}  // namespace keyline::exchange::occt

@@ -1,0 +1,161 @@
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_Static.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPConstruct_Styles.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepBasic_ProductDefinition.hxx>
+#include <StepBasic_ProductDefinitionFormation.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
+#include <StepRepr_PropertyDefinition.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_ShapeDefinitionRepresentation.hxx>
+#include <StepVisual_Colour.hxx>
+#include <StepVisual_LayeredItem.hxx>
+#include <StepVisual_PresentationLayerAssignment.hxx>
+#include <StepVisual_StyledItem.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_Binder.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <map>
+#include <stdexcept>
+
+#include "keyline/exchange/dxf_color.h"
+#include "keyline/exchange/occt/reader.h"
+#include "keyline/exchange/occt/shape_walk.h"
+
+namespace keyline::exchange::occt {
+namespace {
+
+using document::Label;
+
+std::string text(const Handle(TCollection_HAsciiString) & name) {
+  return name.IsNull() ? std::string() : std::string(name->ToCString());
+}
+
+/// "NONE", blanks and what translators put where no name was given are no names.
+std::string useful(const std::string& name) {
+  if (name.find_first_not_of(' ') == std::string::npos || name == "NONE" || name == "''") return {};
+  return name;
+}
+
+std::string hex(const Quantity_Color& color) {
+  double r = 0;
+  double g = 0;
+  double b = 0;
+  color.Values(r, g, b, Quantity_TOC_sRGB);
+  const auto channel = [](double v) { return static_cast<int>(255 * v + 0.5) & 255; };
+  return detail::true_color(channel(r) << 16 | channel(g) << 8 | channel(b));
+}
+
+/// Colours and layers by the entity they are given to.
+class Looks {
+ public:
+  explicit Looks(const Handle(XSControl_WorkSession) & session) {
+    STEPConstruct_Styles styles(session);
+    if (styles.LoadStyles())
+      for (int i = 1; i <= styles.NbStyles(); ++i) add(styles, styles.Style(i));
+    const auto model = session->Model();
+    for (int i = 1; i <= model->NbEntities(); ++i) add_layer(model->Value(i));
+  }
+
+  void complete(Label& label, const Handle(Standard_Transient) & entity) const {
+    if (const auto at = colors_.find(entity.get()); at != colors_.end()) label.color = at->second;
+    if (const auto at = layers_.find(entity.get()); at != layers_.end()) label.layer = at->second;
+  }
+
+ private:
+  void add(STEPConstruct_Styles& styles, const Handle(StepVisual_StyledItem) & style) {
+    Handle(StepVisual_Colour) surface;
+    Handle(StepVisual_Colour) border;
+    Handle(StepVisual_Colour) curve;
+    Handle(StepVisual_Colour) rendered;
+    double transparency = 0;
+    bool component = false;
+    if (!styles.GetColors(style, surface, border, curve, rendered, transparency, component)) return;
+    Quantity_Color color;
+    for (const auto& found : {surface, curve, border, rendered})
+      if (!found.IsNull() && STEPConstruct_Styles::DecodeColor(found, color)) {
+        colors_.emplace(style->Item().get(), hex(color));
+        return;
+      }
+  }
+
+  void add_layer(const Handle(Standard_Transient) & entity) {
+    const auto layer = Handle(StepVisual_PresentationLayerAssignment)::DownCast(entity);
+    if (layer.IsNull() || layer->AssignedItems().IsNull()) return;
+    for (int i = 1; i <= layer->NbAssignedItems(); ++i)
+      layers_.emplace(layer->AssignedItemsValue(i).Value().get(), text(layer->Name()));
+  }
+
+  std::map<const Standard_Transient*, std::string> colors_;
+  std::map<const Standard_Transient*, std::string> layers_;
+};
+
+std::string name_of(const Handle(Standard_Transient) & entity) {
+  if (const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity))
+    return useful(text(item->Name()));
+  Handle(StepBasic_ProductDefinition) product =
+      Handle(StepBasic_ProductDefinition)::DownCast(entity);
+  if (const auto shape = Handle(StepShape_ShapeDefinitionRepresentation)::DownCast(entity))
+    if (const auto property = shape->Definition().PropertyDefinition(); !property.IsNull())
+      product = property->Definition().ProductDefinition();
+  if (const auto usage = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity))
+    product = usage->RelatedProductDefinition();
+  if (product.IsNull() || product->Formation().IsNull()) return {};
+  return useful(text(product->Formation()->OfProduct()->Name()));
+}
+
+/// OCCT's name of the file's unit of length, and ours.
+std::pair<const char*, const char*> unit_of(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths;
+  TColStd_SequenceOfAsciiString angles;
+  TColStd_SequenceOfAsciiString solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  TCollection_AsciiString unit = lengths.IsEmpty() ? "" : lengths.First();
+  unit.LowerCase();
+  const std::string name = unit.ToCString();
+  if (name == "inch" || name == "inches") return {"INCH", "in"};
+  if (name == "foot" || name == "feet") return {"FT", "ft"};
+  if (name == "metre" || name == "meter") return {"M", "m"};
+  if (name == "centimetre" || name == "centimeter") return {"CM", "cm"};
+  if (name == "kilometre" || name == "kilometer") return {"KM", "km"};
+  return {"MM", "mm"};
+}
+
+}  // namespace
+
+document::Document read_step(const std::string& file) {
+  STEPControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
+    throw std::runtime_error("this is no STEP file that can be read; check that it is complete");
+  document::Document document;
+  const auto [occt_unit, unit] = unit_of(reader);
+  document.unit = unit;
+  Interface_Static::SetCVal("xstep.cascade.unit", occt_unit);
+  const int roots = reader.NbRootsForTransfer();
+  const int done = reader.TransferRoots();
+  if (done < roots)
+    document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
+                               " things could not be made into shapes");
+  const Looks looks(reader.WS());
+  const auto transfer = reader.WS()->TransferReader();
+  ShapeWalk walk(document, [&](const TopoDS_Shape& shape) {
+    Label label;
+    for (const int mode : {3, 2, 1, 4}) {
+      const Handle(Standard_Transient) entity = transfer->EntityFromShapeResult(shape, mode);
+      if (entity.IsNull()) continue;
+      if (label.name.empty()) label.name = name_of(entity);
+      looks.complete(label, entity);
+    }
+    return label;
+  });
+  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i), {});
+  walk.finish();
+  return document;
+}
+
+}  // namespace keyline::exchange::occt
