@@ -147,12 +147,16 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
                   const std::vector<Subject>& subjects) {
   writers[".html"] = [&]() -> Result<std::string> {
     std::vector<report::Report> reports;
+    std::vector<operations::PlaneEntry> places;
+    for (const Subject& subject : subjects)
+      if (subject.class_a)
+        places.push_back({subject.name.empty() ? "the curve" : subject.name, &*subject.class_a});
+    std::size_t place = 0;
     for (const Subject& subject : subjects) {
       reports.push_back(operations::analyze_report(subject.analysis, subject.path,
                                                    report_options(command, subject)));
       if (subject.class_a)
-        reports.back().sections.push_back(
-            operations::class_a_section(subject.name, *subject.class_a, {}));
+        reports.back().sections.push_back(operations::class_a_section(places, place++, {}));
     }
     return report::html_report(operations::joined_report(reports, "Curve analysis"));
   };

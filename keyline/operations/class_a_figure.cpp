@@ -195,8 +195,11 @@ report::Report edit_report(const classa::EditResult& edited, const classa::Appro
   return r;
 }
 
-report::Section class_a_section(const std::string& name, const classa::Evaluation& e,
+report::Section class_a_section(const std::vector<PlaneEntry>& curves, std::size_t index,
                                 const classa::CavOptions& options) {
+  std::vector<PlaneEntry> shown = curves;
+  std::swap(shown.front(), shown.at(index));
+  const classa::Evaluation& e = *shown.front().evaluation;
   const classa::CurveValue& v = e.value;
   report::ReportTable table{
       "Curve aesthetic value", {{"", report::Alignment::text}, {"", report::Alignment::text}}, {}};
@@ -216,10 +219,11 @@ report::Section class_a_section(const std::string& name, const classa::Evaluatio
         {"Nearest curve with one matrix",
          fmt::format("{} away{}", number(e.nearest->distance),
                      e.nearest_value ? ", CAV " + number(e.nearest_value->cav) : "")});
-  const std::string label = name.empty() ? "the curve" : name;
   return {"Class A",
           {"After Oya, Hanafusa and Aoyama: 0 is the Class A curve of least strain energy."},
-          {{plane_chart({{label, &e}}, options), "Place in the α–s plane; shaded is Class A."}},
+          {{plane_chart(shown, options),
+            "Place in the α–s plane; shaded is Class A. Minimum and contours belong to the first "
+            "curve named."}},
           {table}};
 }
 

@@ -34,8 +34,9 @@ figure::Drawing edit_picture(const classa::EditResult& edited, const classa::App
 report::Report edit_report(const classa::EditResult& edited, const classa::Approximation& given,
                            const classa::EditOptions& options, const ReportOptions& report = {});
 
-/// "Class A" for the report of an analysed curve: value, place in the plane.
-report::Section class_a_section(const std::string& name, const classa::Evaluation& evaluation,
+/// "Class A" for the report of an analysed curve: the value of curves[index], and its place in the
+/// plane among all of them.
+report::Section class_a_section(const std::vector<PlaneEntry>& curves, std::size_t index,
                                 const classa::CavOptions& options);
 
 /// "type 3, one matrix outside Class A".

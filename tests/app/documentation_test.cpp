@@ -37,5 +37,15 @@ TEST(Documentation, EveryCommandOfTheCurvePageRuns) {
   }
 }
 
+TEST(Documentation, EveryCommandOfTheClassAGuideRuns) {
+  const auto commands = commands_of("guide/class-a.md");
+  EXPECT_GE(commands.size(), 4U);
+  for (const std::string& command : commands) {
+    const Scratch s;
+    const Outcome o = run_keyline(redirected(command, s), "cd " KEYLINE_SOURCE_DIR " && ");
+    EXPECT_EQ(o.status, 0) << command << '\n' << o.err;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::app_test

@@ -97,5 +97,16 @@ TEST(RasterFigure, PlacesPixelsAndScale) {
   EXPECT_THROW(raster_figure(f), core::InvalidInput);
 }
 
+TEST(BeforeAfterChart, ShowsBothCurves) {
+  BeforeAfter pair;
+  EXPECT_THROW(before_after_chart(pair), core::InvalidInput);
+  pair.before.points = {{0, 0}, {1, 1}, {2, 1}};
+  pair.after.points = {{0, 0}, {1, 0.5}, {2, 1}};
+  pair.after_control = {{0, 0}, {1, 0.2}, {2, 1}};
+  const std::string svg = write_svg(before_after_chart(pair));
+  EXPECT_NE(svg.find("before"), std::string::npos);
+  EXPECT_NE(svg.find("after"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace keyline::figure
