@@ -5,8 +5,10 @@
 
 #include "keyline/analysis/profile.h"
 #include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json_space.h"
 #include "keyline/operations/draw_figure.h"
 #include "keyline/operations/operation.h"
+#include "keyline/operations/space_figure.h"
 #include "keyline/report/html_report.h"
 
 #include "commands.h"
@@ -60,14 +62,19 @@ Result<std::optional<operations::RegionQuestion>> region_of(const DrawCommand& c
   return *question;
 }
 
+operations::ReportOptions report_options(const DrawCommand& command, const char* title) {
+  operations::ReportOptions options;
+  options.title = title;
+  options.command = command.common.command_line;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  return options;
+}
+
 /// Figures in place of the bare curve where the format or --show asks for them.
 void add_figures(const DrawCommand& command, const document::Path& path,
                  const operations::DrawShow& show,
                  const std::optional<operations::RegionQuestion>& region, Writers& writers) {
-  operations::ReportOptions options;
-  options.title = "Curve from handles";
-  options.command = command.common.command_line;
-  options.generator = "Keyline " KEYLINE_VERSION;
+  const auto options = report_options(command, "Curve from handles");
   const auto picture = [=](auto write) -> Writer {
     return [=]() -> Result<std::string> {
       const auto drawing = operations::draw_picture(path, show, region, options);
@@ -87,11 +94,37 @@ void add_figures(const DrawCommand& command, const document::Path& path,
   };
 }
 
+constexpr const char* kSpaceExtensions[] = {".json", ".csv", ".svg", ".pdf", ".png", ".html"};
+
+Result<Writers> space_writers(const DrawCommand& command, const json& curve) {
+  const auto chain = exchange::space_chain_from_json(curve, "curve");
+  if (!chain) return std::unexpected(chain.error());
+  if (!command.show.empty())
+    return core::fail(ErrorCode::bad_input, "--show has no figures of space curves",
+                      "leave it out: pictures show three views, curvature and torsion", "--show");
+  const auto options = report_options(command, "Space curve from handles");
+  const auto picture = [=, chain = *chain](auto write) -> Writer {
+    return
+        [=]() -> Result<std::string> { return write(operations::space_picture(chain, options)); };
+  };
+  Writers writers;
+  writers[".json"] = [curve]() -> Result<std::string> { return curve.dump(1) + "\n"; };
+  writers[".csv"] = [chain = *chain]() -> Result<std::string> {
+    return operations::space_csv(chain);
+  };
+  writers[".svg"] =
+      picture([](const figure::Drawing& d) -> Result<std::string> { return figure::write_svg(d); });
+  writers[".pdf"] = picture([](const figure::Drawing& d) { return figure::write_pdf(d); });
+  writers[".png"] = picture([](const figure::Drawing& d) { return figure::write_png(d); });
+  writers[".html"] = [=, chain = *chain]() -> Result<std::string> {
+    return report::html_report(operations::space_report(chain, options));
+  };
+  return writers;
+}
+
 Result<Writers> writers_of(const DrawCommand& command, const json& request, const json& result) {
   if (result["curve"]["type"] == "log-aesthetic-space")
-    return Writers{{".json", [curve = result["curve"]]() -> Result<std::string> {
-                      return curve.dump(1) + "\n";
-                    }}};
+    return space_writers(command, result["curve"]);
   auto path = exchange::path_from_json(result["curve"], "curve");
   if (!path) return std::unexpected(path.error());
   const auto show = operations::parse_show(command.show);
@@ -111,9 +144,10 @@ Result<Writers> writers_of(const DrawCommand& command, const json& request, cons
 }  // namespace
 
 int run_draw(const DrawCommand& command) {
-  const std::vector<std::string> known = command.space
-                                             ? std::vector<std::string>{".json"}
-                                             : curve_extensions({".pdf", ".png", ".html"});
+  const std::vector<std::string> known =
+      command.space
+          ? std::vector<std::string>(std::begin(kSpaceExtensions), std::end(kSpaceExtensions))
+          : curve_extensions({".pdf", ".png", ".html"});
   if (auto can = check_outputs(command.common, known); !can) return report_failure(can.error());
   const auto asked = draw_request(command);
   if (!asked) return report_failure(asked.error());

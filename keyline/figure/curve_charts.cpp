@@ -206,13 +206,30 @@ std::vector<Point2> evolute_points(const SampledCurve& curve) {
   return centers;
 }
 
+constexpr double kFarthestEvolute = 4;  ///< from the curve, in sizes of the curve
+
+/// Least distance of the finite points from the box along an axis; infinite without any.
+double distance_outside(const Box& box, const std::vector<Point2>& points) {
+  double least = HUGE_VAL;
+  for (const Point2& p : points) {
+    const double x = std::max({box.min.x - p.x, p.x - box.max.x, 0.0});
+    const double y = std::max({box.min.y - p.y, p.y - box.max.y, 0.0});
+    if (core::is_finite(p)) least = std::min(least, std::max(x, y));
+  }
+  return least;
+}
+
 }  // namespace
 
 Drawing evolute_chart(const SampledCurve& curve, const ChartOptions& options) {
   detail::check(curve);
   const std::vector<Point2> centers = evolute_points(curve);
   const Box extent = box_of(curve.points);
-  const double reach = 0.4 * diagonal(extent);
+  const double size = diagonal(extent);
+  // As far out as the evolute begins and some way along it, but not so far that the curve is lost.
+  const double nearest = distance_outside(extent, centers);
+  const bool far = nearest > kFarthestEvolute * size;
+  const double reach = far ? 0.4 * size : std::max(0.4 * size, nearest + 0.4 * size);
   const Box room = is_empty(extent) ? extent : grown(extent, reach);
   Box model = extent;
   for (const auto& run : clip_to_box(centers, room))
@@ -222,8 +239,10 @@ Drawing evolute_chart(const SampledCurve& curve, const ChartOptions& options) {
       {.name = "evolute", .color = palette(1), .width = 1.3}};
   ChartOptions limited = options;
   limited.largest_height = std::min(options.largest_height, 0.7 * options.width);
-  ModelFigure figure =
-      detail::start_figure(model, "Evolute", "Centres of curvature", legend, limited);
+  ModelFigure figure = detail::start_figure(
+      model, "Evolute",
+      far ? "All centres of curvature lie far outside the picture" : "Centres of curvature", legend,
+      limited);
   detail::add_line(figure, centers, Stroke{palette(1), 1.3, {}});
   detail::add_curve(figure, curve, Stroke{kInk, 1.8, {}});
   detail::add_piece_numbers(figure, curve);

@@ -38,7 +38,8 @@ Drawing curvature_plot(const std::vector<SampledCurve>& curves, const ChartOptio
 /// curvature_plot() has such a scale.
 Drawing curvature_comb(const SampledCurve& curve, const ChartOptions& options = {});
 
-/// The curve and the locus of its centres of curvature, cut where that leaves the figure.
+/// The curve and the locus of its centres of curvature, cut where that leaves the figure, which
+/// reaches at least to where it begins unless that is more than four times the curve's size away.
 Drawing evolute_chart(const SampledCurve& curve, const ChartOptions& options = {});
 
 /// What overlay() shows: points before, the curve after, and how far each point lies off.

@@ -98,6 +98,23 @@ TEST(Evolute, KeepsItsScaleNextToAnInflection) {
   EXPECT_EQ(scale_bar(evolute_chart(curve)), before);
 }
 
+TEST(Evolute, ReachesOutToWhereItBegins) {
+  const auto arc = [](double radius) {
+    SampledCurve curve;
+    for (int i = 0; i <= 50; ++i) {
+      const double angle = i / 50.0 / radius;
+      curve.arc_length.push_back(i / 50.0);
+      curve.points.push_back({radius * std::sin(angle), radius * (1 - std::cos(angle))});
+      curve.tangent_angle.push_back(angle);
+      curve.curvature.push_back(1 / (radius + 0.2 * i / 50.0));
+    }
+    return curve;
+  };
+  EXPECT_FALSE(shows(evolute_chart(arc(3)), "far outside"));
+  EXPECT_GT(evolute_chart(arc(3)).height, 300);  // room for the centres above the flat arc
+  EXPECT_TRUE(shows(evolute_chart(arc(30)), "far outside"));
+}
+
 TEST(Overlay, StatesDeviationAndExaggeration) {
   Overlay o;
   o.curve = s_curve();

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "keyline/core/error.h"
+#include "keyline/figure/drawing.h"
+#include "keyline/lac/space.h"
+#include "keyline/operations/report_options.h"
+#include "keyline/report/report.h"
+
+/// Figures of a log-aesthetic space curve.
+namespace keyline::operations {
+
+/// Views along the three axes at one scale, and curvature and torsion against arc length.
+figure::Drawing space_picture(const lac::SpaceChain& chain, const ReportOptions& options = {});
+
+/// The same with length, end values and slopes, piece by piece.
+report::Report space_report(const lac::SpaceChain& chain, const ReportOptions& options = {});
+
+/// 201 points at equal steps of the length as lines "x,y,z", each number as it reads back.
+std::string space_csv(const lac::SpaceChain& chain);
+
+}  // namespace keyline::operations
