@@ -36,8 +36,19 @@ void measure_spread(FitPoint& mean, std::span<const core::Point2> run, core::Vec
   }
 }
 
+constexpr double kGrid = 0x1p-33;  // of the length: steps of the points in the search
+
 }  // namespace
 
+std::vector<FitPoint> cut_digits(std::vector<FitPoint> points) {
+  const auto cut = [](double x) { return kGrid * std::round(x / kGrid); };
+  for (FitPoint& p : points) {
+    p.position = {cut(p.position.x), cut(p.position.y)};
+    p.low = cut(p.low);
+    p.high = cut(p.high);
+  }
+  return points;
+}
 std::size_t condensed_index(std::size_t j, std::size_t n, std::size_t most) {
   if (n <= most || j == 0) return j;
   if (j + 1 == n) return most - 1;

@@ -15,4 +15,8 @@ std::vector<FitPoint> condense(std::span<const core::Point2> points,
 /// Which of them holds point j of n.
 std::size_t condensed_index(std::size_t j, std::size_t n, std::size_t most);
 
+/// Coordinates cut to what matters, so that moved, turned, scaled and reversed points, which differ
+/// in their last digits, take the same way through the search, bit by bit.
+std::vector<FitPoint> cut_digits(std::vector<FitPoint> points);
+
 }  // namespace keyline::fairing::detail

@@ -6,6 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/fairing/condense.h"
+#include "keyline/fairing/exact_chain.h"
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/run_frame.h"
 #include "keyline/fairing/settle.h"
@@ -14,22 +15,9 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostFitPoints = 1200;
-constexpr std::size_t kMostExactPieces = 12;  // longer chains are not drawn exactly by anyone
-constexpr double kGrid = 0x1p-33;             // of the length: steps of the points in the search
-constexpr double kExactness = 2e-7;  // of the length: what counts as reproduced to rounding
 
-/// Numbers cut to what matters, so that moved, turned, scaled and reversed points, which differ in
-/// their last digits, take the same way through the search, bit by bit.
-std::vector<FitPoint> cut_digits(std::vector<FitPoint> points) {
-  const auto cut = [](double x) { return kGrid * std::round(x / kGrid); };
-  for (FitPoint& p : points) {
-    p.position = {cut(p.position.x), cut(p.position.y)};
-    p.low = cut(p.low);
-    p.high = cut(p.high);
-  }
-  return points;
-}
-double cut_digits(double x) {
+/// A number cut to seven digits, see cut_digits.
+double rounded(double x) {
   int exponent = 0;
   const double share = std::frexp(x, &exponent);
   return std::ldexp(std::round(share * 0x1p24), exponent - 24);
@@ -38,57 +26,12 @@ double cut_digits(double x) {
 ChainSearchOptions search_options(const Run& run, const RunOptions& options) {
   ChainSearchOptions search;
   // A little less than the tolerance, for what the cut digits may move.
-  search.accept = {cut_digits((1 - 1e-6) * options.tolerance / run.length),
-                   cut_digits(options.noise / run.length)};
+  search.accept = {rounded((1 - 1e-6) * options.tolerance / run.length),
+                   rounded(options.noise / run.length)};
   search.wanted_pieces = options.pieces;
   search.threads = options.threads;
   search.progress = options.progress;
   return search;
-}
-
-/// Full least squares without any pull; true where the chain then reproduces the points.
-bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, double exact) {
-  ChainFitOptions fit;
-  fit.fine = true;
-  fit.iterations = 150;
-  fit.gradient_tolerance = 1e-6;
-  fit.slope_prior = 0;
-  fit.scale = std::max(exact, 1e-2 * found.fit.max_offset);
-  fit.hopeless = 0;
-  FitChain chain = found.chain;
-  const ChainFitReport report = fit_chain(chain, points, fit);
-  if (!(report.max_offset <= exact && report.max_gap <= 0.05 * exact)) return false;
-  found.chain = std::move(chain);
-  found.fit = report;
-  found.weights.clear();
-  for (const FitPoint& p : points) found.weights.push_back(p.weight);
-  return true;
-}
-
-/// Exact data deserve the chain that reproduces them, where it is about as short as the one the
-/// tolerance asks for: that one itself once converged, one for a tighter tolerance, or the shortest
-/// found that reproduces the points.
-bool try_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, bool closed,
-               ChainSearchOptions search) {
-  const double exact = std::max(kExactness, 6 * search.accept.noise);
-  if (search.wanted_pieces > 0 || exact * 20 > search.accept.tolerance) return false;
-  if (!best.within_tolerance || points.size() < 30) return false;
-  if (best.chain.pieces.size() > kMostExactPieces) return false;
-  const std::size_t most = 2 * best.chain.pieces.size() + 3;
-  search.most_pieces = std::min<int>(96, static_cast<int>(points.size() / 4));
-  search.start_pieces = std::min(48, search.most_pieces);
-  const double loose = search.accept.tolerance;
-  for (const double share : {1.0, 0.1, 0.01, 0.0}) {
-    search.accept = {std::max(exact, share * loose), 0};
-    const bool known = share == 1 && best.chain.feet.size() == points.size();
-    ChainSearchResult found = known ? best : search_chain(cut_digits(points), closed, search);
-    if (!found.within_tolerance || found.chain.pieces.size() > most) return false;
-    const bool reached = share == 0 || converges(found, points, exact);
-    if (!reached) continue;
-    best = std::move(found);
-    return true;
-  }
-  return false;
 }
 
 /// What is held at the canonical start or end of a run: its clamp, by the spline, or its tie.
@@ -117,19 +60,19 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
     RunOptions tighter = options;
     tighter.tolerance *= share;
     result.points =
-        with_guides(cut_digits(measured), run.closed, cut_digits(tighter.tolerance / run.length));
+        with_guides(cut_digits(measured), run.closed, rounded(tighter.tolerance / run.length));
     ChainSearchOptions searching = search_options(run, tighter);
     searching.start = held_end(run, frame, spline, true);
     searching.end = held_end(run, frame, spline, false);
     ChainSearchResult search = search_chain(result.points, run.closed, searching);
     const bool found = search.within_tolerance;
-    if (share > 0.95) result.exact = try_exact(search, measured, run.closed, searching);
+    if (share > 0.95) result.exact = find_exact(search, measured, run.closed, searching);
     if (result.exact) result.points = measured;
     for (std::size_t j = 0; j < result.points.size(); ++j)
       result.points[j].weight = search.weights[j];
     result.fit = std::move(search.chain);
     result.start_pieces = search.start_pieces;
-    if (result.exact) result.accept = {std::max(kExactness, 6 * result.accept.noise), 0};
+    if (result.exact) result.accept = {exactness(result.accept), 0};
     if (found && options.pieces == 0)
       result.straightened = straighten(result.fit, result.points, result.accept);
     result.within_tolerance = polish(result.fit, result.points, result.accept, result.exact);

@@ -1,0 +1,60 @@
+#include "keyline/fairing/exact_chain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/fairing/condense.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr std::size_t kMostExactPieces = 12;  // longer chains are not drawn exactly by anyone
+constexpr double kExactness = 2e-7;           // of the length
+
+/// Full least squares without any pull; true where the chain then reproduces the points.
+bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, double exact) {
+  ChainFitOptions fit;
+  fit.fine = true;
+  fit.iterations = 150;
+  fit.gradient_tolerance = 1e-6;
+  fit.slope_prior = 0;
+  fit.scale = std::max(exact, 1e-2 * found.fit.max_offset);
+  fit.hopeless = 0;
+  FitChain chain = found.chain;
+  const ChainFitReport report = fit_chain(chain, points, fit);
+  if (!(report.max_offset <= exact && report.max_gap <= 0.05 * exact)) return false;
+  found.chain = std::move(chain);
+  found.fit = report;
+  found.weights.clear();
+  for (const FitPoint& p : points) found.weights.push_back(p.weight);
+  return true;
+}
+
+}  // namespace
+
+double exactness(const Acceptance& accept) { return std::max(kExactness, 6 * accept.noise); }
+
+bool find_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, bool closed,
+                ChainSearchOptions search) {
+  const double exact = exactness(search.accept);
+  if (search.wanted_pieces > 0 || exact * 20 > search.accept.tolerance) return false;
+  if (!best.within_tolerance || points.size() < 30) return false;
+  if (best.chain.pieces.size() > kMostExactPieces) return false;
+  const std::size_t most = 2 * best.chain.pieces.size() + 3;
+  search.most_pieces = std::min<int>(96, static_cast<int>(points.size() / 4));
+  search.start_pieces = std::min(48, search.most_pieces);
+  const double loose = search.accept.tolerance;
+  for (const double share : {1.0, 0.1, 0.01, 0.0}) {
+    search.accept = {std::max(exact, share * loose), 0};
+    const bool known = share == 1 && best.chain.feet.size() == points.size();
+    ChainSearchResult found = known ? best : search_chain(cut_digits(points), closed, search);
+    if (!found.within_tolerance || found.chain.pieces.size() > most) return false;
+    const bool reached = share == 0 || converges(found, points, exact);
+    if (!reached) continue;
+    best = std::move(found);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace keyline::fairing::detail
