@@ -19,6 +19,7 @@ using detail::Model;
 using detail::Stage;
 
 constexpr double kInflectionSlope = -0.25;  // upper limit where curvature reaches zero
+constexpr double kSmall = 0.3;  // curvature beside that of the other end: an inflection is near
 constexpr double kEndWeight = 1e9;
 
 /// The boundary of a closed chain or of an open one with held ends.
@@ -64,14 +65,38 @@ double step_limit(const FitChain& chain, const detail::Step& step) {
   return share;
 }
 
-FitChain moved(const FitChain& chain, const detail::Step& step, double share) {
+/// Exponent e with which a joint's curvature enters the piece beside it: near an inflection the
+/// piece depends smoothly on |curvature|^e, not on the curvature; of two pieces the smaller, to
+/// which the other is smooth as well. 1 where no inflection is near.
+double curvature_exponent(const FitChain& chain, std::size_t joint) {
+  double least = kSteepestSlope;
+  for (const std::size_t i : {joint - 1, joint}) {
+    if (i >= chain.pieces.size() || chain.pieces[i].kind != PieceKind::curve) continue;
+    const double other = chain.joints[i == joint ? joint + 1 : joint - 1].curvature;
+    const double alpha = chain.pieces[i].alpha;
+    if (alpha >= 0 || std::abs(chain.joints[joint].curvature) > kSmall * std::abs(other)) continue;
+    least = std::min(least, -alpha);
+  }
+  return least < kSteepestSlope ? least : 1;
+}
+
+/// The curvature after a change that is meant linearly in |curvature|^exponent.
+double changed_curvature(double curvature, double by, double exponent) {
+  if (exponent == 1 || curvature == 0) return curvature + by;
+  const double power = 1 + exponent * by / curvature;
+  return curvature * std::copysign(std::pow(std::abs(power), 1 / exponent), power);
+}
+
+FitChain moved(const FitChain& chain, const detail::Step& step, double share, bool fine) {
   FitChain next = chain;
+  const bool bent = fine && !chain.closed;
   for (std::size_t k = 0; k < next.joints.size(); ++k) {
     FitJoint& joint = next.joints[k];
     joint.position.x += share * step.state[k](0);
     joint.position.y += share * step.state[k](1);
     joint.direction += share * step.state[k](2);
-    joint.curvature += share * step.state[k](3);
+    const double exponent = bent ? curvature_exponent(chain, k) : 1;
+    joint.curvature = changed_curvature(joint.curvature, share * step.state[k](3), exponent);
   }
   for (std::size_t i = 0; i < next.pieces.size(); ++i) {
     FitPiece& piece = next.pieces[i];
@@ -138,7 +163,7 @@ class Descent {
       finished_ = lambda_ > kMostDamping;
       return;
     }
-    FitChain next = moved(chain_, step, step_limit(chain_, step));
+    FitChain next = moved(chain_, step, step_limit(chain_, step), options_.fine);
     Evaluation evaluation(next, points_, options_);
     evaluation.move_feet();
     Model trial = evaluation.model();

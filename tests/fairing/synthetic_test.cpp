@@ -39,15 +39,16 @@ TEST(Synthetic, ExactPointsGiveTheirChainBack) {
     joints.push_back(d.joints);
     slopes.push_back(d.slopes);
   }
-  EXPECT_GE(found, cases() * 3 / 4);
+  EXPECT_GE(found, cases() * 7 / 8);
   EXPECT_LE(median(joints), 1e-8);
   EXPECT_LE(median(slopes), 1e-6);
 }
 
 TEST(Synthetic, RoundedPointsGiveTheirChainBack) {
   int found = 0;
+  constexpr std::array<int, 3> kDecimals{6, 7, 9};
   for (int seed = 1; seed <= cases(); ++seed) {
-    const Difference d = find_again(seed, 0, 8);
+    const Difference d = find_again(seed, 0, kDecimals[static_cast<std::size_t>(seed) % 3]);
     EXPECT_LE(d.largest, 5e-4) << seed;
     if (d.same_count && d.joints <= 1e-2 && d.slopes <= 0.2) ++found;
   }
