@@ -281,8 +281,74 @@ def cubic():
     return {"cubic.json": '{"type":"bezier","points":[%s]}\n' % listed}
 
 
+def matrix_edges(alpha, s, length, right, up, count=3):
+    """Edges v, Mv, M^2 v of a control polygon in the plane of right and up."""
+    edges = []
+    for i in range(count):
+        a, b = (length * s ** i * f(i * alpha) for f in (math.cos, math.sin))
+        edges.append([a * r + b * u for r, u in zip(right, up)])
+    return edges
+
+
+def translational_net(row, column):
+    """A net whose rows are translates of each other, and so its columns."""
+    net, start = [], [0.0, 0.0, 0.0]
+    for step in column + [[0.0, 0.0, 0.0]]:
+        point, line = list(start), [list(start)]
+        for edge in row:
+            point = [p + e for p, e in zip(point, edge)]
+            line.append(point)
+        net.append(line)
+        start = [p + e for p, e in zip(start, step)]
+    return net
+
+
+def surface_file(name, net, **more):
+    rows_text = ",\n".join("[" + ",".join("[%.9f,%.9f,%.9f]" % tuple(p) for p in row) + "]"
+                           for row in net)
+    head = {"type": "bezier-surface", "name": name, "unit": "mm", **more}
+    return json.dumps(head)[:-1] + ', "points":[\n' + rows_text + "]}\n"
+
+
+def panels():
+    """Bicubic patches like the surfaces (a), (b) and (c) of Oya, Hanafusa and Aoyama: all network
+    curves Class A; six with one matrix outside Class A and two with none; all pushed out of shape."""
+    x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    a = translational_net(matrix_edges(0.28, 1.32, 75.0, x, z), matrix_edges(0.22, 1.28, 55.0, y, z))
+    b = translational_net(matrix_edges(0.30, 1.02, 100.0, x, z), matrix_edges(0.24, 1.01, 70.0, y, z))
+    b[1][2] = [p + d for p, d in zip(b[1][2], (2.0, 1.5, 0.5))]
+    noise, c = Noise("panel-c"), []
+    for i in range(4):
+        line = []
+        for j in range(4):
+            u, v = i / 3, j / 3
+            exact = (300 * v + 8 * u * u, 200 * u + 11 * v * v,
+                     40 * v * (1.3 - v) + 25 * u * (1.1 - u) + 9 * v * v * u)
+            line.append([q + noise.normal(2.5) for q in exact])
+        c.append(line)
+    return {"panel-a.json": surface_file("panel a", a), "panel-b.json": surface_file("panel b", b),
+            "panel-c.json": surface_file("panel c", c)}
+
+
+def skin():
+    """A bicubic B-spline surface of two by three Bezier patches: a crowned roof with a dent."""
+    def knots(inner):
+        return [0.0] * 4 + inner + [1.0] * 4
+    net = []
+    for i in range(5):
+        line = []
+        for j in range(6):
+            u, v = i / 4, j / 5
+            dent = 6.0 * math.exp(-((u - 0.6) ** 2 + (v - 0.4) ** 2) / 0.03)
+            line.append([1200 * v, 900 * (u - 0.5), 140 * v * (1.6 - v) - 160 * (u - 0.5) ** 2 - dent])
+        net.append(line)
+    text = surface_file("roof skin", net, degree=[3, 3],
+                        knots=[knots([0.5]), knots([1 / 3, 2 / 3])])
+    return {"skin.json": text.replace("bezier-surface", "bspline-surface")}
+
+
 MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
-          unordered, outlines, clothoid, cubic)
+          unordered, outlines, clothoid, cubic, panels, skin)
 
 
 def main():

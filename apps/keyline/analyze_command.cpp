@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "surface_commands.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -87,17 +88,15 @@ Result<Subject> spline_of(const acquire::KeyLine& line, const CommonOptions& com
   return subject;
 }
 
-Result<std::vector<Subject>> subjects_of(const AnalyzeCommand& command) {
+std::vector<Subject> subjects_of(document::Document document, double noise) {
   std::vector<Subject> subjects;
-  if (!holds_points(command.input.files.front())) {
-    auto document = load_document(command.input);
-    if (!document) return std::unexpected(document.error());
-    for (auto& named : document->paths)
-      subjects.push_back({.name = named.label.name,
-                          .path = std::move(named.path),
-                          .noise = command.input.noise.value_or(0)});
-    return subjects;
-  }
+  for (auto& named : document.paths)
+    subjects.push_back({.name = named.label.name, .path = std::move(named.path), .noise = noise});
+  return subjects;
+}
+
+Result<std::vector<Subject>> subjects_of_points(const AnalyzeCommand& command) {
+  std::vector<Subject> subjects;
   const core::Progress progress = interactive_progress(command.common.quiet);
   const auto lines = load_key_lines(command.input);
   if (!lines) return std::unexpected(lines.error());
@@ -171,13 +170,12 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
   writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
 }
 
-}  // namespace
+Result<void> check_curve_outputs(const CommonOptions& common) {
+  return check_outputs(common, curve_extensions({".html", ".pdf", ".png"}));
+}
 
-int run_analyze(const AnalyzeCommand& command) {
+int analyze_curves(const AnalyzeCommand& command, Result<std::vector<Subject>> subjects) {
   const CommonOptions& common = command.common;
-  if (auto known = check_outputs(common, curve_extensions({".html", ".pdf", ".png"})); !known)
-    return report_failure(known.error());
-  auto subjects = subjects_of(command);
   if (!subjects) return report_failure(subjects.error());
   json all = json::array();
   document::Document curves;
@@ -202,6 +200,23 @@ int run_analyze(const AnalyzeCommand& command) {
   if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
   if (common.json) fmt::print("{}\n", shown.dump());
   return kDone;
+}
+
+}  // namespace
+
+int run_analyze(const AnalyzeCommand& command) {
+  const bool points = holds_points(command.input.files.front());
+  document::Document document;
+  if (!points) {
+    auto loaded = load_document(command.input);
+    if (!loaded) return report_failure(loaded.error());
+    document = std::move(*loaded);
+    if (!document.surfaces.empty()) return analyze_surfaces(command, document);
+  }
+  if (auto known = check_curve_outputs(command.common); !known)
+    return report_failure(known.error());
+  if (points) return analyze_curves(command, subjects_of_points(command));
+  return analyze_curves(command, subjects_of(std::move(document), command.input.noise.value_or(0)));
 }
 
 }  // namespace keyline::app

@@ -54,7 +54,7 @@ Camera camera_of(const SurfaceView& v) {
   if (!stands) throw core::InvalidInput("surface_view: the view is zero or along up");
   Camera camera{right / norm(right), {}, view, {}, {}};
   camera.up = cross(view, camera.right);
-  const Vector3 light = view - 0.5 * camera.right + 0.7 * camera.up;
+  const Vector3 light = 0.5 * view - 0.6 * camera.right + 0.5 * camera.up;
   camera.light = light / norm(light);
   return camera;
 }
@@ -132,6 +132,9 @@ void fill(Raster& raster, const SurfaceView& v, const Vertex& a, const Vertex& b
   }
 }
 
+/// Matt plaster: the middle tones spread, so that little curvature shows.
+double shade_of(double cosine) { return std::min(1.0, 0.34 + 0.85 * cosine * cosine); }
+
 std::vector<Vertex> vertices_of(const SurfaceMesh& m, const Camera& camera, Point2 corner,
                                 double samples) {
   std::vector<Vertex> list;
@@ -142,7 +145,7 @@ std::vector<Vertex> vertices_of(const SurfaceMesh& m, const Camera& camera, Poin
     list.push_back({(page.x - corner.x) * samples, (page.y - corner.y) * samples,
                     dot(m.points[i] - Point3{}, camera.view),
                     m.values.empty() ? std::numeric_limits<double>::quiet_NaN() : m.values[i],
-                    0.42 + 0.58 * std::max(0.0, dot(n, camera.light))});
+                    shade_of(std::max(0.0, dot(n, camera.light)))});
   }
   return list;
 }

@@ -72,7 +72,8 @@ JetGrid together(const std::vector<JetGrid>& grids) {
 
 void place_camera(figure::SurfaceView& view, const SurfacePicture& options,
                   const Lighting& lights) {
-  const Vector3 n = *lights.view;
+  Vector3 n = *lights.view;
+  if (n.z < 0) n = -n;  // z is up for most who look
   Vector3 t = *lights.stripes - dot(*lights.stripes, n) * n;
   t = t / norm(t);
   const Vector3 b = cross(n, t);
@@ -114,8 +115,31 @@ Vector3 mean_normal(const surface::BezierSurface& s) {
   return *surface::completed({}, surface::sample_grid(s, 9, 9)).view;
 }
 
+/// Binormal times curvature.
+Vector3 bend_of(const curve::Jet3& j) {
+  const double speed = norm(j.first);
+  return speed > 0 ? cross(j.first, j.second) / (speed * speed * speed) : Vector3{};
+}
+
+/// Unit binormal of the curve on the whole, so turned that what bends towards the normal counts
+/// positive; zero for a straight curve.
+Vector3 mean_binormal(const curve::Bezier3& c, Vector3 normal) {
+  Vector3 sum;
+  double towards = 0;
+  for (int i = 0; i <= 32; ++i) {
+    const auto j = curve::jet(c, i / 32.0);
+    const Vector3 bend = bend_of(j);
+    sum = sum + (dot(bend, sum) < 0 ? -1.0 : 1.0) * bend;
+    towards += dot(cross(sum, j.first), normal);
+  }
+  const double length = norm(sum);
+  return length > 0 ? (towards < 0 ? -1 / length : 1 / length) * sum : Vector3{};
+}
+
+/// Curvature as it shows in the curve's mean plane: that of a planar curve, with its sign.
 figure::Series profile_of(const surface::NetworkCurve& c, Vector3 normal, std::size_t index) {
   const curve::Bezier3 bezier{c.control, {}};
+  const Vector3 binormal = mean_binormal(bezier, normal);
   figure::Series series;
   series.name = c.name;
   series.color = figure::palette(index);
@@ -125,8 +149,7 @@ figure::Series profile_of(const surface::NetworkCurve& c, Vector3 normal, std::s
     const auto j = curve::jet(bezier, i / (kProfileSamples - 1.0));
     length += core::distance(before, j.point);
     before = j.point;
-    const double bend = curve::curvature(j);
-    series.points.push_back({length, dot(j.second, normal) < 0 ? -bend : bend});
+    series.points.push_back({length, dot(bend_of(j), binormal)});
   }
   return series;
 }
@@ -148,6 +171,20 @@ figure::Plot profile_plot(const surface::BezierSurface& s, bool rows, const std:
 
 }  // namespace
 
+double stripes_for(const std::vector<Surface>& surfaces) {
+  constexpr double kPairs = 8;  // over the whole picture
+  std::vector<JetGrid> grids;
+  for (const Surface& s : surfaces) grids.push_back(surface::sample_grid(s, 33, 33));
+  Lighting lights = surface::completed({}, together(grids));
+  lights.stripe_count = 1;
+  std::vector<double> all;
+  for (const JetGrid& grid : grids)
+    if (const auto field = surface::interrogate(grid, FieldKind::zebra, lights))
+      all.insert(all.end(), field->values.begin(), field->values.end());
+  const double range = core::length(usual_range(std::move(all)));
+  return std::clamp(std::round(kPairs / std::max(range, 1e-6)), 12.0, 400.0);
+}
+
 Result<Drawing> surface_picture(const std::vector<Surface>& surfaces,
                                 const SurfacePicture& options) {
   std::vector<JetGrid> grids;
@@ -157,8 +194,11 @@ Result<Drawing> surface_picture(const std::vector<Surface>& surfaces,
   view.title = options.title;
   view.unit = options.unit;
   view.width = options.width;
-  const Lighting lights = surface::completed(options.lighting, together(grids));
+  Lighting lights = surface::completed(options.lighting, together(grids));
+  lights.stripe_count = options.stripe_count.value_or(stripes_for(surfaces));
   place_camera(view, options, surface::completed({}, together(grids)));
+  if (options.field == FieldKind::zebra)
+    view.subtitle = figure::short_number(2 * lights.stripe_count, 4) + " stripes to the half turn";
   for (const JetGrid& grid : grids) {
     view.meshes.push_back(mesh_of(grid));
     if (!options.field) continue;

@@ -19,6 +19,7 @@ struct SurfacePicture {
   std::string title = {};
   std::optional<surface::FieldKind> field = {};  ///< empty: lit, with lines of constant u and v
   surface::Lighting lighting = {};               ///< common to all surfaces
+  std::optional<double> stripe_count = {};       ///< of a zebra; empty: stripes_for()
   std::string unit = {};
   int grid = 0;  ///< points along u and v of each surface; 0: 161, fewer for many surfaces
   double width = 470;
@@ -26,13 +27,17 @@ struct SurfacePicture {
   std::optional<core::Vector3> view = {};    ///< empty: obliquely on the mean normal
 };
 
+/// Pairs of stripes at which about eight show on the surfaces: 12 to 400.
+double stripes_for(const std::vector<surface::Surface>& surfaces);
+
 /// The surfaces in one picture, at one view and scale. principal shows the larger one.
 /// Fails as surface::interrogate does.
 core::Result<figure::Drawing> surface_picture(const std::vector<surface::Surface>& surfaces,
                                               const SurfacePicture& options = {});
 
 /// Curvature of the network curves against arc length, rows on the left, columns on the right
-/// ([Oya] Figs. 9 to 12); positive where a curve bends towards the mean normal of the patch.
+/// ([Oya] Figs. 9 to 12), as it shows in each curve's mean plane; positive where the curve bends
+/// towards the mean normal of the patch on the whole.
 figure::Drawing network_profiles(const surface::BezierSurface& s, const std::string& title,
                                  const std::string& unit = {});
 

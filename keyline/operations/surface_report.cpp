@@ -213,6 +213,7 @@ Result<Pair> before_and_after(const Surface& given, const Surface& edited, Field
   picture.field = field;
   picture.unit = unit;
   picture.lighting = surface::completed({}, surface::sample_grid(given, 33, 33));
+  picture.stripe_count = stripes_for({given});
   picture.title = title + ", before";
   auto before = surface_picture({given}, picture);
   if (!before) return std::unexpected(before.error());

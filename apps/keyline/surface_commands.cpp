@@ -1,0 +1,201 @@
+#include "surface_commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/operations/fair_report.h"
+#include "keyline/operations/surface_pictures.h"
+#include "keyline/operations/surface_value_json.h"
+#include "keyline/report/html_report.h"
+
+#include "output.h"
+#include "terminal.h"
+
+namespace keyline::app {
+namespace {
+
+using core::Result;
+using nlohmann::json;
+using operations::SurfaceSubject;
+
+constexpr std::size_t kMostReports = 12;
+
+std::string name_of(const document::Document& document, std::size_t i) {
+  const std::string& name = document.surfaces[i].label.name;
+  return name.empty() ? fmt::format("surface {}", i + 1) : name;
+}
+
+/// Value of a surface; one that has none (rational, say) says why instead.
+Result<SurfaceSubject> valued(std::string name, const surface::Surface& s,
+                              const AnalyzeCommand& command, const core::Progress& progress) {
+  SurfaceSubject subject{std::move(name), s, {}, {}};
+  auto values = surface::sav_by_patch(s, {}, command.common.threads, progress);
+  if (values) {
+    subject.values = std::move(*values);
+    return subject;
+  }
+  if (values.error().code == core::ErrorCode::cancelled) return std::unexpected(values.error());
+  subject.no_value = values.error().message;
+  return subject;
+}
+
+json curvature_json(const surface::Surface& s) {
+  const auto grid = surface::sample_grid(s, 65, 65, 0);
+  json j = json::object();
+  for (const auto& [name, kind] :
+       {std::pair{"gaussian", surface::FieldKind::gaussian}, {"mean", surface::FieldKind::mean}}) {
+    const auto field = surface::interrogate(grid, kind);
+    j[name] = {{"min", field->range.low}, {"max", field->range.high}};
+  }
+  return j;
+}
+
+json result_of(const SurfaceSubject& subject) {
+  json j = subject.values.empty() ? json{{"sav", nullptr}, {"no_value", subject.no_value}}
+                                  : operations::patch_values_json(subject.values);
+  j["name"] = subject.name;
+  j["curvature"] = curvature_json(subject.surface);
+  return j;
+}
+
+std::string text_of(const json& number) {
+  return number.is_number() ? fmt::format("{:.5g}", number.get<double>()) : "-";
+}
+
+void print_curves(const json& curves) {
+  fmt::print("{:>8} {:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}\n", "patch", "curve", "type",
+             "CAV", "alpha", "s", "least a", "least s", "energy");
+  for (const json& c : curves) {
+    const json least = c["minimum"].is_object() ? c["minimum"] : json::object();
+    const std::string patch = c.contains("patch") ? fmt::format("{},{}", c["patch"][0].get<int>(),
+                                                                c["patch"][1].get<int>())
+                                                  : "";
+    fmt::print("{:>8} {:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}\n", patch,
+               c["name"].get<std::string>(), c["type"].get<int>(), text_of(c["cav"]),
+               text_of(c["alpha"]), text_of(c["s"]), text_of(least.value("alpha", json())),
+               text_of(least.value("s", json())), text_of(c["energy"]));
+  }
+}
+
+void print_patches(const json& patches) {
+  fmt::print("{:>8} {:>10} {:>6}\n", "patch", "SAV", "worst");
+  for (const json& p : patches)
+    fmt::print("{:>8} {:>10} {:>6}\n",
+               fmt::format("{},{}", p["patch"][0].get<int>(), p["patch"][1].get<int>()),
+               text_of(p["sav"]), p["worst"].get<std::string>());
+}
+
+void print_summary(const json& result) {
+  const json& k = result["curvature"];
+  fmt::print("{}\n", result["name"].get<std::string>());
+  fmt::print("Gaussian curvature {} to {}  mean curvature {} to {}\n",
+             text_of(k["gaussian"]["min"]), text_of(k["gaussian"]["max"]),
+             text_of(k["mean"]["min"]), text_of(k["mean"]["max"]));
+  if (!result["sav"].is_number()) {
+    fmt::print("no SAV: {}\n", result["no_value"].get<std::string>());
+    return;
+  }
+  const std::string where =
+      result.contains("worst_patch")
+          ? fmt::format(" of patch {},{}", result["worst_patch"][0].get<int>(),
+                        result["worst_patch"][1].get<int>())
+          : "";
+  fmt::print("SAV {}  worst curve {}{}\n", text_of(result["sav"]),
+             result["worst"].get<std::string>(), where);
+  if (result.contains("patches"))
+    print_patches(result["patches"]);
+  else
+    print_curves(result["curves"]);
+}
+
+operations::ReportOptions report_options(const AnalyzeCommand& command,
+                                         const document::Document& document) {
+  operations::ReportOptions options;
+  options.subtitle = command.input.files.front();
+  options.unit = document.unit.empty() ? command.input.unit : document.unit;
+  options.command = command.common.command_line;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  return options;
+}
+
+double sav_of(const SurfaceSubject& s) {
+  double sum = 0;
+  for (const auto& p : s.values) sum += p.value.sav;
+  return sum;
+}
+
+Result<std::string> html_of(std::vector<SurfaceSubject> subjects,
+                            const operations::ReportOptions& options) {
+  std::stable_sort(subjects.begin(), subjects.end(),
+                   [](const auto& a, const auto& b) { return sav_of(a) > sav_of(b); });
+  std::vector<report::Report> reports;
+  for (const SurfaceSubject& subject : subjects) {
+    if (reports.size() == kMostReports) break;
+    auto made = operations::surface_report(subject, options);
+    if (!made) return std::unexpected(made.error());
+    reports.push_back(std::move(*made));
+  }
+  report::Report whole = operations::joined_report(reports, "Surface analysis");
+  if (subjects.size() > kMostReports)
+    whole.notes.push_back(
+        {report::NoteKind::note, fmt::format("The {} surfaces of largest SAV out of {} are shown.",
+                                             kMostReports, subjects.size())});
+  return report::html_report(whole);
+}
+
+void add_pictures(Writers& writers, const std::vector<SurfaceSubject>& subjects,
+                  const operations::ReportOptions& options) {
+  writers[".html"] = [&] { return html_of(subjects, options); };
+  const auto page = [&] { return operations::surface_page(subjects, options); };
+  writers[".png"] = [page]() -> Result<std::string> {
+    const auto drawing = page();
+    if (!drawing) return std::unexpected(drawing.error());
+    return figure::write_png(*drawing, 2);
+  };
+  writers[".pdf"] = [page]() -> Result<std::string> {
+    const auto drawing = page();
+    if (!drawing) return std::unexpected(drawing.error());
+    return figure::write_pdf(*drawing);
+  };
+  writers[".svg"] = [page]() -> Result<std::string> {
+    const auto drawing = page();
+    if (!drawing) return std::unexpected(drawing.error());
+    return figure::write_svg(*drawing);
+  };
+}
+
+}  // namespace
+
+int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document) {
+  const CommonOptions& common = command.common;
+  if (auto known = check_outputs(common, {".json", ".html", ".png", ".pdf", ".svg"}); !known)
+    return report_failure(known.error());
+  const core::Progress progress = interactive_progress(common.quiet);
+  std::vector<SurfaceSubject> subjects;
+  json all = json::array();
+  for (std::size_t i = 0; i < document.surfaces.size(); ++i) {
+    const double count = static_cast<double>(document.surfaces.size());
+    auto subject = valued(name_of(document, i), document.surfaces[i].surface, command,
+                          core::part_of(progress, i / count, (i + 1) / count));
+    if (!subject) return report_failure(subject.error(), command.input.files.front());
+    all.push_back(result_of(*subject));
+    subjects.push_back(std::move(*subject));
+  }
+  end_progress();
+  if (!common.json && !common.quiet)
+    for (const json& result : all) print_summary(result);
+  const json shown = all.size() == 1 ? json(all[0]) : json{{"surfaces", all}};
+  const operations::ReportOptions options = report_options(command, document);
+  Writers writers;
+  writers[".json"] = [&]() -> Result<std::string> { return shown.dump(1) + "\n"; };
+  add_pictures(writers, subjects, options);
+  if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
+  if (common.json) fmt::print("{}\n", shown.dump());
+  return kDone;
+}
+
+}  // namespace keyline::app

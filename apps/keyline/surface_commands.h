@@ -1,0 +1,13 @@
+#pragma once
+
+#include "keyline/document/document.h"
+
+#include "commands.h"
+
+/// What commands do with a file that holds surfaces.
+namespace keyline::app {
+
+/// SAV by surface, patch and curve, curvature and pictures.
+int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document);
+
+}  // namespace keyline::app
