@@ -173,17 +173,20 @@ Command add_sketch(CLI::App& app) {
 
 Command add_analyze(CLI::App& app) {
   auto options = std::make_shared<AnalyzeCommand>();
-  auto* sub = app.add_subcommand("analyze", "curvature, rhythm and character of a curve");
+  auto* sub =
+      app.add_subcommand("analyze", "curvature and rhythm of curves, SAV and zebra of surfaces");
   add_input(*sub, options->input);
   add_common(*sub, options->common);
-  sub->footer("Example: keyline analyze examples/clothoid.csv -o report.html");
+  sub->footer(
+      "Example: keyline analyze examples/clothoid.csv -o report.html\n"
+      "         keyline analyze examples/panel-c.json -o panel.html");
   return {sub, runs(options, run_analyze)};
 }
 
 Command add_edit(CLI::App& app) {
   auto options = std::make_shared<EditCommand>();
   EditCommand& edit = *options;
-  auto* sub = app.add_subcommand("edit", "a curve towards Class A and least strain energy");
+  auto* sub = app.add_subcommand("edit", "a curve or patch towards Class A and least energy");
   add_input(*sub, edit.input);
   add_common(*sub, edit.common);
   sub->add_option("--to", edit.to, "alpha,s to move to; the minimum-energy point unless given")
@@ -200,9 +203,14 @@ Command add_edit(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--alpha-max", edit.alpha_max, "largest rotation, radians (1.0982)");
   sub->add_option("--end-tolerance", edit.end_tolerance,
-                  "how far the end may move, a length (0.01 of the chord)");
+                  "how far the end may move, a length (0.01 of the chord; surfaces: 0)");
+  sub->add_option("--keep", edit.keep, "surfaces: start, corners or boundary")
+      ->capture_default_str();
+  sub->add_option("--limit", edit.limit, "surfaces: largest departure, a length")
+      ->check(CLI::NonNegativeNumber);
   sub->footer(
       "Example: keyline edit examples/cubic.json --end-tolerance 0.01 -o report.html\n"
+      "         keyline edit examples/panel-c.json --keep corners --limit 5 -o panel.json\n"
       "Formats: svg, json (the exact Bezier), csv (samples), html (report), pdf, png.");
   return {sub, runs(options, run_edit)};
 }

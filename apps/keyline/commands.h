@@ -66,6 +66,8 @@ struct EditCommand {
   std::string branch = "own";
   std::optional<double> alpha_max;
   std::optional<double> end_tolerance;
+  std::string keep = "start";   ///< of a surface
+  std::optional<double> limit;  ///< of a surface: largest departure
 };
 int run_edit(const EditCommand& command);
 

@@ -16,6 +16,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "surface_commands.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -120,8 +121,9 @@ int run_edit(const EditCommand& command) {
   const std::string& file = command.input.files.front();
   const auto document = load_document(command.input);
   if (!document) return report_failure(document.error());
+  if (!document->surfaces.empty()) return edit_surfaces(command, *document);
   if (document->paths.empty())
-    return report_failure({core::ErrorCode::bad_input, "there is no planar curve to edit",
+    return report_failure({core::ErrorCode::bad_input, "there is no planar curve or patch to edit",
                            "give a file that holds one", ""},
                           file);
   std::vector<Edited> all;

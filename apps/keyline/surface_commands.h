@@ -10,4 +10,7 @@ namespace keyline::app {
 /// SAV by surface, patch and curve, curvature and pictures.
 int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document);
 
+/// Every surface of the file towards Class A; each has to be one polynomial Bezier patch.
+int edit_surfaces(const EditCommand& command, const document::Document& document);
+
 }  // namespace keyline::app

@@ -1,8 +1,9 @@
+#include "keyline/operations/surface_edit.h"
+
 #include "keyline/exchange/json_surface.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/surface_value_json.h"
-#include "keyline/surface/edit.h"
 
 namespace keyline::operations {
 namespace {
@@ -21,18 +22,28 @@ Result<Keep> keep_of(const json& request) {
                     "use start, corners or boundary", "keep");
 }
 
-/// A B-spline surface that is one Bézier patch counts as that.
-Result<surface::BezierSurface> patch_of(const json& request) {
-  const surface::PatchGrid grid = surface::patches_of(surface_of(request, "surface"));
+Result<json> run(const json& request, const Context& context) {
+  const auto patch = one_patch(surface_of(request, "surface"));
+  if (!patch) return std::unexpected(patch.error());
+  auto options = surface_edit_options(request);
+  if (!options) return std::unexpected(options.error());
+  options->progress = context.progress;
+  const auto edited = surface::edit(*patch, *options);
+  if (!edited) return std::unexpected(edited.error());
+  return surface_edit_json(*edited);
+}
+
+}  // namespace
+
+Result<surface::BezierSurface> one_patch(const surface::Surface& s) {
+  const surface::PatchGrid grid = surface::patches_of(s);
   if (grid.patches.size() == 1) return grid.patches.front();
   return core::fail(ErrorCode::unsupported,
                     "the surface has " + std::to_string(grid.patches.size()) + " Bezier patches",
                     "edit one patch at a time", "surface");
 }
 
-Result<json> run(const json& request, const Context& context) {
-  const auto patch = patch_of(request);
-  if (!patch) return std::unexpected(patch.error());
+Result<surface::EditOptions> surface_edit_options(const json& request) {
   const auto keep = keep_of(request);
   if (!keep) return std::unexpected(keep.error());
   surface::EditOptions options;
@@ -41,22 +52,21 @@ Result<json> run(const json& request, const Context& context) {
   options.limit = optional_number(request, "limit");
   options.alpha_max = number_or(request, "alpha_max", options.alpha_max);
   options.end_tolerance = number_or(request, "end_tolerance", 0);
-  options.progress = context.progress;
-  const auto edited = surface::edit(*patch, options);
-  if (!edited) return std::unexpected(edited.error());
-  json tradeoff = json::array();
-  for (const surface::TradeOff& t : edited->tradeoff)
-    tradeoff.push_back({{"target", t.name}, {"departure", t.departure}, {"sav", t.sav}});
-  return json{{"surface", exchange::to_json(edited->surface)},
-              {"before", surface_value_json(edited->before)},
-              {"after", surface_value_json(edited->after)},
-              {"departure", edited->departure},
-              {"amount", edited->amount},
-              {"target", edited->target},
-              {"tradeoff", std::move(tradeoff)}};
+  return options;
 }
 
-}  // namespace
+json surface_edit_json(const surface::EditResult& edited) {
+  json tradeoff = json::array();
+  for (const surface::TradeOff& t : edited.tradeoff)
+    tradeoff.push_back({{"target", t.name}, {"departure", t.departure}, {"sav", t.sav}});
+  return json{{"surface", exchange::to_json(edited.surface)},
+              {"before", surface_value_json(edited.before)},
+              {"after", surface_value_json(edited.after)},
+              {"departure", edited.departure},
+              {"amount", edited.amount},
+              {"target", edited.target},
+              {"tradeoff", std::move(tradeoff)}};
+}
 
 Operation surface_edit_operation() {
   using Type = Field::Type;
