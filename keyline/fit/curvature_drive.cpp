@@ -1,0 +1,302 @@
+#include "keyline/fit/curvature_drive.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "keyline/curve/jet.h"
+#include "keyline/curve/monotone.h"
+#include "keyline/fit/control_edges.h"
+#include "keyline/numeric/levenberg_marquardt.h"
+
+namespace keyline::fit {
+namespace {
+
+using core::cross;
+using core::ErrorCode;
+using core::Point2;
+using core::Result;
+using curve::Bezier2;
+using curve::PiecewiseBezier;
+
+constexpr int kFewTargets = 8;  ///< fewer than this in a piece are interpolated
+constexpr int kAdded = 16;      ///< targets a piece then gets
+
+struct LocalTarget {
+  std::size_t piece = 0;
+  double u = 0;
+  double curvature = 0;
+};
+
+Result<PiecewiseBezier> as_quintics(const PiecewiseBezier& chain) {
+  if (chain.pieces.empty())
+    return core::fail(ErrorCode::bad_input, "the chain has no piece", "give a quintic path",
+                      "curve");
+  PiecewiseBezier out;
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    const Bezier2& piece = chain.pieces[i];
+    const std::string where = "curve.curves[" + std::to_string(i) + "]";
+    if (auto ok = validate(piece); !ok)
+      return core::fail(ErrorCode::bad_input, ok.error().message, {}, where);
+    if (is_rational(piece) || curve::degree(piece) > 5)
+      return core::fail(ErrorCode::bad_input, "a piece is no polynomial of degree 5 or less",
+                        "approximate it by quintics first", where);
+    out.pieces.push_back(elevate_degree(piece, 5 - curve::degree(piece)));
+    const double size = core::distance(piece.control.front(), piece.control.back());
+    if (i > 0 &&
+        core::distance(out.pieces[i - 1].control[5], out.pieces[i].control[0]) > 1e-6 * size)
+      return core::fail(ErrorCode::bad_input, "a piece does not start where the last one ends",
+                        "give a path without gaps", where);
+  }
+  return out;
+}
+
+/// Parameters inside a quintic where its curvature changes sign.
+std::vector<double> inflections(const Bezier2& piece) {
+  const auto bend = [&](double t) {
+    const auto j = jet(piece, t);
+    return cross(j.first, j.second);
+  };
+  double size = 0;
+  for (std::size_t k = 1; k < piece.control.size(); ++k)
+    size += core::distance(piece.control[k - 1], piece.control[k]);
+  constexpr int kSteps = 64;
+  const double flat = 1e-9 * size * size;
+  std::vector<double> found;
+  double last_t = 0;
+  double last = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = static_cast<double>(i) / kSteps;
+    const double here = bend(t);
+    if (std::abs(here) <= flat) continue;  // an inflection in an end is none inside
+    if (last != 0 && (last < 0) != (here < 0)) {
+      double low = last_t;
+      double high = t;
+      for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        ((bend(middle) < 0) == (last < 0) ? low : high) = middle;
+      }
+      const double root = 0.5 * (low + high);
+      if (root > 1e-6 && root < 1 - 1e-6) found.push_back(root);
+    }
+    last = here;
+    last_t = t;
+  }
+  return found;
+}
+
+/// Splits at inflections; targets follow their place.
+PiecewiseBezier split_pieces(const PiecewiseBezier& chain, std::vector<LocalTarget>& targets,
+                             int& splits) {
+  PiecewiseBezier out;
+  std::vector<LocalTarget> moved;
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    std::vector<double> cuts = inflections(chain.pieces[i]);
+    splits += static_cast<int>(cuts.size());
+    cuts.insert(cuts.begin(), 0);
+    cuts.push_back(1);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const bool last = k + 2 == cuts.size();
+      for (const LocalTarget& t : targets)
+        if (t.piece == i && t.u >= cuts[k] && (t.u < cuts[k + 1] || last))
+          moved.push_back(
+              {out.pieces.size(), (t.u - cuts[k]) / (cuts[k + 1] - cuts[k]), t.curvature});
+      out.pieces.push_back(cuts.size() == 2 ? chain.pieces[i]
+                                            : subcurve(chain.pieces[i], cuts[k], cuts[k + 1]));
+    }
+  }
+  targets = std::move(moved);
+  return out;
+}
+
+double rms_error(const PiecewiseBezier& chain, const std::vector<LocalTarget>& targets) {
+  double sum = 0;
+  for (const LocalTarget& t : targets) {
+    const double d = curvature(jet(chain.pieces[t.piece], t.u)) - t.curvature;
+    sum += d * d;
+  }
+  return std::sqrt(sum / static_cast<double>(targets.size()));
+}
+
+struct Solution {
+  PiecewiseBezier chain;
+  numeric::LevenbergMarquardtReport report;
+};
+
+Solution solve(const PiecewiseBezier& chain, const std::vector<Edges>& edges,
+               const FreeLengths& lengths, const std::vector<LocalTarget>& targets,
+               int iterations) {
+  double scale = 0;
+  for (const LocalTarget& t : targets) scale = std::max(scale, std::abs(t.curvature));
+  if (!(scale > 0)) scale = 1;
+  std::vector<Edges> now = edges;
+  Eigen::VectorXd a;
+  Eigen::MatrixXd by_x;
+  const auto function = [&](const Eigen::VectorXd& x, Eigen::VectorXd& residuals,
+                            Eigen::MatrixXd* jacobian) {
+    if (!lengths.expand(x, a, jacobian ? &by_x : nullptr)) return false;
+    for (Eigen::Index k = 0; k < a.size(); ++k)
+      now[static_cast<std::size_t>(k) / kEdges].length[static_cast<std::size_t>(k) % kEdges] = a[k];
+    const auto count = static_cast<Eigen::Index>(targets.size());
+    residuals.resize(count);
+    if (jacobian) jacobian->setZero(count, lengths.size());
+    std::array<double, kEdges> gradient{};
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const LocalTarget& t = targets[static_cast<std::size_t>(i)];
+      const double kappa =
+          curvature_with_gradient(now[t.piece], t.u, jacobian ? &gradient : nullptr);
+      residuals[i] = (kappa - t.curvature) / scale;
+      if (!jacobian) continue;
+      for (std::size_t n = 0; n < kEdges; ++n)
+        jacobian->row(i) +=
+            (gradient[n] / scale) * by_x.row(static_cast<Eigen::Index>(kEdges * t.piece + n));
+    }
+    return residuals.allFinite();
+  };
+  Eigen::VectorXd x = lengths.unknowns();
+  Solution solution;
+  numeric::LevenbergMarquardtOptions options;
+  options.max_iterations = iterations;
+  solution.report = numeric::minimize_least_squares(function, x, options);
+  lengths.expand(x, a, nullptr);
+  solution.chain = chain_of(chain.pieces.front().control.front(), edges, a);
+  return solution;
+}
+
+bool stays_monotone(const PiecewiseBezier& before, const PiecewiseBezier& after) {
+  for (std::size_t i = 0; i < before.pieces.size(); ++i)
+    if (certify_monotone_curvature(before.pieces[i], 1e-6).answer == curve::MonotoneVerdict::yes &&
+        certify_monotone_curvature(after.pieces[i], 1e-6).answer == curve::MonotoneVerdict::no)
+      return false;
+  return true;
+}
+
+/// Value at t of the monotone cubic (Fritsch & Carlson) through the targets, level beyond them.
+double interpolated(const std::vector<CurvatureTarget>& p, double t) {
+  if (t <= p.front().t) return p.front().curvature;
+  if (t >= p.back().t) return p.back().curvature;
+  const auto after = std::upper_bound(p.begin(), p.end(), t,
+                                      [](double v, const CurvatureTarget& c) { return v < c.t; });
+  const auto i = static_cast<std::size_t>(after - p.begin()) - 1;
+  const auto secant = [&](std::size_t k) {
+    return (p[k + 1].curvature - p[k].curvature) / (p[k + 1].t - p[k].t);
+  };
+  const auto slope = [&](std::size_t k) {
+    if (k == 0) return secant(0);
+    if (k + 1 == p.size()) return secant(k - 1);
+    const double left = secant(k - 1);
+    const double right = secant(k);
+    return left * right <= 0 ? 0 : 2 * left * right / (left + right);
+  };
+  const double h = p[i + 1].t - p[i].t;
+  const double u = (t - p[i].t) / h;
+  const double m0 = slope(i) * h;
+  const double m1 = slope(i + 1) * h;
+  const double rise = p[i + 1].curvature - p[i].curvature;
+  return p[i].curvature + u * (m0 + u * ((3 * rise - 2 * m0 - m1) + u * (m0 + m1 - 2 * rise)));
+}
+
+Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget> targets,
+                                               std::size_t pieces) {
+  const auto bad = [](const std::string& what) {
+    return core::fail(ErrorCode::bad_input, what, "give t from 0 to 1 and finite curvatures",
+                      "target");
+  };
+  for (const CurvatureTarget& t : targets)
+    if (!(t.t >= 0 && t.t <= 1) || !std::isfinite(t.curvature))
+      return bad("a target lies outside the curve");
+  std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  const auto same = [](const auto& a, const auto& b) { return a.t == b.t; };
+  if (std::adjacent_find(targets.begin(), targets.end(), same) != targets.end())
+    return bad("two targets lie in one place");
+  if (targets.size() < 2) return bad("there are fewer than two targets");
+  const double n = static_cast<double>(pieces);
+  std::vector<LocalTarget> local;
+  std::vector<int> count(pieces, 0);
+  const auto add = [&](double t, double value) {
+    const auto piece = std::min(static_cast<std::size_t>(t * n), pieces - 1);
+    local.push_back({piece, t * n - static_cast<double>(piece), value});
+    ++count[piece];
+  };
+  for (const CurvatureTarget& t : targets) add(t.t, t.curvature);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    if (count[k] >= kFewTargets) continue;
+    for (int i = 0; i < kAdded; ++i) {
+      const double t = (static_cast<double>(k) + (i + 0.5) / kAdded) / n;
+      if (t > targets.front().t && t < targets.back().t) add(t, interpolated(targets, t));
+    }
+  }
+  return local;
+}
+
+/// The longest part of the way to the target on which monotone pieces stay monotone.
+Solution keep_monotone(const PiecewiseBezier& chain, const std::vector<Edges>& edges,
+                       const FreeLengths& lengths, const std::vector<LocalTarget>& targets,
+                       int iterations, double& share) {
+  double low = 0;
+  double high = 1;
+  Solution best{chain, {}};
+  for (int round = 0; round < 10; ++round) {
+    const double way = round == 0 ? 1 : 0.5 * (low + high);
+    std::vector<LocalTarget> part = targets;
+    for (LocalTarget& t : part) {
+      const double now = curvature(jet(chain.pieces[t.piece], t.u));
+      t.curvature = now + way * (t.curvature - now);
+    }
+    Solution found = solve(chain, edges, lengths, part, iterations);
+    if (stays_monotone(chain, found.chain)) {
+      best = std::move(found);
+      low = way;
+      if (round == 0) break;
+    } else {
+      high = way;
+    }
+  }
+  share = low;
+  return best;
+}
+
+}  // namespace
+
+Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
+                                       std::vector<CurvatureTarget> wanted,
+                                       const CurvatureDriveOptions& options) {
+  const auto quintics = as_quintics(given);
+  if (!quintics) return std::unexpected(quintics.error());
+  auto targets = local_targets(std::move(wanted), quintics->pieces.size());
+  if (!targets) return std::unexpected(targets.error());
+  CurvatureDrive result;
+  int splits = 0;
+  const PiecewiseBezier chain = split_pieces(*quintics, *targets, splits);
+  if (splits > 0)
+    result.notes.push_back("split at " + std::to_string(splits) + " inflections inside pieces");
+  const auto edges = edges_of(chain);
+  if (!edges) return std::unexpected(edges.error());
+  const FreeLengths lengths(*edges, options.closed, options.hold_end);
+  if (!lengths.can_hold())
+    return core::fail(ErrorCode::undrawable, "the end cannot be held: all free edges are parallel",
+                      "let the end move", "hold_end");
+  Solution solution;
+  if (options.keep_monotone) {
+    solution =
+        keep_monotone(chain, *edges, lengths, *targets, options.max_iterations, result.share);
+  } else {
+    solution = solve(chain, *edges, lengths, *targets, options.max_iterations);
+  }
+  result.before = rms_error(chain, *targets);
+  result.after = rms_error(solution.chain, *targets);
+  result.end_moved = core::distance(solution.chain.pieces.back().control.back(),
+                                    chain.pieces.back().control.back());
+  result.iterations = solution.report.iterations;
+  result.converged = solution.report.status == numeric::LevenbergMarquardtStatus::converged;
+  result.chain = std::move(solution.chain);
+  if (result.share < 1)
+    result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");
+  return result;
+}
+
+}  // namespace keyline::fit

@@ -1,0 +1,199 @@
+#include "keyline/fit/curvature_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "keyline/core/error.h"
+#include "keyline/curve/jet.h"
+#include "keyline/numeric/power_mean.h"
+
+namespace keyline::fit {
+namespace {
+
+constexpr int kPerPiece = 64;  ///< samples of the profile
+constexpr int kTargets = 24;   ///< targets per piece
+
+/// Curvature at equal steps of t, with the arc length there.
+struct Profile {
+  std::vector<double> t;
+  std::vector<double> length;
+  std::vector<double> curvature;
+};
+
+Profile profile_of(const curve::PiecewiseBezier& chain) {
+  if (chain.pieces.empty()) throw core::InvalidInput("a curvature target needs a piece");
+  Profile p;
+  const std::size_t n = chain.pieces.size();
+  double length = 0;
+  for (std::size_t k = 0; k < n; ++k)
+    for (int i = 0; i < kPerPiece; ++i) {
+      const double u = (i + 0.5) / kPerPiece;
+      const auto at = jet(chain.pieces[k], u);
+      const double step = speed(at) / kPerPiece;
+      p.t.push_back((static_cast<double>(k) + u) / static_cast<double>(n));
+      p.length.push_back(length + 0.5 * step);
+      const double bend = curvature(at);
+      p.curvature.push_back(std::isfinite(bend) ? bend : 0);
+      length += step;
+    }
+  p.length.push_back(length);  // the whole, behind the samples
+  return p;
+}
+
+/// Gaussian mean along the length; beyond open ends the profile goes on mirrored in its end point.
+std::vector<double> low_pass(const Profile& p, double sigma, bool closed) {
+  const std::size_t n = p.curvature.size();
+  const double whole = p.length.back();
+  std::vector<double> smooth(n);
+  const auto value = [&](long i, double& s, double& weight) {
+    const long m = static_cast<long>(n);
+    const auto at = [](long k) { return static_cast<std::size_t>(k); };
+    const auto step = [&](long k) {
+      const double before = k > 0 ? p.length[at(k - 1)] : -p.length[at(0)];
+      const double after = k + 1 < m ? p.length[at(k + 1)] : 2 * whole - p.length[at(k)];
+      return 0.5 * (after - before);
+    };
+    if (i >= 0 && i < m) {
+      s = p.length[at(i)];
+      weight = step(i);
+      return p.curvature[at(i)];
+    }
+    if (closed) {
+      const long k = ((i % m) + m) % m;
+      s = p.length[at(k)] + (i < 0 ? -whole : whole);
+      weight = step(k);
+      return p.curvature[at(k)];
+    }
+    const long k = i < 0 ? -1 - i : 2 * m - 1 - i;
+    const double end = i < 0 ? p.curvature.front() : p.curvature.back();
+    s = i < 0 ? -p.length[at(k)] : 2 * whole - p.length[at(k)];
+    weight = step(k);
+    return 2 * end - p.curvature[at(k)];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    double total = 0;
+    for (const long direction : {-1L, 1L})
+      for (long j = direction < 0 ? static_cast<long>(i) - 1 : static_cast<long>(i);
+           j > -static_cast<long>(n) && j < 2 * static_cast<long>(n); j += direction) {
+        double s = 0;
+        double weight = 0;
+        const double v = value(j, s, weight);
+        const double d = (s - p.length[i]) / sigma;
+        if (std::abs(d) > 4) break;
+        const double w = weight * std::exp(-0.5 * d * d);
+        sum += w * v;
+        total += w;
+      }
+    smooth[i] = sum / total;
+  }
+  return smooth;
+}
+
+double automatic_cutoff(const Profile& p, std::size_t pieces) {
+  return std::min(2.0 / static_cast<double>(pieces), 1.0) * p.length.back();
+}
+
+/// Standard deviation of the Gaussian that halves waves of that length.
+double sigma_of(double cutoff) { return cutoff * std::sqrt(std::log(2.0) / 2) / M_PI; }
+
+std::vector<CurvatureTarget> thinned(const Profile& p, const std::vector<double>& curvature) {
+  std::vector<CurvatureTarget> targets;
+  const double step = static_cast<double>(kPerPiece) / kTargets;
+  for (double i = 0.5 * step; i < static_cast<double>(curvature.size()); i += step) {
+    const auto k = static_cast<std::size_t>(i);
+    targets.push_back({p.t[k], curvature[k]});
+  }
+  return targets;
+}
+
+/// Indices where a smooth profile turns or changes sign by more than a ripple, ends included.
+std::vector<std::size_t> landmarks(const std::vector<double>& k) {
+  const double largest = std::abs(*std::max_element(
+      k.begin(), k.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  const double ripple = 0.05 * largest;
+  std::vector<std::size_t> marks = {0};
+  std::size_t extreme = 0;  // of the current run
+  int trend = 0;
+  for (std::size_t i = 1; i < k.size(); ++i) {
+    if (trend == 0) {
+      if (std::abs(k[i] - k[0]) > ripple) trend = k[i] > k[0] ? 1 : -1, extreme = i;
+    } else if (trend * (k[i] - k[extreme]) >= 0) {
+      extreme = i;
+    } else if (trend * (k[extreme] - k[i]) > ripple) {
+      marks.push_back(extreme);
+      trend = -trend;
+      extreme = i;
+    }
+  }
+  for (std::size_t i = 1; i < k.size(); ++i)
+    if ((k[i - 1] < 0) != (k[i] < 0)) marks.push_back(i);
+  marks.push_back(k.size() - 1);
+  std::sort(marks.begin(), marks.end());
+  marks.erase(std::unique(marks.begin(), marks.end(),
+                          [](std::size_t a, std::size_t b) { return b < a + 4; }),
+              marks.end());
+  if (marks.back() != k.size() - 1) marks.back() = k.size() - 1;
+  return marks;
+}
+
+/// κ at the share v of a stretch of slope α; where an end is 0 slopes must be negative.
+double power_law(double k0, double k1, double alpha, double v) {
+  if (alpha < 0) return numeric::signed_power_mean(k0, k1, -alpha, v);
+  const double sign = k0 + k1 < 0 ? -1 : 1;
+  return sign * numeric::power_mean(std::abs(k0), std::abs(k1), -alpha, v);
+}
+
+/// The slope that fits best, by a fine look over what is usual.
+double best_slope(const Profile& p, const std::vector<double>& k, std::size_t from, std::size_t to,
+                  double k0, double k1) {
+  const bool negative_only = k0 * k1 <= 0;
+  double best = -1;
+  double least = HUGE_VAL;
+  for (double alpha = -6; alpha <= 6; alpha += 0.05) {
+    if (negative_only && alpha > -0.1) break;
+    double sum = 0;
+    for (std::size_t i = from; i <= to; ++i) {
+      const double v = (p.length[i] - p.length[from]) / (p.length[to] - p.length[from]);
+      const double d = power_law(k0, k1, alpha, v) - k[i];
+      sum += d * d;
+    }
+    if (sum < least) least = sum, best = alpha;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<CurvatureTarget> smooth_target(const curve::PiecewiseBezier& chain, bool closed,
+                                           double cutoff) {
+  const Profile p = profile_of(chain);
+  const double wavelength = cutoff > 0 ? cutoff : automatic_cutoff(p, chain.pieces.size());
+  return thinned(p, low_pass(p, sigma_of(wavelength), closed));
+}
+
+std::vector<CurvatureTarget> rhythm_target(const curve::PiecewiseBezier& chain, bool closed) {
+  const Profile p = profile_of(chain);
+  const std::vector<double> smooth =
+      low_pass(p, sigma_of(automatic_cutoff(p, chain.pieces.size())), closed);
+  const std::vector<std::size_t> marks = landmarks(smooth);
+  std::vector<double> wanted(smooth.size());
+  for (std::size_t m = 0; m + 1 < marks.size(); ++m) {
+    const std::size_t from = marks[m];
+    const std::size_t to = marks[m + 1];
+    // at a change of sign the curvature is zero between two samples
+    const auto value = [&](std::size_t i) {
+      const bool flips = i > 0 && i + 1 < smooth.size() && (smooth[i - 1] < 0) != (smooth[i] < 0);
+      return flips ? 0.0 : smooth[i];
+    };
+    const double alpha = best_slope(p, smooth, from, to, value(from), value(to));
+    for (std::size_t i = from; i <= to; ++i) {
+      const double v = (p.length[i] - p.length[from]) / (p.length[to] - p.length[from]);
+      wanted[i] = power_law(value(from), value(to), alpha, v);
+    }
+  }
+  return thinned(p, wanted);
+}
+
+}  // namespace keyline::fit

@@ -1,0 +1,201 @@
+#include "keyline/fit/curvature_drive.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/curve/jet.h"
+#include "keyline/curve/monotone.h"
+#include "keyline/fit/curvature_target.h"
+#include "keyline/numeric/random.h"
+
+namespace keyline::fit {
+namespace {
+
+using core::Point2;
+using core::Vector2;
+using curve::PiecewiseBezier;
+
+/// Quintics whose edges turn left all the way; lengths from `length(piece, edge)`.
+template <class Length>
+PiecewiseBezier turning_chain(int pieces, const Length& length) {
+  PiecewiseBezier chain;
+  Point2 p{1, 2};
+  double angle = 0.3;
+  double last = 0;
+  for (int i = 0; i < pieces; ++i) {
+    curve::Bezier2 piece{{p}, {}};
+    double a1 = 0;
+    for (int n = 0; n < 5; ++n) {
+      double a = length(i, n);
+      if (n == 0) a1 = a;
+      // the curvature of the joint from this side: 0.8 a2 sin / a1²
+      if (i > 0 && n == 1) a = last * a1 * a1 / (0.8 * std::sin(0.12));
+      p = p + a * Vector2{std::cos(angle), std::sin(angle)};
+      piece.control.push_back(p);
+      if (n < 4) angle += 0.12;
+      if (n == 4)
+        last = 0.8 * core::distance(piece.control[4], piece.control[3]) * std::sin(0.12) / (a * a);
+    }
+    chain.pieces.push_back(piece);
+  }
+  return chain;
+}
+
+std::vector<CurvatureTarget> curvatures(const PiecewiseBezier& chain, int n) {
+  std::vector<CurvatureTarget> targets;
+  for (int i = 0; i < n; ++i) {
+    const double t = (i + 0.5) / n;
+    targets.push_back({t, curvature(jet(chain, t))});
+  }
+  return targets;
+}
+
+double rms(const std::vector<CurvatureTarget>& targets) {
+  double sum = 0;
+  for (const auto& t : targets) sum += t.curvature * t.curvature;
+  return std::sqrt(sum / static_cast<double>(targets.size()));
+}
+
+TEST(CurvatureDrive, MeetsTargetsOfTheSameDirections) {
+  numeric::Random random(5);
+  for (int pieces = 1; pieces <= 6; ++pieces) {
+    SCOPED_TRACE(pieces);
+    const PiecewiseBezier wanted =
+        turning_chain(pieces, [&](int, int) { return random.uniform(0.8, 1.3); });
+    const PiecewiseBezier start = turning_chain(pieces, [](int, int) { return 1.0; });
+    const auto targets = curvatures(wanted, 24 * pieces);
+    const auto result = drive_curvature(start, targets);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(result->converged);
+    EXPECT_LT(result->after, 1e-3 * rms(targets));
+    EXPECT_LT(result->after, 1e-6 * result->before);
+    for (std::size_t i = 0; i < wanted.pieces.size(); ++i)
+      for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_LT(core::distance(result->chain.pieces[i].control[k], wanted.pieces[i].control[k]),
+                  1e-4);
+  }
+}
+
+TEST(CurvatureDrive, KeepsJointsAndTheHeldEnd) {
+  const PiecewiseBezier start = turning_chain(3, [](int, int) { return 1.0; });
+  auto targets = curvatures(start, 60);
+  for (auto& t : targets) t.curvature *= 1 + 0.2 * std::sin(5 * t.t);
+  for (const bool hold : {false, true}) {
+    const auto result = drive_curvature(start, targets, {.hold_end = hold});
+    ASSERT_TRUE(result);
+    EXPECT_LT(result->after, result->before);
+    const auto& pieces = result->chain.pieces;
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      EXPECT_EQ(pieces[i].control[5], pieces[i + 1].control[0]);
+      EXPECT_NEAR(curvature(jet(pieces[i], 1)), curvature(jet(pieces[i + 1], 0)), 1e-10);
+    }
+    EXPECT_EQ(pieces[0].control[0], start.pieces[0].control[0]);
+    EXPECT_EQ(result->end_moved < 1e-9, hold) << result->end_moved;
+  }
+}
+
+TEST(CurvatureDrive, SplitsAtInflectionsFirst) {
+  const PiecewiseBezier s{{{{{0, 0}, {1, 1}, {2, 1}, {3, -1}, {4, -1}, {5, 0}}, {}}}, 0};
+  auto targets = curvatures(s, 40);
+  for (auto& t : targets) t.curvature *= 0.8;
+  const auto result = drive_curvature(s, targets);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->chain.pieces.size(), 2U);
+  EXPECT_LT(result->after, 0.6 * result->before);
+}
+
+TEST(CurvatureDrive, KeepsMonotonePiecesMonotone) {
+  const PiecewiseBezier start =
+      turning_chain(2, [](int i, int n) { return 1 + 0.05 * (5 * i + n); });
+  auto targets = curvatures(start, 48);
+  for (auto& t : targets) t.curvature *= 1 + 0.5 * std::sin(20 * t.t);
+  const auto free = drive_curvature(start, targets);
+  const auto kept = drive_curvature(start, targets, {.keep_monotone = true});
+  ASSERT_TRUE(free && kept);
+  EXPECT_LT(free->after, kept->after);
+  EXPECT_LE(kept->after, kept->before);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_TRUE(certify_monotone_curvature(start.pieces[i]).answer != curve::MonotoneVerdict::yes ||
+                certify_monotone_curvature(kept->chain.pieces[i], 1e-6).answer !=
+                    curve::MonotoneVerdict::no);
+}
+
+TEST(CurvatureDrive, RefusesWhatItCannotTake) {
+  const PiecewiseBezier start = turning_chain(1, [](int, int) { return 1.0; });
+  const auto targets = curvatures(start, 10);
+  const auto code = [](const auto& result) {
+    return result ? core::ErrorCode::internal : result.error().code;
+  };
+  EXPECT_EQ(code(drive_curvature({}, targets)), core::ErrorCode::bad_input);
+  EXPECT_EQ(code(drive_curvature(start, {{0.5, 1}})), core::ErrorCode::bad_input);
+  EXPECT_EQ(code(drive_curvature(start, {{0.5, 1}, {1.5, 1}})), core::ErrorCode::bad_input);
+  EXPECT_EQ(code(drive_curvature(start, {{0.5, 1}, {0.5, 2}})), core::ErrorCode::bad_input);
+  PiecewiseBezier gap = start;
+  gap.pieces.push_back(start.pieces[0]);
+  EXPECT_EQ(code(drive_curvature(gap, targets)), core::ErrorCode::bad_input);
+  PiecewiseBezier stuck = start;
+  stuck.pieces[0].control[2] = stuck.pieces[0].control[1];
+  EXPECT_EQ(code(drive_curvature(stuck, targets)), core::ErrorCode::bad_input);
+  const PiecewiseBezier line{{{{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}, {}}}, 0};
+  EXPECT_EQ(code(drive_curvature(line, targets, {.hold_end = true})), core::ErrorCode::undrawable);
+}
+
+TEST(CurvatureTarget, SmoothingTakesWavesOutAndKeepsTrends) {
+  const PiecewiseBezier chain =
+      turning_chain(8, [](int i, int n) { return (1 + 0.04 * i) * (n == 2 ? 1.25 : 1.0); });
+  const auto now = curvatures(chain, 8 * 24);
+  const auto smooth = smooth_target(chain, false);
+  const auto wiggle = [](const std::vector<CurvatureTarget>& k) {
+    double sum = 0;
+    for (std::size_t i = 1; i + 1 < k.size(); ++i)
+      sum += std::abs(k[i - 1].curvature - 2 * k[i].curvature + k[i + 1].curvature);
+    return sum;
+  };
+  EXPECT_LT(wiggle(smooth), 0.1 * wiggle(now));
+  const auto driven = drive_curvature(chain, smooth, {.hold_end = true});
+  ASSERT_TRUE(driven);
+  EXPECT_LT(driven->after, 0.5 * driven->before);
+}
+
+TEST(CurvatureTarget, RhythmOfAClothoidIsItsOwn) {
+  // quintics along a curve whose curvature grows evenly: the target is that curvature
+  PiecewiseBezier chain;
+  constexpr int kPieces = 4;
+  const auto place = [](double s) {
+    Point2 p;
+    constexpr int kSteps = 4000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double u = s * (i + 0.5) / kSteps;
+      const double angle = 0.1 * u + 0.05 * u * u;
+      p = p + (s / kSteps) * Vector2{std::cos(angle), std::sin(angle)};
+    }
+    return p;
+  };
+  for (int k = 0; k < kPieces; ++k) {
+    const double s0 = 4.0 * k / kPieces;
+    const double s1 = 4.0 * (k + 1) / kPieces;
+    const double h = (s1 - s0) / 5;
+    const auto tangent = [](double s) {
+      const double angle = 0.1 * s + 0.05 * s * s;
+      return Vector2{std::cos(angle), std::sin(angle)};
+    };
+    const Point2 p = place(s0);
+    const Point2 q = place(s1);
+    const Vector2 t0 = tangent(s0);
+    const Vector2 t1 = tangent(s1);
+    const double k0 = 0.1 + 0.1 * s0;
+    const double k1 = 0.1 + 0.1 * s1;
+    chain.pieces.push_back(
+        {{p, p + h * t0, p + (2 * h) * t0 + (1.25 * k0 * h * h) * core::perpendicular_left(t0),
+          q - (2 * h) * t1 + (1.25 * k1 * h * h) * core::perpendicular_left(t1), q - h * t1, q},
+         {}});
+  }
+  double worst = 0;
+  for (const CurvatureTarget& t : rhythm_target(chain, false))
+    worst = std::max(worst, std::abs(t.curvature - (0.1 + 0.4 * t.t)));
+  EXPECT_LT(worst, 0.01);
+}
+
+}  // namespace
+}  // namespace keyline::fit
