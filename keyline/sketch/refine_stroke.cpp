@@ -128,6 +128,19 @@ double Refiner::extension(Point2 end, Vector2 direction, double half_width) cons
   return reach - half_width;
 }
 
+double Refiner::edge_offset(Point2 p, Vector2 out) const {
+  constexpr double kReach = 2;
+  const double ink = std::max(darkness(p - kReach * out), darkness(p - 0.5 * kReach * out));
+  const double half = 0.5 * (ink + darkness(p + kReach * out));
+  double last = darkness(p - kReach * out);
+  for (double s = -kReach + kStep; s <= kReach; s += kStep) {
+    const double here = darkness(p + s * out);
+    if (last >= half && here < half) return s - kStep * (half - here) / (last - here);
+    last = here;
+  }
+  return 0;
+}
+
 /// Lengthens or shortens the end of the stroke to where the pen's centre stopped.
 void Refiner::trim_end(std::vector<Point2>& points, std::vector<double>& widths,
                        double half_width) const {

@@ -29,6 +29,10 @@ class Refiner {
   /// Accuracy: a few hundredths of a pixel on clean lines 2 to 12 pixels wide, away from junctions.
   FineStroke refine(const RawStroke& raw) const;
 
+  /// How far from p along `out` (unit) the ink's border lies, within two pixels either way; 0 where
+  /// none is seen.
+  double edge_offset(core::Point2 p, core::Vector2 out) const;
+
  private:
   struct Profile {
     bool good = false;

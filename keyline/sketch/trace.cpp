@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
-#include "keyline/fit/quintic_chain.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/morphology.h"
-#include "keyline/sketch/quintics.h"
+#include "keyline/sketch/outline.h"
+#include "keyline/sketch/polyline_tools.h"
 #include "keyline/sketch/refine_stroke.h"
-#include "keyline/sketch/segments.h"
 #include "keyline/sketch/stroke_graph.h"
 #include "keyline/sketch/thinning.h"
 
@@ -35,61 +34,16 @@ double usual_width(const Binary& ink) {
   return border > 0 ? std::max(1.0, 2 * area / border) : 1;
 }
 
-/// Points of a run; its ends are those of its line segments (the corners).
-std::vector<Point2> points_of(const SegmentRun& run, const std::vector<Point2>& points) {
-  std::vector<Point2> part;
-  for (std::size_t i = run.first; i <= run.last; ++i) part.push_back(points[i % points.size()]);
-  if (run.closed) return part;
-  part.front() = run.vertices.front();
-  part.back() = run.vertices.back();
-  const auto too_near = [](Point2 p, Point2 end) { return core::distance(p, end) < 0.5; };
-  while (part.size() > 2 && too_near(part[1], part.front())) part.erase(part.begin() + 1);
-  while (part.size() > 2 && too_near(part[part.size() - 2], part.back()))
-    part.erase(part.end() - 2);
-  return part;
-}
-
-/// Quintics of a run: [Sketch] section 5 as it stands, or as few as follow the points.
-std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke& fine,
-                                        const TraceOptions& options) {
-  std::vector<curve::Bezier2> pieces = elevated(quadratics(run.vertices, run.closed));
-  make_curvature_continuous(pieces, run.closed);
-  if (options.tolerance <= 0) return pieces;
-  const auto part = points_of(run, fine.points);
-  if (part.size() < 4) return pieces;
-  const double tolerance = std::max(options.tolerance, 0.1 * fine.width);
-  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48});
-  return chain.within_tolerance ? chain.pieces : pieces;
-}
-
-/// The curve of a refined stroke: line segments, quadratics, quintics, joints.
-Stroke curve_of(const FineStroke& fine, const TraceOptions& options) {
-  Stroke stroke;
-  stroke.points = fine.points;
-  stroke.closed = fine.closed;
-  stroke.width = fine.width;
-  const auto runs = fit_segments(fine.points, fine.closed,
-                                 {options.straightness, options.corner_angle, fine.width});
-  for (const SegmentRun& run : runs) {
-    const std::vector<curve::Bezier2> pieces = quintics_of(run, fine, options);
-    if (!stroke.curve.empty()) stroke.corners.push_back(stroke.curve.size());
-    if (stroke.curve.empty() && fine.closed && !run.closed) stroke.corners.push_back(0);
-    stroke.curve.insert(stroke.curve.end(), pieces.begin(), pieces.end());
-    const std::size_t skip = stroke.segments.empty() ? 0 : 1;
-    stroke.segments.insert(stroke.segments.end(), run.vertices.begin() + static_cast<long>(skip),
-                           run.vertices.end());
-  }
-  if (!runs.front().closed && fine.closed) stroke.segments.pop_back();
-  return stroke;
-}
-
 /// Pixels with y down to y up.
 void turn_up(Stroke& stroke, double height) {
   const auto turn = [height](Point2& p) { p.y = height - p.y; };
   std::for_each(stroke.points.begin(), stroke.points.end(), turn);
   std::for_each(stroke.segments.begin(), stroke.segments.end(), turn);
-  for (curve::Bezier2& piece : stroke.curve)
-    std::for_each(piece.control.begin(), piece.control.end(), turn);
+  for (auto& axis : stroke.axes) std::for_each(axis.begin(), axis.end(), turn);
+  for (auto* pieces : {&stroke.quadratics, &stroke.curve})
+    for (curve::Bezier2& piece : *pieces)
+      std::for_each(piece.control.begin(), piece.control.end(), turn);
+  for (fit::CurvatureTarget& target : stroke.target) target.curvature = -target.curvature;
 }
 
 core::Result<TraceResult> nothing_found() {
@@ -97,38 +51,149 @@ core::Result<TraceResult> nothing_found() {
                     "give --threshold, or a picture with more contrast");
 }
 
-}  // namespace
+void show(const TraceOptions& options, const char* name, const Binary& binary) {
+  if (!options.stage) return;
+  Stage stage{name, {binary.width, binary.height}};
+  for (std::size_t i = 0; i < binary.data.size(); ++i)
+    stage.picture.data[i] = binary.data[i] ? 0 : 255;
+  options.stage(stage);
+}
 
-core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
-  TraceResult result{image.width(), image.height(), {}, {}};
-  const auto cancelled = [&] { return options.progress.stop_requested(); };
-  options.progress.report(0, "reading grey values");
-  const Tone tone = transform_intensity(image, options.tone);
-  image = {};
-  options.progress.report(0.3, "telling ink from paper");
+void show(const TraceOptions& options, const Tone& tone) {
+  if (!options.stage) return;
+  Stage stage{"log", {tone.level.width, tone.level.height}};
+  for (std::size_t i = 0; i < tone.level.data.size(); ++i)
+    stage.picture.data[i] =
+        static_cast<std::uint8_t>(std::min(255.0, 255 * tone.level.data[i] / Tone::kWhite));
+  options.stage(stage);
+}
+
+/// Ink of the lines, smoothed and free of dirt.
+Binary find_ink(const Tone& tone, const TraceOptions& options, double& width) {
   Binary ink = binarize(tone, options.binarize).ink;
-  const double width = usual_width(ink);
+  show(options, "binary", ink);
+  width = usual_width(ink);
   smooth_edges(ink, options.smoothing);
   const int specks =
       options.specks.value_or(static_cast<int>(std::lround(6 + 1.5 * width * width)));
   remove_specks(ink, specks, static_cast<int>(std::lround(1 + width)));
-  if (cancelled()) return core::fail(core::ErrorCode::cancelled, "cancelled");
-  options.progress.report(0.5, "thinning");
-  const StrokeGraph graph = build_graph(thin(ink), ink);
-  options.progress.report(0.7, "following lines");
-  const auto raw = join_strokes(graph, {options.gap.value_or(3 * width + 3), 1.05});
+  show(options, "smoothed", ink);
+  return ink;
+}
+
+/// Lines along the middle of the ink.
+std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double width,
+                                     const TraceOptions& options) {
+  const Binary thinned = thin(ink);
+  show(options, "lines", thinned);
+  const StrokeGraph graph = build_graph(thinned, ink);
+  options.progress.report(0.6, "following lines");
   const Refiner refiner(tone);
-  for (const RawStroke& line : raw) {
-    if (cancelled()) return core::fail(core::ErrorCode::cancelled, "cancelled");
+  std::vector<FineStroke> strokes;
+  for (const RawStroke& line : join_strokes(graph, {options.gap.value_or(3 * width + 3), 1.05})) {
+    if (options.progress.stop_requested()) return {};
     if (core::polygon_length(line.points, line.closed) < std::max(3.0, 0.7 * width)) continue;
-    const FineStroke fine = refiner.refine(line);
-    if (core::polygon_length(fine.points, fine.closed) < 2) continue;
-    result.strokes.push_back(curve_of(fine, options));
-    turn_up(result.strokes.back(), result.height);
+    FineStroke fine = refiner.refine(line);
+    if (core::polygon_length(fine.points, fine.closed) >= 2) strokes.push_back(std::move(fine));
   }
+  return strokes;
+}
+
+/// Strokes drawn several times become one; the width is that of the members.
+std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double width) {
+  std::vector<DrawnStroke> drawn;
+  for (const FineStroke& s : strokes) drawn.push_back({s.points, s.closed});
+  std::vector<FineStroke> lines;
+  for (const MeantLine& line : consolidate(drawn, {.width = width})) {
+    FineStroke fine;
+    fine.closed = line.closed;
+    for (const std::size_t m : line.members)
+      fine.width += strokes[m].width / static_cast<double>(line.members.size());
+    resample(line.points, std::vector<double>(line.points.size(), fine.width), 0.7 * width,
+             line.closed, fine.points, fine.widths);
+    lines.push_back(std::move(fine));
+  }
+  return lines;
+}
+
+/// Curves of all strokes, longest first.
+core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceOptions& options,
+                              TraceResult& result) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (options.progress.stop_requested())
+      return core::fail(core::ErrorCode::cancelled, "cancelled");
+    options.progress.report(0.7 + 0.3 * static_cast<double>(i) / static_cast<double>(lines.size()),
+                            "fitting curves");
+    if (lines[i].points.size() >= 2) result.strokes.push_back(curve_of(lines[i], options.curve));
+  }
+  std::stable_sort(result.strokes.begin(), result.strokes.end(), [](const auto& a, const auto& b) {
+    return core::polygon_length(a.points) > core::polygon_length(b.points);
+  });
+  return {};
+}
+
+/// A picture of which much is ink, or ink in broad areas, may be no drawing.
+void warn_of_photograph(const Binary& ink, double width, TraceResult& result) {
+  double dark = 0;
+  for (const std::uint8_t v : ink.data) dark += v;
+  const double share = dark / static_cast<double>(ink.data.size());
+  if (share > 0.25 || width > 0.06 * std::max(ink.width, ink.height))
+    result.notes.push_back("warning: " + std::to_string(std::lround(100 * share)) +
+                           " % of the picture is ink; is it a drawing?");
+}
+
+}  // namespace
+
+core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
+  TraceResult result{image.width(), image.height(), {}, {}};
+  options.progress.report(0, "reading grey values");
+  const Tone tone = transform_intensity(image, options.tone);
+  image = {};
+  show(options, tone);
+  if (tone.light_on_dark) result.notes.push_back("light lines on dark ground");
+  if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
+  options.progress.report(0.2, "telling ink from paper");
+  double width = 1;
+  const Binary ink = find_ink(tone, options, width);
+  if (options.stage) show(options, "edges", laplacian_edges(ink));
+  options.progress.report(0.4, "thinning");
+  warn_of_photograph(ink, width, result);
+  std::vector<FineStroke> lines =
+      options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
+  if (options.consolidate) lines = merged(lines, width);
+  if (auto done = add_curves(lines, options, result); !done) return std::unexpected(done.error());
+  if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
-  std::stable_sort(result.strokes.begin(), result.strokes.end(),
-                   [](const auto& a, const auto& b) { return a.points.size() > b.points.size(); });
+  for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);
+  return result;
+}
+
+core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes, double width,
+                                        const TraceOptions& options) {
+  const auto bad = [](const std::string& what) {
+    return core::fail(core::ErrorCode::bad_input, what, "give strokes of two places and more");
+  };
+  std::vector<FineStroke> lines;
+  for (const DrawnStroke& s : strokes) {
+    if (!std::all_of(s.points.begin(), s.points.end(), [](Point2 p) { return is_finite(p); }))
+      return bad("a stroke is not finite");
+    const double length = core::polygon_length(s.points, s.closed);
+    if (!(length > 0.5 * width)) continue;
+    if (length > 1e6 * width) return bad("a stroke is a million times longer than its pen is wide");
+    FineStroke fine;
+    fine.closed = s.closed;
+    fine.width = width;
+    resample(s.points, std::vector<double>(s.points.size(), width), 0.7 * width, s.closed,
+             fine.points, fine.widths);
+    lines.push_back(std::move(fine));
+  }
+  if (lines.empty()) return bad("no stroke has any length");
+  if (options.consolidate) lines = merged(lines, width);
+  TraceOptions scaled = options;
+  scaled.curve.straightness *= width;
+  scaled.curve.tolerance *= width;
+  TraceResult result;
+  if (auto done = add_curves(lines, scaled, result); !done) return std::unexpected(done.error());
   return result;
 }
 

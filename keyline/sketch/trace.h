@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,36 +12,37 @@
 #include "keyline/core/progress.h"
 #include "keyline/curve/bezier.h"
 #include "keyline/sketch/binarize.h"
+#include "keyline/sketch/consolidate.h"
 #include "keyline/sketch/image.h"
+#include "keyline/sketch/stroke_curve.h"
 #include "keyline/sketch/tone.h"
 
 /// From a drawing to the curves it shows, [Sketch].
 namespace keyline::sketch {
 
+/// What of the ink is traced.
+enum class Edge {
+  center,  ///< the middle of its lines
+  outer    ///< the outer border of its pieces, as in the paper
+};
+
+/// The picture after one stage of the way, for those who want to see where it went wrong.
+struct Stage {
+  std::string name;              ///< "log", "binary", "smoothed", "edges", "lines"
+  Raster<std::uint8_t> picture;  ///< 0 black, 255 white
+};
+
 struct TraceOptions {
   ToneOptions tone;
   BinarizeOptions binarize;
-  int smoothing = 2;           ///< rounds of feature-based erosion and dilation
-  std::optional<int> specks;   ///< pieces of ink of fewer pixels go; empty: by the stroke width
-  std::optional<double> gap;   ///< longest gap bridged, pixels; empty: by the stroke width
-  double straightness = 0.75;  ///< of a group of points, pixels: see SegmentOptions
-  double corner_angle = 0.6;   ///< radians
-  /// Largest distance of a stroke's points from its curve in pixels (at least a tenth of the width
-  /// is allowed): as few quintics as that takes. 0: two or more per line segment group, as in
-  /// [Sketch] section 5.
-  double tolerance = 0.5;
+  Edge edge = Edge::center;
+  int smoothing = 2;          ///< rounds of feature-based erosion and dilation
+  std::optional<int> specks;  ///< pieces of ink of fewer pixels go; empty: by the stroke width
+  std::optional<double> gap;  ///< longest gap bridged, pixels; empty: by the stroke width
+  bool consolidate = false;   ///< lines drawn several times become one
+  StrokeCurveOptions curve;
+  std::function<void(const Stage&)> stage;  ///< called after each stage where set
   core::Progress progress;
-};
-
-/// One line of the drawing. Coordinates in pixels with y up: (0, 0) is the lower left corner of the
-/// picture.
-struct Stroke {
-  std::vector<core::Point2> points;    ///< along the centre, a pixel apart
-  std::vector<core::Point2> segments;  ///< the concatenated line segments
-  std::vector<curve::Bezier2> curve;   ///< quintics, G2 but for corners
-  std::vector<std::size_t> corners;    ///< pieces of `curve` that start with a corner
-  bool closed = false;
-  double width = 0;  ///< of the ink, median
 };
 
 struct TraceResult {
@@ -49,10 +52,17 @@ struct TraceResult {
   std::vector<std::string> notes;  ///< what was decided, left out or looks doubtful, in words
 };
 
-/// Traces a picture's lines.
+/// Traces a picture's lines. Strokes have pixels for a unit and y up: (0, 0) is the lower left
+/// corner of the picture.
 ///
 /// Fails: undrawable where nothing in the picture looks like a line; cancelled.
-/// Cost:  linear in the pixels; at most some 12 bytes per pixel beside the image itself.
+/// Cost:  linear in the pixels; at most some 12 bytes per pixel, the image included.
 core::Result<TraceResult> trace(Image image, const TraceOptions& options = {});
+
+/// The way from drawn strokes on (vector drawings): consolidated, then curves as from a picture.
+/// Coordinates stay; options.curve counts in widths of the pen (`width`) instead of pixels.
+/// Fails: bad_input for strokes that are not finite or all of one place; cancelled.
+core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes, double width,
+                                        const TraceOptions& options = {});
 
 }  // namespace keyline::sketch

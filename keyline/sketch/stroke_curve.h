@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "keyline/core/point.h"
+#include "keyline/curve/bezier.h"
+#include "keyline/fit/curvature_drive.h"
+#include "keyline/sketch/refine_stroke.h"
+
+namespace keyline::sketch {
+
+/// Which curvature quintics are driven to after they were fitted ([Sketch] section 6).
+enum class CurvatureAim { none, smooth, rhythm };
+
+struct StrokeCurveOptions {
+  double straightness = 0.75;  ///< of a group of points, pixels: see SegmentOptions
+  double corner_angle = 0.6;   ///< radians
+  /// Largest distance of a stroke's points from its curve in pixels (a tenth of the width is
+  /// always allowed): as few quintics as that takes. 0: one per vertex of the line segments, as in
+  /// [Sketch] section 5.
+  double tolerance = 0.5;
+  CurvatureAim aim = CurvatureAim::none;
+};
+
+/// One line of the drawing.
+struct Stroke {
+  std::vector<core::Point2> points;               ///< along the centre, a pixel apart
+  std::vector<core::Point2> segments;             ///< the concatenated line segments
+  std::vector<std::array<core::Point2, 2>> axes;  ///< principal axes of the groups of points
+  std::vector<curve::Bezier2> quadratics;         ///< on midpoints and vertices of the segments
+  std::vector<curve::Bezier2> curve;              ///< quintics, G2 but for corners
+  std::vector<std::size_t> corners;               ///< pieces of `curve` that start with a corner
+  std::vector<fit::CurvatureTarget> target;       ///< over all of `curve`; empty without an aim
+  bool closed = false;
+  double width = 0;  ///< of the ink, median; 0 for outlines
+};
+
+/// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature.
+/// Precondition: at least two points.
+Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options);
+
+}  // namespace keyline::sketch
