@@ -2,12 +2,13 @@
 #   DEPENDS       rooms used, all of them above this one in keyline/CMakeLists.txt
 #   LINK          libraries whose headers stand in this room's own headers
 #   PRIVATE_LINK  libraries used in its .cpp files alone
+#   HEADERS_ONLY  its .cpp files are left out (an option is off)
 function(keyline_room name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "HEADERS_ONLY" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
   set(target keyline_${name})
-  if(sources)
+  if(sources AND NOT ARG_HEADERS_ONLY)
     add_library(${target} STATIC ${sources} ${headers})
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:keyline_warnings> ${ARG_PRIVATE_LINK})

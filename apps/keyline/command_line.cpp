@@ -38,7 +38,8 @@ void add_common(CLI::App& app, CommonOptions& common, bool outputs = true) {
 
 void add_input(CLI::App& app, InputOptions& input) {
   app.add_option("INPUT", input.files,
-                 "points (csv, tsv, dat, xyz), curves (json, svg); - for "
+                 "points (csv, tsv, dat, xyz), curves (json, svg), a drawing (png, jpeg, tiff, "
+                 "webp); - for "
                  "standard input; several files are parts of one key-line")
       ->required()
       ->type_name("FILE");
@@ -148,26 +149,45 @@ Command add_sketch(CLI::App& app) {
   auto options = std::make_shared<SketchCommand>();
   SketchCommand& sketch = *options;
   auto* sub = app.add_subcommand("sketch", "a picture of a drawing in, its lines as curves out");
-  sub->add_option("IMAGE", sketch.file, "drawing: png, jpeg, tiff or webp")
+  sub->add_option("IMAGE", sketch.file,
+                  "drawing: png, jpeg, tiff or webp; or pen strokes: scap, svg, dxf, json")
       ->required()
       ->type_name("FILE");
+  sub->add_option("--edge", sketch.edge, "center of the lines, or the ink's outer border")
+      ->check(CLI::IsMember({"center", "outer"}))
+      ->capture_default_str();
+  sub->add_flag("--consolidate", sketch.consolidate, "lines drawn several times become one");
+  sub->add_option("--curvature", sketch.curvature, "what the curves' curvature is driven to")
+      ->check(CLI::IsMember({"none", "smooth", "rhythm"}))
+      ->capture_default_str();
+  const char* ink = "Telling ink from paper";
   sub->add_option("--threshold", sketch.threshold, "0 to 1: what is darker is ink; else by region")
-      ->check(CLI::Range(0.0, 1.0));
+      ->group(ink);
+  sub->add_option("--thresholds", sketch.thresholds,
+                  "of the 8 x 8 regions, row by row: 64 numbers or auto")
+      ->delimiter(',')
+      ->group(ink);
   sub->add_option("--log-gain", sketch.gain, "the a of y = a log x; else such that paper is white")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--gap", sketch.gap, "longest gap to bridge, in pixels")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--specks", sketch.specks, "pieces of ink of fewer pixels are dirt")
-      ->check(CLI::NonNegativeNumber);
+      ->group(ink);
+  sub->add_option("--flatten", sketch.flatten, "take the paper's own shades out: auto, on, off")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->group(ink);
+  sub->add_option("--polarity", sketch.polarity, "auto, dark (lines on light paper), light")
+      ->check(CLI::IsMember({"auto", "dark", "light"}))
+      ->group(ink);
+  sub->add_option("--specks", sketch.specks, "pieces of ink of fewer pixels are dirt")->group(ink);
+  sub->add_option("--gap", sketch.gap, "longest gap to bridge, in pixels");
   auto* scale = sub->add_option("--scale", sketch.scale, "mm per pixel; without it lengths are px")
                     ->check(CLI::PositiveNumber);
   sub->add_option("--dpi", sketch.dpi, "pixels per inch; lengths are mm then")
       ->check(CLI::PositiveNumber)
       ->excludes(scale);
+  sub->add_option("--debug", sketch.debug, "folder for a picture of every stage")->type_name("DIR");
   add_common(*sub, sketch.common);
   sub->footer(
-      "Example: keyline sketch drawing.png -o drawing.svg\n"
-      "Formats: svg, json (the exact quintics), csv (samples).");
+      "Example: keyline sketch examples/sketch.png -o sketch.svg\n"
+      "Formats: svg, json (the exact quintics), csv (samples), dxf and what convert writes. "
+      "--tolerance counts in pixels (0.5; 0: a quintic per line segment).");
   return {sub, runs(options, run_sketch)};
 }
 

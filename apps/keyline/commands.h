@@ -98,8 +98,15 @@ struct SketchCommand {
   std::optional<double> gain;
   std::optional<double> gap;
   std::optional<int> specks;
+  std::vector<std::string> thresholds;  ///< of the 64 regions, numbers or "auto"
+  std::string edge = "center";
+  std::string curvature = "none";
+  std::string flatten = "auto";
+  std::string polarity = "auto";
+  bool consolidate = false;
   std::optional<double> scale;  ///< mm per pixel
   std::optional<double> dpi;
+  std::string debug;  ///< folder for the pictures of every stage
 };
 int run_sketch(const SketchCommand& command);
 

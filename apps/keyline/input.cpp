@@ -11,9 +11,11 @@
 #include "keyline/acquire/lattice.h"
 #include "keyline/acquire/section.h"
 #include "keyline/exchange/document_file.h"
+#include "keyline/exchange/image_reader.h"
 #include "keyline/exchange/lattice_reader.h"
 #include "keyline/exchange/points_reader.h"
 #include "keyline/operations/fair_request.h"
+#include "keyline/operations/sketch_run.h"
 
 namespace keyline::app {
 namespace {
@@ -142,6 +144,28 @@ Result<std::vector<KeyLine>> join_files(const InputOptions& input) {
   return std::vector<KeyLine>{std::move(*line)};
 }
 
+/// The longer strokes of a drawing, in pixels.
+Result<std::vector<KeyLine>> trace_key_lines(const InputOptions& input) {
+  const std::string& file = input.files.front();
+  if (input.files.size() > 1)
+    return fail(ErrorCode::bad_input, "one drawing at a time", "give one INPUT");
+  auto image = exchange::read_image_file(file);
+  if (!image) return std::unexpected(image.error());
+  const auto trace = operations::trace_picture(std::move(*image), {});
+  if (!trace) return in_file(Result<std::vector<KeyLine>>(std::unexpected(trace.error())), file);
+  std::size_t skipped = 0;
+  auto lines = in_file(operations::key_lines_of(*trace, skipped), file);
+  if (!lines) return lines;
+  if (!input.select.empty())
+    std::erase_if(*lines, [&](const KeyLine& line) { return line.id != input.select; });
+  if (lines->empty())
+    return fail(ErrorCode::bad_input, "holds no line long enough to fair", "check --select", file);
+  if (skipped > 0)
+    lines->front().report.notes.push_back(std::to_string(skipped) +
+                                          " short strokes of the drawing were left out");
+  return lines;
+}
+
 }  // namespace
 
 bool holds_points(const std::string& file) {
@@ -162,6 +186,7 @@ Result<document::Document> load_document(const InputOptions& input) {
 }
 
 Result<std::vector<KeyLine>> load_key_lines(const InputOptions& input) {
+  if (exchange::has_image_name(input.files.front())) return trace_key_lines(input);
   if (holds_points(input.files.front())) {
     if (input.files.size() > 1) return join_files(input);
     return acquire_all(input, input.files.front());

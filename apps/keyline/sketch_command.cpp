@@ -6,12 +6,12 @@
 
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
-#include "keyline/exchange/json_curve.h"
-#include "keyline/sketch/trace.h"
+#include "keyline/exchange/scap_reader.h"
+#include "keyline/operations/sketch_run.h"
 
 #include "commands.h"
-#include "input.h"
 #include "output.h"
+#include "sketch_debug.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -26,74 +26,128 @@ struct Sketch {
   std::string unit = "px";
 };
 
-document::Path path_of(const sketch::Stroke& stroke, const core::Similarity2& map) {
-  document::Path path;
-  path.closed = stroke.closed;
-  for (const curve::Bezier2& piece : stroke.curve)
-    path.curves.push_back({curve::transform(piece, map)});
-  return path;
+/// The command's options as a request, so that the operation's checks hold for both doors.
+Result<sketch::TraceOptions> options_of(const SketchCommand& command) {
+  nlohmann::json request = {{"edge", command.edge},
+                            {"consolidate", command.consolidate},
+                            {"curvature", command.curvature},
+                            {"flatten", command.flatten},
+                            {"polarity", command.polarity}};
+  const auto set = [&](const char* name, const auto& value) {
+    if (value) request[name] = *value;
+  };
+  set("threshold", command.threshold);
+  set("log_gain", command.gain);
+  set("gap", command.gap);
+  set("specks", command.specks);
+  set("tolerance", command.common.tolerance);
+  if (!command.thresholds.empty()) {
+    for (const std::string& text : command.thresholds) {
+      nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
+      request["thresholds"].push_back(text == "auto" ? nlohmann::json() : std::move(value));
+    }
+  }
+  return operations::trace_options(request);
 }
 
-/// The strokes in the output's unit, moved up by `lift`.
-document::Document document_of(const Sketch& sketch, double lift) {
-  document::Document document;
-  document.unit = sketch.unit;
-  const core::Similarity2 map{sketch.scale, 0, {0, lift}};
-  for (std::size_t i = 0; i < sketch.trace.strokes.size(); ++i) {
-    const sketch::Stroke& stroke = sketch.trace.strokes[i];
-    document.paths.push_back({{"stroke" + std::to_string(i + 1), {}, {}},
-                              path_of(stroke, map),
-                              sketch.scale * stroke.width});
+/// A document's curves as strokes, sampled finely; width of the pen from the first that has one.
+std::vector<sketch::DrawnStroke> strokes_of(const document::Document& document, double& pen) {
+  std::vector<sketch::DrawnStroke> strokes;
+  for (const document::NamedPath& named : document.paths) {
+    if (pen <= 0) pen = named.stroke_width;
+    sketch::DrawnStroke stroke{{}, named.path.closed};
+    const int samples = 64 * std::max(1, static_cast<int>(named.path.curves.size()));
+    for (int i = 0; i <= samples; ++i) {
+      const core::Point2 p = evaluate(named.path, static_cast<double>(i) / samples);
+      if (stroke.points.empty() || stroke.points.back() != p) stroke.points.push_back(p);
+    }
+    if (stroke.closed && stroke.points.size() > 1 && stroke.points.front() == stroke.points.back())
+      stroke.points.pop_back();
+    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
   }
-  return document;
+  if (pen <= 0) pen = exchange::extent(document) / 400;
+  return strokes;
+}
+
+Result<sketch::TraceResult> trace_vectors(const std::string& file,
+                                          const sketch::TraceOptions& options) {
+  if (exchange::extension_of(file) != ".scap") {
+    const auto document = exchange::read_document(file);
+    if (!document) return std::unexpected(document.error());
+    double pen = 0;
+    const auto strokes = strokes_of(*document, pen);
+    return operations::trace_drawn(strokes, pen, options);
+  }
+  const auto text = exchange::read_file(file);
+  if (!text) return std::unexpected(text.error());
+  const auto drawing = exchange::read_scap(*text);
+  if (!drawing) return std::unexpected(exchange::in_file(drawing.error(), file));
+  std::vector<sketch::DrawnStroke> strokes;
+  for (const exchange::ScapStroke& s : drawing->strokes) {
+    sketch::DrawnStroke stroke;
+    for (const core::Point2 p : s.points) stroke.points.push_back({p.x, drawing->height - p.y});
+    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
+  }
+  return operations::trace_drawn(strokes, drawing->pen, options);
+}
+
+Result<Sketch> trace_file(const SketchCommand& command) {
+  auto options = options_of(command);
+  if (!options) return std::unexpected(options.error());
+  Sketch sketch;
+  if (command.scale) sketch.scale = *command.scale;
+  if (command.dpi) sketch.scale = 25.4 / *command.dpi;
+  if (command.scale || command.dpi) sketch.unit = "mm";
+  const std::string extension = exchange::extension_of(command.file);
+  const bool vectors =
+      extension == ".scap" || extension == ".svg" || extension == ".json" || extension == ".dxf";
+  SketchDebug debug;
+  if (!command.debug.empty()) options->stage = [&](const sketch::Stage& s) { debug.add(s); };
+  options->progress = interactive_progress(command.common.quiet);
+  Result<sketch::TraceResult> trace = core::fail(core::ErrorCode::internal, "");
+  if (vectors) {
+    trace = trace_vectors(command.file, *options);
+  } else {
+    auto image = exchange::read_image_file(command.file);
+    if (!image) return std::unexpected(image.error());
+    trace = operations::trace_picture(std::move(*image), *options);
+  }
+  end_progress();
+  if (!trace) return std::unexpected(trace.error());
+  if (!command.debug.empty())
+    if (auto done = debug.write(command.debug, *trace); !done) return std::unexpected(done.error());
+  sketch.trace = std::move(*trace);
+  return sketch;
 }
 
 /// On the picture's page and in its own coordinates (y down from its upper edge), so that drawing
 /// and curves lie on each other.
 Result<std::string> write_svg(const Sketch& sketch, double tolerance) {
   const double height = sketch.scale * sketch.trace.height;
-  document::Document document = document_of(sketch, -height);
-  document.page = curve::Box2{{0, -height}, {sketch.scale * sketch.trace.width, 0}};
+  document::Document document = operations::sketch_document(sketch.trace, sketch.scale, -height);
+  document.unit = sketch.unit;
+  if (height > 0) document.page = curve::Box2{{0, -height}, {sketch.scale * sketch.trace.width, 0}};
   auto written = exchange::format_document(document, ".svg", {.tolerance = tolerance});
   if (!written) return std::unexpected(written.error());
   return std::move(written->content);
 }
 
-nlohmann::json points_json(const std::vector<core::Point2>& points, double scale) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const core::Point2 p : points) list.push_back({scale * p.x, scale * p.y});
-  return list;
-}
-
-nlohmann::json result_json(const Sketch& sketch) {
-  nlohmann::json strokes = nlohmann::json::array();
-  for (const sketch::Stroke& stroke : sketch.trace.strokes)
-    strokes.push_back({{"points", points_json(stroke.points, sketch.scale)},
-                       {"segments", points_json(stroke.segments, sketch.scale)},
-                       {"curve", exchange::to_json(path_of(stroke, {sketch.scale, 0, {}}))},
-                       {"closed", stroke.closed},
-                       {"width", sketch.scale * stroke.width}});
-  return {{"strokes", std::move(strokes)}, {"unit", sketch.unit}};
-}
-
-Result<Sketch> trace_file(const SketchCommand& command) {
-  auto image = exchange::read_image_file(command.file);
-  if (!image) return std::unexpected(image.error());
-  Sketch sketch;
-  if (command.scale) sketch.scale = *command.scale;
-  if (command.dpi) sketch.scale = 25.4 / *command.dpi;
-  if (command.scale || command.dpi) sketch.unit = "mm";
-  sketch::TraceOptions options;
-  options.tone.gain = command.gain;
-  options.binarize.threshold = command.threshold;
-  options.gap = command.gap;
-  options.specks = command.specks;
-  options.progress = interactive_progress(command.common.quiet);
-  auto trace = sketch::trace(std::move(*image), options);
-  end_progress();
-  if (!trace) return std::unexpected(trace.error());
-  sketch.trace = std::move(*trace);
-  return sketch;
+void tell(const Sketch& sketch, const SketchCommand& command) {
+  std::size_t pieces = 0;
+  std::size_t segments = 0;
+  for (const sketch::Stroke& stroke : sketch.trace.strokes) {
+    pieces += stroke.curve.size();
+    segments += stroke.segments.size() - (stroke.closed ? 0 : 1);
+  }
+  for (const std::string& note : sketch.trace.notes) say(command.common.quiet, note);
+  const std::string size =
+      sketch.trace.width > 0
+          ? fmt::format("{} x {} pixels, ", sketch.trace.width, sketch.trace.height)
+          : "";
+  say(command.common.quiet,
+      fmt::format("{}{} stroke{}: {} line segments, {} quintic{}", size,
+                  sketch.trace.strokes.size(), sketch.trace.strokes.size() == 1 ? "" : "s",
+                  segments, pieces, pieces == 1 ? "" : "s"));
 }
 
 }  // namespace
@@ -105,17 +159,18 @@ int run_sketch(const SketchCommand& command) {
   if (!sketch)
     return report_failure(sketch.error(), sketch.error().path.empty() ? command.file : "");
   const double tolerance = 0.02 * sketch->scale;
-  Writers writers = curve_writers(document_of(*sketch, 0), tolerance, command.common);
+  document::Document document = operations::sketch_document(sketch->trace, sketch->scale, 0);
+  document.unit = sketch->unit;
+  Writers writers = curve_writers(document, tolerance, command.common);
   writers[".svg"] = [&] { return write_svg(*sketch, tolerance); };
   if (auto done = write_outputs(command.common, writers); !done)
     return report_failure(done.error());
-  if (command.common.json) fmt::print("{}\n", result_json(*sketch).dump());
-  std::size_t pieces = 0;
-  for (const sketch::Stroke& stroke : sketch->trace.strokes) pieces += stroke.curve.size();
-  for (const std::string& note : sketch->trace.notes) say(command.common.quiet, note);
-  say(command.common.quiet,
-      fmt::format("{} x {} pixels, {} strokes in {} quintics", sketch->trace.width,
-                  sketch->trace.height, sketch->trace.strokes.size(), pieces));
+  if (command.common.json) {
+    nlohmann::json result = operations::sketch_json(sketch->trace, sketch->scale);
+    result["unit"] = sketch->unit;
+    fmt::print("{}\n", result.dump());
+  }
+  tell(*sketch, command);
   return kDone;
 }
 

@@ -8,6 +8,7 @@ std::vector<Operation> all_operations() {
           curve_continuity_operation(),
           curve_edit_operation(),
           fair_operation(),
+          fit_curvature_operation(),
           fit_spline_operation(),
           lac_blend_operation(),
           lac_compound_operation(),
@@ -18,6 +19,9 @@ std::vector<Operation> all_operations() {
           lac_space_operation(),
           lac_spline_operation(),
           lac_volume_operation(),
+#ifdef KEYLINE_HAS_SKETCH
+          sketch_trace_operation(),
+#endif
           surface_continuity_operation(),
           surface_edit_operation(),
           surface_interrogate_operation(),
