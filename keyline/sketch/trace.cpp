@@ -137,7 +137,8 @@ void warn_of_photograph(const Binary& ink, double width, TraceResult& result) {
   double dark = 0;
   for (const std::uint8_t v : ink.data) dark += v;
   const double share = dark / static_cast<double>(ink.data.size());
-  if (share > 0.25 || width > 0.06 * std::max(ink.width, ink.height))
+  const bool broad = width > 0.06 * std::max(ink.width, ink.height);
+  if (share > (broad ? 0.15 : 0.25))
     result.notes.push_back("warning: " + std::to_string(std::lround(100 * share)) +
                            " % of the picture is ink; is it a drawing?");
 }
