@@ -49,14 +49,25 @@ bool touches_line(const FitChain& chain, int at) {
   return false;
 }
 
-/// Curves that a kind could stand in for at all: the departure is a few tolerances at most.
-bool worth_trying(const FitChain& chain, int at, PieceKind kind, double tolerance) {
+/// About how far a piece departs from its chord, or from the arc of its length and turning.
+double departure(const FitChain& chain, int at, PieceKind kind) {
   const double a = chain.joints[at].curvature;
   const double b = chain.joints[at + 1].curvature;
-  const double l = chain.pieces[at].length;
-  const double change =
-      kind == PieceKind::line ? std::max(std::abs(a), std::abs(b)) / 8 : std::abs(b - a) / 32;
-  return change * l * l < 3 * tolerance && !touches_line(chain, at);
+  const double length = chain.pieces[at].length;
+  if (kind == PieceKind::arc) return std::abs(b - a) / 32 * length * length;
+  // Not by its end curvatures: an S of slope near 0 loses them at once.
+  const double alpha = chain.pieces[at].alpha;
+  const lac::Piece piece{a * b <= 0 && alpha >= 0 ? -1 : alpha, length, a, b};
+  const core::Vector2 chord = lac::displacement(piece, 1);
+  double most = 0;
+  for (const double t : {0.15, 0.3, 0.5, 0.7, 0.85})
+    most = std::max(most, std::abs(core::cross(chord, lac::displacement(piece, t))));
+  return most / std::max(core::norm(chord), 1e-3 * length);
+}
+
+/// Curves that a kind could stand in for at all: the departure is a few tolerances at most.
+bool worth_trying(const FitChain& chain, int at, PieceKind kind, double tolerance) {
+  return !touches_line(chain, at) && departure(chain, at, kind) < 3 * tolerance;
 }
 
 /// The chain with its pieces made lines or arcs, one after another.

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/acquire/acquire.h"
 #include "keyline/curve/concept.h"
+#include "keyline/exchange/points_reader.h"
 
 #include "truth.h"
 
@@ -180,6 +182,26 @@ TEST(FairOptions, LinesAndArcsOfTheDataComeOut) {
   bool arc = false;
   for (const FairPiece& piece : result.pieces) arc = arc || piece.rhythm == analysis::Rhythm::arc;
   EXPECT_TRUE(arc);
+}
+
+/// Half a bottle with noise: straight foot, wall, neck and lip come out exactly straight, between
+/// them a shoulder of slope -1 (an S through its inflection).
+TEST(FairOptions, StraightWallsOfABottleAreStraight) {
+  const auto curves = exchange::read_points(KEYLINE_SOURCE_DIR "/examples/bottle.csv").value();
+  const FairResult result = fair(acquire::acquire_key_line(curves.front()).value()).value();
+  EXPECT_TRUE(result.within_tolerance);
+  std::vector<double> straight;
+  for (const FairPiece& piece : result.pieces) {
+    if (piece.rhythm == analysis::Rhythm::straight)
+      straight.push_back(piece.length);
+    else
+      EXPECT_EQ(piece.rhythm, analysis::Rhythm::minus);
+  }
+  ASSERT_EQ(straight.size(), 4U);
+  EXPECT_NEAR(straight[0], 36, 1);
+  EXPECT_NEAR(straight[1], 110, 2);
+  EXPECT_NEAR(straight[2], 45, 2);
+  EXPECT_LE(result.pieces.size(), 8U);
 }
 
 }  // namespace
