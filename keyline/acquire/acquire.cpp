@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -14,19 +13,15 @@
 #include "keyline/acquire/noise.h"
 #include "keyline/acquire/outliers.h"
 #include "keyline/acquire/sort_out.h"
+#include "keyline/acquire/statistics.h"
+#include "keyline/core/polygon.h"
+#include "keyline/core/text.h"
 
 namespace keyline::acquire {
 namespace {
 
 using core::ErrorCode;
 using detail::Working;
-
-std::string short_number(double value) {
-  std::array<char, 32> text;
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-  return {text.data(), end.ptr};
-}
 
 std::string counted(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -66,7 +61,7 @@ core::Result<Working> flatten(const RawCurve& raw, const AcquireOptions& options
 void note_plane(KeyLine& line, double extent) {
   if (line.report.plane_departure <= 1e-9 * extent) return;
   line.report.notes.push_back("points projected on a plane; largest distance from it " +
-                              short_number(line.report.plane_departure));
+                              core::number_text(line.report.plane_departure, 3));
 }
 
 void merge(Working& work, KeyLine& line) {
@@ -138,17 +133,11 @@ void drop_outliers(Working& work, double noise, std::size_t stride, KeyLine& lin
   }
 }
 
-double polygon_length(const std::vector<core::Point2>& points, bool closed) {
-  double sum = closed ? core::distance(points.back(), points.front()) : 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += core::distance(points[i - 1], points[i]);
-  return sum;
-}
-
 /// Length of the curve behind the points: the polygon of means where steps are noise.
 double curve_length(const Working& work, bool closed, std::size_t stride) {
-  if (stride <= 1) return polygon_length(work.points, closed);
+  if (stride <= 1) return core::polygon_length(work.points, closed);
   const std::size_t groups = work.points.size() / (2 * stride);
-  return polygon_length(average_runs(work.points, {}, {}, groups).points, closed);
+  return core::polygon_length(average_runs(work.points, {}, {}, groups).points, closed);
 }
 
 /// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
@@ -157,7 +146,7 @@ double noise_of(const Working& work, bool closed, const AcquireOptions& options,
   if (options.noise) return *options.noise;
   const double estimate = estimate_noise(work.points, closed);
   if (work.points.size() < 8) return estimate;
-  const double most = 3e-4 * polygon_length(work.points, closed);
+  const double most = 3e-4 * core::polygon_length(work.points, closed);
   return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
 }
 

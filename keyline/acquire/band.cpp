@@ -8,6 +8,7 @@
 
 #include "keyline/acquire/kd_tree.h"
 #include "keyline/acquire/order.h"
+#include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
 
 namespace keyline::acquire {
@@ -48,21 +49,6 @@ Spread spread_of(std::span<const core::Point2> points, std::span<const double> w
   s.along = std::sqrt((0.5 * (xx + yy) + half) / total);
   s.across = std::sqrt(std::max(0.5 * (xx + yy) - half, 0.0) / total);
   return s;
-}
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double extent_of(std::span<const core::Point2> points) {
-  core::Point2 low = points[0], high = points[0];
-  for (const core::Point2& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return core::distance(low, high);
 }
 
 using Cell = std::pair<std::int64_t, std::int64_t>;
@@ -112,9 +98,9 @@ BandWidth measure_band(std::span<const core::Point2> points) {
       widths.push_back(s.across);
       radii.push_back(core::distance(points[i], points[near.back()]));
     }
-    if (median_of(ratios) > kLong) continue;
-    const double radius = median_of(radii);
-    return {count == 6 ? 0 : median_of(widths), radius};
+    if (detail::quantile(ratios) > kLong) continue;
+    const double radius = detail::quantile(radii);
+    return {count == 6 ? 0 : detail::quantile(widths), radius};
   }
   return {};
 }
@@ -122,7 +108,7 @@ BandWidth measure_band(std::span<const core::Point2> points) {
 Averaged average_cells(std::span<const core::Point2> points, std::span<const double> weights,
                        std::size_t most) {
   Averaged result;
-  double size = extent_of(points) / static_cast<double>(most);
+  double size = detail::extent_of(points) / static_cast<double>(most);
   while (size > 0) {
     std::map<Cell, Mean> cells;
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "keyline/acquire/statistics.h"
+
 namespace keyline::acquire::detail {
 namespace {
 
@@ -54,16 +56,6 @@ std::vector<std::size_t> finite_points(const RawCurve& raw) {
     if (core::is_finite(raw.points[i]) && weighted) kept.push_back(i);
   }
   return kept;
-}
-
-double extent_of(const std::vector<core::Point2>& points) {
-  if (points.empty()) return 0;
-  core::Point2 low = points[0], high = points[0];
-  for (const core::Point2& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return core::distance(low, high);
 }
 
 std::size_t merge_repeated(Working& work) {

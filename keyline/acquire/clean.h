@@ -30,7 +30,4 @@ std::size_t merge_repeated(Working& work);
 /// Removes the given indices (increasing).
 void remove_points(Working& work, const std::vector<std::size_t>& indices);
 
-/// Diagonal of the bounding box.
-double extent_of(const std::vector<core::Point2>& points);
-
 }  // namespace keyline::acquire::detail

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
 
 namespace keyline::acquire {
@@ -90,10 +92,7 @@ double usual_turn(const Ring& ring) {
     if (!ring.has(i - 1) || !ring.has(i + 1)) continue;
     turns.push_back(std::abs(core::angle_between(ring[i] - ring[i - 1], ring[i + 1] - ring[i])));
   }
-  if (turns.empty()) return 0;
-  const auto at = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() * 4 / 5);
-  std::nth_element(turns.begin(), at, turns.end());
-  return *at;
+  return detail::quantile(std::move(turns), 4, 5);
 }
 
 struct Thresholds {

@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/polygon.h"
 
 namespace keyline::acquire {
 namespace {
 
 constexpr double kAcross = 0.8;      // radians
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
-
-double polygon_length(std::span<const core::Point2> points) {
-  double sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += core::distance(points[i - 1], points[i]);
-  return sum;
-}
 
 /// Largest of the steps near both ends.
 double spacing_at_ends(std::span<const core::Point2> points, std::size_t stride) {
@@ -58,7 +53,7 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bo
   const std::size_t n = points.size();
   const std::size_t s = std::max<std::size_t>(stride, 1);
   if (n < 4 || n <= 6 * s) return Ends::apart;
-  const double length = polygon_length(points);
+  const double length = core::polygon_length(points);
   const double gap = core::distance(points.front(), points.back());
   const bool repeated = gap <= 1e-9 * length;
   const double spacing = spacing_at_ends(points, s);

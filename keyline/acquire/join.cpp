@@ -1,13 +1,13 @@
 #include "keyline/acquire/join.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "keyline/core/text.h"
 
 namespace keyline::acquire {
 namespace {
@@ -20,13 +20,6 @@ struct Part {
   std::size_t index = 0;
   bool turned = false;
 };
-
-std::string written(double value) {
-  std::array<char, 32> text;
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-  return {text.data(), end.ptr};
-}
 
 void turn_round(Part& part) {
   std::reverse(part.points.begin(), part.points.end());
@@ -143,7 +136,7 @@ void take_nearest(Part& line, std::vector<Part>& rest, AcquireReport& report) {
   report.notes.push_back("part " + std::to_string(next.index + 1) +
                          (before ? " put before" : " put behind") +
                          (turned ? ", turned round, " : ", ") +
-                         (least == 0 ? "overlap averaged" : "gap " + written(least)));
+                         (least == 0 ? "overlap averaged" : "gap " + core::number_text(least, 3)));
   if (before) {
     put_before(line, next);
   } else {

@@ -7,9 +7,11 @@
 #include <limits>
 #include <numeric>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "keyline/acquire/local_fit.h"
+#include "keyline/acquire/statistics.h"
 
 namespace keyline::acquire {
 namespace {
@@ -100,9 +102,7 @@ double variance_in(std::span<const core::Point2> points, bool closed, Window w,
   if (variances.empty()) return std::numeric_limits<double>::infinity();
   const Usual chance = usual(freedom);
   const double mean = kept_mean(variances) / chance.kept_mean;
-  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-  std::nth_element(variances.begin(), middle, variances.end());
-  const double median = *middle / chance.median;
+  const double median = detail::quantile(std::move(variances)) / chance.median;
   // The mean is the surer of the two where chance is all there is; bends spoil it first.
   return mean <= kAskew * median ? mean : median;
 }
@@ -127,12 +127,10 @@ DecimalForm decimal_form(double value) {
 }
 
 /// Rounding step of one coordinate, or 0.
-double step_of(std::vector<int>& places, int most_digits) {
-  if (places.empty() || most_digits >= 13) return 0;
+double step_of(std::vector<int> places, int usual_digits) {
+  if (places.empty() || usual_digits >= 13) return 0;
   // The place that is fine enough for four fifths of the values.
-  const auto at = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 5);
-  std::nth_element(places.begin(), at, places.end());
-  return std::pow(10.0, std::min(*at, 0));
+  return std::pow(10.0, std::min(detail::quantile(std::move(places), 1, 5), 0));
 }
 
 double step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate) {
@@ -146,10 +144,7 @@ double step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate
     places.push_back(form.last_place);
     digits.push_back(form.digits);
   }
-  if (places.empty()) return 0;
-  const auto middle = digits.begin() + static_cast<std::ptrdiff_t>(digits.size() / 2);
-  std::nth_element(digits.begin(), middle, digits.end());
-  return step_of(places, *middle);
+  return step_of(std::move(places), detail::quantile(std::move(digits)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "keyline/acquire/spanning_tree.h"
+#include "keyline/acquire/statistics.h"
 
 namespace keyline::acquire {
 namespace {
@@ -44,22 +45,6 @@ std::vector<core::Point2> group_means(std::span<const core::Point2> points, std:
     means.push_back(points[first] + sum / static_cast<double>(group));
   }
   return means;
-}
-
-double extent_of(std::span<const core::Point2> points) {
-  core::Point2 low = points[0], high = points[0];
-  for (const core::Point2& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return core::distance(low, high);
-}
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Shortens a path over points by local changes.
@@ -241,7 +226,7 @@ bool insert_best(std::span<const core::Point2> points, const std::vector<std::si
 bool is_ordered(std::span<const core::Point2> points) {
   if (points.size() < 6) return true;
   if (follows_tree(points)) return true;
-  if (median_of(steps_of(points)) > 0.02 * extent_of(points)) return false;
+  if (detail::quantile(steps_of(points)) > 0.02 * detail::extent_of(points)) return false;
   for (std::size_t group = 4; points.size() / group >= 16; group *= 2) {
     if (follows_tree(group_means(points, group))) return true;
   }
@@ -260,7 +245,7 @@ Ordering order_points(std::span<const core::Point2> points) {
   const Order path = detail::longest_path(points.size(), tree);
   std::vector<double> lengths;
   for (const auto& edge : tree) lengths.push_back(edge.length);
-  const double most = 12 * median_of(std::move(lengths));
+  const double most = 12 * detail::quantile(std::move(lengths));
 
   Chainlet list(points.size(), path);
   Order left;

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "keyline/acquire/local_fit.h"
+#include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
 
 namespace keyline::acquire {
@@ -94,10 +96,7 @@ double usual_residual(std::span<const core::Point2> points, bool closed, double 
     const auto expected = expected_at(points, closed, i, 1, noise, stride);
     if (expected) residuals.push_back(std::abs(expected->fit.residual(points[i])));
   }
-  if (residuals.empty()) return 0;
-  const auto at = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() * 3 / 4);
-  std::nth_element(residuals.begin(), at, residuals.end());
-  return *at;
+  return detail::quantile(std::move(residuals), 3, 4);
 }
 
 /// Single end points of an open curve that lie many steps away from the rest.

@@ -1,20 +1,15 @@
 #include "keyline/acquire/section.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "keyline/core/text.h"
+
 namespace keyline::acquire {
 namespace {
-
-std::string written(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4);
-  return {text, end.ptr};
-}
 
 core::Result<void> check(const RawCurve& cloud, double band) {
   if (!cloud.has_z) {
@@ -33,12 +28,13 @@ core::Result<RawCurve> too_few(std::size_t found, std::vector<double> distances,
   std::string hint = "move the plane";
   if (distances.size() >= 3) {
     std::nth_element(distances.begin(), distances.begin() + 2, distances.end());
-    hint = "the third nearest point is " + written(distances[2]) +
+    hint = "the third nearest point is " + core::number_text(distances[2], 4) +
            " away: widen the band, or move the plane";
   }
-  return core::fail(core::ErrorCode::bad_input,
-                    std::to_string(found) + " points within " + written(band) + " of the plane",
-                    hint, "section");
+  return core::fail(
+      core::ErrorCode::bad_input,
+      std::to_string(found) + " points within " + core::number_text(band, 4) + " of the plane",
+      hint, "section");
 }
 
 template <class Distance, class Foot>
@@ -61,7 +57,7 @@ core::Result<RawCurve> cut(const RawCurve& cloud, double band, Distance distance
   if (section.points.size() < 3) return too_few(section.points.size(), std::move(distances), band);
   section.notes.push_back("section: " + std::to_string(section.points.size()) + " of " +
                           std::to_string(cloud.points.size()) + " points lie within " +
-                          written(band) + " of the plane and were moved onto it");
+                          core::number_text(band, 4) + " of the plane and were moved onto it");
   return section;
 }
 

@@ -11,6 +11,7 @@
 #include "keyline/acquire/band.h"
 #include "keyline/acquire/kd_tree.h"
 #include "keyline/acquire/order.h"
+#include "keyline/acquire/statistics.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -55,10 +56,7 @@ void drop_isolated(Working& work, KeyLine& line) {
     const auto near = tree.nearest(work.points[i], 2, i);
     reach[i] = core::distance(work.points[i], work.points[near.back()]);
   }
-  std::vector<double> sorted = reach;
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(n * 9 / 10);
-  std::nth_element(sorted.begin(), at, sorted.end());
-  const double most = std::max(5 * *at, 0.02 * extent_of(work.points));
+  const double most = std::max(5 * quantile(reach, 9, 10), 0.02 * extent_of(work.points));
   std::vector<std::size_t> isolated;
   for (std::size_t i = 0; i < n; ++i) {
     if (reach[i] > most) isolated.push_back(i);
@@ -135,10 +133,7 @@ std::vector<Run> runs_of(const Working& work) {
   for (std::size_t i = 1; i < work.points.size(); ++i) {
     steps.push_back(core::distance(work.points[i - 1], work.points[i]));
   }
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double jump = std::max(20 * *middle, 0.1 * extent_of(work.points));
+  const double jump = std::max(20 * quantile(steps), 0.1 * extent_of(work.points));
   std::vector<Run> runs{{0, 0, false}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i] > jump) runs.push_back({i + 1, i + 1, false});

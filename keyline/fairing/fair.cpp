@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/polygon.h"
 #include "keyline/fairing/assemble.h"
 #include "keyline/fairing/free_ends.h"
 #include "keyline/fairing/reading.h"
@@ -56,7 +57,7 @@ void note_run(FairResult& result, const detail::RunResult& run, std::size_t inde
 class Job {
  public:
   Job(const acquire::KeyLine& line, const FairOptions& options) : line_(line), options_(options) {
-    result_.length = detail::polygon_length(line.points, line.closed);
+    result_.length = core::polygon_length(line.points, line.closed);
     if (line.length > 0) result_.length = std::min(result_.length, line.length);
     result_.noise = line.noise;
     result_.tolerance = options.tolerance > 0

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "keyline/core/polygon.h"
+
 namespace keyline::fairing::detail {
 namespace {
 
@@ -17,7 +19,7 @@ void add_point(Run& run, const acquire::KeyLine& line, std::size_t index,
 /// The polygon's length overstates that of the curve where points are denser than their noise; the
 /// key-line knows its own.
 double overstated(const acquire::KeyLine& line) {
-  const double polygon = polygon_length(line.points, line.closed);
+  const double polygon = core::polygon_length(line.points, line.closed);
   return line.length > 0 && line.length < polygon ? line.length / polygon : 1;
 }
 
@@ -27,18 +29,11 @@ Run stretch(const acquire::KeyLine& line, std::size_t first, std::size_t count,
   Run run;
   for (std::size_t k = 0; k <= count; ++k)
     add_point(run, line, (first + k) % line.points.size(), must_pass);
-  run.length = overstated(line) * polygon_length(run.points, false);
+  run.length = overstated(line) * core::polygon_length(run.points, false);
   return run;
 }
 
 }  // namespace
-
-double polygon_length(const std::vector<core::Point2>& points, bool closed) {
-  double sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += core::distance(points[i - 1], points[i]);
-  if (closed) sum += core::distance(points.back(), points.front());
-  return sum;
-}
 
 Run run_between(const acquire::KeyLine& line, std::size_t first, std::size_t last) {
   return stretch(line, first, last - first, {});
@@ -54,7 +49,7 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
   if (line.closed && cuts.empty()) {
     Run run = stretch(line, 0, n - 1, options.must_pass);
     run.closed = true;
-    run.length = overstated(line) * polygon_length(run.points, true);
+    run.length = overstated(line) * core::polygon_length(run.points, true);
     return {run};
   }
   if (line.closed) {

@@ -13,7 +13,4 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
 /// Points first … last of the key-line as one open run.
 Run run_between(const acquire::KeyLine& line, std::size_t first, std::size_t last);
 
-/// Length of the polygon, closing edge included where closed.
-double polygon_length(const std::vector<core::Point2>& points, bool closed);
-
 }  // namespace keyline::fairing::detail
