@@ -57,17 +57,23 @@ json report_json(const fit::SplineFitReport& report) {
           {"seed", report.seed}};
 }
 
+/// Of a fit to points or to a function.
+template <class Fit>
+json fit_json(const Fit& fit, const curve::BSpline2& curve) {
+  return {{"curve", exchange::to_json(document::PlanarCurve{curve})},
+          {"knots", fit.interior_knots},
+          {"sse", fit.sse},
+          {"bic", fit.bic},
+          {"deviation", fit.deviation},
+          {"rms", fit.rms},
+          {"report", report_json(fit.report)}};
+}
+
 Result<json> fit_plane(const json& request, const fit::SplineFitOptions& options) {
   const auto fit =
       fit::fit_spline(points_of(request, "points"), numbers_of(request, "weights"), options);
   if (!fit) return std::unexpected(fit.error());
-  return json{{"curve", exchange::to_json(document::PlanarCurve{fit->curve})},
-              {"knots", fit->interior_knots},
-              {"sse", fit->sse},
-              {"bic", fit->bic},
-              {"deviation", fit->deviation},
-              {"rms", fit->rms},
-              {"report", report_json(fit->report)}};
+  return fit_json(*fit, fit->curve);
 }
 
 /// A function's graph as a planar spline: abscissae of the control points are Greville's.
@@ -88,13 +94,7 @@ Result<json> fit_graph(const json& request, const fit::SplineFitOptions& options
   const std::vector<double> y = numbers_of(request, "y");
   const auto fit = fit::fit_function(x, y, numbers_of(request, "weights"), options);
   if (!fit) return std::unexpected(fit.error());
-  return json{{"curve", exchange::to_json(document::PlanarCurve{graph_of(fit->spline)})},
-              {"knots", fit->interior_knots},
-              {"sse", fit->sse},
-              {"bic", fit->bic},
-              {"deviation", fit->deviation},
-              {"rms", fit->rms},
-              {"report", report_json(fit->report)}};
+  return fit_json(*fit, graph_of(fit->spline));
 }
 
 Result<json> run(const json& request, const Context& context) {
