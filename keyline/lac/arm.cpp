@@ -114,22 +114,11 @@ bool PanelWalk::next(Panel& panel) {
 
 namespace {
 
-/// Integral over a panel of fractions of length times tangent.
-Vector2 panel_vector(const Arm& arm, const Panel& panel) {
-  if (panel.straight) {
-    const double angle = arm.turning * (panel.from == 0 ? 0.0 : arm.angle_fraction(panel.from));
-    const double arc = arm.arc_fraction(panel.to) - arm.arc_fraction(panel.from);
-    return {arc * std::cos(angle), arc * std::sin(angle)};
-  }
-  const double scale = arm.turning / arm.angle_total;
-  const double from = scale * decay_integral(arm.b, panel.from);
-  const double to = scale * decay_integral(arm.b, panel.to);
-  const double centre = (from + to) / 2;
-  const double width = panel.to - panel.from;
-  const double reach = std::max(arm.a, std::abs(arm.b)) * width + std::abs(to - from);
-  const PanelSums s =
-      panel_sums({arm.a, arm.b, panel.from, width, scale, centre, nodes_for(reach)});
-  return (1 / arm.arc_total) * core::rotate_ccw({s.x, s.y}, centre);
+PanelMoments straight_moments(const Arm& arm, const Panel& panel) {
+  const double angle = panel.from == 0 ? 0.0 : arm.turning * arm.angle_fraction(panel.from);
+  const double arc = decay_integral(arm.a, panel.to) - decay_integral(arm.a, panel.from);
+  const Vector2 sum = arc * core::unit_vector(angle);
+  return {sum, angle * sum};
 }
 
 /// A circular arc or a straight line: sin(x)/x in closed form.
@@ -141,12 +130,25 @@ Vector2 arc_vector(double turning, double fraction) {
 
 }  // namespace
 
+PanelMoments panel_moments(const Arm& arm, const Panel& panel) {
+  if (panel.straight) return straight_moments(arm, panel);
+  const double scale = arm.turning / arm.angle_total;
+  const double from = scale * decay_integral(arm.b, panel.from);
+  const double to = scale * decay_integral(arm.b, panel.to);
+  const double centre = (from + to) / 2;
+  const double width = panel.to - panel.from;
+  const double reach = std::max(arm.a, std::abs(arm.b)) * width + std::abs(to - from);
+  const PanelSums s =
+      panel_sums({arm.a, arm.b, panel.from, width, scale, centre, nodes_for(reach)});
+  return {core::rotate_ccw({s.x, s.y}, centre), core::rotate_ccw({s.angle_x, s.angle_y}, centre)};
+}
+
 Vector2 arm_vector(const Arm& arm, double lambda) {
   PanelWalk walk(arm, lambda, 6.5, 3.2);
   Panel panel;
   Vector2 sum;
-  while (walk.next(panel)) sum = sum + panel_vector(arm, panel);
-  return sum;
+  while (walk.next(panel)) sum = sum + panel_moments(arm, panel).zeroth;
+  return sum / arm.arc_total;
 }
 
 InflectionArm inflection_arm(double turned, double m) {

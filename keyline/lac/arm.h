@@ -78,6 +78,13 @@ class PanelWalk {
   double at_ = 0;
 };
 
+/// Integrals over a panel of e^{-a lambda} times tangent, and of angle times that.
+struct PanelMoments {
+  core::Vector2 zeroth;
+  core::Vector2 first;
+};
+PanelMoments panel_moments(const Arm& arm, const Panel& panel);
+
 /// Chord of the unit arm that leaves an inflection with tangent angle turned * x^m at the fraction
 /// x of its length, in the frame of the inflection's tangent, and its derivative by turned.
 /// |turned| <= kLargestSeriesTurning, m > 1; accuracy 1e-15.

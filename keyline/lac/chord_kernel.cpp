@@ -6,7 +6,6 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
-#include "keyline/lac/chord_lanes.h"
 #include "keyline/lac/chord_search.h"
 #include "keyline/lac/quick_search.h"
 #include "keyline/numeric/quadrature.h"
@@ -17,32 +16,6 @@ namespace {
 using core::Vector2;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Integrals over a panel of f = e^{-a lambda} times tangent and of angle times f.
-struct Moments {
-  Vector2 zeroth;
-  Vector2 first;
-};
-
-Moments straight_moments(const Arm& arm, const Panel& panel) {
-  const double angle = panel.from == 0 ? 0.0 : arm.turning * arm.angle_fraction(panel.from);
-  const double arc = decay_integral(arm.a, panel.to) - decay_integral(arm.a, panel.from);
-  const Vector2 sum = arc * core::unit_vector(angle);
-  return {sum, angle * sum};
-}
-
-Moments panel_moments(const Arm& arm, const Panel& panel) {
-  if (panel.straight) return straight_moments(arm, panel);
-  const double scale = arm.turning / arm.angle_total;
-  const double from = scale * decay_integral(arm.b, panel.from);
-  const double to = scale * decay_integral(arm.b, panel.to);
-  const double centre = (from + to) / 2;
-  const double width = panel.to - panel.from;
-  const double reach = std::max(arm.a, std::abs(arm.b)) * width + std::abs(to - from);
-  const PanelSums s =
-      panel_sums({arm.a, arm.b, panel.from, width, scale, centre, nodes_for(reach)});
-  return {core::rotate_ccw({s.x, s.y}, centre), core::rotate_ccw({s.angle_x, s.angle_y}, centre)};
-}
 
 Arm unit_arm(const Decays& d, double theta, double q) {
   Arm arm;
@@ -101,7 +74,7 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
   Vector2 chord;
   Vector2 moment;
   while (walk.next(panel)) {
-    const Moments m = panel_moments(arm, panel);
+    const PanelMoments m = panel_moments(arm, panel);
     chord = chord + m.zeroth;
     moment = moment + m.first;
   }

@@ -22,8 +22,8 @@ using detail::UnitG2;
 /// Best solution so far, in units of the chord.
 struct Best {
   std::optional<Segment> one;  ///< the segment between the poses without regard to curvature
-  double wild_turning = 1.5 * core::kPi;  ///< of a piece, and
-  double wild_length = 12;                ///< of the chain, from which on it does not count
+  double wild_turning = detail::kWildTurning;  ///< of a piece, and
+  double wild_length = detail::kWildLength;    ///< of the chain, from which on it does not count
   std::optional<G2Solution> solution;
   int starts = 0;
 

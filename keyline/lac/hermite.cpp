@@ -77,6 +77,10 @@ core::Result<HandleAngles> handle_angles(Point2 p0, Point2 p1, Point2 p2) {
   }
   const double scale = std::max(
       {std::abs(p1.x - p0.x), std::abs(p1.y - p0.y), std::abs(p2.x - p0.x), std::abs(p2.y - p0.y)});
+  if (std::isinf(scale)) {
+    return core::fail(ErrorCode::bad_input, "the points lie too far apart for double precision",
+                      "scale them to below 1e307", "points");
+  }
   const Vector2 chord = (p2 - p0) / scale;
   const auto size = [](Vector2 v) { return std::sqrt(dot(v, v)); };  // scaled: no overflow
   if (!(size(chord) > 0)) {

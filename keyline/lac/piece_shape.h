@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/point.h"
 #include "keyline/lac/segment.h"
 #include "keyline/numeric/power_mean.h"
@@ -45,6 +46,10 @@ struct PieceShape {
 /// alpha and the curvatures as in a valid Piece without cusp.
 PieceShape piece_shape(double alpha, double k0, double k1, const CurvatureVariable& v0,
                        const CurvatureVariable& v1);
+
+/// A piece that turns by more, or is longer in chords, counts as wild where nothing else tells.
+inline constexpr double kWildTurning = 1.5 * core::kPi;
+inline constexpr double kWildLength = 12;
 
 /// Curvature times length beyond which a piece on the way to an answer counts as astray: from an
 /// inflection to such an end it turns by 8 rad.

@@ -263,35 +263,45 @@ double ungraded(double fraction, int graded) {
 
 }  // namespace
 
-void PieceTable::fill(Panel& panel, Running& running) const {
+/// Angle and its derivatives by the four variables at the nodes of a panel, and dv at each.
+struct PieceTable::Turns {
+  Column rate{};
+  std::array<Column, 1 + kPieceVariables> turn{};
+};
+
+/// theta = length * integral of curvature; its derivatives likewise.
+PieceTable::Turns PieceTable::turns_of(const Panel& panel, const End& at) const {
   const Column& node = collocation().node;
   const double width = panel.to - panel.from;
-  Column rate{};
+  Turns t;
   std::array<Column, 4> k{};  // curvature and its three derivatives, times dv
   for (int i = 0; i < kN; ++i) {
     const double v = panel.from + width * graded_fraction(node[i], panel.graded);
     const CurvatureValue c =
         curvature_with_derivatives(curvature_start_, curvature_end_, alpha_, v);
-    rate[i] = width * graded_rate(node[i], panel.graded);
-    k[0][i] = c.curvature * rate[i];
-    k[1][i] = c.by_start * rate[i];
-    k[2][i] = c.by_end * rate[i];
-    k[3][i] = c.by_alpha * rate[i];
+    t.rate[i] = width * graded_rate(node[i], panel.graded);
+    k[0][i] = c.curvature * t.rate[i];
+    k[1][i] = c.by_start * t.rate[i];
+    k[2][i] = c.by_end * t.rate[i];
+    k[3][i] = c.by_alpha * t.rate[i];
   }
-  End& at = running.at;
-  // Angles: theta = L * integral of curvature; d theta by each variable.
-  std::array<Column, 5> turn{};
   const Column mean = integrate(k[0]);
   const Column by_start = integrate(k[1]);
   const Column by_end = integrate(k[2]);
   const Column by_alpha = integrate(k[3]);
   for (int i = 0; i < kN; ++i) {
-    turn[0][i] = at.angle + length_ * mean[i];
-    turn[1][i] = at.dangle[kCurvatureStart] + length_ * by_start[i];
-    turn[2][i] = at.dangle[kCurvatureEnd] + length_ * by_end[i];
-    turn[3][i] = at.dangle[kLength] + mean[i];
-    turn[4][i] = at.dangle[kAlpha] + length_ * by_alpha[i];
+    t.turn[0][i] = at.angle + length_ * mean[i];
+    t.turn[1][i] = at.dangle[kCurvatureStart] + length_ * by_start[i];
+    t.turn[2][i] = at.dangle[kCurvatureEnd] + length_ * by_end[i];
+    t.turn[3][i] = at.dangle[kLength] + mean[i];
+    t.turn[4][i] = at.dangle[kAlpha] + length_ * by_alpha[i];
   }
+  return t;
+}
+
+void PieceTable::fill(Panel& panel, Running& running) const {
+  End& at = running.at;
+  const auto& [rate, turn] = turns_of(panel, at);
   std::array<Column, 10> f{};
   for (int i = 0; i < kN; ++i) {
     const double c = std::cos(turn[0][i]) * rate[i];

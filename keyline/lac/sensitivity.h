@@ -58,8 +58,10 @@ class PieceTable {
     std::array<std::array<double, kColumns>, kNodes> node{};
   };
   struct Running;
+  struct Turns;
   void plan_panels();
   void add_geometric_panels(double from, double to, double least, int grade);
+  Turns turns_of(const Panel& panel, const End& at) const;
   void fill(Panel& panel, Running& running) const;
 
   double curvature_start_ = 0;

@@ -21,9 +21,6 @@ using core::Vector2;
 using detail::SplineProblem;
 using detail::SplineState;
 
-constexpr double kWildTurning = 1.5 * core::kPi;
-constexpr double kWildLength = 12;
-
 std::string number(double x) { return core::number_text(x, 6); }
 
 std::string item(const char* list, std::size_t i) {
@@ -140,7 +137,8 @@ Calm calm_of(const SplineProblem& problem, const SplineState& state) {
       result.largest = turned;
       result.span = i;
     }
-    if (!(turned <= kWildTurning) || !(state.length[i] <= kWildLength * problem.chord[i])) {
+    if (!(turned <= detail::kWildTurning) ||
+        !(state.length[i] <= detail::kWildLength * problem.chord[i])) {
       return {false, i, turned};
     }
   }
