@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "keyline/classa/farin.h"
 #include "keyline/classa/plane_of.h"
 #include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 
 namespace keyline::classa {
 
@@ -35,14 +37,27 @@ bool all_coincide(const Points& points) {
                      [&](const auto& p) { return distance(p, points.front()) == 0; });
 }
 
-/// Whether the edges shrink on the whole: the last against the first, then inwards.
-bool shrinks(std::span<const Point2> control) {
-  for (std::size_t i = 0, j = control.size() - 1; i + 1 < j; ++i, --j) {
-    const double first = distance(control[i], control[i + 1]);
-    const double last = distance(control[j - 1], control[j]);
-    if (std::abs(first - last) > 1e-12 * std::max(first, last)) return last < first;
+/// -1, 0, 1 where the list starts lower than it ends, is the same from both ends (to 1e-12), starts
+/// higher.
+int first_against_last(const std::vector<double>& list) {
+  for (std::size_t i = 0, j = list.size(); i + 1 < j; ++i) {
+    --j;
+    if (std::abs(list[i] - list[j]) > 1e-12 * std::max(std::abs(list[i]), std::abs(list[j])))
+      return list[i] < list[j] ? -1 : 1;
   }
-  return false;
+  return 0;
+}
+
+/// Whether the edges shrink on the whole: the last against the first, then inwards. Where lengths
+/// do not tell, turning does: a curve whose edges grow turns more at its start.
+bool shrinks(std::span<const Point2> control) {
+  std::vector<double> lengths;
+  std::vector<double> turning;
+  for (std::size_t i = 0; i + 1 < control.size(); ++i)
+    lengths.push_back(distance(control[i], control[i + 1]));
+  for (const auto& r : ratios(control)) turning.push_back(r ? std::abs(r->alpha) : 0);
+  const int by_length = first_against_last(lengths);
+  return by_length != 0 ? by_length > 0 : first_against_last(turning) < 0;
 }
 
 /// First edge that is one: the direction in which the curve leaves.
@@ -85,19 +100,18 @@ void place(CurveValue& value, const CavOptions& o) {
   }
 }
 
-CurveReading read(std::vector<Point2> control, bool planar, const CavOptions& o) {
+CurveReading read(std::vector<Point2> control, const CavOptions& o) {
   CurveReading r;
   r.control = std::move(control);
   r.reversed = o.direction == Direction::growing && shrinks(r.control);
   if (r.reversed) std::reverse(r.control.begin(), r.control.end());
   r.matrix = read_matrix(r.control, o.alpha_max, o.tolerance);
-  if (!planar) r.matrix.type = 5;
   r.conditions = conditions_of(r.control, r.matrix, o);
   return r;
 }
 
-core::Result<CurveValue> value_of(const curve::Bezier2& given, bool planar, const CavOptions& o) {
-  const CurveReading r = read(given.control, planar, o);
+core::Result<CurveValue> value_of(const curve::Bezier2& given, const CavOptions& o) {
+  const CurveReading r = read(given.control, o);
   CurveValue value;
   value.degree = curve::degree(given);
   value.energy = strain_energy(given);
@@ -121,6 +135,19 @@ core::Result<CurveValue> value_of(const curve::Bezier2& given, bool planar, cons
     place(value, o);
   else
     value.cav = std::pow(d.boundary * d.plane, value.type - 2);
+  return value;
+}
+
+/// Type 5: a curve in no plane has no place in this one.
+CurveValue value_in_space(const curve::Bezier3& given, double off_plane, const CavOptions& o) {
+  const Diagonals d = diagonals(o.alpha_max);
+  CurveValue value;
+  value.degree = curve::degree(given);
+  value.cav = std::pow(d.boundary * d.plane, 3);
+  value.energy = strain_energy(given);
+  value.monotone = certify_monotone_curvature(given);
+  value.no_minimum =
+      "the curve is not planar: it leaves its plane by " + core::number_text(off_plane, 4);
   return value;
 }
 
@@ -178,12 +205,12 @@ MatrixReading read_matrix(std::span<const Point2> control, double alpha_max, dou
 
 core::Result<CurveReading> read_curve(const curve::Bezier2& c, const CavOptions& options) {
   if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
-  return read(c.control, true, options);
+  return read(c.control, options);
 }
 
 core::Result<CurveValue> cav(const curve::Bezier2& c, const CavOptions& options) {
   if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
-  return value_of(c, true, options);
+  return value_of(c, options);
 }
 
 core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOptions& options) {
@@ -193,8 +220,9 @@ core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOpt
 core::Result<CurveValue> cav(const curve::Bezier3& c, const CavOptions& options) {
   if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
   detail::Flattened flat = detail::flatten(c.control);
-  const bool planar = flat.off_plane <= options.tolerance * flat.size;
-  return value_of({std::move(flat.points), {}}, planar, options);
+  if (flat.off_plane > options.tolerance * flat.size)
+    return value_in_space(c, flat.off_plane, options);
+  return value_of({std::move(flat.points), {}}, options);
 }
 
 core::Result<CurveValue> cav(const MatrixCurve& c, const CavOptions& options) {

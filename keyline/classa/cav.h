@@ -67,7 +67,7 @@ Diagonals diagonals(double alpha_max);
 /// of Tab. 2 does not exist.
 core::Result<CurveValue> cav(const curve::Bezier2& c, const CavOptions& options = {});
 
-/// The same in space: in the plane of the curve, or type 5 where it has none.
+/// The same in space: in the plane of the curve, or type 5 and without a minimum where it has none.
 core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOptions& options = {});
 core::Result<CurveValue> cav(const curve::Bezier3& c, const CavOptions& options = {});
 

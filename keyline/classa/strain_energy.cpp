@@ -12,19 +12,24 @@ using core::Vector2;
 
 namespace {
 
+double turning_of(const curve::Jet2& j) { return std::abs(cross(j.first, j.second)); }
+double turning_of(const curve::Jet3& j) { return norm(cross(j.first, j.second)); }
+
 /// Squared curvature by parameter. `size` is the largest speed: a turning below the rounding of
 /// derivatives of that size counts as none.
-double density(const curve::Jet2& j, double size) {
+template <class Jet>
+double density(const Jet& j, double size) {
   const double speed = norm(j.first);
   if (speed == 0) return 0;
-  const double turning = cross(j.first, j.second);
-  if (std::abs(turning) <= 4e-15 * speed * size) return 0;
+  const double turning = turning_of(j);
+  if (turning <= 4e-15 * speed * size) return 0;
   const double curvature = turning / (speed * speed * speed);
   return curvature * curvature * speed;
 }
 
+template <class Curve>
 struct Integration {
-  const curve::PlanarView* curve;
+  const Curve* curve;
   double size;       // largest speed
   double tolerance;  // relative
   double floor;      // energy the tolerance is relative to: what has been met so far
@@ -40,7 +45,8 @@ struct Integration {
 
 /// Halves a stretch until the rule agrees with its two halves; a stretch that cannot be halved any
 /// more and still holds a part of the energy has a singularity in it.
-void integrate(Integration& work, double low, double high, double whole, int depth) {
+template <class Curve>
+void integrate(Integration<Curve>& work, double low, double high, double whole, int depth) {
   constexpr int kMostStretches = 20000;
   const double middle = 0.5 * (low + high);
   const double left = work.rule(low, middle);
@@ -57,9 +63,30 @@ void integrate(Integration& work, double low, double high, double whole, int dep
   }
 }
 
-bool diverges_at(const curve::PlanarView& c, double t, double size) {
-  const curve::Jet2 j = jet(c, t);
-  return norm(j.first) <= 1e-13 * size && cross(j.second, j.third) != 0;
+/// A cusp at which the curve turns on.
+template <class Curve>
+bool diverges_at(const Curve& c, double t, double size) {
+  const auto j = jet(c, t);
+  const auto next = cross(j.second, j.third);
+  return norm(j.first) <= 1e-13 * size && !(next == decltype(next){});
+}
+
+template <class Curve>
+double energy_of(const Curve& c, double tolerance) {
+  constexpr int kDepth = 40;
+  double size = 0;
+  for (int i = 0; i <= 8; ++i) size = std::max(size, norm(jet(c, i / 8.0).first));
+  if (size == 0) return 0;
+  Integration<Curve> work{&c, size, tolerance, 1e-20 / size};
+  const std::vector<double> breaks = breakpoints(c);
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double low = breaks[i];
+    const double high = std::nextafter(breaks[i + 1], low);
+    if (diverges_at(c, low, size) || diverges_at(c, high, size))
+      return std::numeric_limits<double>::infinity();
+    integrate(work, low, high, work.rule(low, high), kDepth);
+  }
+  return work.singular ? std::numeric_limits<double>::infinity() : work.energy;
 }
 
 double whole_power(double x, int exponent) {
@@ -72,21 +99,10 @@ double whole_power(double x, int exponent) {
 }  // namespace
 
 double strain_energy(const curve::PlanarView& c, double tolerance) {
-  constexpr int kDepth = 40;
-  double size = 0;
-  for (int i = 0; i <= 8; ++i) size = std::max(size, norm(jet(c, i / 8.0).first));
-  if (size == 0) return 0;
-  Integration work{&c, size, tolerance, 1e-20 / size};
-  const std::vector<double>& breaks = c.breaks();
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const double low = breaks[i];
-    const double high = std::nextafter(breaks[i + 1], low);
-    if (diverges_at(c, low, size) || diverges_at(c, high, size))
-      return std::numeric_limits<double>::infinity();
-    integrate(work, low, high, work.rule(low, high), kDepth);
-  }
-  return work.singular ? std::numeric_limits<double>::infinity() : work.energy;
+  return energy_of(c, tolerance);
 }
+
+double strain_energy(const curve::Bezier3& c, double tolerance) { return energy_of(c, tolerance); }
 
 MatrixEnergy matrix_energy(const ControlMatrix& m, int degree) {
   MatrixEnergy energy;

@@ -11,6 +11,7 @@ namespace keyline::classa {
 /// Returns 0 for a straight curve and for one without length, +infinity where the curve has a cusp
 /// or an end handle of no length (the integral diverges there).
 double strain_energy(const curve::PlanarView& c, double tolerance = 1e-10);
+double strain_energy(const curve::Bezier3& c, double tolerance = 1e-10);
 template <curve::PlanarCurve C>
 double strain_energy(const C& c, double tolerance = 1e-10) {
   return strain_energy(curve::PlanarView(c), tolerance);

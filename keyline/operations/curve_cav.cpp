@@ -13,10 +13,6 @@ core::Result<json> space_value(const ClassASubject& subject, const classa::CavOp
   const auto value = classa::cav(*subject.space, options);
   if (!value) return std::unexpected(value.error());
   json result = curve_value_json(*value);
-  const curve::MonotoneVerdict verdict = classa::certify_monotone_curvature(*subject.space);
-  result["monotone"] = answer_name(verdict.answer);
-  result.erase("witness");
-  if (verdict.answer != curve::MonotoneVerdict::yes) result["witness"] = verdict.witness;
   if (subject.farin) {
     const classa::FarinConditions farin = classa::farin_conditions(*subject.farin);
     result["farin"] = {{"segment", farin.segment},

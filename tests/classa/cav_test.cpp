@@ -145,6 +145,10 @@ TEST(Cav, InSpace) {
   const auto twisted = cav(tilted);
   ASSERT_TRUE(twisted);
   EXPECT_EQ(twisted->type, 5);
+  EXPECT_FALSE(twisted->minimum);
+  EXPECT_NE(twisted->no_minimum.find("not planar"), std::string::npos);
+  EXPECT_GT(twisted->energy, 0);
+  EXPECT_NEAR(space->energy, plane->energy, 1e-9);
 }
 
 TEST(Cav, BadInput) {
@@ -168,6 +172,69 @@ TEST(Cav, BadInput) {
   EXPECT_EQ(code(cav(curve::Bezier2{{{1, 1}, {2, 1}, {1, 3}}, {1, 2, 1}})), ErrorCode::unsupported);
   EXPECT_EQ(code(cav(std::vector<Point3>{{1, 1, 1}, {1, 1, 1}})), ErrorCode::bad_input);
   EXPECT_TRUE(cav(MatrixCurve{{0, 0}, {1, 0}, 1, {0.05, 1.1}, 15}));
+}
+
+/// Edges of equal length tell no direction: turning does.
+TEST(Cav, ReversingWithEqualEdges) {
+  curve::Bezier2 c{{{0, 0}}, {}};
+  double direction = 0;
+  for (const double turn : {0.0, 0.2, 0.5}) {
+    direction += turn;
+    c.control.push_back(c.control.back() + core::unit_vector(direction));
+  }
+  const auto one = cav(c);
+  const auto two = cav(reverse(c));
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->type, 4);
+  EXPECT_NE(one->reversed, two->reversed);
+  EXPECT_NEAR(one->minimum->s, two->minimum->s, 1e-7);
+  EXPECT_NEAR(one->minimum->energy, two->minimum->energy, 1e-12);
+}
+
+TEST(Cav, SizeDoesNotMatter) {
+  const auto reference = cav(to_bezier(kOya));
+  ASSERT_TRUE(reference);
+  for (const double size : {1e-60, 1e-9, 1e6, 1e60}) {
+    MatrixCurve c = kOya;
+    c.tangent = size * c.tangent;
+    const auto value = cav(to_bezier(c));
+    ASSERT_TRUE(value) << size << ": " << value.error().message;
+    EXPECT_EQ(value->type, 3);
+    EXPECT_NEAR(value->cav, reference->cav, 1e-7);
+    EXPECT_NEAR(value->energy * size, reference->energy, 1e-9);
+    EXPECT_EQ(value->monotone.answer, reference->monotone.answer);
+  }
+}
+
+/// Whatever the points: a finite value or a reason.
+TEST(Cav, AnyPointsAtAll) {
+  numeric::Random random(99);
+  for (int i = 0; i < 400; ++i) {
+    curve::Bezier2 c;
+    const double grid = random.chance(0.5) ? 1.0 : 1e-3;
+    const std::size_t count = 2 + random.index(7);
+    for (std::size_t k = 0; k < count; ++k)
+      c.control.push_back({grid * std::round(random.uniform(-2, 2) / grid),
+                           grid * std::round(random.uniform(-2, 2) / grid)});
+    const auto value = cav(c);
+    if (!value) {
+      EXPECT_FALSE(value.error().message.empty());
+      EXPECT_NE(value.error().code, ErrorCode::internal);
+      continue;
+    }
+    EXPECT_TRUE(std::isfinite(value->cav));
+    EXPECT_FALSE(std::isnan(value->energy));
+    EXPECT_TRUE(value->minimum || !value->no_minimum.empty());
+    const auto back = cav(reverse(c));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->type, value->type);
+    EXPECT_NEAR(back->cav, value->cav, 1e-6 * value->cav);
+    ASSERT_EQ(back->minimum.has_value(), value->minimum.has_value()) << i;
+    if (value->minimum) {
+      EXPECT_NEAR(back->minimum->energy, value->minimum->energy,
+                  1e-9 * value->minimum->energy + 1e-15);
+    }
+  }
 }
 
 }  // namespace
