@@ -228,6 +228,12 @@ Command add_edit(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--limit", edit.limit, "surfaces: largest departure, a length")
       ->check(CLI::NonNegativeNumber);
+  sub->add_option("--alpha-range", edit.alpha_range, "low,high: where the minimum may lie")
+      ->delimiter(',')
+      ->expected(2);
+  sub->add_option("--s-range", edit.s_range, "low,high: where the minimum may lie")
+      ->delimiter(',')
+      ->expected(2);
   sub->footer(
       "Example: keyline edit examples/cubic.json --end-tolerance 0.01 -o report.html\n"
       "         keyline edit examples/panel-c.json --keep corners --limit 5 -o panel.json\n"

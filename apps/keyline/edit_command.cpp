@@ -42,6 +42,8 @@ json request_of(const EditCommand& command) {
   request["hold"] = command.hold;
   if (command.alpha_max) request["alpha_max"] = *command.alpha_max;
   if (command.end_tolerance) request["end_tolerance"] = *command.end_tolerance;
+  if (!command.alpha_range.empty()) request["alpha_range"] = command.alpha_range;
+  if (!command.s_range.empty()) request["s_range"] = command.s_range;
   if (command.to.size() == 2) request["target"] = {{"alpha", command.to[0]}, {"s", command.to[1]}};
   return request;
 }

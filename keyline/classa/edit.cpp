@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "keyline/classa/plane_of.h"
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
 
@@ -204,6 +205,28 @@ core::Result<EditResult> edit(const curve::Bezier2& c, const EditOptions& option
   auto after = cav(result.curve, again);
   if (!after) return std::unexpected(std::move(after.error()));
   result.after = std::move(*after);
+  return result;
+}
+
+core::Result<SpaceEditResult> edit(const curve::Bezier3& c, const EditOptions& options) {
+  if (auto sound = validate(c); !sound) return std::unexpected(sound.error());
+  if (is_rational(c))
+    return fail(ErrorCode::unsupported, "a rational curve has no control matrix",
+                "approximate it by a polynomial Bezier curve", "weights");
+  const detail::Flattened flat = detail::flatten(c.control);
+  if (flat.off_plane > options.cav.tolerance * flat.size)
+    return fail(
+        ErrorCode::unsupported,
+        "the curve is not planar: it leaves its plane by " + core::number_text(flat.off_plane, 4),
+        "lay it into a plane first", "curve");
+  auto edited = edit(curve::Bezier2{flat.points, {}}, options);
+  if (!edited) return std::unexpected(std::move(edited.error()));
+  SpaceEditResult result;
+  const auto& control = edited->curve.control;
+  for (std::size_t i = 0; i < control.size(); ++i)
+    result.curve.control.push_back(control[i] == flat.points[i] ? c.control[i]
+                                                                : flat.lifted(control[i]));
+  result.flat = std::move(*edited);
   return result;
 }
 

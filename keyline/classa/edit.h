@@ -43,4 +43,12 @@ struct EditResult {
 /// that holds what is to be held.
 core::Result<EditResult> edit(const curve::Bezier2& c, const EditOptions& options = {});
 
+struct SpaceEditResult {
+  curve::Bezier3 curve;  ///< in the plane of the given one, start and end where they were
+  EditResult flat;       ///< in that plane, the start of the given curve at the origin
+};
+/// The same for a planar curve in space; unsupported where it lies in no plane (within
+/// options.cav.tolerance of its size).
+core::Result<SpaceEditResult> edit(const curve::Bezier3& c, const EditOptions& options = {});
+
 }  // namespace keyline::classa

@@ -44,6 +44,9 @@ Flattened flatten(std::span<const Point3> points) {
   const bool line = norm(off) <= 1e-14 * flat.size;
   const Vector3 y = line ? any_normal(x) : off / norm(off);
   const Vector3 z = cross(x, y);
+  flat.origin = points.front();
+  flat.x = x;
+  flat.y = y;
   for (const Point3& p : points) {
     const Vector3 v = p - points.front();
     flat.points.push_back({dot(v, x), dot(v, y)});

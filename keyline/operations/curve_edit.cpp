@@ -1,4 +1,4 @@
-#include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json_space.h"
 #include "keyline/operations/class_a_json.h"
 #include "keyline/operations/class_a_request.h"
 #include "keyline/operations/registry.h"
@@ -13,9 +13,14 @@ core::Result<json> run(const json& request, const Context&) {
   if (!options) return std::unexpected(options.error());
   const auto subject = class_a_subject(request);
   if (!subject) return std::unexpected(subject.error());
-  if (!subject->planar)
-    return core::fail(core::ErrorCode::unsupported, "a curve in space is not edited",
-                      "lay it into its plane first", "curve");
+  if (subject->space) {
+    const auto edited = classa::edit(*subject->space, *options);
+    if (!edited) return std::unexpected(edited.error());
+    return json{{"curve", exchange::to_json(edited->curve)},
+                {"before", curve_value_json(edited->flat.before)},
+                {"after", curve_value_json(edited->flat.after)},
+                {"target", {{"alpha", edited->flat.target.alpha}, {"s", edited->flat.target.s}}}};
+  }
   const auto edited = classa::edit(subject->planar->curve, *options);
   if (!edited) return std::unexpected(edited.error());
   return class_a_edit_json(*edited, *subject->planar, *options);

@@ -114,6 +114,27 @@ TEST(Edit, FreeFormReachesItsMinimum) {
   EXPECT_EQ(edited->after.type, 1);
 }
 
+TEST(Edit, InSpace) {
+  const auto flat = to_bezier(kOya);
+  curve::Bezier3 tilted;
+  for (const Point2& p : flat.control) tilted.control.push_back({p.x + 3, 0.6 * p.y, 0.8 * p.y});
+  EditOptions options;
+  options.cav.end_tolerance = 0;
+  const auto plane = edit(flat, options);
+  const auto space = edit(tilted, options);
+  ASSERT_TRUE(plane && space) << space.error().message;
+  EXPECT_EQ(space->curve.control.front(), tilted.control.front());
+  for (std::size_t i = 0; i < flat.control.size(); ++i) {
+    const Point2 p = plane->curve.control[i];
+    EXPECT_LE(core::distance(space->curve.control[i], {p.x + 3, 0.6 * p.y, 0.8 * p.y}), 1e-7);
+  }
+  tilted.control[2].x += 0.1;
+  tilted.control[2].z += 0.1;
+  const auto twisted = edit(tilted, options);
+  ASSERT_FALSE(twisted);
+  EXPECT_EQ(twisted.error().code, core::ErrorCode::unsupported);
+}
+
 TEST(Edit, BadInput) {
   EditOptions options;
   options.amount = 1.5;

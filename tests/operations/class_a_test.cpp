@@ -75,6 +75,31 @@ TEST(CurveEdit, SlidesToTheMinimum) {
   EXPECT_NEAR(perform_well("curve.edit", request)["after"]["s"].get<double>(), 1.4, 1e-9);
 }
 
+TEST(CurveEdit, InSpace) {
+  const json tilted{{"type", "bezier"}, {"points", {{0, 0, 0}, {1, 0, 1}, {2, 1, 2}, {2, 3, 2}}}};
+  const json edited = perform_well("curve.edit", {{"curve", tilted}, {"end_tolerance", 0}});
+  EXPECT_EQ(edited["after"]["type"], 1);
+  EXPECT_EQ(edited["curve"]["points"][3].size(), 3U);
+  json twisted = tilted;
+  twisted["points"][3][2] = 1;
+  EXPECT_EQ(code_of("curve.edit", {{"curve", twisted}}), "unsupported");
+}
+
+TEST(CurveCav, RangesOfTheMinimum) {
+  json request = kOya;
+  request["alpha_range"] = {0.0, 0.6};
+  EXPECT_LE(perform_well("curve.cav", request)["minimum"]["alpha"].get<double>(), 0.6);
+  request = kOya;
+  request["s_range"] = {1.0, 1.42};
+  EXPECT_LE(perform_well("curve.cav", request)["minimum"]["s"].get<double>(), 1.42 + 1e-9);
+  request = kOya;
+  request["branch"] = "falling";  // too far round for a cubic whose edges shrink
+  EXPECT_EQ(code_of("curve.cav", request), "undrawable");
+  request["degree"] = 6;
+  request["alpha"] = 0.3;
+  EXPECT_LE(perform_well("curve.cav", request)["minimum"]["s"].get<double>(), 1);
+}
+
 TEST(CurveEdit, GivesTheOtherForms) {
   json request = kOya;
   request["samples"] = 5;
