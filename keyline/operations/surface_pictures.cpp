@@ -99,9 +99,9 @@ figure::SurfaceMesh mesh_of(const JetGrid& grid) {
   return mesh;
 }
 
-/// Fields as whole numbers at their lines: 20 isophotes and 12 highlight lines over the range.
+/// Fields as whole numbers at their lines: 16 isophotes, 12 of the others over the range.
 void count_lines(std::vector<figure::SurfaceMesh>& meshes, FieldKind kind) {
-  if (kind != FieldKind::isophote && kind != FieldKind::highlight) return;
+  if (kind == FieldKind::zebra || is_curvature(kind)) return;
   std::vector<double> all;
   for (const auto& m : meshes) all.insert(all.end(), m.values.begin(), m.values.end());
   const core::Interval range = usual_range(std::move(all));

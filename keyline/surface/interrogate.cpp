@@ -19,6 +19,7 @@ using core::Point3;
 using core::Result;
 using core::Vector3;
 
+constexpr std::size_t kMeanOf = 4096;  ///< places that means over a grid are taken of
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Lights {
@@ -121,15 +122,16 @@ Result<void> check(const Lighting& l) {
 
 Lighting completed(const Lighting& given, const JetGrid& grid) {
   Lighting l = given;
+  const std::size_t step = 1 + grid.jets.size() / kMeanOf;
   Vector3 normals;
   Vector3 along;
-  for (const SurfaceJet& j : grid.jets) {
-    const auto f = frame_of(j);
+  double count = 0;
+  for (std::size_t i = 0; i < grid.jets.size(); i += step, ++count) {
+    const auto f = frame_of(grid.jets[i]);
     if (!f) continue;
     normals = normals + f->normal;
     along = along + f->e1;
   }
-  const double count = static_cast<double>(grid.jets.size());
   if (!l.view) l.view = norm(normals) > 1e-6 * count ? normals : Vector3{0, 0, 1};
   l.view = unit(*l.view);
   if (!l.stripes) {

@@ -47,5 +47,24 @@ TEST(Documentation, EveryCommandOfTheClassAGuideRuns) {
   }
 }
 
+TEST(Documentation, EveryCommandAndRequestOfTheSurfaceGuideRuns) {
+  const auto commands = commands_of("guide/surfaces.md");
+  EXPECT_GE(commands.size(), 5U);
+  for (const std::string& command : commands) {
+    const Scratch s;
+    const Outcome o = run_keyline(redirected(command, s), "cd " KEYLINE_SOURCE_DIR " && ");
+    EXPECT_EQ(o.status, 0) << command << '\n' << o.err;
+  }
+  std::istringstream lines(slurp(KEYLINE_SOURCE_DIR "/docs/guide/surfaces.md"));
+  std::string requests;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("{\"op\"") && line.find("\u2026") == std::string::npos)
+      requests += line + "\n";
+  EXPECT_EQ(std::count(requests.begin(), requests.end(), '\n'), 3);
+  const Scratch s;
+  const Outcome o = run_keyline("batch --quiet <" + s.write("requests", requests));
+  EXPECT_EQ(o.out.find("\"ok\":false"), std::string::npos) << o.out;
+}
+
 }  // namespace
 }  // namespace keyline::app_test

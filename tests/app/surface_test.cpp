@@ -1,0 +1,91 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+using nlohmann::json;
+
+const std::string kExamples = KEYLINE_SOURCE_DIR "/examples/";
+
+TEST(Surfaces, AnalyzePrintsSavByCurveAndNamesTheWorst) {
+  const Outcome o = run_keyline("analyze --quiet --json " + kExamples + "panel-b.json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json r = json::parse(o.out);
+  EXPECT_EQ(r["curves"].size(), 8U);
+  EXPECT_EQ(r["worst"], "A2");
+  EXPECT_NEAR(r["sav"].get<double>(), 116.1, 0.1);
+  const Outcome table = run_keyline("analyze " + kExamples + "panel-b.json");
+  EXPECT_NE(table.out.find("SAV 116"), std::string::npos);
+  EXPECT_NE(table.out.find("A8"), std::string::npos);
+}
+
+TEST(Surfaces, AnalyzeGoesByPatchAndBySurface) {
+  const Outcome o = run_keyline("analyze --quiet --json " + kExamples + "skin.json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(json::parse(o.out)["patches"].size(), 6U);
+  const Scratch s;
+  json several{{"unit", "mm"}, {"surfaces", json::array()}};
+  for (const char* name : {"panel-a.json", "panel-c.json"})
+    several["surfaces"].push_back(
+        {{"name", name}, {"surface", json::parse(slurp(kExamples + name))}});
+  const std::string file = s.write("both.json", several.dump());
+  const Outcome both = run_keyline("analyze --quiet --json " + file);
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_EQ(json::parse(both.out)["surfaces"].size(), 2U);
+}
+
+TEST(Surfaces, AnalyzeDrawsReportAndPictures) {
+  const Scratch s;
+  const std::string outputs = " -o " + s.path("p.html") + " -o " + s.path("p.png") + " -o " +
+                              s.path("p.svg") + " -o " + s.path("p.pdf") + " -o " +
+                              s.path("p.json");
+  const Outcome o = run_keyline("analyze --quiet " + kExamples + "panel-c.json" + outputs);
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(s.count(), 5U);
+  const std::string html = slurp(s.path("p.html"));
+  for (const char* text : {"Zebra", "Gaussian curvature", "Network curves", "A8"})
+    EXPECT_NE(html.find(text), std::string::npos) << text;
+}
+
+TEST(Surfaces, EditHoldsCornersAndComesBackAsTheEditedPatch) {
+  const Scratch s;
+  const std::string file = s.path("e.json");
+  const Outcome o = run_keyline("edit --quiet --json --keep corners " + kExamples +
+                                "panel-c.json -o " + file + " -o " + s.path("e.html"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json r = json::parse(o.out);
+  EXPECT_NEAR(r["before"]["sav"].get<double>(), 407.3, 0.1);
+  EXPECT_LT(r["after"]["sav"].get<double>(), 1);
+  const json given = json::parse(slurp(kExamples + "panel-c.json"))["points"];
+  const json made = json::parse(slurp(file))["points"];
+  for (const std::size_t i : {0U, 3U})
+    for (const std::size_t j : {0U, 3U})
+      for (const std::size_t k : {0U, 1U, 2U})
+        EXPECT_NEAR(made[i][j][k].get<double>(), given[i][j][k].get<double>(), 1e-9);
+  const json again = json::parse(run_keyline("analyze --quiet --json " + file).out);
+  EXPECT_LT(again["sav"].get<double>(), 1);
+}
+
+TEST(Surfaces, FailuresAreOneLine) {
+  const Outcome many = run_keyline("edit --quiet " + kExamples + "skin.json");
+  EXPECT_EQ(many.status, 2);
+  EXPECT_NE(many.err.find("6 Bezier patches"), std::string::npos);
+  const Outcome keep = run_keyline("edit --quiet --keep all " + kExamples + "panel-c.json");
+  EXPECT_EQ(keep.status, 2);
+  const Outcome format =
+      run_keyline("analyze --quiet " + kExamples + "panel-c.json -o /tmp/nothing.gif");
+  EXPECT_EQ(format.status, 2);
+  const Scratch s;
+  const std::string bad =
+      s.write("bad.json", R"({"type":"bezier-surface","points":[[[0,0,0],[1,0,0]],[[0,1,0]]]})");
+  const Outcome net = run_keyline("analyze --quiet " + bad);
+  EXPECT_EQ(net.status, 2);
+  EXPECT_NE(net.err.find("points[1]"), std::string::npos) << net.err;
+}
+
+}  // namespace
+}  // namespace keyline::app_test
