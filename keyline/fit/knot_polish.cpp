@@ -54,7 +54,7 @@ class Polisher {
                                                                               : kLargeData),
         sites_(insertion_sites(solvers[0])) {}
 
-  ScoredKnots run(Knots knots, int rounds) {
+  ScoredKnots run(const Knots& knots, int rounds) {
     ScoredKnots best{knots, score(knots, 0)};
     best = improved(best, settled(best.knots, effort_.settling));
     for (int round = 0; round < rounds && !progress_.stop_requested(); ++round) {
@@ -94,7 +94,7 @@ class Polisher {
 
   /// All positions optimised together.
   ScoredKnots settled(const Knots& knots, int iterations) {
-    const ScoredKnots start{knots, score(knots, 0)};
+    ScoredKnots start{knots, score(knots, 0)};
     if (!std::isfinite(start.bic)) return start;
     const auto groups = grouped(knots);
     const Knots moved =
@@ -104,7 +104,7 @@ class Polisher {
 
   /// Positions near the centre optimised, all of them where they are few.
   ScoredKnots optimised(const Candidate& candidate, int worker) {
-    const ScoredKnots start{candidate.knots, score(candidate.knots, worker)};
+    ScoredKnots start{candidate.knots, score(candidate.knots, worker)};
     if (!std::isfinite(start.bic)) return start;
     const auto groups = grouped(candidate.knots);
     std::size_t first = 0;
@@ -232,8 +232,9 @@ class Polisher {
 }  // namespace
 
 ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& criterion,
-                         std::vector<double> knots, int rounds, const core::Progress& progress) {
-  return Polisher(solvers, criterion, progress).run(std::move(knots), rounds);
+                         const std::vector<double>& knots, int rounds,
+                         const core::Progress& progress) {
+  return Polisher(solvers, criterion, progress).run(knots, rounds);
 }
 
 }  // namespace keyline::fit::detail

@@ -19,7 +19,8 @@ struct ScoredKnots {
 /// single knots removed, inserted and moved elsewhere. Never worse than the start. Works with
 /// as many threads as there are solvers; the result does not depend on their number.
 ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& criterion,
-                         std::vector<double> knots, int rounds, const core::Progress& progress);
+                         const std::vector<double>& knots, int rounds,
+                         const core::Progress& progress);
 
 /// Knots by refinement where residuals are large, then removal of those of little use: quick,
 /// deterministic, a start for the genetic search. Thorough: also from knots too many to pay.
