@@ -26,9 +26,8 @@ struct Window {
 constexpr std::array<Window, 7> kWindows{
     {{5, 2}, {5, 3}, {6, 3}, {7, 4}, {8, 5}, {10, 4}, {13, 5}}};
 constexpr std::size_t kMostWindows = 4000;
-constexpr double kAlike = 1.35;    // variances up to this times the least agree with it
-constexpr double kAskew = 2;       // mean over median beyond which there is more than chance
-constexpr double kKept = 2.0 / 3;  // share of the windows looked at: the rest may hold corners
+constexpr double kAlike = 1.35;  // variances up to this times the least agree with it
+constexpr double kAskew = 2;     // mean over median beyond which there is more than chance
 
 /// Of chi-squared variables over their degrees of freedom: the median, and the mean of the least
 /// two thirds.
@@ -49,9 +48,9 @@ Usual usual(int freedom) {
   }
 }
 
+/// Mean of the least two thirds: the rest of the windows may hold corners.
 double kept_mean(std::vector<double>& values) {
-  const auto count = std::max<std::size_t>(
-      1, static_cast<std::size_t>(kKept * static_cast<double>(values.size()) + 0.5));
+  const std::size_t count = std::max<std::size_t>(1, (2 * values.size() + 1) / 3);
   const auto end = values.begin() + static_cast<std::ptrdiff_t>(count);
   if (end != values.end()) std::nth_element(values.begin(), end, values.end());
   std::sort(values.begin(), end);  // so that the sum does not depend on the windows' order

@@ -9,7 +9,13 @@
 namespace keyline::fairing::detail {
 
 /// Positions of a stage's seven variables.
-enum StageVariable { kX, kY, kDirection, kCurvature, kLengthAt, kAlphaAt, kNextCurvature };
+inline constexpr int kX = 0;
+inline constexpr int kY = 1;
+inline constexpr int kDirection = 2;
+inline constexpr int kCurvature = 3;
+inline constexpr int kLengthAt = 4;
+inline constexpr int kAlphaAt = 5;
+inline constexpr int kNextCurvature = 6;
 
 /// The quadratic model of the fit about a chain, and what the chain reaches.
 struct Model {
