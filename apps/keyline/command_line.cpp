@@ -37,10 +37,12 @@ void add_common(CLI::App& app, CommonOptions& common, bool outputs = true) {
 }
 
 void add_input(CLI::App& app, InputOptions& input) {
-  app.add_option("INPUT", input.files,
-                 "points (csv, tsv, dat, xyz), curves (json, svg), a drawing (png, jpeg, tiff, "
-                 "webp); - for "
-                 "standard input; several files are parts of one key-line")
+  app.add_option(
+         "INPUT", input.files,
+         "points (csv, tsv, dat, xyz, pts), curves (svg, dxf, step, iges, json), meshes (obj, "
+         "stl, ply; with --section), drawings (png, jpeg, tiff, webp); - for standard input; "
+         "several "
+         "files are parts of one key-line")
       ->required()
       ->type_name("FILE");
   const char* points = "Reading points";
@@ -52,7 +54,8 @@ void add_input(CLI::App& app, InputOptions& input) {
   app.add_option("--id", input.id, "column that tells curves apart")->group(points);
   app.add_option("--select", input.select,
                  "take only what has this name, lies on this layer, or has this number");
-  app.add_option("--section", input.section, "cut a cloud or lattice by a plane, as in y=0")
+  app.add_option("--section", input.section,
+                 "cut a cloud or mesh by a plane, as in y=0; auto: by its symmetry plane")
       ->group(points);
   app.add_option("--band", input.band, "half thickness of the section of a cloud")
       ->check(CLI::PositiveNumber)

@@ -1,7 +1,6 @@
 #include "input.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -10,10 +9,13 @@
 #include "keyline/acquire/join.h"
 #include "keyline/acquire/lattice.h"
 #include "keyline/acquire/section.h"
+#include "keyline/acquire/symmetry.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
 #include "keyline/exchange/lattice_reader.h"
+#include "keyline/exchange/mesh.h"
 #include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/section_file.h"
 #include "keyline/operations/fair_request.h"
 #include "keyline/operations/sketch_run.h"
 
@@ -42,67 +44,56 @@ acquire::AcquireOptions acquire_options(const InputOptions& input) {
   return options;
 }
 
-struct Cut {
-  acquire::Axis axis = acquire::Axis::y;
-  double position = 0;
-};
-
-Result<Cut> parse_section(const std::string& text) {
-  Cut cut;
-  const bool named = text.size() > 2 && text[1] == '=' && text[0] >= 'x' && text[0] <= 'z';
-  const char* last = text.data() + text.size();
-  if (named) {
-    cut.axis = static_cast<acquire::Axis>(text[0] - 'x');
-    const auto [end, error] = std::from_chars(text.data() + 2, last, cut.position);
-    if (error == std::errc() && end == last && std::isfinite(cut.position)) return cut;
-  }
-  return fail(ErrorCode::bad_input, "\"" + text + "\" is no section",
-              "give x=, y= or z= and a number, as in y=0", "--section");
-}
-
 Result<std::vector<RawCurve>> read_lattice_input(const InputOptions& input,
                                                  const std::string& file) {
   const auto lattice = exchange::read_lattice(file);
   if (!lattice) return std::unexpected(lattice.error());
-  Result<RawCurve> curve = fail(ErrorCode::internal, "");
-  if (input.row || input.column) {
-    const long index = input.row ? *input.row : *input.column;
-    if (index < 0)
-      return fail(ErrorCode::bad_input, "rows and columns count from 0", "give 0 or more");
-    curve = input.row ? acquire::lattice_row(*lattice, static_cast<std::size_t>(index))
-                      : acquire::lattice_column(*lattice, static_cast<std::size_t>(index));
-  } else {
-    const auto cut = parse_section(input.section);
-    if (!cut) return std::unexpected(cut.error());
-    curve = acquire::lattice_section(*lattice, cut->axis, cut->position);
-  }
+  const long index = input.row ? *input.row : *input.column;
+  if (index < 0)
+    return fail(ErrorCode::bad_input, "rows and columns count from 0", "give 0 or more");
+  const auto curve = input.row ? acquire::lattice_row(*lattice, static_cast<std::size_t>(index))
+                               : acquire::lattice_column(*lattice, static_cast<std::size_t>(index));
   if (!curve) return std::unexpected(curve.error());
-  return std::vector<RawCurve>{std::move(*curve)};
+  return std::vector<RawCurve>{*curve};
 }
 
-/// Band of a section that was not given: 1/150 of the cloud's size.
-double usual_band(const RawCurve& cloud) {
-  double size = 0;
-  for (const core::Point3& p : cloud.points)
-    if (core::is_finite(p)) size = std::max(size, core::distance(p, cloud.points.front()));
-  return size > 0 && std::isfinite(size) ? size / 150 : 1;
-}
-
-Result<std::vector<RawCurve>> cut_cloud(const InputOptions& input, std::vector<RawCurve> clouds) {
-  const auto cut = parse_section(input.section);
-  if (!cut) return std::unexpected(cut.error());
+/// Clouds whose columns are told: read whole, then cut.
+Result<std::vector<RawCurve>> cut_table(const InputOptions& input, std::vector<RawCurve> clouds) {
+  const auto request = exchange::parse_section(input.section);
+  if (!request) return std::unexpected(request.error());
   std::vector<RawCurve> cuts;
   for (const RawCurve& cloud : clouds) {
-    auto curve = acquire::section_plane(cloud, cut->axis, cut->position,
-                                        input.band ? *input.band : usual_band(cloud));
+    acquire::Plane plane = request->plane.value_or(acquire::Plane{});
+    if (!request->plane) {
+      const auto found = acquire::symmetry_plane(cloud.points);
+      if (!found) return std::unexpected(found.error());
+      plane = found->plane;
+    }
+    double size = 0;
+    for (const core::Point3& p : cloud.points)
+      if (core::is_finite(p)) size = std::max(size, core::distance(p, cloud.points.front()));
+    const double band = size > 0 && std::isfinite(size) ? size / 150 : 1;
+    auto curve = acquire::section_plane(cloud, plane, input.band.value_or(band));
     if (!curve) return std::unexpected(curve.error());
     cuts.push_back(std::move(*curve));
   }
   return cuts;
 }
 
+Result<exchange::FileSection> cut_file(const InputOptions& input, const std::string& file) {
+  const auto request = exchange::parse_section(input.section);
+  if (!request) return std::unexpected(request.error());
+  return exchange::section_of_file(file, *request, input.band);
+}
+
 Result<std::vector<RawCurve>> read_raw(const InputOptions& input, const std::string& file) {
   if (input.row || input.column) return read_lattice_input(input, file);
+  const bool told = !input.columns.empty() || !input.weights.empty() || !input.id.empty();
+  if (!input.section.empty() && !told && file != "-") {
+    auto cut = cut_file(input, file);
+    if (!cut) return std::unexpected(cut.error());
+    return std::move(cut->curves);
+  }
   exchange::PointsOptions options;
   options.columns = input.columns;
   options.weight_column = input.weights;
@@ -111,7 +102,7 @@ Result<std::vector<RawCurve>> read_raw(const InputOptions& input, const std::str
                          : exchange::read_points(std::filesystem::path(file), options);
   if (!raw) return raw;
   if (input.section.empty()) return raw;
-  return cut_cloud(input, std::move(*raw));
+  return cut_table(input, std::move(*raw));
 }
 
 Result<std::vector<KeyLine>> acquire_all(const InputOptions& input, const std::string& file) {
@@ -166,9 +157,33 @@ Result<std::vector<KeyLine>> trace_key_lines(const InputOptions& input) {
   return lines;
 }
 
+/// The lines in which a plane cuts a mesh; of a cloud, its section as acquired.
+Result<document::Document> section_document(const InputOptions& input, const std::string& file) {
+  const auto cut = cut_file(input, file);
+  if (!cut) return std::unexpected(cut.error());
+  document::Document document;
+  for (std::size_t i = 0; i < cut->curves.size(); ++i) {
+    const RawCurve& curve = cut->curves[i];
+    curve::Polyline2 line;
+    bool closed = cut->closed[i];
+    if (cut->ordered) {
+      for (const core::Point3 p : curve.points) line.points.push_back({p.x, p.y});
+    } else {
+      const auto acquired = acquire::acquire_key_line(curve, acquire_options(input));
+      if (!acquired) return std::unexpected(acquired.error());
+      line.points = acquired->points;
+      closed = acquired->closed;
+    }
+    if (closed) line.points.push_back(line.points.front());
+    document.paths.push_back({{curve.id, {}, {}}, {{{std::move(line)}}, closed}, 0});
+  }
+  return document;
+}
+
 }  // namespace
 
 bool holds_points(const std::string& file) {
+  if (exchange::is_mesh_file(file)) return false;
   return file == "-" || exchange::format_of(file, exchange::head_of(file).value_or("")) ==
                             exchange::Format::points;
 }
@@ -177,7 +192,9 @@ Result<document::Document> load_document(const InputOptions& input) {
   const std::string& file = input.files.front();
   if (input.files.size() > 1)
     return fail(ErrorCode::bad_input, "one file of curves at a time", "give one INPUT");
-  auto document = exchange::read_document(file);
+  auto document = exchange::is_mesh_file(file) && !input.section.empty()
+                      ? section_document(input, file)
+                      : exchange::read_document(file);
   if (!document) return document;
   if (auto done = document::select(*document, input.select); !done)
     return in_file(Result<document::Document>(std::unexpected(done.error())), file);

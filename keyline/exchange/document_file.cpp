@@ -16,6 +16,7 @@
 #include "keyline/exchange/dxf_reader.h"
 #include "keyline/exchange/dxf_writer.h"
 #include "keyline/exchange/json_document.h"
+#include "keyline/exchange/mesh.h"
 #include "keyline/exchange/points_reader.h"
 #include "keyline/exchange/svg_document.h"
 
@@ -55,8 +56,31 @@ Result<Document> points_document(const fs::path& file) {
   return document;
 }
 
+/// The lines a mesh file holds beside its faces.
+Result<Document> mesh_document(const fs::path& file) {
+  const auto mesh = read_mesh(file);
+  if (!mesh) return std::unexpected(mesh.error());
+  Document document;
+  document.skipped = mesh->skipped;
+  for (const auto& indices : mesh->lines) {
+    curve::Polyline3 line;
+    for (const std::uint32_t i : indices) line.points.push_back(mesh->points[i]);
+    const std::string name = "line-" + std::to_string(document.space_curves.size() + 1);
+    document.space_curves.push_back({{name, {}, {}}, {std::move(line)}});
+  }
+  if (document.space_curves.empty())
+    return fail(ErrorCode::bad_input,
+                "a mesh or cloud of " + std::to_string(mesh->points.size()) + " points and " +
+                    std::to_string(mesh->triangles.size()) + " triangles is no curve",
+                "cut it: --section y=0, or --section auto");
+  if (!mesh->triangles.empty())
+    document.skipped.push_back(std::to_string(mesh->triangles.size()) + " triangles");
+  return document;
+}
+
 Result<Document> document_of(Format format, const fs::path& file) {
   if (format == Format::points) return points_document(file);
+  if (format == Format::mesh) return mesh_document(file);
   if (format == Format::step) return read_cad(file, CadFormat::step);
   if (format == Format::iges) return read_cad(file, CadFormat::iges);
   const auto content = read_file(file);

@@ -11,10 +11,13 @@ namespace keyline::exchange {
 namespace {
 
 std::optional<Format> known(const std::string& extension) {
-  static constexpr std::array<std::pair<std::string_view, Format>, 9> kKnown = {{
+  static constexpr std::array<std::pair<std::string_view, Format>, 12> kKnown = {{
       {".json", Format::json},
       {".svg", Format::svg},
       {".dxf", Format::dxf},
+      {".obj", Format::mesh},
+      {".stl", Format::mesh},
+      {".ply", Format::mesh},
       {".step", Format::step},
       {".stp", Format::step},
       {".p21", Format::step},

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyline/core/error.h"
+
+namespace keyline::exchange::detail {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;
+  std::optional<PlyType> count;  ///< of a list
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  bool binary = false;
+  bool big_endian = false;
+  std::vector<PlyElement> elements;
+  std::size_t size = 0;  ///< bytes up to the data
+  std::size_t lines = 0;
+};
+
+std::size_t size_of(PlyType type);
+
+/// Fails: bad_input with "line N".
+core::Result<PlyHeader> read_ply_header(std::string_view bytes);
+
+/// Reads values one after the other, binary or as words. Past the end it gives failures with the
+/// place: "byte N" or "line N".
+class PlyValues {
+ public:
+  PlyValues(std::string_view bytes, const PlyHeader& header);
+
+  core::Result<double> next(PlyType type);
+  /// Where the next value stands, from the start of `bytes`.
+  std::size_t position() const { return position_; }
+
+ private:
+  core::Result<double> word();
+  std::unexpected<core::Failure> failure(const char* what) const;
+
+  std::string_view bytes_;
+  const PlyHeader& header_;
+  std::size_t position_;
+  std::size_t line_;
+};
+
+}  // namespace keyline::exchange::detail
