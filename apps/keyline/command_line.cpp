@@ -39,7 +39,8 @@ void add_common(CLI::App& app, CommonOptions& common, bool outputs = true) {
 void add_input(CLI::App& app, InputOptions& input) {
   app.add_option(
          "INPUT", input.files,
-         "points (csv, tsv, dat, xyz, pts), curves (svg, dxf, step, iges, json), meshes (obj, "
+         "points (csv, tsv, dat, xyz, pts), curves (svg, dxf, step, iges, glif, json), fonts (ttf, "
+         "otf; with --glyph), meshes (obj, "
          "stl, ply; with --section), drawings (png, jpeg, tiff, webp); - for standard input; "
          "several "
          "files are parts of one key-line")
@@ -54,6 +55,7 @@ void add_input(CLI::App& app, InputOptions& input) {
   app.add_option("--id", input.id, "column that tells curves apart")->group(points);
   app.add_option("--select", input.select,
                  "take only what has this name, lies on this layer, or has this number");
+  app.add_option("--glyph", input.glyphs, "of a font: characters, /name or U+0053");
   app.add_option("--section", input.section,
                  "cut a cloud or mesh by a plane, as in y=0; auto: by its symmetry plane")
       ->group(points);
@@ -249,6 +251,7 @@ Command add_convert(CLI::App& app) {
   auto* sub = app.add_subcommand("convert", "a curve from one format to another");
   add_input(*sub, options->input);
   add_common(*sub, options->common);
+  sub->add_flag("--grid", options->grid, "glif: nodes and handles on whole numbers");
   sub->add_flag("--polylines", options->polylines,
                 "dxf: one polyline per curve, arcs as bulges, in place of splines");
   sub->footer("Example: keyline convert faired.json -o faired.dxf --tolerance 0.001");

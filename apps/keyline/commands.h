@@ -25,7 +25,8 @@ struct InputOptions {
   std::string weights;
   std::string id;
   std::string select;   ///< id or name of one of several curves
-  std::string section;  ///< "y=0"
+  std::string section;  ///< "y=0" or "auto"
+  std::string glyphs;   ///< of a font
   std::optional<double> band;
   std::optional<long> row;
   std::optional<long> column;
@@ -116,6 +117,7 @@ struct ConvertCommand {
   CommonOptions common;
   InputOptions input;
   bool polylines = false;
+  bool grid = false;
 };
 int run_convert(const ConvertCommand& command);
 

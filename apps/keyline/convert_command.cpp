@@ -65,6 +65,7 @@ int run_convert(const ConvertCommand& command) {
   exchange::WriteOptions options;
   options.tolerance = common.tolerance.value_or(0);
   options.polylines = command.polylines;
+  options.grid = command.grid;
   for (const std::string& file : common.outputs) {
     const auto written = exchange::write_document(*document, file, options);
     if (!written) return report_failure(written.error());

@@ -194,7 +194,7 @@ Result<document::Document> load_document(const InputOptions& input) {
     return fail(ErrorCode::bad_input, "one file of curves at a time", "give one INPUT");
   auto document = exchange::is_mesh_file(file) && !input.section.empty()
                       ? section_document(input, file)
-                      : exchange::read_document(file);
+                      : exchange::read_document(file, {.glyphs = input.glyphs});
   if (!document) return document;
   if (auto done = document::select(*document, input.select); !done)
     return in_file(Result<document::Document>(std::unexpected(done.error())), file);

@@ -15,6 +15,8 @@
 #include "keyline/exchange/csv_writer.h"
 #include "keyline/exchange/dxf_reader.h"
 #include "keyline/exchange/dxf_writer.h"
+#include "keyline/exchange/font.h"
+#include "keyline/exchange/glif.h"
 #include "keyline/exchange/json_document.h"
 #include "keyline/exchange/mesh.h"
 #include "keyline/exchange/points_reader.h"
@@ -78,7 +80,7 @@ Result<Document> mesh_document(const fs::path& file) {
   return document;
 }
 
-Result<Document> document_of(Format format, const fs::path& file) {
+Result<Document> document_of(Format format, const fs::path& file, const ReadOptions& options) {
   if (format == Format::points) return points_document(file);
   if (format == Format::mesh) return mesh_document(file);
   if (format == Format::step) return read_cad(file, CadFormat::step);
@@ -90,6 +92,10 @@ Result<Document> document_of(Format format, const fs::path& file) {
       return read_json(*content);
     case Format::svg:
       return read_svg_document(*content);
+    case Format::font:
+      return read_font(*content, options.glyphs);
+    case Format::glif:
+      return read_glif(*content);
     case Format::dxf:
       return read_dxf(*content);
     default:
@@ -167,10 +173,10 @@ Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
   return content;
 }
 
-Result<Document> read_document(const fs::path& file) {
+Result<Document> read_document(const fs::path& file, const ReadOptions& options) {
   const auto head = head_of(file);
   if (!head) return std::unexpected(head.error());
-  auto document = document_of(format_of(file, *head), file);
+  auto document = document_of(format_of(file, *head), file, options);
   if (!document) return std::unexpected(in_file(document.error(), file.string()));
   if (size(*document) == 0)
     return fail(ErrorCode::bad_input,
@@ -200,6 +206,10 @@ Result<Written> format_document(const Document& document, const std::string& ext
   if (extension == ".svg") return write_svg_document(document, tolerance);
   if (extension == ".dxf")
     return write_dxf(document, {.tolerance = tolerance, .polylines = options.polylines});
+  if (extension == ".glif") {
+    const double share = options.tolerance > 0 ? tolerance : 5e-4 * size;
+    return write_glif(document, {.tolerance = share, .grid = options.grid});
+  }
   if (extension == ".step") return write_cad(document, CadFormat::step, tolerance);
   if (extension == ".iges") return write_cad(document, CadFormat::iges, tolerance);
   std::string list;

@@ -21,18 +21,24 @@ core::Result<std::string> read_file(const std::filesystem::path& file,
 /// The first 1024 bytes of a file, for format_of(); io as read_file().
 core::Result<std::string> head_of(const std::filesystem::path& file);
 
+struct ReadOptions {
+  std::string glyphs;  ///< of a font; see read_font()
+};
+
 /// Everything a file holds, in its own unit, transforms applied. The format is that of the
 /// extension, or, where it says nothing, of the content. Tables of points become polylines; nothing
 /// is sorted or dropped (room acquire does that).
 /// Returns: a document that holds something; `skipped` lists what it does not hold.
 /// Fails: io for files that cannot be read, bad_input with "file:line" or "file: place" for
 ///        contents; bad_input where there is nothing in it to read.
-core::Result<document::Document> read_document(const std::filesystem::path& file);
+core::Result<document::Document> read_document(const std::filesystem::path& file,
+                                               const ReadOptions& options = {});
 
 struct WriteOptions {
   double tolerance = 0;    ///< largest deviation; 0: 1e-5 of the longest thing in the document
   int samples = 1001;      ///< rows per curve of a table
   bool polylines = false;  ///< dxf: polylines in place of splines
+  bool grid = false;       ///< glif: whole numbers
 };
 
 /// The document in the format of `extension` (with its dot, of written_extensions()).

@@ -11,10 +11,14 @@ namespace keyline::exchange {
 namespace {
 
 std::optional<Format> known(const std::string& extension) {
-  static constexpr std::array<std::pair<std::string_view, Format>, 12> kKnown = {{
+  static constexpr std::array<std::pair<std::string_view, Format>, 16> kKnown = {{
       {".json", Format::json},
       {".svg", Format::svg},
       {".dxf", Format::dxf},
+      {".ttf", Format::font},
+      {".otf", Format::font},
+      {".ttc", Format::font},
+      {".glif", Format::glif},
       {".obj", Format::mesh},
       {".stl", Format::mesh},
       {".ply", Format::mesh},
@@ -57,7 +61,7 @@ Format format_of(const std::filesystem::path& file, std::string_view head) {
 }
 
 std::vector<std::string> written_extensions() {
-  return {".svg", ".json", ".csv", ".dxf", ".step", ".iges"};
+  return {".svg", ".json", ".csv", ".dxf", ".step", ".iges", ".glif"};
 }
 
 }  // namespace keyline::exchange

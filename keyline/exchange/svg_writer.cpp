@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "keyline/curve/bounding_box.h"
+#include "keyline/exchange/markup.h"
 #include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange {
@@ -33,33 +34,6 @@ std::string number(double value) {
   return {text.data(), end.ptr};
 }
 
-/// Escaped for element content and quoted attributes.
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      case '\r':
-        safe += "&#13;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
-
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < 0x20 || byte == 0x7F;
@@ -72,13 +46,12 @@ bool is_storable(std::string_view text) {
          });
 }
 
-/// Names are labels: control characters, and all but ASCII of text that is no UTF-8, become "?".
+/// Names are labels on one line.
 std::string label(std::string_view text) {
-  const bool ascii_only = !is_utf8(text);
-  std::string clean(text);
-  for (char& c : clean)
-    if (is_control(c) || (ascii_only && static_cast<unsigned char>(c) >= 0x80)) c = '?';
-  return escaped(clean);
+  std::string line(text);
+  for (char& c : line)
+    if (is_control(c)) c = '?';
+  return escape_markup(line);
 }
 
 bool is_color(std::string_view text) {
@@ -244,7 +217,7 @@ core::Result<std::string> write_svg(const std::vector<SvgLayer>& layers,
   if (!options.title.empty()) append(svg, {"<title>", label(options.title), "</title>\n"});
   if (!options.metadata.empty())
     append(svg, {"<metadata><keyline:document xmlns:keyline=\"urn:keyline:document\">",
-                 escaped(options.metadata), "</keyline:document></metadata>\n"});
+                 escape_markup(options.metadata), "</keyline:document></metadata>\n"});
   for (std::size_t i = 0; i < layers.size(); ++i) append_layer(svg, layers[i], i, stroke);
   return svg + "</svg>\n";
 }

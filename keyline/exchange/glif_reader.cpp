@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <pugixml.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "keyline/exchange/byte_lines.h"
+#include "keyline/exchange/glif.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::Point2;
+using core::Result;
+using curve::Bezier2;
+using document::Document;
+
+enum class Kind { handle, move, line, curve, qcurve };
+
+struct Node {
+  Point2 at;
+  Kind kind = Kind::handle;
+};
+
+std::size_t line_of(std::string_view bytes, std::ptrdiff_t offset) {
+  const auto head = bytes.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
+  return 1 + static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
+}
+
+Kind kind_of(const char* type) {
+  if (std::strcmp(type, "move") == 0) return Kind::move;
+  if (std::strcmp(type, "line") == 0) return Kind::line;
+  if (std::strcmp(type, "curve") == 0) return Kind::curve;
+  if (std::strcmp(type, "qcurve") == 0) return Kind::qcurve;
+  return Kind::handle;
+}
+
+/// Quadratics between nodes that are implied halfway between handles.
+void add_quadratics(std::vector<Bezier2>& pieces, Point2 from, const std::vector<Point2>& handles,
+                    Point2 to) {
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    const bool last = i + 1 == handles.size();
+    const Point2 end = last ? to : core::mix(handles[i], handles[i + 1], 0.5);
+    pieces.push_back({{from, handles[i], end}, {}});
+    from = end;
+  }
+}
+
+void add_piece(std::vector<Bezier2>& pieces, Point2 from, const std::vector<Point2>& handles,
+               const Node& to) {
+  if (handles.empty() || to.kind == Kind::line) {
+    if (from != to.at) pieces.push_back({{from, to.at}, {}});
+  } else if (to.kind == Kind::curve && handles.size() == 2) {
+    pieces.push_back({{from, handles[0], handles[1], to.at}, {}});
+  } else {
+    add_quadratics(pieces, from, handles, to.at);
+  }
+}
+
+/// A contour that consists of handles alone has its nodes halfway between them.
+std::vector<Bezier2> handle_contour(const std::vector<Node>& nodes) {
+  std::vector<Point2> handles;
+  for (const Node& node : nodes) handles.push_back(node.at);
+  const Point2 start = core::mix(handles.back(), handles.front(), 0.5);
+  std::vector<Bezier2> pieces;
+  add_quadratics(pieces, start, handles, start);
+  return pieces;
+}
+
+document::Path path_of(std::vector<Node> nodes) {
+  document::Path path;
+  const bool open = nodes.front().kind == Kind::move;
+  path.closed = !open;
+  const auto first = std::find_if(nodes.begin(), nodes.end(),
+                                  [](const Node& n) { return n.kind != Kind::handle; });
+  std::vector<Bezier2> pieces;
+  if (first == nodes.end()) {
+    pieces = handle_contour(nodes);
+  } else {
+    std::rotate(nodes.begin(), first, nodes.end());
+    if (!open) nodes.push_back(nodes.front());
+    Point2 at = nodes.front().at;
+    std::vector<Point2> handles;
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      if (nodes[i].kind == Kind::handle) {
+        handles.push_back(nodes[i].at);
+        continue;
+      }
+      add_piece(pieces, at, handles, nodes[i]);
+      handles.clear();
+      at = nodes[i].at;
+    }
+  }
+  for (Bezier2& piece : pieces) path.curves.push_back({std::move(piece)});
+  return path;
+}
+
+std::optional<double> number(const pugi::xml_node& node, const char* name) {
+  const char* text = node.attribute(name).value();
+  return detail::leading_number(text);
+}
+
+}  // namespace
+
+Result<Document> read_glif(std::string_view bytes) {
+  pugi::xml_document xml;
+  const auto parsed = xml.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
+  if (!parsed)
+    return core::fail(
+        ErrorCode::bad_input, std::string("the glyph is no XML: ") + parsed.description(),
+        "check that the file is complete", "line " + std::to_string(line_of(bytes, parsed.offset)));
+  const pugi::xml_node glyph = xml.child("glyph");
+  if (!glyph)
+    return core::fail(ErrorCode::bad_input, "the file holds XML but no glyph", "give a .glif file",
+                      "line 1");
+  Document document;
+  const std::string name = glyph.attribute("name").as_string("glyph");
+  int anchors = 0;
+  for (const pugi::xml_node& contour : glyph.child("outline").children("contour")) {
+    std::vector<Node> nodes;
+    for (const pugi::xml_node& point : contour.children("point")) {
+      const auto x = number(point, "x");
+      const auto y = number(point, "y");
+      if (!x || !y)
+        return core::fail(ErrorCode::bad_input, "a point needs the numbers x and y", "mend it",
+                          "line " + std::to_string(line_of(bytes, point.offset_debug())));
+      nodes.push_back({{*x, *y}, kind_of(point.attribute("type").value())});
+    }
+    if (nodes.size() < 2) {
+      ++anchors;
+      continue;
+    }
+    document::Path path = path_of(std::move(nodes));
+    if (path.curves.empty()) continue;
+    const std::size_t count = document.paths.size() + 1;
+    const std::string own = count == 1 ? name : name + "#" + std::to_string(count);
+    document.paths.push_back({{own, name, {}}, std::move(path), 0});
+  }
+  if (anchors > 0) document.skipped.push_back(std::to_string(anchors) + " anchors");
+  for (const pugi::xml_node& component : glyph.child("outline").children("component"))
+    document.skipped.push_back(std::string("component ") + component.attribute("base").value() +
+                               ": it lies in another file");
+  return document;
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace keyline::exchange {
+
+/// Text fit for element content and quoted attributes of XML: &, <, >, " and carriage returns as
+/// references; other control characters, and all but ASCII of text that is no UTF-8, as "?".
+std::string escape_markup(std::string_view text);
+
+}  // namespace keyline::exchange

@@ -1,0 +1,152 @@
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/curve/closest_point.h"
+#include "keyline/exchange/document_file.h"
+#include "keyline/exchange/font.h"
+#include "keyline/exchange/glif.h"
+
+namespace keyline::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+using core::Point2;
+using curve::Bezier2;
+using document::Document;
+using testing::HasSubstr;
+
+const Bezier2& piece(const Document& d, std::size_t path, std::size_t i) {
+  return std::get<Bezier2>(d.paths.at(path).path.curves.at(i).value);
+}
+
+TEST(Glif, ReadsEveryKindOfContour) {
+  const auto d = read_glif(R"(<?xml version="1.0"?><glyph name="a" format="2"><outline>
+    <contour><point x="0" y="0" type="line"/><point x="10" y="0" type="line"/><point x="10" y="5"/>
+      <point x="5" y="10"/><point x="0" y="10" type="curve" smooth="yes"/></contour>
+    <contour><point x="0" y="0" type="move"/><point x="1" y="2"/><point x="3" y="2"/>
+      <point x="4" y="0" type="qcurve"/></contour>
+    <contour><point x="0" y="0"/><point x="2" y="0"/><point x="2" y="2"/><point x="0" y="2"/></contour>
+    <contour><point x="1" y="1" type="move" name="top"/></contour>
+    <component base="acute"/></outline></glyph>)");
+  ASSERT_TRUE(d) << d.error().message;
+  ASSERT_EQ(d->paths.size(), 3U);
+  EXPECT_EQ(d->paths[1].label.name, "a#2");
+  EXPECT_EQ(d->paths[0].path.curves.size(), 3U);  // line, cubic, closing line
+  EXPECT_EQ(piece(*d, 0, 1).control.size(), 4U);
+  EXPECT_FALSE(d->paths[1].path.closed);
+  EXPECT_EQ(piece(*d, 1, 0).control.back(), (Point2{2, 2}));  // implied
+  EXPECT_EQ(d->paths[2].path.curves.size(), 4U);
+  EXPECT_THAT(d->skipped, testing::ElementsAre(HasSubstr("anchor"), HasSubstr("acute")));
+}
+
+TEST(Glif, BadGlyphsAreFailuresWithTheLine) {
+  EXPECT_THAT(read_glif("<glyph>\n<outline>").error().path, HasSubstr("line "));
+  EXPECT_EQ(read_glif("<glyph><outline><contour>\n<point x='1'/></contour></outline></glyph>")
+                .error()
+                .path,
+            "line 2");
+  EXPECT_FALSE(read_glif("<font/>"));
+}
+
+/// A closed outline of log-aesthetic pieces: an egg of four quarter arcs of two radii.
+Document egg() {
+  lac::Chain chain{{{0, 0}, 0.4}, {}, true};
+  for (const double r : {200.0, 80.0, 200.0, 80.0})
+    chain.pieces.push_back({-1, r * core::kPi / 2, 1 / r, 1 / r});
+  Document d;
+  d.paths.push_back({{"O", "", ""}, {{{chain}}, true}, 0});
+  return d;
+}
+
+TEST(Glif, NodesStandAtExtremaAndTheOutlineIsKept) {
+  const Document d = egg();
+  const auto written = write_glif(d, {.tolerance = 0.2});
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_LE(written->deviation, 0.2);
+  EXPECT_THAT(written->content, HasSubstr("<unicode hex=\"004F\"/>"));
+  const auto read = read_glif(written->content);
+  ASSERT_TRUE(read) << read.error().message;
+  const auto& path = read->paths.at(0).path;
+  EXPECT_TRUE(path.closed);
+  double high = -HUGE_VAL;
+  const auto& exact = std::get<lac::Chain>(d.paths[0].path.curves[0].value);
+  for (int i = 0; i <= 2000; ++i) high = std::max(high, evaluate(exact, i / 2000.0).y);
+  bool node = false;
+  for (std::size_t i = 0; i < path.curves.size(); ++i) {
+    const Bezier2& c = piece(*read, 0, i);
+    const bool top = std::abs(c.control.back().y - high) < 1e-4;
+    node = node || top;
+    if (top) {
+      EXPECT_EQ(c.control[2].y, c.control[3].y);
+    }
+    for (int k = 0; k <= 20; ++k)
+      EXPECT_LE(curve::closest_point(exact, evaluate(c, k / 20.0)).distance,
+                written->deviation + 1e-9);
+  }
+  EXPECT_TRUE(node);
+}
+
+TEST(Glif, JointsOfG2CurvesStayG2) {
+  Document d;
+  lac::Chain chain{{{0, 0}, 0.2}, {{-1, 300, 0.001, 0.006}, {1, 250, 0.006, 0.003}}, false};
+  d.paths.push_back({{"s", "", ""}, {{{chain}}, false}, 0});
+  const auto written = write_glif(d, {.tolerance = 0.5});
+  ASSERT_TRUE(written);
+  const auto read = read_glif(written->content);
+  ASSERT_TRUE(read);
+  const auto& curves = read->paths.at(0).path.curves;
+  ASSERT_GE(curves.size(), 2U);
+  for (std::size_t i = 1; i < curves.size(); ++i)
+    EXPECT_NEAR(curvature(jet(curves[i - 1], 1)), curvature(jet(curves[i], 0)), 1e-9);
+}
+
+TEST(Glif, TheGridIsKeptAndItsDeviationMeasured) {
+  const auto written = write_glif(egg(), {.tolerance = 0.5, .grid = true});
+  ASSERT_TRUE(written);
+  EXPECT_GT(written->deviation, 0.05);
+  EXPECT_LT(written->deviation, 2);
+  const auto read = read_glif(written->content);
+  ASSERT_TRUE(read);
+  for (std::size_t i = 0; i < read->paths[0].path.curves.size(); ++i)
+    for (const Point2 p : piece(*read, 0, i).control) {
+      EXPECT_EQ(p.x, std::round(p.x));
+      EXPECT_EQ(p.y, std::round(p.y));
+    }
+}
+
+TEST(Font, ReadsTheSharedFonts) {
+  const fs::path folder = KEYLINE_SHARED_DATA "/4_cad/font";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  // Contours and points by FreeType's ftdump and fontTools: EB Garamond Italic S has one contour.
+  const auto s = read_document(folder / "EBGaramond12-Italic.otf", {.glyphs = "S"});
+  ASSERT_TRUE(s) << s.error().message;
+  EXPECT_EQ(s->paths.size(), 1U);
+  EXPECT_TRUE(s->paths[0].path.closed);
+  for (const auto& c : s->paths[0].path.curves)
+    EXPECT_NE(std::get<Bezier2>(c.value).control.size(), 3U);
+  const auto o = read_document(folder / "Comfortaa-Regular.ttf", {.glyphs = "o8"});
+  ASSERT_TRUE(o) << o.error().message;
+  EXPECT_EQ(o->paths.size(), 2U + 3U);
+  EXPECT_EQ(o->paths[1].label, (document::Label{"o#2", "o", ""}));
+  for (const auto& named : o->paths) {
+    const auto& curves = named.path.curves;
+    for (std::size_t i = 1; i < curves.size(); ++i)
+      EXPECT_EQ(evaluate(curves[i - 1], 1), evaluate(curves[i], 0));
+    EXPECT_EQ(evaluate(curves.back(), 1), evaluate(curves.front(), 0));
+  }
+  EXPECT_TRUE(read_document(folder / "Comfortaa-Regular.ttf", {.glyphs = "U+0053"}));
+  EXPECT_TRUE(read_document(folder / "EBGaramond12-Italic.otf", {.glyphs = "/ampersand"}));
+  for (const char* none : {"\u4e2d", "/no-such-glyph", "U+xyz", ""}) {
+    const auto missing = read_document(folder / "Comfortaa-Regular.ttf", {.glyphs = none});
+    ASSERT_FALSE(missing) << none;
+    EXPECT_EQ(missing.error().code, core::ErrorCode::bad_input);
+  }
+  EXPECT_FALSE(read_font("no font", "S"));
+}
+
+}  // namespace
+}  // namespace keyline::exchange
