@@ -202,6 +202,19 @@ Command add_analyze(CLI::App& app) {
       app.add_subcommand("analyze", "curvature and rhythm of curves, SAV and zebra of surfaces");
   add_input(*sub, options->input);
   add_common(*sub, options->common);
+  const char* surfaces = "Pictures of surfaces";
+  sub->add_option("--show", options->show,
+                  "lit zebra gaussian mean principal isophote reflection highlight")
+      ->delimiter(',')
+      ->group(surfaces);
+  sub->add_option("--view", options->view, "x,y,z, direction to the eye; else on the mean normal")
+      ->delimiter(',')
+      ->expected(3)
+      ->group(surfaces);
+  sub->add_option("--stripes", options->stripes,
+                  "zebra: black and white pairs to the half turn; else about eight show")
+      ->check(CLI::PositiveNumber)
+      ->group(surfaces);
   sub->footer(
       "Example: keyline analyze examples/clothoid.csv -o report.html\n"
       "         keyline analyze examples/panel-c.json -o panel.html");

@@ -54,6 +54,9 @@ int run_fair(const FairCommand& command);
 struct AnalyzeCommand {
   CommonOptions common;
   InputOptions input;
+  std::vector<std::string> show;  ///< pictures of a surface: lit, zebra, gaussian, …
+  std::vector<double> view;       ///< direction to the eye
+  std::optional<double> stripes;  ///< pairs of the zebra
 };
 int run_analyze(const AnalyzeCommand& command);
 

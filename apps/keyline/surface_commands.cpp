@@ -128,14 +128,44 @@ double sav_of(const SurfaceSubject& s) {
   return sum;
 }
 
+Result<std::optional<surface::FieldKind>> shot_named(const std::string& name) {
+  if (name == "lit") return std::nullopt;
+  const auto kind = surface::field_named(name);
+  if (kind) return kind;
+  return core::fail(core::ErrorCode::bad_input, "\"" + name + "\" is no picture of a surface",
+                    "use lit, zebra, gaussian, mean, principal, isophote, reflection or highlight",
+                    "--show");
+}
+
+Result<operations::SurfaceLook> look_of(const AnalyzeCommand& command) {
+  operations::SurfaceLook look;
+  if (!command.show.empty()) look.shots.clear();
+  for (const std::string& name : command.show) {
+    const auto shot = shot_named(name);
+    if (!shot) return std::unexpected(shot.error());
+    look.shots.push_back(*shot);
+  }
+  look.stripe_count = command.stripes;
+  if (command.view.size() == 3) {
+    const core::Vector3 view{command.view[0], command.view[1], command.view[2]};
+    if (!core::is_finite(view) || !(norm(view) > 0))
+      return core::fail(core::ErrorCode::bad_input, "the view has no direction",
+                        "give x,y,z not all 0", "--view");
+    look.view = view;
+    look.lighting.view = view;
+  }
+  return look;
+}
+
 Result<std::string> html_of(std::vector<SurfaceSubject> subjects,
-                            const operations::ReportOptions& options) {
+                            const operations::ReportOptions& options,
+                            const operations::SurfaceLook& look) {
   std::stable_sort(subjects.begin(), subjects.end(),
                    [](const auto& a, const auto& b) { return sav_of(a) > sav_of(b); });
   std::vector<report::Report> reports;
   for (const SurfaceSubject& subject : subjects) {
     if (reports.size() == kMostReports) break;
-    auto made = operations::surface_report(subject, options);
+    auto made = operations::surface_report(subject, options, look);
     if (!made) return std::unexpected(made.error());
     reports.push_back(std::move(*made));
   }
@@ -148,9 +178,9 @@ Result<std::string> html_of(std::vector<SurfaceSubject> subjects,
 }
 
 void add_pictures(Writers& writers, const std::vector<SurfaceSubject>& subjects,
-                  const operations::ReportOptions& options) {
-  writers[".html"] = [&] { return html_of(subjects, options); };
-  const auto page = [&] { return operations::surface_page(subjects, options); };
+                  const operations::ReportOptions& options, const operations::SurfaceLook& look) {
+  writers[".html"] = [&] { return html_of(subjects, options, look); };
+  const auto page = [&] { return operations::surface_page(subjects, options, look); };
   writers[".png"] = [page]() -> Result<std::string> {
     const auto drawing = page();
     if (!drawing) return std::unexpected(drawing.error());
@@ -174,6 +204,8 @@ int analyze_surfaces(const AnalyzeCommand& command, const document::Document& do
   const CommonOptions& common = command.common;
   if (auto known = check_outputs(common, {".json", ".html", ".png", ".pdf", ".svg"}); !known)
     return report_failure(known.error());
+  const auto look = look_of(command);
+  if (!look) return report_failure(look.error());
   const core::Progress progress = interactive_progress(common.quiet);
   std::vector<SurfaceSubject> subjects;
   json all = json::array();
@@ -192,7 +224,7 @@ int analyze_surfaces(const AnalyzeCommand& command, const document::Document& do
   const operations::ReportOptions options = report_options(command, document);
   Writers writers;
   writers[".json"] = [&]() -> Result<std::string> { return shown.dump(1) + "\n"; };
-  add_pictures(writers, subjects, options);
+  add_pictures(writers, subjects, options, *look);
   if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
   if (common.json) fmt::print("{}\n", shown.dump());
   return kDone;

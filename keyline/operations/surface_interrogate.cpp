@@ -17,15 +17,8 @@ using surface::FieldKind;
 
 constexpr int kMostValues = 1'048'576;
 
-constexpr std::pair<const char*, FieldKind> kKinds[] = {
-    {"gaussian", FieldKind::gaussian},   {"mean", FieldKind::mean},
-    {"principal", FieldKind::principal}, {"zebra", FieldKind::zebra},
-    {"isophote", FieldKind::isophote},   {"reflection", FieldKind::reflection},
-    {"highlight", FieldKind::highlight}};
-
 Result<FieldKind> kind_of(const std::string& name) {
-  for (const auto& [known, kind] : kKinds)
-    if (name == known) return kind;
+  if (const auto kind = surface::field_named(name)) return *kind;
   return core::fail(ErrorCode::bad_input, "\"" + name + "\" is no kind of field",
                     "use gaussian, mean, principal, zebra, isophote, reflection or highlight",
                     "kind");

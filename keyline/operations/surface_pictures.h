@@ -41,6 +41,16 @@ core::Result<figure::Drawing> surface_picture(const std::vector<surface::Surface
 figure::Drawing network_profiles(const surface::BezierSurface& s, const std::string& title,
                                  const std::string& unit = {});
 
+/// Which pictures a report or page shows, and how the light stands in them.
+struct SurfaceLook {
+  /// Empty member: lit.
+  std::vector<std::optional<surface::FieldKind>> shots = {
+      {}, surface::FieldKind::zebra, surface::FieldKind::gaussian, surface::FieldKind::mean};
+  std::optional<core::Vector3> view = {};   ///< of the picture; empty: obliquely on the mean normal
+  std::optional<double> stripe_count = {};  ///< of the zebra
+  surface::Lighting lighting = {};
+};
+
 /// One surface of a file with its value.
 struct SurfaceSubject {
   std::string name;
@@ -50,13 +60,15 @@ struct SurfaceSubject {
 };
 
 /// SAV by patch and curve with the worst named, pictures (lit, zebra, curvature), network profiles
-/// of the worst patch.
+/// of the worst patch. Fails as surface_picture does.
 core::Result<report::Report> surface_report(const SurfaceSubject& subject,
-                                            const ReportOptions& options = {});
+                                            const ReportOptions& options = {},
+                                            const SurfaceLook& look = {});
 
 /// One page of the same pictures for all surfaces of a file.
 core::Result<figure::Drawing> surface_page(const std::vector<SurfaceSubject>& subjects,
-                                           const ReportOptions& options = {});
+                                           const ReportOptions& options = {},
+                                           const SurfaceLook& look = {});
 
 /// Before and after an edit: zebra, mean curvature and network profiles on one page.
 core::Result<figure::Drawing> surface_edit_page(const surface::BezierSurface& given,

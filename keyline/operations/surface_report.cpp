@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "keyline/figure/plot.h"
 #include "keyline/figure/ticks.h"
 #include "keyline/operations/surface_pictures.h"
 
@@ -19,15 +19,6 @@ using surface::SurfaceValue;
 namespace {
 
 constexpr std::size_t kMostPatchRows = 400;
-
-struct Shot {
-  const char* title;
-  std::optional<FieldKind> field;
-};
-constexpr std::array<Shot, 4> kShots{{{"Surface", std::nullopt},
-                                      {"Zebra", FieldKind::zebra},
-                                      {"Gaussian curvature", FieldKind::gaussian},
-                                      {"Mean curvature", FieldKind::mean}}};
 
 std::string number(double x, int digits = 4) { return figure::short_number(x, digits); }
 
@@ -116,12 +107,15 @@ void set_verdict(const SurfaceSubject& subject, report::Report& report) {
                                 all, worst.curves[worst.worst].name);
 }
 
-Result<Drawing> shot_of(const std::vector<Surface>& surfaces, const Shot& shot,
-                        const std::string& unit) {
+Result<Drawing> shot_of(const std::vector<Surface>& surfaces, const std::optional<FieldKind>& field,
+                        const SurfaceLook& look, const std::string& unit) {
   SurfacePicture picture;
-  picture.title = shot.title;
-  picture.field = shot.field;
+  if (!field) picture.title = "Surface";
+  picture.field = field;
   picture.unit = unit;
+  picture.view = look.view;
+  picture.stripe_count = look.stripe_count;
+  picture.lighting = look.lighting;
   return surface_picture(surfaces, picture);
 }
 
@@ -146,17 +140,18 @@ void set_head(const SurfaceSubject& subject, const ReportOptions& options, repor
 
 }  // namespace
 
-Result<report::Report> surface_report(const SurfaceSubject& subject, const ReportOptions& options) {
+Result<report::Report> surface_report(const SurfaceSubject& subject, const ReportOptions& options,
+                                      const SurfaceLook& look) {
   report::Report report;
   set_head(subject, options, report);
   set_verdict(subject, report);
-  report::Section look{"Surface", {}, {}, {}};
-  for (const Shot& shot : kShots) {
-    auto drawing = shot_of({subject.surface}, shot, options.unit);
+  report::Section pictures{"Surface", {}, {}, {}};
+  for (const auto& shot : look.shots) {
+    auto drawing = shot_of({subject.surface}, shot, look, options.unit);
     if (!drawing) return std::unexpected(drawing.error());
-    look.figures.push_back({std::move(*drawing), {}});
+    pictures.figures.push_back({std::move(*drawing), {}});
   }
-  report.sections.push_back(std::move(look));
+  report.sections.push_back(std::move(pictures));
   if (subject.values.empty()) return report;
   report::Section value{"Surface aesthetic value", {}, {}, {}};
   const PatchValue& worst = worst_patch(subject.values);
@@ -179,16 +174,16 @@ Result<report::Report> surface_report(const SurfaceSubject& subject, const Repor
 }
 
 Result<Drawing> surface_page(const std::vector<SurfaceSubject>& subjects,
-                             const ReportOptions& options) {
+                             const ReportOptions& options, const SurfaceLook& look) {
   std::vector<Surface> all;
   for (const SurfaceSubject& s : subjects) all.push_back(s.surface);
   std::vector<Drawing> cells;
-  for (const Shot& shot : kShots) {
-    auto drawing = shot_of(all, shot, options.unit);
+  for (const auto& shot : look.shots) {
+    auto drawing = shot_of(all, shot, look, options.unit);
     if (!drawing) return drawing;
     cells.push_back(std::move(*drawing));
   }
-  Drawing page = figure::tile(cells, 2);
+  Drawing page = figure::tile(cells, std::min<int>(2, static_cast<int>(cells.size())));
   if (all.size() == 1) {
     const surface::PatchGrid grid = surface::patches_of(all.front());
     if (grid.patches.size() == 1 && !is_rational(grid.patches.front()))
@@ -240,6 +235,30 @@ Result<Drawing> surface_edit_page(const surface::BezierSurface& given,
                         network_profiles(edited.surface, "Network curves, after", options.unit)});
 }
 
+namespace {
+
+/// Targets by departure; values below a thousandth stand at the foot.
+Drawing tradeoff_chart(const surface::EditResult& edited, const std::string& unit) {
+  figure::Plot plot;
+  plot.title = "What lower values cost";
+  plot.x.title = unit.empty() ? "largest departure" : "largest departure [" + unit + "]";
+  plot.x.low = 0;
+  plot.y = {"SAV", figure::Scale::log10, 1e-3, 1000};
+  figure::Series targets{.name = "targets", .kind = figure::SeriesKind::points, .size = 7};
+  for (const surface::TradeOff& t : edited.tradeoff)
+    targets.points.push_back({t.departure, std::max(t.sav, 1.3e-3)});
+  figure::Series taken{.name = "taken",
+                       .points = {{edited.departure, std::max(edited.after.sav, 1.3e-3)}},
+                       .kind = figure::SeriesKind::points,
+                       .color = figure::palette(1),
+                       .marker = figure::Marker::circle,
+                       .size = 12};
+  plot.series = {std::move(targets), std::move(taken)};
+  return figure::draw(plot);
+}
+
+}  // namespace
+
 Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
                                            const surface::EditResult& edited,
                                            const ReportOptions& options) {
@@ -271,7 +290,7 @@ Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
   report.sections.push_back(
       {"Surface aesthetic value",
        {},
-       {},
+       {{tradeoff_chart(edited, options.unit), {}}},
        {curve_table(edited.before, "Network curves before"),
         curve_table(edited.after, "Network curves after"), std::move(tradeoff)}});
   return report;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "keyline/core/error.h"
@@ -10,6 +11,9 @@
 namespace keyline::surface {
 
 enum class FieldKind { gaussian, mean, principal, zebra, isophote, reflection, highlight };
+
+/// By the name it has here; empty for any other.
+std::optional<FieldKind> field_named(std::string_view name);
 
 /// How light and eye stand; vectors need not be unit, but not zero. Empty: chosen from the surface
 /// so that the picture turns with it: `view` is the mean normal, `light` the same (for highlight

@@ -16,8 +16,19 @@ using core::Point3;
 using core::Vector3;
 
 constexpr double kDepartureWeight = 0.1;
+constexpr double kShortest = 1e-9;  ///< edge, as share of the size
 
-/// Residuals of the curves and of the departure, with unknowns as shares of the net's extent.
+/// Twice the largest distance from the centroid: the same in every pose.
+double size_of(const Net& net) {
+  Vector3 sum;
+  for (const Point3& p : net.points) sum = sum + (p - Point3{});
+  const Point3 middle = Point3{} + sum / static_cast<double>(net.points.size());
+  double most = 0;
+  for (const Point3& p : net.points) most = std::max(most, core::distance(p, middle));
+  return 2 * most;
+}
+
+/// Residuals of the curves and of the departure, with unknowns as shares of the net's size.
 class System {
  public:
   System(const OneMatrixProblem& problem, double size, double equation_weight)
@@ -52,6 +63,8 @@ class System {
   }
 
   bool evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) const {
+    for (int j = 0; j < unknowns(); ++j)
+      if (p_.freedom[unknowns_[j].point] == Freedom::along && !(x[j] > kShortest)) return false;
     Net net = net_at(x);
     r.resize(residuals());
     for (std::size_t c = 0; c < first_.size(); ++c)
@@ -108,7 +121,7 @@ class System {
     const auto e = edges_of(net, curve);
     int row = first_[curve];
     for (const Vector3& edge : e)
-      if (!(norm(edge) > 1e-9 * size_)) return false;
+      if (!(norm(edge) > kShortest * size_)) return false;
     for (std::size_t i = 2; i < e.size(); ++i) {
       const double a = dot(e[i - 2], e[i - 2]);
       const Vector3 left = e[i] - (2 * dot(e[i - 2], e[i - 1]) / a) * e[i - 1] +
@@ -200,7 +213,7 @@ void polish(const System& system, const std::vector<int>& rows, Eigen::VectorXd&
 
 OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start,
                               bool exact_growth) {
-  const double size = extent(problem.net);
+  const double size = size_of(problem.net);
   Eigen::VectorXd x = System(problem, size, 1).coordinates(start);
   numeric::LevenbergMarquardtOptions options;
   options.cost_tolerance = 1e-9;

@@ -28,7 +28,7 @@ struct OneMatrixProblem {
 
 struct OneMatrixNet {
   Net net;
-  double violation = 0;     ///< largest left-over of the equations as share of the net's extent
+  double violation = 0;     ///< largest left-over of the equations as share of the net's size
   double growth_error = 0;  ///< largest |ln(s) - wanted|
 };
 

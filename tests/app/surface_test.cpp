@@ -51,6 +51,32 @@ TEST(Surfaces, AnalyzeDrawsReportAndPictures) {
     EXPECT_NE(html.find(text), std::string::npos) << text;
 }
 
+TEST(Surfaces, PicturesCanBeChosen) {
+  const Scratch s;
+  const std::string panel = kExamples + "panel-c.json";
+  const Outcome o = run_keyline("analyze --quiet " + panel +
+                                " --show isophote,reflection,highlight,principal --view 1,1,2 -o " +
+                                s.path("p.svg"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::string svg = slurp(s.path("p.svg"));
+  for (const char* text : {"Isophotes", "Reflection lines", "Highlight lines"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(run_keyline("analyze --quiet " + panel + " --show stripes").status, 2);
+  EXPECT_EQ(run_keyline("analyze --quiet " + panel + " --view 0,0,0").status, 2);
+}
+
+/// Real patches: every one has a value or says why not.
+TEST(Surfaces, StepFilesOfOthersAreValuedPatchByPatch) {
+  const std::string file = KEYLINE_SHARED_DATA "/4_cad/step/wigley.step";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  const Outcome o = run_keyline("analyze --quiet --json " + file);
+  if (o.status == 2 && o.err.find("OCCT") != std::string::npos) GTEST_SKIP() << o.err;
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json r = json::parse(o.out);
+  EXPECT_GE(r["patches"].size(), 3U);
+  for (const json& p : r["patches"]) EXPECT_TRUE(p["worst"].is_string());
+}
+
 TEST(Surfaces, EditHoldsCornersAndComesBackAsTheEditedPatch) {
   const Scratch s;
   const std::string file = s.path("e.json");

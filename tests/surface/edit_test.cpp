@@ -99,6 +99,26 @@ TEST(SurfaceEdit, SlidesFromGivenToTarget) {
   }
 }
 
+TEST(SurfaceEdit, TurnsAndGrowsWithThePatch) {
+  const BezierSurface s = distorted_patch();
+  const double c = std::cos(0.7);
+  const double d = std::sin(0.7);
+  const auto moved = [&](core::Point3 p) {
+    return core::Point3{5 + 2 * (c * p.x - d * p.z), 2 * p.y - 3, 2 * (d * p.x + c * p.z)};
+  };
+  BezierSurface other = s;
+  for (core::Point3& p : other.net.points) p = moved(p);
+  EditOptions options;
+  options.keep = Keep::corners;
+  options.limit = 5;
+  const EditResult a = edited(s, options);
+  options.limit = 10;
+  const EditResult b = edited(other, options);
+  EXPECT_EQ(a.target, b.target);
+  for (std::size_t i = 0; i < s.net.points.size(); ++i)
+    EXPECT_LT(core::distance(moved(a.surface.net.points[i]), b.surface.net.points[i]), 1e-3);
+}
+
 TEST(SurfaceEdit, LimitBelowEveryTargetGoesAsFarAsItMay) {
   const BezierSurface s = distorted_patch();
   EditOptions options;
