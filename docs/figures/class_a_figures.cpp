@@ -13,6 +13,7 @@
 #include "keyline/core/error.h"
 #include "keyline/figure/class_a_charts.h"
 #include "keyline/figure/drawing.h"
+#include "keyline/lac/clamped.h"
 #include "keyline/operations/class_a_figure.h"
 
 namespace {
@@ -120,6 +121,42 @@ void table_of_amounts() {
   }
 }
 
+/// Curves from the handles (0,0), (1.3,0), (3,1.5): log-aesthetic of four slopes, a cubic as CAD
+/// systems draw it, and the Class A curve of least energy with its ends and start tangent.
+void compare(const Output& out) {
+  struct Named {
+    std::string name;
+    classa::Approximation curve;
+  };
+  std::vector<Named> all;
+  const curve::Bezier2 cad{{{0, 0}, {1.3 * 2 / 3, 0}, {1.3 + 1.7 / 3, 0.5}, {3, 1.5}}, {}};
+  all.push_back({"CAD cubic", {cad, true}});
+  for (const double slope : {-1.0, 0.0, 1.0, 2.0}) {
+    const auto chain = value(lac::solve_g1_chain({0, 0}, {1.3, 0}, {3, 1.5}, slope)).chain;
+    char name[32];
+    std::snprintf(name, sizeof name, "slope %g", slope);
+    all.push_back({name, value(classa::approximate(curve::PlanarView(chain), 1e-3))});
+  }
+  classa::EditOptions exact;
+  exact.cav.end_tolerance = 0;
+  all.push_back({"least energy", {value(classa::edit(cad, exact)).curve, true}});
+  std::printf(
+      "\n| curve | degree | type | CAV | nearest away | α | s | CAV of the nearest |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  std::vector<classa::Evaluation> evaluations;
+  for (const Named& c : all) {
+    evaluations.push_back(value(classa::evaluate_curve(c.curve, exact.cav)));
+    const classa::Evaluation& e = evaluations.back();
+    const classa::CurveValue& place = e.nearest_value ? *e.nearest_value : e.value;
+    std::printf("| %s | %d | %d | %.3g | %.2g | %.3f | %.3f | %.3f |\n", c.name.c_str(),
+                e.value.degree, e.value.type, e.value.cav, e.nearest ? e.nearest->distance : 0.0,
+                place.matrix->alpha, place.matrix->s, place.cav);
+  }
+  std::vector<operations::PlaneEntry> entries;
+  for (std::size_t i = 0; i < all.size(); ++i) entries.push_back({all[i].name, &evaluations[i]});
+  out.save("class-a-compare", operations::plane_chart(entries, exact.cav));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -135,5 +172,6 @@ int main(int argc, char** argv) {
   figure_5(out);
   figures_7_and_8(out);
   table_of_amounts();
+  compare(out);
   return 0;
 }

@@ -37,29 +37,6 @@ bool all_coincide(const Points& points) {
                      [&](const auto& p) { return distance(p, points.front()) == 0; });
 }
 
-/// -1, 0, 1 where the list starts lower than it ends, is the same from both ends (to 1e-12), starts
-/// higher.
-int first_against_last(const std::vector<double>& list) {
-  for (std::size_t i = 0, j = list.size(); i + 1 < j; ++i) {
-    --j;
-    if (std::abs(list[i] - list[j]) > 1e-12 * std::max(std::abs(list[i]), std::abs(list[j])))
-      return list[i] < list[j] ? -1 : 1;
-  }
-  return 0;
-}
-
-/// Whether the edges shrink on the whole: the last against the first, then inwards. Where lengths
-/// do not tell, turning does: a curve whose edges grow turns more at its start.
-bool shrinks(std::span<const Point2> control) {
-  std::vector<double> lengths;
-  std::vector<double> turning;
-  for (std::size_t i = 0; i + 1 < control.size(); ++i)
-    lengths.push_back(distance(control[i], control[i + 1]));
-  for (const auto& r : ratios(control)) turning.push_back(r ? std::abs(r->alpha) : 0);
-  const int by_length = first_against_last(lengths);
-  return by_length != 0 ? by_length > 0 : first_against_last(turning) < 0;
-}
-
 /// First edge that is one: the direction in which the curve leaves.
 Vector2 start_tangent(std::span<const Point2> control) {
   for (const Point2& p : control)
@@ -76,7 +53,7 @@ EnergyConditions conditions_of(std::span<const Point2> control, const MatrixRead
   c.end_tolerance = o.end_tolerance.value_or(0.01 * norm(c.chord));
   c.alpha = o.alpha.value_or(core::Interval{0, o.alpha_max});
   c.s = o.s;
-  const bool falls = o.direction == Direction::as_given && shrinks(control);
+  const bool falls = o.direction == Direction::as_given && edges_shrink(control);
   c.branch = o.branch.value_or(falls ? Branch::falling : Branch::growing);
   if (reading.type != 3 || reading.matrix.alpha != 0) c.left = reading.left;
   if (reading.type == 3) c.near_s = reading.matrix.s;
@@ -103,7 +80,7 @@ void place(CurveValue& value, const CavOptions& o) {
 CurveReading read(std::vector<Point2> control, const CavOptions& o) {
   CurveReading r;
   r.control = std::move(control);
-  r.reversed = o.direction == Direction::growing && shrinks(r.control);
+  r.reversed = o.direction == Direction::growing && edges_shrink(r.control);
   if (r.reversed) std::reverse(r.control.begin(), r.control.end());
   r.matrix = read_matrix(r.control, o.alpha_max, o.tolerance);
   r.conditions = conditions_of(r.control, r.matrix, o);

@@ -145,4 +145,29 @@ std::vector<std::optional<ControlMatrix>> ratios(std::span<const Point2> control
   return r;
 }
 
+namespace {
+
+/// -1, 0, 1 where the list starts lower than it ends, is the same from both ends (to 1e-12), starts
+/// higher.
+int first_against_last(const std::vector<double>& list) {
+  for (std::size_t i = 0, j = list.size(); i + 1 < j; ++i) {
+    --j;
+    if (std::abs(list[i] - list[j]) > 1e-12 * std::max(std::abs(list[i]), std::abs(list[j])))
+      return list[i] < list[j] ? -1 : 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+bool edges_shrink(std::span<const Point2> control) {
+  std::vector<double> lengths;
+  std::vector<double> turning;
+  for (std::size_t i = 0; i + 1 < control.size(); ++i)
+    lengths.push_back(distance(control[i], control[i + 1]));
+  for (const auto& r : ratios(control)) turning.push_back(r ? std::abs(r->alpha) : 0);
+  const int by_length = first_against_last(lengths);
+  return by_length != 0 ? by_length > 0 : first_against_last(turning) < 0;
+}
+
 }  // namespace keyline::classa

@@ -63,4 +63,8 @@ double scale_at_end_angle(double alpha, double angle, int degree, const core::In
 /// shorter than 1e-12 of the longest. A curve of degree 1 has none.
 std::vector<std::optional<ControlMatrix>> ratios(std::span<const core::Point2> control);
 
+/// Whether the edges shrink on the whole: the last against the first, then inwards. Where lengths
+/// do not tell (to 1e-12), turning does: a curve whose edges grow turns more at its start.
+bool edges_shrink(std::span<const core::Point2> control);
+
 }  // namespace keyline::classa

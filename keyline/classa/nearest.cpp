@@ -63,7 +63,7 @@ Samples sample_even(const curve::Bezier2& given) {
 
 /// Feet of the samples on the curve: Newton's method from the neighbour's parameter, over a table.
 std::vector<double> feet(const UnitCurve& c, const std::vector<Complex>& points) {
-  constexpr int kTable = 128;
+  constexpr int kTable = 64;
   std::vector<Complex> table;
   for (int i = 0; i <= kTable; ++i) table.push_back(c.point(i / static_cast<double>(kTable)));
   std::vector<double> t;
@@ -124,7 +124,7 @@ std::vector<Place> best_of_grid(int degree, const std::vector<Complex>& points,
       places.push_back(place_at(o.alpha_max * i / kAlpha, reach * j / kScale, degree, sparse));
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.cost < b.cost; });
-  places.resize(4);
+  places.resize(3);
   return places;
 }
 
@@ -185,6 +185,15 @@ std::optional<NearestCurve> nearest_matrix_curve(const curve::Bezier2& given,
   for (const Point2& p : given.control) size = std::max(size, distance(p, given.control.front()));
   if (degree < 2 || distance(given.control.front(), given.control.back()) <= 1e-9 * size)
     return std::nullopt;
+  if (edges_shrink(given.control)) {  // the same search from either end
+    auto back = nearest_matrix_curve(reverse(given), options);
+    if (back)
+      *back = {{-back->matrix.alpha, 1 / back->matrix.s},
+               reverse(back->curve),
+               back->distance,
+               back->rms};
+    return back;
+  }
   const Samples samples = sample_even(given);
   Place best;
   for (const Place& start : best_of_grid(degree, samples.points, options)) {

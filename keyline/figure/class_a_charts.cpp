@@ -54,15 +54,20 @@ void add_points(Plot& plot, const AlphaSPlane& plane) {
   if (!plane.path.empty())
     plot.series.push_back(Series{
         .points = plane.path, .color = kInk, .width = 1.2, .dash = {4, 3}, .sets_range = false});
+  constexpr std::size_t kMostNotes = 3;  // more names stand in the legend, unless they are short
+  const bool notes = plane.points.size() <= kMostNotes ||
+                     std::all_of(plane.points.begin(), plane.points.end(),
+                                 [](const AlphaSPoint& p) { return p.name.size() <= 2; });
   for (std::size_t i = 0; i < plane.points.size(); ++i) {
     const AlphaSPoint& p = plane.points[i];
-    plot.series.push_back(Series{.points = {{p.alpha, p.s}},
+    plot.series.push_back(Series{.name = notes ? "" : p.name,
+                                 .points = {{p.alpha, p.s}},
                                  .kind = SeriesKind::points,
                                  .color = palette(i == 0 ? 1 : i + 1),
                                  .marker = p.marker,
                                  .size = 8,
                                  .sets_range = false});
-    plot.notes.push_back({.at = {p.alpha, p.s}, .text = p.name, .offset = {8, -7}});
+    if (notes) plot.notes.push_back({.at = {p.alpha, p.s}, .text = p.name, .offset = {8, -7}});
   }
 }
 

@@ -172,6 +172,29 @@ TEST(Nearest, ReversingChangesNothing) {
   EXPECT_FALSE(nearest_matrix_curve({{{0, 0}, {1, 0}, {1, 1}, {0, 0}}, {}}));
 }
 
+/// Whatever the points: finite, and the same from either end.
+TEST(FreeForm, AnyPointsAtAll) {
+  numeric::Random random(5);
+  for (int i = 0; i < 40; ++i) {
+    curve::Bezier2 c;
+    const std::size_t count = 3 + random.index(6);
+    for (std::size_t k = 0; k < count; ++k)
+      c.control.push_back({std::round(random.uniform(-3, 3)), random.uniform(-2, 2)});
+    const auto one = evaluate_curve({c, true}, {});
+    const auto two = evaluate_curve({reverse(c), true}, {});
+    ASSERT_EQ(one.has_value(), two.has_value());
+    if (!one) continue;
+    ASSERT_EQ(one->nearest.has_value(), two->nearest.has_value());
+    if (!one->nearest) continue;
+    EXPECT_TRUE(std::isfinite(one->nearest->distance));
+    EXPECT_NEAR(one->nearest->rms, two->nearest->rms, 1e-9) << i;
+    const auto edited = edit(c);
+    if (edited) {
+      EXPECT_LE(edited->after.cav, edited->before.cav + 1e-9) << i;
+    }
+  }
+}
+
 /// A logarithmic spiral turns into a polynomial of several matrices that lies beside one.
 TEST(FreeForm, SpiralHasANearCurve) {
   std::vector<Point2> points;
