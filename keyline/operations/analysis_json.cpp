@@ -38,6 +38,8 @@ json piece_json(const analysis::PieceAnalysis& piece) {
           {"interpretations", std::move(readings)}};
 }
 
+}  // namespace
+
 const char* answer_name(analysis::MonotoneAnswer::Value value) {
   switch (value) {
     case analysis::MonotoneAnswer::Value::yes:
@@ -49,8 +51,6 @@ const char* answer_name(analysis::MonotoneAnswer::Value value) {
   }
   return "undecided";
 }
-
-}  // namespace
 
 json interval_json(core::Interval interval) { return {interval.low, interval.high}; }
 

@@ -8,6 +8,8 @@
 /// Results of room analysis in the public form. All numbers finite.
 namespace keyline::operations {
 
+/// "yes", "no", "undecided".
+const char* answer_name(analysis::MonotoneAnswer::Value value);
 nlohmann::json interval_json(core::Interval interval);
 nlohmann::json interpretation_json(const analysis::Interpretation& reading);
 nlohmann::json lcg_json(const analysis::Lcg& lcg);

@@ -15,6 +15,10 @@ using AnalyzeReportOptions = ReportOptions;
 core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, double noise = 0,
                                                    int plot_samples = 401);
 
+/// Whether curvature is monotone, by the certificate of the curve's own type; undecided where there
+/// is none (paths of several curves, polylines).
+analysis::MonotoneAnswer certified_monotone(const document::Path& path);
+
 /// The report of an analysed curve: curvature plot, comb, evolute, graph and diagram of each
 /// monotone piece, all pieces with their readings, continuity at the curve's own joints, and
 /// whether curvature is monotone. Pieces count from 0. Graphs of at most 40 pieces.

@@ -73,7 +73,7 @@ Result<ClassASubject> farin_subject(const json& request) {
     c.tangent = *tangent - core::Point3{};
   }
   if (auto sound = classa::validate(c); !sound) return std::unexpected(sound.error());
-  return ClassASubject{{}, 1, classa::to_bezier(c), c};
+  return ClassASubject{{}, 1, {}, classa::to_bezier(c), c};
 }
 
 Result<ClassASubject> matrix_subject(const json& request) {
@@ -92,7 +92,7 @@ Result<ClassASubject> matrix_subject(const json& request) {
     c.tangent = *tangent - core::Point2{};
   }
   if (auto sound = classa::validate(c); !sound) return std::unexpected(sound.error());
-  return ClassASubject{classa::Approximation{classa::to_bezier(c), true}, c.beta, {}, {}};
+  return ClassASubject{classa::Approximation{classa::to_bezier(c), true}, c.beta, {}, {}, {}};
 }
 
 Result<ClassASubject> space_subject(const json& value) {
@@ -102,7 +102,7 @@ Result<ClassASubject> space_subject(const json& value) {
   if (!bezier)
     return fail(ErrorCode::unsupported, "of curves in space only a bezier is placed in the plane",
                 "convert the curve to a bezier, or lay it into a plane", "curve");
-  return ClassASubject{{}, 1, *bezier, {}};
+  return ClassASubject{{}, 1, {}, *bezier, {}};
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ Result<ClassASubject> class_a_subject(const json& request) {
   if (!path) return std::unexpected(path.error());
   auto bezier = class_a_bezier(*path, optional_number(request, "fit_tolerance"));
   if (!bezier) return std::unexpected(std::move(bezier.error()));
-  return ClassASubject{std::move(*bezier), 1, {}, {}};
+  return ClassASubject{std::move(*bezier), 1, *path, {}, {}};
 }
 
 Result<classa::Approximation> class_a_bezier(const document::Path& path,

@@ -25,6 +25,7 @@ core::Result<classa::CavOptions> cav_options(const nlohmann::json& request);
 struct ClassASubject {
   std::optional<classa::Approximation> planar;
   double beta = 1;  ///< of a curve given by (alpha, s): unit of the minimum's beta
+  std::optional<document::Path> given;  ///< what was approximated
   std::optional<curve::Bezier3> space;
   std::optional<classa::SpaceMatrixCurve> farin;  ///< `space` is then its curve
 };

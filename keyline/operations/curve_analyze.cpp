@@ -71,6 +71,11 @@ core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) 
 
 }  // namespace
 
+analysis::MonotoneAnswer certified_monotone(const document::Path& path) {
+  const auto certify = certificate_of(path);
+  return certify ? certify() : MonotoneAnswer{MonotoneAnswer::Value::undecided, 0};
+}
+
 core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, double noise,
                                                    int plot_samples) {
   if (!(noise >= 0))

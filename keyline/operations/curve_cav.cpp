@@ -1,3 +1,5 @@
+#include "keyline/operations/analysis_json.h"
+#include "keyline/operations/analyze_report.h"
 #include "keyline/operations/class_a_json.h"
 #include "keyline/operations/class_a_request.h"
 #include "keyline/operations/registry.h"
@@ -33,7 +35,11 @@ core::Result<json> run(const json& request, const Context&) {
   if (!evaluation) return std::unexpected(evaluation.error());
   classa::CurveValue& value = evaluation->value;
   if (value.minimum && !value.reversed) value.minimum->beta *= subject->beta;
-  return evaluation_json(*evaluation);
+  json result = evaluation_json(*evaluation);
+  if (result.contains("approximation") && subject->given)
+    result["approximation"]["given_monotone"] =
+        answer_name(certified_monotone(*subject->given).value);
+  return result;
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ TEST(CurveCav, FreeFormCurves) {
   EXPECT_LE(result["nearest"]["distance"].get<double>(), 0.05);
   EXPECT_TRUE(result["nearest"]["cav"].is_number());
   EXPECT_TRUE(result["alpha"].is_null());
+  EXPECT_EQ(result["approximation"]["given_monotone"], "yes");
 }
 
 TEST(CurveCav, InSpace) {
