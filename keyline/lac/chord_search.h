@@ -84,7 +84,8 @@ ChordSolution search_chord(const SearchSetup& setup, F&& at) {
   for (; iteration <= 100; ++iteration) {
     s = at(q);
     const double change = newton_step(setup, s);
-    if (s.miss == 0 || std::abs(s.miss * setup.sharpness * change) < 2e-16) {
+    // A short chord, near a full turn, swings faster.
+    if (s.miss == 0 || std::abs(s.miss * setup.sharpness * change) < 2e-16 * s.length * s.length) {
       const double next = std::clamp(s.miss == 0 ? q : q + change, 0.0, setup.largest);
       return {ChordStatus::solved, next, s.length + s.length_slope * (next - q), iteration};
     }

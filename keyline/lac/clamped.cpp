@@ -8,6 +8,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
 #include "keyline/lac/chord_kernel.h"
+#include "keyline/lac/one_signed.h"
 
 namespace keyline::lac {
 namespace {
@@ -116,6 +117,24 @@ std::optional<G1Chain> clamped(const HandleAngles& angles, double alpha, double 
   return answer;
 }
 
+/// Two parts that meet in the inflection, one of them straight to 280 digits: as end curvatures of
+/// one piece they would not tell where the inflection lies.
+std::optional<G1Chain> clamped_at_inflection(double from, double to, double alpha) {
+  const auto arms = detail::solve_inflecting_arms(from, to, alpha);
+  if (!arms) return {};
+  G1Chain answer;
+  answer.chain = {{{0, 0}, from}, {arms->begin(), arms->end()}, false};
+  for (Piece& piece : answer.chain.pieces) {
+    if (std::abs(piece.curvature_start) < 1e-280) piece.curvature_start = 0;
+    if (std::abs(piece.curvature_end) < 1e-280) piece.curvature_end = 0;
+  }
+  answer.reversed = (*arms)[0].curvature_start == 0;
+  answer.turning = to - from;
+  answer.chord_angle = -from;
+  answer.clamped = true;
+  return answer;
+}
+
 G1Chain chain_of(const SegmentSolution& s) {
   return {lac::chain_of(s.segment), s.reversed, s.lambda, s.turning, s.chord_angle, false};
 }
@@ -167,8 +186,15 @@ core::Result<G1Chain> solve_g1_directions_chain(const core::Pose2& start, const 
       return placed(*std::move(answer), start, chord);
   }
   const auto one = solve_g1_directions(start, end, alpha);
-  if (!one) return std::unexpected(one.error());
-  return chain_of(*one);
+  if (one) return chain_of(*one);
+  if (may_be_far(alpha) && alpha < 0 && chord > 0) {
+    const double axis = core::direction_of(across);
+    const double from = core::wrap_angle(start.direction - axis);
+    const double to = core::wrap_angle(end.direction - axis);
+    if (auto answer = clamped_at_inflection(from, to, alpha))
+      return placed(*std::move(answer), start, chord);
+  }
+  return std::unexpected(one.error());
 }
 
 }  // namespace keyline::lac

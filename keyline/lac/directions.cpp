@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/arm.h"
 #include "keyline/lac/one_signed.h"
-#include "keyline/numeric/power_mean.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::lac {
@@ -14,72 +16,89 @@ using core::ErrorCode;
 using core::Pose2;
 using core::Vector2;
 
-/// Curves of slope alpha < 0, unit length and given turning, one for each start curvature. A larger
-/// start curvature raises the tangent angle everywhere inside, and with it the chord's angle.
+/// Curves of slope alpha < 0 and given net turning that bend right before and left behind their
+/// inflection, one for each value of the smaller of the two angles. A larger one lowers the tangent
+/// everywhere inside, and with it the chord. The angle enters by its logarithm: for slopes close to
+/// 0 an arm of any length may turn by less than a double can tell.
 class InflectingFamily {
  public:
   InflectingFamily(double alpha, double from, double to)
-      : alpha_(alpha), from_(from), turning_(to - from) {}
+      : alpha_(alpha), power_(1 - 1 / alpha), from_(from), turning_(to - from) {}
 
-  /// The end curvature that goes with a start curvature; empty where the search fails.
-  std::optional<double> end_curvature(double start) const {
-    const auto excess = [&](double end) {
-      const double e = numeric::signed_power_mean_integral(start, end, -alpha_, 1) - turning_;
-      return std::abs(e) < 1e-16 * (std::abs(start) + std::abs(end)) ? 0 : e;
-    };
-    // The mean lies between the ends: the end is on the other side of the turning.
-    const double side = start < turning_ ? 1 : -1;
-    double reach = std::abs(start - turning_) + 1e-300;
-    double near = turning_;
-    double far = turning_ + side * reach;
-    for (int i = 0; i < 200 && side * excess(far) < 0; ++i) {
-      near = far;
-      reach *= 2;
-      far = turning_ + side * reach;
-    }
-    return numeric::bracketed_root(excess, std::min(near, far), std::max(near, far), 0);
+  /// Logarithm of an angle that cannot be told from 0, the turning or else `scale` given.
+  double least(double scale) const {
+    return std::log(turning_ == 0 ? scale : std::abs(turning_)) - 40 * power_;
   }
 
-  /// The curve that starts with the given curvature.
-  std::optional<Piece> piece(double start) const {
-    const auto end = start == turning_ ? turning_ : end_curvature(start);
-    if (!end) return std::nullopt;
-    return Piece{alpha_, 1, start, *end};
+  /// Share of the length of the arm that turns less; arms go as the roots of their angles.
+  double minor_share(double log_minor) const {
+    const double major = std::exp(log_minor) + std::abs(turning_);
+    return 1 / (1 + std::exp((std::log(major) - log_minor) / power_));
   }
 
-  /// Angle of the chord if the start tangent is at `from`: zero is wanted. NaN where there is none.
-  double chord_angle(double start) const {
-    const auto curve = piece(start);
-    if (!curve) return std::nan("");
-    const double angle = core::wrap_angle(from_ + core::direction_of(displacement(*curve, 1)));
+  /// Chord for unit length, the end tangents being as wanted.
+  Vector2 chord(double log_minor) const {
+    const double minor = std::exp(log_minor);
+    const double share = minor_share(log_minor);
+    const Vector2 v = share * arm(minor) + (1 - share) * arm(minor + std::abs(turning_));
+    return core::rotate_ccw(v, from_ - minor - std::max(0.0, -turning_));
+  }
+
+  /// Angle of the chord, zero being wanted.
+  double chord_angle(double log_minor) const {
+    const double angle = core::direction_of(chord(log_minor));
     return std::abs(angle) < 4e-16 ? 0 : angle;
   }
 
+  /// The curve's two arms, from the start to the inflection and on to the end.
+  std::array<Piece, 2> arms(double log_minor, double length) const {
+    const double minor = std::exp(log_minor);
+    const double share = minor_share(log_minor);
+    const double minor_bend = minor * power_ / (share * length);
+    const double major_bend = (minor + std::abs(turning_)) * power_ / ((1 - share) * length);
+    const bool right_minor = turning_ >= 0;
+    const double before = right_minor ? share : 1 - share;
+    const double after = right_minor ? 1 - share : share;
+    return {Piece{alpha_, before * length, right_minor ? -minor_bend : -major_bend, 0},
+            Piece{alpha_, after * length, 0, right_minor ? major_bend : minor_bend}};
+  }
+
  private:
+  /// Of unit length from the inflection, in the frame of its tangent.
+  Vector2 arm(double turned) const {
+    if (turned < detail::kLargestSeriesTurning) return detail::inflection_arm(turned, power_).chord;
+    detail::Arm whole;
+    whole.a = -alpha_;
+    whole.b = 1 - alpha_;
+    whole.range = std::numeric_limits<double>::infinity();
+    whole.length = 1;
+    whole.turning = -turned;
+    whole.arc_total = 1 / whole.a;
+    whole.angle_total = 1 / whole.b;
+    return core::rotate_ccw(detail::arm_vector(whole, whole.range), turned);
+  }
+
   double alpha_;
+  double power_;  ///< of the distance from the inflection with which the tangent turns
   double from_;
   double turning_;
 };
 
-/// The start curvature nearest to the circular arc's at which the chord lies along the x axis.
-std::optional<double> search_start_curvature(const InflectingFamily& family, double from,
-                                             double to) {
-  const double turning = to - from;
-  double before = turning;
-  double angle = core::wrap_angle((from + to) / 2);  // a circular arc's
+/// The least angle (its logarithm) at which the chord lies along the x axis, followed without
+/// jumping over the cut at +-pi: the curve of fewest windings.
+std::optional<double> search_minor_angle(const InflectingFamily& family, double from, double to) {
+  const double step = std::min(0.25 * (std::abs(from) + std::abs(to)), 0.4);
+  double before = family.least(step);
+  double angle = family.chord_angle(before);
+  if (angle < 0 && from + to > 0) angle += 2 * core::kPi;  // the chord has to come down
   if (angle == 0) return before;
-  const double side = angle > 0 ? -1 : 1;
-  // For small angles a clothoid has -(4 from + 2 to): three times the sum away from the circle.
-  const double step = std::max(0.75 * std::abs(from + to), 1e-3 * std::abs(angle));
-  for (int i = 0; i < 120; ++i) {
-    const double here = before + side * step;
+  for (int i = 1; i <= 200; ++i) {
+    const double here = std::log(i * step);
     const double next = angle + core::wrap_angle(family.chord_angle(here) - angle);
     if (std::isnan(next)) return std::nullopt;
-    if (side * next >= 0) {
-      const double low = std::min(before, here);
-      const double high = std::max(before, here);
-      return numeric::bracketed_root([&](double k) { return family.chord_angle(k); }, low, high, 0);
-    }
+    if (next <= 0)
+      return numeric::bracketed_root([&](double x) { return family.chord_angle(x); }, before, here,
+                                     0);
     before = here;
     angle = next;
   }
@@ -94,23 +113,39 @@ double lambda_of(const Piece& p) {
   return sharp == 0 ? 0 : std::abs(curvature_rate(p, k0 >= k1 ? 0 : 1)) / (sharp * sharp);
 }
 
-/// For a chord of length 1 along x; alpha < 0.
-std::optional<SegmentSolution> solve_inflecting(double from, double to, double alpha) {
-  const InflectingFamily family(alpha, from, to);
-  const auto start = search_start_curvature(family, from, to);
-  if (!start) return std::nullopt;
-  const auto piece = family.piece(*start);
-  if (!piece) return std::nullopt;
-  const double length = 1 / norm(displacement(*piece, 1));
+/// For a chord of length 1 along x; alpha < 0: the arms on both sides of the inflection.
+std::optional<std::array<Piece, 2>> inflecting_arms(double from, double to, double alpha) {
+  // Mirrored, so that the chord of the circular arc lies above the one wanted.
+  const bool mirror = from + to < 0;
+  const double sign = mirror ? -1 : 1;
+  const InflectingFamily family(alpha, sign * from, sign * to);
+  const auto minor = search_minor_angle(family, sign * from, sign * to);
+  if (!minor) return std::nullopt;
+  const double length = 1 / norm(family.chord(*minor));
   if (!(length < 1e6)) return std::nullopt;
+  auto arms = family.arms(*minor, length);
+  if (mirror)
+    for (Piece& arm : arms) arm = mirrored(arm);
+  return arms;
+}
+
+/// Whether the end curvatures tell where the inflection lies.
+bool within_doubles(const std::array<Piece, 2>& arms) {
+  return std::abs(arms[0].curvature_start) > 1e-280 && std::abs(arms[1].curvature_end) > 1e-280;
+}
+
+std::optional<SegmentSolution> solve_inflecting(double from, double to, double alpha) {
+  const auto arms = inflecting_arms(from, to, alpha);
+  if (!arms || !within_doubles(*arms)) return std::nullopt;
   SegmentSolution solution;
   solution.segment = {{{0, 0}, from},
                       alpha,
-                      length,
-                      piece->curvature_start / length,
-                      piece->curvature_end / length};
-  solution.reversed = std::abs(piece->curvature_start) < std::abs(piece->curvature_end);
-  solution.lambda = lambda_of(piece_of(solution.segment));
+                      (*arms)[0].length + (*arms)[1].length,
+                      (*arms)[0].curvature_start,
+                      (*arms)[1].curvature_end};
+  const Segment& s = solution.segment;
+  solution.reversed = std::abs(s.curvature_start) < std::abs(s.curvature_end);
+  solution.lambda = lambda_of(piece_of(s));
   solution.turning = to - from;
   solution.chord_angle = -from;
   return solution;
@@ -147,6 +182,11 @@ core::Result<SegmentSolution> solve_unit(double from, double to, double alpha) {
 }
 
 }  // namespace
+
+std::optional<std::array<Piece, 2>> detail::solve_inflecting_arms(double from, double to,
+                                                                  double alpha) {
+  return inflecting_arms(from, to, alpha);
+}
 
 core::Result<SegmentSolution> solve_g1_directions(const Pose2& start, const Pose2& end,
                                                   double alpha) {

@@ -73,9 +73,11 @@ void solve_g1(std::span<const G1Problem> problems, std::span<G1Outcome> outcomes
 /// alpha < 0 a C-shaped request outside the drawable region is met with an inflection as well.
 /// Of several curves that fit, the one nearest to a circular arc, reached without a jump.
 ///
-/// Accuracy: 1e-14 of the chord, 1e-14 rad. Slower than three handles where it inflects (some ten
+/// Accuracy: 1e-14 of the chord, 1e-14 rad. Slower than three handles where it inflects (2 to 6
 /// microseconds).
-/// Fails: bad_input, and undrawable with the nearest slope that serves in the hint.
+/// Fails: bad_input, and undrawable with the nearest slope that serves in the hint; undrawable as
+/// well where the end curvatures would leave the range of doubles (slopes within 0.06 of 0 or 1;
+/// solve_g1_directions_chain serves there).
 core::Result<SegmentSolution> solve_g1_directions(const core::Pose2& start, const core::Pose2& end,
                                                   double alpha);
 

@@ -12,7 +12,6 @@
 namespace keyline::lac {
 
 using core::ErrorCode;
-using core::Point2;
 using core::Result;
 using core::Vector2;
 using detail::SeriesVariable;

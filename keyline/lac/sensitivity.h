@@ -6,13 +6,11 @@
 namespace keyline::lac {
 
 /// What a piece's geometry depends on, in the order of the derivative arrays below.
-enum PieceVariable : int {
-  kCurvatureStart = 0,
-  kCurvatureEnd = 1,
-  kLength = 2,
-  kAlpha = 3,
-  kPieceVariables = 4
-};
+inline constexpr int kCurvatureStart = 0;
+inline constexpr int kCurvatureEnd = 1;
+inline constexpr int kLength = 2;
+inline constexpr int kAlpha = 3;
+inline constexpr int kPieceVariables = 4;
 
 /// A log-aesthetic piece as a table: local point and tangent angle at any fraction of its length,
 /// with derivatives by the four variables. The frame is the piece's own start (origin, x axis

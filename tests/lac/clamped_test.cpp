@@ -110,6 +110,28 @@ TEST(SolveG1Chain, ServesAtExtremeScales) {
   }
 }
 
+TEST(SolveG1Chain, MeetsAllDirectionsForSlopesBelowZero) {
+  const bool full = std::getenv("KEYLINE_FULL") != nullptr;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int split = 0;
+  for (int n = 0; n < (full ? 500000 : 20000); ++n) {
+    const double alpha = n % 2 == 0 ? -std::pow(10, -3 + 3.5 * unit(random)) : -10 * unit(random);
+    const double size = n % 3 == 0 ? 3e-3 : 2.9;
+    const double from = size * (2 * unit(random) - 1);
+    double to = size * (2 * unit(random) - 1);
+    if (n % 5 == 0) to = from * (1 + 1e-6 * unit(random));
+    if (n % 50 == 7) to = -from;
+    const auto solved = solve_g1_directions_chain({{0, 0}, from}, {{1, 0}, to}, alpha);
+    ASSERT_TRUE(solved) << alpha << ' ' << from << ' ' << to << solved.error().message;
+    const core::Pose2 end = end_pose(solved->chain);
+    EXPECT_LE(distance(end.position, {1, 0}), 1e-12) << alpha << ' ' << from << ' ' << to;
+    EXPECT_LE(std::abs(core::wrap_angle(end.direction - to)), 1e-12) << alpha << ' ' << from;
+    split += solved->chain.pieces.size() == 2;
+  }
+  EXPECT_GT(split, 0);
+}
+
 TEST(SolveG1Chain, DirectionsAndHandlesAgree) {
   for (const double alpha : {-0.01, 0.0, 1.0, 1.01}) {
     const double theta = 0.9;
