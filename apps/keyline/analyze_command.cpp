@@ -161,9 +161,15 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
   };
   const auto picture = [&] {
     std::vector<figure::Drawing> drawings;
-    for (const Subject& subject : subjects)
+    for (const Subject& subject : subjects) {
       drawings.push_back(operations::analyze_picture(subject.analysis, subject.path,
                                                      report_options(command, subject)));
+      if (subject.class_a)
+        drawings.back() = figure::stack(
+            {drawings.back(),
+             operations::plane_chart(
+                 {{subject.name.empty() ? "the curve" : subject.name, &*subject.class_a}}, {})});
+    }
     return figure::tile(drawings, 1);
   };
   writers[".pdf"] = [picture] { return figure::write_pdf(picture()); };

@@ -18,7 +18,6 @@ using core::ErrorCode;
 using core::fail;
 using core::Interval;
 using core::kPi;
-using core::Vector2;
 using detail::Candidate;
 using detail::Frame;
 using detail::ReachTable;

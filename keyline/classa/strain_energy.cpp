@@ -8,8 +8,6 @@
 
 namespace keyline::classa {
 
-using core::Vector2;
-
 namespace {
 
 double turning_of(const curve::Jet2& j) { return std::abs(cross(j.first, j.second)); }

@@ -167,6 +167,13 @@ report::Report edit_report(const classa::EditResult& edited, const classa::Appro
   r.generator = report.generator;
   r.options = report.options;
   r.options.push_back({"amount", number(options.amount)});
+  r.options.push_back({"largest alpha", number(options.cav.alpha_max)});
+  r.options.push_back({"end tolerance", options.cav.end_tolerance
+                                            ? number(*options.cav.end_tolerance)
+                                            : std::string("0.01 of the chord")});
+  if (options.target)
+    r.options.push_back({"target", fmt::format("α {}, s {}", number(options.target->alpha),
+                                               number(options.target->s))});
   const bool good = edited.after.type <= 2;
   r.verdict = good ? report::Verdict::good : report::Verdict::caution;
   r.verdict_line = fmt::format("CAV from {} to {}: {}.", number(edited.before.cav),
