@@ -107,6 +107,27 @@ void set_verdict(const SurfaceSubject& subject, report::Report& report) {
                                 all, worst.curves[worst.worst].name);
 }
 
+const char* caption_of(const std::optional<FieldKind>& field) {
+  if (!field) return "Lit, with lines of constant u and v";
+  switch (*field) {
+    case FieldKind::gaussian:
+      return "Gaussian curvature, without the outer 2 % of its values";
+    case FieldKind::mean:
+      return "Mean curvature, positive towards S_u × S_v";
+    case FieldKind::principal:
+      return "The larger principal curvature";
+    case FieldKind::zebra:
+      return "Zebra: as continuous as the tangent plane";
+    case FieldKind::isophote:
+      return "Lines of equal brightness";
+    case FieldKind::reflection:
+      return "Parallel lamps reflected in the surface";
+    case FieldKind::highlight:
+      return "Where normals pass a lamp at equal distances";
+  }
+  return "";
+}
+
 Result<Drawing> shot_of(const std::vector<Surface>& surfaces, const std::optional<FieldKind>& field,
                         const SurfaceLook& look, const std::string& unit) {
   SurfacePicture picture;
@@ -149,7 +170,7 @@ Result<report::Report> surface_report(const SurfaceSubject& subject, const Repor
   for (const auto& shot : look.shots) {
     auto drawing = shot_of({subject.surface}, shot, look, options.unit);
     if (!drawing) return std::unexpected(drawing.error());
-    pictures.figures.push_back({std::move(*drawing), {}});
+    pictures.figures.push_back({std::move(*drawing), caption_of(shot)});
   }
   report.sections.push_back(std::move(pictures));
   if (subject.values.empty()) return report;
@@ -201,7 +222,21 @@ struct Pair {
   Drawing after;
 };
 
-/// The same picture of both, in the lights and colours of the first.
+/// Range of a curvature over both surfaces.
+core::Interval common_range(const Surface& a, const Surface& b, FieldKind field) {
+  core::Interval range{0, 0};
+  bool first = true;
+  for (const Surface* s : {&a, &b}) {
+    const auto found = surface::interrogate(surface::sample_grid(*s, 65, 65), field);
+    if (!found) continue;
+    range.low = first ? found->range.low : std::min(range.low, found->range.low);
+    range.high = first ? found->range.high : std::max(range.high, found->range.high);
+    first = false;
+  }
+  return range;
+}
+
+/// The same picture of both, in the lights of the first and in the same colours.
 Result<Pair> before_and_after(const Surface& given, const Surface& edited, FieldKind field,
                               const std::string& title, const std::string& unit) {
   SurfacePicture picture;
@@ -209,6 +244,7 @@ Result<Pair> before_and_after(const Surface& given, const Surface& edited, Field
   picture.unit = unit;
   picture.lighting = surface::completed({}, surface::sample_grid(given, 33, 33));
   picture.stripe_count = stripes_for({given});
+  picture.range = common_range(given, edited, field);
   picture.title = title + ", before";
   auto before = surface_picture({given}, picture);
   if (!before) return std::unexpected(before.error());
@@ -281,7 +317,10 @@ Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
       {"Target", edited.target, fmt::format("{:.0f} %", 100 * edited.amount)}};
   auto page = surface_edit_page(given, edited, options);
   if (!page) return std::unexpected(page.error());
-  report.sections.push_back({"Before and after", {}, {{std::move(*page), {}}}, {}});
+  report.sections.push_back({"Before and after",
+                             {},
+                             {{std::move(*page), "Zebra, mean curvature and network curves"}},
+                             {}});
   report::ReportTable tradeoff{"What lower values cost: targets by departure",
                                {{"Target", report::Alignment::text}, {"Departure"}, {"SAV"}},
                                {}};
@@ -290,7 +329,7 @@ Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
   report.sections.push_back(
       {"Surface aesthetic value",
        {},
-       {{tradeoff_chart(edited, options.unit), {}}},
+       {{tradeoff_chart(edited, options.unit), "SAV of each target against its departure"}},
        {curve_table(edited.before, "Network curves before"),
         curve_table(edited.after, "Network curves after"), std::move(tradeoff)}});
   return report;
