@@ -94,8 +94,6 @@ void add_figures(const DrawCommand& command, const document::Path& path,
   };
 }
 
-constexpr const char* kSpaceExtensions[] = {".json", ".csv", ".svg", ".pdf", ".png", ".html"};
-
 Result<Writers> space_writers(const DrawCommand& command, const json& curve) {
   const auto chain = exchange::space_chain_from_json(curve, "curve");
   if (!chain) return std::unexpected(chain.error());
@@ -107,11 +105,11 @@ Result<Writers> space_writers(const DrawCommand& command, const json& curve) {
     return
         [=]() -> Result<std::string> { return write(operations::space_picture(chain, options)); };
   };
-  Writers writers;
+  document::Document document;
+  document.space_curves.push_back({{}, {*chain}});
+  const double tolerance = command.common.tolerance.value_or(1e-5 * arc_length(*chain));
+  Writers writers = curve_writers(document, tolerance, command.common);
   writers[".json"] = [curve]() -> Result<std::string> { return curve.dump(1) + "\n"; };
-  writers[".csv"] = [chain = *chain]() -> Result<std::string> {
-    return operations::space_csv(chain);
-  };
   writers[".svg"] =
       picture([](const figure::Drawing& d) -> Result<std::string> { return figure::write_svg(d); });
   writers[".pdf"] = picture([](const figure::Drawing& d) { return figure::write_pdf(d); });
@@ -144,10 +142,7 @@ Result<Writers> writers_of(const DrawCommand& command, const json& request, cons
 }  // namespace
 
 int run_draw(const DrawCommand& command) {
-  const std::vector<std::string> known =
-      command.space
-          ? std::vector<std::string>(std::begin(kSpaceExtensions), std::end(kSpaceExtensions))
-          : curve_extensions({".pdf", ".png", ".html"});
+  const std::vector<std::string> known = curve_extensions({".pdf", ".png", ".html"});
   if (auto can = check_outputs(command.common, known); !can) return report_failure(can.error());
   const auto asked = draw_request(command);
   if (!asked) return report_failure(asked.error());

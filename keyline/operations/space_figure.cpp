@@ -118,11 +118,4 @@ report::Report space_report(const lac::SpaceChain& chain, const ReportOptions& o
   return report;
 }
 
-std::string space_csv(const lac::SpaceChain& chain) {
-  std::string text = "x,y,z\n";
-  for (const Point3& p : lac::sample(chain, kPoints))
-    text += fmt::format("{},{},{}\n", p.x, p.y, p.z);
-  return text;
-}
-
 }  // namespace keyline::operations

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-
-#include "keyline/core/error.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/lac/space.h"
 #include "keyline/operations/report_options.h"
@@ -16,8 +13,5 @@ figure::Drawing space_picture(const lac::SpaceChain& chain, const ReportOptions&
 
 /// The same with length, end values and slopes, piece by piece.
 report::Report space_report(const lac::SpaceChain& chain, const ReportOptions& options = {});
-
-/// 201 points at equal steps of the length as lines "x,y,z", each number as it reads back.
-std::string space_csv(const lac::SpaceChain& chain);
 
 }  // namespace keyline::operations
