@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -79,6 +80,36 @@ Drawing laws_of(const lac::SpaceChain& chain, const std::string& unit) {
   return figure::draw(plot);
 }
 
+/// Logarithmic curvature and torsion graphs: straight lines of slopes alpha and beta, piece by
+/// piece; nothing where a law is constant.
+Drawing graphs_of(const lac::SpaceChain& chain) {
+  figure::Plot plot;
+  plot.title = "Logarithmic curvature and torsion graphs";
+  plot.width = 620;
+  plot.height = 260;
+  plot.x.title = "log ρ, log μ (radii of curvature and torsion)";
+  plot.y.title = "log(ρ ds/dρ), log(μ ds/dμ)";
+  figure::Series bend{.name = "curvature", .color = figure::palette(0), .width = 1.8};
+  figure::Series twist{.name = "torsion", .color = figure::palette(1), .width = 1.8};
+  const auto add = [](const lac::Piece& law, figure::Series& series) {
+    if (law.curvature_start == law.curvature_end) return;
+    for (int i = 0; i <= 60; ++i) {
+      const double k = std::abs(lac::curvature(law, i / 60.0));
+      const double rate = std::abs(lac::curvature_rate(law, i / 60.0));
+      const bool defined = k > 0 && rate > 0 && std::isfinite(rate);
+      series.points.push_back(defined ? Point2{-std::log10(k), std::log10(k / rate)}
+                                      : Point2{NAN, NAN});
+    }
+    series.points.push_back({NAN, NAN});
+  };
+  for (const lac::SpacePiece& p : chain.pieces) {
+    add(lac::curvature_law(p), bend);
+    add(lac::torsion_law(p), twist);
+  }
+  plot.series = {std::move(bend), std::move(twist)};
+  return figure::draw(plot);
+}
+
 std::string title_of(const ReportOptions& options) {
   return options.title.empty() ? "Log-aesthetic space curve" : options.title;
 }
@@ -86,7 +117,7 @@ std::string title_of(const ReportOptions& options) {
 }  // namespace
 
 Drawing space_picture(const lac::SpaceChain& chain, const ReportOptions& options) {
-  Drawing page = figure::stack({views_of(chain), laws_of(chain, options.unit)});
+  Drawing page = figure::stack({views_of(chain), laws_of(chain, options.unit), graphs_of(chain)});
   page.title = title_of(options);
   return page;
 }
@@ -113,7 +144,8 @@ report::Report space_report(const lac::SpaceChain& chain, const ReportOptions& o
   report.sections = {{"Views",
                       {"Seen along the three axes at one scale; the dot is the start."},
                       {{views_of(chain), "The curve from three sides."},
-                       {laws_of(chain, options.unit), "Curvature and torsion along the curve."}},
+                       {laws_of(chain, options.unit), "Curvature and torsion along the curve."},
+                       {graphs_of(chain), "Straight lines of the two slopes."}},
                       {table}}};
   return report;
 }

@@ -8,7 +8,8 @@
 /// Figures of a log-aesthetic space curve.
 namespace keyline::operations {
 
-/// Views along the three axes at one scale, and curvature and torsion against arc length.
+/// Views along the three axes at one scale, curvature and torsion against arc length, and the
+/// logarithmic graphs of both.
 figure::Drawing space_picture(const lac::SpaceChain& chain, const ReportOptions& options = {});
 
 /// The same with length, end values and slopes, piece by piece.
