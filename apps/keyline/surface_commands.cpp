@@ -200,12 +200,20 @@ void add_pictures(Writers& writers, const std::vector<SurfaceSubject>& subjects,
 
 }  // namespace
 
+void say_curves_left_out(const document::Document& document, bool quiet) {
+  const std::size_t curves = document.paths.size() + document.space_curves.size();
+  if (curves == 0) return;
+  say(quiet, fmt::format("{} curve{} of the file left out beside its surfaces; --select takes one",
+                         curves, curves == 1 ? "" : "s"));
+}
+
 int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document) {
   const CommonOptions& common = command.common;
   if (auto known = check_outputs(common, {".json", ".html", ".png", ".pdf", ".svg"}); !known)
     return report_failure(known.error());
   const auto look = look_of(command);
   if (!look) return report_failure(look.error());
+  say_curves_left_out(document, common.quiet);
   const core::Progress progress = interactive_progress(common.quiet);
   std::vector<SurfaceSubject> subjects;
   json all = json::array();

@@ -7,6 +7,9 @@
 /// What commands do with a file that holds surfaces.
 namespace keyline::app {
 
+/// Says on standard error that the curves of such a file are not looked at.
+void say_curves_left_out(const document::Document& document, bool quiet);
+
 /// SAV by surface, patch and curve, curvature and pictures.
 int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document);
 

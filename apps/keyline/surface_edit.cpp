@@ -110,6 +110,7 @@ int edit_surfaces(const EditCommand& command, const document::Document& document
   const CommonOptions& common = command.common;
   auto options = operations::surface_edit_options(request_of(command));
   if (!options) return report_failure(options.error());
+  say_curves_left_out(document, common.quiet);
   std::vector<Edited> all;
   json shown = json::array();
   document::Document written;

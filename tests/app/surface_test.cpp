@@ -32,7 +32,10 @@ TEST(Surfaces, AnalyzeGoesByPatchAndBySurface) {
   for (const char* name : {"panel-a.json", "panel-c.json"})
     several["surfaces"].push_back(
         {{"name", name}, {"surface", json::parse(slurp(kExamples + name))}});
+  several["curves"] = json::array({{{"curve", json::parse(slurp(kExamples + "cubic.json"))}}});
   const std::string file = s.write("both.json", several.dump());
+  EXPECT_NE(run_keyline("analyze --json " + file).err.find("1 curve of the file left out"),
+            std::string::npos);
   const Outcome both = run_keyline("analyze --quiet --json " + file);
   ASSERT_EQ(both.status, 0) << both.err;
   EXPECT_EQ(json::parse(both.out)["surfaces"].size(), 2U);
