@@ -87,6 +87,15 @@ double changed_curvature(double curvature, double by, double exponent) {
   return curvature * std::copysign(std::pow(std::abs(power), 1 / exponent), power);
 }
 
+/// The end is held by a heavy weight, which gives way by a billionth: not at all.
+void keep_held_end(FitChain& next, const FitChain& chain) {
+  const FitJoint& before = chain.joints.back();
+  FitJoint& end = next.joints.back();
+  if (chain.hold_end >= Hold::position) end.position = before.position;
+  if (chain.hold_end >= Hold::direction) end.direction = before.direction;
+  if (chain.hold_end >= Hold::curvature) end.curvature = before.curvature;
+}
+
 FitChain moved(const FitChain& chain, const detail::Step& step, double share, bool fine) {
   FitChain next = chain;
   const bool bent = fine && !chain.closed;
@@ -98,6 +107,7 @@ FitChain moved(const FitChain& chain, const detail::Step& step, double share, bo
     const double exponent = bent ? curvature_exponent(chain, k) : 1;
     joint.curvature = changed_curvature(joint.curvature, share * step.state[k](3), exponent);
   }
+  keep_held_end(next, chain);
   for (std::size_t i = 0; i < next.pieces.size(); ++i) {
     FitPiece& piece = next.pieces[i];
     piece.length = std::max(0.2 * piece.length, piece.length + share * step.control[i](0));

@@ -15,6 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = -kNever;
 constexpr int kReach = 4;  // pieces on either side that a merge may move
 constexpr int kSqueezeRounds = 5;
+constexpr int kStartRounds = 10;
 constexpr int kNoisyStart = 4;  // first number of pieces tried: short ones follow the noise
 constexpr double kTie = 1e-3;   // costs closer than this part of the squared tolerance are equal
 
@@ -39,6 +40,17 @@ bool has_trend(const std::vector<FitPoint>& points, const std::vector<double>& o
       return true;
   }
   return false;
+}
+
+/// Lawson's weights: points far off count more, until the largest offset is near its least.
+void weigh_up(std::vector<FitPoint>& points, const std::vector<FitPoint>& original,
+              const std::vector<double>& offsets, double tolerance) {
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (points[j].must_pass) continue;
+    const double share = std::abs(offsets[j]) / tolerance;
+    points[j].weight =
+        std::min(1e4 * original[j].weight, points[j].weight * (0.3 + 2 * share * share));
+  }
 }
 
 struct Trial {
@@ -119,17 +131,10 @@ class Merger {
     return accepts(options_.accept, fit, points, found);
   }
 
-  /// Lawson's weights: points far off count more until the largest offset is near its least.
   void squeeze_window(detail::Window& w, Trial& trial) const {
     const std::vector<FitPoint> original = w.points;
     for (int round = 0; round < kSqueezeRounds && !trial.good; ++round) {
-      const std::vector<double> off = offsets(w.chain, w.points);
-      for (std::size_t j = 0; j < off.size(); ++j) {
-        if (w.points[j].must_pass) continue;
-        const double share = std::abs(off[j]) / options_.accept.tolerance;
-        w.points[j].weight =
-            std::min(1e4 * original[j].weight, w.points[j].weight * (0.3 + 2 * share * share));
-      }
+      weigh_up(w.points, original, offsets(w.chain, w.points), options_.accept.tolerance);
       ChainFitOptions options = fit_options();
       options.iterations = 8;
       trial.fit = fit_chain(w.chain, w.points, options);
@@ -225,8 +230,23 @@ void hold_end(FitJoint& joint, Hold& hold, const HeldEnd& end) {
   if (hold >= Hold::curvature) joint.curvature = end.joint.curvature;
 }
 
+/// Largest offsets of a dense chain pushed down where it comes near the tolerance.
+void squeeze_start(ChainSearchResult& result, std::vector<FitPoint>& points, ChainFitOptions fit,
+                   const ChainSearchOptions& options) {
+  const std::vector<FitPoint> original = points;
+  fit.usual_length = 1.0 / static_cast<double>(result.chain.pieces.size());
+  for (int round = 0; round < kStartRounds && !result.within_tolerance; ++round) {
+    if (result.fit.max_offset > 4 * options.accept.tolerance) return;
+    if (options.progress.stop_requested()) return;
+    weigh_up(points, original, offsets(result.chain, points), options.accept.tolerance);
+    result.fit = fit_chain(result.chain, points, fit);
+    result.within_tolerance =
+        accepts(options.accept, result.fit, points, offsets(result.chain, points));
+  }
+}
+
 /// Dense clothoid chains, twice as many pieces each time, until one is accepted.
-void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points, bool closed,
+void start_search(ChainSearchResult& result, std::vector<FitPoint>& points, bool closed,
                   const ChainSearchOptions& options) {
   ChainFitOptions fit;
   fit.scale = options.accept.tolerance;
@@ -254,6 +274,8 @@ void start_search(ChainSearchResult& result, const std::vector<FitPoint>& points
     if (good || pieces >= most || options.progress.stop_requested()) break;
     pieces = std::min(most, noisy(options.accept) ? (3 * pieces + 1) / 2 : 2 * pieces);
   }
+  if (!result.within_tolerance && options.wanted_pieces == 0)
+    squeeze_start(result, points, fit, options);
   for (FitPiece& piece : result.chain.pieces) {
     piece.alpha_low = -kSteepestSlope;
     piece.alpha_high = kSteepestSlope;
@@ -276,10 +298,11 @@ bool accepts(const Acceptance& accept, const ChainFitReport& fit,
 ChainSearchResult search_chain(const std::vector<FitPoint>& points, bool closed,
                                const ChainSearchOptions& options) {
   ChainSearchResult result;
-  start_search(result, points, closed, options);
-  for (const FitPoint& p : points) result.weights.push_back(p.weight);
+  std::vector<FitPoint> weighed = points;
+  start_search(result, weighed, closed, options);
+  for (const FitPoint& p : weighed) result.weights.push_back(p.weight);
   if (!result.within_tolerance && options.wanted_pieces == 0) return result;
-  Merger merger(result.chain, result.fit, points, options);
+  Merger merger(result.chain, result.fit, std::move(weighed), options);
   merger.run();
   result.chain = std::move(merger.chain());
   for (std::size_t j = 0; j < points.size(); ++j) result.weights[j] = merger.points()[j].weight;

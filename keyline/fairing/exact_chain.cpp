@@ -8,8 +8,8 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr std::size_t kMostExactPieces = 12;  // longer chains are not drawn exactly by anyone
-constexpr double kExactness = 2e-7;           // of the length
+constexpr std::size_t kMostExactPieces = 8;  // longer chains are not drawn exactly by anyone
+constexpr double kExactness = 2e-7;          // of the length
 
 /// Full least squares without any pull; true where the chain then reproduces the points.
 bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, double exact) {

@@ -52,37 +52,59 @@ HeldEnd held_end(const Run& run, const RunFrame& frame, const curve::BSpline2& s
   return held;
 }
 
-/// The search, once more with a tighter tolerance where polishing loses what it had found.
+/// One search, polished.
+struct Attempt {
+  double share = 1;        ///< of the tolerance that is searched for
+  bool any_trend = false;  ///< offsets that show more than noise are let pass
+};
+
+/// Returns whether the search found a chain and its polish did not keep it: a tighter one may stay.
+bool solve_once(RunResult& result, const std::vector<FitPoint>& measured, const Run& run,
+                const RunFrame& frame, const curve::BSpline2& spline, RunOptions options,
+                Attempt attempt) {
+  options.tolerance *= attempt.share;
+  if (attempt.any_trend) options.noise = result.accept.noise = 0;
+  result.points =
+      with_guides(cut_digits(measured), run.closed, rounded(options.tolerance / run.length));
+  ChainSearchOptions searching = search_options(run, options);
+  searching.start = held_end(run, frame, spline, true);
+  searching.end = held_end(run, frame, spline, false);
+  ChainSearchResult search = search_chain(result.points, run.closed, searching);
+  const bool found = search.within_tolerance;
+  if (attempt.share > 0.95 && !attempt.any_trend)
+    result.exact = find_exact(search, measured, run.closed, searching);
+  if (result.exact) result.points = measured;
+  for (std::size_t j = 0; j < result.points.size(); ++j)
+    result.points[j].weight = search.weights[j];
+  result.fit = std::move(search.chain);
+  result.start_pieces = search.start_pieces;
+  if (result.exact) result.accept = {exactness(result.accept), 0};
+  if (found && options.pieces == 0)
+    result.straightened = straighten(result.fit, result.points, result.accept);
+  result.within_tolerance = polish(result.fit, result.points, result.accept, result.exact);
+  return found && !result.within_tolerance;
+}
+
+/// The search, once more with a tighter tolerance where polishing loses what it had found; and
+/// where errors that are no noise (traced pixels) leave trends with any chain, without regard to
+/// them.
 void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve::BSpline2& spline,
            const RunOptions& options) {
   const std::vector<FitPoint> measured = result.points;
-  for (const double share : {0.98, 0.9, 0.8}) {
-    RunOptions tighter = options;
-    tighter.tolerance *= share;
-    result.points =
-        with_guides(cut_digits(measured), run.closed, rounded(tighter.tolerance / run.length));
-    ChainSearchOptions searching = search_options(run, tighter);
-    searching.start = held_end(run, frame, spline, true);
-    searching.end = held_end(run, frame, spline, false);
-    ChainSearchResult search = search_chain(result.points, run.closed, searching);
-    const bool found = search.within_tolerance;
-    if (share > 0.95) result.exact = find_exact(search, measured, run.closed, searching);
-    if (result.exact) result.points = measured;
-    for (std::size_t j = 0; j < result.points.size(); ++j)
-      result.points[j].weight = search.weights[j];
-    result.fit = std::move(search.chain);
-    result.start_pieces = search.start_pieces;
-    if (result.exact) result.accept = {exactness(result.accept), 0};
-    if (found && options.pieces == 0)
-      result.straightened = straighten(result.fit, result.points, result.accept);
-    result.within_tolerance = polish(result.fit, result.points, result.accept, result.exact);
-    if (result.within_tolerance || !found || options.pieces > 0 || search.cancelled) break;
+  const bool trends_count = noisy(result.accept);
+  for (const bool any_trend : {false, true}) {
+    if (any_trend && !trends_count) return;
+    for (const double share : {0.98, 0.9, 0.8}) {
+      const bool again =
+          solve_once(result, measured, run, frame, spline, options, {share, any_trend});
+      if (!again || options.pieces > 0 || options.progress.stop_requested()) break;
+    }
+    if (result.within_tolerance || options.pieces > 0 || options.progress.stop_requested()) return;
   }
 }
 
-}  // namespace
-
-RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
+/// The run solved for a tolerance, whether or not every single point passes in the end.
+RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
   RunResult result;
   result.points = condense(frame.points, frame.weights, kMostFitPoints);
@@ -103,6 +125,28 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
         measured[condensed_index(j, frame.order.size(), kMostFitPoints)];
   result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
   return result;
+}
+
+double largest_offset(const RunResult& result, const Run& run) {
+  double most = 0;
+  for (const PointPlace& place : place_points(result, run))
+    most = std::max(most, std::abs(place.offset));
+  return most;
+}
+
+}  // namespace
+
+RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
+  RunResult result = solved_run(run, spline, options);
+  if (run.points.size() <= kMostFitPoints || !result.within_tolerance || options.pieces > 0)
+    return result;
+  // Means of points tell their spread about the curve only nearly.
+  const double most = largest_offset(result, run);
+  if (most <= options.tolerance) return result;
+  RunOptions tighter = options;
+  tighter.tolerance *= 0.99 * options.tolerance / most;
+  RunResult again = solved_run(run, spline, tighter);
+  return largest_offset(again, run) < most ? again : result;
 }
 
 void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,

@@ -204,5 +204,33 @@ TEST(FairOptions, StraightWallsOfABottleAreStraight) {
   EXPECT_LE(result.pieces.size(), 8U);
 }
 
+/// More points than the fit takes one by one: every single one passes all the same.
+TEST(FairOptions, EachOfManyPointsPasses) {
+  const acquire::KeyLine line =
+      line_through(testing::measure(testing::random_chain(3), 2500, 1e-3, 4));
+  const FairResult result = fair(line).value();
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_LE(result.max_deviation, result.tolerance);
+}
+
+/// A thin ring about a neck, traced in whole pixels: a bump of two points on either side.
+TEST(FairOptions, BumpsOfTracedOutlinesAreMet) {
+  std::vector<core::Point2> points;
+  const auto trace = [&](double x0, double y0, double x1, double y1) {
+    const int steps = std::max(1, static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 12));
+    for (int i = 0; i < steps; ++i)
+      points.push_back({std::floor(x0 + (x1 - x0) * i / steps + 0.3),
+                        std::floor(y0 + (y1 - y0) * i / steps + 0.7)});
+  };
+  trace(60, 330, 60, 60), trace(60, 60, 100, 30), trace(100, 30, 240, 30);
+  trace(240, 30, 280, 60), trace(280, 60, 280, 400), trace(280, 400, 210, 520);
+  trace(210, 520, 207, 630), trace(212, 640, 212, 652), trace(207, 664, 190, 680);
+  trace(190, 680, 150, 680), trace(150, 680, 133, 664), trace(128, 652, 128, 640);
+  trace(133, 630, 130, 520), trace(130, 520, 60, 400), trace(60, 400, 60, 330);
+  const FairResult result = fair(line_through(points)).value();
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_LE(result.pieces.size(), points.size() / 2);
+}
+
 }  // namespace
 }  // namespace keyline::fairing
