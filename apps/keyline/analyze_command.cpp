@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/planar_form.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/fit/fit_spline.h"
 #include "keyline/operations/analysis_json.h"
@@ -218,6 +219,9 @@ int run_analyze(const AnalyzeCommand& command) {
     if (!loaded) return report_failure(loaded.error());
     document = std::move(*loaded);
     if (!document.surfaces.empty()) return analyze_surfaces(command, document);
+    std::vector<std::string> notes;
+    exchange::flatten(document, notes);
+    for (const std::string& note : notes) say(command.common.quiet, note);
   }
   if (auto known = check_curve_outputs(command.common); !known)
     return report_failure(known.error());

@@ -14,6 +14,7 @@
 #include "keyline/exchange/image_reader.h"
 #include "keyline/exchange/lattice_reader.h"
 #include "keyline/exchange/mesh.h"
+#include "keyline/exchange/planar_form.h"
 #include "keyline/exchange/points_reader.h"
 #include "keyline/exchange/section_file.h"
 #include "keyline/operations/fair_request.h"
@@ -180,6 +181,19 @@ Result<document::Document> section_document(const InputOptions& input, const std
   return document;
 }
 
+/// Vertices of a polyline are measured points in their order; other curves are sampled.
+Result<KeyLine> key_line_of(const document::Path& path, const InputOptions& input) {
+  const auto* polyline =
+      path.curves.size() == 1 ? std::get_if<curve::Polyline2>(&path.curves.front().value) : nullptr;
+  if (!polyline) return operations::key_line_of(path);
+  RawCurve raw;
+  for (const core::Point2 p : polyline->points) raw.points.push_back({p.x, p.y, 0});
+  acquire::AcquireOptions options = acquire_options(input);
+  options.ordered = true;
+  if (path.closed) options.closed = true;
+  return acquire::acquire_key_line(raw, options);
+}
+
 }  // namespace
 
 bool holds_points(const std::string& file) {
@@ -202,17 +216,28 @@ Result<document::Document> load_document(const InputOptions& input) {
   return document;
 }
 
+Result<document::Document> load_planar(const InputOptions& input) {
+  auto document = load_document(input);
+  if (!document) return document;
+  std::vector<std::string> notes;
+  exchange::flatten(*document, notes);
+  if (document->paths.empty())
+    return fail(ErrorCode::bad_input, "there is no planar curve in it",
+                "give curves that lie in a plane", input.files.front());
+  return document;
+}
+
 Result<std::vector<KeyLine>> load_key_lines(const InputOptions& input) {
   if (exchange::has_image_name(input.files.front())) return trace_key_lines(input);
   if (holds_points(input.files.front())) {
     if (input.files.size() > 1) return join_files(input);
     return acquire_all(input, input.files.front());
   }
-  auto document = load_document(input);
+  auto document = load_planar(input);
   if (!document) return std::unexpected(document.error());
   std::vector<KeyLine> lines;
   for (const auto& named : document->paths) {
-    auto line = in_file(operations::key_line_of(named.path), input.files.front());
+    auto line = in_file(key_line_of(named.path, input), input.files.front());
     if (!line) return std::unexpected(line.error());
     line->id = named.label.name;
     if (!document->skipped.empty())
@@ -220,9 +245,6 @@ Result<std::vector<KeyLine>> load_key_lines(const InputOptions& input) {
                                    " things in the file were skipped");
     lines.push_back(std::move(*line));
   }
-  if (lines.empty())
-    return fail(ErrorCode::bad_input, "there is no planar curve in it", "give a file with one",
-                input.files.front());
   return lines;
 }
 

@@ -21,4 +21,7 @@ core::Result<std::vector<acquire::KeyLine>> load_key_lines(const InputOptions& i
 /// What --select leaves of a file of curves (bad_input for several files).
 core::Result<document::Document> load_document(const InputOptions& input);
 
+/// The same with space curves that lie in a plane as planar ones (bad_input where none is planar).
+core::Result<document::Document> load_planar(const InputOptions& input);
+
 }  // namespace keyline::app

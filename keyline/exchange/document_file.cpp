@@ -17,6 +17,7 @@
 #include "keyline/exchange/dxf_writer.h"
 #include "keyline/exchange/font.h"
 #include "keyline/exchange/glif.h"
+#include "keyline/exchange/hull_table.h"
 #include "keyline/exchange/json_document.h"
 #include "keyline/exchange/mesh.h"
 #include "keyline/exchange/points_reader.h"
@@ -58,6 +59,12 @@ Result<Document> points_document(const fs::path& file) {
   return document;
 }
 
+Result<Document> offsets_document(std::string_view text) {
+  const auto hull = read_hull_csv(text);
+  if (!hull) return std::unexpected(hull.error());
+  return hull_document(*hull);
+}
+
 /// The lines a mesh file holds beside its faces.
 Result<Document> mesh_document(const fs::path& file) {
   const auto mesh = read_mesh(file);
@@ -94,6 +101,8 @@ Result<Document> document_of(Format format, const fs::path& file, const ReadOpti
       return read_svg_document(*content);
     case Format::font:
       return read_font(*content, options.glyphs);
+    case Format::offsets:
+      return offsets_document(*content);
     case Format::glif:
       return read_glif(*content);
     case Format::dxf:

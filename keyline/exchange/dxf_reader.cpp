@@ -285,7 +285,9 @@ class DxfReader {
       return problem("the rest of the drawing: its inserts make too many curves");
     }
     if (!detail::is_finite(shape)) return problem(name + ": its numbers are too large");
-    detail::add_shape(document_, shape, item.curve->closed, {name, layer, color});
+    const auto added =
+        detail::add_shape(document_, shape, item.curve->closed, {name, layer, color});
+    if (!added) problem(name + ": " + added.error().message);
   }
 
   void place_block(const Item& item, const Outer& outer, const std::string& layer,

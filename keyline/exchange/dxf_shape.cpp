@@ -200,12 +200,18 @@ bool is_finite(const DxfShape& shape) {
   return finite;
 }
 
-void add_shape(document::Document& document, const DxfShape& shape, bool closed,
-               document::Label label) {
-  if (is_flat(shape))
-    document.paths.push_back({std::move(label), {flat_curves(shape), closed}, 0});
-  else
-    document.space_curves.push_back({std::move(label), space_curve(shape)});
+core::Result<void> add_shape(document::Document& document, const DxfShape& shape, bool closed,
+                             document::Label label) {
+  if (is_flat(shape)) {
+    document::Path path{flat_curves(shape), closed};
+    if (auto sound = validate(path); !sound) return sound;
+    document.paths.push_back({std::move(label), std::move(path), 0});
+    return {};
+  }
+  document::SpaceCurve curve = space_curve(shape);
+  if (auto sound = validate(curve); !sound) return sound;
+  document.space_curves.push_back({std::move(label), std::move(curve)});
+  return {};
 }
 
 Affine3 extrusion_frame(Vector3 direction) {

@@ -32,8 +32,9 @@ bool is_finite(const DxfShape& shape);
 /// The shape as a planar path where it lies in z = 0 (to 1e-12 of its size), else as one space
 /// curve. A circular arc in the plane becomes one log-aesthetic piece; other ellipses rational
 /// quadratics of at most a quarter turn each.
-void add_shape(document::Document& document, const DxfShape& shape, bool closed,
-               document::Label label);
+/// Fails: where the curve is not valid (validate()), for example of a size no double divides by.
+core::Result<void> add_shape(document::Document& document, const DxfShape& shape, bool closed,
+                             document::Label label);
 
 /// Frame of an entity's own coordinates, given the extrusion direction (AutoCAD's arbitrary axis
 /// algorithm); the identity for (0, 0, 1) and where the direction is none.

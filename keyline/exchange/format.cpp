@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/exchange/dxf_tags.h"
+#include "keyline/exchange/hull_table.h"
 
 namespace keyline::exchange {
 namespace {
@@ -51,6 +52,7 @@ std::string extension_of(const std::filesystem::path& file) {
 }
 
 Format format_of(const std::filesystem::path& file, std::string_view head) {
+  if (is_hull_csv(head)) return Format::offsets;
   if (const auto format = known(extension_of(file))) return *format;
   if (detail::looks_like_dxf(head)) return Format::dxf;
   const std::string_view start = start_of(head);

@@ -8,7 +8,7 @@
 namespace keyline::exchange {
 
 /// What room exchange reads or writes. points: tables of coordinates as text.
-enum class Format { points, json, svg, dxf, step, iges, mesh, font, glif };
+enum class Format { points, json, svg, dxf, step, iges, mesh, font, glif, offsets };
 
 /// ".svg" and the like, in lower case; empty where the name has none.
 std::string extension_of(const std::filesystem::path& file);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "keyline/exchange/hull_table.h"
 #include "keyline/exchange/json_parts.h"
 #include "keyline/exchange/json_surface.h"
 
@@ -160,6 +161,11 @@ json to_json(const Document& document) {
 }
 
 Result<Document> document_from_json(const json& j) {
+  if (is_hull_json(j)) {
+    const auto hull = hull_from_json(j);
+    if (!hull) return std::unexpected(hull.error());
+    return hull_document(*hull);
+  }
   const bool typed = j.is_object() && j.contains("type");
   if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
     return document_of_list(j);

@@ -14,7 +14,8 @@
 ///  …], "surfaces":[{"name":…, "surface":{…}, "trims":n}, …], "skipped":["…"]}
 ///
 /// with everything but one of the lists optional. The answer of an operation that returns one
-/// (`{"curve":{…}}`) is read too. docs/formats/document.schema.json states it as JSON Schema.
+/// (`{"curve":{…}}`) is read too, and so is an offset table (hull_table.h).
+/// docs/formats/document.schema.json states it as JSON Schema.
 namespace keyline::exchange {
 
 /// A document of one planar curve or surface without layer is its value, with name, colour and

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "keyline/core/error.h"
+#include "keyline/document/document.h"
+
+/// Offset tables of ships' hulls: half-breadths over stations and waterlines.
+namespace keyline::exchange {
+
+/// half_breadth[i * stations.size() + k] at height waterlines[i] and position stations[k]; NaN
+/// outside the hull. Both grow.
+struct HullTable {
+  std::vector<double> waterlines;
+  std::vector<double> stations;
+  std::vector<double> half_breadth;
+};
+
+/// {"attributes":{"LOA":…,"BOA":…,"Depth":…},"halfBreadths":{"waterlines":[…],"stations":[…],
+/// "table":[[…], …]}} at the top, in "hull" or in "structure": "hull", shares of length, half the
+/// breadth and depth, null outside the hull; turned into the unit of the attributes.
+/// Fails: bad_input with the place of the mistake within the value.
+core::Result<HullTable> hull_from_json(const nlohmann::json& j);
+bool is_hull_json(const nlohmann::json& j);
+
+/// Comma or semicolon separated text: the first line "waterline" and the stations, every further
+/// line the height of a waterline and its half-breadths, empty outside the hull; or "station" first
+/// and the two exchanged.
+/// Fails: bad_input with "line N".
+core::Result<HullTable> read_hull_csv(std::string_view text);
+bool is_hull_csv(std::string_view head);
+
+/// Space curves through the table's points (x along, y half-breadth, z height): "waterline-1" … and
+/// "station-1" … (indices of the table from 1) on the layers "waterlines" and "stations", and
+/// "buttock-1" to "buttock-3" at a quarter, half and three quarters of the largest half-breadth on
+/// "buttocks", where straight lines between the table's points of a station first reach it from
+/// below. Points without hull end a curve; of a run of zeros at an end the innermost is kept.
+/// Skipped: curves of fewer than two points, counted.
+document::Document hull_document(const HullTable& table);
+
+}  // namespace keyline::exchange

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "keyline/acquire/plane.h"
+#include "keyline/document/document.h"
+
+namespace keyline::exchange {
+
+/// A space curve that lies in a plane, in that plane's coordinates.
+struct PlanarForm {
+  document::PlanarCurve curve;
+  acquire::Plane plane;
+};
+
+/// Exact: control points go to the plane of acquire::fit_plane() (coordinate axes where it is
+/// parallel to them). Empty for curves that leave their plane by more than 1e-9 of their size, and
+/// for log-aesthetic space curves.
+std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve);
+
+/// Every space curve that lies in a plane becomes a planar path of the same name; notes which
+/// coordinates it now has, for example "waterline-3: in the plane z = 1.5; x and y".
+void flatten(document::Document& document, std::vector<std::string>& notes);
+
+}  // namespace keyline::exchange

@@ -1,0 +1,90 @@
+#include "keyline/exchange/hull_table.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/exchange/document_file.h"
+#include "keyline/exchange/planar_form.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::Point3;
+using testing::HasSubstr;
+
+constexpr const char* kTable =
+    "waterline,0,10,20,30\n"
+    "0,,0,0,\n"
+    "1,0,1,2,0\n"
+    "2,0.5,2,4,1\n";
+
+const curve::Polyline3& line(const document::Document& d, const std::string& name) {
+  for (const auto& named : d.space_curves)
+    if (named.label.name == name) return std::get<curve::Polyline3>(named.curve.value);
+  throw std::runtime_error(name);
+}
+
+TEST(HullTable, GivesWaterlinesStationsAndButtocks) {
+  const auto table = read_hull_csv(kTable);
+  ASSERT_TRUE(table) << table.error().message;
+  const auto d = hull_document(*table);
+  EXPECT_EQ(line(d, "waterline-2").points.front(), (Point3{0, 0, 1}));
+  EXPECT_EQ(line(d, "station-3").points, (std::vector<Point3>{{20, 0, 0}, {20, 2, 1}, {20, 4, 2}}));
+  EXPECT_EQ(line(d, "buttock-1").points,
+            (std::vector<Point3>{{10, 1, 1}, {20, 1, 0.5}, {30, 1, 2}}));
+  EXPECT_EQ(line(d, "buttock-2").points.size(), 2U);
+  EXPECT_EQ(d.skipped.size(), 1U);  // the keel and the third buttock
+}
+
+TEST(HullTable, RowsMayBeStations) {
+  const auto a = read_hull_csv(kTable);
+  const auto b = read_hull_csv("station;0;1;2\n0;;0;0,5\n10;0;1;2\n20;0;2;4\n30;;0;1\n");
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(hull_document(*a).space_curves.size(), hull_document(*b).space_curves.size());
+  EXPECT_EQ(line(hull_document(*a), "buttock-1").points,
+            line(hull_document(*b), "buttock-1").points);
+}
+
+TEST(HullTable, MistakesHaveTheirPlace) {
+  EXPECT_EQ(read_hull_csv("waterline,0,10\n0,1,x\n").error().path, "line 2");
+  EXPECT_EQ(read_hull_csv("waterline,0,10\n0,1,2,3\n").error().path, "line 2");
+  auto j = nlohmann::json::parse(R"({"attributes":{"LOA":10,"BOA":4,"Depth":2},
+    "halfBreadths":{"waterlines":[0,1],"stations":[0,0.5,1],"table":[[null,0.5,0],[0,1]]}})");
+  EXPECT_EQ(hull_from_json(j).error().path, "halfBreadths.table[1]");
+  j["halfBreadths"]["table"][1] = {0, 1, 0.5};
+  const auto table = hull_from_json(j);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(line(hull_document(*table), "waterline-2").points[1], (Point3{5, 2, 2}));
+}
+
+TEST(HullTable, LinesAreMadePlanar) {
+  auto d = hull_document(read_hull_csv(kTable).value());
+  const std::size_t count = d.space_curves.size();
+  std::vector<std::string> notes;
+  flatten(d, notes);
+  EXPECT_EQ(d.paths.size(), count);
+  EXPECT_THAT(notes.front(), HasSubstr("waterline-2: in the plane z = 1; x and y"));
+  EXPECT_EQ(evaluate(d.paths[0].path, 1), (core::Point2{30, 0}));
+  document::Document twisted;
+  twisted.space_curves.push_back(
+      {{"t", "", ""}, {curve::Polyline3{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}}}});
+  flatten(twisted, notes);
+  EXPECT_EQ(twisted.space_curves.size(), 1U);
+}
+
+TEST(HullTable, ReadsTheSharedHull) {
+  const std::filesystem::path file = KEYLINE_SHARED_DATA "/1_profiles/hull/gunnerus.json";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const auto d = read_document(file);
+  ASSERT_TRUE(d) << d.error().message;
+  // 16 waterlines, 64 stations and 3 buttocks, of which one line has a single point.
+  EXPECT_EQ(d->space_curves.size(), 82U);
+  EXPECT_EQ(extent(*d) > 36 && extent(*d) < 38, true);
+}
+
+}  // namespace
+}  // namespace keyline::exchange
