@@ -9,17 +9,27 @@ using core::dot;
 using core::norm;
 using core::Vector3;
 
+namespace {
+
+/// norm() without hypot's care where squares neither overflow nor vanish.
+double quick_norm(const Vector3& v) {
+  const double squared = dot(v, v);
+  return squared > 1e-200 && squared < 1e200 ? std::sqrt(squared) : norm(v);
+}
+
+}  // namespace
+
 std::optional<SurfaceFrame> frame_of(const SurfaceJet& jet) {
   constexpr double kParallel = 1e-9;
   constexpr double kRounding = 1e-13;
-  const double lu = norm(jet.u);
-  const double lv = norm(jet.v);
+  const double lu = quick_norm(jet.u);
+  const double lv = quick_norm(jet.v);
   // differences of equal points are no more than rounding of their coordinates
-  const double rounding = kRounding * norm(jet.point - core::Point3{});
+  const double rounding = kRounding * quick_norm(jet.point - core::Point3{});
   if (!(lu > rounding && lv > rounding)) return std::nullopt;
   const Vector3 e1 = jet.u / lu;
   const Vector3 n = cross(e1, jet.v / lv);
-  const double sine = norm(n);
+  const double sine = quick_norm(n);
   // a side that is next to nothing beside the other is a collapsed edge up to rounding
   if (!(sine > kParallel) || std::fmin(lu, lv) < kParallel * std::fmax(lu, lv)) return std::nullopt;
   const Vector3 normal = n / sine;
