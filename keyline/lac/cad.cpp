@@ -127,13 +127,16 @@ bool append_segment(const Segment& s, const CadOptions& o, CadBeziers& out) {
     append(out, straight_piece(s, o.degree), 1e-15 * s.length);
     return true;
   }
-  const bool infinite = std::isinf(s.curvature_start) || std::isinf(s.curvature_end);
+  // Close to a cusp: quintics that meet such curvatures have no room to.
+  const double least = std::min(std::abs(s.curvature_start), std::abs(s.curvature_end));
+  const double most = std::max(std::abs(s.curvature_start), std::abs(s.curvature_end));
+  const bool cuspidal = std::isinf(most) || (least > 0 && most > 1e12 * least);
   const auto breaks = breakpoints(s);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     Segment side = breaks.size() == 2 ? s : part(s, breaks[i], breaks[i + 1]);
     if (breaks.size() == 3) (i == 0 ? side.curvature_end : side.curvature_start) = 0;
     const bool done =
-        o.degree == 3 || infinite ? append_cubics(side, o, out) : append_quintics(side, o, out);
+        o.degree == 3 || cuspidal ? append_cubics(side, o, out) : append_quintics(side, o, out);
     if (!done) return false;
   }
   return true;

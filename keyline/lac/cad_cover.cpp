@@ -89,11 +89,11 @@ class Cover {
     double width = 1;
     while (v < 1) {
       const auto next = longest(v, start, width);
-      if (!next || pieces.size() > kMostPieces) return {};
-      pieces.push_back(next->piece);
-      width = next->piece.v1 - v;
-      v = next->piece.v1;
-      start = next->end;
+      if (!(next.piece.v1 > v) || pieces.size() > kMostPieces) return {};
+      pieces.push_back(next.piece);
+      width = next.piece.v1 - v;
+      v = next.piece.v1;
+      start = next.end;
     }
     return pieces;
   }
@@ -147,7 +147,7 @@ class Cover {
     return width;
   }
 
-  std::optional<Laid> longest(double v0, const Frame& start, double width) {
+  Laid longest(double v0, const Frame& start, double width) {
     const double rest = 1 - v0;
     width = fitting_width(v0, start, width, rest);
     std::optional<Laid> longest;  // within the tolerance, monotone or not
@@ -169,7 +169,19 @@ class Cover {
       }
       width *= bound <= tolerance_ ? 0.9 : std::pow(0.98 * tolerance_ / bound, 1.0 / 6);
     }
-    return longest;
+    return longest ? *longest : within_a_disc(v0, start);
+  }
+
+  /// Where the curve turns within less than the tolerance, as close to a cusp: a stretch so short
+  /// that whatever joins its ends stays within its length of it.
+  Laid within_a_disc(double v0, const Frame& start) const {
+    const double width = std::min(1 - v0, 0.9 * tolerance_);
+    const double v1 = width < 1 - v0 ? v0 + width : 1.0;
+    const Frame end = exact_frame(unit_, v1);
+    const double handle = width / 3;
+    const Cubic cubic{{start.point, start.point + handle * start.tangent,
+                       end.point - handle * end.tangent, end.point}};
+    return {{cubic, v0, v1, width, plainly_monotone(cubic)}, end};
   }
 
   const UnitPiece& unit_;

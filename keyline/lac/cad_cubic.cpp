@@ -115,6 +115,7 @@ class HandleSolve {
   }
 
   CubicTry run(const HandleGuess& guess) {
+    negligible_ = 1e-3 * guess.fine;
     const double d = solve(std::clamp(guess.tilt, -kMost, kMost), guess.fine);
     CubicTry c = measured(d);
     if (!met_ && c.error <= guess.hopeful) c = measured(scan(guess.fine));
@@ -151,7 +152,8 @@ class HandleSolve {
         pace += 1.5 * width_ * s * t *
                 (s * dot(start_.tangent, across) - t * dot(end_.tangent, across));
       }
-      if (!(std::abs(pace) > 1e-14 * width_)) break;  // straight
+      if (!(std::abs(pace) > 1e-14 * width_)) break;         // straight
+      if (std::abs(sum) < negligible_ && round == 0) break;  // nearly so
       const double change = std::clamp(sum / pace, -0.3, 0.3);
       p_ -= change;
       if (std::abs(change) < 1e-3 && round > 0) break;
@@ -231,6 +233,7 @@ class HandleSolve {
   std::array<double, 2> t_{kInner, 1 - kInner};
   std::array<Frame, 2> inner_;
   double p_ = 2.0 / 3;
+  double negligible_ = 0;
   bool met_ = false;
 };
 

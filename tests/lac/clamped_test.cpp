@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/cad.h"
 #include "keyline/lac/region.h"
 
 namespace keyline::lac {
@@ -130,6 +131,25 @@ TEST(SolveG1Chain, MeetsAllDirectionsForSlopesBelowZero) {
     split += solved->chain.pieces.size() == 2;
   }
   EXPECT_GT(split, 0);
+}
+
+TEST(SolveG1Chain, BecomesBeziersAndSplines) {
+  for (const double alpha : {0.0, 1.0}) {
+    const auto s = solve_g1_chain(Point2{0, 0}, Point2{1e-6, 0}, Point2{3, 1}, alpha);
+    ASSERT_TRUE(s);
+    ASSERT_TRUE(s->clamped);
+    for (const int degree : {3, 5}) {
+      for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+        const auto beziers = to_beziers(s->chain, {degree, tolerance, true});
+        ASSERT_TRUE(beziers) << alpha << ' ' << degree << ' ' << tolerance;
+        EXPECT_LE(beziers->deviation, tolerance);
+        EXPECT_LE(beziers->pieces.size(), 12U);
+        const auto spline = to_bspline(s->chain, {degree, tolerance, true});
+        ASSERT_TRUE(spline) << spline.error().message;
+        EXPECT_LE(distance(spline->curve.control.back(), {3, 1}), 1e-12);
+      }
+    }
+  }
 }
 
 TEST(SolveG1Chain, DirectionsAndHandlesAgree) {

@@ -16,7 +16,6 @@ namespace {
 
 using core::ErrorCode;
 using core::Point2;
-using core::Vector2;
 
 HandleAngles angles_of(double theta, double psi) { return {theta, psi, 1, -psi}; }
 
