@@ -15,7 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = -kNever;
 constexpr int kReach = 4;  // pieces on either side that a merge may move
 constexpr int kSqueezeRounds = 5;
-constexpr int kStartRounds = 10;
+constexpr int kStartRounds = 14;
 constexpr int kNoisyStart = 4;  // first number of pieces tried: short ones follow the noise
 constexpr double kTie = 1e-3;   // costs closer than this part of the squared tolerance are equal
 
@@ -42,14 +42,22 @@ bool has_trend(const std::vector<FitPoint>& points, const std::vector<double>& o
   return false;
 }
 
+/// How hard a round pushes: a weight's factor at no offset, and what it gains up to the tolerance.
+struct Push {
+  double rest;
+  double gain;
+};
+constexpr Push kGentle{0.6, 0.8};  // a whole dense chain swings if pushed harder
+constexpr Push kHard{0.3, 2};      // a window of few pieces does not
+
 /// Lawson's weights: points far off count more, until the largest offset is near its least.
 void weigh_up(std::vector<FitPoint>& points, const std::vector<FitPoint>& original,
-              const std::vector<double>& offsets, double tolerance) {
+              const std::vector<double>& offsets, double tolerance, Push push) {
   for (std::size_t j = 0; j < points.size(); ++j) {
     if (points[j].must_pass) continue;
     const double share = std::abs(offsets[j]) / tolerance;
-    points[j].weight =
-        std::min(1e4 * original[j].weight, points[j].weight * (0.3 + 2 * share * share));
+    points[j].weight = std::min(1e4 * original[j].weight,
+                                points[j].weight * (push.rest + push.gain * share * share));
   }
 }
 
@@ -134,7 +142,7 @@ class Merger {
   void squeeze_window(detail::Window& w, Trial& trial) const {
     const std::vector<FitPoint> original = w.points;
     for (int round = 0; round < kSqueezeRounds && !trial.good; ++round) {
-      weigh_up(w.points, original, offsets(w.chain, w.points), options_.accept.tolerance);
+      weigh_up(w.points, original, offsets(w.chain, w.points), options_.accept.tolerance, kHard);
       ChainFitOptions options = fit_options();
       options.iterations = 8;
       trial.fit = fit_chain(w.chain, w.points, options);
@@ -238,7 +246,7 @@ void squeeze_start(ChainSearchResult& result, std::vector<FitPoint>& points, Cha
   for (int round = 0; round < kStartRounds && !result.within_tolerance; ++round) {
     if (result.fit.max_offset > 4 * options.accept.tolerance) return;
     if (options.progress.stop_requested()) return;
-    weigh_up(points, original, offsets(result.chain, points), options.accept.tolerance);
+    weigh_up(points, original, offsets(result.chain, points), options.accept.tolerance, kGentle);
     result.fit = fit_chain(result.chain, points, fit);
     result.within_tolerance =
         accepts(options.accept, result.fit, points, offsets(result.chain, points));
