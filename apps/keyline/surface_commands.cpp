@@ -32,7 +32,7 @@ std::string name_of(const document::Document& document, std::size_t i) {
 /// Value of a surface; one that has none (rational, say) says why instead.
 Result<SurfaceSubject> valued(std::string name, const surface::Surface& s,
                               const AnalyzeCommand& command, const core::Progress& progress) {
-  SurfaceSubject subject{std::move(name), s, {}, {}};
+  SurfaceSubject subject{std::move(name), s, {}, {}, 0};
   auto values = surface::sav_by_patch(s, {}, command.common.threads, progress);
   if (values) {
     subject.values = std::move(*values);
@@ -58,6 +58,7 @@ json result_of(const SurfaceSubject& subject) {
   json j = subject.values.empty() ? json{{"sav", nullptr}, {"no_value", subject.no_value}}
                                   : operations::patch_values_json(subject.values);
   j["name"] = subject.name;
+  if (subject.trims > 0) j["trims"] = subject.trims;
   j["curvature"] = curvature_json(subject.surface);
   return j;
 }
@@ -92,6 +93,9 @@ void print_patches(const json& patches) {
 void print_summary(const json& result) {
   const json& k = result["curvature"];
   fmt::print("{}\n", result["name"].get<std::string>());
+  if (result.contains("trims"))
+    fmt::print("whole surface; {} edges cut a face out of it in the file\n",
+               result["trims"].get<int>());
   fmt::print("Gaussian curvature {} to {}  mean curvature {} to {}\n",
              text_of(k["gaussian"]["min"]), text_of(k["gaussian"]["max"]),
              text_of(k["mean"]["min"]), text_of(k["mean"]["max"]));
@@ -222,6 +226,7 @@ int analyze_surfaces(const AnalyzeCommand& command, const document::Document& do
     auto subject = valued(name_of(document, i), document.surfaces[i].surface, command,
                           core::part_of(progress, i / count, (i + 1) / count));
     if (!subject) return report_failure(subject.error(), command.input.files.front());
+    subject->trims = document.surfaces[i].trims;
     all.push_back(result_of(*subject));
     subjects.push_back(std::move(*subject));
   }

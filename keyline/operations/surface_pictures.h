@@ -57,6 +57,7 @@ struct SurfaceSubject {
   surface::Surface surface;
   std::vector<surface::PatchValue> values;  ///< empty where it has none
   std::string no_value;                     ///< then: why
+  int trims = 0;                            ///< edges that cut a face out of it in its file
 };
 
 /// SAV by patch and curve with the worst named, pictures (lit, zebra, curvature), network profiles

@@ -166,6 +166,11 @@ Result<report::Report> surface_report(const SurfaceSubject& subject, const Repor
   report::Report report;
   set_head(subject, options, report);
   set_verdict(subject, report);
+  if (subject.trims > 0)
+    report.notes.push_back({report::NoteKind::note,
+                            fmt::format("{}: {} edges cut a face out of this surface in the file; "
+                                        "the whole surface is shown and valued.",
+                                        subject.name, subject.trims)});
   report::Section pictures{"Surface", {}, {}, {}};
   for (const auto& shot : look.shots) {
     auto drawing = shot_of({subject.surface}, shot, look, options.unit);
