@@ -115,11 +115,30 @@ SegmentRun make_run(const std::vector<Point2>& points, std::size_t first, std::s
   return run;
 }
 
-/// Runs that end in one corner meet where their axes do.
-void meet_at_corner(SegmentRun& before, SegmentRun& after, Point2 corner, double reach) {
-  const Point2 x = meeting(before.axes.back(), after.axes.front(), corner, reach);
-  before.vertices.back() = x;
-  after.vertices.front() = x;
+/// Where the lines on both sides of a corner meet, found from the arms clear of its rounding; the
+/// point itself where they meet too far away.
+Point2 corner_place(const Line& line, long i, const Arms& a, double reach) {
+  std::vector<Point2> before;
+  std::vector<Point2> after;
+  for (long k = a.gap; k <= a.arm; ++k) {
+    before.push_back(line.at(i - k));
+    after.push_back(line.at(i + k));
+  }
+  const auto x = intersection(principal_axis(before, 0, before.size() - 1),
+                              principal_axis(after, 0, after.size() - 1));
+  return x && distance(*x, line.at(i)) <= reach ? *x : line.at(i);
+}
+
+/// The point of the line nearest to where the arms of a corner meet.
+std::size_t nearest_point(const Line& line, long i, const Arms& a) {
+  const Point2 x = corner_place(line, i, a, 2.0 * static_cast<double>(a.gap));
+  const long n = static_cast<long>(line.points.size());
+  long best = i;
+  for (long k = i - a.gap; k <= i + a.gap; ++k) {
+    if (!line.closed && (k <= 0 || k >= n - 1)) continue;
+    if (distance(line.at(k), x) < distance(line.at(best), x)) best = k;
+  }
+  return static_cast<std::size_t>(((best % n) + n) % n);
 }
 
 }  // namespace
@@ -150,8 +169,10 @@ std::vector<std::size_t> find_corners(const std::vector<Point2>& points, bool cl
       const double other = sharp[static_cast<std::size_t>(j)];
       top = other < here || (other == here && k > 0);
     }
-    if (top) corners.push_back(static_cast<std::size_t>(i));
+    if (top) corners.push_back(nearest_point(line, i, arms));
   }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   return corners;
 }
 
@@ -173,10 +194,15 @@ std::vector<SegmentRun> fit_segments(const std::vector<Point2>& points, bool clo
   }
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
     runs.push_back(make_run(points, cuts[k], cuts[k + 1], false, options.straightness));
-  const double reach = 2 * options.width + 6;
-  for (std::size_t k = 0; k + 1 < runs.size(); ++k)
-    meet_at_corner(runs[k], runs[k + 1], points[runs[k].last % n], reach);
-  if (closed) meet_at_corner(runs.back(), runs.front(), points[runs.front().first % n], reach);
+  const Line line{points, closed};
+  const auto meet = [&](SegmentRun& before, SegmentRun& after) {
+    const Point2 x =
+        corner_place(line, static_cast<long>(after.first), arms_of(options), 2 * options.width + 6);
+    before.vertices.back() = x;
+    after.vertices.front() = x;
+  };
+  for (std::size_t k = 0; k + 1 < runs.size(); ++k) meet(runs[k], runs[k + 1]);
+  if (closed) meet(runs.back(), runs.front());
   return runs;
 }
 

@@ -1,0 +1,141 @@
+#include "keyline/sketch/morphology.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/numeric/random.h"
+
+namespace keyline::sketch {
+namespace {
+
+/// A house: right angles, slopes and a thin line, the kind of shape [Sketch] Fig. 6 shows.
+Binary house() {
+  Binary shape(160, 140);
+  for (int y = 0; y < 140; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const bool walls = x >= 30 && x < 130 && y >= 60 && y < 120;
+      const bool roof = y >= 20 && y < 60 && std::abs(x - 80) <= (y - 20) * 5 / 4;
+      const bool door = x >= 70 && x < 90 && y >= 90;
+      const bool post = x >= 145 && x < 147 && y >= 40 && y < 120;
+      shape.at(x, y) = ((walls || roof) && !door) || post ? 1 : 0;
+    }
+  return shape;
+}
+
+Binary noisy(Binary shape, double share) {
+  numeric::Random random(6);
+  for (std::uint8_t& v : shape.data)
+    if (random.chance(share)) v = static_cast<std::uint8_t>(1 - v);
+  return shape;
+}
+
+int differences(const Binary& a, const Binary& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.data.size(); ++i) count += a.data[i] != b.data[i] ? 1 : 0;
+  return count;
+}
+
+/// Distance from a corner to the ink pixel of the shape that lies farthest in the corner's
+/// direction.
+double corner_shift(const Binary& shape, double x, double y, double dx, double dy) {
+  double best = -1e9;
+  std::array<double, 2> at{};
+  for (int v = std::max(0, static_cast<int>(y) - 15);
+       v < std::min(shape.height, static_cast<int>(y) + 16); ++v)
+    for (int u = std::max(0, static_cast<int>(x) - 15);
+         u < std::min(shape.width, static_cast<int>(x) + 16); ++u) {
+      if (!shape.at(u, v)) continue;
+      const double along = (u - x) * dx + (v - y) * dy;
+      const double nearer = std::hypot(u - x, v - y) - std::hypot(at[0] - x, at[1] - y);
+      if (along > best + 1e-9 || (along > best - 1e-9 && nearer < 0)) {
+        best = along;
+        at = {static_cast<double>(u), static_cast<double>(v)};
+      }
+    }
+  return best < -1e8 ? 99 : std::hypot(at[0] - x, at[1] - y);
+}
+
+// [Sketch] Fig. 6: ten times plain erosion and dilation against ten times the feature-based kind.
+TEST(Morphology, FeatureBasedSmoothingKeepsCornersWherePlainDoesNot) {
+  const Binary truth = house();
+  const Binary sample = noisy(truth, 0.02);
+  Binary plain = sample;
+  for (int i = 0; i < 10; ++i) erode(plain);
+  for (int i = 0; i < 20; ++i) dilate(plain);
+  for (int i = 0; i < 10; ++i) erode(plain);
+  Binary ours = sample;
+  smooth_edges(ours, 10);
+  remove_specks(ours, 6, 6);
+  const int noise = differences(sample, truth);
+  EXPECT_LT(differences(ours, truth), noise / 4);
+  EXPECT_GT(differences(plain, truth), 2 * noise);
+  struct Corner {
+    double x, y, dx, dy;
+  };
+  for (const Corner& c : {Corner{30, 119, -1, 1},
+                          {129, 119, 1, 1},
+                          {80, 20, 0, -1},
+                          {69, 119, 1, 1},
+                          {90, 119, -1, 1}}) {
+    SCOPED_TRACE(std::to_string(c.x) + ", " + std::to_string(c.y));
+    EXPECT_LE(corner_shift(ours, c.x, c.y, c.dx, c.dy), 1.0);
+  }
+  EXPECT_GT(corner_shift(plain, 80, 20, 0, -1), 3.0);
+  int post = 0;
+  for (int y = 40; y < 120; ++y) post += ours.at(145, y) || ours.at(146, y) ? 1 : 0;
+  EXPECT_EQ(post, 80) << "a line two pixels wide stays whole";
+}
+
+TEST(Morphology, CleanShapesStayAsTheyAre) {
+  Binary shape = house();
+  smooth_edges(shape, 10);
+  EXPECT_LE(differences(shape, house()), 4);
+}
+
+TEST(Morphology, SpecksAndPinholesGoBySize) {
+  Binary picture(20, 20);
+  for (int y = 2; y < 12; ++y)
+    for (int x = 2; x < 12; ++x) picture.at(x, y) = 1;
+  picture.at(6, 6) = 0;
+  picture.at(15, 15) = picture.at(16, 16) = 1;
+  const Removed removed = remove_specks(picture, 3, 2);
+  EXPECT_EQ(removed.specks, 1);
+  EXPECT_EQ(removed.pinholes, 1);
+  EXPECT_EQ(std::count(picture.data.begin(), picture.data.end(), 1), 100);
+}
+
+TEST(Thinning, KeepsConnectionsAndHoles) {
+  numeric::Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    Binary blobs(60, 60);
+    for (int k = 0; k < 12; ++k) {
+      const double cx = random.uniform(5, 55);
+      const double cy = random.uniform(5, 55);
+      const double r = random.uniform(2, 12);
+      for (int y = 1; y < 59; ++y)
+        for (int x = 1; x < 59; ++x)
+          if (std::abs(std::hypot(x - cx, y - cy) - r) < 2) blobs.at(x, y) = 1;
+    }
+    // Euler numbers by quads (Gray): ink pieces less holes
+    const auto euler = [](const Binary& b) {
+      int q1 = 0, q3 = 0, qd = 0;
+      for (int y = 0; y + 1 < b.height; ++y)
+        for (int x = 0; x + 1 < b.width; ++x) {
+          const int n = b.at(x, y) + b.at(x + 1, y) + b.at(x, y + 1) + b.at(x + 1, y + 1);
+          q1 += n == 1 ? 1 : 0;
+          q3 += n == 3 ? 1 : 0;
+          qd += n == 2 && b.at(x, y) == b.at(x + 1, y + 1) ? 1 : 0;
+        }
+      return (q1 - q3 - 2 * qd) / 4;
+    };
+    const Binary lines = thin(blobs);
+    EXPECT_EQ(euler(lines), euler(blobs));
+    for (std::size_t i = 0; i < lines.data.size(); ++i) EXPECT_LE(lines.data[i], blobs.data[i]);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::sketch
