@@ -1,4 +1,5 @@
 #include <bit>
+#include <cmath>
 #include <csetjmp>
 #include <cstring>
 #include <string>
@@ -44,7 +45,10 @@ struct Reader {
 /// Asks libpng for 16 bit grey, over white, in the machine's byte order.
 void set_transforms(png_structp png, png_infop info) {
   png_set_expand_16(png);
-  png_set_gamma(png, PNG_DEFAULT_sRGB, PNG_DEFAULT_sRGB);
+  // only a file of another gamma is converted: libpng then weighs colours in linear light
+  double gamma = 0;
+  if (png_get_gAMA(png, info, &gamma) && std::abs(gamma - 0.4545) > 0.05)
+    png_set_gamma(png, PNG_DEFAULT_sRGB, gamma);
   png_color_16 white{0, 65535, 65535, 65535, 65535};
   if ((png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) ||
       png_get_valid(png, info, PNG_INFO_tRNS))

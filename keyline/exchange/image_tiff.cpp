@@ -38,7 +38,13 @@ toff_t seek(thandle_t handle, toff_t offset, int whence) {
 
 int close_nothing(thandle_t) { return 0; }
 toff_t size_of(thandle_t handle) { return static_cast<Source*>(handle)->bytes.size(); }
-int map_nothing(thandle_t, void**, toff_t*) { return 0; }
+/// The bytes are in memory already: libtiff reads them in place (and never writes, mode "r").
+int map_bytes(thandle_t handle, void** base, toff_t* size) {
+  const std::string_view bytes = static_cast<Source*>(handle)->bytes;
+  *base = const_cast<char*>(bytes.data());
+  *size = bytes.size();
+  return 1;
+}
 void unmap_nothing(thandle_t, void*, toff_t) {}
 
 struct Closer {
@@ -138,9 +144,9 @@ double density(TIFF* tiff) {
 Result<Image> read_tiff(std::string_view bytes) {
   silence();
   Source source{bytes, 0};
-  const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen("picture", "rm", &source, read_bytes,
+  const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen("picture", "r", &source, read_bytes,
                                                           write_nothing, seek, close_nothing,
-                                                          size_of, map_nothing, unmap_nothing));
+                                                          size_of, map_bytes, unmap_nothing));
   if (!tiff) return damaged("its TIFF directory cannot be read");
   std::uint32_t width = 0;
   std::uint32_t height = 0;

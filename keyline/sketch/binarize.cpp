@@ -19,7 +19,9 @@ constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to
 constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
 constexpr int kLocalRadius = 3;
 constexpr double kBlotShare = 0.2;  ///< of the strongest region's contrast: less is no ink
-constexpr double kNoisy = 0.02;     ///< noise in darkness from which a little blur helps
+constexpr double kBlur = 0.5;       ///< pixels: closes the grain of a pencil
+constexpr double kNoisy = 0.02;     ///< noise in darkness from which more blur helps
+constexpr double kStrongBlur = 0.85;
 
 struct Histogram {
   std::array<double, kBins> weight{};
@@ -260,7 +262,7 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
   const double faintest = std::max(kFaintest, kNoiseFactor * noise);
   Regions regions = automatic_regions(dark, faintest);
   apply_given(options, tone.gain, result, regions);
-  if (noise > kNoisy) cv::GaussianBlur(as_mat(dark), as_mat(dark), {3, 3}, 0.7);
+  cv::GaussianBlur(as_mat(dark), as_mat(dark), {3, 3}, noise > kNoisy ? kStrongBlur : kBlur);
   Gray darkest(dark.width, dark.height);
   cv::Mat target = as_mat(darkest);
   cv::dilate(

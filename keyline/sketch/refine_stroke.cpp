@@ -181,7 +181,7 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
     std::size_t good = 0;
     for (std::size_t i = 0; i < n; ++i) {
       weights[i] = 0;
-      widths[i] = 2 * usual[i];
+      widths[i] = 2 * std::max<double>(usual[i], raw.radii[i]);
       const double to_end = std::min(raw.free_start ? static_cast<double>(i) : 1e9,
                                      raw.free_end ? static_cast<double>(n - 1 - i) : 1e9);
       if (!raw.sure[i] || to_end < 0.7 * usual[i]) continue;
@@ -192,14 +192,14 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
           found.width > 3 * usual[i] + 1.5 || found.width < 0.8 * usual[i])
         continue;
       centres[i] = line[i] + found.centre * normal;
-      widths[i] = found.width;
+      widths[i] = std::max(found.width, 2 * usual[i]);  // of a grainy line, the ink's
       weights[i] = 1;
       ++good;
     }
     if (good < 2 || 4 * good < n)
       for (std::size_t i = 0; i < n; ++i)
         if (weights[i] == 0) weights[i] = raw.sure[i] ? 0.1 : 0.01, centres[i] = raw.points[i];
-    line = smooth_points(centres, weights, lambda_of_wavelength(8 + half), raw.closed);
+    line = smooth_points(centres, weights, lambda_of_wavelength(5 + 1.2 * half), raw.closed);
   }
   FineStroke fine;
   fine.closed = raw.closed;

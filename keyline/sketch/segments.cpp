@@ -131,7 +131,7 @@ Point2 corner_place(const Line& line, long i, const Arms& a, double reach) {
 
 /// The point of the line nearest to where the arms of a corner meet.
 std::size_t nearest_point(const Line& line, long i, const Arms& a) {
-  const Point2 x = corner_place(line, i, a, 2.0 * static_cast<double>(a.gap));
+  const Point2 x = corner_place(line, i, a, 1.0 + static_cast<double>(a.gap));
   const long n = static_cast<long>(line.points.size());
   long best = i;
   for (long k = i - a.gap; k <= i + a.gap; ++k) {
@@ -196,8 +196,8 @@ std::vector<SegmentRun> fit_segments(const std::vector<Point2>& points, bool clo
     runs.push_back(make_run(points, cuts[k], cuts[k + 1], false, options.straightness));
   const Line line{points, closed};
   const auto meet = [&](SegmentRun& before, SegmentRun& after) {
-    const Point2 x =
-        corner_place(line, static_cast<long>(after.first), arms_of(options), 2 * options.width + 6);
+    const Point2 x = corner_place(line, static_cast<long>(after.first), arms_of(options),
+                                  2 + 0.6 * options.width);
     before.vertices.back() = x;
     after.vertices.front() = x;
   };

@@ -12,18 +12,42 @@ namespace {
 
 using core::Point2;
 
-/// Points of a run; its ends are those of its line segments (the corners).
-std::vector<Point2> points_of(const SegmentRun& run, const std::vector<Point2>& points) {
+/// Points along the straight line from p to q, a pixel apart, q left out.
+void add_line(std::vector<Point2>& points, Point2 p, Point2 q) {
+  const int steps = std::max(1, static_cast<int>(core::distance(p, q)));
+  for (int k = 0; k < steps; ++k) points.push_back(core::mix(p, q, k / static_cast<double>(steps)));
+}
+
+/// Points of a run; its ends are those of its line segments. Near a corner, which the ink rounds,
+/// the line goes straight on.
+std::vector<Point2> points_of(const SegmentRun& run, const FineStroke& fine) {
+  const std::size_t n = fine.points.size();
   std::vector<Point2> part;
-  for (std::size_t i = run.first; i <= run.last; ++i) part.push_back(points[i % points.size()]);
+  for (std::size_t i = run.first; i <= run.last; ++i) part.push_back(fine.points[i % n]);
   if (run.closed) return part;
+  const double rounding = 2 + 0.6 * fine.width;
+  const double at_start = fine.closed || run.first > 0 ? rounding : 0.5;
+  const double at_end = fine.closed || run.last + 1 < n ? rounding : 0.5;
   part.front() = run.vertices.front();
   part.back() = run.vertices.back();
-  const auto too_near = [](Point2 p, Point2 end) { return core::distance(p, end) < 0.5; };
-  while (part.size() > 2 && too_near(part[1], part.front())) part.erase(part.begin() + 1);
-  while (part.size() > 2 && too_near(part[part.size() - 2], part.back()))
-    part.erase(part.end() - 2);
-  return part;
+  const auto near = [](Point2 p, Point2 end, double reach) {
+    return core::distance(p, end) < reach;
+  };
+  std::size_t from = 1;
+  while (from + 1 < part.size() && near(part[from], part.front(), at_start)) ++from;
+  std::size_t to = part.size() - 1;
+  while (to > from && near(part[to - 1], part.back(), at_end)) --to;
+  std::vector<Point2> kept;
+  if (from >= to) {  // nothing but corners
+    add_line(kept, part.front(), part.back());
+  } else {
+    add_line(kept, part.front(), part[from]);
+    kept.insert(kept.end(), part.begin() + static_cast<long>(from),
+                part.begin() + static_cast<long>(to) - 1);
+    add_line(kept, part[to - 1], part.back());
+  }
+  kept.push_back(part.back());
+  return kept;
 }
 
 /// Quintics of a run: [Sketch] section 5 as it stands, or as few as follow the points.
@@ -33,7 +57,7 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   std::vector<curve::Bezier2> pieces = elevated(quadratic);
   make_curvature_continuous(pieces, run.closed);
   if (options.tolerance <= 0) return pieces;
-  const auto part = points_of(run, fine.points);
+  const auto part = points_of(run, fine);
   if (part.size() < 4) return pieces;
   const double tolerance = std::max(options.tolerance, 0.1 * fine.width);
   fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48});
@@ -63,6 +87,7 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
   stroke.points = fine.points;
   stroke.closed = fine.closed;
   stroke.width = fine.width;
+  stroke.widths = fine.widths;
   const auto runs = fit_segments(fine.points, fine.closed,
                                  {options.straightness, options.corner_angle, fine.width});
   for (const SegmentRun& run : runs) {

@@ -92,9 +92,9 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
   std::vector<FineStroke> strokes;
   for (const RawStroke& line : join_strokes(graph, {options.gap.value_or(3 * width + 3), 1.05})) {
     if (options.progress.stop_requested()) return {};
-    if (core::polygon_length(line.points, line.closed) < std::max(3.0, 0.7 * width)) continue;
+    if (core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width)) continue;
     FineStroke fine = refiner.refine(line);
-    if (core::polygon_length(fine.points, fine.closed) >= 2) strokes.push_back(std::move(fine));
+    if (core::polygon_length(fine.points, fine.closed) >= 1.5) strokes.push_back(std::move(fine));
   }
   return strokes;
 }

@@ -196,19 +196,19 @@ TEST(ImageReader, TellsTheResolution) {
 }
 
 TEST(ImageReader, LaysTransparencyOverWhite) {
-  std::vector<unsigned char> rgba;
-  for (int i = 0; i < 4; ++i)
-    rgba.insert(rgba.end(), {0, 0, 0, static_cast<unsigned char>(85 * i)});
+  std::vector<unsigned char> rgba(16);
+  for (std::size_t i = 0; i < 4; ++i) rgba[4 * i + 3] = static_cast<unsigned char>(85 * i);
   const auto image = read_image(png_of(PNG_COLOR_TYPE_RGBA, 8, rgba, 4, 1));
   ASSERT_TRUE(image);
   for (int x = 0; x < 4; ++x) EXPECT_NEAR(image->luminance.at(x, 0), 65535 - 65535.0 * x / 3, 300);
 }
 
 TEST(ImageReader, KeepsSixteenBits) {
-  std::vector<unsigned char> grey;
-  for (int i = 0; i < 8; ++i)
-    grey.insert(grey.end(),
-                {static_cast<unsigned char>(i * 30), static_cast<unsigned char>(i * 17)});
+  std::vector<unsigned char> grey(16);
+  for (std::size_t i = 0; i < 8; ++i) {
+    grey[2 * i] = static_cast<unsigned char>(i * 30);
+    grey[2 * i + 1] = static_cast<unsigned char>(i * 17);
+  }
   const auto image = read_image(png_of(PNG_COLOR_TYPE_GRAY, 16, grey, 8, 1));
   ASSERT_TRUE(image);
   for (int x = 0; x < 8; ++x) EXPECT_EQ(image->luminance.at(x, 0), 256 * 30 * x + 17 * x);
@@ -276,7 +276,7 @@ TEST(ImageReader, SurvivesCorruptBytes) {
       for (int k = 0; k < 4; ++k)
         bytes[random.index(bytes.size())] = static_cast<char>(random.bits());
       const auto image = read_image(bytes);
-      if (!image) EXPECT_FALSE(image.error().message.empty());
+      EXPECT_TRUE(image || !image.error().message.empty());
     }
 }
 

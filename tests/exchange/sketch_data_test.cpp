@@ -34,8 +34,8 @@ struct Coverage {
   double curve = 0;  ///< share of the curves' length on ink
 };
 
-/// Ink near curves (half a stroke width and a pixel), and curve on ink (or beside it: a line one
-/// pixel wide has no inside).
+/// Ink near curves (half the stroke's width there and a pixel), and curve on ink (or beside it: a
+/// line one pixel wide has no inside).
 Coverage coverage_of(const sketch::TraceResult& trace, const sketch::Binary& ink) {
   sketch::Binary near(ink.width, ink.height);
   double on = 0;
@@ -45,7 +45,8 @@ Coverage coverage_of(const sketch::TraceResult& trace, const sketch::Binary& ink
     const int v = static_cast<int>(std::floor(y));
     return ink.contains(u, v) && ink.at(u, v);
   };
-  for (const sketch::Stroke& stroke : trace.strokes)
+  for (const sketch::Stroke& stroke : trace.strokes) {
+    std::size_t at = 0;  // the point of the stroke beside the curve's
     for (const curve::Bezier2& piece : stroke.curve) {
       const int n = 2 + 2 * static_cast<int>(core::distance(piece.control[0], piece.control[5]));
       for (int i = 0; i < n; ++i) {
@@ -56,13 +57,17 @@ Coverage coverage_of(const sketch::TraceResult& trace, const sketch::Binary& ink
                       is_ink(p.x, y + 0.5) || is_ink(p.x, y - 0.5)
                   ? 1
                   : 0;
-        const double reach = 0.5 * stroke.width + 1;
+        while (at + 1 < stroke.points.size() &&
+               core::distance(stroke.points[at + 1], p) <= core::distance(stroke.points[at], p))
+          ++at;
+        const double reach = 0.5 * std::max(stroke.widths[at], stroke.width) + 1;
         for (int v = static_cast<int>(y - reach) - 1; v <= y + reach; ++v)
           for (int u = static_cast<int>(p.x - reach) - 1; u <= p.x + reach; ++u)
             if (ink.contains(u, v) && std::hypot(u + 0.5 - p.x, v + 0.5 - y) <= reach)
               near.at(u, v) = 1;
       }
     }
+  }
   double all = 0;
   double covered = 0;
   for (std::size_t i = 0; i < ink.data.size(); ++i) {
