@@ -9,7 +9,9 @@ noisy files have their truth beside them as NAME-truth.json, in the form `keylin
 import json
 import math
 import random
+import struct
 import sys
+import zlib
 from pathlib import Path
 
 # Nodes and weights of the 5-point Gauss-Legendre rule on [-1, 1].
@@ -347,8 +349,81 @@ def skin():
     return {"skin.json": text.replace("bezier-surface", "bspline-surface")}
 
 
+def grey_png(width, height, rows):
+    """PNG bytes of an 8 bit grey picture with 120 dots per inch."""
+    def chunk(name, data):
+        return (struct.pack(">I", len(data)) + name + data
+                + struct.pack(">I", zlib.crc32(name + data)))
+    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    per_metre = struct.pack(">IIB", 4724, 4724, 1)
+    lines = b"".join(b"\0" + bytes(row) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"pHYs", per_metre)
+            + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
+
+
+def bezier(handles, count=600):
+    """Points of a cubic."""
+    for i in range(count + 1):
+        t = i / count
+        b = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3)
+        yield tuple(sum(w * h[k] for w, h in zip(b, handles)) for k in (0, 1))
+
+
+def pencil(page, width, points, noise, wide, dark):
+    """Draws a soft line: darkness by distance from the points, pressure swelling along it."""
+    points = list(points)
+    phase = noise.random() * 6.28
+    for i, (x, y) in enumerate(points):
+        u = i / len(points)
+        half = 0.5 * wide * (0.75 + 0.25 * math.sin(3 * u + phase))
+        x += 0.3 * math.sin(9 * u + phase)
+        y += 0.3 * math.cos(7 * u + phase)
+        for row in range(int(y - half - 1), int(y + half + 2)):
+            for column in range(int(x - half - 1), int(x + half + 2)):
+                reach = half + 0.5 - math.hypot(column + 0.5 - x, row + 0.5 - y)
+                at = row * width + column
+                page[at] = max(page[at], dark * min(1.0, max(0.0, reach)))
+
+
+def sketch():
+    """A small car from the side in pencil on shaded paper, the roof line drawn three times."""
+    width, height = 640, 320
+    noise = Noise("sketch.png")
+    ink = [0.0] * (width * height)
+    roof = [(70, 200), (170, 150), (220, 70), (350, 68)]
+    rear = [(350, 68), (470, 66), (540, 110), (585, 190)]
+    for shift in (0.0, 1.6, -1.8):
+        for part in (roof, rear):
+            moved = [(x, y + shift * (1 if i in (1, 2) else 0.4)) for i, (x, y) in enumerate(part)]
+            pencil(ink, width, bezier(moved), noise, 2.2, 0.62)
+    lines = [[(70, 200), (55, 215), (55, 240), (70, 250)],
+             [(585, 190), (600, 215), (600, 240), (585, 250)],
+             [(222, 128), (250, 95), (300, 88), (340, 88)],
+             [(222, 128), (280, 126), (320, 124), (340, 122)],
+             [(356, 88), (420, 86), (470, 98), (500, 120)],
+             [(356, 122), (400, 121), (460, 121), (500, 120)],
+             [(70, 250), (78, 251), (85, 252), (98, 252)],
+             [(206, 252), (280, 254), (380, 254), (440, 252)],
+             [(548, 252), (560, 252), (575, 251), (585, 250)]]
+    for line in lines:
+        pencil(ink, width, bezier(line), noise, 2.6, 0.7)
+    for centre in (152, 494):
+        for radius in (54, 40):
+            circle = [(centre + radius * math.cos(0.01 * k), 254 + radius * math.sin(0.01 * k))
+                      for k in range(315 if radius == 54 else 0, 629)]
+            pencil(ink, width, circle, noise, 2.8, 0.75)
+    rows = []
+    for y in range(height):
+        row = []
+        for x in range(width):
+            paper = 236 - 40 * (x / width) ** 2 - 18 * (y / height) + noise.normal(1.5)
+            row.append(max(0, min(255, round(paper * (1 - ink[y * width + x])))))
+        rows.append(row)
+    return {"sketch.png": grey_png(width, height, rows)}
+
+
 MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
-          unordered, outlines, clothoid, cubic, panels, skin)
+          unordered, outlines, clothoid, cubic, panels, skin, sketch)
 
 
 def main():
@@ -356,7 +431,10 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     for make in MAKERS:
         for name, text in make().items():
-            (folder / name).write_text(text, encoding="utf-8", newline="\n")
+            if isinstance(text, bytes):
+                (folder / name).write_bytes(text)
+            else:
+                (folder / name).write_text(text, encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

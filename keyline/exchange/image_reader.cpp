@@ -145,7 +145,8 @@ Result<Image> read_image(std::string_view bytes) {
   if (starts_with(bytes, std::string_view("II*\0", 4)) ||
       starts_with(bytes, std::string_view("MM\0*", 4)))
     return detail::read_tiff(bytes);
-  if (starts_with(bytes, "RIFF") && bytes.size() > 12 && bytes.substr(8, 4) == "WEBP") return detail::read_webp(bytes);
+  if (starts_with(bytes, "RIFF") && bytes.size() > 12 && bytes.substr(8, 4) == "WEBP")
+    return detail::read_webp(bytes);
   return core::fail(ErrorCode::bad_input, "is no PNG, JPEG, TIFF or WebP picture",
                     "save the drawing in one of these formats");
 }

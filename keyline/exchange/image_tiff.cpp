@@ -81,32 +81,60 @@ Layout layout_of(TIFF* tiff) {
   return l;
 }
 
-/// 16 bit pictures in rows are read at full depth; libtiff's own conversion gives 8 bits.
+/// 16 bit pictures are read at full depth; libtiff's own conversion gives 8 bits.
 bool is_deep(const Layout& l) {
   const bool grey =
       l.photometric == PHOTOMETRIC_MINISBLACK || l.photometric == PHOTOMETRIC_MINISWHITE;
   const bool known = (grey && l.samples <= 2) ||
                      (l.photometric == PHOTOMETRIC_RGB && (l.samples == 3 || l.samples == 4));
-  return l.bits == 16 && known && !l.tiled && l.planar == PLANARCONFIG_CONTIG;
+  return l.bits == 16 && known && l.planar == PLANARCONFIG_CONTIG;
+}
+
+/// `count` pixels of 16 bit samples to luminance.
+void convert(const std::uint16_t* p, const Layout& l, int count, std::uint16_t* out) {
+  for (int x = 0; x < count; ++x, p += l.samples) {
+    double v = l.samples >= 3 ? luminance(p[0], p[1], p[2]) : p[0];
+    if (l.photometric == PHOTOMETRIC_MINISWHITE) v = 65535 - v;
+    const bool alpha = l.samples == 2 || l.samples == 4;
+    out[x] = over_white(v, alpha ? p[l.samples - 1] / 65535.0 : 1);
+  }
+}
+
+bool read_deep_rows(TIFF* tiff, const Layout& l, Image& image) {
+  const auto size = static_cast<std::size_t>(TIFFScanlineSize(tiff));
+  if (size < 2U * l.samples * static_cast<std::size_t>(image.width())) return false;
+  std::vector<std::uint16_t> row(size / 2 + 1);
+  for (int y = 0; y < image.height(); ++y) {
+    if (TIFFReadScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) < 0) return false;
+    convert(row.data(), l, image.width(), &image.luminance.at(0, y));
+  }
+  return true;
+}
+
+bool read_deep_tiles(TIFF* tiff, const Layout& l, Image& image) {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
+  TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
+  const auto size = static_cast<std::size_t>(TIFFTileSize(tiff));
+  const double wanted = 2.0 * l.samples * width * height;
+  if (width == 0 || height == 0 || wanted > 1e9 || static_cast<double>(size) < wanted) return false;
+  std::vector<std::uint16_t> tile(size / 2 + 1);
+  const auto w = static_cast<std::uint32_t>(image.width());
+  const auto h = static_cast<std::uint32_t>(image.height());
+  for (std::uint32_t y = 0; y < h; y += height)
+    for (std::uint32_t x = 0; x < w; x += width) {
+      if (TIFFReadTile(tiff, tile.data(), x, y, 0, 0) < 0) return false;
+      for (std::uint32_t row = 0; row < std::min(height, h - y); ++row)
+        convert(tile.data() + static_cast<std::size_t>(row) * width * l.samples, l,
+                static_cast<int>(std::min(width, w - x)),
+                &image.luminance.at(static_cast<int>(x), static_cast<int>(y + row)));
+    }
+  return true;
 }
 
 bool read_deep(TIFF* tiff, const Layout& l, Image& image) {
-  const auto row_size = static_cast<std::size_t>(TIFFScanlineSize(tiff));
-  const std::size_t samples = l.samples;
-  if (row_size < samples * 2 * static_cast<std::size_t>(image.width())) return false;
-  std::vector<std::uint16_t> row(row_size / 2 + 1);
-  for (int y = 0; y < image.height(); ++y) {
-    if (TIFFReadScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) < 0) return false;
-    for (int x = 0; x < image.width(); ++x) {
-      const std::uint16_t* p = row.data() + samples * static_cast<std::size_t>(x);
-      const bool colour = samples >= 3;
-      double v = colour ? luminance(p[0], p[1], p[2]) : p[0];
-      if (l.photometric == PHOTOMETRIC_MINISWHITE) v = 65535 - v;
-      const bool alpha = samples == 2 || samples == 4;
-      image.luminance.at(x, y) = over_white(v, alpha ? p[samples - 1] / 65535.0 : 1);
-    }
-  }
-  return true;
+  return l.tiled ? read_deep_tiles(tiff, l, image) : read_deep_rows(tiff, l, image);
 }
 
 /// Through libtiff's conversion to RGBA (premultiplied), top row first, as the file orders rows.

@@ -151,7 +151,7 @@ class Joiner {
         std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
     const double crossed =
         std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
-    return std::min(straight, crossed) < 0.6;
+    return std::min(straight, crossed) < 0.9;
   }
 
   void make_branches() {

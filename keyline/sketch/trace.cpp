@@ -19,6 +19,10 @@ namespace {
 
 using core::Point2;
 
+/// Widths of the pen that traced lines of one line lie apart at most; what is closer has run into
+/// one line of ink already.
+constexpr double kPictureReach = 3.5;
+
 /// Usual width of the ink's lines: twice the ink over its border.
 double usual_width(const Binary& ink) {
   double area = 0;
@@ -100,11 +104,11 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
 }
 
 /// Strokes drawn several times become one; the width is that of the members.
-std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double width) {
+std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double width, double reach) {
   std::vector<DrawnStroke> drawn;
   for (const FineStroke& s : strokes) drawn.push_back({s.points, s.closed});
   std::vector<FineStroke> lines;
-  for (const MeantLine& line : consolidate(drawn, {.width = width})) {
+  for (const MeantLine& line : consolidate(drawn, {.width = width, .reach = reach})) {
     FineStroke fine;
     fine.closed = line.closed;
     for (const std::size_t m : line.members)
@@ -161,7 +165,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   warn_of_photograph(ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
-  if (options.consolidate) lines = merged(lines, width);
+  if (options.consolidate) lines = merged(lines, width, kPictureReach * width);
   if (auto done = add_curves(lines, options, result); !done) return std::unexpected(done.error());
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
@@ -189,7 +193,7 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
     lines.push_back(std::move(fine));
   }
   if (lines.empty()) return bad("no stroke has any length");
-  if (options.consolidate) lines = merged(lines, width);
+  if (options.consolidate) lines = merged(lines, width, 0);
   TraceOptions scaled = options;
   scaled.curve.straightness *= width;
   scaled.curve.tolerance *= width;

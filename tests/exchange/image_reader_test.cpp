@@ -183,7 +183,7 @@ TEST(ImageReader, ReadsEveryFormatAndDepth) {
   for (const bool tiled : {false, true})
     for (const int samples : {1, 3}) {
       expect_pixels(read_image(tiff_of(8, samples, 1, tiled)), 300);
-      expect_pixels(read_image(tiff_of(16, samples, 1, tiled)), tiled ? 600 : 140);
+      expect_pixels(read_image(tiff_of(16, samples, 1, tiled)), 140);
     }
 }
 

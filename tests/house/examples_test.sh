@@ -8,6 +8,6 @@ python3 -B "$examples/make_examples.py" "$made"
 for file in "$made"/*; do
   cmp "$file" "$examples/$(basename "$file")"
 done
-for file in "$examples"/*.{csv,tsv,xyz,dat,json}; do
+for file in "$examples"/*.{csv,tsv,xyz,dat,json,png}; do
   [ -f "$made/$(basename "$file")" ] || { echo "$file is made by nothing"; exit 1; }
 done
