@@ -47,6 +47,18 @@ TEST(Documentation, EveryCommandOfTheClassAGuideRuns) {
   }
 }
 
+#ifdef KEYLINE_HAS_SKETCH
+TEST(Documentation, EveryCommandOfTheSketchGuideRuns) {
+  const auto commands = commands_of("guide/sketch.md");
+  EXPECT_GE(commands.size(), 5U);
+  for (const std::string& command : commands) {
+    const Scratch s;
+    const Outcome o = run_keyline(redirected(command, s), "cd " KEYLINE_SOURCE_DIR " && ");
+    EXPECT_EQ(o.status, 0) << command << '\n' << o.err;
+  }
+}
+#endif
+
 TEST(Documentation, EveryCommandAndRequestOfTheSurfaceGuideRuns) {
   const auto commands = commands_of("guide/surfaces.md");
   EXPECT_GE(commands.size(), 5U);

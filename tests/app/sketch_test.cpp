@@ -1,0 +1,155 @@
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+/// Bytes of an 8 bit grey TIFF without compression; `grey(x, y)` from 0 to 255.
+template <class Grey>
+std::string tiff(int width, int height, const Grey& grey) {
+  std::string bytes("II*\0\x08\0\0\0", 8);
+  const auto put = [&](std::uint32_t value, int size) {
+    for (int k = 0; k < size; ++k) bytes += static_cast<char>(value >> (8 * k));
+  };
+  const std::uint32_t pixels = 8 + 2 + 9 * 12 + 4;
+  put(9, 2);
+  const auto field = [&](std::uint32_t tag, std::uint32_t value) {
+    put(tag, 2);
+    put(4, 2);
+    put(1, 4);
+    put(value, 4);
+  };
+  const auto w = static_cast<std::uint32_t>(width);
+  const auto h = static_cast<std::uint32_t>(height);
+  field(256, w);
+  field(257, h);
+  field(258, 8);
+  field(259, 1);
+  field(262, 1);
+  field(273, pixels);
+  field(277, 1);
+  field(278, h);
+  field(279, w * h);
+  put(0, 4);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) bytes += static_cast<char>(grey(x, y));
+  return bytes;
+}
+
+std::uint32_t scrambled(std::uint32_t x) {
+  x = (x ^ 61U) ^ (x >> 16);
+  x *= 9U;
+  x ^= x >> 4;
+  x *= 0x27d4eb2dU;
+  return x ^ (x >> 15);
+}
+
+int noise(int x, int y) {
+  return static_cast<int>(scrambled(static_cast<std::uint32_t>(x + 7919 * y)) & 255U);
+}
+
+TEST(Sketch, TracesTheExampleOntoItself) {
+  const Scratch s;
+  const Outcome o = run_keyline("sketch " + example("sketch.png") + " -o " + s.path("a.svg") +
+                                " -o " + s.path("a.json") + " --debug " + s.path("stages"));
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("640 x 320 pixels, "), std::string::npos) << o.err;
+  EXPECT_NE(slurp(s.path("a.svg")).find("viewBox=\"0 0 640 320\""), std::string::npos);
+  for (const char* name :
+       {"01-log", "02-histogram", "03-binary", "04-smoothed", "05-edges", "06-lines", "07-groups",
+        "08-segments", "09-quadratics", "10-quintics", "11-curvature", "12-derivative"})
+    EXPECT_TRUE(slurp(s.path("stages/" + std::string(name) + ".png")).starts_with("\x89PNG"))
+        << name;
+}
+
+TEST(Sketch, PrintsWhatTheOperationAnswers) {
+  const Outcome o = run_keyline("sketch " + example("sketch.png") + " --json --quiet --dpi 120");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  const auto j = nlohmann::json::parse(o.out);
+  EXPECT_EQ(j["unit"], "mm");
+  EXPECT_NEAR(j["size"][0], 640 * 25.4 / 120, 1e-9);
+  for (const auto& stroke : j["strokes"]) {
+    EXPECT_GE(stroke["points"].size(), 2U);
+    EXPECT_GE(stroke["segments"].size(), 2U);
+    EXPECT_EQ(stroke["curve"]["type"], "path");
+    EXPECT_EQ(stroke["curve"]["curves"][0]["points"].size(), 6U);
+    EXPECT_GT(stroke["width"], 0.1);
+  }
+}
+
+TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
+  const Scratch s;
+  const std::string scap = s.write(
+      "a.scap",
+      "#100 100\n@1\n{\n#1 1\n10 10 0\n30 12 0\n60 10 0\n}\n{\n#2 1\n20 12 0\n80 11 0\n}\n");
+  const Outcome merged = run_keyline("sketch " + scap + " --consolidate --json");
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_NE(merged.err.find("1 stroke:"), std::string::npos) << merged.err;
+  for (const char* options : {"--edge outer", "--curvature smooth", "--curvature rhythm",
+                              "--tolerance 0", "--threshold 0.9", "--flatten off --specks 20"}) {
+    const Outcome o = run_keyline("sketch " + example("sketch.png") + " --json " + options);
+    EXPECT_EQ(o.status, 0) << options << o.err;
+  }
+}
+
+TEST(Sketch, SaysWhereThereIsNoLine) {
+  const Scratch s;
+  const auto flat = [](int level) { return [level](int, int) { return level; }; };
+  const std::string says = "nothing in the picture looks like a line";
+  expect_failure(run_keyline("sketch " + s.write("a.tif", tiff(1, 1, flat(0)))), 1, says);
+  expect_failure(run_keyline("sketch " + s.write("b.tif", tiff(200, 200, flat(255)))), 1, says);
+  expect_failure(run_keyline("sketch " + s.write("c.tif", tiff(200, 200, flat(0)))), 1, says);
+  expect_failure(run_keyline("sketch " + s.write("d.tif", tiff(400, 300, noise))), 1, says);
+  const auto salt = [](int x, int y) { return noise(x, y) < 20 ? 0 : 255; };
+  expect_failure(run_keyline("sketch " + s.write("e.tif", tiff(400, 300, salt))), 1, says);
+}
+
+TEST(Sketch, WarnsOfAPhotographInBoundedTime) {
+  const Scratch s;
+  // hills and light, some texture: much darkness, hardly a line
+  const auto photograph = [](int x, int y) {
+    const double hill = 300 + 80 * std::sin(0.01 * x) + 40 * std::sin(0.037 * x + 1);
+    const double light =
+        y < hill ? 200 - 0.2 * y : 60 + 30 * std::sin(0.05 * x) * std::sin(0.07 * y);
+    return static_cast<int>(light) + noise(x / 3, y / 3) % 24;
+  };
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome o =
+      run_keyline("sketch --json " + s.write("p.tif", tiff(1200, 800, photograph)), "timeout 60");
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 60);
+  EXPECT_TRUE(o.status == 1 || o.err.find("warning: ") != std::string::npos) << o.status << o.err;
+}
+
+TEST(Sketch, RefusesWhatIsNoPicture) {
+  const Scratch s;
+  expect_failure(run_keyline("sketch " + s.write("a.png", "just text\n")), 2, "is no PNG");
+  expect_failure(run_keyline("fair " + s.write("b.png", "just text\n")), 2, "is no PNG");
+  expect_failure(run_keyline("sketch " + s.path("absent.png")), 3, "cannot be opened");
+  std::filesystem::create_directory(s.path("folder.png"));
+  expect_failure(run_keyline("sketch " + s.path("folder.png")), 3, "is a directory");
+  std::string bomb = tiff(2, 2, noise);
+  for (const std::size_t at : {18U, 30U}) bomb.replace(at, 4, std::string("\x40\x9c\0\0", 4));
+  expect_failure(run_keyline("sketch " + s.write("bomb.tif", bomb)), 2, "64 megapixels");
+  expect_failure(run_keyline("sketch " + example("sketch.png") + " --thresholds 0.5,0.6"), 2,
+                 "64 numbers");
+  expect_failure(run_keyline("sketch " + example("sketch.png") + " --threshold 2"), 2,
+                 "from 0 to 1");
+  expect_failure(run_keyline("sketch " + example("sketch.png") + " --debug /proc/no"), 3, "folder");
+}
+
+TEST(Sketch, FairTakesADrawing) {
+  const Scratch s;
+  const Outcome o =
+      run_keyline("fair " + example("sketch.png") + " --select stroke1 -o " + s.path("a.svg"));
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("stroke1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace keyline::app_test
