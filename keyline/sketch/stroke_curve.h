@@ -35,8 +35,8 @@ struct Stroke {
   std::vector<std::size_t> corners;               ///< pieces of `curve` that start with a corner
   std::vector<fit::CurvatureTarget> target;       ///< over all of `curve`; empty without an aim
   bool closed = false;
-  double width = 0;             ///< of the ink, median; 0 for outlines
-  std::vector<double> widths;   ///< of the ink at every point
+  double width = 0;            ///< of the ink, median; 0 for outlines
+  std::vector<double> widths;  ///< of the ink at every point
 };
 
 /// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature.

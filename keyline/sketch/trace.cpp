@@ -109,6 +109,10 @@ std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double wi
   for (const FineStroke& s : strokes) drawn.push_back({s.points, s.closed});
   std::vector<FineStroke> lines;
   for (const MeantLine& line : consolidate(drawn, {.width = width, .reach = reach})) {
+    if (line.members.size() == 1) {
+      lines.push_back(strokes[line.members.front()]);
+      continue;
+    }
     FineStroke fine;
     fine.closed = line.closed;
     for (const std::size_t m : line.members)
