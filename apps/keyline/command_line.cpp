@@ -165,6 +165,8 @@ Command add_sketch(CLI::App& app) {
   sub->add_option("--curvature", sketch.curvature, "what the curves' curvature is driven to")
       ->check(CLI::IsMember({"none", "smooth", "rhythm"}))
       ->capture_default_str();
+  sub->add_flag("--per-segment", sketch.per_segment,
+                "a quintic per line segment, as the paper has it; else as few as follow the lines");
   const char* ink = "Telling ink from paper";
   sub->add_option("--threshold", sketch.threshold, "0 to 1: what is darker is ink; else by region")
       ->group(ink);
@@ -192,7 +194,7 @@ Command add_sketch(CLI::App& app) {
   sub->footer(
       "Example: keyline sketch examples/sketch.png -o sketch.svg\n"
       "Formats: svg, json (the exact quintics), csv (samples), dxf and what convert writes. "
-      "--tolerance counts in pixels (0.5; 0: a quintic per line segment).");
+      "--tolerance counts in pixels (0.5).");
   return {sub, runs(options, run_sketch)};
 }
 

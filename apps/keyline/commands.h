@@ -110,6 +110,7 @@ struct SketchCommand {
   std::string flatten = "auto";
   std::string polarity = "auto";
   bool consolidate = false;
+  bool per_segment = false;     ///< a quintic per line segment, as [Sketch]
   std::optional<double> scale;  ///< mm per pixel
   std::optional<double> dpi;
   std::string debug;  ///< folder for the pictures of every stage

@@ -41,6 +41,7 @@ Result<sketch::TraceOptions> options_of(const SketchCommand& command) {
   set("gap", command.gap);
   set("specks", command.specks);
   set("tolerance", command.common.tolerance);
+  if (command.per_segment) request["tolerance"] = 0;
   if (!command.thresholds.empty()) {
     for (const std::string& text : command.thresholds) {
       nlohmann::json value = nlohmann::json::parse(text, nullptr, false);

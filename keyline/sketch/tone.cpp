@@ -62,6 +62,16 @@ double percentile(const Gray& image, double share) {
   return *at;
 }
 
+/// Share of a sample of pixels below level y.
+double share_below(const Gray& level, double y) {
+  const std::size_t step = std::max<std::size_t>(1, level.data.size() / 200000);
+  std::size_t below = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < level.data.size(); i += step, ++count)
+    below += level.data[i] < y * Tone::kWhite ? 1 : 0;
+  return static_cast<double>(below) / static_cast<double>(count);
+}
+
 /// Median absolute difference of pixels some steps apart, as a standard deviation of one pixel.
 double noise_at_lag(const Gray& level, int lag) {
   if (level.width <= lag) return 0;
@@ -101,6 +111,7 @@ Tone transform_intensity(const Image& image, const ToneOptions& options) {
   tone.gain = options.gain.value_or(1 / std::log(paper));
   const std::vector<std::uint16_t> table = level_table(tone.gain);
   for (std::uint16_t& v : tone.level.data) v = table[v];
+  tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));
   tone.flattened = flatten_background(tone.level, options.flatten);
   tone.noise = std::max(noise_at_lag(tone.level, 1), noise_at_lag(tone.level, 4));
   return tone;

@@ -25,7 +25,8 @@ struct Tone {
   double gain = 0;
   bool light_on_dark = false;
   bool flattened = false;
-  double noise = 0;  ///< standard deviation of y on paper
+  double noise = 0;   ///< standard deviation of y on paper
+  double shaded = 0;  ///< share of the picture a third darker than paper, before flattening
 
   static constexpr double kWhite = 60000;  ///< some headroom above for what outshines the paper
 };

@@ -140,15 +140,16 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
   return {};
 }
 
-/// A picture of which much is ink, or ink in broad areas, may be no drawing.
-void warn_of_photograph(const Binary& ink, double width, TraceResult& result) {
+/// A picture of which much is dark, or ink in broad areas, may be no drawing.
+void warn_of_photograph(const Tone& tone, const Binary& ink, double width, TraceResult& result) {
   double dark = 0;
   for (const std::uint8_t v : ink.data) dark += v;
   const double share = dark / static_cast<double>(ink.data.size());
   const bool broad = width > 0.06 * std::max(ink.width, ink.height);
-  if (share > (broad ? 0.15 : 0.25))
-    result.notes.push_back("warning: " + std::to_string(std::lround(100 * share)) +
-                           " % of the picture is ink; is it a drawing?");
+  const double most = std::max(share, tone.shaded);
+  if (most > (broad ? 0.15 : 0.25))
+    result.notes.push_back("warning: " + std::to_string(std::lround(100 * most)) +
+                           " % of the picture is dark; is it a drawing?");
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   const Binary ink = find_ink(tone, options, width);
   if (options.stage) show(options, "edges", laplacian_edges(ink));
   options.progress.report(0.4, "thinning");
-  warn_of_photograph(ink, width, result);
+  warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
   if (options.consolidate) lines = merged(lines, width, kPictureReach * width);

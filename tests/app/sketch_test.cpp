@@ -92,7 +92,7 @@ TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
   EXPECT_EQ(merged.status, 0) << merged.err;
   EXPECT_NE(merged.err.find("1 stroke:"), std::string::npos) << merged.err;
   for (const char* options : {"--edge outer", "--curvature smooth", "--curvature rhythm",
-                              "--tolerance 0", "--threshold 0.9", "--flatten off --specks 20"}) {
+                              "--per-segment", "--threshold 0.9", "--flatten off --specks 20"}) {
     const Outcome o = run_keyline("sketch " + example("sketch.png") + " --json " + options);
     EXPECT_EQ(o.status, 0) << options << o.err;
   }
