@@ -126,7 +126,7 @@ inline SpiralCurve compound(double km, double lambda, double b, double alpha0, d
 }
 
 /// Curvature constant on each part; ends are arc lengths, the last one the length.
-inline SpiralCurve arcs(std::vector<double> kappas, std::vector<double> ends,
+inline SpiralCurve arcs(const std::vector<double>& kappas, const std::vector<double>& ends,
                         core::Pose2 start = {}) {
   const double length = ends.back();
   const auto part = [=](double s) {
