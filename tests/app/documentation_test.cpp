@@ -37,6 +37,19 @@ TEST(Documentation, EveryCommandOfTheCurvePageRuns) {
   }
 }
 
+TEST(Documentation, EveryCommandOfTheExchangeGuideRuns) {
+  const auto commands = commands_of("guide/exchange.md");
+  EXPECT_GE(commands.size(), 2U);
+  for (const std::string& command : commands) {
+    const bool cad = command.find(".step") != std::string::npos;
+    if (cad && std::string(KEYLINE_CAD).empty()) continue;
+    const Scratch s;
+    const Outcome o = run_keyline(redirected(command, s), "cd " KEYLINE_SOURCE_DIR " && ");
+    EXPECT_EQ(o.status, 0) << command << '\n' << o.err;
+    EXPECT_EQ(s.count(), 1U) << command;
+  }
+}
+
 TEST(Documentation, EveryCommandOfTheClassAGuideRuns) {
   const auto commands = commands_of("guide/class-a.md");
   EXPECT_GE(commands.size(), 4U);
