@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -18,7 +19,7 @@ class ByteLines {
     const std::size_t from = position_;
     const std::size_t end = std::min(bytes_.find_first_of("\r\n", from), bytes_.size());
     const bool two = end + 1 < bytes_.size() && bytes_[end] == '\r' && bytes_[end + 1] == '\n';
-    position_ = end + (two ? 2 : 1);
+    position_ = std::min(end + (two ? 2 : 1), bytes_.size());
     line = bytes_.substr(from, end - from);
     ++number_;
     return true;

@@ -122,7 +122,7 @@ DxfTags::DxfTags(std::string_view bytes) : bytes_(bytes) {
   if (binary_) {
     position_ = kSentinel.size();
     // The first group is "0 SECTION": a second zero byte belongs to a two-byte code.
-    short_codes_ = bytes_.substr(position_ + 1, 1) != std::string_view("\0", 1);
+    short_codes_ = bytes_.size() > position_ + 1 && bytes_[position_ + 1] != '\0';
   } else if (bytes_.starts_with("\xef\xbb\xbf")) {
     position_ = 3;
   }
