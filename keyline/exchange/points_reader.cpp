@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "keyline/exchange/lednicer.h"
 #include "keyline/exchange/line_reader.h"
 #include "keyline/exchange/text_table.h"
 
@@ -70,7 +71,6 @@ class PointsTable {
   bool is_header(const std::vector<std::string>& names) const;
   bool all_numbers(const Fields& fields, std::size_t from) const;
   bool is_junk(const Fields& fields) const;
-  bool unfold_lednicer();
   RawCurve& curve_of(std::string_view id);
 
   const PointsOptions& options_;
@@ -310,29 +310,6 @@ core::Result<void> PointsTable::data_row(const Fields& fields, int number,
   return {};
 }
 
-/// Lednicer's order (counts, upper side from the nose, lower side from the nose) to one curve from
-/// trailing edge to trailing edge.
-bool PointsTable::unfold_lednicer() {
-  if (curves_.size() != 1 || curves_[0].has_z || !names_.empty()) return false;
-  RawCurve& c = curves_[0];
-  const core::Point3 counts = c.points.front();
-  const bool whole = counts.x >= 3 && counts.y >= 3 && std::floor(counts.x) == counts.x &&
-                     std::floor(counts.y) == counts.y;
-  if (!whole || counts.x + counts.y + 1 != static_cast<double>(c.points.size())) return false;
-  const bool unit = std::all_of(c.points.begin() + 1, c.points.end(),
-                                [](core::Point3 p) { return std::abs(p.x) <= 2 && p.y <= 2; });
-  if (!unit) return false;
-  const auto upper = static_cast<std::ptrdiff_t>(counts.x);
-  const auto unfold = [&](auto& values) {
-    values.erase(values.begin());
-    std::reverse(values.begin(), values.begin() + upper);
-  };
-  unfold(c.points);
-  unfold(c.source_lines);
-  c.notes.emplace_back("Lednicer airfoil: both sides joined at the nose into one curve");
-  return true;
-}
-
 core::Result<Curves> PointsTable::finish(const std::string& name) {
   if (curves_.empty()) {
     const bool empty = text_lines_ == 0 && names_.empty();
@@ -347,7 +324,7 @@ core::Result<Curves> PointsTable::finish(const std::string& name) {
   if (curves_.size() == 1 && curves_[0].id.empty() && text_lines_ > 0 && !title_is_header) {
     curves_[0].id = first_text_;
   }
-  unfold_lednicer();
+  if (curves_.size() == 1 && names_.empty()) detail::unfold_lednicer(curves_[0]);
   const auto note = [&](const std::string& text) {
     for (RawCurve& curve : curves_) curve.notes.push_back(text);
   };

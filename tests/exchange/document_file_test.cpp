@@ -1,5 +1,6 @@
 #include "keyline/exchange/document_file.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -150,6 +151,17 @@ TEST_F(Files, TheExtensionChoosesTheFormat) {
     EXPECT_EQ(to_json(*read).dump(), to_json(d).dump()) << extension;
   }
   EXPECT_FALSE(write_document(d, file("a.bmp")));
+}
+
+TEST_F(Files, AnotherProgramDrawsOurSvg) {
+  if (std::system("command -v rsvg-convert >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "rsvg-convert (librsvg2-bin) is not installed";
+  const fs::path drawing = file("a.svg");
+  ASSERT_TRUE(write_document(mixed(), drawing));
+  const fs::path picture = file("a.png");
+  const std::string command = "rsvg-convert " + drawing.string() + " -o " + picture.string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_GT(fs::file_size(picture), 100U);
 }
 
 TEST_F(Files, TheContentChoosesWhereTheNameSaysNothing) {
