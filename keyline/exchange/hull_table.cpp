@@ -44,8 +44,10 @@ Result<std::vector<double>> axis(const json& table, const char* name, double uni
   auto values = detail::numbers(**list, in("halfBreadths", name));
   if (!values) return values;
   for (double& v : *values) v *= unit;
+  if (!values->empty() && !std::isfinite(values->front()))
+    return fail(ErrorCode::bad_input, "this is too large", "correct it", in("halfBreadths", name));
   for (std::size_t i = 1; i < values->size(); ++i)
-    if (!((*values)[i] > (*values)[i - 1]))
+    if (!((*values)[i] > (*values)[i - 1]) || !std::isfinite((*values)[i]))
       return fail(ErrorCode::bad_input, "these do not grow", "put them in order",
                   in(in("halfBreadths", name), i));
   return values;
