@@ -176,6 +176,9 @@ Result<HullTable> read_hull_csv(std::string_view text) {
   const detail::TableStyle style{separator, separator == ';'};
   const auto across = numbers_of(detail::split(line, style), style, lines.place());
   if (!across) return std::unexpected(across.error());
+  if (!std::all_of(across->begin(), across->end(), [](double v) { return std::isfinite(v); }))
+    return fail(ErrorCode::bad_input, "the first line needs a number in every column", "mend it",
+                lines.place());
   std::vector<double> down;
   std::vector<double> cells;
   while (lines.next(line)) {

@@ -187,6 +187,8 @@ Result<Document> read_json(std::string_view text) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(upto), '\n');
     return fail(ErrorCode::bad_input, "this is not JSON",
                 "mend it around byte " + std::to_string(e.byte), "line " + std::to_string(line));
+  } catch (const json::exception&) {
+    return fail(ErrorCode::bad_input, "a number is too large for a double", "mend it");
   }
   return document_from_json(j);
 }

@@ -100,6 +100,7 @@ TEST(JsonDocument, NamesThePlaceOfAMistake) {
   const auto cut = read_json("{\n\"curves\":[\n{");
   ASSERT_FALSE(cut);
   EXPECT_EQ(cut.error().path, "line 3");
+  EXPECT_FALSE(read_json("1e999"));
 }
 
 TEST(SvgDocument, ReadsBackTheExactCurves) {

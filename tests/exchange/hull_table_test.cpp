@@ -52,6 +52,7 @@ TEST(HullTable, RowsMayBeStations) {
 TEST(HullTable, MistakesHaveTheirPlace) {
   EXPECT_EQ(read_hull_csv("waterline,0,10\n0,1,x\n").error().path, "line 2");
   EXPECT_EQ(read_hull_csv("waterline,0,10\n0,1,2,3\n").error().path, "line 2");
+  EXPECT_EQ(read_hull_csv("waterline,0,,10\n0,1,2,3\n").error().path, "line 1");
   auto j = nlohmann::json::parse(R"({"attributes":{"LOA":10,"BOA":4,"Depth":2},
     "halfBreadths":{"waterlines":[0,1],"stations":[0,0.5,1],"table":[[null,0.5,0],[0,1]]}})");
   EXPECT_EQ(hull_from_json(j).error().path, "halfBreadths.table[1]");
