@@ -132,7 +132,7 @@ class Joiner {
   }
 
   /// True where two lines cross at a small angle along this edge: its four neighbours pair up
-  /// across it, nearly straight.
+  /// across it, nearly straight; the longer it is, the straighter.
   bool is_shared_stretch(int e) const {
     const GraphEdge& line = edge(e);
     const double wide = std::max(node(line.from).radius, node(line.to).radius);
@@ -151,7 +151,7 @@ class Joiner {
         std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
     const double crossed =
         std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
-    return std::min(straight, crossed) < 0.9;
+    return std::min(straight, crossed) < (length_of(line) > 4 * wide ? 0.6 : 0.9);
   }
 
   void make_branches() {
