@@ -54,7 +54,7 @@ int run_convert(const ConvertCommand& command) {
   const CommonOptions& common = command.common;
   if (common.outputs.empty() && !common.json)
     return report_failure({core::ErrorCode::bad_input, "no output is named", "add -o FILE", ""});
-  if (auto known = check_outputs(common, curve_extensions()); !known)
+  if (auto known = check_outputs(common, curve_extensions({".pdf", ".png", ".html"})); !known)
     return report_failure(known.error());
   const auto document = holds_points(command.input.files.front())
                             ? document_of_points(command.input)
@@ -66,7 +66,15 @@ int run_convert(const ConvertCommand& command) {
   options.tolerance = common.tolerance.value_or(0);
   options.polylines = command.polylines;
   options.grid = command.grid;
+  Writers pictures;
+  add_picture_writers(pictures, *document, "Curves", command.input.files.front(), common);
   for (const std::string& file : common.outputs) {
+    if (const auto picture = pictures.find(exchange::extension_of(file));
+        picture != pictures.end()) {
+      if (auto done = write_output(file, picture->second); !done)
+        return report_failure(done.error());
+      continue;
+    }
     const auto written = exchange::write_document(*document, file, options);
     if (!written) return report_failure(written.error());
     for (const std::string& note : written->notes) say(common.quiet, file + ": " + note);

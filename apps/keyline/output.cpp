@@ -5,6 +5,8 @@
 
 #include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/document_file.h"
+#include "keyline/operations/document_picture.h"
+#include "keyline/report/html_report.h"
 
 #include "terminal.h"
 
@@ -31,13 +33,18 @@ Result<void> check_outputs(const CommonOptions& common, const std::vector<std::s
   return {};
 }
 
+Result<void> write_output(const std::string& file, const Writer& writer) {
+  const auto content = writer();
+  if (!content) return std::unexpected(exchange::in_file(content.error(), file));
+  if (auto done = exchange::write_atomically(file, *content); !done)
+    return std::unexpected(exchange::in_file(done.error(), file));
+  return {};
+}
+
 Result<void> write_outputs(const CommonOptions& common, const Writers& writers) {
-  for (const std::string& file : common.outputs) {
-    const auto content = writers.at(exchange::extension_of(file))();
-    if (!content) return std::unexpected(exchange::in_file(content.error(), file));
-    if (auto done = exchange::write_atomically(file, *content); !done)
-      return std::unexpected(exchange::in_file(done.error(), file));
-  }
+  for (const std::string& file : common.outputs)
+    if (auto done = write_output(file, writers.at(exchange::extension_of(file))); !done)
+      return done;
   return {};
 }
 
@@ -55,6 +62,30 @@ Writers curve_writers(const document::Document& document, double tolerance,
       return std::move(written->content);
     };
   return writers;
+}
+
+void add_picture_writers(Writers& writers, const document::Document& document,
+                         const std::string& title, const std::string& input,
+                         const CommonOptions& common) {
+  const auto shared = std::make_shared<const document::Document>(document);
+  operations::ReportOptions options;
+  options.title = title;
+  options.subtitle = input;
+  options.command = common.command_line;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  const auto picture = [=](const auto& encode) -> Result<std::string> {
+    const auto drawing = operations::document_picture(*shared, options);
+    return drawing ? encode(*drawing) : std::unexpected(drawing.error());
+  };
+  writers[".pdf"] = [=] { return picture(figure::write_pdf); };
+  writers[".png"] = [=] {
+    return picture([](const figure::Drawing& d) { return figure::write_png(d, 2); });
+  };
+  writers[".html"] = [=]() -> Result<std::string> {
+    const auto report = operations::document_report(*shared, options);
+    if (!report) return std::unexpected(report.error());
+    return report::html_report(*report);
+  };
 }
 
 document::Document document_of(const std::string& name, const document::Path& path,

@@ -25,6 +25,9 @@ std::vector<std::string> curve_extensions(const std::vector<std::string>& furthe
 core::Result<void> check_outputs(const CommonOptions& common,
                                  const std::vector<std::string>& known);
 
+/// Writes one file, whole or not at all.
+core::Result<void> write_output(const std::string& file, const Writer& writer);
+
 /// Writes every output file, each whole or not at all.
 core::Result<void> write_outputs(const CommonOptions& common, const Writers& writers);
 
@@ -32,6 +35,11 @@ core::Result<void> write_outputs(const CommonOptions& common, const Writers& wri
 /// cannot hold a curve as it is. What a format could not hold is said on standard error.
 Writers curve_writers(const document::Document& document, double tolerance,
                       const CommonOptions& common);
+
+/// Adds .pdf, .png and .html: the document's planar curves to look at. `title` heads them.
+void add_picture_writers(Writers& writers, const document::Document& document,
+                         const std::string& title, const std::string& input,
+                         const CommonOptions& common);
 
 /// A document of one path, without layer.
 document::Document document_of(const std::string& name, const document::Path& path,

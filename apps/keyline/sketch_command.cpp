@@ -154,7 +154,8 @@ void tell(const Sketch& sketch, const SketchCommand& command) {
 }  // namespace
 
 int run_sketch(const SketchCommand& command) {
-  if (auto known = check_outputs(command.common, curve_extensions()); !known)
+  if (auto known = check_outputs(command.common, curve_extensions({".pdf", ".png", ".html"}));
+      !known)
     return report_failure(known.error());
   const auto sketch = trace_file(command);
   if (!sketch)
@@ -164,6 +165,7 @@ int run_sketch(const SketchCommand& command) {
   document.unit = sketch->unit;
   Writers writers = curve_writers(document, tolerance, command.common);
   writers[".svg"] = [&] { return write_svg(*sketch, tolerance); };
+  add_picture_writers(writers, document, "Traced drawing", command.file, command.common);
   if (auto done = write_outputs(command.common, writers); !done)
     return report_failure(done.error());
   if (command.common.json) {

@@ -83,6 +83,17 @@ TEST(Sketch, PrintsWhatTheOperationAnswers) {
   }
 }
 
+TEST(Sketch, WritesPicturesAndAReport) {
+  const Scratch s;
+  const Outcome o =
+      run_keyline("sketch --quiet " + example("sketch.png") + " -o " + s.path("a.png") + " -o " +
+                  s.path("a.pdf") + " -o " + s.path("a.html"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_TRUE(slurp(s.path("a.png")).starts_with("\x89PNG"));
+  EXPECT_TRUE(slurp(s.path("a.pdf")).starts_with("%PDF"));
+  EXPECT_NE(slurp(s.path("a.html")).find("Traced drawing"), std::string::npos);
+}
+
 TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
   const Scratch s;
   const std::string scap = s.write(
