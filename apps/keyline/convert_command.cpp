@@ -77,7 +77,8 @@ int run_convert(const ConvertCommand& command) {
     }
     const auto written = exchange::write_document(*document, file, options);
     if (!written) return report_failure(written.error());
-    for (const std::string& note : written->notes) say(common.quiet, file + ": " + note);
+    for (const std::string& note : written->notes)
+      say(common.quiet, fmt::format("{}: {}", file, note));
     say(common.quiet, fmt::format("{}: deviation {:.3g}", file, written->deviation));
   }
   if (common.json) fmt::print("{}\n", exchange::to_json(*document).dump());

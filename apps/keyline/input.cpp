@@ -59,7 +59,8 @@ Result<std::vector<RawCurve>> read_lattice_input(const InputOptions& input,
 }
 
 /// Clouds whose columns are told: read whole, then cut.
-Result<std::vector<RawCurve>> cut_table(const InputOptions& input, std::vector<RawCurve> clouds) {
+Result<std::vector<RawCurve>> cut_table(const InputOptions& input,
+                                        const std::vector<RawCurve>& clouds) {
   const auto request = exchange::parse_section(input.section);
   if (!request) return std::unexpected(request.error());
   std::vector<RawCurve> cuts;
@@ -103,7 +104,7 @@ Result<std::vector<RawCurve>> read_raw(const InputOptions& input, const std::str
                          : exchange::read_points(std::filesystem::path(file), options);
   if (!raw) return raw;
   if (input.section.empty()) return raw;
-  return cut_table(input, std::move(*raw));
+  return cut_table(input, *raw);
 }
 
 Result<std::vector<KeyLine>> acquire_all(const InputOptions& input, const std::string& file) {

@@ -9,13 +9,11 @@
 namespace keyline::app {
 
 /// Exit statuses of the public interface.
-enum Exit : int {
-  kDone = 0,
-  kNoAnswer = 1,
-  kBadInput = 2,
-  kIo = 3,
-  kCancelled = 130,
-};
+inline constexpr int kDone = 0;
+inline constexpr int kNoAnswer = 1;
+inline constexpr int kBadInput = 2;
+inline constexpr int kIo = 3;
+inline constexpr int kCancelled = 130;
 
 int exit_of(core::ErrorCode code);
 
