@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/operations/document_picture.h"
@@ -58,7 +60,8 @@ Writers curve_writers(const document::Document& document, double tolerance,
     writers[extension] = [=, quiet = common.quiet]() -> Result<std::string> {
       auto written = exchange::format_document(*shared, extension, options);
       if (!written) return std::unexpected(written.error());
-      for (const std::string& note : written->notes) say(quiet, extension + ": " + note);
+      for (const std::string& note : written->notes)
+        say(quiet, fmt::format("{}: {}", extension, note));
       return std::move(written->content);
     };
   return writers;

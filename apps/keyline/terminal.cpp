@@ -1,6 +1,7 @@
 #include "terminal.h"
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <mutex>
@@ -25,12 +26,13 @@ std::mutex bar_mutex;
 
 void draw_bar(double fraction, std::string_view doing) {
   constexpr int kWidth = 28;
-  const int full = static_cast<int>(fraction * kWidth + 0.5);
+  const int full = static_cast<int>(std::lround(fraction * kWidth));
   std::string bar;
   for (int i = 0; i < kWidth; ++i) bar += i < full ? '#' : '.';
   const std::scoped_lock lock(bar_mutex);
   std::fprintf(stderr, "\r[%s] %3d %%  %.*s\x1b[K", bar.c_str(), static_cast<int>(100 * fraction),
-               static_cast<int>(std::min<std::size_t>(doing.size(), 40)), doing.data());
+               static_cast<int>(std::min<std::size_t>(doing.size(), 40)),
+               std::string(doing).c_str());
   std::fflush(stderr);
   bar_shown = true;
 }

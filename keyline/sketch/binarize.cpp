@@ -106,7 +106,8 @@ void fill_empty(Regions& regions, double otherwise) {
     for (int j = 0; j < kRegionCount; ++j) {
       if (known.empty[static_cast<std::size_t>(j)]) continue;
       const double dx = i % kRegions - j % kRegions;
-      const double dy = i / kRegions - j / kRegions;
+      const int rows = i / kRegions - j / kRegions;
+      const double dy = rows;
       const double w = 1 / std::pow(dx * dx + dy * dy, 1.5);
       weight += w;
       sum += w * known.depth[static_cast<std::size_t>(j)];
@@ -160,7 +161,7 @@ class Blend {
  private:
   static double mix(double a, double b, double u) { return u <= 0 ? a : (1 - u) * a + u * b; }
   double at(int r, int c) const {
-    return regions_.depth[static_cast<std::size_t>(r * kRegions + c)];
+    return regions_.depth[static_cast<std::size_t>(r) * kRegions + static_cast<std::size_t>(c)];
   }
   const Regions& regions_;
   int width_;

@@ -8,7 +8,6 @@ namespace keyline::sketch {
 namespace {
 
 using core::distance;
-using core::Point2;
 using core::Vector2;
 
 constexpr std::size_t kMostBranches = 10;

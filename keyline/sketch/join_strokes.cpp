@@ -39,12 +39,10 @@ class Joiner {
         }
         const int start = branch_of(static_cast<int>(e), false);
         const int end = branch_of(static_cast<int>(e), true);
-        if (at(start).mate < 0) {
+        if (at(start).mate < 0 || (cycles && at(end).mate >= 0)) {
           all.push_back(walk(start, used));
         } else if (at(end).mate < 0) {
           all.push_back(walk(end, used));
-        } else if (cycles) {
-          all.push_back(walk(start, used));
         }
       }
     return all;

@@ -80,7 +80,7 @@ double Refiner::darkness(Point2 p) const {
 
 Refiner::Profile Refiner::profile(Point2 p, Vector2 normal, double half_width) const {
   const int reach = static_cast<int>((1.6 * half_width + 2.5) / kStep);
-  std::vector<double> value(static_cast<std::size_t>(2 * reach + 1));
+  std::vector<double> value(2 * static_cast<std::size_t>(reach) + 1);
   const auto at = [&](int k) -> double& { return value[static_cast<std::size_t>(k + reach)]; };
   for (int k = -reach; k <= reach; ++k) at(k) = darkness(p + (k * kStep) * normal);
   const int near = static_cast<int>(std::max(1.0, 0.6 * half_width) / kStep);

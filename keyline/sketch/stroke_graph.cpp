@@ -12,7 +12,6 @@
 namespace keyline::sketch {
 namespace {
 
-using core::distance;
 using core::Point2;
 
 struct Pixel {

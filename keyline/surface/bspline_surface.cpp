@@ -7,8 +7,6 @@
 
 namespace keyline::surface {
 
-using core::ErrorCode;
-using core::fail;
 using core::Point3;
 using curve::BSpline3;
 
@@ -16,7 +14,7 @@ namespace {
 
 bool knots_fit(int degree, int count, const std::vector<double>& knots) {
   return degree >= 1 && degree <= curve::kMaxBezierDegree && count > degree &&
-         knots.size() == static_cast<std::size_t>(count + degree + 1) &&
+         knots.size() == static_cast<std::size_t>(count) + static_cast<std::size_t>(degree) + 1 &&
          knots[degree] < knots[count];
 }
 

@@ -56,7 +56,8 @@ SurfacePoint ClosestPoint::operator()(const Point3& p) const {
   }
   const auto columns = static_cast<std::size_t>(grid_.columns);
   SurfacePoint at;
-  at.u = static_cast<double>(best / columns) / (grid_.rows - 1);
+  const std::size_t row = best / columns;
+  at.u = static_cast<double>(row) / (grid_.rows - 1);
   at.v = static_cast<double>(best % columns) / (grid_.columns - 1);
   at.point = grid_.jets[best].point;
   for (int i = 0; i < 40; ++i) {

@@ -131,7 +131,8 @@ void add_solved(std::vector<Target>& targets, const Net& net, const EditOptions&
   OneMatrixProblem problem;
   problem.net = net;
   problem.freedom = freedom_of(net, options.keep);
-  problem.growth.assign(static_cast<std::size_t>(net.rows + net.columns), std::nullopt);
+  problem.growth.assign(static_cast<std::size_t>(net.rows) + static_cast<std::size_t>(net.columns),
+                        std::nullopt);
   OneMatrixNet found = solve_one_matrix(problem, net, false);
   if (!(found.violation <= kMet)) return;
   targets.push_back({"one matrix", found.net});
