@@ -33,7 +33,8 @@ std::string aci_color(int index) {
   if (index < 1 || index > 255) return {};
   if (index < 10) return true_color(kBasic[static_cast<std::size_t>(index)]);
   if (index >= 250) return true_color(0x010101 * kGreys[static_cast<std::size_t>(index - 250)]);
-  const double hue = 15.0 * ((index - 10) / 10);
+  const int step = (index - 10) / 10;
+  const double hue = 15.0 * step;
   const double value = kShades[static_cast<std::size_t>(index % 10 / 2)];
   const double least = index % 2 == 1 ? 0.5 : 0;
   int rgb = 0;

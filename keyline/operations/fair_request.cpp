@@ -190,7 +190,7 @@ Result<acquire::KeyLine> key_line_of(const json& request) {
   raw.weights = numbers_of(request, "weights");
   acquire::AcquireOptions options;
   if (request.contains("closed")) options.closed = boolean_or(request, "closed", false);
-  if (const auto noise = optional_number(request, "noise")) options.noise = *noise;
+  if (const auto noise = optional_number(request, "noise")) options.noise = noise;
   if (request.contains("must_pass")) {
     // Indices must keep their meaning: nothing is dropped or put in another order.
     options.ordered = true;

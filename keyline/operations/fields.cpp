@@ -181,7 +181,7 @@ Result<std::optional<double>> positive_number(const json& request, const char* n
 Result<std::vector<double>> numbers_of_count(const json& request, const char* name,
                                              std::size_t least, std::size_t most) {
   const json& value = request.at(name);
-  const std::vector<double> list =
+  std::vector<double> list =
       value.is_array() ? value.get<std::vector<double>>() : std::vector{value.get<double>()};
   if (list.size() >= least && list.size() <= most) return list;
   const std::string count =

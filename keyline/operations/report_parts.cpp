@@ -67,7 +67,7 @@ std::string readings_text(const std::vector<analysis::Interpretation>& interpret
   for (const auto& reading : interpretations) {
     if (told == kMostReadings || (told > 0 && reading.plausibility < kWorthTelling)) break;
     std::string slopes = slopes_text(reading.slopes);
-    if (!slopes.empty()) slopes = " " + slopes;
+    if (!slopes.empty()) slopes.insert(0, 1, ' ');
     const double percent = 100 * reading.plausibility;
     const std::string share = percent > 99.5 && percent < 100 && interpretations.size() > 1
                                   ? ">\u200999"

@@ -15,7 +15,6 @@ namespace {
 
 using core::ErrorCode;
 using core::fail;
-using core::Point2;
 using core::Point3;
 using core::Result;
 using nlohmann::json;
