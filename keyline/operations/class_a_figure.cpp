@@ -15,7 +15,6 @@
 namespace keyline::operations {
 
 using core::Point2;
-using core::Vector2;
 using figure::Drawing;
 
 namespace {
