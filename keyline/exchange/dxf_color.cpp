@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace keyline::exchange::detail {
@@ -41,13 +40,6 @@ std::string aci_color(int index) {
   for (const double own : {0.0, 120.0, 240.0})
     rgb = rgb << 8 | channel(value * (least + (1 - least) * primary(hue, own)));
   return true_color(rgb);
-}
-
-int color_value(const std::string& text) {
-  int value = 0;
-  if (text.size() != 7 || text[0] != '#') return -1;
-  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, value, 16);
-  return error == std::errc() && end == text.data() + 7 && value >= 0 ? value : -1;
 }
 
 }  // namespace keyline::exchange::detail

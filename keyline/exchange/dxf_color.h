@@ -12,7 +12,4 @@ std::string aci_color(int index);
 /// 0xRRGGBB as "#rrggbb".
 std::string true_color(int value);
 
-/// Value of "#rrggbb"; -1 for other text.
-int color_value(const std::string& text);
-
 }  // namespace keyline::exchange::detail

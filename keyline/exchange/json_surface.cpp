@@ -4,8 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_curve.h"
-#include "keyline/exchange/json_space.h"
+#include "keyline/exchange/json_parts.h"
 
 namespace keyline::exchange {
 namespace {
@@ -13,20 +12,14 @@ namespace {
 using core::ErrorCode;
 using core::fail;
 using core::Result;
+using detail::in;
+using detail::kMostPoints;
+using detail::member;
 using nlohmann::json;
 using surface::BezierSurface;
 using surface::BSplineSurface;
 using surface::Net;
 using surface::Surface;
-
-constexpr std::size_t kMostPoints = 20'000'000;
-
-std::string in(const std::string& where, const std::string& key) {
-  return where.empty() ? key : where + "." + key;
-}
-std::string in(const std::string& where, std::size_t index) {
-  return where + "[" + std::to_string(index) + "]";
-}
 
 json rows_json(const Net& net) {
   json rows = json::array();
@@ -47,14 +40,6 @@ void add_weights(json& j, const Net& net, const std::vector<double>& weights) {
     rows.push_back(std::move(row));
   }
   j["weights"] = std::move(rows);
-}
-
-Result<const json*> member(const json& j, const char* key, const std::string& where) {
-  const auto it = j.find(key);
-  if (it == j.end())
-    return fail(ErrorCode::bad_input, std::string("\"") + key + "\" is missing",
-                std::string("add \"") + key + "\"", in(where, key));
-  return &*it;
 }
 
 /// Rows of equal length, each entry read by `read`.

@@ -1,13 +1,13 @@
 #include "keyline/operations/document_picture.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
 
 #include "keyline/curve/length.h"
+#include "keyline/document/color.h"
 #include "keyline/figure/line_drawing.h"
 
 namespace keyline::operations {
@@ -20,12 +20,10 @@ constexpr int kSamples = 48;                 // between neighbouring breakpoints
 constexpr std::size_t kMostPoints = 400000;  // of all lines together
 constexpr double kWidth = 860;               // px
 
-/// "#rrggbb"; ink for anything else.
+/// Ink where the label has none.
 figure::Color color_of(const std::string& text) {
-  unsigned value = 0;
-  if (text.size() != 7 || text[0] != '#') return figure::kInk;
-  const auto [end, fault] = std::from_chars(text.data() + 1, text.data() + 7, value, 16);
-  if (fault != std::errc() || end != text.data() + 7) return figure::kInk;
+  const int value = document::color_value(text);
+  if (value < 0) return figure::kInk;
   return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 0xff),
           static_cast<std::uint8_t>(value & 0xff)};
 }
