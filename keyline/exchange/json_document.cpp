@@ -1,10 +1,9 @@
 #include "keyline/exchange/json_document.h"
 
-#include <algorithm>
-
 #include "keyline/exchange/hull_table.h"
 #include "keyline/exchange/json_parts.h"
 #include "keyline/exchange/json_surface.h"
+#include "keyline/exchange/json_text.h"
 
 namespace keyline::exchange {
 namespace {
@@ -179,18 +178,9 @@ Result<Document> document_from_json(const json& j) {
 }
 
 Result<Document> read_json(std::string_view text) {
-  json j;
-  try {
-    j = json::parse(text);
-  } catch (const json::parse_error& e) {
-    const auto upto = std::min<std::size_t>(e.byte, text.size());
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(upto), '\n');
-    return fail(ErrorCode::bad_input, "this is not JSON",
-                "mend it around byte " + std::to_string(e.byte), "line " + std::to_string(line));
-  } catch (const json::exception&) {
-    return fail(ErrorCode::bad_input, "a number is too large for a double", "mend it");
-  }
-  return document_from_json(j);
+  const auto j = parse_json(text);
+  if (!j) return std::unexpected(j.error());
+  return document_from_json(*j);
 }
 
 }  // namespace keyline::exchange

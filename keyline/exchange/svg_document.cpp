@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/exchange/cubic_path.h"
 #include "keyline/exchange/json_document.h"
+#include "keyline/exchange/json_text.h"
 #include "keyline/exchange/svg_reader.h"
 #include "keyline/exchange/svg_writer.h"
 
@@ -84,9 +85,9 @@ Result<Document> read_svg_document(std::string_view bytes) {
   const auto svg = read_svg(bytes);
   if (!svg) return std::unexpected(svg.error());
   if (svg->metadata.empty()) return document_of(*svg);
-  const json metadata = json::parse(svg->metadata, nullptr, false);
-  if (is_current(metadata, *svg)) {
-    auto exact = document_from_json(metadata);
+  const auto metadata = parse_json(svg->metadata);
+  if (metadata && is_current(*metadata, *svg)) {
+    auto exact = document_from_json(*metadata);
     if (exact) return exact;
   }
   Document document = document_of(*svg);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "keyline/exchange/json_text.h"
 #include "keyline/operations/derived_forms.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
@@ -159,15 +160,11 @@ json answer(const json& request, const Context& context) {
 }
 
 std::string answer_line(const std::string& line, const Context& context) {
-  json request;
-  try {
-    request = json::parse(line);
-  } catch (const json::exception&) {
-    return failed(nullptr, {ErrorCode::bad_input, "the line is not JSON",
-                            "give one JSON object per line", ""})
-        .dump();
-  }
-  return answer(request, context).dump(-1, ' ', false, json::error_handler_t::replace);
+  const auto request = exchange::parse_json(line);
+  const json given = request ? answer(*request, context)
+                             : failed(nullptr, {ErrorCode::bad_input, request.error().message,
+                                                "give one JSON object per line", ""});
+  return given.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 }  // namespace keyline::operations

@@ -103,6 +103,16 @@ TEST(JsonDocument, NamesThePlaceOfAMistake) {
   EXPECT_FALSE(read_json("1e999"));
 }
 
+TEST(JsonDocument, RefusesDeepNesting) {
+  const auto refused = read_json("{\n\"a\": " + std::string(100'000, '['));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().path, "line 2");
+  // Brackets within strings do not count.
+  const auto wrong = read_json("{\"type\": \"\\\"" + std::string(1000, '[') + "\"}");
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().message.find("nested"), std::string::npos);
+}
+
 TEST(SvgDocument, ReadsBackTheExactCurves) {
   const Document d = mixed();
   const auto svg = write_svg_document(d, 0.001);

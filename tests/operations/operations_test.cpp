@@ -48,6 +48,13 @@ TEST(Answer, LinesThatAreNotJsonGetAnAnswerToo) {
   EXPECT_EQ(answer["error"]["code"], "bad-input");
 }
 
+TEST(Answer, DeeplyNestedLinesGetAnAnswerToo) {
+  const std::string deep = std::string(300'000, '[') + std::string(300'000, ']');
+  const json answer = json::parse(answer_line(R"({"op":"lac.segment","id":)" + deep + "}", {}));
+  EXPECT_EQ(answer["ok"], false);
+  EXPECT_EQ(answer["error"]["code"], "bad-input");
+}
+
 TEST(Answer, GivesTheIdBack) {
   const json request{{"op", "lac.segment"},
                      {"id", {{"a", 7}}},

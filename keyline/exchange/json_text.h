@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "keyline/core/error.h"
+
+namespace keyline::exchange {
+
+inline constexpr int kDeepestJson = 200;
+
+/// The value a JSON text stands for.
+///
+/// Fails: bad_input with "line N" for what is not JSON, for values nested deeper than kDeepestJson
+///        (everything that walks the value may therefore recurse) and numbers beyond doubles.
+core::Result<nlohmann::json> parse_json(std::string_view text);
+
+}  // namespace keyline::exchange
