@@ -78,6 +78,18 @@ void add_input(CLI::App& app, InputOptions& input) {
       ->group(points);
 }
 
+void add_spline_search(CLI::App& app, SplineSearch& search) {
+  const char* group = "Spline through the points";
+  app.add_option("--order", search.order, "degree + 1, 4 to 6 (5)")->group(group);
+  app.add_option("--knots", search.knots, "polished (default) or ga, the plain genetic search")
+      ->group(group);
+  app.add_option("--population", search.population, "of the genetic search (30)")->group(group);
+  app.add_option("--generations", search.generations, "of the genetic search (30)")->group(group);
+  app.add_option("--trials", search.trials, "searches, the best is kept (1)")->group(group);
+  app.add_option("--parameter", search.parameter, "smooth-chord (default), chord or centripetal")
+      ->group(group);
+}
+
 Command add_fair(CLI::App& app) {
   auto options = std::make_shared<FairCommand>();
   FairCommand& fair = *options;
@@ -99,9 +111,7 @@ Command add_fair(CLI::App& app) {
       ->delimiter(',');
   sub->add_flag("!--no-keep-corners,--keep-corners", fair.keep_corners,
                 "corners end chains (default)");
-  sub->add_option("--order", fair.order, "of the spline, 4 to 6")
-      ->check(CLI::Range(4, 6))
-      ->capture_default_str();
+  add_spline_search(*sub, fair.spline);
   sub->footer(
       "Example: keyline fair examples/bonnet-scan.csv -o faired.svg -o report.html\n"
       "Formats: svg, json (the exact chain), csv (samples), html (report), pdf, png.");

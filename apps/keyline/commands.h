@@ -38,6 +38,16 @@ struct InputOptions {
   std::string unit;
 };
 
+/// How the knots of the points' spline are searched; empty: the defaults of `fair`.
+struct SplineSearch {
+  std::optional<int> order;
+  std::optional<int> population;
+  std::optional<int> generations;
+  std::optional<int> trials;
+  std::string knots;
+  std::string parameter;
+};
+
 struct FairCommand {
   CommonOptions common;
   InputOptions input;
@@ -47,7 +57,7 @@ struct FairCommand {
   std::vector<std::string> interpretations;
   std::vector<long> must_pass;
   bool keep_corners = true;
-  int order = 5;
+  SplineSearch spline;
 };
 int run_fair(const FairCommand& command);
 

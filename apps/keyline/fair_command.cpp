@@ -8,6 +8,7 @@
 #include "keyline/operations/fair_report.h"
 #include "keyline/operations/fair_request.h"
 #include "keyline/operations/pictures.h"
+#include "keyline/operations/spline_search.h"
 #include "keyline/report/html_report.h"
 
 #include "commands.h"
@@ -25,13 +26,28 @@ struct Faired {
   fairing::FairResult result;
 };
 
+/// The fields given, as a request of the operation `fair` has them.
+nlohmann::json search_request(const SplineSearch& search) {
+  nlohmann::json request = nlohmann::json::object();
+  if (search.order) request["order"] = *search.order;
+  if (search.population) request["population"] = *search.population;
+  if (search.generations) request["generations"] = *search.generations;
+  if (search.trials) request["trials"] = *search.trials;
+  if (!search.knots.empty()) request["knots"] = search.knots;
+  if (!search.parameter.empty()) request["parameter"] = search.parameter;
+  return request;
+}
+
 Result<fairing::FairOptions> options_of(const FairCommand& command,
                                         const core::Progress& progress) {
   fairing::FairOptions options;
   options.tolerance = command.common.tolerance.value_or(0);
   options.pieces = command.pieces;
   options.keep_corners = command.keep_corners;
-  options.order = command.order;
+  if (auto done =
+          operations::read_spline_search(search_request(command.spline), {4, 6}, options.spline);
+      !done)
+    return std::unexpected(done.error());
   options.seed = static_cast<std::uint64_t>(command.common.seed);
   options.threads = command.common.threads;
   options.progress = progress;
@@ -154,9 +170,12 @@ operations::ReportOptions report_options(const FairCommand& command, const Faire
   options.options = {
       {"tolerance", fmt::format("{:.6g}{}", faired.result.tolerance,
                                 command.common.tolerance ? "" : " (by the default rule)")},
-      {"order of the spline", std::to_string(command.order)},
       {"corners", command.keep_corners ? "kept" : "rounded"},
       {"seed", std::to_string(command.common.seed)}};
+  const nlohmann::json search = search_request(command.spline);
+  for (const auto& [name, value] : search.items())
+    options.options.emplace_back(name + " of the spline",
+                                 value.is_string() ? value.get<std::string>() : value.dump());
   if (command.pieces > 0) options.options.emplace_back("pieces", std::to_string(command.pieces));
   if (!command.clamp.empty()) options.options.emplace_back("clamp", command.clamp);
   if (!command.region.empty()) options.options.emplace_back("region", command.region);

@@ -24,7 +24,7 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     return fail(ErrorCode::bad_input, "the tolerance is not a length",
                 "give a number greater than 0", "tolerance");
-  if (options.order < 4 || options.order > 6)
+  if (options.spline.order < 4 || options.spline.order > 6)
     return fail(ErrorCode::bad_input, "the order of the spline is out of range", "give 4, 5 or 6",
                 "order");
   if (options.pieces < 0)
@@ -111,8 +111,8 @@ class Job {
 
   Result<curve::BSpline2> spline_of(std::size_t k) {
     const detail::Run& run = runs_[k];
-    fit::SplineFitOptions fit = fit::SplineFitOptions::for_fairing();
-    fit.order = std::min<int>(options_.order, static_cast<int>(run.points.size()));
+    fit::SplineFitOptions fit = options_.spline;
+    fit.order = std::min<int>(fit.order, static_cast<int>(run.points.size()));
     fit.seed = options_.seed;
     fit.threads = options_.threads;
     fit.closed = run.closed && run.points.size() > 8;

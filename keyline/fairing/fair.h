@@ -40,7 +40,9 @@ struct FairOptions {
   std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
   std::vector<InterpretationOverride> interpretations;
   std::vector<std::size_t> must_pass;  ///< indices into the key-line's points
-  int order = 5;                       ///< of the spline, 4 to 6
+  /// The spline of step 2: order (4 to 6), budget, knots and parameter. What else it needs
+  /// (seed, threads, closing, points to pass, rounding, progress) comes from here and the points.
+  fit::SplineFitOptions spline = fit::SplineFitOptions::for_fairing();
   std::uint64_t seed = 1;
   int threads = 0;
   core::Progress progress;

@@ -7,6 +7,7 @@
 #include "keyline/acquire/acquire.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/operations/fields.h"
+#include "keyline/operations/spline_search.h"
 
 namespace keyline::operations {
 namespace {
@@ -130,9 +131,8 @@ Result<fairing::FairOptions> fair_options(const json& request, const Context& co
   const auto pieces = integer_between(request, "pieces", 0, 0, 400);
   if (!pieces) return std::unexpected(pieces.error());
   options.pieces = *pieces;
-  const auto order = integer_between(request, "order", options.order, 4, 6);
-  if (!order) return std::unexpected(order.error());
-  options.order = *order;
+  if (auto done = read_spline_search(request, {4, 6}, options.spline); !done)
+    return std::unexpected(done.error());
   options.keep_corners = boolean_or(request, "keep_corners", true);
   options.seed = static_cast<std::uint64_t>(integer_or(request, "seed", 1));
   for (const double index : numbers_of(request, "must_pass")) {

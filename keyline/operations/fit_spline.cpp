@@ -5,6 +5,7 @@
 #include "keyline/exchange/json_curve.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/spline_search.h"
 
 namespace keyline::operations {
 namespace {
@@ -14,27 +15,8 @@ using nlohmann::json;
 
 Result<fit::SplineFitOptions> options_of(const json& request, const Context& context) {
   fit::SplineFitOptions options;
-  const auto set = [&](int& target, const char* name, int low, int high) -> Result<void> {
-    const auto value = integer_between(request, name, target, low, high);
-    if (!value) return std::unexpected(value.error());
-    target = *value;
-    return {};
-  };
-  for (const auto& done :
-       {set(options.order, "order", 2, 8), set(options.population, "population", 2, 100000),
-        set(options.generations, "generations", 0, 1000000),
-        set(options.trials, "trials", 1, 100000)})
-    if (!done) return std::unexpected(done.error());
-  const std::string knots = string_or(request, "knots", "polished");
-  if (knots != "polished" && knots != "ga")
-    return core::fail(core::ErrorCode::bad_input, "\"" + knots + "\" is no way to place knots",
-                      "give \"polished\" or \"ga\"", "knots");
-  options.knots = knots == "ga" ? fit::KnotPlacement::ga : fit::KnotPlacement::polished;
-  const std::string parameter = string_or(request, "parameter", "chord");
-  if (parameter != "chord" && parameter != "centripetal")
-    return core::fail(core::ErrorCode::bad_input, "\"" + parameter + "\" is no parametrisation",
-                      "give \"chord\" or \"centripetal\"", "parameter");
-  if (parameter == "centripetal") options.parameter = fit::Parametrization::centripetal;
+  if (auto done = read_spline_search(request, {2, 8}, options); !done)
+    return std::unexpected(done.error());
   options.seed = static_cast<std::uint64_t>(integer_or(request, "seed", 1));
   options.closed = boolean_or(request, "closed", false);
   for (const double index : numbers_of(request, "must_pass")) {
@@ -125,7 +107,8 @@ Operation fit_spline_operation() {
            {"generations", Type::integer, false, "100 to 300 recommended"},
            {"trials", Type::integer, false, "independent searches, 20 to 40 recommended"},
            {"knots", Type::string, false, "\"polished\" (default) or \"ga\""},
-           {"parameter", Type::string, false, "\"chord\" (default) or \"centripetal\""},
+           {"parameter", Type::string, false,
+            "\"chord\" (default), \"centripetal\" or \"smooth-chord\""},
            {"closed", Type::boolean, false, "the points are a closed loop"},
            {"seed", Type::integer, false, "of the search; 1 unless given"}},
           run,

@@ -69,6 +69,19 @@ TEST(Commands, SameBytesWithOneThreadAndTwo) {
   EXPECT_EQ(one.out, two.out);
 }
 
+TEST(Commands, TheSearchOfTheSplineIsChosen) {
+  const std::string fair = "fair --quiet --json " + example("bonnet-scan.csv");
+  const Outcome polished = run_keyline(fair);
+  for (const char* search : {" --knots ga --population 40 --generations 20 --trials 2",
+                             " --parameter centripetal", " --order 6"}) {
+    const Outcome o = run_keyline(fair + search);
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_NE(json::parse(o.out)["spline"], json::parse(polished.out)["spline"]) << search;
+  }
+  expect_failure(run_keyline(fair + " --knots loose"), 2, "is no way to place knots");
+  expect_failure(run_keyline(fair + " --trials 0"), 2, "from 1 to 100000");
+}
+
 TEST(Commands, SeveralFilesAreOneKeyLine) {
   const Outcome o = run_keyline("fair --quiet --json " + example("bonnet.csv") + " " +
                                 example("windscreen.csv") + " " + example("roof.csv"));

@@ -71,7 +71,7 @@ TEST(Fair, OptionsOutOfRangeAreBadInput) {
   options.tolerance = -1;
   EXPECT_EQ(fair(line, options).error().path, "tolerance");
   options = {};
-  options.order = 9;
+  options.spline.order = 9;
   EXPECT_EQ(fair(line, options).error().path, "order");
   options = {};
   options.region = core::Interval{0.5, 0.5};
