@@ -5,12 +5,15 @@
 #include <IGESData_IGESModel.hxx>
 #include <IGESGraph_Color.hxx>
 #include <Interface_Static.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <cmath>
 #include <stdexcept>
 
 #include "keyline/exchange/dxf_color.h"
 #include "keyline/exchange/occt/reader.h"
+#include "keyline/exchange/occt/shape_origins.h"
 #include "keyline/exchange/occt/shape_walk.h"
 
 namespace keyline::exchange::occt {
@@ -38,7 +41,7 @@ std::string color_of(const Handle(IGESData_IGESEntity) & entity) {
   double g = 0;
   double b = 0;
   color->RGBIntensity(r, g, b);
-  const auto channel = [](double v) { return static_cast<int>(2.55 * v + 0.5) & 255; };
+  const auto channel = [](double v) { return static_cast<int>(std::lround(2.55 * v)) & 255; };
   return detail::true_color(channel(r) << 16 | channel(g) << 8 | channel(b));
 }
 
@@ -87,11 +90,10 @@ document::Document read_iges(const std::string& file) {
   if (done < roots)
     document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
                                " things are no curves or surfaces that can be read");
-  const auto transfer = reader.WS()->TransferReader();
+  const ShapeOrigins origins(*reader.WS());
   ShapeWalk walk(document, [&](const TopoDS_Shape& shape) {
-    for (const int mode : {1, 2, 3, 4})
-      if (const auto entity =
-              Handle(IGESData_IGESEntity)::DownCast(transfer->EntityFromShapeResult(shape, mode)))
+    for (const Handle(Standard_Transient) origin : origins.of(shape))
+      if (const auto entity = Handle(IGESData_IGESEntity)::DownCast(origin))
         return label_of(entity);
     return Label{};
   });

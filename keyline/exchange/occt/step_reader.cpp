@@ -15,16 +15,16 @@
 #include <StepVisual_PresentationLayerAssignment.hxx>
 #include <StepVisual_StyledItem.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
-#include <TransferBRep.hxx>
-#include <Transfer_Binder.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "keyline/exchange/dxf_color.h"
 #include "keyline/exchange/occt/reader.h"
+#include "keyline/exchange/occt/shape_origins.h"
 #include "keyline/exchange/occt/shape_walk.h"
 
 namespace keyline::exchange::occt {
@@ -47,7 +47,7 @@ std::string hex(const Quantity_Color& color) {
   double g = 0;
   double b = 0;
   color.Values(r, g, b, Quantity_TOC_sRGB);
-  const auto channel = [](double v) { return static_cast<int>(255 * v + 0.5) & 255; };
+  const auto channel = [](double v) { return static_cast<int>(std::lround(255 * v)) & 255; };
   return detail::true_color(channel(r) << 16 | channel(g) << 8 | channel(b));
 }
 
@@ -142,12 +142,10 @@ document::Document read_step(const std::string& file) {
     document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
                                " things could not be made into shapes");
   const Looks looks(reader.WS());
-  const auto transfer = reader.WS()->TransferReader();
+  const ShapeOrigins origins(*reader.WS());
   ShapeWalk walk(document, [&](const TopoDS_Shape& shape) {
     Label label;
-    for (const int mode : {3, 2, 1, 4}) {
-      const Handle(Standard_Transient) entity = transfer->EntityFromShapeResult(shape, mode);
-      if (entity.IsNull()) continue;
+    for (const Handle(Standard_Transient) entity : origins.of(shape)) {
       if (label.name.empty()) label.name = name_of(entity);
       looks.complete(label, entity);
     }
