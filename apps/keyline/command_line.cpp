@@ -277,6 +277,7 @@ Command add_convert(CLI::App& app) {
   add_input(*sub, options->input);
   add_common(*sub, options->common);
   sub->add_flag("--grid", options->grid, "glif: nodes and handles on whole numbers");
+  sub->add_flag("--trims", options->trims, "also the curves that trim surfaces, as curves");
   sub->add_flag("--polylines", options->polylines,
                 "dxf: one polyline per curve, arcs as bulges, in place of splines");
   sub->footer("Example: keyline convert faired.json -o faired.dxf --tolerance 0.001");

@@ -132,6 +132,7 @@ struct ConvertCommand {
   InputOptions input;
   bool polylines = false;
   bool grid = false;
+  bool trims = false;
 };
 int run_convert(const ConvertCommand& command);
 

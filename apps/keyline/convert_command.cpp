@@ -56,10 +56,10 @@ int run_convert(const ConvertCommand& command) {
     return report_failure({core::ErrorCode::bad_input, "no output is named", "add -o FILE", ""});
   if (auto known = check_outputs(common, curve_extensions({".pdf", ".png", ".html"})); !known)
     return report_failure(known.error());
-  const auto document = holds_points(command.input.files.front())
-                            ? document_of_points(command.input)
-                            : load_document(command.input);
+  auto document = holds_points(command.input.files.front()) ? document_of_points(command.input)
+                                                            : load_document(command.input);
   if (!document) return report_failure(document.error());
+  if (command.trims) document::add_trim_curves(*document);
   say(common.quiet, fmt::format("{}: {}", command.input.files.front(), contents(*document)));
   for (const std::string& skipped : document->skipped) say(common.quiet, "skipped: " + skipped);
   exchange::WriteOptions options;

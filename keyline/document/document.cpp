@@ -8,17 +8,24 @@
 namespace keyline::document {
 namespace {
 
+/// "hood" is the name of "hood", of its parts "hood/face-3" and of its later runs "hood#2".
+bool within(const std::string& name, const std::string& wanted) {
+  if (!name.starts_with(wanted)) return false;
+  const std::size_t end = wanted.size();
+  return name.size() == end || name[end] == '/' || name[end] == '#';
+}
+
 /// Which things to keep; empty where the text means nothing.
 std::vector<bool> chosen(const std::vector<Label>& all, const std::string& wanted) {
   std::vector<bool> keep(all.size(), false);
-  for (const auto member : {&Label::name, &Label::layer}) {
-    bool any = false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      keep[i] = all[i].*member == wanted;
-      any = any || keep[i];
-    }
-    if (any) return keep;
-  }
+  const auto any_where = [&](auto&& meant) {
+    for (std::size_t i = 0; i < all.size(); ++i) keep[i] = meant(all[i]);
+    return std::find(keep.begin(), keep.end(), true) != keep.end();
+  };
+  if (any_where([&](const Label& label) { return label.name == wanted; }) ||
+      any_where([&](const Label& label) { return label.layer == wanted; }) ||
+      any_where([&](const Label& label) { return within(label.name, wanted); }))
+    return keep;
   std::size_t index = 0;
   const char* end = wanted.data() + wanted.size();
   const auto [stop, error] = std::from_chars(wanted.data(), end, index);
@@ -79,6 +86,18 @@ core::Result<void> select(Document& document, const std::string& wanted) {
   keep_only(document.space_curves, keep, at);
   keep_only(document.surfaces, keep, at);
   return {};
+}
+
+void add_trim_curves(Document& document) {
+  for (const NamedSurface& named : document.surfaces) {
+    int number = 0;
+    for (const auto& loop : named.trim_loops)
+      for (const SpaceCurve& curve : loop) {
+        Label label = named.label;
+        label.name += "/trim-" + std::to_string(++number);
+        document.space_curves.push_back({std::move(label), curve});
+      }
+  }
 }
 
 double millimetres(const std::string& unit) {

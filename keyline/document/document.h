@@ -35,6 +35,8 @@ struct NamedSurface {
   Label label;
   surface::Surface surface;
   int trims = 0;  ///< edges that cut a face out of it in the file; the surface here is whole
+  /// Where there are any: the whole border of the face, loop by loop, curves end to end.
+  std::vector<std::vector<SpaceCurve>> trim_loops = {};
 };
 
 /// What a file holds once transforms are applied: things with their place, in one unit.
@@ -54,9 +56,13 @@ std::size_t size(const Document& document);
 std::vector<Label> labels(const Document& document);
 
 /// Keeps what `wanted` means and drops the rest: all things of that name; if there are none, all of
-/// that layer; if none, the thing of that index, counted from 1. An empty `wanted` keeps all.
+/// that layer; if none, all parts of what has that name ("hood/face-3", "roof#2"); if none, the
+/// thing of that index, counted from 1. An empty `wanted` keeps all.
 /// Fails: bad_input where it means nothing here, with the names there are as a hint.
 core::Result<void> select(Document& document, const std::string& wanted);
+
+/// The curves of all trim loops as curves of the document too, "name/trim-1" … of their surface.
+void add_trim_curves(Document& document);
 
 /// Length of the unit in millimetres; 0 for an unknown one. px counts 96 to the inch.
 double millimetres(const std::string& unit);

@@ -77,6 +77,7 @@ Result<Document> simplified(const Document& document, double tolerance, double& 
   Document result;
   result.unit = document.unit;
   result.surfaces = document.surfaces;
+  for (auto& named : result.surfaces) named.trim_loops.clear();
   for (const auto& named : document.paths) {
     const auto parts = cad_parts(named.path, tolerance);
     if (!parts) return std::unexpected(parts.error());

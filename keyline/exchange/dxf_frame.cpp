@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "keyline/exchange/points_writer.h"
+#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -171,22 +172,6 @@ void add_objects(DxfText& file) {
   file.text(0, "ENDSEC");
 }
 
-/// Code point at `at`, which moves behind it; U+FFFD for bytes that are no UTF-8.
-unsigned code_point(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned first = byte(at++);
-  const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-  if (more == 0) return first < 0x80 ? first : 0xfffd;
-  unsigned code = first & (0x3fU >> more);
-  for (int i = 0; i < more; ++i) {
-    if ((byte(at) & 0xc0) != 0x80) return 0xfffd;
-    code = code << 6 | (byte(at++) & 0x3f);
-  }
-  return code;
-}
-
 }  // namespace
 
 void DxfText::text(int code, std::string_view value) {
@@ -226,9 +211,12 @@ std::string dxf_text(std::string_view name) {
     } else if (code < 0x80) {
       result += static_cast<char>(code);
     } else {
-      result += "\\U+";
-      for (int shift = 12; shift >= 0; shift -= 4)
-        result += kDigits[((code > 0xffff ? 0xfffd : code) >> shift) & 15];
+      const auto append = [&](unsigned unit) {
+        result += "\\U+";
+        for (int shift = 12; shift >= 0; shift -= 4) result += kDigits[unit >> shift & 15];
+      };
+      if (code > 0xffff) append(0xd7c0 + (code >> 10));  // two units of UTF-16
+      append(code > 0xffff ? 0xdc00 + (code & 0x3ff) : code);
     }
   }
   return result;

@@ -48,28 +48,24 @@ Kind kind_of(int code) {
   return Kind::text;
 }
 
-void append_utf8(std::string& text, unsigned code) {
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-  } else if (code < 0x800) {
-    text += static_cast<char>(0xc0 | (code >> 6));
-    text += static_cast<char>(0x80 | (code & 0x3f));
-  } else {
-    text += static_cast<char>(0xe0 | (code >> 12));
-    text += static_cast<char>(0x80 | ((code >> 6) & 0x3f));
-    text += static_cast<char>(0x80 | (code & 0x3f));
-  }
-}
-
-/// The code point behind "\U+"; empty where there are no four hexadecimal digits.
-std::optional<unsigned> escape_at(std::string_view text) {
+/// The unit of UTF-16 behind "\U+"; empty where there are no four hexadecimal digits.
+std::optional<unsigned> unit_at(std::string_view text) {
   if (!text.starts_with("\\U+") || text.size() < 7) return std::nullopt;
   unsigned code = 0;
   const auto [end, error] = std::from_chars(text.data() + 3, text.data() + 7, code, 16);
-  const bool surrogate = code >= 0xd800 && code < 0xe000;
-  if (error != std::errc() || end != text.data() + 7 || surrogate || code < 0x20)
-    return std::nullopt;
+  if (error != std::errc() || end != text.data() + 7 || code < 0x20) return std::nullopt;
   return code;
+}
+
+/// The code point the escapes at the start of the text stand for, and how many bytes they take.
+std::optional<std::pair<unsigned, std::size_t>> escape_at(std::string_view text) {
+  const auto first = unit_at(text);
+  if (!first) return std::nullopt;
+  const bool high = *first >= 0xd800 && *first < 0xdc00;
+  if (const auto low = high ? unit_at(text.substr(7)) : std::nullopt)
+    if (*low >= 0xdc00 && *low < 0xe000)
+      return std::pair{0x10000 + ((*first - 0xd800) << 10) + (*low - 0xdc00), std::size_t{14}};
+  return std::pair{*first, std::size_t{7}};
 }
 
 }  // namespace
@@ -96,9 +92,9 @@ std::string text_of(const DxfTag& tag) {
   std::string text;
   for (std::size_t i = 0; i < tag.text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(tag.text[i]);
-    if (const auto code = escape_at(tag.text.substr(i))) {
-      append_utf8(text, *code);
-      i += 6;
+    if (const auto escape = escape_at(tag.text.substr(i))) {
+      append_utf8(text, escape->first);
+      i += escape->second - 1;
     } else if (utf8 || byte < 0x80) {
       text += tag.text[i];
     } else {

@@ -70,6 +70,28 @@ Result<void> add_value(Document& document, const json& value, const std::string&
   return {};
 }
 
+Result<void> add_trim_loops(document::NamedSurface& named, const json& item,
+                            const std::string& where) {
+  const auto loops = item.find("trim_loops");
+  if (loops == item.end()) return {};
+  const std::string at = in(where, "trim_loops");
+  const auto wanted = [](const std::string& path) {
+    return fail(ErrorCode::bad_input, "a list is wanted here", "give [[curve, …], …]", path);
+  };
+  if (!loops->is_array()) return wanted(at);
+  for (std::size_t i = 0; i < loops->size(); ++i) {
+    const json& list = (*loops)[i];
+    if (!list.is_array()) return wanted(in(at, i));
+    auto& loop = named.trim_loops.emplace_back();
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      auto curve = space_curve_from_json(list[k], in(in(at, i), k));
+      if (!curve) return std::unexpected(curve.error());
+      loop.push_back(std::move(*curve));
+    }
+  }
+  return {};
+}
+
 Result<void> add_surface(Document& document, const json& item, const std::string& where) {
   if (!item.is_object() || !item.contains("surface"))
     return fail(ErrorCode::bad_input, "a surface is wanted here", "give {\"surface\":{…}}", where);
@@ -78,7 +100,7 @@ Result<void> add_surface(Document& document, const json& item, const std::string
   const auto trims = item.find("trims");
   const bool counted = trims != item.end() && trims->is_number_unsigned() && *trims < 1'000'000;
   document.surfaces.push_back({label_of(item), std::move(*read), counted ? trims->get<int>() : 0});
-  return {};
+  return add_trim_loops(document.surfaces.back(), item, where);
 }
 
 Result<void> add_item(Document& document, const json& item, const std::string& where) {
@@ -120,6 +142,13 @@ json surfaces_json(const Document& document) {
   for (const auto& named : document.surfaces) {
     list.push_back(item_json(named.label, "surface", to_json(named.surface)));
     if (named.trims > 0) list.back()["trims"] = named.trims;
+    if (named.trim_loops.empty()) continue;
+    json& loops = list.back()["trim_loops"] = json::array();
+    for (const auto& loop : named.trim_loops) {
+      json curves = json::array();
+      for (const document::SpaceCurve& curve : loop) curves.push_back(to_json(curve));
+      loops.push_back(std::move(curves));
+    }
   }
   return list;
 }

@@ -19,4 +19,39 @@ bool is_utf8(std::string_view bytes) {
   return true;
 }
 
+unsigned code_point(std::string_view text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned first = byte(at++);
+  const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
+  if (more == 0) return first < 0x80 ? first : 0xfffd;
+  unsigned code = first & (0x3fU >> more);
+  for (int i = 0; i < more; ++i) {
+    if ((byte(at) & 0xc0) != 0x80) return 0xfffd;
+    code = code << 6 | (byte(at++) & 0x3f);
+  }
+  return code;
+}
+
+void append_utf8(std::string& text, unsigned code) {
+  if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = 0xfffd;
+  const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 0x3f)); };
+  if (code < 0x80) {
+    text += static_cast<char>(code);
+  } else if (code < 0x800) {
+    text += static_cast<char>(0xc0 | code >> 6);
+    tail(0);
+  } else if (code < 0x10000) {
+    text += static_cast<char>(0xe0 | code >> 12);
+    tail(6);
+    tail(0);
+  } else {
+    text += static_cast<char>(0xf0 | code >> 18);
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
 }  // namespace keyline::exchange

@@ -99,13 +99,12 @@ bool add_arc(document::Document& document, const Handle(Geom_Curve) & c, double 
   return true;
 }
 
-}  // namespace
-
-void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& whole,
-               double first, double last, const Label& label) {
-  Handle(Geom_Curve) c = whole;
+Handle(Geom_Curve) basis_of(Handle(Geom_Curve) c) {
   while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(c)) c = trimmed->BasisCurve();
-  if (add_line(document, c, first, last, label) || add_arc(document, c, first, last, label)) return;
+  return c;
+}
+
+BSpline3 spline_of(const Handle(Geom_Curve) & c, double first, double last) {
   const Handle(Geom_BSplineCurve) spline =
       GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(c, first, last));
   if (spline->IsPeriodic()) spline->SetNotPeriodic();
@@ -115,6 +114,24 @@ void add_curve(document::Document& document, const opencascade::handle<Geom_Curv
   for (int i = 1; i <= spline->NbPoles(); ++i) made.control.push_back(point(spline->Pole(i)));
   if (spline->IsRational())
     for (int i = 1; i <= spline->NbPoles(); ++i) made.weights.push_back(spline->Weight(i));
+  return made;
+}
+
+}  // namespace
+
+document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& whole, double first,
+                                    double last) {
+  const Handle(Geom_Curve) c = basis_of(whole);
+  if (!Handle(Geom_Line)::DownCast(c).IsNull())
+    return {curve::Bezier3{{point(c->Value(first)), point(c->Value(last))}, {}}};
+  return {spline_of(c, first, last)};
+}
+
+void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& whole,
+               double first, double last, const Label& label) {
+  const Handle(Geom_Curve) c = basis_of(whole);
+  if (add_line(document, c, first, last, label) || add_arc(document, c, first, last, label)) return;
+  BSpline3 made = spline_of(c, first, last);
   if (!is_flat(made.control)) {
     document.space_curves.push_back({label, {std::move(made)}});
     return;

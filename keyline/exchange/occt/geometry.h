@@ -19,6 +19,10 @@ namespace keyline::exchange::occt {
 void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& curve,
                double first, double last, const document::Label& label);
 
+/// The part of a curve between two parameters: a straight Bézier or a B-spline. Throws as above.
+document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& curve, double first,
+                                    double last);
+
 /// The B-spline form of the part of a surface in a box of parameters; B-spline and Bézier surfaces
 /// whole.
 surface::Surface surface_of(const opencascade::handle<Geom_Surface>& surface, double u1, double u2,

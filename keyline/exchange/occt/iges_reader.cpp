@@ -1,3 +1,4 @@
+#include <IGESAppli_LevelFunction.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_ColorEntity.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -5,15 +6,14 @@
 #include <IGESData_IGESModel.hxx>
 #include <IGESGraph_Color.hxx>
 #include <Interface_Static.hxx>
-#include <Transfer_TransientProcess.hxx>
-#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "keyline/exchange/dxf_color.h"
+#include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
-#include "keyline/exchange/occt/shape_origins.h"
 #include "keyline/exchange/occt/shape_walk.h"
 
 namespace keyline::exchange::occt {
@@ -45,11 +45,25 @@ std::string color_of(const Handle(IGESData_IGESEntity) & entity) {
   return detail::true_color(channel(r) << 16 | channel(g) << 8 | channel(b));
 }
 
-Label label_of(const Handle(IGESData_IGESEntity) & entity) {
+using Levels = std::map<int, std::string>;
+
+/// What the file calls its levels.
+Levels levels_of(const Handle(Interface_InterfaceModel) & model) {
+  Levels levels;
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto named = Handle(IGESAppli_LevelFunction)::DownCast(model->Value(i)))
+      levels.emplace(named->Level(), trimmed(named->FuncDescription()));
+  return levels;
+}
+
+Label label_of(const Handle(IGESData_IGESEntity) & entity, const Levels& levels) {
   Label label;
   label.name = entity->HasName() ? trimmed(entity->NameValue()) : std::string();
   if (label.name.empty() && entity->HasShortLabel()) label.name = trimmed(entity->ShortLabel());
-  if (entity->Level() > 0) label.layer = std::to_string(entity->Level());
+  if (const int level = entity->Level(); level > 0) {
+    const auto named = levels.find(level);
+    label.layer = named == levels.end() ? std::to_string(level) : named->second;
+  }
   label.color = color_of(entity);
   return label;
 }
@@ -90,14 +104,15 @@ document::Document read_iges(const std::string& file) {
   if (done < roots)
     document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
                                " things are no curves or surfaces that can be read");
-  const ShapeOrigins origins(*reader.WS());
-  ShapeWalk walk(document, [&](const TopoDS_Shape& shape) {
-    for (const Handle(Standard_Transient) origin : origins.of(shape))
-      if (const auto entity = Handle(IGESData_IGESEntity)::DownCast(origin))
-        return label_of(entity);
-    return Label{};
+  const Levels levels = levels_of(reader.IGESModel());
+  const PartLabels labels(reader.WS(), [&](const Handle(Standard_Transient) & entity) {
+    const auto own = Handle(IGESData_IGESEntity)::DownCast(entity);
+    if (own.IsNull()) return EntityLabel{};
+    constexpr int kInstance = 408;
+    return EntityLabel{label_of(own, levels), own->TypeNumber() == kInstance};
   });
-  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i), {});
+  ShapeWalk walk(document, labels);
+  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
   return document;
 }

@@ -1,14 +1,17 @@
 #include "keyline/exchange/occt/shape_walk.h"
 
 #include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,18 +70,27 @@ Bounds bounds_of(const TopoDS_Face& face, const Handle(Geom_Surface) & s) {
 
 }  // namespace
 
-void ShapeWalk::skip(const std::string& name, const char* why) {
+void ShapeWalk::skip(const std::string& name, const std::string& why) {
   constexpr std::size_t kMost = 1000;
   if (document_.skipped.size() < kMost) document_.skipped.push_back(name + ": " + why);
 }
 
-void ShapeWalk::add(const TopoDS_Shape& shape, const Label& outer) {
-  Label label = merged(outer, own_label_(shape));
+void ShapeWalk::add(const TopoDS_Shape& shape) { add(shape, TopLoc_Location(), {}); }
+
+void ShapeWalk::add(const TopoDS_Shape& shape, const TopLoc_Location& location, Outer outer) {
+  const Label placement = labels_.of_placement(shape);
+  if (outer.color.empty()) outer.color = placement.color;
+  outer.label = merged(merged(outer.label, placement), labels_.of_part(shape));
+  Label& label = outer.label;
+  const auto named = [&] {
+    if (!outer.color.empty()) label.color = outer.color;
+    return label;
+  };
   switch (shape.ShapeType()) {
     case TopAbs_FACE:
-      return add_face(shape, label);
+      return add_face(shape.Moved(location, false), named());
     case TopAbs_EDGE:
-      return add_edge(shape, label);
+      return add_edge(shape.Moved(location, false), named());
     case TopAbs_VERTEX:
       ++points_;
       return;
@@ -88,7 +100,9 @@ void ShapeWalk::add(const TopoDS_Shape& shape, const Label& outer) {
   // A name of several things is none of each.
   const bool single = shape.NbChildren() == 1;
   if (!single && !label.name.empty() && label.name.back() != '/') label.name += '/';
-  for (TopoDS_Iterator part(shape); part.More(); part.Next()) add(part.Value(), label);
+  const TopLoc_Location inner = location * shape.Location();
+  for (TopoDS_Iterator part(shape, true, false); part.More(); part.Next())
+    add(part.Value(), inner, outer);
 }
 
 void ShapeWalk::add_face(const TopoDS_Shape& shape, Label label) {
@@ -102,17 +116,36 @@ void ShapeWalk::add_face(const TopoDS_Shape& shape, Label label) {
     const Bounds b = bounds_of(face, s);
     document::NamedSurface named{label, surface_of(s, b.u1, b.u2, b.v1, b.v2), 0};
     if (auto sound = validate(named.surface); !sound)
-      return skip(label.name, sound.error().message.c_str());
+      return skip(label.name, sound.error().message);
     for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
       named.trims += !on_border(TopoDS::Edge(edge.Current()), face, b);
-    if (named.trims > 0)
-      skip(named.label.name, ("its " + std::to_string(named.trims) +
-                              " trimming edges: the whole underlying surface is here")
-                                 .c_str());
+    if (named.trims > 0) add_trims(face, named);
     document_.surfaces.push_back(std::move(named));
   } catch (const Standard_Failure& failure) {
     skip(label.name, failure.GetMessageString());
   }
+}
+
+/// The whole border, loop by loop, where a part of it is no border of the surface.
+void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& named) {
+  for (TopoDS_Iterator part(face); part.More(); part.Next()) {
+    if (part.Value().ShapeType() != TopAbs_WIRE) continue;
+    std::vector<document::SpaceCurve> loop;
+    BRepTools_WireExplorer edge(TopoDS::Wire(part.Value()), TopoDS::Face(face));
+    for (; edge.More(); edge.Next()) {
+      double first = 0;
+      double last = 0;
+      const Handle(Geom_Curve) c = BRep_Tool::Curve(edge.Current(), first, last);
+      if (c.IsNull()) continue;
+      document::SpaceCurve curve = space_curve_of(c, first, last);
+      const bool back = edge.Current().Orientation() == TopAbs_REVERSED;
+      if (validate(curve)) loop.push_back(back ? reverse(curve) : std::move(curve));
+    }
+    if (!loop.empty()) named.trim_loops.push_back(std::move(loop));
+  }
+  skip(named.label.name, "trimmed by " + std::to_string(named.trims) +
+                             (named.trims == 1 ? " edge" : " edges") +
+                             ": the whole underlying surface is here");
 }
 
 void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {

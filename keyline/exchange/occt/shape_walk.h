@@ -1,35 +1,43 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "keyline/document/document.h"
+#include "keyline/exchange/occt/part_labels.h"
 
+class TopLoc_Location;
 class TopoDS_Shape;
 
 namespace keyline::exchange::occt {
 
-/// Goes through a shape and adds its faces and free edges to a document. Labels come from
-/// `own_label` (empty fields: none) and are handed down to parts that have none; a part of several
-/// in something named is "name/face-1", one in something unnamed "face-1".
+/// Goes through a shape and adds its faces and free edges to a document, in place. Labels are
+/// handed down to parts that have none of their own; a part of several in something named is
+/// "name/face-1", one in something unnamed "face-1". The colour of a placement goes over those of
+/// the part placed.
 class ShapeWalk {
  public:
-  using OwnLabel = std::function<document::Label(const TopoDS_Shape&)>;
+  ShapeWalk(document::Document& document, const PartLabels& labels)
+      : document_(document), labels_(labels) {}
 
-  ShapeWalk(document::Document& document, OwnLabel own_label)
-      : document_(document), own_label_(std::move(own_label)) {}
-
-  void add(const TopoDS_Shape& shape, const document::Label& outer);
+  void add(const TopoDS_Shape& shape);
   /// Says what was met and is no curve or surface.
   void finish();
 
  private:
+  struct Outer {
+    document::Label label;
+    std::string color;  ///< of the outermost placement that has one
+  };
+
+  /// `shape` with its location in what is around it, which stands at `location`.
+  void add(const TopoDS_Shape& shape, const TopLoc_Location& location, Outer outer);
   void add_face(const TopoDS_Shape& shape, document::Label label);
   void add_edge(const TopoDS_Shape& shape, document::Label label);
-  void skip(const std::string& name, const char* why);
+  void add_trims(const TopoDS_Shape& face, document::NamedSurface& named);
+  void skip(const std::string& name, const std::string& why);
 
   document::Document& document_;
-  OwnLabel own_label_;
+  const PartLabels& labels_;
   int faces_ = 0;
   int edges_ = 0;
   int points_ = 0;

@@ -6,25 +6,26 @@
 #include <StepBasic_Product.hxx>
 #include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
+#include <StepBasic_ProductDefinitionRelationship.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
+#include <StepRepr_Representation.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_ShapeDefinitionRepresentation.hxx>
 #include <StepVisual_Colour.hxx>
 #include <StepVisual_LayeredItem.hxx>
 #include <StepVisual_PresentationLayerAssignment.hxx>
+#include <StepVisual_PresentationStyleByContext.hxx>
 #include <StepVisual_StyledItem.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
-#include <Transfer_TransientProcess.hxx>
-#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "keyline/exchange/dxf_color.h"
+#include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
-#include "keyline/exchange/occt/shape_origins.h"
 #include "keyline/exchange/occt/shape_walk.h"
 
 namespace keyline::exchange::occt {
@@ -33,7 +34,10 @@ namespace {
 using document::Label;
 
 std::string text(const Handle(TCollection_HAsciiString) & name) {
-  return name.IsNull() ? std::string() : std::string(name->ToCString());
+  if (name.IsNull()) return {};
+  std::string text = name->ToCString();
+  std::erase_if(text, [](char c) { return c == '\n' || c == '\r'; });  // lines broken within
+  return text;
 }
 
 /// "NONE", blanks and what translators put where no name was given are no names.
@@ -60,6 +64,7 @@ class Looks {
       for (int i = 1; i <= styles.NbStyles(); ++i) add(styles, styles.Style(i));
     const auto model = session->Model();
     for (int i = 1; i <= model->NbEntities(); ++i) add_layer(model->Value(i));
+    for (int i = 1; i <= model->NbEntities(); ++i) add_placement(model->Value(i));
   }
 
   void complete(Label& label, const Handle(Standard_Transient) & entity) const {
@@ -68,6 +73,16 @@ class Looks {
   }
 
  private:
+  /// The placement a style by context speaks of; null for others.
+  static const Standard_Transient* context_of(const Handle(StepVisual_StyledItem) & style) {
+    for (int i = 1; i <= style->NbStyles(); ++i)
+      if (const auto by =
+              Handle(StepVisual_PresentationStyleByContext)::DownCast(style->StylesValue(i));
+          !by.IsNull())
+        return by->StyleContext().Representation().get();
+    return nullptr;
+  }
+
   void add(STEPConstruct_Styles& styles, const Handle(StepVisual_StyledItem) & style) {
     Handle(StepVisual_Colour) surface;
     Handle(StepVisual_Colour) border;
@@ -79,9 +94,22 @@ class Looks {
     Quantity_Color color;
     for (const auto& found : {surface, curve, border, rendered})
       if (!found.IsNull() && STEPConstruct_Styles::DecodeColor(found, color)) {
-        colors_.emplace(style->Item().get(), hex(color));
+        const Standard_Transient* context = context_of(style);
+        colors_.emplace(context ? context : style->Item().get(), hex(color));
         return;
       }
+  }
+
+  /// A style of one placement stands in a representation defined for that placement.
+  void add_placement(const Handle(Standard_Transient) & entity) {
+    const auto defined = Handle(StepShape_ShapeDefinitionRepresentation)::DownCast(entity);
+    if (defined.IsNull() || defined->UsedRepresentation().IsNull()) return;
+    const auto color = colors_.find(defined->UsedRepresentation().get());
+    if (color == colors_.end()) return;
+    const auto shape = defined->Definition().PropertyDefinition();
+    if (shape.IsNull()) return;
+    const auto usage = shape->Definition().ProductDefinitionRelationship();
+    if (!usage.IsNull()) colors_.emplace(usage.get(), color->second);
   }
 
   void add_layer(const Handle(Standard_Transient) & entity) {
@@ -103,8 +131,6 @@ std::string name_of(const Handle(Standard_Transient) & entity) {
   if (const auto shape = Handle(StepShape_ShapeDefinitionRepresentation)::DownCast(entity))
     if (const auto property = shape->Definition().PropertyDefinition(); !property.IsNull())
       product = property->Definition().ProductDefinition();
-  if (const auto usage = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity))
-    product = usage->RelatedProductDefinition();
   if (product.IsNull() || product->Formation().IsNull()) return {};
   return useful(text(product->Formation()->OfProduct()->Name()));
 }
@@ -142,16 +168,14 @@ document::Document read_step(const std::string& file) {
     document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
                                " things could not be made into shapes");
   const Looks looks(reader.WS());
-  const ShapeOrigins origins(*reader.WS());
-  ShapeWalk walk(document, [&](const TopoDS_Shape& shape) {
-    Label label;
-    for (const Handle(Standard_Transient) entity : origins.of(shape)) {
-      if (label.name.empty()) label.name = name_of(entity);
-      looks.complete(label, entity);
-    }
-    return label;
+  const PartLabels labels(reader.WS(), [&](const Handle(Standard_Transient) & entity) {
+    EntityLabel own{{name_of(entity), {}, {}}, false};
+    own.placement = !Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity).IsNull();
+    looks.complete(own.label, entity);
+    return own;
   });
-  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i), {});
+  ShapeWalk walk(document, labels);
+  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
   return document;
 }

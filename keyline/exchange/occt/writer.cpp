@@ -1,5 +1,6 @@
 #include "keyline/exchange/occt/writer.h"
 
+#include <IGESAppli_LevelFunction.hxx>
 #include <IGESBasic_Name.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
@@ -7,23 +8,38 @@
 #include <IGESData_IGESModel.hxx>
 #include <IGESData_IGESWriter.hxx>
 #include <IGESData_Protocol.hxx>
+#include <IGESGraph_Color.hxx>
 #include <Interface_Static.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPConstruct_Styles.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
 #include <StepRepr_RepresentationItem.hxx>
+#include <StepVisual_Colour.hxx>
+#include <StepVisual_HArray1OfLayeredItem.hxx>
+#include <StepVisual_LayeredItem.hxx>
+#include <StepVisual_MechanicalDesignGeometricPresentationRepresentation.hxx>
+#include <StepVisual_PresentationLayerAssignment.hxx>
+#include <StepVisual_PresentationStyleAssignment.hxx>
+#include <StepVisual_StyledItem.hxx>
+#include <TColStd_SequenceOfTransient.hxx>
 #include <TopoDS_Shape.hxx>
 #include <TransferBRep.hxx>
 #include <TransferBRep_ShapeMapper.hxx>
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <charconv>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
+#include "keyline/document/color.h"
 #include "keyline/exchange/occt/geometry.h"
+#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -46,13 +62,18 @@ void for_each_shape(const document::Document& document, Add&& add) {
   for (const auto& named : document.surfaces) add(face_of(named.surface), named.label);
 }
 
-void name_item(const STEPControl_Writer& writer, const TopoDS_Shape& shape,
-               const std::string& name) {
+Handle(TCollection_HAsciiString) step_text(const std::string& text) {
+  return new TCollection_HAsciiString(text.c_str());
+}
+
+/// What became of a shape in the file; null where nothing did.
+Handle(StepRepr_RepresentationItem)
+    item_of(const STEPControl_Writer& writer, const TopoDS_Shape& shape) {
   const auto process = writer.WS()->TransferWriter()->FinderProcess();
   const Handle(TransferBRep_ShapeMapper) mapper = TransferBRep::ShapeMapper(process, shape);
   Handle(StepRepr_RepresentationItem) item;
-  if (process->FindTypedTransient(mapper, STANDARD_TYPE(StepRepr_RepresentationItem), item))
-    item->SetName(new TCollection_HAsciiString(name.c_str()));
+  process->FindTypedTransient(mapper, STANDARD_TYPE(StepRepr_RepresentationItem), item);
+  return item;
 }
 
 /// OCCT numbers the products it makes; here every thing has its own name.
@@ -60,8 +81,8 @@ void name_products(const Handle(Interface_InterfaceModel) & model, int before,
                    const std::string& name) {
   for (int i = before + 1; i <= model->NbEntities(); ++i)
     if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i))) {
-      product->SetId(new TCollection_HAsciiString(name.c_str()));
-      product->SetName(new TCollection_HAsciiString(name.c_str()));
+      product->SetId(step_text(name));
+      product->SetName(step_text(name));
     }
 }
 
@@ -78,12 +99,100 @@ std::string printed(const Handle(Model) & model, const Handle(XSControl_WorkSess
 
 }  // namespace
 
+namespace {
+
+/// Colours and layers of the things of a STEP file.
+class StepLooks {
+ public:
+  explicit StepLooks(STEPControl_Writer& writer) : writer_(writer), styles_(writer.WS()) {}
+
+  void add(const TopoDS_Shape& shape, const Handle(StepRepr_RepresentationItem) & item,
+           const document::Label& label) {
+    if (item.IsNull()) return;
+    if (!label.layer.empty()) layers_[label.layer].Append(item);
+    const int rgb = document::color_value(label.color);
+    if (rgb < 0) return;
+    const Quantity_Color color((rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0,
+                               (rgb & 255) / 255.0, Quantity_TOC_sRGB);
+    const Handle(StepVisual_Colour) none;
+    const Handle(StepVisual_Colour) own = STEPConstruct_Styles::EncodeColor(color);
+    const bool curve = shape.ShapeType() == TopAbs_EDGE;
+    styles_.ClearStyles();
+    styles_.AddStyle(
+        item, styles_.MakeColorPSA(item, curve ? none : own, curve ? own : none, none, 0), {});
+    Handle(StepVisual_MechanicalDesignGeometricPresentationRepresentation) picture;
+    if (styles_.CreateMDGPR(styles_.FindContext(shape), picture))
+      writer_.Model()->AddWithRefs(picture);
+  }
+
+  void finish() {
+    for (auto& [name, items] : layers_) {
+      const Handle(StepVisual_HArray1OfLayeredItem) all =
+          new StepVisual_HArray1OfLayeredItem(1, items.Length());
+      for (int i = 1; i <= items.Length(); ++i) all->ChangeValue(i).SetValue(items(i));
+      Handle(StepVisual_PresentationLayerAssignment) layer =
+          new StepVisual_PresentationLayerAssignment;
+      layer->Init(step_text(name), new TCollection_HAsciiString("visible"), all);
+      writer_.Model()->AddWithRefs(layer);
+    }
+  }
+
+ private:
+  STEPControl_Writer& writer_;
+  STEPConstruct_Styles styles_;
+  std::map<std::string, TColStd_SequenceOfTransient> layers_;
+};
+
+}  // namespace
+
+namespace {
+
+/// As ISO 10303-21 writes what is not ASCII in strings.
+void append_code_point(std::string& text, unsigned code) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  const bool wide = code > 0xffff;
+  text += wide ? "\\X4\\" : "\\X2\\";
+  for (int shift = wide ? 28 : 12; shift >= 0; shift -= 4) text += kDigits[code >> shift & 15];
+  text += "\\X0\\";
+}
+
+/// OCCT breaks lines within strings, even within a character, and writes UTF-8 bytes: strings are
+/// put on one line again and into the escapes of the standard.
+std::string with_standard_strings(const std::string& text) {
+  std::string result;
+  result.reserve(text.size());
+  bool inside = false;
+  std::string string;
+  for (const char c : text) {
+    if (c == '\'') {
+      for (std::size_t at = 0; at < string.size();) {
+        const unsigned code = code_point(string, at);
+        if (code < 0x80)
+          result += static_cast<char>(code);
+        else
+          append_code_point(result, code);
+      }
+      string.clear();
+      inside = !inside;
+      result += c;
+    } else if (!inside) {
+      result += c;
+    } else if (c != '\n') {
+      string += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 std::string write_step(const document::Document& document) {
   const char* unit = occt_unit(document.unit);
   Interface_Static::SetCVal("xstep.cascade.unit", unit);
   Interface_Static::SetCVal("write.step.unit", unit);
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   STEPControl_Writer writer;
+  StepLooks looks(writer);
   for_each_shape(document, [&](const TopoDS_Shape& shape, const document::Label& label) {
     const std::string name = label.name.empty() ? "keyline" : label.name;
     const int before = writer.Model()->NbEntities();
@@ -91,12 +200,93 @@ std::string write_step(const document::Document& document) {
         shape.ShapeType() == TopAbs_EDGE ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
     if (writer.Transfer(shape, mode) != IFSelect_RetDone)
       throw std::runtime_error("\"" + name + "\" cannot be written as STEP");
-    name_item(writer, shape, name);
+    const auto item = item_of(writer, shape);
+    if (!item.IsNull()) item->SetName(step_text(name));
     name_products(writer.Model(), before, name);
+    looks.add(shape, item, label);
   });
-  return printed<StepData_StepWriter, StepData_Protocol, StepData_StepModel>(writer.Model(),
-                                                                             writer.WS());
+  looks.finish();
+  return with_standard_strings(printed<StepData_StepWriter, StepData_Protocol, StepData_StepModel>(
+      writer.Model(), writer.WS()));
 }
+
+namespace {
+
+/// Names, colours and levels of the things of an IGES file.
+class IgesLooks {
+ public:
+  explicit IgesLooks(IGESControl_Writer& writer) : writer_(writer) {}
+
+  /// Labels the geometry added to the model behind the first `before` entities.
+  void add(int before, const document::Label& label) {
+    const auto model = writer_.Model();
+    Handle(IGESBasic_Name) name;
+    if (!label.name.empty()) {
+      name = new IGESBasic_Name;
+      name->Init(1, new TCollection_HAsciiString(label.name.c_str()));
+    }
+    const Handle(IGESGraph_Color) color = color_of(document::color_value(label.color));
+    const int level = level_of(label.layer);
+    for (int i = before + 1; i <= model->NbEntities(); ++i) {
+      const auto entity = Handle(IGESData_IGESEntity)::DownCast(model->Value(i));
+      constexpr int kTransformation = 124;
+      if (entity.IsNull() || entity->TypeNumber() >= 200 || entity->TypeNumber() == kTransformation)
+        continue;
+      if (!name.IsNull()) entity->AddProperty(name);
+      if (!color.IsNull()) entity->InitColor(color);
+      if (level > 0) entity->InitLevel({}, level);
+    }
+    if (!name.IsNull()) writer_.AddEntity(name);
+  }
+
+  /// Levels are numbers in the file: what they are called is said beside.
+  void finish() {
+    for (const auto& [layer, level] : levels_) {
+      if (layer == std::to_string(level)) continue;
+      Handle(IGESAppli_LevelFunction) named = new IGESAppli_LevelFunction;
+      named->Init(2, 0, new TCollection_HAsciiString(layer.c_str()));
+      writer_.AddEntity(named);
+      names_of_levels_.emplace_back(named, level);
+    }
+    writer_.ComputeModel();  // takes levels away from properties
+    for (const auto& [named, level] : names_of_levels_) named->InitLevel({}, level);
+  }
+
+ private:
+  Handle(IGESGraph_Color) color_of(int rgb) {
+    if (rgb < 0) return {};
+    Handle(IGESGraph_Color)& color = colors_[rgb];
+    if (color.IsNull()) {
+      const auto percent = [rgb](int shift) { return (rgb >> shift & 255) / 2.55; };
+      color = new IGESGraph_Color;
+      color->Init(percent(16), percent(8), percent(0), {});
+      writer_.AddEntity(color);
+    }
+    return color;
+  }
+
+  /// A layer that is a number keeps it; others get the next ones above a thousand.
+  int level_of(const std::string& layer) {
+    if (layer.empty()) return 0;
+    const auto known = levels_.find(layer);
+    if (known != levels_.end()) return known->second;
+    constexpr int kNamed = 1000;
+    int level = 0;
+    const char* end = layer.data() + layer.size();
+    const auto [stop, error] = std::from_chars(layer.data(), end, level);
+    const bool number = error == std::errc() && stop == end && level > 0 && level <= kNamed &&
+                        layer == std::to_string(level);
+    if (!number) level = kNamed + 1 + static_cast<int>(levels_.size());
+    return levels_[layer] = level;
+  }
+
+  IGESControl_Writer& writer_;
+  std::map<int, Handle(IGESGraph_Color)> colors_;
+  std::map<std::string, int> levels_;
+  std::vector<std::pair<Handle(IGESAppli_LevelFunction), int>> names_of_levels_;
+};
+
+}  // namespace
 
 std::string write_iges(const document::Document& document) {
   const char* unit = occt_unit(document.unit);
@@ -104,26 +294,14 @@ std::string write_iges(const document::Document& document) {
   IGESControl_Writer writer(unit, 0);
   const double millimetres = document::millimetres(document.unit);
   writer.Model()->ChangeGlobalSection().SetCascadeUnit(millimetres > 0 ? millimetres : 1);
-  const auto name = [&](int before, const document::Label& label) {
-    if (label.name.empty()) return;
-    const auto model = writer.Model();
-    Handle(IGESBasic_Name) property = new IGESBasic_Name;
-    property->Init(1, new TCollection_HAsciiString(label.name.c_str()));
-    for (int i = before + 1; i <= model->NbEntities(); ++i) {
-      const auto entity = Handle(IGESData_IGESEntity)::DownCast(model->Value(i));
-      constexpr int kTransformation = 124;
-      if (!entity.IsNull() && entity->TypeNumber() < 200 && entity->TypeNumber() != kTransformation)
-        entity->AddProperty(property);
-    }
-    writer.AddEntity(property);
-  };
+  IgesLooks looks(writer);
   for_each_shape(document, [&](const TopoDS_Shape& shape, const document::Label& label) {
     const int before = writer.Model()->NbEntities();
     if (!writer.AddShape(shape))
       throw std::runtime_error("\"" + label.name + "\" cannot be written as IGES");
-    name(before, label);
+    looks.add(before, label);
   });
-  writer.ComputeModel();
+  looks.finish();
   Handle(XSControl_WorkSession) session = new XSControl_WorkSession;
   session->SelectNorm("IGES");
   return printed<IGESData_IGESWriter, IGESData_Protocol, IGESData_IGESModel>(writer.Model(),

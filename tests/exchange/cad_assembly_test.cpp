@@ -1,0 +1,184 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "keyline/exchange/cad_file.h"
+#include "keyline/exchange/document_file.h"
+#include "keyline/lac/chain.h"
+
+namespace keyline::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+using document::Document;
+
+class CadAssembly : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifdef KEYLINE_CAD_PROGRAM
+    ::setenv("KEYLINE_CAD", KEYLINE_CAD_PROGRAM, 1);
+    folder_ = fs::temp_directory_path() / ("keyline-assembly-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+#else
+    GTEST_SKIP() << "built without OCCT";
+#endif
+  }
+  void TearDown() override {
+    ::unsetenv("KEYLINE_CAD");
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+  fs::path folder_;
+};
+
+/// A text with every "@k" replaced by the entity n + k, k from 0 to 9.
+std::string from(int n, const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '@')
+      result += '#' + std::to_string(n + text[++i] - '0');
+    else
+      result += text[i];
+  return result;
+}
+
+/// A product and its shape (entities n to n + 4) of the representation given.
+std::string product(int n, const std::string& name, const std::string& representation) {
+  return from(n, "@0=SHAPE_DEFINITION_REPRESENTATION(@1," + representation +
+                     ");\n@1=PRODUCT_DEFINITION_SHAPE('','',@2);\n"
+                     "@2=PRODUCT_DEFINITION('design','',@3,#5);\n"
+                     "@3=PRODUCT_DEFINITION_FORMATION('','',@4);\n"
+                     "@4=PRODUCT('" +
+                     name + "','" + name + "','',(#4));\n");
+}
+
+/// A product placed in another (entities n to n + 4), from the axes #11 to others.
+std::string placement(int n, const std::string& products, const std::string& shapes,
+                      const std::string& axes) {
+  return from(n,
+              "@0=CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(@1,@3);\n"
+              "@1=(REPRESENTATION_RELATIONSHIP('',''," +
+                  shapes +
+                  ")REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(@2)"
+                  "SHAPE_REPRESENTATION_RELATIONSHIP());\n"
+                  "@2=ITEM_DEFINED_TRANSFORMATION('','',#11," +
+                  axes +
+                  ");\n"
+                  "@3=PRODUCT_DEFINITION_SHAPE('','',@4);\n"
+                  "@4=NEXT_ASSEMBLY_USAGE_OCCURRENCE('" +
+                  std::to_string(n) + "','',''," + products + ",$);\n");
+}
+
+std::string axes(int n, const std::string& at, const std::string& x) {
+  return from(n, "@0=AXIS2_PLACEMENT_3D('',@1,@2,@3);\n@1=CARTESIAN_POINT('',(" + at +
+                     "));\n"
+                     "@2=DIRECTION('',(0.,0.,1.));\n@3=DIRECTION('',(" +
+                     x + "));\n");
+}
+
+/// A red line "Größe" twice in "pair" (turned by a right angle and yellow the second time), which
+/// stands twice in "whole" (half a turn and 50 higher the second time); metres.
+std::string assembly() {
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','',''"
+         ");\n"
+         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n"
+         "#2=APPLICATION_CONTEXT('core data for automotive mechanical design processes');\n"
+         "#4=PRODUCT_CONTEXT('',#2,'mechanical');\n"
+         "#5=PRODUCT_DEFINITION_CONTEXT('part definition',#2,'design');\n" +
+         axes(11, "0.,0.,0.", "1.,0.,0.") + axes(15, "100.,0.,0.", "0.,1.,0.") +
+         axes(19, "0.,0.,50.", "-1.,0.,0.") +
+         "#23=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#24,#25,#26))"
+         "REPRESENTATION_CONTEXT('',''));\n"
+         "#24=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));\n"
+         "#25=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));\n"
+         "#26=(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT());\n" +
+         product(30, "whole", "#36") + "#36=SHAPE_REPRESENTATION('',(#11,#19),#23);\n" +
+         product(40, "pair", "#46") + "#46=SHAPE_REPRESENTATION('',(#11,#15),#23);\n" +
+         product(50, "Gr\\X2\\00F600DF\\X0\\e", "#56") +
+         "#56=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#57),#23);\n"
+         "#57=GEOMETRIC_CURVE_SET('',(#58));\n"
+         "#58=TRIMMED_CURVE('',#59,(PARAMETER_VALUE(0.)),(PARAMETER_VALUE(2.)),.T.,.PARAMETER.);\n"
+         "#59=LINE('',#60,#61);\n#60=CARTESIAN_POINT('',(1.,0.,0.));\n#61=VECTOR('',#62,1.);\n"
+         "#62=DIRECTION('',(1.,0.,0.));\n" +
+         placement(70, "#42,#52", "#56,#46", "#11") + placement(75, "#42,#52", "#56,#46", "#15") +
+         placement(80, "#32,#42", "#46,#36", "#11") + placement(85, "#32,#42", "#46,#36", "#19") +
+         "#90=PRESENTATION_LAYER_ASSIGNMENT('rails','',(#57));\n"
+         "#91=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#92,#96),#23);\n"
+         "#92=STYLED_ITEM('',(#93),#57);\n#93=PRESENTATION_STYLE_ASSIGNMENT((#94));\n"
+         "#94=CURVE_STYLE('',#100,POSITIVE_LENGTH_MEASURE(0.1),#95);\n"
+         "#95=DRAUGHTING_PRE_DEFINED_COLOUR('red');\n"
+         "#96=OVER_RIDING_STYLED_ITEM('',(#97),#57,#92);\n"
+         "#97=PRESENTATION_STYLE_BY_CONTEXT((#98),#102);\n"
+         "#98=CURVE_STYLE('',#100,POSITIVE_LENGTH_MEASURE(0.1),#99);\n"
+         "#99=DRAUGHTING_PRE_DEFINED_COLOUR('yellow');\n"
+         "#100=DRAUGHTING_PRE_DEFINED_CURVE_FONT('continuous');\n"
+         "#101=SHAPE_DEFINITION_REPRESENTATION(#78,#102);\n"
+         "#102=SHAPE_REPRESENTATION('',(#15),#23);\nENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+TEST_F(CadAssembly, PlacementsOfSharedPartsKeepNamesAndColours) {
+  std::ofstream(folder_ / "a.step") << assembly();
+  const auto read = read_document(folder_ / "a.step");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->unit, "m");
+  ASSERT_EQ(read->paths.size(), 2U);
+  ASSERT_EQ(read->space_curves.size(), 2U);
+  for (const document::Label& label : labels(*read)) {
+    EXPECT_EQ(label.name, "Größe");
+    EXPECT_EQ(label.layer, "rails");
+  }
+  EXPECT_EQ(read->paths[0].label.color, "#ff0000");
+  EXPECT_EQ(read->paths[1].label.color, "#ffff00");
+  EXPECT_EQ(read->space_curves[0].label.color, "#ff0000");
+  EXPECT_EQ(read->space_curves[1].label.color, "#ffff00");
+  EXPECT_LT(distance(evaluate(read->paths[0].path, 0), {1, 0}), 1e-12);
+  EXPECT_LT(distance(evaluate(read->paths[1].path, 1), {100, 3}), 1e-12);
+  EXPECT_LT(distance(evaluate(read->space_curves[0].curve, 1), {-3, 0, 50}), 1e-12);
+  EXPECT_LT(distance(evaluate(read->space_curves[1].curve, 0), {-100, -1, 50}), 1e-12);
+}
+
+TEST_F(CadAssembly, NamesColoursAndLayersComeBack) {
+  Document d;
+  d.unit = "ft";
+  std::string name = "Grat 日本 😀 'x' \\X2\\";
+  for (int i = 0; i < 20; ++i) name += " lang und länger";
+  d.paths.push_back(
+      {{name, "body side", "#12a4ff"},
+       {{{curve::BSpline2{2, {0, 0, 0, 1, 1, 1}, {{0, 0}, {1, 2}, {3, 1}}, {}}}}, false},
+       0});
+  d.paths.push_back(
+      {{"plain", "7", "#00ff00"}, {{{curve::Bezier2{{{0, 0}, {4, 0}}, {}}}}, false}, 0});
+  surface::BSplineSurface s{{1, 1}, {{{0, 0, 1, 1}, {0, 0, 1, 1}}}, {2, 2, {}}, {}};
+  s.net.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
+  d.surfaces.push_back({{"skin", "body side", "#000000"}, s, 0});
+  for (const char* file : {"b.step", "b.iges"}) {
+    SCOPED_TRACE(file);
+    ASSERT_TRUE(write_document(d, folder_ / file));
+    const auto read = read_document(folder_ / file);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->unit, "ft");
+    EXPECT_EQ(labels(*read), labels(d));
+  }
+}
+
+TEST_F(CadAssembly, TrimLoopsComeWithTheSurface) {
+  const fs::path file = KEYLINE_SHARED_DATA "/4_cad/iges/wing.iges";
+  if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";
+  auto read = read_document(file);
+  ASSERT_TRUE(read) << read.error().message;
+  std::size_t curves = 0;
+  for (const auto& named : read->surfaces) {
+    EXPECT_EQ(named.trims > 0, !named.trim_loops.empty());
+    for (const auto& loop : named.trim_loops) {
+      curves += loop.size();
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        EXPECT_LT(distance(evaluate(loop[i], 1), evaluate(loop[(i + 1) % loop.size()], 0)), 1e-3);
+    }
+  }
+  add_trim_curves(*read);
+  EXPECT_EQ(read->space_curves.size(), curves);
+}
+
+}  // namespace
+}  // namespace keyline::exchange
