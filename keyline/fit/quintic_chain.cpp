@@ -9,11 +9,11 @@
 #include <Eigen/Core>
 
 #include "keyline/core/error.h"
+#include "keyline/fit/chain_data.h"
 
 namespace keyline::fit {
 namespace {
 
-using core::cross;
 using core::distance;
 using core::dot;
 using core::Point2;
@@ -22,6 +22,7 @@ using core::Vector2;
 constexpr int kJointSize = 4;  ///< x, y, direction, curvature
 constexpr int kPieceSize = 4;  ///< a, b (end edges), c, d (tangential part of the second edges)
 constexpr int kIterations = 12;
+constexpr int kEvenPieces = 4;       ///< up to here joints are laid evenly, then where they lack
 constexpr double kStiffness = 1e-3;  ///< pull of the four lengths to a fifth of the piece
 
 struct Joint {
@@ -92,76 +93,10 @@ Vector2 derivative_at(const Handles& h, double t) {
   return v;
 }
 
-/// The points with their arc length, direction and curvature, both smoothed over a few neighbours.
-struct Data {
-  std::vector<Point2> points;  ///< closed: the first repeated at the end
-  std::vector<double> length;  ///< from the start
-  std::vector<double> direction;
-  std::vector<double> curvature;
-};
-
-Data prepare(const std::vector<Point2>& points, bool closed) {
-  Data data;
-  data.points = points;
-  if (closed) data.points.push_back(points.front());
-  const auto& p = data.points;
-  const long n = static_cast<long>(p.size());
-  data.length.assign(p.size(), 0);
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    data.length[i] = data.length[i - 1] + distance(p[i - 1], p[i]);
-    if (!(data.length[i] > data.length[i - 1]))
-      throw core::InvalidInput("fit_quintic_chain: two neighbouring points are equal");
-  }
-  const auto at = [&](long i) {
-    if (closed) return p[static_cast<std::size_t>(((i % (n - 1)) + n - 1) % (n - 1))];
-    return p[static_cast<std::size_t>(std::clamp(i, 0L, n - 1))];
-  };
-  const long reach = std::clamp(n / 12, 1L, 8L);
-  data.direction.resize(p.size());
-  data.curvature.assign(p.size(), 0);
-  double turned = 0;
-  for (long i = 0; i < n; ++i) {
-    const Vector2 d = at(i + reach) - at(i - reach);
-    double angle = std::atan2(d.y, d.x);
-    if (i > 0) angle = turned + std::remainder(angle - turned, 2 * M_PI);
-    data.direction[static_cast<std::size_t>(i)] = turned = angle;
-    const Vector2 before = at(i) - at(i - 2 * reach);
-    const Vector2 after = at(i + 2 * reach) - at(i);
-    const double span = 0.5 * (core::norm(before) + core::norm(after));
-    if (closed || (i >= 2 * reach && i + 2 * reach < n))
-      data.curvature[static_cast<std::size_t>(i)] =
-          std::atan2(cross(before, after), dot(before, after)) / span;
-  }
-  return data;
-}
-
-/// Indices where the joints lie: equal shares of length and of turning, averaged.
-std::vector<std::size_t> joint_indices(const Data& data, int pieces) {
-  const std::size_t n = data.points.size();
-  std::vector<double> share(n, 0);
-  double turning = 0;
-  for (std::size_t i = 1; i < n; ++i)
-    turning += std::abs(data.direction[i] - data.direction[i - 1]);
-  for (std::size_t i = 1; i < n; ++i)
-    share[i] =
-        share[i - 1] + 0.5 * (data.length[i] - data.length[i - 1]) / data.length.back() +
-        (turning > 0 ? 0.5 * std::abs(data.direction[i] - data.direction[i - 1]) / turning : 0);
-  std::vector<std::size_t> indices = {0};
-  for (int k = 1; k < pieces; ++k) {
-    const double wanted = share.back() * k / pieces;
-    const auto found = std::lower_bound(share.begin(), share.end(), wanted) - share.begin();
-    indices.push_back(
-        std::clamp<std::size_t>(static_cast<std::size_t>(found), indices.back() + 1, n - 2));
-  }
-  indices.push_back(n - 1);
-  return indices;
-}
-
 class Fit {
  public:
-  Fit(const Data& data, bool closed, int pieces) : data_(data) {
+  Fit(const ChainData& data, bool closed, const std::vector<std::size_t>& at) : data_(data) {
     chain_.closed = closed;
-    const std::vector<std::size_t> at = joint_indices(data, pieces);
     for (std::size_t k = 0; k + (closed ? 1 : 0) < at.size(); ++k)
       chain_.joints.push_back({data.points[at[k]], data.direction[at[k]], data.curvature[at[k]]});
     feet_.resize(data.points.size());
@@ -212,6 +147,17 @@ class Fit {
     out.rms_deviation = std::sqrt(sum / static_cast<double>(data_.points.size()));
     out.within_tolerance = out.max_deviation <= tolerance && is_sound();
     return out;
+  }
+
+  /// Largest distance of the points of every piece.
+  std::vector<double> deviations() const {
+    std::vector<double> worst(chain_.lengths.size(), 0);
+    for (std::size_t i = 0; i < data_.points.size(); ++i) {
+      const Foot& f = feet_[i];
+      const double d = distance(point_at(handles(chain_, f.piece), f.t), data_.points[i]);
+      worst[f.piece] = std::max(worst[f.piece], d);
+    }
+    return worst;
   }
 
  private:
@@ -361,7 +307,7 @@ class Fit {
     }
   }
 
-  const Data& data_;
+  const ChainData& data_;
   Chain chain_;
   std::vector<double> rest_;  ///< a fifth of each piece's length
   std::vector<Foot> feet_;
@@ -372,19 +318,25 @@ class Fit {
 QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
                                const QuinticChainOptions& options) {
   if (points.size() < 2) throw core::InvalidInput("fit_quintic_chain needs at least two points");
-  const Data data = prepare(points, closed);
+  const ChainData data = prepare_chain_data(points, closed);
   const int most =
       std::clamp(static_cast<int>(points.size()) / 3, closed ? 2 : 1, options.max_pieces);
   QuinticChain best;
-  for (int pieces = closed ? 2 : 1; pieces <= most; pieces += 1 + pieces / 8) {
-    Fit fit(data, closed, pieces);
+  std::vector<std::size_t> at = joint_indices(data, closed ? 2 : 1);
+  while (true) {
+    const int pieces = static_cast<int>(at.size()) - 1;
+    Fit fit(data, closed, at);
     fit.run();
     QuinticChain found = fit.result(options.tolerance);
     if (best.pieces.empty() || found.within_tolerance || found.max_deviation < best.max_deviation)
       best = std::move(found);
-    if (best.within_tolerance) break;
+    if (best.within_tolerance || pieces >= most) return best;
+    if (pieces < kEvenPieces) {
+      at = joint_indices(data, pieces + 1);
+    } else if (!split_worst(data, fit.deviations(), options.tolerance, most, at)) {
+      return best;
+    }
   }
-  return best;
 }
 
 }  // namespace keyline::fit

@@ -25,8 +25,9 @@ struct QuinticChain {
 /// Every joint has a place, a direction and a curvature, every piece four lengths along its end
 /// tangents (the third handles stand off by Eqs. 9 and 10 of [Sketch], which makes joints G2
 /// whatever the values): all are found together by Gauss–Newton on the distances of the points
-/// along the curve's normals, feet of the points moving along. Pieces are added one by one; joints
-/// are laid so that each piece has about its share of length and turning.
+/// along the curve's normals, feet of the points moving along. Pieces are added one by one, up to
+/// four with joints laid so that each has about its share of length and turning; from there those
+/// pieces are halved that deviate most.
 ///
 /// points: at least two, no two neighbours equal (InvalidInput otherwise); closed: the first is not
 ///         repeated. An open chain starts and ends exactly in the first and last point.

@@ -145,11 +145,21 @@ class Joiner {
         side->push_back(sketch::make_branch(graph_, other, edge(other).to == n, 1.5 * wide + 1));
       }
     if (left.size() != 2 || right.size() != 2) return false;
+    if (rejoin(left, line.from, 6 * wide) || rejoin(right, line.to, 6 * wide)) return false;
     const double straight =
         std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
     const double crossed =
         std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
     return std::min(straight, crossed) < (length_of(line) > 4 * wide ? 0.6 : 0.9);
+  }
+
+  /// Two branches out of a node that soon meet again at their other ends: the sides of a hole.
+  bool rejoin(const std::vector<Branch>& pair, int n, double most) const {
+    const auto other = [&](const Branch& b) {
+      return edge(b.edge).from == n ? edge(b.edge).to : edge(b.edge).from;
+    };
+    return other(pair[0]) == other(pair[1]) && length_of(edge(pair[0].edge)) < most &&
+           length_of(edge(pair[1].edge)) < most;
   }
 
   void make_branches() {

@@ -45,8 +45,9 @@ struct Rules {
   }
 };
 
-/// Flips pixels of the given colour that are features; `value` 1: bumps of ink, 0: dents.
-void flip_features(Binary& ink, std::uint8_t value) {
+/// Flips pixels of the given colour that are features; `value` 1: bumps of ink, 0: dents. Returns
+/// how many.
+long flip_features(Binary& ink, std::uint8_t value) {
   static const Rules kRules;
   std::vector<std::size_t> flips;
   const unsigned invert = value ? 0U : 255U;
@@ -67,6 +68,7 @@ void flip_features(Binary& ink, std::uint8_t value) {
       if (flip) flips.push_back(ink.index(x, y));
     }
   for (const std::size_t i : flips) ink.data[i] = static_cast<std::uint8_t>(1 - value);
+  return static_cast<long>(flips.size());
 }
 
 /// Sets every pixel beside which one of the given value lies to that value.
@@ -137,11 +139,10 @@ int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
 void erode(Binary& ink) { grow(ink, 0); }
 void dilate(Binary& ink) { grow(ink, 1); }
 
-void smooth_edges(Binary& ink, int times) {
-  for (int i = 0; i < times; ++i) {
-    flip_features(ink, 1);
-    flip_features(ink, 0);
-  }
+long smooth_edges(Binary& ink, int times) {
+  long changed = 0;
+  for (int i = 0; i < times; ++i) changed += flip_features(ink, 1) + flip_features(ink, 0);
+  return changed;
 }
 
 Removed remove_specks(Binary& ink, int specks, int pinholes) {

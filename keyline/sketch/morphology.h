@@ -12,8 +12,8 @@ void dilate(Binary& ink);
 /// Feature-based erosion and dilation, `times` of each in turn: only features that stand out of an
 /// edge by a pixel (bumps on a flat base) or lie in it (dents), and single pixels, are taken away
 /// or filled. Flat, sloping and rounded edges, right-angled corners, ends and connections of thin
-/// lines stay where they are.
-void smooth_edges(Binary& ink, int times);
+/// lines stay where they are. Returns how many pixels changed.
+long smooth_edges(Binary& ink, int times);
 
 /// Pieces of ink (8-connected) of fewer than `specks` pixels become paper, holes (4-connected) of
 /// fewer than `pinholes` pixels ink. Returns how many pieces and holes went.

@@ -15,7 +15,8 @@ using core::norm;
 using core::Point2;
 using core::Vector2;
 
-constexpr double kStep = 0.25;  ///< of a profile, pixels
+constexpr double kStep = 0.25;        ///< of a profile, pixels
+constexpr double kGuessWeight = 0.1;  ///< of a guessed place, where a measured one has 1
 
 double median(std::vector<double> v) {
   std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
@@ -54,6 +55,24 @@ std::vector<double> usual_radii(const RawStroke& raw) {
   return usual;
 }
 
+/// Guessed points before the first and after the last sure one (where a line ends at another) hold
+/// their guess: left to the smoother they would run on along a parabola.
+void hold_guessed_ends(const RawStroke& raw, std::vector<Point2>& centres,
+                       std::vector<double>& weights) {
+  if (raw.closed) return;
+  const auto hold = [&](std::size_t i) {
+    if (raw.sure[i]) return false;
+    centres[i] = raw.points[i];
+    weights[i] = kGuessWeight;
+    return true;
+  };
+  const std::size_t n = raw.sure.size();
+  std::size_t i = 0;
+  while (i < n && hold(i)) ++i;
+  i = n;
+  while (i > 0 && hold(i - 1)) --i;
+}
+
 }  // namespace
 
 Refiner::Refiner(const Tone& tone) : tone_(tone), darkness_of_level_(65536) {
@@ -81,7 +100,9 @@ double Refiner::darkness(Point2 p) const {
 Refiner::Profile Refiner::profile(Point2 p, Vector2 normal, double half_width) const {
   const int reach = static_cast<int>((1.6 * half_width + 2.5) / kStep);
   std::vector<double> value(2 * static_cast<std::size_t>(reach) + 1);
-  const auto at = [&](int k) -> double& { return value[static_cast<std::size_t>(k + reach)]; };
+  const auto at = [&](int k) -> double& {
+    return value[static_cast<std::size_t>(k) + static_cast<std::size_t>(reach)];
+  };
   for (int k = -reach; k <= reach; ++k) at(k) = darkness(p + (k * kStep) * normal);
   const int near = static_cast<int>(std::max(1.0, 0.6 * half_width) / kStep);
   int top = 0;
@@ -192,17 +213,21 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
           found.width > 3 * usual[i] + 1.5 || found.width < 0.8 * usual[i])
         continue;
       centres[i] = line[i] + found.centre * normal;
-      widths[i] = std::max(found.width, 2 * usual[i]);  // of a grainy line, the ink's
+      // of a grainy line, the ink's
+      widths[i] = std::max({found.width, 2 * usual[i], 2.0 * raw.radii[i] - 1});
       weights[i] = 1;
       ++good;
     }
     if (good < 2 || 4 * good < n)
       for (std::size_t i = 0; i < n; ++i)
         if (weights[i] == 0) weights[i] = raw.sure[i] ? 0.1 : 0.01, centres[i] = raw.points[i];
+    hold_guessed_ends(raw, centres, weights);
     line = smooth_points(centres, weights, lambda_of_wavelength(5 + 1.2 * half), raw.closed);
   }
   FineStroke fine;
   fine.closed = raw.closed;
+  fine.free_start = raw.free_start;
+  fine.free_end = raw.free_end;
   fine.width = median(widths);
   if (raw.free_end) trim_end(line, widths, 0.5 * fine.width);
   if (raw.free_start) {

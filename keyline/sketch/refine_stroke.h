@@ -14,6 +14,8 @@ struct FineStroke {
   std::vector<double> widths;
   double width = 0;  ///< median
   bool closed = false;
+  bool free_start = true;  ///< ends in paper, not at another line
+  bool free_end = true;
 };
 
 /// Takes strokes from pixels to where the ink's grey values say they are.

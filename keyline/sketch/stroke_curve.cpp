@@ -59,7 +59,7 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   if (options.tolerance <= 0) return pieces;
   const auto part = points_of(run, fine);
   if (part.size() < 4) return pieces;
-  const double tolerance = std::max(options.tolerance, 0.1 * fine.width);
+  const double tolerance = std::max(options.tolerance, options.width_share * fine.width);
   fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48});
   return chain.within_tolerance ? chain.pieces : pieces;
 }

@@ -18,10 +18,11 @@ enum class CurvatureAim { none, smooth, rhythm };
 struct StrokeCurveOptions {
   double straightness = 0.75;  ///< of a group of points, pixels: see SegmentOptions
   double corner_angle = 0.6;   ///< radians
-  /// Largest distance of a stroke's points from its curve in pixels (a tenth of the width is
+  /// Largest distance of a stroke's points from its curve in pixels (width_share of the width is
   /// always allowed): as few quintics as that takes. 0: one per vertex of the line segments, as in
   /// [Sketch] section 5.
   double tolerance = 0.5;
+  double width_share = 0.1;
   CurvatureAim aim = CurvatureAim::none;
 };
 

@@ -4,8 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <unordered_map>
+#include <utility>
 
 #include "keyline/core/polygon.h"
 
@@ -13,6 +15,9 @@ namespace keyline::sketch {
 namespace {
 
 using core::Point2;
+
+constexpr double kSwelling = 1.3;   ///< of its usual width a line may swell by itself
+constexpr double kLensShare = 1.3;  ///< of a line's width: a hole with its rims is no wider
 
 struct Pixel {
   int x, y;
@@ -228,7 +233,20 @@ void join_at(StrokeGraph& g, int node) {
   std::replace(list.begin(), list.end(), b, a);
 }
 
-/// True for an end that leaves the disc of the line it sits on by less than half that line's width.
+/// Half the usual width of the widest of the other lines at a node.
+double half_width_beside(StrokeGraph& g, const GraphNode& node, int edge) {
+  double widest = 0;
+  for (const int i : node.edges) {
+    if (i == edge) continue;
+    std::vector<float> r = edge_at(g, i).radii;
+    std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
+    widest = std::max<double>(widest, r[r.size() / 2]);
+  }
+  return widest;
+}
+
+/// True for an end that leaves the disc of the line it sits on by less than half that line's width,
+/// or by less than dirt beside a thin line does. Where a line swells its usual width counts too.
 bool is_spur(StrokeGraph& g, int edge) {
   const GraphEdge& e = edge_at(g, edge);
   if (!e.alive || e.from < 0 || e.from == e.to) return false;
@@ -237,7 +255,10 @@ bool is_spur(StrokeGraph& g, int edge) {
   if (free_from == free_to) return false;
   const GraphNode& foot = node_at(g, free_from ? e.to : e.from);
   if (foot.edges.size() < 3) return false;
-  return length_of(e) < 1.5 * foot.radius + 1.5;
+  const double length = length_of(e);
+  if (length >= 1.5 * foot.radius + 3) return false;
+  const double r = std::min(foot.radius, kSwelling * half_width_beside(g, foot, edge));
+  return length < std::max(1.5 * r + 1.5, std::min(2 * r + 3, 6.0));
 }
 
 void prune_spurs(StrokeGraph& g) {
@@ -262,12 +283,70 @@ void prune_spurs(StrokeGraph& g) {
   }
 }
 
+double widest_gap(const GraphEdge& a, const GraphEdge& b) {
+  double widest = 0;
+  for (const Point2 p : a.points) {
+    double least = core::distance(p, b.points.front());
+    for (const Point2 q : b.points) least = std::min(least, core::distance(p, q));
+    widest = std::max(widest, least);
+  }
+  return widest;
+}
+
+/// True for two edges around a hole that, ink included, is hardly wider than the line it lies in.
+bool is_lens(StrokeGraph& g, const GraphEdge& a, const GraphEdge& b) {
+  const double wide = std::max(node_at(g, a.from).radius, node_at(g, a.to).radius);
+  if (std::max(length_of(a), length_of(b)) > 8 * wide + 4) return false;
+  const float ra = a.radii[a.radii.size() / 2];
+  const float rb = b.radii[b.radii.size() / 2];
+  return widest_gap(a, b) + ra + rb < kLensShare * 2 * wide + 1;
+}
+
+/// Moves an edge to the middle between it and the other one; it is as wide as both and the hole.
+void move_between(GraphEdge& kept, const GraphEdge& gone) {
+  for (std::size_t i = 0; i < kept.points.size(); ++i) {
+    std::size_t nearest = 0;
+    for (std::size_t j = 1; j < gone.points.size(); ++j)
+      if (core::distance(gone.points[j], kept.points[i]) <
+          core::distance(gone.points[nearest], kept.points[i]))
+        nearest = j;
+    const Point2 other = gone.points[nearest];
+    const double across =
+        core::distance(kept.points[i], other) + kept.radii[i] + gone.radii[nearest];
+    kept.points[i] = core::mix(kept.points[i], other, 0.5);
+    kept.radii[i] = static_cast<float>(0.5 * across);
+  }
+}
+
+/// Of two edges around a hole in a line one stays, in the middle.
+void close_lenses(StrokeGraph& g) {
+  std::map<std::pair<int, int>, int> first;
+  for (int i = 0; i < static_cast<int>(g.edges.size()); ++i) {
+    GraphEdge& e = edge_at(g, i);
+    if (!e.alive || e.from < 0 || e.from == e.to) continue;
+    const auto [at, fresh] = first.try_emplace(std::minmax(e.from, e.to), i);
+    if (fresh || !is_lens(g, edge_at(g, at->second), e)) continue;
+    const int other = at->second;
+    const bool swap = length_of(edge_at(g, other)) > length_of(e);
+    const int gone = swap ? other : i;
+    at->second = swap ? i : other;
+    move_between(edge_at(g, at->second), edge_at(g, gone));
+    edge_at(g, gone).alive = false;
+    detach(g, edge_at(g, gone).from, gone);
+    detach(g, edge_at(g, gone).to, gone);
+  }
+  for (int n = 0; n < static_cast<int>(g.nodes.size()); ++n)
+    if (node_at(g, n).edges.size() == 2) join_at(g, n);
+}
+
 }  // namespace
 
 double length_of(const GraphEdge& edge) { return core::polygon_length(edge.points); }
 
 StrokeGraph build_graph(const Binary& lines, const Binary& ink) {
   StrokeGraph graph = Builder(lines, ink).build();
+  prune_spurs(graph);
+  close_lenses(graph);
   prune_spurs(graph);
   return graph;
 }

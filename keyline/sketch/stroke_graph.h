@@ -32,7 +32,8 @@ struct StrokeGraph {
 
 /// The graph of `lines`, thinned from `ink`. Single pixels and blobs whose line is shorter than
 /// they are wide give an edge of one point or few. Spurs (ends that hardly leave the width of the
-/// line they sit on) are cut and the lines through their feet made one.
+/// line they sit on) are cut and the lines through their feet made one. Of two edges around a hole
+/// no wider than the line it lies in one stays.
 StrokeGraph build_graph(const Binary& lines, const Binary& ink);
 
 /// Length along the points.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "keyline/sketch/background.h"
@@ -14,8 +15,10 @@ using Gray = Raster<std::uint16_t>;
 
 constexpr int kImpulse = 9000;  ///< salt and pepper differ by this much from all neighbours
 
-/// Pixels much darker or much lighter than every neighbour become the neighbours' median. Isolated
-/// ones only: a line one pixel wide has neighbours of its own kind along it.
+constexpr double kAlone = 0.35;  ///< of a dark pixel's depth: a neighbour with more is its line
+
+/// Pixels much darker or much lighter than every neighbour become the neighbours' median. Dark
+/// ones only where all neighbours are paper: along a hairline the grey swells and fades.
 void remove_impulses(Gray& image) {
   const int w = image.width;
   const int h = image.height;
@@ -41,6 +44,9 @@ void remove_impulses(Gray& image) {
           }))
         continue;
       std::nth_element(around.begin(), around.begin() + 4, around.end());
+      const int usual = around[4];
+      const int darkest = *std::min_element(around.begin(), around.begin() + 4);
+      if (darker && usual - darkest > kAlone * (usual - value)) continue;
       image.at(x, y) = around[4];
     }
     above.swap(here);
@@ -84,6 +90,10 @@ double noise_at_lag(const Gray& level, int lag) {
   return *middle / (0.6745 * std::sqrt(2.0)) / Tone::kWhite;
 }
 
+double noise_of(const Gray& level) {
+  return std::max(noise_at_lag(level, 1), noise_at_lag(level, 4));
+}
+
 std::vector<std::uint16_t> level_table(double gain) {
   std::vector<std::uint16_t> table(65536);
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -113,8 +123,15 @@ Tone transform_intensity(const Image& image, const ToneOptions& options) {
   for (std::uint16_t& v : tone.level.data) v = table[v];
   tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));
   tone.flattened = flatten_background(tone.level, options.flatten);
-  tone.noise = std::max(noise_at_lag(tone.level, 1), noise_at_lag(tone.level, 4));
+  tone.noise = noise_of(tone.level);
   return tone;
+}
+
+void blur_levels(Tone& tone, double sigma) {
+  cv::Mat level(tone.level.height, tone.level.width, CV_16U, tone.level.data.data());
+  const int size = 2 * static_cast<int>(std::ceil(2.5 * sigma)) + 1;
+  cv::GaussianBlur(level, level, {size, size}, sigma);
+  tone.noise = noise_of(tone.level);
 }
 
 }  // namespace keyline::sketch

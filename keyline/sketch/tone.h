@@ -40,6 +40,10 @@ double darkness_of(double y, double gain);
 /// blocks, is divided out.
 Tone transform_intensity(const Image& image, const ToneOptions& options = {});
 
+/// Blurs the levels (sigma in pixels), which closes the grain of a pencil, and measures the noise
+/// that is left.
+void blur_levels(Tone& tone, double sigma);
+
 /// Paper and ink told apart by which tail of the blocks' brightness is longer.
 bool is_light_on_dark(const Image& image);
 

@@ -7,6 +7,7 @@
 
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/join_strokes.h"
+#include "keyline/sketch/meet_lines.h"
 #include "keyline/sketch/morphology.h"
 #include "keyline/sketch/outline.h"
 #include "keyline/sketch/polyline_tools.h"
@@ -23,8 +24,18 @@ using core::Point2;
 /// one line of ink already.
 constexpr double kPictureReach = 3.5;
 
-/// Usual width of the ink's lines: twice the ink over its border.
-double usual_width(const Binary& ink) {
+constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
+constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
+constexpr double kGrainShare = 0.15;   ///< of the width: how far curves may pass from such lines
+constexpr double kGrainBlur = 0.4;     ///< of the lines' width
+
+/// What the ink's area and border tell of its lines.
+struct InkMeasure {
+  double width = 1;   ///< usual width of the lines: twice the ink over its border
+  double border = 0;  ///< pixels of ink beside paper
+};
+
+InkMeasure measure(const Binary& ink) {
   double area = 0;
   double border = 0;
   for (int y = 0; y < ink.height; ++y)
@@ -35,7 +46,7 @@ double usual_width(const Binary& ink) {
           !ink.at(x + 1, y) || !ink.at(x, y - 1) || !ink.at(x, y + 1))
         ++border;
     }
-  return border > 0 ? std::max(1.0, 2 * area / border) : 1;
+  return {border > 0 ? std::max(1.0, 2 * area / border) : 1, border};
 }
 
 /// Pixels with y down to y up.
@@ -73,15 +84,36 @@ void show(const TraceOptions& options, const Tone& tone) {
 }
 
 /// Ink of the lines, smoothed and free of dirt.
-Binary find_ink(const Tone& tone, const TraceOptions& options, double& width) {
-  Binary ink = binarize(tone, options.binarize).ink;
-  show(options, "binary", ink);
-  width = usual_width(ink);
-  smooth_edges(ink, options.smoothing);
+struct Ink {
+  Binary picture;
+  double width = 1;     ///< of its lines
+  bool grainy = false;  ///< full of pinholes and ragged, as pencil on rough paper leaves it
+};
+
+Ink ink_of(const Tone& tone, const TraceOptions& options) {
+  Ink ink{binarize(tone, options.binarize).ink, 1, false};
+  show(options, "binary", ink.picture);
+  const InkMeasure measured = measure(ink.picture);
+  ink.width = measured.width;
+  const long ragged = smooth_edges(ink.picture, options.smoothing);
   const int specks =
-      options.specks.value_or(static_cast<int>(std::lround(6 + 1.5 * width * width)));
-  remove_specks(ink, specks, static_cast<int>(std::lround(1 + width)));
-  show(options, "smoothed", ink);
+      options.specks.value_or(static_cast<int>(std::lround(6 + 1.5 * ink.width * ink.width)));
+  const Removed removed =
+      remove_specks(ink.picture, specks, static_cast<int>(std::lround(1 + ink.width)));
+  ink.grainy = removed.pinholes > kGrainHoles * measured.border &&
+               static_cast<double>(ragged) > kGrainRagged * measured.border;
+  return ink;
+}
+
+/// Grainy ink is looked at again through a blur of part of its width; so is what follows.
+Ink find_ink(Tone& tone, const TraceOptions& options) {
+  Ink ink = ink_of(tone, options);
+  if (ink.grainy && !options.binarize.threshold) {
+    blur_levels(tone, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
+    ink = ink_of(tone, options);
+    ink.grainy = true;
+  }
+  show(options, "smoothed", ink.picture);
   return ink;
 }
 
@@ -100,6 +132,7 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
     FineStroke fine = refiner.refine(line);
     if (core::polygon_length(fine.points, fine.closed) >= 1.5) strokes.push_back(std::move(fine));
   }
+  end_on_lines(strokes);
   return strokes;
 }
 
@@ -157,21 +190,27 @@ void warn_of_photograph(const Tone& tone, const Binary& ink, double width, Trace
 core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   TraceResult result{image.width(), image.height(), {}, {}};
   options.progress.report(0, "reading grey values");
-  const Tone tone = transform_intensity(image, options.tone);
+  Tone tone = transform_intensity(image, options.tone);
   image = {};
   show(options, tone);
   if (tone.light_on_dark) result.notes.push_back("light lines on dark ground");
   if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
   options.progress.report(0.2, "telling ink from paper");
-  double width = 1;
-  const Binary ink = find_ink(tone, options, width);
+  const Ink found = find_ink(tone, options);
+  const Binary& ink = found.picture;
+  const double width = found.width;
   if (options.stage) show(options, "edges", laplacian_edges(ink));
   options.progress.report(0.4, "thinning");
   warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
   if (options.consolidate) lines = merged(lines, width, kPictureReach * width);
-  if (auto done = add_curves(lines, options, result); !done) return std::unexpected(done.error());
+  TraceOptions curves = options;
+  if (found.grainy) {
+    result.notes.push_back("grainy lines: looked at through a blur");
+    curves.curve.width_share = kGrainShare;
+  }
+  if (auto done = add_curves(lines, curves, result); !done) return std::unexpected(done.error());
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
   for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/polygon.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -38,6 +40,60 @@ TEST(Trace, FindsRingsAsClosedStrokes) {
     for (const curve::Bezier2& piece : stroke.curve)
       for (const double t : {0.0, 0.3, 0.6})
         EXPECT_NEAR(core::distance(evaluate(piece, t), {200, 200}), radii[i], 0.5);
+  }
+}
+
+/// A page with lines drawn into it: darkness 0 … 1 by distance from the line.
+void draw_line(Image& image, Point2 from, Point2 to, double width, double ink = 0.9) {
+  const core::Vector2 d = to - from;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const Point2 p{x + 0.5, y + 0.5};
+      const double u = std::clamp(core::dot(p - from, d) / core::dot(d, d), 0.0, 1.0);
+      const double off = core::distance(p, from + u * d);
+      const double cover = std::clamp(0.5 + 0.5 * width - off, 0.0, 1.0);
+      std::uint16_t& v = image.luminance.at(x, y);
+      v = static_cast<std::uint16_t>(v * (1 - ink * cover));
+    }
+}
+
+Image blank_page(int width, int height) {
+  Image page;
+  page.luminance = Raster<std::uint16_t>(width, height, 65535);
+  return page;
+}
+
+// Along a hairline the grey swells and fades: its dark pixels are no pepper.
+TEST(Trace, HairlinesStayWhole) {
+  for (const double angle : {0.1, 0.25, 0.4, 0.7}) {
+    SCOPED_TRACE(angle);
+    Image page = blank_page(300, 260);
+    draw_line(page, {20, 20}, {20 + 260 * std::cos(angle), 20 + 260 * std::sin(angle)}, 0.7);
+    draw_line(page, {40, 240}, {280, 245}, 5);
+    const auto result = trace(page);
+    ASSERT_TRUE(result) << result.error().message;
+    ASSERT_EQ(result->strokes.size(), 2U);
+    EXPECT_NEAR(core::polygon_length(result->strokes[0].points), 260, 4);
+  }
+}
+
+// A line that ends at another one ends there: within its width, on its own way.
+TEST(Trace, StemsEndAtTheLineTheyMeet) {
+  for (const double angle : {1.57, 1.2, 0.9, 0.6}) {
+    for (const double width : {3.0, 6.0, 10.0}) {
+      SCOPED_TRACE(std::to_string(angle) + ", " + std::to_string(width));
+      Image page = blank_page(320, 240);
+      draw_line(page, {20, 200}, {300, 200}, width);
+      draw_line(page, {150, 200}, {150 + 140 * std::cos(angle), 200 - 140 * std::sin(angle)},
+                width);
+      const auto result = trace(page);
+      ASSERT_TRUE(result) << result.error().message;
+      ASSERT_EQ(result->strokes.size(), 2U);
+      const auto& stem = result->strokes[1].points;
+      const Point2 foot{150, 40};
+      EXPECT_LT(std::min(core::distance(stem.front(), foot), core::distance(stem.back(), foot)),
+                0.75 * width + 1);
+    }
   }
 }
 
