@@ -219,8 +219,10 @@ Result<Written> format_document(const Document& document, const std::string& ext
     const double share = options.tolerance > 0 ? tolerance : 5e-4 * size;
     return write_glif(document, {.tolerance = share, .grid = options.grid});
   }
-  if (extension == ".step") return write_cad(document, CadFormat::step, tolerance);
-  if (extension == ".iges") return write_cad(document, CadFormat::iges, tolerance);
+  if (extension == ".step" || extension == ".stp")
+    return write_cad(document, CadFormat::step, tolerance);
+  if (extension == ".iges" || extension == ".igs")
+    return write_cad(document, CadFormat::iges, tolerance);
   std::string list;
   for (const std::string& name : written_extensions()) list += (list.empty() ? "" : " ") + name;
   return fail(ErrorCode::bad_input, "\"" + extension + "\" is no format that can be written",

@@ -12,9 +12,10 @@ namespace keyline::exchange {
 namespace {
 
 std::optional<Format> known(const std::string& extension) {
-  static constexpr std::array<std::pair<std::string_view, Format>, 16> kKnown = {{
+  static constexpr std::array<std::pair<std::string_view, Format>, 17> kKnown = {{
       {".json", Format::json},
       {".svg", Format::svg},
+      {".svgz", Format::svg},
       {".dxf", Format::dxf},
       {".ttf", Format::font},
       {".otf", Format::font},
@@ -63,7 +64,7 @@ Format format_of(const std::filesystem::path& file, std::string_view head) {
 }
 
 std::vector<std::string> written_extensions() {
-  return {".svg", ".json", ".csv", ".dxf", ".step", ".iges", ".glif"};
+  return {".svg", ".json", ".csv", ".dxf", ".step", ".stp", ".iges", ".igs", ".glif"};
 }
 
 }  // namespace keyline::exchange

@@ -56,7 +56,8 @@ Document document_of(const SvgContents& svg) {
   Document document;
   document.unit = svg.unit;
   for (const SvgCurve& curve : svg.curves) {
-    document::NamedPath named{{curve.name, curve.layer, {}}, {{}, curve.closed}, 0};
+    document::NamedPath named{
+        {curve.name, curve.layer, curve.color}, {{}, curve.closed}, curve.stroke_width};
     for (const curve::Bezier2& piece : curve.pieces) named.path.curves.push_back({piece});
     if (!named.path.curves.empty()) document.paths.push_back(std::move(named));
   }

@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "keyline/exchange/svg_shapes.h"
+#include "keyline/exchange/svg_style.h"
+#include "keyline/exchange/svg_text.h"
 #include "keyline/exchange/svg_transform.h"
-#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange {
 
@@ -19,36 +20,6 @@ namespace {
 using core::ErrorCode;
 using detail::Affine;
 using detail::local_name;
-
-/// The encoding an XML declaration states, in lower case.
-std::string declared_encoding(std::string_view bytes) {
-  const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 300));
-  const std::size_t word = head.find("encoding");
-  if (word == std::string_view::npos) return {};
-  const std::size_t at = head.find_first_of("\"'", word);
-  if (at == std::string_view::npos) return {};
-  const std::size_t end = head.find(head[at], at + 1);
-  if (end == std::string_view::npos) return {};
-  std::string name(head.substr(at + 1, end - at - 1));
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return name;
-}
-
-core::Result<pugi::xml_encoding> encoding_of(std::string_view bytes) {
-  if (bytes.substr(0, 2) == "\x1F\x8B")
-    return core::fail(ErrorCode::bad_input, "the SVG file is compressed",
-                      "uncompress it first (gunzip)");
-  if (bytes.find('\0') != std::string_view::npos)
-    return core::fail(ErrorCode::unsupported, "the SVG file is not in UTF-8",
-                      "save it with the encoding UTF-8");
-  if (is_utf8(bytes)) return pugi::encoding_utf8;
-  const std::string name = declared_encoding(bytes);
-  if (name == "iso-8859-1" || name == "latin1") return pugi::encoding_latin1;
-  return core::fail(ErrorCode::unsupported,
-                    "the SVG file is not in UTF-8" + (name.empty() ? "" : " but in " + name),
-                    "save it with the encoding UTF-8");
-}
 
 int line_of(std::string_view bytes, std::ptrdiff_t offset) {
   const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
@@ -60,6 +31,9 @@ int line_of(std::string_view bytes, std::ptrdiff_t offset) {
 struct Place {
   Affine map;
   std::string layer;
+  bool in_layer = false;  ///< of Inkscape; groups within are no layers
+  detail::SvgPaint paint;
+  detail::SvgViewport viewport;
   int depth = 0;
   int use_depth = 0;
 };
@@ -73,10 +47,10 @@ class SvgReader {
 
   core::Result<SvgContents> read(const pugi::xml_node& root) {
     find_ids(root);
-    if (bytes_.find("<!ENTITY") != std::string_view::npos)
-      skip(0, "entities of the document type are not expanded");
     Place place;
     place.map = outermost(root);
+    place.viewport = viewport_in(root, {});
+    place.paint = styles_.paint(root, {});
     read_children(root, place);
     for (const auto& [name, count] : ignored_)
       skip(count.first, name + ": " + std::to_string(count.second) +
@@ -110,6 +84,7 @@ class SvgReader {
     pugi::xml_node node = root;
     while (node) {
       if (const char* id = node.attribute("id").value(); *id) ids_.emplace(id, node);
+      if (local_name(node) == "style") styles_.add_sheet(node.text().get());
       if (node.first_child()) {
         node = node.first_child();
         continue;
@@ -165,16 +140,42 @@ class SvgReader {
     Place place = outer;
     ++place.depth;
     if (!add_transform(node, place)) return;
+    place.paint = styles_.paint(node, place.paint);
     if (shape) return read_shape(node, place);
     open_.push_back(node);
     if (use) {
       read_use(node, place);
     } else {
-      if (const std::string own = name_of(node); !own.empty()) place.layer = own;
-      if (name == "svg") place.map = combined(place.map, viewport_of(node, node));
-      read_children(node, place);
+      enter_layer(node, place);
+      if (name == "svg") enter_viewport(node, node, place);
+      if (name == "switch")
+        read_switch(node, place);
+      else
+        read_children(node, place);
     }
     open_.pop_back();
+  }
+
+  static void enter_layer(const pugi::xml_node& node, Place& place) {
+    const std::string own = name_of(node);
+    const bool layer = std::strcmp(node.attribute("inkscape:groupmode").value(), "layer") == 0;
+    if (own.empty() || (place.in_layer && !layer)) return;
+    place.layer = own;
+    place.in_layer = layer;
+  }
+
+  /// The first child the conditions of which hold; of those in languages, the one for all or
+  /// English.
+  void read_switch(const pugi::xml_node& node, const Place& place) {
+    for (const pugi::xml_node& child : node.children()) {
+      const std::string_view language = child.attribute("systemLanguage").value();
+      const bool spoken =
+          !child.attribute("systemLanguage") || language.find("en") != language.npos;
+      const bool plain = *child.attribute("requiredExtensions").value() == '\0';
+      if (child.type() != pugi::node_element || !spoken || !plain) continue;
+      read_element(child, place);
+      return;
+    }
   }
 
   bool add_transform(const pugi::xml_node& node, Place& place) {
@@ -202,7 +203,7 @@ class SvgReader {
   }
 
   void read_shape(const pugi::xml_node& node, const Place& place) {
-    SvgPathData data = detail::svg_shape(node);
+    SvgPathData data = detail::svg_shape(node, place.viewport);
     if (!data.error.empty())
       skip(line(node), describe(node) + ": " + data.error +
                            (local_name(node) == "path"
@@ -215,7 +216,9 @@ class SvgReader {
       SvgCurve curve{number == 1 ? name : name + '#' + std::to_string(number),
                      place.layer,
                      {},
-                     subpath.closed};
+                     subpath.closed,
+                     place.paint.color(),
+                     place.paint.stroke.empty() ? 0 : place.paint.width * scale_of(place.map)};
       for (const curve::Bezier2& piece : subpath.pieces)
         curve.pieces.push_back(transformed(piece, place.map));
       keep(node, std::move(curve));
@@ -240,25 +243,39 @@ class SvgReader {
     full_ = true;
   }
 
-  /// What x, y, width, height and viewBox of a nested <svg> or a <symbol> do; the size may come
-  /// from the <use> that shows it.
-  static Affine viewport_of(const pugi::xml_node& node, const pugi::xml_node& sized) {
-    Affine map;
-    const double x = detail::svg_length(node, "x", 0);
-    const double y = detail::svg_length(node, "y", 0);
-    if (std::isfinite(x) && std::isfinite(y)) map = {1, 0, 0, 1, x, y};
+  /// How much lengths grow, on the whole.
+  static double scale_of(const Affine& m) { return std::sqrt(std::abs(m.a * m.d - m.b * m.c)); }
+
+  /// The user space within an element: that of its viewBox, else its size, else all around it.
+  static detail::SvgViewport viewport_in(const pugi::xml_node& node, detail::SvgViewport outer) {
+    if (const auto box = detail::parse_svg_view_box(node.attribute("viewBox").value()))
+      return {box->width, box->height};
+    return {detail::svg_length(node, "width", outer.width, outer),
+            detail::svg_length(node, "height", outer.height, outer)};
+  }
+
+  /// What x, y, width, height, viewBox and preserveAspectRatio of a nested <svg> or a <symbol> do;
+  /// the size may come from the <use> that shows it, and is all around where none is given.
+  static void enter_viewport(const pugi::xml_node& node, const pugi::xml_node& sized,
+                             Place& place) {
+    const detail::SvgViewport outer = place.viewport;
+    const auto length = [&](const pugi::xml_node& of, const char* name, double fallback) {
+      return detail::svg_length(of, name, fallback, outer);
+    };
+    const double x = length(node, "x", 0);
+    const double y = length(node, "y", 0);
+    if (std::isfinite(x) && std::isfinite(y))
+      place.map = combined(place.map, Affine{1, 0, 0, 1, x, y});
+    const double w = length(sized, "width", length(node, "width", outer.width));
+    const double h = length(sized, "height", length(node, "height", outer.height));
+    place.viewport = {w, h};
     const auto box = detail::parse_svg_view_box(node.attribute("viewBox").value());
-    const double w = detail::svg_length(sized, "width", detail::svg_length(node, "width", NAN));
-    const double h = detail::svg_length(sized, "height", detail::svg_length(node, "height", NAN));
-    if (!box || !(w > 0 && h > 0)) return map;
-    const double scale = std::min(w / box->width, h / box->height);
-    const Affine fit{scale,
-                     0,
-                     0,
-                     scale,
-                     w / 2 - scale * (box->x + box->width / 2),
-                     h / 2 - scale * (box->y + box->height / 2)};
-    return combined(map, fit);
+    if (!box) return;
+    place.viewport = {box->width, box->height};
+    if (w > 0 && h > 0)
+      place.map =
+          combined(place.map,
+                   detail::fit_view_box(*box, w, h, node.attribute("preserveAspectRatio").value()));
   }
 
   void read_use(const pugi::xml_node& node, Place place) {
@@ -271,12 +288,14 @@ class SvgReader {
     if (++place.use_depth > limits_.use_depth ||
         std::find(open_.begin(), open_.end(), shown) != open_.end())
       return skip(line(node), describe(node) + ": shows itself, or is nested too deep");
-    const double x = detail::svg_length(node, "x", 0);
-    const double y = detail::svg_length(node, "y", 0);
+    const double x = detail::svg_length(node, "x", 0, place.viewport);
+    const double y = detail::svg_length(node, "y", 0, place.viewport);
     if (std::isfinite(x) && std::isfinite(y))
       place.map = combined(place.map, Affine{1, 0, 0, 1, x, y});
     if (local_name(shown) != "symbol") return read_element(shown, place);
-    place.map = combined(place.map, viewport_of(shown, node));
+    if (!add_transform(shown, place)) return;
+    place.paint = styles_.paint(shown, place.paint);
+    enter_viewport(shown, node, place);
     open_.push_back(shown);
     read_children(shown, place);
     open_.pop_back();
@@ -303,6 +322,7 @@ class SvgReader {
   std::vector<std::size_t> ends_;  ///< of lines
   SvgContents contents_;
   std::unordered_map<std::string, pugi::xml_node> ids_;
+  detail::SvgStyles styles_;
   std::vector<pugi::xml_node> open_;                    ///< elements being read, outermost first
   std::map<std::string, std::pair<int, int>> ignored_;  ///< name: first line, count
   std::size_t visited_ = 0;
@@ -316,11 +336,13 @@ core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& 
   if (bytes.size() > limits.bytes)
     return core::fail(ErrorCode::bad_input, "the SVG file is too large",
                       "it may hold " + std::to_string(limits.bytes >> 20) + " MB");
-  const auto encoding = encoding_of(bytes);
-  if (!encoding) return std::unexpected(encoding.error());
+  auto text = detail::svg_text(bytes, limits.bytes);
+  if (!text) return std::unexpected(text.error());
+  bytes = text->in(bytes);
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(
-      bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_ws_pcdata_single, *encoding);
+  const pugi::xml_parse_result parsed =
+      document.load_buffer(bytes.data(), bytes.size(),
+                           pugi::parse_default | pugi::parse_ws_pcdata_single, pugi::encoding_utf8);
   if (!parsed)
     return core::fail(
         ErrorCode::bad_input, std::string("the SVG file is no XML: ") + parsed.description(),
@@ -328,7 +350,10 @@ core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& 
   const pugi::xml_node root = document.document_element();
   if (local_name(root) != "svg")
     return core::fail(ErrorCode::bad_input, "the file holds XML but no SVG", {}, "line 1");
-  return SvgReader(bytes, limits).read(root);
+  auto contents = SvgReader(bytes, limits).read(root);
+  if (contents)
+    for (std::string& note : text->notes) contents->skipped.push_back({1, std::move(note)});
+  return contents;
 }
 
 }  // namespace keyline::exchange

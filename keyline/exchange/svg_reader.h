@@ -16,6 +16,8 @@ struct SvgCurve {
   std::string layer = {};  ///< label or id of the nearest named group; may be empty
   std::vector<curve::Bezier2> pieces = {};  ///< degree 1 to 3; rational quadratics for arcs
   bool closed = false;
+  std::string color = {};   ///< "#rrggbb" of the stroke, else of the fill; empty: none stated
+  double stroke_width = 0;  ///< in the unit of the coordinates; 0: no stroke
 };
 
 /// Something of the file that is not among the curves, or not all of it.
@@ -41,17 +43,20 @@ struct SvgReadLimits {
 };
 
 /// Reads the curves of an SVG file: paths and basic shapes under nested transforms, viewBoxes,
-/// groups, nested <svg>, <symbol> and <use>. Colours and other style are ignored.
+/// groups, nested <svg>, <symbol>, <switch> and <use>. UTF-8, UTF-16, ISO 8859-1, Windows-1252
+/// and compressed files (.svgz), see svg_text(). Hidden things are read all the same.
+///
+/// Style:   colour and width of strokes (svg_style.h); the rest is ignored.
+/// Layers:  the nearest Inkscape layer around; outside of such, the nearest named group.
 ///
 /// Frame:   y up: a point of the file's outermost user space (x, y) comes back as scale * (x, -y),
 ///          so what write_svg() wrote in mm comes back bit for bit. scale turns user units into
 ///          mm where the file states a physical size, else into px.
 /// Skipped: text, images and other elements that hold no curve are counted by name; paths whose
-///          data end in an error are read up to it; entities of a document type are not expanded
-///          and nothing outside the file is looked at.
-/// Fails:   bad_input with path "line N" where the bytes are no XML or hold no <svg>, or are
-///          compressed; unsupported for encodings other than UTF-8 and ISO 8859-1; bad_input where
-///          the file is larger than the limits. A file without any curve is no failure.
+///          data end in an error are read up to it; nothing outside the file is looked at.
+/// Fails:   bad_input with path "line N" where the bytes are no XML or hold no <svg>, where
+///          compressed data are broken; unsupported for other encodings; bad_input where the file
+///          is larger than the limits. A file without any curve is no failure.
 core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& limits = {});
 
 }  // namespace keyline::exchange

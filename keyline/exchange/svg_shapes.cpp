@@ -23,11 +23,22 @@ bool is_svg_shape(std::string_view name) {
   return std::find(kShapes.begin(), kShapes.end(), name) != kShapes.end();
 }
 
-double svg_length(const pugi::xml_node& node, const char* name, double fallback) {
+double svg_length(const pugi::xml_node& node, const char* name, double fallback,
+                  const SvgViewport& viewport) {
   const pugi::xml_attribute attribute = node.attribute(name);
   if (!attribute) return fallback;
-  const auto length = parse_svg_length(attribute.value());
-  return length ? in_px(*length) : NAN;
+  if (const auto length = parse_svg_length(attribute.value())) return in_px(*length);
+  SvgScanner scan(attribute.value());
+  double share = 0;
+  scan.skip_space();
+  if (!scan.number(share) || scan.peek() != '%') return NAN;
+  const std::string_view word = name;
+  const bool across = word.find('x') != word.npos || word == "width";
+  const bool down = word.find('y') != word.npos || word == "height";
+  const double whole = across ? viewport.width
+                       : down ? viewport.height
+                              : std::hypot(viewport.width, viewport.height) / std::sqrt(2.0);
+  return share / 100 * whole;
 }
 
 namespace {
@@ -43,15 +54,15 @@ void add_arc(SvgSubpath& outline, Point2 a, Point2 b, double rx, double ry) {
     outline.pieces.push_back(std::move(piece));
 }
 
-SvgPathData rectangle(const pugi::xml_node& node) {
-  const double x = svg_length(node, "x", 0);
-  const double y = svg_length(node, "y", 0);
-  const double w = svg_length(node, "width", 0);
-  const double h = svg_length(node, "height", 0);
+SvgPathData rectangle(const pugi::xml_node& node, const SvgViewport& viewport) {
+  const double x = svg_length(node, "x", 0, viewport);
+  const double y = svg_length(node, "y", 0, viewport);
+  const double w = svg_length(node, "width", 0, viewport);
+  const double h = svg_length(node, "height", 0, viewport);
   if (!(w > 0 && h > 0) || !std::isfinite(x) || !std::isfinite(y))
     return nothing("a rectangle without a usable place and size");
-  double rx = svg_length(node, "rx", NAN);
-  double ry = svg_length(node, "ry", NAN);
+  double rx = svg_length(node, "rx", NAN, viewport);
+  double ry = svg_length(node, "ry", NAN, viewport);
   if (!(rx >= 0)) rx = ry >= 0 ? ry : 0;
   if (!(ry >= 0)) ry = rx;
   rx = std::min(rx, w / 2);
@@ -70,11 +81,11 @@ SvgPathData rectangle(const pugi::xml_node& node) {
   return {{outline}, {}, 0};
 }
 
-SvgPathData oval(const pugi::xml_node& node, bool circle) {
-  const double cx = svg_length(node, "cx", 0);
-  const double cy = svg_length(node, "cy", 0);
-  const double rx = svg_length(node, circle ? "r" : "rx", 0);
-  const double ry = circle ? rx : svg_length(node, "ry", 0);
+SvgPathData oval(const pugi::xml_node& node, bool circle, const SvgViewport& viewport) {
+  const double cx = svg_length(node, "cx", 0, viewport);
+  const double cy = svg_length(node, "cy", 0, viewport);
+  const double rx = svg_length(node, circle ? "r" : "rx", 0, viewport);
+  const double ry = circle ? rx : svg_length(node, "ry", 0, viewport);
   if (!(rx > 0 && ry > 0) || !std::isfinite(cx) || !std::isfinite(cy))
     return nothing("a circle or ellipse without a usable place and size");
   SvgSubpath outline;
@@ -84,9 +95,9 @@ SvgPathData oval(const pugi::xml_node& node, bool circle) {
   return {{outline}, {}, 0};
 }
 
-SvgPathData line(const pugi::xml_node& node) {
-  const Point2 a{svg_length(node, "x1", 0), svg_length(node, "y1", 0)};
-  const Point2 b{svg_length(node, "x2", 0), svg_length(node, "y2", 0)};
+SvgPathData line(const pugi::xml_node& node, const SvgViewport& viewport) {
+  const Point2 a{svg_length(node, "x1", 0, viewport), svg_length(node, "y1", 0, viewport)};
+  const Point2 b{svg_length(node, "x2", 0, viewport), svg_length(node, "y2", 0, viewport)};
   if (!core::is_finite(a) || !core::is_finite(b)) return nothing("a line with unusable ends");
   if (a == b) return {};
   return {{SvgSubpath{{{{a, b}, {}}}, false}}, {}, 0};
@@ -117,12 +128,12 @@ SvgPathData corners(const pugi::xml_node& node, bool closed) {
 
 }  // namespace
 
-SvgPathData svg_shape(const pugi::xml_node& node) {
+SvgPathData svg_shape(const pugi::xml_node& node, const SvgViewport& viewport) {
   const std::string_view name = local_name(node);
   if (name == "path") return parse_svg_path(node.attribute("d").value());
-  if (name == "rect") return rectangle(node);
-  if (name == "circle" || name == "ellipse") return oval(node, name == "circle");
-  if (name == "line") return line(node);
+  if (name == "rect") return rectangle(node, viewport);
+  if (name == "circle" || name == "ellipse") return oval(node, name == "circle", viewport);
+  if (name == "line") return line(node, viewport);
   return corners(node, name == "polygon");
 }
 

@@ -1,5 +1,6 @@
 #include "keyline/exchange/svg_transform.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -105,20 +106,38 @@ std::optional<SvgViewBox> parse_svg_view_box(std::string_view text) {
   return SvgViewBox{v[0], v[1], v[2], v[3]};
 }
 
+Affine fit_view_box(const SvgViewBox& box, double width, double height, std::string_view aspect) {
+  double x = width / box.width;
+  double y = height / box.height;
+  const auto has = [aspect](std::string_view word) { return aspect.find(word) != aspect.npos; };
+  if (!has("none")) x = y = has("slice") ? std::max(x, y) : std::min(x, y);
+  const double right = has("xMin") ? 0 : has("xMax") ? 1 : 0.5;
+  const double down = has("YMin") ? 0 : has("YMax") ? 1 : 0.5;
+  return {x,
+          0,
+          0,
+          y,
+          right * (width - x * box.width) - x * box.x,
+          down * (height - y * box.height) - y * box.y};
+}
+
 std::optional<SvgLength> parse_svg_length(std::string_view text) {
   struct Unit {
     std::string_view name;
     double factor;
     bool physical;
   };
-  static constexpr std::array<Unit, 8> kUnits = {{{"", 1, false},
-                                                  {"px", 1, false},
-                                                  {"mm", 1, true},
-                                                  {"cm", 10, true},
-                                                  {"in", 25.4, true},
-                                                  {"pt", 25.4 / 72, true},
-                                                  {"pc", 25.4 / 6, true},
-                                                  {"Q", 0.25, true}}};
+  static constexpr std::array<Unit, 11> kUnits = {{{"", 1, false},
+                                                   {"px", 1, false},
+                                                   {"mm", 1, true},
+                                                   {"cm", 10, true},
+                                                   {"in", 25.4, true},
+                                                   {"pt", 25.4 / 72, true},
+                                                   {"pc", 25.4 / 6, true},
+                                                   {"Q", 0.25, true},
+                                                   {"em", 16, false},
+                                                   {"rem", 16, false},
+                                                   {"ex", 8, false}}};
   SvgScanner scan(text);
   double value = 0;
   scan.skip_space();

@@ -39,8 +39,12 @@ struct SvgViewBox {
 };
 std::optional<SvgViewBox> parse_svg_view_box(std::string_view text);
 
-/// A length with its unit: mm for the physical units, px for the rest. Empty where the text is no
-/// length, or one in percent or relative to a font.
+/// The affine map that fits a viewBox into a box of this size at the origin, as the attribute
+/// preserveAspectRatio says ("" is "xMidYMid meet").
+Affine fit_view_box(const SvgViewBox& box, double width, double height, std::string_view aspect);
+
+/// A length with its unit: mm for the physical units, px for the rest; an em counts 16 px. Empty
+/// where the text is no length, or one in percent.
 struct SvgLength {
   double value = 0;
   bool physical = false;  ///< mm, cm, in, pt, pc or Q were given

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+
+namespace keyline::exchange::detail {
+
+/// What of a drawing's style documents keep.
+struct SvgPaint {
+  std::string stroke;  ///< "#rrggbb"; empty: none, or a pattern
+  std::string fill;
+  double width = 1;  ///< of the stroke, in px of its user space
+
+  /// The colour of an outline: of its stroke, else of what fills it.
+  const std::string& color() const { return stroke.empty() ? fill : stroke; }
+};
+
+/// Style of elements: their attributes, then the rules of <style> for their name, class or id (one
+/// plain selector each; others are let pass), then their own style attribute; CSS Cascading 4.
+class SvgStyles {
+ public:
+  /// Takes the rules of one <style> element; of very long sheets the first 10,000.
+  void add_sheet(std::string_view css);
+  /// Paint of an element within one that is painted as given.
+  SvgPaint paint(const pugi::xml_node& node, SvgPaint inherited) const;
+
+ private:
+  void apply_rule(SvgPaint& paint, const std::string& selector) const;
+
+  std::map<std::string, std::string> rules_;  ///< declarations by selector
+};
+
+/// "#rrggbb" of a CSS colour: #rgb, #rrggbb, rgb(…), the sixteen basic names and the commonest
+/// others; empty for "none" and what is not known.
+std::string css_color(std::string_view text);
+
+}  // namespace keyline::exchange::detail
