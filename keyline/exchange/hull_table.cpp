@@ -5,9 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "keyline/exchange/byte_lines.h"
 #include "keyline/exchange/json_parts.h"
-#include "keyline/exchange/text_table.h"
 
 namespace keyline::exchange {
 namespace {
@@ -116,19 +114,6 @@ std::optional<double> height_at(const HullTable& hull, std::size_t station, doub
   return std::nullopt;
 }
 
-Result<std::vector<double>> numbers_of(const std::vector<std::string_view>& fields,
-                                       detail::TableStyle style, const std::string& place) {
-  std::vector<double> values;
-  for (std::size_t k = 1; k < fields.size(); ++k) {
-    const auto value = detail::parse_number(fields[k], style);
-    if (!value || std::isinf(*value))
-      return fail(ErrorCode::bad_input, "a number is expected in column " + std::to_string(k + 1),
-                  "mend it, or leave it empty outside the hull", place);
-    values.push_back(*value);
-  }
-  return values;
-}
-
 }  // namespace
 
 bool is_hull_json(const json& j) { return hull_of(j) != nullptr; }
@@ -160,53 +145,9 @@ Result<HullTable> hull_from_json(const json& j) {
   return made;
 }
 
-bool is_hull_csv(std::string_view head) {
-  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
-  return head.starts_with("waterline,") || head.starts_with("waterline;") ||
-         head.starts_with("station,") || head.starts_with("station;");
-}
-
-Result<HullTable> read_hull_csv(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  detail::ByteLines lines(text);
-  std::string_view line;
-  lines.next(line);
-  const bool by_station = line.starts_with("station");
-  const char separator = line.find(';') != std::string_view::npos ? ';' : ',';
-  const detail::TableStyle style{separator, separator == ';'};
-  const auto across = numbers_of(detail::split(line, style), style, lines.place());
-  if (!across) return std::unexpected(across.error());
-  if (!std::all_of(across->begin(), across->end(), [](double v) { return std::isfinite(v); }))
-    return fail(ErrorCode::bad_input, "the first line needs a number in every column", "mend it",
-                lines.place());
-  std::vector<double> down;
-  std::vector<double> cells;
-  while (lines.next(line)) {
-    if (detail::trimmed(line).empty()) continue;
-    const auto fields = detail::split(line, style);
-    const auto at = detail::parse_number(fields.front(), style);
-    auto row = numbers_of(fields, style, lines.place());
-    if (!row) return std::unexpected(row.error());
-    if (!at || !std::isfinite(*at) || row->size() > across->size())
-      return fail(ErrorCode::bad_input, "this row does not fit the first line", "mend it",
-                  lines.place());
-    row->resize(across->size(), kOutside);
-    down.push_back(*at);
-    cells.insert(cells.end(), row->begin(), row->end());
-  }
-  if (!std::is_sorted(across->begin(), across->end()) || !std::is_sorted(down.begin(), down.end()))
-    return fail(ErrorCode::bad_input, "stations and waterlines have to grow", "put them in order",
-                "line 1");
-  if (!by_station) return HullTable{std::move(down), *across, std::move(cells)};
-  HullTable turned{*across, down, {}};
-  for (std::size_t i = 0; i < across->size(); ++i)
-    for (std::size_t k = 0; k < down.size(); ++k)
-      turned.half_breadth.push_back(cells[k * across->size() + i]);
-  return turned;
-}
-
 document::Document hull_document(const HullTable& hull) {
   document::Document document;
+  document.unit = hull.unit;
   Lines lines(document);
   const std::size_t n = hull.stations.size();
   double widest = 0;

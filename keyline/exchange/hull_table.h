@@ -17,6 +17,7 @@ struct HullTable {
   std::vector<double> waterlines;
   std::vector<double> stations;
   std::vector<double> half_breadth;
+  std::string unit = {};  ///< as of documents; empty where none is stated
 };
 
 /// {"attributes":{"LOA":…,"BOA":…,"Depth":…},"halfBreadths":{"waterlines":[…],"stations":[…],
@@ -26,10 +27,12 @@ struct HullTable {
 core::Result<HullTable> hull_from_json(const nlohmann::json& j);
 bool is_hull_json(const nlohmann::json& j);
 
-/// Comma or semicolon separated text: the first line "waterline" and the stations, every further
-/// line the height of a waterline and its half-breadths, empty outside the hull; or "station" first
-/// and the two exchanged.
-/// Fails: bad_input with "line N".
+/// Text parted by commas, semicolons or tabs: after comments and lines of one or two cells (the
+/// unit among them: "unit,ft"), a line of "waterline" (or "WL", with a unit in brackets: "WL [m]")
+/// and the stations; every further line the height of a waterline and its half-breadths, empty or
+/// dashes outside the hull. Or "station" ("ST") first and the two exchanged. Rows and columns in
+/// any order. Numbers plain, as fractions (3 1/2) or, in feet, as feet-inches-eighths (2-3-4, and
+/// 2-3-4+ for a sixteenth more). Fails: bad_input with "line N".
 core::Result<HullTable> read_hull_csv(std::string_view text);
 bool is_hull_csv(std::string_view head);
 

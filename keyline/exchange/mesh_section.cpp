@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 #include <utility>
 
@@ -25,6 +26,15 @@ struct Segment {
   Edge from = 0;
   Edge to = 0;
   bool used = false;
+};
+
+struct HashPoint {
+  std::size_t operator()(Point3 p) const {
+    std::size_t hash = 0;
+    for (const double v : {p.x, p.y, p.z})
+      hash = hash * 1000003 + std::hash<double>()(v);  // 0 and -0 alike
+    return hash;
+  }
 };
 
 class Section {
@@ -72,9 +82,15 @@ class Section {
       const std::uint32_t a = t[i];
       const std::uint32_t b = t[(i + 1) % 3];
       if (!std::isfinite(height_[a])) return;
-      if ((height_[a] >= 0) != (height_[b] >= 0) && count < 2) crossed[count++] = edge_of(a, b);
+      if ((height_[a] >= 0) != (height_[b] >= 0) && count < 2)
+        crossed[count++] = edge_of(first_at(a), first_at(b));
     }
     if (count == 2) segments_.push_back({crossed[0], crossed[1]});
+  }
+
+  /// The first vertex met at the place of this one: many files repeat vertices face by face.
+  std::uint32_t first_at(std::uint32_t vertex) {
+    return first_.try_emplace(mesh_.points[vertex], vertex).first->second;
   }
 
   Point2 point_on(Edge edge) const {
@@ -110,6 +126,7 @@ class Section {
   acquire::Plane plane_;
   std::vector<double> height_;
   std::vector<Segment> segments_;
+  std::unordered_map<Point3, std::uint32_t, HashPoint> first_;
   std::unordered_map<Edge, std::vector<std::size_t>> at_;
   std::vector<SectionLine> found_;
 };

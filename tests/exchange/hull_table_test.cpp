@@ -62,6 +62,28 @@ TEST(HullTable, MistakesHaveTheirPlace) {
   EXPECT_EQ(line(hull_document(*table), "waterline-2").points[1], (Point3{5, 2, 2}));
 }
 
+TEST(HullCsv, ReadsShipyardsTables) {
+  const auto yard = read_hull_csv(
+      "# yacht\nunits,ft\nStation\\WL,2-0-0,1-6-0\n1,3-4-4,3-0-6+\n0,-,1/2\n2,--,2 3/4\n");
+  ASSERT_TRUE(yard) << yard.error().message;
+  EXPECT_EQ(yard->unit, "ft");
+  EXPECT_EQ(yard->stations, (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(yard->waterlines, (std::vector<double>{1.5, 2}));
+  ASSERT_EQ(yard->half_breadth.size(), 6U);
+  EXPECT_DOUBLE_EQ(yard->half_breadth[0], 0.5);
+  EXPECT_DOUBLE_EQ(yard->half_breadth[1], 3 + (0 + 6.5 / 8) / 12);
+  EXPECT_DOUBLE_EQ(yard->half_breadth[2], 2.75);
+  EXPECT_TRUE(std::isnan(yard->half_breadth[3]));
+  EXPECT_DOUBLE_EQ(yard->half_breadth[4], 3 + 4.5 / 12);
+  const auto metres = read_hull_csv("WL [m]\t0\t5\n0.5\t1\t2\n1\t1.5\t2.5\n");
+  ASSERT_TRUE(metres);
+  EXPECT_EQ(hull_document(*metres).unit, "m");
+  EXPECT_FALSE(read_hull_csv("wl,0,5\n1,1,2\n1,2,3\n"));
+  EXPECT_FALSE(is_hull_csv("station,x,y\n1,2,3\n"));
+  EXPECT_FALSE(is_hull_csv("x,y\n1,2\n"));
+  EXPECT_FALSE(is_hull_csv("1,2\n3,4\n"));
+}
+
 TEST(HullTable, LinesAreMadePlanar) {
   auto d = hull_document(read_hull_csv(kTable).value());
   const std::size_t count = d.space_curves.size();

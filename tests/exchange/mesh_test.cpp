@@ -184,6 +184,26 @@ TEST(Mesh, BadFilesAreFailuresWithThePlace) {
   EXPECT_FALSE(read_ply(huge));
 }
 
+TEST(Mesh, VerticesRepeatedFaceByFaceAreOne) {
+  // A tube of eight square faces, each with vertices of its own.
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    for (const int corner : {0, 1, 3, 2}) {
+      const double angle = (i + corner % 2) % 8 * core::kPi / 4;
+      text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " " +
+              std::to_string(corner / 2) + "\n";
+    }
+    text += "f -4 -3 -2 -1\n";
+  }
+  const auto mesh = read_obj(text);
+  ASSERT_TRUE(mesh);
+  ASSERT_EQ(mesh->points.size(), 32U);
+  const auto lines = section(*mesh, acquire::plane_of({0, 0, 1}, 0.4));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines[0].closed);
+  EXPECT_EQ(lines[0].points.size(), 16U);
+}
+
 TEST(Mesh, CloudsAreCutWithoutKeepingThem) {
   const fs::path file =
       fs::temp_directory_path() / ("keyline-cloud-" + std::to_string(::getpid()) + ".pts");
