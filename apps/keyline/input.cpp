@@ -9,6 +9,7 @@
 #include "keyline/acquire/join.h"
 #include "keyline/acquire/lattice.h"
 #include "keyline/acquire/section.h"
+#include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
@@ -77,7 +78,7 @@ Result<std::vector<RawCurve>> cut_table(const InputOptions& input,
     const double band = size > 0 && std::isfinite(size) ? size / 150 : 1;
     auto curve = acquire::section_plane(cloud, plane, input.band.value_or(band));
     if (!curve) return std::unexpected(curve.error());
-    cuts.push_back(std::move(*curve));
+    for (RawCurve& part : acquire::section_curves(*curve, plane)) cuts.push_back(std::move(part));
   }
   return cuts;
 }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/acquire/section_slope.h"
+#include "keyline/acquire/symmetry.h"
 #include "keyline/core/text.h"
 
 namespace keyline::acquire {
@@ -37,19 +39,39 @@ core::Result<RawCurve> too_few(std::size_t found, std::vector<double> distances,
       hint, "section");
 }
 
-template <class Distance, class Foot>
-core::Result<RawCurve> cut(const RawCurve& cloud, double band, Distance distance, Foot foot) {
+constexpr std::size_t kMostSlid = 50000;  // more points are averaged across the band later
+
+/// Feet moved along the surface where it slopes across the plane; tells how many.
+void slide(RawCurve& section, const Plane& plane, const std::vector<double>& away) {
+  if (section.points.size() > kMostSlid) return;
+  std::vector<core::Point2> feet;
+  for (const core::Point3& p : section.points) feet.push_back(to_plane(plane, p));
+  const auto moved = detail::slide_to_section(feet, away);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    if (moved[i] == feet[i]) continue;
+    section.points[i] = from_plane(plane, moved[i]);
+    ++count;
+  }
+  if (count > 0)
+    section.notes.push_back(std::to_string(count) +
+                            " of them along the slope of the surface there");
+}
+
+template <class Foot>
+core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plane, Foot foot) {
   if (auto good = check(cloud, band); !good) return std::unexpected(good.error());
   RawCurve section;
   section.id = cloud.id;
   section.has_z = true;
   section.notes = cloud.notes;
-  std::vector<double> distances;
+  std::vector<double> distances, away;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const double d = distance(cloud.points[i]);
+    const double d = distance_from_plane(plane, cloud.points[i]);
     if (!std::isfinite(d)) continue;
-    distances.push_back(d);
-    if (d > band) continue;
+    distances.push_back(std::abs(d));
+    if (std::abs(d) > band) continue;
+    away.push_back(d);
     section.points.push_back(foot(cloud.points[i]));
     if (!cloud.weights.empty()) section.weights.push_back(cloud.weights[i]);
     if (!cloud.source_lines.empty()) section.source_lines.push_back(cloud.source_lines[i]);
@@ -58,6 +80,7 @@ core::Result<RawCurve> cut(const RawCurve& cloud, double band, Distance distance
   section.notes.push_back("section: " + std::to_string(section.points.size()) + " of " +
                           std::to_string(cloud.points.size()) + " points lie within " +
                           core::number_text(band, 4) + " of the plane and were moved onto it");
+  slide(section, plane, away);
   return section;
 }
 
@@ -68,18 +91,17 @@ core::Result<RawCurve> section_plane(const RawCurve& cloud, Axis axis, double po
   double core::Point3::* const member = axis == Axis::x   ? &core::Point3::x
                                         : axis == Axis::y ? &core::Point3::y
                                                           : &core::Point3::z;
-  return cut(
-      cloud, band, [&](core::Point3 p) { return std::abs(p.*member - position); },
-      [&](core::Point3 p) {
-        p.*member = position;
-        return p;
-      });
+  core::Vector3 normal;
+  (axis == Axis::x ? normal.x : axis == Axis::y ? normal.y : normal.z) = 1;
+  return cut(cloud, band, plane_of(normal, position), [&](core::Point3 p) {
+    p.*member = position;
+    return p;
+  });
 }
 
 core::Result<RawCurve> section_plane(const RawCurve& cloud, const Plane& plane, double band) {
-  return cut(
-      cloud, band, [&](core::Point3 p) { return std::abs(distance_from_plane(plane, p)); },
-      [&](core::Point3 p) { return from_plane(plane, to_plane(plane, p)); });
+  return cut(cloud, band, plane,
+             [&](core::Point3 p) { return from_plane(plane, to_plane(plane, p)); });
 }
 
 }  // namespace keyline::acquire

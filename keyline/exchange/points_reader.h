@@ -21,8 +21,8 @@ struct PointsOptions {
   std::size_t longest_line = 1 << 20;
 };
 
-/// Reads points from text: columns separated by commas, semicolons, tabs or spaces (decimal commas
-/// where semicolons, tabs or spaces separate), one point per line.
+/// Reads points from text: columns separated by commas, semicolons, bars, tabs or spaces (decimal
+/// commas where semicolons, tabs or spaces separate), one point per line, maybe in brackets.
 ///
 /// - Comment lines start with #, %, // or !; a header line (also a comment) of names chooses the
 ///   columns; units after a name ("x [mm]", "x_m") are ignored. Without a header the first two or

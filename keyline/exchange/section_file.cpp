@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "keyline/acquire/section.h"
+#include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/document_file.h"
@@ -133,12 +134,12 @@ Result<FileSection> cloud_section(const std::filesystem::path& file, const Secti
   FileSection result;
   result.plane = *plane;
   result.description = described(*plane, !request.plane);
-  curve->notes.back() = "section at " + result.description + ": " +
-                        std::to_string(curve->points.size()) + " of " +
-                        std::to_string(sample.count()) + " points lie within " +
-                        core::number_text(reach, 4) + " of the plane and were moved onto it";
-  result.curves.push_back(std::move(*curve));
-  result.closed.push_back(false);
+  curve->notes.front() = "section at " + result.description + ": " +
+                         std::to_string(curve->points.size()) + " of " +
+                         std::to_string(sample.count()) + " points lie within " +
+                         core::number_text(reach, 4) + " of the plane and were moved onto it";
+  result.curves = acquire::section_curves(*curve, *plane);
+  result.closed.assign(result.curves.size(), false);
   return result;
 }
 

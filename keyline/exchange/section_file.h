@@ -22,7 +22,8 @@ core::Result<SectionRequest> parse_section(const std::string& text);
 
 struct FileSection {
   /// Of a mesh: every line of the cut in its order, longest first, in the plane's coordinates. Of a
-  /// cloud: the points within the band, moved onto the plane, in no order.
+  /// cloud: the points within the band, moved onto the plane, as acquire::section_curves() sorts
+  /// them.
   std::vector<acquire::RawCurve> curves;
   std::vector<bool> closed;  ///< of each curve
   bool ordered = false;      ///< true for a mesh

@@ -76,6 +76,10 @@ std::optional<double> parse_number(std::string_view field, TableStyle style) {
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
     field = trimmed(field.substr(1, field.size() - 2));
   }
+  // Points written as (x, y) or [x, y].
+  while (field.starts_with('(') || field.starts_with('[')) field = trimmed(field.substr(1));
+  while (field.ends_with(')') || field.ends_with(']'))
+    field = trimmed(field.substr(0, field.size() - 1));
   std::array<char, 128> text;
   if (field.size() > text.size()) return std::nullopt;
   std::copy(field.begin(), field.end(), text.begin());
@@ -100,8 +104,13 @@ std::optional<double> parse_number(std::string_view field, TableStyle style) {
 }
 
 TableStyle guess_style(std::string_view line) {
-  constexpr std::array<TableStyle, 6> styles{
-      {{';', true}, {';', false}, {'\t', true}, {',', false}, {' ', true}, {' ', false}}};
+  constexpr std::array<TableStyle, 7> styles{{{';', true},
+                                              {';', false},
+                                              {'|', false},
+                                              {'\t', true},
+                                              {',', false},
+                                              {' ', true},
+                                              {' ', false}}};
   TableStyle best{' ', false};
   std::size_t most = 0;
   for (const TableStyle style : styles) {

@@ -9,7 +9,7 @@ namespace keyline::exchange::detail {
 
 /// How the fields of a line are told apart.
 struct TableStyle {
-  char separator = ' ';  ///< ',', ';', '\t', or ' ' for any white space
+  char separator = ' ';  ///< ',', ';', '|', '\t', or ' ' for any white space
   bool decimal_comma = false;
 };
 
@@ -18,8 +18,8 @@ std::string_view trimmed(std::string_view text);
 /// Fields of a line, trimmed; empty ones after the last separator are dropped.
 std::vector<std::string_view> split(std::string_view line, TableStyle style);
 
-/// A number written with point or comma; "nan", "inf", "null", "na", "n/a" and the empty field
-/// give NaN or infinity. Empty where the field is something else.
+/// A number written with point or comma, maybe in brackets; "nan", "inf", "null", "na", "n/a" and
+/// the empty field give NaN or infinity. Empty where the field is something else.
 std::optional<double> parse_number(std::string_view field, TableStyle style);
 
 /// The style in which the most fields of the line are numbers.

@@ -11,20 +11,43 @@ namespace {
 
 constexpr int kSettleRounds = 8;
 
+/// Parameter of the spline's point nearest to p, within a twentieth of the guess.
+double foot_near(const curve::BSpline2& spline, core::Point2 p, double guess) {
+  double best = guess;
+  double reach = 0.05;
+  while (reach > 1e-9) {
+    double least = HUGE_VAL;
+    const double middle = best;
+    for (int k = -20; k <= 20; ++k) {
+      const double t = std::clamp(middle + reach * k / 20, 0.0, 1.0);
+      const double away = core::distance(evaluate(spline, t), p);
+      if (away >= least) continue;
+      least = away;
+      best = t;
+    }
+    reach /= 10;
+  }
+  return best;
+}
+
 }  // namespace
 
-RegionPoints points_in_region(const std::vector<core::Point2>& points, core::Interval region) {
+RegionPoints points_in_region(const std::vector<core::Point2>& points, bool closed,
+                              core::Interval region, const curve::BSpline2& spline) {
   std::vector<double> at(points.size(), 0);
   for (std::size_t i = 1; i < points.size(); ++i)
     at[i] = at[i - 1] + core::distance(points[i - 1], points[i]);
   RegionPoints found;
-  const double total = at.back();
+  const double total = at.back() + (closed ? core::distance(points.back(), points.front()) : 0.0);
   const auto first = std::lower_bound(at.begin(), at.end(), region.low * total);
   const auto last = std::upper_bound(at.begin(), at.end(), region.high * total);
   found.first = static_cast<std::size_t>(first - at.begin());
   found.last = static_cast<std::size_t>(last - at.begin()) - 1;
-  found.t_first = at[found.first] / total;
-  found.t_last = at[found.last] / total;
+  const std::size_t end = points.size() - 1;
+  if (found.first > 0)
+    found.t_first = foot_near(spline, points[found.first], at[found.first] / total);
+  if (found.last < end || closed)
+    found.t_last = foot_near(spline, points[found.last], at[found.last] / total);
   return found;
 }
 

@@ -9,15 +9,17 @@
 /// Putting solved runs together into the answer.
 namespace keyline::fairing::detail {
 
-/// Points of a region given in fractions of the length, with the spline parameters (chord length)
-/// of the first and the last of them.
+/// Points of a region given in fractions of the length, with the parameters of the feet of the
+/// first and the last of them on the spline through the points (which runs by chord length, nearly
+/// where points are dense and noisy).
 struct RegionPoints {
   std::size_t first = 0;
   std::size_t last = 0;
   double t_first = 0;
   double t_last = 1;
 };
-RegionPoints points_in_region(const std::vector<core::Point2>& points, core::Interval region);
+RegionPoints points_in_region(const std::vector<core::Point2>& points, bool closed,
+                              core::Interval region, const curve::BSpline2& spline);
 
 /// Adds a run's pieces and its points' offsets.
 void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,

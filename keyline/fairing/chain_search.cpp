@@ -1,11 +1,13 @@
 #include "keyline/fairing/chain_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/chain_edit.h"
+#include "keyline/fairing/structure.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing {
@@ -16,8 +18,10 @@ constexpr double kUnknown = -kNever;
 constexpr int kReach = 4;  // pieces on either side that a merge may move
 constexpr int kSqueezeRounds = 5;
 constexpr int kStartRounds = 14;
-constexpr int kNoisyStart = 4;  // first number of pieces tried: short ones follow the noise
-constexpr double kTie = 1e-3;   // costs closer than this part of the squared tolerance are equal
+// First numbers of pieces tried where the noise limits: short ones follow it.
+constexpr std::array kNoisyStarts{4, 7, 11};
+constexpr std::size_t kMostAlternatives = 14;  // pieces: longer chains are searched only once
+constexpr double kTie = 1e-3;  // costs closer than this part of the squared tolerance are equal
 
 constexpr double kBias = 0.3;  // of the noise: a bias that is let pass, however many points show it
 constexpr double kChance = 3.5;  // standard errors of a mean that are chance
@@ -261,7 +265,7 @@ void start_search(ChainSearchResult& result, std::vector<FitPoint>& points, bool
   fit.length_prior = 1;
   const int count = static_cast<int>(points.size());
   const int least = closed ? 3 : 1;
-  const int first = noisy(options.accept) ? kNoisyStart : options.start_pieces;
+  const int first = std::max(options.start_pieces, 2 * options.wanted_pieces);
   int pieces = std::clamp(count / 3, least, std::max(least, first));
   const int most = std::max(pieces, std::min(options.most_pieces, 4 * count / 5));
   result.fit.max_offset = kNever;
@@ -290,6 +294,32 @@ void start_search(ChainSearchResult& result, std::vector<FitPoint>& points, bool
   }
 }
 
+ChainSearchResult search_once(const std::vector<FitPoint>& points, bool closed,
+                              const ChainSearchOptions& options) {
+  ChainSearchResult result;
+  std::vector<FitPoint> weighed = points;
+  start_search(result, weighed, closed, options);
+  for (const FitPoint& p : weighed) result.weights.push_back(p.weight);
+  if (!result.within_tolerance && options.wanted_pieces == 0) return result;
+  Merger merger(result.chain, result.fit, std::move(weighed), options);
+  merger.run();
+  result.chain = std::move(merger.chain());
+  for (std::size_t j = 0; j < points.size(); ++j) result.weights[j] = merger.points()[j].weight;
+  const bool few = result.chain.pieces.size() <= kMostAlternatives;
+  if (few && noisy(options.accept) && options.wanted_pieces == 0 &&
+      detail::improve_structure(result.chain, points, options))
+    for (std::size_t j = 0; j < points.size(); ++j) result.weights[j] = points[j].weight;
+  ChainFitOptions last;
+  last.iterations = 0;
+  last.scale = options.accept.tolerance;
+  result.fit = fit_chain(result.chain, merger.points(), last);
+  result.within_tolerance =
+      accepts(options.accept, result.fit, points, offsets(result.chain, points));
+  result.trials = merger.trials();
+  result.cancelled = options.progress.stop_requested();
+  return result;
+}
+
 }  // namespace
 
 bool noisy(const Acceptance& accept) { return accept.noise * 6 >= accept.tolerance; }
@@ -305,24 +335,24 @@ bool accepts(const Acceptance& accept, const ChainFitReport& fit,
 
 ChainSearchResult search_chain(const std::vector<FitPoint>& points, bool closed,
                                const ChainSearchOptions& options) {
-  ChainSearchResult result;
-  std::vector<FitPoint> weighed = points;
-  start_search(result, weighed, closed, options);
-  for (const FitPoint& p : weighed) result.weights.push_back(p.weight);
-  if (!result.within_tolerance && options.wanted_pieces == 0) return result;
-  Merger merger(result.chain, result.fit, std::move(weighed), options);
-  merger.run();
-  result.chain = std::move(merger.chain());
-  for (std::size_t j = 0; j < points.size(); ++j) result.weights[j] = merger.points()[j].weight;
-  ChainFitOptions last;
-  last.iterations = 0;
-  last.scale = options.accept.tolerance;
-  result.fit = fit_chain(result.chain, merger.points(), last);
-  result.within_tolerance =
-      accepts(options.accept, result.fit, points, offsets(result.chain, points));
-  result.trials = merger.trials();
-  result.cancelled = options.progress.stop_requested();
-  return result;
+  if (!noisy(options.accept) || options.wanted_pieces > 0)
+    return search_once(points, closed, options);
+  ChainSearchResult best;
+  double least = kNever;
+  for (const int start : kNoisyStarts) {
+    ChainSearchOptions from = options;
+    from.start_pieces = start;
+    ChainSearchResult found = search_once(points, closed, from);
+    const bool first = best.chain.pieces.empty();
+    const double score = found.within_tolerance
+                             ? detail::structure_score(found.chain, points, options.accept.noise)
+                             : kNever;
+    if (first || score < least) best = std::move(found);
+    least = std::min(least, score);
+    if (!best.within_tolerance || best.cancelled) break;
+    if (best.chain.pieces.size() > kMostAlternatives) break;
+  }
+  return best;
 }
 
 }  // namespace keyline::fairing

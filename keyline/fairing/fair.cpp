@@ -158,27 +158,25 @@ class Job {
 
   Result<FairResult> run_region() {
     const core::Interval region = *options_.region;
-    acquire::KeyLine open = line_;
-    open.corners.clear();
-    if (line_.closed)
-      return fail(ErrorCode::unsupported, "a part of a closed key-line cannot be faired alone",
-                  "open it, or fair the whole", "region");
-    runs_ = {detail::run_between(open, 0, line_.points.size() - 1)};
+    acquire::KeyLine smooth = line_;
+    smooth.corners.clear();
+    runs_ = {line_.closed ? detail::runs_of(smooth, {}).front()
+                          : detail::run_between(smooth, 0, line_.points.size() - 1)};
     auto whole = spline_of(0);
     if (!whole) return std::unexpected(whole.error());
-    const auto range = detail::points_in_region(line_.points, region);
+    const auto range = detail::points_in_region(line_.points, line_.closed, region, *whole);
     if (range.last < range.first + 4)
       return fail(ErrorCode::bad_input, "the region holds fewer than five points",
                   "choose a larger region", "region");
-    const curve::BSpline2 before = subcurve(*whole, 0, range.t_first);
-    const curve::BSpline2 after = subcurve(*whole, range.t_last, 1);
     const curve::BSpline2 inside = subcurve(*whole, range.t_first, range.t_last);
     runs_ = {detail::run_between(line_, range.first, range.last)};
-    runs_[0].clamp_start = range.first == 0 ? options_.clamp_start : Clamp::g2;
-    runs_[0].clamp_end = range.last + 1 == line_.points.size() ? options_.clamp_end : Clamp::g2;
+    const bool from_start = range.first == 0 && !line_.closed;
+    const bool to_end = range.last + 1 == line_.points.size() && !line_.closed;
+    runs_[0].clamp_start = from_start ? options_.clamp_start : Clamp::g2;
+    runs_[0].clamp_end = to_end ? options_.clamp_end : Clamp::g2;
     if (auto done = fair_one(0, inside); !done) return std::unexpected(done.error());
-    if (range.first > 0) kept_before_ = before;
-    if (range.last + 1 < line_.points.size()) kept_after_ = after;
+    if (range.t_first > 0) kept_before_ = subcurve(*whole, 0, range.t_first);
+    if (range.t_last < 1) kept_after_ = subcurve(*whole, range.t_last, 1);
     return finish();
   }
 

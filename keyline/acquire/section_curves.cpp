@@ -1,0 +1,276 @@
+#include "keyline/acquire/section_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "keyline/acquire/kd_tree.h"
+#include "keyline/acquire/order.h"
+#include "keyline/acquire/spanning_tree.h"
+#include "keyline/acquire/statistics.h"
+#include "keyline/core/polygon.h"
+
+namespace keyline::acquire {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+constexpr std::size_t kLeastPoints = 24;    // a section of fewer is not taken apart
+constexpr std::size_t kMostPoints = 50000;  // nor one of more
+constexpr std::size_t kLeastPart = 8;       // points of a curve worth telling
+constexpr double kWide = 0.4;               // width over length of a neighbourhood that is no line
+constexpr double kThick = 0.85;             // share of such points in a thick band
+constexpr double kGap = 14;                 // gap between parts, in usual steps…
+constexpr double kGapOfExtent = 0.08;       // …and in the section's size
+constexpr double kAside = 4;                // distance of a branch from its stem, in usual steps
+constexpr std::array<std::size_t, 2> kWindows{9, 15};  // consecutive points looked at for zigzag
+constexpr double kZigzag = 1.9;      // their way over its chord: half a circle has 1.57
+constexpr double kZigzagWide = 0.3;  // and their width over their length: a hairpin is thin
+
+std::vector<core::Point2> picked(const std::vector<core::Point2>& points, const Indices& which) {
+  std::vector<core::Point2> some;
+  for (const std::size_t i : which) some.push_back(points[i]);
+  return some;
+}
+
+/// Width over length of the points' scatter; 1 for a round one.
+double roundness(const std::vector<core::Point2>& points, const Indices& near) {
+  core::Vector2 mean;
+  for (const std::size_t i : near) mean = mean + (points[i] - points[near[0]]);
+  mean = mean / static_cast<double>(near.size());
+  double xx = 0, xy = 0, yy = 0;
+  for (const std::size_t i : near) {
+    const core::Vector2 d = points[i] - points[near[0]] - mean;
+    xx += d.x * d.x;
+    xy += d.x * d.y;
+    yy += d.y * d.y;
+  }
+  const double half = 0.5 * std::hypot(xx - yy, 2 * xy);
+  const double along = 0.5 * (xx + yy) + half;
+  return along > 0 ? std::sqrt(std::max(0.5 * (xx + yy) - half, 0.0) / along) : 1;
+}
+
+/// True for points in the middle of others that fill an area: wide neighbourhoods, small and large.
+std::vector<bool> fills_area(const std::vector<core::Point2>& points) {
+  const detail::KdTree tree(points);
+  std::vector<bool> wide(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    wide[i] = true;
+    for (const std::size_t count : {9U, 16U})
+      wide[i] = wide[i] && roundness(points, tree.nearest(points[i], count, points.size())) > kWide;
+  }
+  // One wide neighbourhood alone is a corner or a step: most neighbours must agree.
+  std::vector<bool> area(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto near = tree.nearest(points[i], 9, points.size());
+    const auto agree =
+        std::count_if(near.begin(), near.end(), [&](std::size_t k) { return wide[k]; });
+    area[i] = agree >= 5;
+  }
+  return area;
+}
+
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Groups of points linked by steps of at most `gap`, in the order of their first point.
+std::vector<Indices> groups_of(const std::vector<core::Point2>& points, const Indices& which,
+                               double gap) {
+  const auto some = picked(points, which);
+  if (some.size() < 2) return {which};
+  Sets sets(some.size());
+  for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
+    if (edge.length <= gap) sets.join(edge.a, edge.b);
+  std::vector<Indices> groups;
+  std::vector<std::size_t> group_of(some.size(), some.size());
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    std::size_t& group = group_of[sets.find(k)];
+    if (group == some.size()) {
+      group = groups.size();
+      groups.emplace_back();
+    }
+    groups[group].push_back(which[k]);
+  }
+  return groups;
+}
+
+/// Distance of p from the polygon through some points.
+double distance_to_line(core::Point2 p, const std::vector<core::Point2>& line) {
+  double least = core::distance(p, line.front());
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const core::Vector2 step = line[k] - line[k - 1];
+    const double square = core::dot(step, step);
+    const double t =
+        square > 0 ? std::clamp(core::dot(p - line[k - 1], step) / square, 0.0, 1.0) : 0;
+    least = std::min(least, core::distance(p, line[k - 1] + t * step));
+  }
+  return least;
+}
+
+/// One connected part taken apart into its stem and what branches off.
+struct Parted {
+  Indices stem;
+  Indices aside;
+};
+
+Parted take_stem(const std::vector<core::Point2>& points, const Indices& group, double usual) {
+  const auto some = picked(points, group);
+  const auto tree = detail::spanning_tree(some, detail::neighbour_lists(some), true);
+  std::vector<core::Point2> line;
+  for (const std::size_t k : detail::longest_path(some.size(), tree)) line.push_back(some[k]);
+  Parted parted;
+  for (std::size_t k = 0; k < some.size(); ++k)
+    (distance_to_line(some[k], line) > kAside * usual ? parted.aside : parted.stem)
+        .push_back(group[k]);
+  return parted;
+}
+
+bool is_zigzag(const std::vector<core::Point2>& line, const Indices& window) {
+  const double way = core::polygon_length(picked(line, window), false);
+  const double chord = core::distance(line[window.front()], line[window.back()]);
+  return way >= kZigzag * chord && roundness(line, window) >= kZigzagWide;
+}
+
+/// Which points of an ordered curve belong to a zigzag.
+std::vector<bool> zigzags(const std::vector<core::Point2>& line) {
+  std::vector<bool> flagged(line.size());
+  for (const std::size_t size : kWindows) {
+    Indices window(size);
+    for (std::size_t k = 0; k + size <= line.size(); ++k) {
+      std::iota(window.begin(), window.end(), k);
+      if (!is_zigzag(line, window)) continue;
+      for (const std::size_t i : window) flagged[i] = true;
+    }
+  }
+  return flagged;
+}
+
+RawCurve part_of(const RawCurve& section, const Indices& which) {
+  RawCurve part;
+  part.has_z = section.has_z;
+  for (const std::size_t i : which) {
+    part.points.push_back(section.points[i]);
+    if (!section.weights.empty()) part.weights.push_back(section.weights[i]);
+    if (!section.source_lines.empty()) part.source_lines.push_back(section.source_lines[i]);
+  }
+  return part;
+}
+
+/// The section's points sorted into curves.
+class Sorter {
+ public:
+  explicit Sorter(std::vector<core::Point2> points) : points_(std::move(points)) {}
+
+  void run() {
+    Indices all(points_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<bool> area = fills_area(points_);
+    // Where nearly all points fill areas the section is a thick band: its middle is found later.
+    thick_ = std::count(area.begin(), area.end(), true) >
+             static_cast<long>(kThick * static_cast<double>(area.size()));
+    Indices lines;
+    for (const std::size_t i : all) (area[i] && !thick_ ? left_ : lines).push_back(i);
+    std::vector<double> steps;
+    const auto some = picked(points_, lines);
+    for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
+      steps.push_back(edge.length);
+    usual_ = detail::quantile(steps);
+    gap_ = std::max(kGap * usual_, kGapOfExtent * detail::extent_of(some));
+    sort(lines);
+    std::stable_sort(curves_.begin(), curves_.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+  }
+
+  std::size_t left() const { return left_.size(); }
+  const std::vector<std::pair<Indices, double>>& curves() const { return curves_; }
+
+ private:
+  void sort(const Indices& which) {
+    for (const Indices& group : groups_of(points_, which, gap_)) {
+      if (group.size() < kLeastPart) {
+        leave(group);
+      } else if (thick_) {
+        curves_.emplace_back(group, detail::extent_of(picked(points_, group)));
+      } else {
+        const Parted parted = take_stem(points_, group, usual_);
+        add(parted.stem);
+        if (!parted.aside.empty()) sort(parted.aside);
+      }
+    }
+  }
+
+  void leave(const Indices& which) { left_.insert(left_.end(), which.begin(), which.end()); }
+
+  void add(const Indices& stem) {
+    const Ordering ordering = order_points(picked(points_, stem));
+    for (const std::size_t k : ordering.dropped) left_.push_back(stem[k]);
+    Indices along;
+    for (const std::size_t k : ordering.order) along.push_back(stem[k]);
+    const std::vector<bool> zigzag = zigzags(picked(points_, along));
+    Indices stretch;
+    for (std::size_t k = 0; k < along.size(); ++k) {
+      if (!zigzag[k]) {
+        stretch.push_back(along[k]);
+        continue;
+      }
+      left_.push_back(along[k]);
+      add_stretch(stretch);
+    }
+    add_stretch(stretch);
+  }
+
+  void add_stretch(Indices& stretch) {
+    if (stretch.size() < kLeastPart)
+      leave(stretch);
+    else
+      curves_.emplace_back(stretch, core::polygon_length(picked(points_, stretch), false));
+    stretch.clear();
+  }
+
+  std::vector<core::Point2> points_;
+  std::vector<std::pair<Indices, double>> curves_;
+  Indices left_;
+  bool thick_ = false;
+  double usual_ = 0;
+  double gap_ = 0;
+};
+
+}  // namespace
+
+std::vector<RawCurve> section_curves(const RawCurve& section, const Plane& plane) {
+  if (section.points.size() < kLeastPoints || section.points.size() > kMostPoints) return {section};
+  std::vector<core::Point2> points;
+  for (const core::Point3& p : section.points) points.push_back(to_plane(plane, p));
+  Sorter sorter(std::move(points));
+  sorter.run();
+  const bool whole = sorter.curves().size() == 1 && sorter.left() * 20 <= section.points.size();
+  if (sorter.curves().empty() || whole) return {section};
+  std::vector<RawCurve> curves;
+  for (const auto& [which, length] : sorter.curves()) {
+    curves.push_back(part_of(section, which));
+    curves.back().id = "section-" + std::to_string(curves.size());
+  }
+  curves.front().notes = section.notes;
+  if (curves.size() > 1)
+    curves.front().notes.push_back("the section consists of " + std::to_string(curves.size()) +
+                                   " curves");
+  if (sorter.left() > 0)
+    curves.front().notes.push_back(std::to_string(sorter.left()) +
+                                   " points of the section lie on no curve and were left out");
+  return curves;
+}
+
+}  // namespace keyline::acquire

@@ -1,0 +1,96 @@
+#include "keyline/acquire/section_slope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "keyline/acquire/kd_tree.h"
+
+namespace keyline::acquire::detail {
+namespace {
+
+constexpr std::size_t kNeighbours = 12;
+constexpr double kGain = 6;        // what the slope must divide the sum of squared residuals by
+constexpr double kSteepest = 1.5;  // a surface nearly along the plane has no section to move to
+constexpr double kThick = 0.02;    // scatter about the parabola over length: less needs no slope
+constexpr double kThin = 0.4;      // width over length of neighbourhoods that are a line at all
+
+/// Feet near a point in their own frame: u along their scatter, v across.
+struct Nearby {
+  core::Vector2 along;
+  Eigen::VectorXd u, v, away;
+  double width = 0;   // standard deviations of v…
+  double length = 0;  // …and of u
+};
+
+Nearby nearby(std::span<const core::Point2> feet, std::span<const double> away,
+              const std::vector<std::size_t>& near, core::Point2 at) {
+  double xx = 0, xy = 0, yy = 0;
+  core::Vector2 mean;
+  for (const std::size_t i : near) mean = mean + (feet[i] - at) / static_cast<double>(near.size());
+  for (const std::size_t i : near) {
+    const core::Vector2 d = feet[i] - at - mean;
+    xx += d.x * d.x;
+    xy += d.x * d.y;
+    yy += d.y * d.y;
+  }
+  Nearby n;
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  n.along = {std::cos(angle), std::sin(angle)};
+  const auto count = static_cast<Eigen::Index>(near.size());
+  n.u.resize(count);
+  n.v.resize(count);
+  n.away.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::size_t i = near[static_cast<std::size_t>(k)];
+    const core::Vector2 d = feet[i] - at - mean;
+    n.u(k) = core::dot(d, n.along);
+    n.v(k) = core::cross(n.along, d);
+    n.away(k) = away[i];
+  }
+  n.length = std::sqrt(n.u.squaredNorm() / static_cast<double>(count));
+  n.width = std::sqrt(n.v.squaredNorm() / static_cast<double>(count));
+  return n;
+}
+
+/// Change of v with the distance from the plane, where it explains the neighbours.
+std::optional<double> slope_of(const Nearby& n) {
+  if (!(n.length > 0) || n.width > kThin * n.length) return std::nullopt;
+  const double reach = n.away.cwiseAbs().maxCoeff();
+  if (!(reach > 0)) return std::nullopt;
+  Eigen::MatrixXd rows(n.u.size(), 4);
+  rows.col(0).setOnes();
+  rows.col(1) = n.u / n.length;
+  rows.col(2) = rows.col(1).cwiseAbs2();
+  rows.col(3) = n.away / reach;
+  const auto without = rows.leftCols(3);
+  const Eigen::VectorXd plain = without.colPivHouseholderQr().solve(n.v);
+  const Eigen::VectorXd sloped = rows.colPivHouseholderQr().solve(n.v);
+  const double before = (without * plain - n.v).squaredNorm();
+  const double after = (rows * sloped - n.v).squaredNorm();
+  const double slope = sloped(3) / reach;
+  const double scatter = std::sqrt(before / static_cast<double>(n.u.size()));
+  if (scatter < kThick * n.length) return std::nullopt;
+  if (!(after * kGain < before) || !(std::abs(slope) < kSteepest)) return std::nullopt;
+  return slope;
+}
+
+}  // namespace
+
+std::vector<core::Point2> slide_to_section(std::span<const core::Point2> feet,
+                                           std::span<const double> away) {
+  std::vector<core::Point2> moved(feet.begin(), feet.end());
+  if (feet.size() < 2 * kNeighbours) return moved;
+  const KdTree tree(feet);
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    const auto near = tree.nearest(feet[i], kNeighbours, feet.size());
+    const Nearby n = nearby(feet, away, near, feet[i]);
+    if (const auto slope = slope_of(n))
+      moved[i] = feet[i] - *slope * away[i] * core::Vector2{-n.along.y, n.along.x};
+  }
+  return moved;
+}
+
+}  // namespace keyline::acquire::detail

@@ -1,0 +1,96 @@
+#include "keyline/acquire/section.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "keyline/acquire/acquire.h"
+#include "keyline/acquire/section_curves.h"
+#include "keyline/acquire/symmetry.h"
+#include "keyline/core/angle.h"
+#include "keyline/numeric/random.h"
+
+/// Sections of clouds: feet along the surface, curves told apart.
+namespace keyline::acquire {
+namespace {
+
+using core::Point3;
+using numeric::Random;
+
+const Plane kAcross = plane_of({1, 0, 0}, 1);
+
+/// Random points of a cone about the x axis whose radius at x = 1 is `radius`.
+void add_cone(RawCurve& cloud, Random& random, double y, double radius, double slope, int count) {
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * core::kPi * (i + random.uniform()) / count;
+    const double x = random.uniform(0.96, 1.04);
+    const double r = radius + slope * (x - 1);
+    cloud.points.push_back({x, y + r * std::cos(angle), r * std::sin(angle)});
+  }
+}
+
+RawCurve empty_cloud() {
+  RawCurve cloud;
+  cloud.has_z = true;
+  return cloud;
+}
+
+TEST(Section, FeetGoAlongTheSurface) {
+  Random random(3);
+  RawCurve cloud = empty_cloud();
+  add_cone(cloud, random, 0, 1, 0.8, 300);
+  const RawCurve cut = section_plane(cloud, kAcross, 0.03).value();
+  double most = 0;
+  for (const Point3& p : cut.points) {
+    EXPECT_NEAR(p.x, 1, 1e-12);
+    most = std::max(most, std::abs(std::hypot(p.y, p.z) - 1));
+  }
+  EXPECT_LE(most, 2e-3);  // straight onto the plane: 0.8 * 0.03
+}
+
+TEST(Section, FeetStayWhereNothingSlopes) {
+  Random random(4);
+  RawCurve cloud = empty_cloud();
+  add_cone(cloud, random, 0, 1, 0, 300);
+  const RawCurve cut = section_plane(cloud, Axis::x, 1, 0.03).value();
+  std::size_t at = 0;
+  for (const Point3& p : cloud.points) {
+    if (std::abs(p.x - 1) > 0.03) continue;
+    EXPECT_EQ(cut.points[at].y, p.y);
+    EXPECT_EQ(cut.points[at++].z, p.z);
+  }
+}
+
+TEST(Section, PartsAndClumpsAreToldApart) {
+  Random random(5);
+  RawCurve cloud = empty_cloud();
+  add_cone(cloud, random, 0, 1, 0.2, 240);
+  add_cone(cloud, random, 2.6, 0.5, 0.2, 140);
+  for (int i = 0; i < 120; ++i)  // a face met flat
+    cloud.points.push_back(
+        {1 + random.uniform(-0.01, 0.01), random.uniform(5, 5.6), random.uniform(0, 0.6)});
+  const RawCurve cut = section_plane(cloud, kAcross, 0.03).value();
+  const auto curves = section_curves(cut, kAcross);
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves[0].id, "section-1");
+  for (std::size_t k = 0; k < 2; ++k) {
+    const KeyLine line = acquire_key_line(curves[k]).value();
+    EXPECT_TRUE(line.closed);
+    EXPECT_NEAR(line.length, 2 * core::kPi * (k == 0 ? 1 : 0.5), 0.03);
+  }
+}
+
+TEST(Section, OneCurveComesBackAsItIs) {
+  Random random(6);
+  RawCurve cloud = empty_cloud();
+  add_cone(cloud, random, 0, 1, 0, 200);
+  const RawCurve cut = section_plane(cloud, kAcross, 0.03).value();
+  const auto curves = section_curves(cut, kAcross);
+  ASSERT_EQ(curves.size(), 1U);
+  EXPECT_EQ(curves[0].points.size(), cut.points.size());
+  EXPECT_EQ(curves[0].id, cut.id);
+}
+
+}  // namespace
+}  // namespace keyline::acquire
