@@ -32,8 +32,7 @@ struct MeantLine {
 ///
 /// Two strokes belong together if one runs along the other (within reach, direction within angle)
 /// for most of its length, or if an end of one runs along an end of the other, so that they go on
-/// from each other. The line is the longest member, prolonged at its ends by
-/// members that go on there, moved to the mean of all members alongside; strokes alone stay as they
+/// from each other. The line of a group is that of meant_line; strokes alone stay as they
 /// are but for repeated points.
 /// Order: lines by their first member. Throws InvalidInput for a stroke of fewer than two points.
 std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,

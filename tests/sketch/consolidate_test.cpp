@@ -1,0 +1,146 @@
+#include "keyline/sketch/consolidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/polygon.h"
+#include "keyline/numeric/random.h"
+#include "keyline/sketch/align_strokes.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::Point2;
+
+using Curve = std::function<Point2(double)>;
+
+/// Part of a curve drawn beside it: off by `offset` along the normal, with a slow wobble.
+DrawnStroke drawn(const Curve& curve, double from, double to, double offset, double phase) {
+  DrawnStroke stroke;
+  const int n = 240;
+  for (int i = 0; i <= n; ++i) {
+    const double t = from + (to - from) * i / n;
+    const core::Vector2 d = curve(t + 1e-4) - curve(t - 1e-4);
+    const double off = offset + 0.3 * std::sin(9 * t + phase);
+    stroke.points.push_back(curve(t) + (off / core::norm(d)) * core::perpendicular_left(d));
+  }
+  return stroke;
+}
+
+/// Largest distance of the line's points from the curve.
+double distance_from(const Curve& curve, const std::vector<Point2>& points, double from,
+                     double to) {
+  double worst = 0;
+  for (const Point2 p : points) {
+    double least = INFINITY;
+    for (int i = 0; i <= 4000; ++i)
+      least = std::min(least, core::distance(p, curve(from + (to - from) * i / 4000)));
+    worst = std::max(worst, least);
+  }
+  return worst;
+}
+
+double length_of(const Curve& curve, double from, double to) {
+  std::vector<Point2> points;
+  for (int i = 0; i <= 4000; ++i) points.push_back(curve(from + (to - from) * i / 4000));
+  return core::polygon_length(points);
+}
+
+// Windings closer to each other than the strip of strokes is wide.
+TEST(Consolidate, SpiralsDrawnInAStripKeepTheirWindings) {
+  const Curve spiral = [](double t) {
+    const double r = 30 + 1.6 * t;
+    return Point2{r * std::cos(t), r * std::sin(t)};
+  };
+  std::vector<DrawnStroke> strokes;
+  for (int k = -3; k <= 3; ++k) {
+    strokes.push_back(drawn(spiral, 0, 15, 2.0 * k, k));
+    if (k % 2 == 0) std::reverse(strokes.back().points.begin(), strokes.back().points.end());
+  }
+  const auto lines = consolidate(strokes);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_FALSE(lines[0].closed);
+  EXPECT_EQ(lines[0].members.size(), 7U);
+  EXPECT_LT(distance_from(spiral, lines[0].points, -0.05, 15.05), 1);
+  EXPECT_NEAR(core::polygon_length(lines[0].points), length_of(spiral, 0, 15),
+              0.03 * length_of(spiral, 0, 15));
+}
+
+TEST(Consolidate, EightsCloseAndCrossThemselves) {
+  const Curve eight = [](double t) {
+    return Point2{60 * std::cos(t), 40 * std::sin(t) * std::cos(t)};
+  };
+  const double round = 2 * std::numbers::pi;
+  const std::vector<DrawnStroke> strokes = {
+      drawn(eight, 0.3, 0.3 + round, 1, 0), drawn(eight, 2, 2 + 1.05 * round, -1, 1),
+      drawn(eight, 1, 1 + 0.6 * round, 1.5, 2), drawn(eight, 4, 4 + 0.5 * round, -1.5, 3)};
+  const auto lines = consolidate(strokes);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines[0].closed);
+  EXPECT_LT(distance_from(eight, lines[0].points, 0, round), 2);
+  EXPECT_NEAR(core::polygon_length(lines[0].points, true), length_of(eight, 0, round),
+              0.04 * length_of(eight, 0, round));
+}
+
+TEST(Consolidate, PiecesMakeOneLineWhateverTheirDirectionAndScale) {
+  const Curve wave = [](double t) { return Point2{40 * t, 25 * std::sin(t)}; };
+  for (const double scale : {1.0, 4.0, 0.25}) {
+    SCOPED_TRACE(scale);
+    std::vector<DrawnStroke> strokes = {drawn(wave, 0, 2.5, 1, 0), drawn(wave, 1.8, 4.6, -1, 1),
+                                        drawn(wave, 4, 7, 0.5, 2), drawn(wave, 0.4, 3, -0.5, 3),
+                                        drawn(wave, 5, 7, -1, 4)};
+    std::reverse(strokes[1].points.begin(), strokes[1].points.end());
+    for (DrawnStroke& s : strokes)
+      for (Point2& p : s.points) p = {scale * p.x, scale * p.y};
+    const auto lines = consolidate(strokes);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_FALSE(lines[0].closed);
+    std::vector<Point2> back;
+    for (const Point2 p : lines[0].points) back.push_back({p.x / scale, p.y / scale});
+    EXPECT_LT(distance_from(wave, back, 0, 7), 1.5);
+    EXPECT_NEAR(core::polygon_length(back), length_of(wave, 0, 7), 8);
+  }
+}
+
+// Lines that leave a shared stretch are lines of their own, none is lost.
+TEST(Consolidate, BranchesStayLines) {
+  const Curve main = [](double t) { return Point2{100 * t, 0}; };
+  const Curve branch = [](double t) { return Point2{100 * t, t < 1 ? 0 : 60 * (t - 1) * (t - 1)}; };
+  std::vector<DrawnStroke> strokes;
+  for (int k = 0; k < 4; ++k) {
+    strokes.push_back(drawn(main, 0, 4, 0.6 * k - 1, k));
+    strokes.push_back(drawn(branch, 0.6, 3, 0.6 * k - 1, k + 0.5));
+  }
+  const auto lines = consolidate(strokes);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].members, (std::vector<std::size_t>{0, 2, 4, 6}));
+  EXPECT_EQ(lines[1].members, (std::vector<std::size_t>{1, 3, 5, 7}));
+}
+
+TEST(Align, FollowsTheOrderOfAStroke) {
+  const Curve loop = [](double t) {
+    return Point2{50 * t - 60 * std::sin(t), -60 * std::cos(t)};  // crosses itself
+  };
+  const DrawnStroke whole = drawn(loop, 0, 12, 0, 0);
+  const SampledStroke line = sample_stroke(whole.points, false, 2);
+  DrawnStroke part = drawn(loop, 3, 10, 3, 1);
+  std::reverse(part.points.begin(), part.points.end());
+  const SampledStroke stroke = sample_stroke(part.points, false, 2);
+  const Alignment a = align(stroke, line, 8);
+  EXPECT_TRUE(a.reversed);
+  ASSERT_EQ(a.at.size(), stroke.points.size());
+  for (std::size_t i = 0; i < a.at.size(); ++i) {
+    ASSERT_GE(a.at[i], 0);
+    EXPECT_GE(a.at[i], a.at[i == 0 ? 0 : i - 1]);
+    EXPECT_LT(core::distance(stroke.points[a.at.size() - 1 - i],
+                             line.points[static_cast<std::size_t>(a.at[i])]),
+              6);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::sketch
