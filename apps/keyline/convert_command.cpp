@@ -7,6 +7,7 @@
 #include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/json_document.h"
+#include "keyline/exchange/planar_form.h"
 
 #include "commands.h"
 #include "input.h"
@@ -48,6 +49,24 @@ std::string contents(const document::Document& document) {
   return text + (document.unit.empty() ? "" : " in " + document.unit);
 }
 
+/// What formats of the plane can hold: where there is no planar curve, space curves in the
+/// coordinates of their own planes.
+document::Document planar_of(const document::Document& document, bool quiet) {
+  document::Document planar = document;
+  if (!planar.paths.empty() || planar.space_curves.empty()) return planar;
+  std::vector<std::string> notes;
+  exchange::flatten(planar, notes);
+  if (!planar.paths.empty())
+    say(quiet, counted(planar.paths.size(), "curve") +
+                   " in space: pictures, SVG and glyphs show them in the coordinates of their "
+                   "planes");
+  return planar;
+}
+
+bool is_planar_format(const std::string& extension) {
+  return extension == ".svg" || extension == ".glif";
+}
+
 }  // namespace
 
 int run_convert(const ConvertCommand& command) {
@@ -67,7 +86,15 @@ int run_convert(const ConvertCommand& command) {
   options.polylines = command.polylines;
   options.grid = command.grid;
   Writers pictures;
-  add_picture_writers(pictures, *document, "Curves", command.input.files.front(), common);
+  const bool planar_wanted =
+      std::any_of(common.outputs.begin(), common.outputs.end(), [&](const std::string& file) {
+        const std::string extension = exchange::extension_of(file);
+        return is_planar_format(extension) || extension == ".pdf" || extension == ".png" ||
+               extension == ".html";
+      });
+  const document::Document planar =
+      planar_wanted ? planar_of(*document, common.quiet) : document::Document{};
+  add_picture_writers(pictures, planar, "Curves", command.input.files.front(), common);
   for (const std::string& file : common.outputs) {
     if (const auto picture = pictures.find(exchange::extension_of(file));
         picture != pictures.end()) {
@@ -75,7 +102,8 @@ int run_convert(const ConvertCommand& command) {
         return report_failure(done.error());
       continue;
     }
-    const auto written = exchange::write_document(*document, file, options);
+    const bool flat = is_planar_format(exchange::extension_of(file));
+    const auto written = exchange::write_document(flat ? planar : *document, file, options);
     if (!written) return report_failure(written.error());
     for (const std::string& note : written->notes)
       say(common.quiet, fmt::format("{}: {}", file, note));

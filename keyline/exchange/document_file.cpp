@@ -187,12 +187,14 @@ Result<Document> read_document(const fs::path& file, const ReadOptions& options)
   if (!head) return std::unexpected(head.error());
   auto document = document_of(format_of(file, *head), file, options);
   if (!document) return std::unexpected(in_file(document.error(), file.string()));
-  if (size(*document) == 0)
-    return fail(ErrorCode::bad_input,
-                document->skipped.empty()
-                    ? "the file holds no curve"
-                    : "the file holds no curve; skipped: " + document->skipped.front(),
-                "give a file with curves", file.string());
+  if (size(*document) == 0) {
+    std::string what = "the file holds no curve";
+    constexpr std::size_t kMost = 3;
+    for (std::size_t i = 0; i < std::min(kMost, document->skipped.size()); ++i)
+      what += (i == 0 ? "; skipped: " : ", ") + document->skipped[i];
+    if (document->skipped.size() > kMost) what += " and others";
+    return fail(ErrorCode::bad_input, what, "give a file with curves", file.string());
+  }
   return document;
 }
 

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <utility>
 
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/points_writer.h"
-#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -205,7 +205,7 @@ std::string dxf_text(std::string_view name) {
   static constexpr char kDigits[] = "0123456789ABCDEF";
   std::string result;
   for (std::size_t at = 0; at < name.size() && result.size() < kLongest;) {
-    const unsigned code = code_point(name, at);
+    const unsigned code = core::code_point(name, at);
     if (code < 0x20 || code == 0x7f) {
       result += ' ';
     } else if (code < 0x80) {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "keyline/exchange/utf8.h"
+#include "keyline/core/utf8.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -88,17 +88,17 @@ std::optional<int> integer_of(const DxfTag& tag) {
 }
 
 std::string text_of(const DxfTag& tag) {
-  const bool utf8 = is_utf8(tag.text);
+  const bool utf8 = core::is_utf8(tag.text);
   std::string text;
   for (std::size_t i = 0; i < tag.text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(tag.text[i]);
     if (const auto escape = escape_at(tag.text.substr(i))) {
-      append_utf8(text, escape->first);
+      core::append_utf8(text, escape->first);
       i += escape->second - 1;
     } else if (utf8 || byte < 0x80) {
       text += tag.text[i];
     } else {
-      append_utf8(text, byte);
+      core::append_utf8(text, byte);
     }
   }
   return text;

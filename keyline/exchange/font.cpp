@@ -10,7 +10,7 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
-#include "keyline/exchange/utf8.h"
+#include "keyline/core/utf8.h"
 
 namespace keyline::exchange {
 namespace {
@@ -121,7 +121,7 @@ Result<std::vector<Glyph>> glyphs_of(FT_Face face, const std::string& wanted) {
     if (!glyph) return std::unexpected(glyph.error());
     return std::vector<Glyph>{*glyph};
   };
-  if (!is_utf8(wanted)) return missing("(no UTF-8)");
+  if (!core::is_utf8(wanted)) return missing("(no UTF-8)");
   if (wanted.size() > 1 && wanted[0] == '/') {
     const FT_UInt index = FT_Get_Name_Index(face, wanted.c_str() + 1);
     if (index == 0) return missing(wanted);

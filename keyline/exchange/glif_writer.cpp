@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/markup.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/glif.h"
 #include "keyline/exchange/glyph_cubics.h"
-#include "keyline/exchange/markup.h"
 #include "keyline/exchange/points_writer.h"
-#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange {
 namespace {
@@ -96,7 +96,7 @@ std::string contour_text(const Contour& contour, bool grid) {
 
 /// Code point of a name that is one character, as hexadecimal digits; else empty.
 std::string code_of(const std::string& name) {
-  if (name.empty() || !is_utf8(name)) return {};
+  if (name.empty() || !core::is_utf8(name)) return {};
   const auto first = static_cast<unsigned char>(name[0]);
   const std::size_t length = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
   if (name.size() != length) return {};
@@ -119,7 +119,7 @@ core::Result<Written> write_glif(const document::Document& document, const GlifO
   const document::Label& label = document.paths.front().label;
   std::string name = label.layer.empty() ? label.name : label.layer;
   if (name.empty()) name = "glyph";
-  const std::string safe = escape_markup(name);
+  const std::string safe = core::escape_markup(name);
   std::string& text = written.content;
   text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<glyph name=\"" + safe + "\" format=\"2\">\n";
   double right = 0;

@@ -99,6 +99,9 @@ Result<Document> read_svg_document(std::string_view bytes) {
 
 Result<Written> write_svg_document(const Document& document, double tolerance) {
   Written written;
+  if (document.paths.empty() && size(document) > 0)
+    return core::fail(core::ErrorCode::bad_input, "there is no planar curve to draw",
+                      "choose a format of space (.step, .iges, .dxf, .json)");
   std::vector<SvgLayer> layers;
   for (const document::NamedPath& named : document.paths) {
     CubicPath cubics = cubic_path(named.path, named.label.name, tolerance);

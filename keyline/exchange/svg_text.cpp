@@ -8,7 +8,7 @@
 
 #include <zlib.h>
 
-#include "keyline/exchange/utf8.h"
+#include "keyline/core/utf8.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -59,7 +59,7 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
       code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
       at += 2;
     }
-    if (code != 0xfeff) append_utf8(text, code);
+    if (code != 0xfeff) core::append_utf8(text, code);
   }
   return text;
 }
@@ -73,7 +73,7 @@ std::string from_western(std::string_view bytes) {
   std::string text;
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
-    append_utf8(text, byte >= 0x80 && byte < 0xa0 ? kHigh[byte - 0x80U] : byte);
+    core::append_utf8(text, byte >= 0x80 && byte < 0xa0 ? kHigh[byte - 0x80U] : byte);
   }
   return text;
 }
@@ -100,7 +100,7 @@ Result<void> to_utf8(SvgText& text, std::string_view bytes) {
       given.starts_with("\xff\xfe") || given.starts_with(std::string_view("<\0", 2));
   if (big || little) {
     text.own = from_utf16(given, big);
-  } else if (!is_utf8(given)) {
+  } else if (!core::is_utf8(given)) {
     const std::string name = declared_encoding(given);
     if (name != "iso-8859-1" && name != "latin1" && name != "windows-1252")
       return fail(ErrorCode::unsupported,

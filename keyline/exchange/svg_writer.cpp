@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
+#include "keyline/core/markup.h"
+#include "keyline/core/utf8.h"
 #include "keyline/curve/bounding_box.h"
-#include "keyline/exchange/markup.h"
-#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange {
 
@@ -41,7 +41,7 @@ bool is_control(char c) {
 
 /// Text that may stand in XML and comes back the same.
 bool is_storable(std::string_view text) {
-  return is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) {
+  return core::is_utf8(text) && std::none_of(text.begin(), text.end(), [](char c) {
            return is_control(c) && c != '\n' && c != '\t' && c != '\r';
          });
 }
@@ -51,7 +51,7 @@ std::string label(std::string_view text) {
   std::string line(text);
   for (char& c : line)
     if (is_control(c)) c = '?';
-  return escape_markup(line);
+  return core::escape_markup(line);
 }
 
 bool is_color(std::string_view text) {
@@ -217,7 +217,7 @@ core::Result<std::string> write_svg(const std::vector<SvgLayer>& layers,
   if (!options.title.empty()) append(svg, {"<title>", label(options.title), "</title>\n"});
   if (!options.metadata.empty())
     append(svg, {"<metadata><keyline:document xmlns:keyline=\"urn:keyline:document\">",
-                 escape_markup(options.metadata), "</keyline:document></metadata>\n"});
+                 core::escape_markup(options.metadata), "</keyline:document></metadata>\n"});
   for (std::size_t i = 0; i < layers.size(); ++i) append_layer(svg, layers[i], i, stroke);
   return svg + "</svg>\n";
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/markup.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/encode.h"
 #include "keyline/figure/painter.h"
@@ -91,7 +92,7 @@ class SvgPainter final : public detail::Painter {
       append(attributes, {" clip-path=\"url(#", id, ")\""});
     }
     const std::string name = clean_text(group.name);
-    if (!name.empty()) append_attribute(attributes, "data-name", escape_markup(name));
+    if (!name.empty()) append_attribute(attributes, "data-name", core::escape_markup(name));
     append(body_, {"<g", attributes, ">\n"});
   }
 
@@ -130,7 +131,7 @@ class SvgPainter final : public detail::Painter {
       append_point(body_, label.at);
       body_ += ")\"";
     }
-    append(body_, {">", escape_markup(label.text), "</text>\n"});
+    append(body_, {">", core::escape_markup(label.text), "</text>\n"});
   }
 
   void dots(const Marks& marks) override {
@@ -151,7 +152,7 @@ class SvgPainter final : public detail::Painter {
     append(body_, {" preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
                    detail::base64(detail::png_of_pixels(picture)), "\">"});
     const std::string text = clean_text(picture.text);
-    if (!text.empty()) append(body_, {"<title>", escape_markup(text), "</title>"});
+    if (!text.empty()) append(body_, {"<title>", core::escape_markup(text), "</title>"});
     body_ += "</image>\n";
   }
 
@@ -194,7 +195,7 @@ Description describe(const Drawing& drawing, const std::string& prefix) {
     if (clean.empty()) return;
     const std::string id = prefix + '-' + std::string(element);
     append(description.elements,
-           {"<", element, " id=\"", id, "\">", escape_markup(clean), "</", element, ">\n"});
+           {"<", element, " id=\"", id, "\">", core::escape_markup(clean), "</", element, ">\n"});
     append(ids, {ids.empty() ? "" : " ", id});
   };
   add("title", drawing.title);
@@ -206,7 +207,7 @@ Description describe(const Drawing& drawing, const std::string& prefix) {
 }  // namespace
 
 std::string write_svg(const Drawing& drawing, const SvgOptions& options) {
-  const std::string prefix = escape_markup(clean_text(options.id_prefix));
+  const std::string prefix = core::escape_markup(clean_text(options.id_prefix));
   SvgPainter painter(prefix);
   if (drawing.background) {
     const Box page{{0, 0}, {drawing.width, drawing.height}};

@@ -9,7 +9,4 @@ namespace keyline::figure {
 /// bytes that are no UTF-8 become U+FFFD.
 std::string clean_text(std::string_view text);
 
-/// &, <, >, " and ' as references: fit for element content and quoted attributes of XML and HTML.
-std::string escape_markup(std::string_view text);
-
 }  // namespace keyline::figure

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "keyline/core/markup.h"
 #include "keyline/figure/text.h"
 #include "keyline/report/html_style.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kNarrowFigure = 480;  // px
 
-std::string safe(std::string_view text) { return figure::escape_markup(figure::clean_text(text)); }
+std::string safe(std::string_view text) { return core::escape_markup(figure::clean_text(text)); }
 
 void append(std::string& html, std::initializer_list<std::string_view> parts) {
   for (const std::string_view part : parts) html += part;

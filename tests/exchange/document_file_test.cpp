@@ -200,12 +200,25 @@ TEST_F(Files, ATableHoldsEveryCurve) {
   Document d = mixed();
   const auto csv = format_document(d, ".csv", {.samples = 11});
   ASSERT_TRUE(csv);
-  EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 1 + 3 * 11);
-  EXPECT_EQ(csv->notes.size(), 2U);
+  EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 1 + 3 * 11 + 2);
+  EXPECT_TRUE(csv->content.starts_with("id,x,y,z\n"));
+  EXPECT_EQ(csv->notes.size(), 1U);
+  EXPECT_GT(csv->deviation, 0);
   d.paths.clear();
   const auto space = format_document(d, ".csv");
   ASSERT_TRUE(space);
   EXPECT_EQ(space->content, "x,y,z\n0,0,1\n1,2,3\n");
+  EXPECT_EQ(space->deviation, 0);
+  EXPECT_FALSE(format_document(d, ".svg", {}));
+}
+
+TEST_F(Files, TheDeviationOfSamplesIsThatOfTheirPolygon) {
+  Document d;
+  lac::Chain circle{{{1, 0}, core::kPi / 2}, {{-1, 2 * core::kPi, 1, 1}}, true};
+  d.paths.push_back({{"circle", "", ""}, {{{circle}}, true}, 0});
+  const auto csv = format_document(d, ".csv", {.samples = 101});
+  ASSERT_TRUE(csv);
+  EXPECT_NEAR(csv->deviation, 1 - std::cos(core::kPi / 100), 1e-9);
 }
 
 }  // namespace

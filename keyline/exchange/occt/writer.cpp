@@ -37,9 +37,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "keyline/core/utf8.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/occt/geometry.h"
-#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -166,7 +166,7 @@ std::string with_standard_strings(const std::string& text) {
   for (const char c : text) {
     if (c == '\'') {
       for (std::size_t at = 0; at < string.size();) {
-        const unsigned code = code_point(string, at);
+        const unsigned code = core::code_point(string, at);
         if (code < 0x80)
           result += static_cast<char>(code);
         else

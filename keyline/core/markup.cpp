@@ -1,8 +1,8 @@
-#include "keyline/exchange/markup.h"
+#include "keyline/core/markup.h"
 
-#include "keyline/exchange/utf8.h"
+#include "keyline/core/utf8.h"
 
-namespace keyline::exchange {
+namespace keyline::core {
 
 std::string escape_markup(std::string_view text) {
   const bool ascii_only = !is_utf8(text);
@@ -18,6 +18,8 @@ std::string escape_markup(std::string_view text) {
       safe += "&gt;";
     else if (c == '"')
       safe += "&quot;";
+    else if (c == '\'')
+      safe += "&#39;";
     else if (c == '\r')
       safe += "&#13;";
     else if (control || (ascii_only && byte >= 0x80))
@@ -28,4 +30,4 @@ std::string escape_markup(std::string_view text) {
   return safe;
 }
 
-}  // namespace keyline::exchange
+}  // namespace keyline::core

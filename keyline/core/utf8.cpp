@@ -1,6 +1,6 @@
-#include "keyline/exchange/utf8.h"
+#include "keyline/core/utf8.h"
 
-namespace keyline::exchange {
+namespace keyline::core {
 
 bool is_utf8(std::string_view bytes) {
   const auto* p = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -54,4 +54,4 @@ void append_utf8(std::string& text, unsigned code) {
   }
 }
 
-}  // namespace keyline::exchange
+}  // namespace keyline::core
