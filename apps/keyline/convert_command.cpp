@@ -64,7 +64,7 @@ document::Document planar_of(const document::Document& document, bool quiet) {
 }
 
 bool is_planar_format(const std::string& extension) {
-  return extension == ".svg" || extension == ".glif";
+  return extension == ".svg" || extension == ".glif" || extension == ".pdf";
 }
 
 }  // namespace
@@ -89,12 +89,12 @@ int run_convert(const ConvertCommand& command) {
   const bool planar_wanted =
       std::any_of(common.outputs.begin(), common.outputs.end(), [&](const std::string& file) {
         const std::string extension = exchange::extension_of(file);
-        return is_planar_format(extension) || extension == ".pdf" || extension == ".png" ||
-               extension == ".html";
+        return is_planar_format(extension) || extension == ".png" || extension == ".html";
       });
   const document::Document planar =
       planar_wanted ? planar_of(*document, common.quiet) : document::Document{};
   add_picture_writers(pictures, planar, "Curves", command.input.files.front(), common);
+  if (!planar.paths.empty()) pictures.erase(".pdf");  // the drawing itself, in real size
   for (const std::string& file : common.outputs) {
     if (const auto picture = pictures.find(exchange::extension_of(file));
         picture != pictures.end()) {

@@ -20,6 +20,7 @@
 #include "keyline/exchange/hull_table.h"
 #include "keyline/exchange/json_document.h"
 #include "keyline/exchange/mesh.h"
+#include "keyline/exchange/pdf_document.h"
 #include "keyline/exchange/points_reader.h"
 #include "keyline/exchange/svg_document.h"
 
@@ -215,6 +216,7 @@ Result<Written> format_document(const Document& document, const std::string& ext
   if (extension == ".json") return Written{to_json(document).dump(1) + "\n", 0, {}};
   if (extension == ".csv") return write_csv(document, options.samples);
   if (extension == ".svg") return write_svg_document(document, tolerance);
+  if (extension == ".pdf") return write_pdf_document(document, tolerance);
   if (extension == ".dxf")
     return write_dxf(document, {.tolerance = tolerance, .polylines = options.polylines});
   if (extension == ".glif") {

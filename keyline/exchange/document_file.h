@@ -41,7 +41,8 @@ struct WriteOptions {
   bool grid = false;       ///< glif: whole numbers
 };
 
-/// The document in the format of `extension` (with its dot, of written_extensions()).
+/// The document in the format of `extension` (with its dot, of written_extensions(), or ".pdf": the
+/// planar curves in real size).
 /// Exact curves stay exact where the format has them; the deviation of the rest is in the answer.
 /// Fails: bad_input for other extensions and for what the format's writer refuses.
 core::Result<Written> format_document(const document::Document& document,

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "keyline/document/color.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -40,6 +43,24 @@ std::string aci_color(int index) {
   for (const double own : {0.0, 120.0, 240.0})
     rgb = rgb << 8 | channel(value * (least + (1 - least) * primary(hue, own)));
   return true_color(rgb);
+}
+
+int nearest_aci(int rgb) {
+  int best = 7;
+  int least = std::numeric_limits<int>::max();
+  for (int index = 1; index <= 255; ++index) {
+    const int other = document::color_value(aci_color(index));
+    int square = 0;
+    for (const int shift : {0, 8, 16}) {
+      const int off = (rgb >> shift & 255) - (other >> shift & 255);
+      square += off * off;
+    }
+    if (square < least) {
+      least = square;
+      best = index;
+    }
+  }
+  return best;
 }
 
 }  // namespace keyline::exchange::detail

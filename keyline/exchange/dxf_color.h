@@ -9,6 +9,9 @@ namespace keyline::exchange::detail {
 /// saturated, to within a unit or two of the printed palette.
 std::string aci_color(int index);
 
+/// The index 1 … 255 whose colour is nearest to 0xRRGGBB; the lowest of equals.
+int nearest_aci(int rgb);
+
 /// 0xRRGGBB as "#rrggbb".
 std::string true_color(int value);
 

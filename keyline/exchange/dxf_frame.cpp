@@ -34,6 +34,8 @@ void add_header(DxfText& file, int unit, const std::string& seed) {
   file.text(3, "ANSI_1252");
   file.text(9, "$INSUNITS");
   file.whole(70, unit);
+  file.text(9, "$MEASUREMENT");  // all that Inkscape looks at: 0 inches, 1 millimetres
+  file.whole(70, unit == 1 || unit == 2 ? 0 : 1);
   file.text(9, "$HANDSEED");
   file.text(5, seed);
   file.text(0, "ENDSEC");

@@ -8,6 +8,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/cad_parts.h"
+#include "keyline/exchange/dxf_color.h"
 #include "keyline/exchange/dxf_frame.h"
 #include "keyline/lac/space.h"
 
@@ -185,7 +186,10 @@ class DxfWriter {
     body_.handle(5);
     body_.text(100, "AcDbEntity");
     body_.text(8, layer_of(label));
-    if (const int color = document::color_value(label.color); color >= 0) body_.whole(420, color);
+    if (const int color = document::color_value(label.color); color >= 0) {
+      body_.whole(62, detail::nearest_aci(color));  // for readers older than true colours
+      body_.whole(420, color);
+    }
     body_.text(100, subclass);
   }
 

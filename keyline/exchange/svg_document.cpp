@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/text.h"
-#include "keyline/exchange/cubic_path.h"
+#include "keyline/exchange/drawing_layers.h"
 #include "keyline/exchange/json_document.h"
 #include "keyline/exchange/json_text.h"
 #include "keyline/exchange/svg_reader.h"
@@ -66,17 +66,6 @@ Document document_of(const SvgContents& svg) {
   return document;
 }
 
-/// One layer per name, in the order of first appearance.
-SvgLayer& layer_of(std::vector<SvgLayer>& layers, const document::NamedPath& named) {
-  const std::string own = named.label.name.empty() ? "key-line" : named.label.name;
-  const std::string& wanted = named.label.layer.empty() ? own : named.label.layer;
-  const auto found = std::find_if(layers.begin(), layers.end(),
-                                  [&](const SvgLayer& layer) { return layer.name == wanted; });
-  if (found != layers.end()) return *found;
-  layers.push_back({.name = wanted});
-  return layers.back();
-}
-
 /// The unit the file is written in; a drawing without unit is taken as mm.
 std::string svg_unit(const std::string& unit) { return unit.empty() ? "mm" : unit; }
 
@@ -102,20 +91,7 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
   if (document.paths.empty() && size(document) > 0)
     return core::fail(core::ErrorCode::bad_input, "there is no planar curve to draw",
                       "choose a format of space (.step, .iges, .dxf, .json)");
-  std::vector<SvgLayer> layers;
-  for (const document::NamedPath& named : document.paths) {
-    CubicPath cubics = cubic_path(named.path, named.label.name, tolerance);
-    written.deviation = std::max(written.deviation, cubics.deviation);
-    cubics.path.color = named.label.color;
-    cubics.path.width = named.stroke_width;
-    layer_of(layers, named).paths.push_back(std::move(cubics.path));
-  }
-  if (!document.space_curves.empty())
-    written.notes.push_back(std::to_string(document.space_curves.size()) +
-                            " space curves are not in the drawing: SVG is planar");
-  if (!document.surfaces.empty())
-    written.notes.push_back(std::to_string(document.surfaces.size()) +
-                            " surfaces are not in the drawing");
+  const std::vector<SvgLayer> layers = drawing_layers(document, tolerance, written);
   SvgWriteOptions options;
   options.unit = svg_unit(document.unit);
   options.page = document.page;

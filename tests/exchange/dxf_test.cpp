@@ -311,5 +311,18 @@ TEST(DxfReader, ReadsTheSharedFiles) {
   EXPECT_THAT(none.error().message, HasSubstr("radius"));
 }
 
+TEST(DxfWriter, OlderReadersFindUnitAndColour) {
+  document::Document d;
+  d.unit = "mm";
+  d.paths.push_back({{"", "", "#fe0101"}, {{{curve::Bezier2{{{0, 0}, {1, 2}}, {}}}}, false}, 0});
+  const auto metric = write_dxf(d, {.tolerance = 1e-3});
+  ASSERT_TRUE(metric);
+  EXPECT_THAT(metric->content, testing::HasSubstr("$MEASUREMENT\n70\n1\n"));
+  EXPECT_THAT(metric->content, testing::HasSubstr("\n62\n1\n420\n"));
+  d.unit = "in";
+  EXPECT_THAT(write_dxf(d, {.tolerance = 1e-3})->content,
+              testing::HasSubstr("$MEASUREMENT\n70\n0\n"));
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -1,0 +1,61 @@
+#include "keyline/exchange/pdf_document.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace keyline::exchange {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+document::Document drawing(const std::string& unit, double length) {
+  document::Document d;
+  d.unit = unit;
+  d.paths.push_back({{"line", "r\u00F6d", "#ff0000"},
+                     {{{curve::Bezier2{{{10, 10}, {10 + length, 10}}, {}}}}, false},
+                     0.5});
+  return d;
+}
+
+/// Byte offsets of the cross-reference table that point at "N 0 obj".
+int sound_references(const std::string& pdf) {
+  std::size_t at = pdf.rfind("startxref\n");
+  at = std::stoul(pdf.substr(at + 10));
+  EXPECT_EQ(pdf.substr(at, 5), "xref\n");
+  int sound = 0;
+  for (std::size_t entry = pdf.find(" n \n", at); entry != std::string::npos;
+       entry = pdf.find(" n \n", entry + 1)) {
+    const std::size_t place = std::stoul(pdf.substr(entry - 16, 10));
+    sound += pdf.substr(place).starts_with(std::to_string(sound + 1) + " 0 obj\n");
+  }
+  return sound;
+}
+
+TEST(PdfDocument, IsInRealSizeWithLayersAndColours) {
+  const auto written = write_pdf_document(drawing("in", 10), 1e-3);
+  ASSERT_TRUE(written) << written.error().message;
+  const std::string& pdf = written->content;
+  EXPECT_TRUE(pdf.starts_with("%PDF-1.5\n"));
+  EXPECT_THAT(pdf, HasSubstr("72 0 0 72 0 0 cm"));        // points per inch
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 764 44]"));  // 10 in and margins
+  EXPECT_THAT(pdf, HasSubstr("1 0 0 RG 0.5 w\n"));
+  EXPECT_THAT(pdf, HasSubstr("/Name <FEFF007200F60064>"));
+  EXPECT_EQ(sound_references(pdf), 5);
+  EXPECT_TRUE(written->notes.empty());
+}
+
+TEST(PdfDocument, ALargeDrawingIsScaledAndSaysSo) {
+  const auto written = write_pdf_document(drawing("m", 30), 1e-3);
+  ASSERT_TRUE(written);
+  EXPECT_THAT(written->notes, ElementsAre(HasSubstr("scale 1:10:")));
+}
+
+TEST(PdfDocument, WhatHasNoSizeIsRefused) {
+  EXPECT_FALSE(write_pdf_document(drawing("mm", 0), 1e-3));
+  EXPECT_FALSE(write_pdf_document({}, 1e-3));
+  EXPECT_FALSE(write_pdf_document(drawing("mm", 1e300), 1e-3));
+}
+
+}  // namespace
+}  // namespace keyline::exchange

@@ -1,0 +1,71 @@
+"""What FreeCAD reads, without its window. Run inside freecadcmd this file samples what it is told to;
+imported, it starts freecadcmd."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+NAME, READS, PLACED = "FreeCAD", ("step", "iges", "dxf", "svg"), True
+ROUNDING = {}
+COUNT = 1000
+
+
+def version():
+    if not shutil.which("freecadcmd"):
+        return None
+    text = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "freecad-python3"],
+                          capture_output=True, text=True).stdout
+    return text.split("+")[0]
+
+
+def read(file):
+    import numpy as np
+    from plain_svg import Curve
+
+    out = Path(f"{file}.freecad.json")
+    out.unlink(missing_ok=True)
+    environment = dict(os.environ, KEYLINE_IN=str(file), KEYLINE_OUT=str(out))
+    subprocess.run(["freecadcmd", __file__], env=environment, stdin=subprocess.DEVNULL,
+                   capture_output=True, timeout=600)
+    rows = json.loads(out.read_text())
+    return [Curve(np.array(r["points"])[:, :2], r["name"], "", "", r["kind"]) for r in rows]
+
+
+def shapes(file):
+    """(name, shape) of everything in the file."""
+    import FreeCAD
+    import Part
+
+    if file.endswith((".step", ".iges")):
+        shape = Part.Shape()
+        shape.read(file)
+        return [("", shape)]
+    if file.endswith(".dxf"):
+        import Import
+
+        FreeCAD.newDocument("sheet")
+        Import.readDXF(file)
+    else:
+        import importSVG
+
+        importSVG.open(file)
+    objects = FreeCAD.ActiveDocument.Objects
+    return [(o.Label, o.Shape) for o in objects if hasattr(o, "Shape")]
+
+
+def sample():
+    rows = []
+    for name, shape in shapes(os.environ["KEYLINE_IN"]):
+        for edge in shape.Edges:
+            a, b = edge.ParameterRange
+            points = [edge.valueAt(a + (b - a) * i / (COUNT - 1)) for i in range(COUNT)]
+            kind = type(edge.Curve).__name__
+            rows.append({"name": name, "kind": kind, "points": [[p.x, p.y, p.z] for p in points]})
+    with open(os.environ["KEYLINE_OUT"], "w") as file:
+        json.dump(rows, file)
+
+
+if "KEYLINE_OUT" in os.environ:
+    sample()
