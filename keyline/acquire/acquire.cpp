@@ -140,13 +140,17 @@ double curve_length(const Working& work, bool closed, std::size_t stride) {
   return core::polygon_length(average_runs(work.points, {}, {}, groups).points, closed);
 }
 
+/// Fewer points than these cannot tell noise from bends: what windows leave is mostly shape.
+constexpr std::size_t kTelling = 16;
+
 /// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
 /// one: integers may also be exact coordinates of a small figure.
 double noise_of(const Working& work, bool closed, const AcquireOptions& options, double rounding) {
   if (options.noise) return *options.noise;
-  const double estimate = estimate_noise(work.points, closed);
-  if (work.points.size() < 8) return estimate;
   const double most = 3e-4 * core::polygon_length(work.points, closed);
+  const double found = estimate_noise(work.points, closed);
+  const double estimate = work.points.size() < kTelling ? std::min(found, most) : found;
+  if (work.points.size() < 8) return estimate;
   return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
 }
 

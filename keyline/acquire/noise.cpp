@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -125,14 +126,15 @@ DecimalForm decimal_form(double value) {
   return {exponent - digits + 1, digits};
 }
 
-/// Rounding step of one coordinate, or 0.
+/// Rounding step of one coordinate, 0 where it is not rounded.
 double step_of(std::vector<int> places, int usual_digits) {
-  if (places.empty() || usual_digits >= 13) return 0;
+  if (usual_digits >= 13) return 0;
   // The place that is fine enough for four fifths of the values.
   return std::pow(10.0, std::min(detail::quantile(std::move(places), 1, 5), 0));
 }
 
-double step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate) {
+/// Empty where the coordinate is 0 throughout and tells nothing.
+std::optional<double> step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate) {
   std::vector<int> places;
   std::vector<int> digits;
   const std::size_t skip = std::max<std::size_t>(1, raw.points.size() / 5000);
@@ -143,6 +145,7 @@ double step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate
     places.push_back(form.last_place);
     digits.push_back(form.digits);
   }
+  if (places.empty()) return std::nullopt;
   return step_of(std::move(places), detail::quantile(std::move(digits)));
 }
 
@@ -180,13 +183,13 @@ double estimate_noise(std::span<const core::Point2> points, bool closed) {
 }
 
 double estimate_rounding(const RawCurve& raw) {
-  double finest = 0;
+  std::optional<double> finest;
   for (const auto coordinate : {&core::Point3::x, &core::Point3::y, &core::Point3::z}) {
     if (coordinate == &core::Point3::z && !raw.has_z) continue;
-    const double step = step_of_coordinate(raw, coordinate);
-    if (step > 0) finest = finest > 0 ? std::min(finest, step) : step;
+    if (const auto step = step_of_coordinate(raw, coordinate))
+      finest = std::min(finest.value_or(*step), *step);
   }
-  return finest;
+  return finest.value_or(0);
 }
 
 }  // namespace keyline::acquire

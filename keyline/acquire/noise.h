@@ -21,9 +21,9 @@ double estimate_noise(std::span<const core::Point2> points, bool closed);
 std::size_t noise_stride(std::span<const core::Point2> points, bool closed);
 
 /// Decimal step the coordinates are rounded to (1 for integer pixels, 1e-5 for five decimals), or
-/// 0 where they carry 13 or more significant digits. The finer of the steps found in x, y and z,
-/// each the one that four fifths of the values satisfy. The standard deviation of the rounding
-/// error is rounding / sqrt(12).
+/// 0 where x, y or z carries 13 or more significant digits (the others may be an even grid). The
+/// finest of the steps found in x, y and z, each the one that four fifths of the values satisfy.
+/// The standard deviation of the rounding error is rounding / sqrt(12).
 double estimate_rounding(const RawCurve& raw);
 
 }  // namespace keyline::acquire

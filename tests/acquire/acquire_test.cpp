@@ -112,6 +112,32 @@ TEST(AcquireKeyLine, AxisPlanesKeepCoordinates) {
   EXPECT_EQ(line->points[7], (core::Point2{0.7000000000000001, std::sin(7 * 0.1)}));
 }
 
+/// Half an ellipse: what the windows leave of so few exact points is shape, not noise.
+TEST(AcquireKeyLine, FewPointsBendWithoutNoise) {
+  for (int n = 5; n < 16; ++n) {
+    RawCurve raw;
+    for (int i = 0; i < n; ++i) {
+      const double t = 3.14159265358979 * i / (n - 1);
+      raw.points.push_back({3 * std::cos(t), 2 * std::sin(t), 0});
+    }
+    const auto line = acquire_key_line(raw, {});
+    ASSERT_TRUE(line);
+    EXPECT_LE(line->noise, 3.1e-4 * line->length) << n;
+  }
+}
+
+/// An even grid of abscissae has few decimals, but was not rounded: the ordinates tell.
+TEST(AcquireKeyLine, EvenGridIsNoRounding) {
+  RawCurve raw;
+  for (int i = 0; i < 60; ++i) {
+    const double x = i / 20.0;
+    raw.points.push_back({x, std::sin(x), 0});
+  }
+  EXPECT_EQ(estimate_rounding(raw), 0);
+  for (core::Point3& p : raw.points) p.y = std::round(1000 * p.y) / 1000;
+  EXPECT_EQ(estimate_rounding(raw), 0.001);
+}
+
 /// A parabola's points with normal errors, many times: neither too high nor too low, little
 /// scatter.
 TEST(EstimateNoise, IsUnbiased) {
