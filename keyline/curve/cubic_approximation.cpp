@@ -43,21 +43,31 @@ Cubic hermite(const Jet2& a, const Jet2& b, double width) {
   return {{a.point, a.point + (width / 3) * a.first, b.point - (width / 3) * b.first, b.point}};
 }
 
+/// Whether halving cannot help: the error of a short cubic is that of doubles, or of a curve whose
+/// positions carry a little more than that, seen by halves no better than the whole.
+bool is_rounding(const PanelFit& fit, double error_of_whole) {
+  double largest = core::polygon_length(fit.cubic.control);
+  for (const Point2& p : fit.cubic.control)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  const double unit = std::numeric_limits<double>::epsilon() * largest;
+  return fit.error <= 8 * unit || (fit.error <= 1e5 * unit && fit.error > 0.25 * error_of_whole);
+}
+
 using MakePanel = std::function<PanelFit(double t0, double t1)>;
 
 /// Panels over [t0, t1], none with an error above `allowed` where halving can help.
-void refine(const MakePanel& make, double t0, double t1, double allowed, int depth, Panels& out) {
+void refine(const MakePanel& make, double t0, double t1, double allowed, int depth, Panels& out,
+            double error_of_whole = std::numeric_limits<double>::infinity()) {
   const PanelFit fit = make(t0, t1);
   const double middle = 0.5 * (t0 + t1);
-  const double floor = 1e-15 * core::polygon_length(fit.cubic.control);
-  if (!(fit.error > std::max(allowed, floor)) || depth >= kMaxDepth ||
+  if (!(fit.error > allowed) || is_rounding(fit, error_of_whole) || depth >= kMaxDepth ||
       !(t0 < middle && middle < t1)) {
     out.list.push_back({fit.cubic, t0, t1, true});
     out.error = std::max(out.error, fit.error);
     return;
   }
-  refine(make, t0, middle, allowed, depth + 1, out);
-  refine(make, middle, t1, allowed, depth + 1, out);
+  refine(make, t0, middle, allowed, depth + 1, out, fit.error);
+  refine(make, middle, t1, allowed, depth + 1, out, fit.error);
 }
 
 // ---- Panels of the kinds of curves --------------------------------------------------------

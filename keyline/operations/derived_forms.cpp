@@ -1,11 +1,14 @@
 #include "keyline/operations/derived_forms.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "keyline/curve/conversion.h"
 #include "keyline/exchange/json_curve.h"
 #include "keyline/exchange/json_space.h"
+#include "keyline/lac/cad.h"
 #include "keyline/lac/space.h"
 
 namespace keyline::operations {
@@ -31,11 +34,12 @@ Result<double> tolerance_of(const json& form, const char* name) {
   return value;
 }
 
-/// The degree asked for, 3 unless given; what is made of cubics is raised to it.
+/// The degree asked for, 3 unless given; what is made of lower degree is raised to it.
 Result<int> degree_of(const json& form, const char* name) {
   if (!form.contains("degree")) return 3;
   const json& degree = form["degree"];
-  if (!degree.is_number_integer() || degree.get<int>() < 3 || degree.get<int>() > 30)
+  if (!degree.is_number_integer() || degree.get<std::int64_t>() < 3 ||
+      degree.get<std::int64_t>() > 30)
     return fail(ErrorCode::bad_input, "the degree is out of range",
                 "give a whole number from 3 to 30", std::string(name) + ".degree");
   return degree.get<int>();
@@ -46,6 +50,37 @@ curve::Bezier2 raised(curve::Bezier2 piece, int to) {
   return by > 0 ? elevate_degree(piece, by) : piece;
 }
 
+/// The polynomial pieces the curve consists of, if none is above the degree.
+std::optional<std::vector<curve::Bezier2>> exact_pieces(const document::PlanarCurve& c,
+                                                        int degree) {
+  std::vector<curve::Bezier2> pieces;
+  if (const auto* bezier = std::get_if<curve::Bezier2>(&c.value)) pieces = {*bezier};
+  if (const auto* spline = std::get_if<curve::BSpline2>(&c.value)) pieces = to_beziers(*spline);
+  const auto fits = [&](const curve::Bezier2& piece) {
+    return !is_rational(piece) && curve::degree(piece) <= degree;
+  };
+  if (pieces.empty() || !std::all_of(pieces.begin(), pieces.end(), fits)) return std::nullopt;
+  return pieces;
+}
+
+/// Polynomials of the degree or less exactly; of a log-aesthetic chain cubics, or quintics from
+/// degree 5 on, their distance bounded rigorously; other curves, and chains with a cusp, as cubics.
+Result<curve::PiecewiseBezier> pieces_of(const document::PlanarCurve& c, int degree,
+                                         double tolerance) {
+  if (auto exact = exact_pieces(c, degree)) return curve::PiecewiseBezier{std::move(*exact), 0};
+  if (const auto* chain = std::get_if<lac::Chain>(&c.value)) {
+    lac::CadOptions options;
+    options.degree = degree < 5 ? 3 : 5;
+    options.tolerance = tolerance;
+    options.monotone = false;
+    auto made = lac::to_beziers(*chain, options);
+    if (made) return curve::PiecewiseBezier{std::move(made->pieces), made->deviation};
+    if (made.error().code == ErrorCode::not_converged) return std::unexpected(made.error());
+  }
+  return std::visit([&](const auto& v) { return curve::approximate_by_cubics(v, tolerance); },
+                    c.value);
+}
+
 Result<curve::PiecewiseBezier> pieces_for(const json& form, const char* name,
                                           const document::Path& path) {
   const auto tolerance = tolerance_of(form, name);
@@ -54,12 +89,18 @@ Result<curve::PiecewiseBezier> pieces_for(const json& form, const char* name,
   if (!degree) return std::unexpected(degree.error());
   curve::PiecewiseBezier all;
   for (const document::PlanarCurve& c : path.curves) {
-    auto part = std::visit(
-        [&](const auto& v) { return curve::approximate_by_cubics(v, *tolerance); }, c.value);
-    all.deviation = std::max(all.deviation, part.deviation);
-    for (curve::Bezier2& piece : part.pieces)
+    auto part = pieces_of(c, *degree, *tolerance);
+    if (!part) {
+      part.error().path = std::string(name) + ".tolerance";
+      return part;
+    }
+    all.deviation = std::max(all.deviation, part->deviation);
+    for (curve::Bezier2& piece : part->pieces)
       all.pieces.push_back(raised(std::move(piece), *degree));
   }
+  if (all.deviation > *tolerance)
+    return fail(ErrorCode::not_converged, "the tolerance is below what doubles can do",
+                "give 1e-12 of the size or more", std::string(name) + ".tolerance");
   return all;
 }
 
@@ -135,28 +176,36 @@ Result<void> add_space_forms(const json& request, const lac::SpaceChain& chain, 
   return {};
 }
 
+/// Adds the forms beside a member "curve" of `holder`.
+Result<void> add_forms(const json& request, json& holder) {
+  if (holder["curve"]["type"] == "log-aesthetic-space") {
+    const auto chain = exchange::space_chain_from_json(holder["curve"], "curve");
+    if (!chain) return std::unexpected(chain.error());
+    return add_space_forms(request, *chain, holder);
+  }
+  const auto path = exchange::path_from_json(holder["curve"], "curve");
+  if (!path) return std::unexpected(path.error());
+  if (request.contains("samples"))
+    if (auto done = add_samples(request["samples"], *path, holder); !done) return done;
+  if (request.contains("bezier"))
+    if (auto done = add_bezier(request["bezier"], *path, holder); !done) return done;
+  if (request.contains("nurbs"))
+    if (auto done = add_nurbs(request["nurbs"], *path, holder); !done) return done;
+  return {};
+}
+
 }  // namespace
 
 Result<void> add_derived_forms(const json& request, json& result) {
   const bool wanted =
       request.contains("samples") || request.contains("bezier") || request.contains("nurbs");
   if (!wanted) return {};
-  if (!result.contains("curve"))
+  if (result.contains("curve")) return add_forms(request, result);
+  if (!result.contains("strokes"))
     return fail(ErrorCode::unsupported, "the result holds no curve to convert",
                 "leave out samples, bezier and nurbs");
-  if (result["curve"]["type"] == "log-aesthetic-space") {
-    const auto chain = exchange::space_chain_from_json(result["curve"], "curve");
-    if (!chain) return std::unexpected(chain.error());
-    return add_space_forms(request, *chain, result);
-  }
-  const auto path = exchange::path_from_json(result["curve"], "curve");
-  if (!path) return std::unexpected(path.error());
-  if (request.contains("samples"))
-    if (auto done = add_samples(request["samples"], *path, result); !done) return done;
-  if (request.contains("bezier"))
-    if (auto done = add_bezier(request["bezier"], *path, result); !done) return done;
-  if (request.contains("nurbs"))
-    if (auto done = add_nurbs(request["nurbs"], *path, result); !done) return done;
+  for (json& stroke : result["strokes"])
+    if (auto done = add_forms(request, stroke); !done) return done;
   return {};
 }
 

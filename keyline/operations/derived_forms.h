@@ -6,9 +6,13 @@
 
 namespace keyline::operations {
 
-/// Adds to a result that holds "curve" what the request asks for beside it: "polyline"
-/// ("samples": n points) and the "bezier" or "nurbs" form of {"degree", "tolerance"} with its
-/// "deviation". No effect where the request asks for none.
+/// Adds to a result that holds "curve", and to each of its "strokes" that do, what the request asks
+/// for beside it: "polyline" ("samples": n points) and the "bezier" or "nurbs" form of {"degree",
+/// "tolerance"} with its "deviation". No effect where the request asks for none.
+/// Degree 3 unless given; polynomials of that degree or less come exactly, log-aesthetic chains as
+/// quintics from degree 5 on, all else as cubics, raised to the degree.
+/// Fails: bad_input; unsupported where there is no curve; not_converged where the tolerance is
+/// below what doubles can do.
 core::Result<void> add_derived_forms(const nlohmann::json& request, nlohmann::json& result);
 
 }  // namespace keyline::operations

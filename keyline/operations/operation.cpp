@@ -69,6 +69,33 @@ json type_schema(Field::Type type) {
   return json::object();
 }
 
+/// Whether "samples", "bezier" and "nurbs" have a curve to add to.
+bool returns_curves(const std::string& name) {
+  static constexpr const char* kOthers[] = {"lac.region", "curve.analyze", "curve.cav",
+                                            "curve.continuity"};
+  return !name.starts_with("surface.") &&
+         std::find(std::begin(kOthers), std::end(kOthers), name) == std::end(kOthers);
+}
+
+json form_schema(const char* what) {
+  return {{"description", std::string("adds the curve as ") + what +
+                              " within the tolerance, a length, with the deviation it meets"},
+          {"type", "object"},
+          {"required", {"tolerance"}},
+          {"properties",
+           {{"degree", {{"type", "integer"}, {"minimum", 3}, {"maximum", 30}, {"default", 3}}},
+            {"tolerance", {{"type", "number"}, {"exclusiveMinimum", 0}}}}}};
+}
+
+void add_form_schemas(json& properties) {
+  properties["samples"] = {{"description", "adds the curve as a polyline of so many points"},
+                           {"type", "integer"},
+                           {"minimum", 2},
+                           {"maximum", 10'000'000}};
+  properties["bezier"] = form_schema("Beziers");
+  properties["nurbs"] = form_schema("a B-spline");
+}
+
 json failed(const json& id, const Failure& failure) {
   return {{"id", id}, {"ok", false}, {"error", failure_json(failure)}};
 }
@@ -77,7 +104,13 @@ Result<json> guarded(const Operation& operation, const json& request, const Cont
   try {
     if (auto sound = check_fields(operation, request); !sound)
       return std::unexpected(sound.error());
-    auto result = operation.run(request, context);
+    Context asked = context;
+    if (request.contains("threads")) {
+      const auto threads = integer_between(request, "threads", 0, 0, 1024);
+      if (!threads) return std::unexpected(threads.error());
+      asked.threads = *threads;
+    }
+    auto result = operation.run(request, asked);
     if (!result) return result;
     if (auto added = add_derived_forms(request, *result); !added)
       return std::unexpected(added.error());
@@ -89,6 +122,14 @@ Result<json> guarded(const Operation& operation, const json& request, const Cont
   } catch (const std::exception& e) {
     return core::fail(ErrorCode::internal, e.what(), "please report this request");
   }
+}
+
+/// What a field is, or where to look, in place of a remedy that was not given.
+std::string usual_hint(const Operation& operation, const std::string& path) {
+  const std::string name = path.substr(0, path.find_first_of(".["));
+  for (const Field& field : operation.fields)
+    if (field.name == name && path == name) return field.text;
+  return "keyline operations " + operation.name + " tells what it takes";
 }
 
 }  // namespace
@@ -114,12 +155,17 @@ json request_schema(const Operation& operation) {
   json required = json::array({"op"});
   properties["op"] = {{"const", operation.name}};
   properties["id"] = {{"description", "given back with the answer"}};
+  properties["threads"] = {{"description", "0: all; the result does not depend on it"},
+                           {"type", "integer"},
+                           {"minimum", 0},
+                           {"maximum", 1024}};
   for (const Field& field : operation.fields) {
     json schema = type_schema(field.type);
     schema["description"] = field.text;
     properties[field.name] = std::move(schema);
     if (field.required) required.push_back(field.name);
   }
+  if (returns_curves(operation.name)) add_form_schemas(properties);
   json example = operation.example;
   example["op"] = operation.name;
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
@@ -128,6 +174,7 @@ json request_schema(const Operation& operation) {
           {"type", "object"},
           {"properties", std::move(properties)},
           {"required", std::move(required)},
+          {"additionalProperties", false},
           {"examples", json::array({std::move(example)})}};
 }
 
@@ -136,7 +183,10 @@ Result<json> perform(const std::string& name, const json& request, const Context
   if (!operation)
     return core::fail(ErrorCode::unsupported, "there is no operation \"" + name + "\"",
                       "keyline operations lists them", "op");
-  return guarded(*operation, request, context);
+  auto result = guarded(*operation, request, context);
+  if (!result && result.error().hint.empty())
+    result.error().hint = usual_hint(*operation, result.error().path);
+  return result;
 }
 
 json failure_json(const Failure& failure) {

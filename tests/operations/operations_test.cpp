@@ -83,6 +83,67 @@ TEST(DerivedForms, AreAddedWithTheirBound) {
   EXPECT_LE((*result)["nurbs"]["deviation"].get<double>(), 1e-3);
 }
 
+TEST(DerivedForms, AreExactQuinticOrCubicByWhatIsAskedFor) {
+  json request{{"points", {{0, 0}, {2, 0}, {3, 1.5}}},
+               {"alpha", -1},
+               {"bezier", {{"degree", 5}, {"tolerance", 1e-9}}}};
+  const auto quintics = perform("lac.segment", request, {});
+  request["bezier"]["degree"] = 3;
+  const auto cubics = perform("lac.segment", request, {});
+  ASSERT_TRUE(quintics && cubics);
+  EXPECT_LE((*quintics)["bezier"]["deviation"].get<double>(), 1e-9);
+  EXPECT_LT((*quintics)["bezier"]["curves"].size(), (*cubics)["bezier"]["curves"].size());
+  request["form"] = "taylor-angle";
+  request["degree"] = 6;
+  request["bezier"]["degree"] = 7;
+  const auto raised = perform("lac.quasi", request, {});
+  ASSERT_TRUE(raised) << raised.error().message;
+  EXPECT_EQ((*raised)["bezier"]["curves"].size(), 1U);
+  EXPECT_EQ((*raised)["bezier"]["curves"][0]["points"].size(), 8U);
+  EXPECT_EQ((*raised)["bezier"]["deviation"], 0);
+}
+
+TEST(DerivedForms, ToleranceBelowRoundingIsRefusedSoon) {
+  for (const char* name : {"bezier", "nurbs"}) {
+    const auto result = perform("lac.segment",
+                                {{"points", {{0, 0}, {1, 0}, {2, 1}}},
+                                 {"alpha", 1},
+                                 {name, {{"degree", 3}, {"tolerance", 1e-15}}}},
+                                {});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, core::ErrorCode::not_converged);
+    EXPECT_EQ(result.error().path, std::string(name) + ".tolerance");
+  }
+}
+
+TEST(DerivedForms, SchemaNamesThem) {
+  const json schema = request_schema(*find_operation("fair"));
+  EXPECT_EQ(schema["additionalProperties"], false);
+  for (const char* name : {"samples", "bezier", "nurbs", "threads"})
+    EXPECT_TRUE(schema["properties"].contains(name)) << name;
+  EXPECT_FALSE(request_schema(*find_operation("curve.cav"))["properties"].contains("samples"));
+}
+
+TEST(Request, EveryFailureHasARemedy) {
+  const auto volume = perform(
+      "lac.volume",
+      {{"points", {{0, 0}, {2, 0}}}, {"direction", 0.6}, {"alpha", -1}, {"volume", -1}}, {});
+  EXPECT_EQ(volume.error().hint, "area between curve and chord, 0 or more");
+  const auto few = perform("fit.spline", {{"points", {{0, 0}}}}, {});
+  EXPECT_EQ(few.error().hint, "keyline operations fit.spline tells what it takes");
+}
+
+TEST(Request, ThreadsAreCheckedAndChangeNothing) {
+  json request{{"points", {{0, 0}, {1, 0.1}, {2, 0.3}, {3, 0.7}, {4, 1.2}}}};
+  const auto usual = perform("fair", request, {});
+  request["threads"] = 1;
+  const auto one = perform("fair", request, {});
+  ASSERT_TRUE(usual && one);
+  EXPECT_EQ(*usual, *one);
+  request["threads"] = -1;
+  EXPECT_EQ(perform("fair", request, {}).error().path, "threads");
+}
+
 TEST(Continuity, SeesACornerAndASmoothJoint) {
   const auto line = [](double x0, double y0, double x1, double y1) {
     return json{{"type", "polyline"}, {"points", {{x0, y0}, {x1, y1}}}};
