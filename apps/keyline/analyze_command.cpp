@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/document_file.h"
 #include "keyline/exchange/planar_form.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/fit/fit_spline.h"
@@ -89,10 +90,38 @@ Result<Subject> spline_of(const acquire::KeyLine& line, const CommonOptions& com
   return subject;
 }
 
-std::vector<Subject> subjects_of(document::Document document, double noise) {
+/// Whether the vertices are points of a curve (a hull's offsets, a digitised outline), as fairing
+/// takes them, and not corners of a polygon: enough for a spline, and turning gently.
+bool holds_points_of_a_curve(const curve::Polyline2& line) {
+  constexpr std::size_t kFewest = 5;
+  constexpr double kGentle = 0.8;  // radians per vertex
+  double turning = 0;
+  for (std::size_t i = 2; i < line.points.size(); ++i)
+    turning += std::abs(core::angle_between(line.points[i - 1] - line.points[i - 2],
+                                            line.points[i] - line.points[i - 1]));
+  return line.points.size() >= kFewest &&
+         turning < kGentle * static_cast<double>(line.points.size() - 2);
+}
+
+Result<std::vector<Subject>> subjects_of(const AnalyzeCommand& command,
+                                         const document::Document& document) {
   std::vector<Subject> subjects;
-  for (auto& named : document.paths)
-    subjects.push_back({.name = named.label.name, .path = std::move(named.path), .noise = noise});
+  const core::Progress progress = interactive_progress(command.common.quiet);
+  for (const auto& named : document.paths) {
+    const auto* polyline = only_polyline(named.path);
+    if (!polyline || !holds_points_of_a_curve(*polyline)) {
+      subjects.push_back(
+          {.name = named.label.name, .path = named.path, .noise = command.input.noise.value_or(0)});
+      continue;
+    }
+    const auto line = key_line_of(named.path, command.input);
+    if (!line) return std::unexpected(exchange::in_file(line.error(), command.input.files.front()));
+    auto subject = spline_of(*line, command.common, progress);
+    if (!subject) return std::unexpected(subject.error());
+    subject->name = named.label.name;
+    subjects.push_back(std::move(*subject));
+  }
+  end_progress();
   return subjects;
 }
 
@@ -177,8 +206,9 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
   writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
 }
 
-Result<void> check_curve_outputs(const CommonOptions& common) {
-  return check_outputs(common, curve_extensions({".html", ".pdf", ".png"}));
+Result<void> check_curve_outputs(const AnalyzeCommand& command) {
+  return check_outputs(command.common, curve_extensions({".html", ".pdf", ".png"}),
+                       command.input.files);
 }
 
 int analyze_curves(const AnalyzeCommand& command, Result<std::vector<Subject>> subjects) {
@@ -223,10 +253,9 @@ int run_analyze(const AnalyzeCommand& command) {
     exchange::flatten(document, notes);
     for (const std::string& note : notes) say(command.common.quiet, note);
   }
-  if (auto known = check_curve_outputs(command.common); !known)
-    return report_failure(known.error());
+  if (auto known = check_curve_outputs(command); !known) return report_failure(known.error());
   if (points) return analyze_curves(command, subjects_of_points(command));
-  return analyze_curves(command, subjects_of(std::move(document), command.input.noise.value_or(0)));
+  return analyze_curves(command, subjects_of(command, document));
 }
 
 }  // namespace keyline::app

@@ -1,5 +1,6 @@
 #include "command_line.h"
 
+#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -19,7 +20,32 @@ std::function<int(const std::string&)> runs(std::shared_ptr<Options> options,
   };
 }
 
+bool read_number(const std::string& text, double& value) {
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+}
+
+CLI::Validator positive() {
+  return {[](const std::string& text) {
+            double value = 0;
+            return read_number(text, value) && value > 0
+                       ? std::string()
+                       : "\"" + text + "\" is not a number greater than 0";
+          },
+          "POSITIVE"};
+}
+
+CLI::Validator not_negative() {
+  return {[](const std::string& text) {
+            double value = 0;
+            return read_number(text, value) && value >= 0
+                       ? std::string()
+                       : "\"" + text + "\" is not a number from 0 on";
+          },
+          "NONNEGATIVE"};
+}
+
 void add_common(CLI::App& app, CommonOptions& common, bool outputs = true) {
+  app.set_version_flag("--version", "keyline " KEYLINE_VERSION, "print the version and exit");
   if (outputs)
     app.add_option("-o,--output", common.outputs,
                    "file to write; may be repeated; the extension chooses the format")
@@ -27,7 +53,7 @@ void add_common(CLI::App& app, CommonOptions& common, bool outputs = true) {
         ->allow_extra_args(false);
   app.add_flag("--json", common.json, "print the result object on standard output");
   app.add_option("--tolerance", common.tolerance, "largest deviation, in the input's unit")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   app.add_option("--seed", common.seed, "of everything random; the same seed, the same result")
       ->capture_default_str();
   app.add_option("--threads", common.threads, "0: all; the result does not depend on it")
@@ -60,12 +86,12 @@ void add_input(CLI::App& app, InputOptions& input) {
                  "cut a cloud or mesh by a plane, as in y=0; auto: by its symmetry plane")
       ->group(points);
   app.add_option("--band", input.band, "half thickness of the section of a cloud")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->group(points);
   app.add_option("--row", input.row, "row of a lattice of range data, from 0")->group(points);
   app.add_option("--column", input.column, "column of a lattice, from 0")->group(points);
   app.add_option("--noise", input.noise, "standard deviation of the points; else estimated")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->group(points);
   auto* closed = app.add_flag("--closed", input.closed, "the points are a closed outline");
   auto* open = app.add_flag("--open", input.open, "they are not");
@@ -195,9 +221,9 @@ Command add_sketch(CLI::App& app) {
   sub->add_option("--specks", sketch.specks, "pieces of ink of fewer pixels are dirt")->group(ink);
   sub->add_option("--gap", sketch.gap, "longest gap to bridge, in pixels");
   auto* scale = sub->add_option("--scale", sketch.scale, "mm per pixel; without it lengths are px")
-                    ->check(CLI::PositiveNumber);
+                    ->check(positive());
   sub->add_option("--dpi", sketch.dpi, "pixels per inch; lengths are mm then")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->excludes(scale);
   sub->add_option("--debug", sketch.debug, "folder for a picture of every stage")->type_name("DIR");
   add_common(*sub, sketch.common);
@@ -225,7 +251,7 @@ Command add_analyze(CLI::App& app) {
       ->group(surfaces);
   sub->add_option("--stripes", options->stripes,
                   "zebra: black and white pairs to the half turn; else about eight show")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->group(surfaces);
   sub->footer(
       "Example: keyline analyze examples/clothoid.csv -o report.html\n"
@@ -257,7 +283,7 @@ Command add_edit(CLI::App& app) {
   sub->add_option("--keep", edit.keep, "surfaces: start, corners or boundary")
       ->capture_default_str();
   sub->add_option("--limit", edit.limit, "surfaces: largest departure, a length")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   sub->add_option("--alpha-range", edit.alpha_range, "low,high: where the minimum may lie")
       ->delimiter(',')
       ->expected(2);
@@ -289,6 +315,7 @@ Command add_batch(CLI::App& app) {
   auto* sub = app.add_subcommand(
       "batch", "requests as lines of JSON on standard input, answers in the same order");
   add_common(*sub, *options, false);
+  sub->footer("Example: echo '{\"op\":\"lac.region\",\"theta\":1,\"alpha\":-1}' | keyline batch");
   return {sub, [options](const std::string&) { return run_batch(*options); }};
 }
 
@@ -297,6 +324,7 @@ Command add_operations(CLI::App& app) {
   auto* sub = app.add_subcommand("operations", "what can be requested; with a name, its schema");
   sub->add_option("NAME", options->name, "of an operation");
   add_common(*sub, options->common, false);
+  sub->footer("Example: keyline operations lac.segment");
   return {sub, runs(options, run_operations)};
 }
 

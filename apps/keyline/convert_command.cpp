@@ -73,7 +73,9 @@ int run_convert(const ConvertCommand& command) {
   const CommonOptions& common = command.common;
   if (common.outputs.empty() && !common.json)
     return report_failure({core::ErrorCode::bad_input, "no output is named", "add -o FILE", ""});
-  if (auto known = check_outputs(common, curve_extensions({".pdf", ".png", ".html"})); !known)
+  if (auto known =
+          check_outputs(common, curve_extensions({".pdf", ".png", ".html"}), command.input.files);
+      !known)
     return report_failure(known.error());
   auto document = holds_points(command.input.files.front()) ? document_of_points(command.input)
                                                             : load_document(command.input);

@@ -143,7 +143,7 @@ Result<Writers> writers_of(const DrawCommand& command, const json& request, cons
 
 int run_draw(const DrawCommand& command) {
   const std::vector<std::string> known = curve_extensions({".pdf", ".png", ".html"});
-  if (auto can = check_outputs(command.common, known); !can) return report_failure(can.error());
+  if (auto can = check_outputs(command.common, known, {}); !can) return report_failure(can.error());
   const auto asked = draw_request(command);
   if (!asked) return report_failure(asked.error());
   const auto result =

@@ -116,7 +116,9 @@ double size_of(const curve::Bezier2& c) {
 
 int run_edit(const EditCommand& command) {
   const CommonOptions& common = command.common;
-  if (auto known = check_outputs(common, curve_extensions({".html", ".pdf", ".png"})); !known)
+  if (auto known =
+          check_outputs(common, curve_extensions({".html", ".pdf", ".png"}), command.input.files);
+      !known)
     return report_failure(known.error());
   const auto options = operations::edit_options(request_of(command));
   if (!options) return report_failure(options.error());

@@ -85,6 +85,7 @@ Result<std::vector<std::size_t>> indices_in(const acquire::KeyLine& line,
 
 void print_table(const Faired& faired) {
   const fairing::FairResult& r = faired.result;
+  if (!faired.line.id.empty()) fmt::print("{}\n", faired.line.id);
   fmt::print("{:>5} {:>9} {:>11} {:>11} {:>11} {:>11}  {}\n", "piece", "rhythm", "slope", "length",
              "volume", "deviation", "impression");
   for (std::size_t i = 0; i < r.pieces.size(); ++i) {
@@ -219,7 +220,8 @@ nlohmann::json result_json(const std::vector<Faired>& all) {
 
 int run_fair(const FairCommand& command) {
   const std::string& file = command.input.files.front();
-  if (auto known = check_outputs(command.common, curve_extensions({".html", ".pdf", ".png"}));
+  if (auto known = check_outputs(command.common, curve_extensions({".html", ".pdf", ".png"}),
+                                 command.input.files);
       !known)
     return report_failure(known.error());
   const auto all = fair_all(command);

@@ -183,10 +183,15 @@ Result<document::Document> section_document(const InputOptions& input, const std
   return document;
 }
 
-/// Vertices of a polyline are measured points in their order; other curves are sampled.
+}  // namespace
+
+const curve::Polyline2* only_polyline(const document::Path& path) {
+  return path.curves.size() == 1 ? std::get_if<curve::Polyline2>(&path.curves.front().value)
+                                 : nullptr;
+}
+
 Result<KeyLine> key_line_of(const document::Path& path, const InputOptions& input) {
-  const auto* polyline =
-      path.curves.size() == 1 ? std::get_if<curve::Polyline2>(&path.curves.front().value) : nullptr;
+  const auto* polyline = only_polyline(path);
   if (!polyline) return operations::key_line_of(path);
   RawCurve raw;
   for (const core::Point2 p : polyline->points) raw.points.push_back({p.x, p.y, 0});
@@ -195,8 +200,6 @@ Result<KeyLine> key_line_of(const document::Path& path, const InputOptions& inpu
   if (path.closed) options.closed = true;
   return acquire::acquire_key_line(raw, options);
 }
-
-}  // namespace
 
 bool holds_points(const std::string& file) {
   if (exchange::is_mesh_file(file)) return false;

@@ -18,6 +18,13 @@ bool holds_points(const std::string& file);
 /// Key-lines to fair, one per curve of the input. Several files are parts of one.
 core::Result<std::vector<acquire::KeyLine>> load_key_lines(const InputOptions& input);
 
+/// The polyline that is the whole path, else null.
+const curve::Polyline2* only_polyline(const document::Path& path);
+
+/// A curve of a file as a key-line: vertices of a polyline are measured points in their order,
+/// other curves are sampled.
+core::Result<acquire::KeyLine> key_line_of(const document::Path& path, const InputOptions& input);
+
 /// What --select leaves of a file of curves (bad_input for several files).
 core::Result<document::Document> load_document(const InputOptions& input);
 

@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +17,59 @@ namespace {
 bool has_command(const std::vector<Command>& commands, const std::string& name) {
   return std::ranges::any_of(commands,
                              [&](const Command& c) { return c.parser->get_name() == name; });
+}
+
+/// The command's exit status, or that of a failure if what was printed did not arrive: a full disk
+/// or a closed output shows only once everything is flushed.
+int once_printed(int status) {
+  errno = 0;
+  std::cout.flush();
+  const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  if (printed || status == kIo) return status;
+  const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
+  return report_failure({core::ErrorCode::io, "standard output cannot be written" + reason,
+                         "check where it goes to", ""});
+}
+
+/// Changes of one letter (added, dropped, another) that lead from one word to the other.
+std::size_t letters_apart(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t other = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({other, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+/// "did you mean --tolerance? " for a word that is nearly an option of the command, else nothing.
+std::string likely_option(const CLI::App& command, const std::string& message) {
+  const std::size_t at = message.find("--");
+  if (at == std::string::npos || message.find("expected") == std::string::npos) return "";
+  const std::string word = message.substr(at, message.find_first_of(" =", at) - at);
+  std::string best;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (word.size() < 40 && letters_apart(word, "--" + name) <= 2) best = "--" + name;
+  return best.empty() ? "" : "did you mean " + best + "? ";
+}
+
+int report_usage(const std::vector<Command>& commands, const CLI::ParseError& e,
+                 const std::string& first) {
+  const std::string what = e.what();
+  for (const Command& c : commands)
+    if (c.parser->get_name() == first)
+      return report_failure({core::ErrorCode::bad_input, what,
+                             likely_option(*c.parser, what) + "see keyline " + first + " --help",
+                             ""});
+  const bool none = dynamic_cast<const CLI::RequiredError*>(&e) != nullptr;
+  return report_failure(
+      {core::ErrorCode::bad_input, none ? "a command is missing" : what, "see keyline --help", ""});
 }
 
 int run(int argc, char** argv) {
@@ -35,7 +92,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return report_failure({core::ErrorCode::bad_input, e.what(), "see keyline --help", ""});
+    return report_usage(commands, e, argc > 1 ? argv[1] : "");
   }
   std::string typed = "keyline";
   for (int i = 1; i < argc; ++i) typed += std::string(" ") + argv[i];
@@ -49,11 +106,12 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return keyline::app::run(argc, argv);
+    return keyline::app::once_printed(keyline::app::run(argc, argv));
   } catch (const std::bad_alloc&) {
     return keyline::app::report_failure(
         {keyline::core::ErrorCode::internal, "out of memory", "give a smaller input", ""});
   } catch (const std::exception& e) {
+    if (std::ferror(stdout) != 0) return keyline::app::once_printed(keyline::app::kDone);
     return keyline::app::report_failure(
         {keyline::core::ErrorCode::internal, e.what(), "please report this", ""});
   }

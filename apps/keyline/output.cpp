@@ -1,7 +1,9 @@
 #include "output.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -22,15 +24,40 @@ std::vector<std::string> curve_extensions(const std::vector<std::string>& furthe
   return known;
 }
 
-Result<void> check_outputs(const CommonOptions& common, const std::vector<std::string>& known) {
-  for (const std::string& file : common.outputs) {
-    const std::string extension = exchange::extension_of(file);
-    if (std::find(known.begin(), known.end(), extension) != known.end()) continue;
-    std::string list;
-    for (const std::string& name : known) list += (list.empty() ? "" : " ") + name;
-    return core::fail(core::ErrorCode::bad_input,
-                      "this command does not write \"" + extension + "\"", "use one of " + list,
-                      file);
+namespace {
+
+/// Whether both names lead to one file, there already or not.
+bool are_one(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (fs::equivalent(a, b, none)) return fs::is_regular_file(a, none);
+  return fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
+}
+
+Result<void> check_extension(const std::string& file, const std::vector<std::string>& known) {
+  const std::string extension = exchange::extension_of(file);
+  if (std::find(known.begin(), known.end(), extension) != known.end()) return {};
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : " ") + name;
+  return core::fail(core::ErrorCode::bad_input, "this command does not write \"" + extension + "\"",
+                    "use one of " + list, file);
+}
+
+}  // namespace
+
+Result<void> check_outputs(const CommonOptions& common, const std::vector<std::string>& known,
+                           const std::vector<std::string>& inputs) {
+  for (std::size_t i = 0; i < common.outputs.size(); ++i) {
+    const std::string& file = common.outputs[i];
+    if (auto done = check_extension(file, known); !done) return done;
+    for (const std::string& input : inputs)
+      if (are_one(file, input))
+        return core::fail(core::ErrorCode::bad_input, "this is the input, which is not overwritten",
+                          "give -o another name", file);
+    for (std::size_t k = 0; k < i; ++k)
+      if (are_one(file, common.outputs[k]))
+        return core::fail(core::ErrorCode::bad_input, "this output is named twice",
+                          "give every -o a name of its own", file);
   }
   return {};
 }

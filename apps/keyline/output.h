@@ -21,9 +21,10 @@ using Writers = std::map<std::string, Writer>;
 /// Extensions every command that returns curves can write, and `further` ones.
 std::vector<std::string> curve_extensions(const std::vector<std::string>& further = {});
 
-/// bad_input for an extension without writer, before anything is computed.
-core::Result<void> check_outputs(const CommonOptions& common,
-                                 const std::vector<std::string>& known);
+/// bad_input, before anything is computed, for an extension without writer, a file named twice and
+/// a file that is one of the inputs, which nothing may overwrite.
+core::Result<void> check_outputs(const CommonOptions& common, const std::vector<std::string>& known,
+                                 const std::vector<std::string>& inputs);
 
 /// Writes one file, whole or not at all.
 core::Result<void> write_output(const std::string& file, const Writer& writer);

@@ -154,7 +154,8 @@ void tell(const Sketch& sketch, const SketchCommand& command) {
 }  // namespace
 
 int run_sketch(const SketchCommand& command) {
-  if (auto known = check_outputs(command.common, curve_extensions({".pdf", ".png", ".html"}));
+  if (auto known = check_outputs(command.common, curve_extensions({".pdf", ".png", ".html"}),
+                                 {command.file});
       !known)
     return report_failure(known.error());
   const auto sketch = trace_file(command);

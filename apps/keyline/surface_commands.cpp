@@ -213,7 +213,9 @@ void say_curves_left_out(const document::Document& document, bool quiet) {
 
 int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document) {
   const CommonOptions& common = command.common;
-  if (auto known = check_outputs(common, {".json", ".html", ".png", ".pdf", ".svg"}); !known)
+  if (auto known =
+          check_outputs(common, {".json", ".html", ".png", ".pdf", ".svg"}, command.input.files);
+      !known)
     return report_failure(known.error());
   const auto look = look_of(command);
   if (!look) return report_failure(look.error());

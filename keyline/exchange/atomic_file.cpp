@@ -69,8 +69,9 @@ core::Result<void> write_atomically(const fs::path& path,
     return unwritable(path, reason_of(errno));
   }
   static std::atomic<unsigned> serial{0};
-  fs::path beside = target;
-  beside += ".part" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+  // Short, so that it fits wherever the target's own name does.
+  const fs::path beside = target.parent_path() / (".keyline" + std::to_string(::getpid()) + "-" +
+                                                  std::to_string(serial++) + ".part");
   Leftover leftover(beside);
   if (auto written = write_to(beside, path, write); !written) return written;
   if (fs::exists(status)) fs::permissions(beside, status.permissions(), error);

@@ -100,8 +100,50 @@ TEST(BadInput, UnwritableOutputLeavesNothingBehind) {
   EXPECT_EQ(s.count(), 1U);
 }
 
+TEST(BadInput, OutputsThatWouldBeLost) {
+  const Scratch s;
+  const std::string text = slurp(example("cubic.json"));
+  const std::string file = s.write("a.json", text);
+  expect_failure(run_keyline("convert --quiet " + file + " -o " + s.path("./a.json")), 2,
+                 "this is the input");
+  expect_failure(run_keyline("edit --quiet " + file + " -o " + file), 2, "this is the input");
+  EXPECT_EQ(slurp(file), text);
+  std::filesystem::create_symlink(file, s.path("link.json"));
+  expect_failure(run_keyline("analyze --quiet " + file + " -o " + s.path("link.json")), 2,
+                 "this is the input");
+  expect_failure(
+      run_keyline("convert --quiet " + file + " -o " + s.path("b.svg") + " -o " +
+                  s.path("../" +
+                         std::filesystem::path(s.path("")).parent_path().filename().string() +
+                         "/b.svg")),
+      2, "named twice");
+  EXPECT_FALSE(std::filesystem::exists(s.path("b.svg")));
+}
+
+TEST(BadInput, StandardOutputThatTakesNothing) {
+  const Scratch s;
+  for (const char* command : {"operations", "operations fair", "--version", "fair --help"})
+    for (const char* full : {">/dev/full", ">&-"}) {
+      const std::string line =
+          std::string(KEYLINE_PROGRAM) + " " + command + " " + full + " 2>" + s.path("err");
+      EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 3) << line;
+      EXPECT_TRUE(slurp(s.path("err")).starts_with("keyline: standard output cannot be written"))
+          << slurp(s.path("err"));
+    }
+}
+
+TEST(BadInput, LongNamesAreWritten) {
+  const Scratch s;
+  const std::string name = s.path(std::string(251, 'n') + ".svg");
+  EXPECT_EQ(run_keyline("draw --quiet --points 0,0 2,0 3,1.5 -o " + name).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(name));
+}
+
 TEST(BadInput, UnknownOption) {
   expect_failure(run_keyline("fair --fairer " + example("clothoid.csv")), 2, "--fairer");
+  expect_failure(run_keyline("fair --tolerence 1 " + example("clothoid.csv")), 2,
+                 "did you mean --tolerance? see keyline fair --help");
+  expect_failure(run_keyline(""), 2, "a command is missing; see keyline --help");
 }
 
 TEST(BadInput, UnknownCommandAndFormat) {
@@ -115,7 +157,9 @@ TEST(BadInput, OptionsThatMakeNoSense) {
   expect_failure(run_keyline("fair --quiet --region 0.9:0.1 " + file), 2, "region");
   expect_failure(run_keyline("fair --quiet --interpretation 0:lovely " + file), 2, "lovely");
   expect_failure(run_keyline("fair --quiet --interpretation 99:arc " + file), 2, "99");
-  expect_failure(run_keyline("fair --quiet --tolerance -1 " + file), 2, "tolerance");
+  for (const char* wrong : {"-1", "0", "abc", "inf", "nan", "0,1"})
+    expect_failure(run_keyline("fair --quiet --tolerance=" + std::string(wrong) + " " + file), 2,
+                   "--tolerance: \"" + std::string(wrong) + "\" is not a number greater than 0");
   expect_failure(run_keyline("fair --quiet --order 9 " + file), 2, "order");
 }
 

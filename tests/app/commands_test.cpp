@@ -19,6 +19,8 @@ TEST(Commands, HelpAndVersion) {
     const Outcome o = run_keyline(std::string(name) + " --help");
     EXPECT_EQ(o.status, 0);
     EXPECT_NE(o.out.find("--threads"), std::string::npos) << name;
+    EXPECT_NE(o.out.find("Example: "), std::string::npos) << name;
+    EXPECT_EQ(run_keyline(std::string(name) + " --version").out, "keyline 0.1.0\n") << name;
   }
 }
 
@@ -33,6 +35,25 @@ TEST(Convert, DrawsCurvesAndSaysWhereThereAreNone) {
       run_keyline("convert --quiet " + example("panel-a.json") + " -o " + s.path("b.png")), 2,
       "there is no planar curve to draw");
   EXPECT_FALSE(std::filesystem::exists(s.path("b.png")));
+}
+
+TEST(Convert, DrawsTheLinesOfAHullAndAnalyzeTakesItsOffsetsAsPoints) {
+  const Scratch s;
+  const std::string hull =
+      s.write("hull.csv",
+              "waterline,0,1,2,3,4,5,6\n0,,0.1,0.3,0.5,0.5,0.2,0\n1,0.1,0.8,1.6,2,1.9,1.3,0.4\n"
+              "2,0.3,1.2,2,2.4,2.3,1.9,1\n3,0.5,1.5,2.2,2.5,2.45,2.2,1.6\n");
+  EXPECT_EQ(
+      run_keyline("convert --quiet " + hull + " -o " + s.path("a.svg") + " -o " + s.path("a.png"))
+          .status,
+      0);
+  EXPECT_NE(slurp(s.path("a.svg")).find("waterline-3"), std::string::npos);
+  const Outcome o = run_keyline("analyze --quiet --json --select waterline-3 " + hull);
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(json::parse(o.out)["curvature"]["max"], json::parse(o.out)["curvature"]["min"]);
+  const Outcome faired = run_keyline("fair " + hull);
+  EXPECT_EQ(faired.status, 0) << faired.err;
+  EXPECT_NE(faired.out.find("waterline-3\npiece"), std::string::npos) << faired.out;
 }
 
 TEST(Commands, FairWritesEveryFormat) {
