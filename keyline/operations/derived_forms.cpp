@@ -45,7 +45,7 @@ Result<int> degree_of(const json& form, const char* name) {
   return degree.get<int>();
 }
 
-curve::Bezier2 raised(curve::Bezier2 piece, int to) {
+curve::Bezier2 raised(const curve::Bezier2& piece, int to) {
   const int by = to - static_cast<int>(piece.control.size() - 1);
   return by > 0 ? elevate_degree(piece, by) : piece;
 }
@@ -95,8 +95,7 @@ Result<curve::PiecewiseBezier> pieces_for(const json& form, const char* name,
       return part;
     }
     all.deviation = std::max(all.deviation, part->deviation);
-    for (curve::Bezier2& piece : part->pieces)
-      all.pieces.push_back(raised(std::move(piece), *degree));
+    for (const curve::Bezier2& piece : part->pieces) all.pieces.push_back(raised(piece, *degree));
   }
   if (all.deviation > *tolerance)
     return fail(ErrorCode::not_converged, "the tolerance is below what doubles can do",
