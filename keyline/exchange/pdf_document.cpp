@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "keyline/core/utf8.h"
 #include "keyline/curve/bounding_box.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/drawing_layers.h"
-#include "keyline/exchange/utf8.h"
 
 namespace keyline::exchange {
 namespace {
@@ -55,7 +55,7 @@ std::string text_string(const std::string& name) {
     for (int shift = 12; shift >= 0; shift -= 4) text += kHex[unit >> shift & 15];
   };
   for (std::size_t at = 0; at < name.size();) {
-    const unsigned code = code_point(name, at);
+    const unsigned code = core::code_point(name, at);
     if (code < 0x10000) {
       append(code);
     } else {
