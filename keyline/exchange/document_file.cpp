@@ -105,7 +105,7 @@ Result<Document> document_of(Format format, const fs::path& file, const ReadOpti
     case Format::offsets:
       return offsets_document(*content);
     case Format::glif:
-      return read_glif(*content);
+      return read_glif(*content, fs::absolute(file).parent_path());
     case Format::dxf:
       return read_dxf(*content);
     default:

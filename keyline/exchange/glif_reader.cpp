@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -8,11 +10,14 @@
 #include <vector>
 
 #include "keyline/exchange/byte_lines.h"
+#include "keyline/exchange/document_file.h"
 #include "keyline/exchange/glif.h"
+#include "keyline/exchange/svg_transform.h"
 
 namespace keyline::exchange {
 namespace {
 
+namespace fs = std::filesystem;
 using core::ErrorCode;
 using core::Point2;
 using core::Result;
@@ -104,47 +109,123 @@ std::optional<double> number(const pugi::xml_node& node, const char* name) {
   return detail::leading_number(text);
 }
 
-}  // namespace
+/// A glyph being read with the components it is made of.
+class GlifReader {
+ public:
+  explicit GlifReader(const fs::path& folder) : folder_(folder) {}
 
-Result<Document> read_glif(std::string_view bytes) {
-  pugi::xml_document xml;
-  const auto parsed = xml.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
-  if (!parsed)
-    return core::fail(
-        ErrorCode::bad_input, std::string("the glyph is no XML: ") + parsed.description(),
-        "check that the file is complete", "line " + std::to_string(line_of(bytes, parsed.offset)));
-  const pugi::xml_node glyph = xml.child("glyph");
-  if (!glyph)
-    return core::fail(ErrorCode::bad_input, "the file holds XML but no glyph", "give a .glif file",
-                      "line 1");
-  Document document;
-  const std::string name = glyph.attribute("name").as_string("glyph");
-  int anchors = 0;
-  for (const pugi::xml_node& contour : glyph.child("outline").children("contour")) {
-    std::vector<Node> nodes;
-    for (const pugi::xml_node& point : contour.children("point")) {
-      const auto x = number(point, "x");
-      const auto y = number(point, "y");
-      if (!x || !y)
-        return core::fail(ErrorCode::bad_input, "a point needs the numbers x and y", "mend it",
-                          "line " + std::to_string(line_of(bytes, point.offset_debug())));
-      nodes.push_back({{*x, *y}, kind_of(point.attribute("type").value())});
+  Result<Document> read(std::string_view bytes) {
+    pugi::xml_document xml;
+    const auto glyph = parse(xml, bytes);
+    if (!glyph) return std::unexpected(glyph.error());
+    name_ = glyph->attribute("name").as_string("glyph");
+    if (auto done = add(*glyph, bytes, {}, 0); !done) return std::unexpected(done.error());
+    if (anchors_ > 0)
+      document_.skipped.insert(document_.skipped.begin(),
+                               std::to_string(anchors_) + (anchors_ == 1 ? " anchor" : " anchors"));
+    return std::move(document_);
+  }
+
+ private:
+  static Result<pugi::xml_node> parse(pugi::xml_document& xml, std::string_view bytes) {
+    const auto parsed = xml.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
+    if (!parsed)
+      return core::fail(ErrorCode::bad_input,
+                        std::string("the glyph is no XML: ") + parsed.description(),
+                        "check that the file is complete",
+                        "line " + std::to_string(line_of(bytes, parsed.offset)));
+    const pugi::xml_node glyph = xml.child("glyph");
+    if (!glyph)
+      return core::fail(ErrorCode::bad_input, "the file holds XML but no glyph",
+                        "give a .glif file", "line 1");
+    return glyph;
+  }
+
+  Result<void> add(const pugi::xml_node& glyph, std::string_view bytes, const detail::Affine& map,
+                   int depth) {
+    for (const pugi::xml_node& contour : glyph.child("outline").children("contour")) {
+      std::vector<Node> nodes;
+      for (const pugi::xml_node& point : contour.children("point")) {
+        const auto x = number(point, "x");
+        const auto y = number(point, "y");
+        if (!x || !y)
+          return core::fail(ErrorCode::bad_input, "a point needs the numbers x and y", "mend it",
+                            "line " + std::to_string(line_of(bytes, point.offset_debug())));
+        nodes.push_back({apply(map, {*x, *y}), kind_of(point.attribute("type").value())});
+      }
+      add_contour(std::move(nodes));
     }
+    for (const pugi::xml_node& component : glyph.child("outline").children("component"))
+      add_component(component, map, depth);
+    return {};
+  }
+
+  void add_contour(std::vector<Node> nodes) {
     if (nodes.size() < 2) {
-      ++anchors;
-      continue;
+      ++anchors_;
+      return;
     }
     document::Path path = path_of(std::move(nodes));
-    if (path.curves.empty()) continue;
-    const std::size_t count = document.paths.size() + 1;
-    const std::string own = count == 1 ? name : name + "#" + std::to_string(count);
-    document.paths.push_back({{own, name, {}}, std::move(path), 0});
+    if (path.curves.empty() || !validate(path)) return;
+    const std::size_t count = document_.paths.size() + 1;
+    const std::string own = count == 1 ? name_ : name_ + "#" + std::to_string(count);
+    document_.paths.push_back({{own, name_, {}}, std::move(path), 0});
   }
-  if (anchors > 0) document.skipped.push_back(std::to_string(anchors) + " anchors");
-  for (const pugi::xml_node& component : glyph.child("outline").children("component"))
-    document.skipped.push_back(std::string("component ") + component.attribute("base").value() +
-                               ": it lies in another file");
-  return document;
+
+  void add_component(const pugi::xml_node& component, const detail::Affine& outer, int depth) {
+    constexpr int kDeepest = 8;
+    constexpr std::size_t kMost = 10'000;
+    const std::string base = component.attribute("base").value();
+    const auto skip = [&](const char* why) {
+      if (document_.skipped.size() < kMost)
+        document_.skipped.push_back("component " + base + ": " + why);
+    };
+    if (folder_.empty()) return skip("it lies in another file");
+    if (depth == kDeepest || ++components_ > kMost || document_.paths.size() > kMost)
+      return skip("components within components without end");
+    const auto bytes = read_file(folder_ / file_of(base), kLargest);
+    if (!bytes) return skip("its file cannot be read");
+    if ((read_ += bytes->size()) > 4 * kLargest) return skip("components of too much text");
+    pugi::xml_document xml;
+    const auto glyph = parse(xml, *bytes);
+    if (!glyph) return skip("its file is no glyph");
+    const auto value = [&](const char* name, double fallback) {
+      return number(component, name).value_or(fallback);
+    };
+    const detail::Affine own{value("xScale", 1), value("xyScale", 0), value("yxScale", 0),
+                             value("yScale", 1), value("xOffset", 0), value("yOffset", 0)};
+    if (!add(*glyph, *bytes, combined(outer, own), depth + 1)) skip("its file is broken");
+  }
+
+  /// A name without folders, as contents.plist gives it.
+  fs::path file_of(const std::string& base) {
+    if (!contents_) {
+      contents_.emplace();
+      const auto bytes = read_file(folder_ / "contents.plist", kLargest);
+      pugi::xml_document xml;
+      if (bytes && xml.load_buffer(bytes->data(), bytes->size()))
+        for (const pugi::xml_node& key : xml.child("plist").child("dict").children("key"))
+          contents_->emplace(key.text().get(), key.next_sibling("string").text().get());
+    }
+    const auto found = contents_->find(base);
+    return fs::path(found == contents_->end() ? base + ".glif" : found->second).filename();
+  }
+
+  static constexpr std::uintmax_t kLargest = std::uintmax_t{16} << 20;
+
+  fs::path folder_;
+  Document document_;
+  std::string name_;
+  std::optional<std::map<std::string, std::string>> contents_;
+  std::size_t components_ = 0;
+  std::uintmax_t read_ = 0;  ///< bytes of components
+  int anchors_ = 0;
+};
+
+}  // namespace
+
+Result<Document> read_glif(std::string_view bytes, const fs::path& folder) {
+  return GlifReader(folder).read(bytes);
 }
 
 }  // namespace keyline::exchange

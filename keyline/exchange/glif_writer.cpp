@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/markup.h"
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/exchange/glif.h"
 #include "keyline/exchange/glyph_cubics.h"
@@ -94,15 +95,29 @@ std::string contour_text(const Contour& contour, bool grid) {
   return text + "    </contour>\n";
 }
 
+/// The largest jump of curvature at a smooth node, and the curvature it happens at.
+struct Jump {
+  double size = 0;
+  double of = 0;
+};
+
+void take_jumps(Jump& jump, const Contour& contour, bool grid) {
+  const auto& pieces = contour.pieces;
+  for (std::size_t i = contour.closed ? 0 : 1; i < pieces.size(); ++i) {
+    const Bezier2& before = pieces[i == 0 ? pieces.size() - 1 : i - 1];
+    if (!is_smooth(before, pieces[i], grid)) continue;
+    const double a = curvature(jet(before, 1));
+    const double b = curvature(jet(pieces[i], 0));
+    if (std::abs(a - b) > jump.size) jump = {std::abs(a - b), std::max(std::abs(a), std::abs(b))};
+  }
+}
+
 /// Code point of a name that is one character, as hexadecimal digits; else empty.
 std::string code_of(const std::string& name) {
   if (name.empty() || !core::is_utf8(name)) return {};
-  const auto first = static_cast<unsigned char>(name[0]);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  std::size_t length = 0;
+  const unsigned code = core::code_point(name, length);
   if (name.size() != length) return {};
-  unsigned code = length == 1 ? first : first & (0xffU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i)
-    code = code << 6 | (static_cast<unsigned char>(name[i]) & 0x3f);
   std::string digits;
   for (int shift = 20; shift >= 0; shift -= 4)
     if (shift < 16 || (code >> shift) != 0) digits += "0123456789ABCDEF"[(code >> shift) & 15];
@@ -124,16 +139,21 @@ core::Result<Written> write_glif(const document::Document& document, const GlifO
   text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<glyph name=\"" + safe + "\" format=\"2\">\n";
   double right = 0;
   std::string outline;
+  Jump jump;
   for (const auto& named : document.paths) {
     const Contour contour = contour_of(named.path, options, written.deviation);
     if (contour.pieces.empty()) continue;
     for (const Bezier2& piece : contour.pieces) right = std::max(right, piece.control.back().x);
     outline += contour_text(contour, options.grid);
+    take_jumps(jump, contour, options.grid);
   }
   text += "  <advance width=\"" + number(std::ceil(right)) + "\"/>\n";
   if (const std::string code = code_of(name); !code.empty())
     text += "  <unicode hex=\"" + code + "\"/>\n";
   text += "  <outline>\n" + outline + "  </outline>\n</glyph>\n";
+  if (std::isfinite(jump.size) && jump.size > 1e-9 * jump.of)
+    written.notes.push_back("curvature jumps by at most " + core::number_text(jump.size, 3) +
+                            " (of " + core::number_text(jump.of, 3) + ") at smooth nodes");
   const std::size_t left_out = document.space_curves.size() + document.surfaces.size();
   if (left_out > 0)
     written.notes.push_back(std::to_string(left_out) + " things in space are not in the glyph");

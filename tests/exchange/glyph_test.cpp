@@ -1,5 +1,8 @@
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,6 +24,31 @@ using testing::HasSubstr;
 
 const Bezier2& piece(const Document& d, std::size_t path, std::size_t i) {
   return std::get<Bezier2>(d.paths.at(path).path.curves.at(i).value);
+}
+
+TEST(Glif, ComponentsComeFromTheFolderWithTheirTransforms) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("keyline-glif-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const auto file = [&](const char* name, const std::string& outline) {
+    std::ofstream(folder / name) << "<glyph name='" << name << "'><outline>" << outline
+                                 << "</outline></glyph>";
+  };
+  std::ofstream(folder / "contents.plist")
+      << "<plist><dict><key>acute</key><string>../x/acute_.glif</string></dict></plist>";
+  file("acute_.glif",
+       "<contour><point x='0' y='0' type='move'/><point x='1' y='2' type='line'/>"
+       "</contour>");
+  file("e.glif", "<component base='acute' xScale='2' xyScale='1' xOffset='10'/>");
+  file("loop.glif", "<component base='loop'/><component base='loop'/><component base='none'/>");
+  const auto read = read_document(folder / "e.glif");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->paths.size(), 1U);
+  EXPECT_EQ(evaluate(read->paths[0].path, 0), (core::Point2{10, 0}));
+  EXPECT_EQ(evaluate(read->paths[0].path, 1), (core::Point2{12, 3}));
+  EXPECT_FALSE(read_document(folder / "loop.glif"));
+  fs::remove_all(folder);
 }
 
 TEST(Glif, ReadsEveryKindOfContour) {

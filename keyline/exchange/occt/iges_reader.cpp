@@ -1,4 +1,5 @@
 #include <IGESAppli_LevelFunction.hxx>
+#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_ColorEntity.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -6,7 +7,11 @@
 #include <IGESData_IGESModel.hxx>
 #include <IGESGraph_Color.hxx>
 #include <Interface_Static.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -60,6 +65,7 @@ Label label_of(const Handle(IGESData_IGESEntity) & entity, const Levels& levels)
   Label label;
   label.name = entity->HasName() ? trimmed(entity->NameValue()) : std::string();
   if (label.name.empty() && entity->HasShortLabel()) label.name = trimmed(entity->ShortLabel());
+  if (label.name.ends_with("(0)")) label.name.resize(label.name.size() - 3);  // no subscript
   if (const int level = entity->Level(); level > 0) {
     const auto named = levels.find(level);
     label.layer = named == levels.end() ? std::to_string(level) : named->second;
@@ -86,6 +92,24 @@ const char* unit_of(int flag) {
   }
 }
 
+/// Says which roots became no shapes, by label and entity type.
+void note_unread(IGESControl_Reader& reader, document::Document& document) {
+  constexpr int kMost = 1000;
+  const auto process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= std::min(reader.NbRootsForTransfer(), kMost); ++i) {
+    const auto root = Handle(IGESData_IGESEntity)::DownCast(reader.RootForTransfer(i));
+    if (root.IsNull() || !TransferBRep::ShapeResult(process, root).IsNull()) continue;
+    const std::string name = label_of(root, {}).name;
+    const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(root);
+    const bool scaled =
+        !instance.IsNull() && instance->HasScaleFactor() && instance->ScaleFactor() != 1;
+    document.skipped.push_back(
+        (name.empty() ? "a thing" : name) + " (IGES entity " + std::to_string(root->TypeNumber()) +
+        "): " +
+        (scaled ? "scaled instances are not read" : "no curve or surface that can be read"));
+  }
+}
+
 }  // namespace
 
 document::Document read_iges(const std::string& file) {
@@ -101,9 +125,7 @@ document::Document read_iges(const std::string& file) {
   Interface_Static::SetIVal("read.iges.bspline.continuity", 0);  // splines stay whole
   const int roots = reader.NbRootsForTransfer();
   const int done = reader.TransferRoots();
-  if (done < roots)
-    document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
-                               " things are no curves or surfaces that can be read");
+  if (done < roots) note_unread(reader, document);
   const Levels levels = levels_of(reader.IGESModel());
   const PartLabels labels(reader.WS(), [&](const Handle(Standard_Transient) & entity) {
     const auto own = Handle(IGESData_IGESEntity)::DownCast(entity);

@@ -164,7 +164,8 @@ void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
 }
 
 void ShapeWalk::finish() {
-  if (points_ > 0) document_.skipped.push_back(std::to_string(points_) + " points");
+  if (points_ > 0)
+    document_.skipped.push_back(std::to_string(points_) + (points_ == 1 ? " point" : " points"));
 }
 
 }  // namespace keyline::exchange::occt
