@@ -56,8 +56,10 @@ bool read_header(Reader& r, std::string_view bytes) {
   return true;
 }
 
-/// One decoded row to luminance. CMYK files hold inverted inks (Adobe's habit).
-void convert_row(const unsigned char* in, int components, int width, std::uint16_t* out) {
+/// One decoded row to luminance. CMYK files with Adobe's marker hold inverted inks.
+void convert_row(const unsigned char* in, int components, bool inverted, int width,
+                 std::uint16_t* out) {
+  const auto light = [inverted](unsigned char ink) { return inverted ? ink : 255 - ink; };
   for (int x = 0; x < width; ++x) {
     const unsigned char* p = in + static_cast<std::ptrdiff_t>(x) * components;
     if (components == 1) {
@@ -65,8 +67,8 @@ void convert_row(const unsigned char* in, int components, int width, std::uint16
     } else if (components == 3) {
       out[x] = luminance(p[0] * 257.0, p[1] * 257.0, p[2] * 257.0);
     } else {
-      const double k = p[3] / 255.0;
-      out[x] = luminance(p[0] * k * 257, p[1] * k * 257, p[2] * k * 257);
+      const double k = light(p[3]) / 255.0 * 257;
+      out[x] = luminance(light(p[0]) * k, light(p[1]) * k, light(p[2]) * k);
     }
   }
 }
@@ -77,7 +79,8 @@ bool read_pixels(Reader& r, Image& image, unsigned char* row) {
   while (r.info.output_scanline < r.info.output_height && !r.truncated) {
     const auto y = static_cast<int>(r.info.output_scanline);
     jpeg_read_scanlines(&r.info, &row, 1);
-    convert_row(row, r.info.output_components, image.width(), &image.luminance.at(0, y));
+    convert_row(row, r.info.output_components, r.info.saw_Adobe_marker, image.width(),
+                &image.luminance.at(0, y));
   }
   return !r.truncated;
 }

@@ -76,6 +76,13 @@ bool read_pixels(png_structp png, png_infop info, png_bytep* rows, std::size_t r
   return true;
 }
 
+/// Chunks that say nothing about the pixels are passed over; libpng would make room for what their
+/// headers state, whatever its limits.
+void skip_texts(png_structp png) {
+  static constexpr png_byte kNames[] = "tEXt\0zTXt\0iTXt\0iCCP\0sPLT\0hIST\0pCAL\0sCAL";
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, kNames, sizeof kNames / 5);
+}
+
 }  // namespace
 
 Result<Image> read_png(std::string_view bytes) {
@@ -86,6 +93,7 @@ Result<Image> read_png(std::string_view bytes) {
   png_set_read_fn(reader.png, &source, read_bytes);
   png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);
   png_set_chunk_malloc_max(reader.png, 8u << 20);
+  skip_texts(reader.png);
   if (!read_header(reader.png, reader.info)) return damaged(source.message);
   const std::int64_t width = png_get_image_width(reader.png, reader.info);
   const std::int64_t height = png_get_image_height(reader.png, reader.info);

@@ -181,6 +181,10 @@ Result<Image> read_tiff(std::string_view bytes) {
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
   const Layout layout = layout_of(tiff.get());
+  if (layout.bits > 16)
+    return core::fail(core::ErrorCode::unsupported,
+                      "the TIFF picture has " + std::to_string(layout.bits) + " bits per sample",
+                      "save it with 8 or 16");
   // fax and deflate pack a thousandfold at the best
   const double raw = static_cast<double>(width) * height * layout.bits * layout.samples / 8;
   auto image = new_image(width, height, raw / 4000, bytes.size());

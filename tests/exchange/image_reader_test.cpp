@@ -45,8 +45,16 @@ void expect_pixels(const core::Result<sketch::Image>& image, double tolerance) {
       ASSERT_NEAR(image->luminance.at(x, y), expected(x, y), tolerance) << x << ", " << y;
 }
 
+/// An EXIF block that states nothing but the orientation.
+std::string exif(int orientation) {
+  std::string e("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19);
+  e += static_cast<char>(orientation);
+  e += std::string(6, '\0');
+  return e;
+}
+
 std::string png_of(int color_type, int depth, const std::vector<unsigned char>& bytes, int width,
-                   int height, bool interlaced = false) {
+                   int height, bool interlaced = false, int orientation = 0) {
   std::string out;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
@@ -59,6 +67,10 @@ std::string png_of(int color_type, int depth, const std::vector<unsigned char>& 
   png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth,
                color_type, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  std::string block = exif(orientation);
+  if (orientation > 0)
+    png_set_eXIf_1(png, info, static_cast<png_uint_32>(block.size()),
+                   reinterpret_cast<png_bytep>(block.data()));
   png_set_pHYs(png, info, 4000, 4000, PNG_RESOLUTION_METER);
   const std::size_t row = bytes.size() / static_cast<std::size_t>(height);
   std::vector<png_bytep> rows;
@@ -68,14 +80,6 @@ std::string png_of(int color_type, int depth, const std::vector<unsigned char>& 
   png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
   png_destroy_write_struct(&png, &info);
   return out;
-}
-
-/// An EXIF block that states nothing but the orientation.
-std::string exif(int orientation) {
-  std::string e("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19);
-  e += static_cast<char>(orientation);
-  e += std::string(6, '\0');
-  return e;
 }
 
 std::string jpeg_of(const std::vector<unsigned char>& rgb, int orientation = 0) {
@@ -174,6 +178,65 @@ std::string webp_of() {
   return out;
 }
 
+std::string webp_chunk(const char* name, std::string data) {
+  std::string out(name);
+  for (int k = 0; k < 4; ++k) out += static_cast<char>(data.size() >> 8 * k & 255);
+  if (data.size() % 2 == 1) data += '\0';
+  return out + data;
+}
+
+/// The extended form: a header chunk, the pixels, EXIF.
+std::string webp_with_exif(int orientation) {
+  std::string header(10, '\0');
+  header[0] = 8;
+  header[4] = kWidth - 1;
+  header[7] = kHeight - 1;
+  return webp_chunk("RIFF", "WEBP" + webp_chunk("VP8X", header) + webp_of().substr(12) +
+                                webp_chunk("EXIF", exif(orientation)));
+}
+
+/// Pixels of the test picture as inks, with or without the marker that says they are inverted.
+std::string cmyk_jpeg(bool adobe) {
+  jpeg_compress_struct info{};
+  jpeg_error_mgr errors{};
+  info.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&info);
+  unsigned char* data = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&info, &data, &size);
+  info.image_width = kWidth;
+  info.image_height = kHeight;
+  info.input_components = 4;
+  info.in_color_space = JCS_CMYK;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, 100, TRUE);
+  info.write_Adobe_marker = adobe ? TRUE : FALSE;
+  jpeg_start_compress(&info, TRUE);
+  const auto rgb = rgb_pixels();
+  std::vector<unsigned char> line(4 * kWidth);
+  for (std::size_t y = 0; y < kHeight; ++y) {
+    for (std::size_t x = 0; x < kWidth; ++x)
+      for (std::size_t c = 0; c < 4; ++c) {
+        const unsigned char v = c < 3 ? rgb[3 * (y * kWidth + x) + c] : 255;
+        line[4 * x + c] = adobe ? v : static_cast<unsigned char>(255 - v);
+      }
+    JSAMPROW row = line.data();
+    jpeg_write_scanlines(&info, &row, 1);
+  }
+  jpeg_finish_compress(&info);
+  std::string out(reinterpret_cast<char*>(data), size);
+  jpeg_destroy_compress(&info);
+  std::free(data);
+  return out;
+}
+
+TEST(ImageReader, ReadsInks) {
+  for (const bool adobe : {true, false}) {
+    SCOPED_TRACE(adobe);
+    expect_pixels(read_image(cmyk_jpeg(adobe)), 1100);
+  }
+}
+
 TEST(ImageReader, ReadsEveryFormatAndDepth) {
   const auto rgb = rgb_pixels();
   expect_pixels(read_image(png_of(PNG_COLOR_TYPE_RGB, 8, rgb, kWidth, kHeight)), 300);
@@ -236,8 +299,10 @@ TEST(ImageReader, TurnsPicturesUpright) {
   };
   for (const Case& c : kCases) {
     SCOPED_TRACE(c.orientation);
-    for (const auto& bytes : {jpeg_of(rgb_pixels(), c.orientation), tiff_of(16, 3, c.orientation),
-                              tiff_of(8, 3, c.orientation)}) {
+    for (const auto& bytes :
+         {jpeg_of(rgb_pixels(), c.orientation), tiff_of(16, 3, c.orientation),
+          tiff_of(8, 3, c.orientation), webp_with_exif(c.orientation),
+          png_of(PNG_COLOR_TYPE_RGB, 8, rgb_pixels(), kWidth, kHeight, false, c.orientation)}) {
       const auto image = read_image(bytes);
       ASSERT_TRUE(image) << image.error().message;
       ASSERT_EQ(image->width(), c.turned ? kHeight : kWidth);
