@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/lac/arm.h"
 #include "keyline/lac/chord_search.h"
+#include "keyline/lac/slope.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::lac {
@@ -170,8 +171,7 @@ double Family::limit_chord_angle() const {
 }
 
 bool is_valid(const CompoundRhythm& r) {
-  return std::isfinite(r.alpha0) && std::isfinite(r.alpha1) && r.turning_share > 0 &&
-         r.turning_share < 1;
+  return is_slope(r.alpha0) && is_slope(r.alpha1) && r.turning_share > 0 && r.turning_share < 1;
 }
 
 std::string number(double x) { return core::number_text(x, 9); }
@@ -206,8 +206,8 @@ std::unexpected<core::Failure> undrawable(const CompoundRhythm& r, double theta,
 }
 
 core::Result<void> check(const HandleAngles& angles, const CompoundRhythm& rhythm) {
-  if (!std::isfinite(rhythm.alpha0) || !std::isfinite(rhythm.alpha1)) {
-    return core::fail(ErrorCode::bad_input, "both slopes must be finite numbers");
+  if (!is_slope(rhythm.alpha0) || !is_slope(rhythm.alpha1)) {
+    return core::fail(ErrorCode::bad_input, "both slopes must lie between -1e100 and 1e100");
   }
   if (!is_valid(rhythm)) {
     return core::fail(ErrorCode::bad_input, "the share of the turning must lie between 0 and 1");

@@ -7,6 +7,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
 #include "keyline/lac/one_signed.h"
+#include "keyline/lac/slope.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::lac {
@@ -190,8 +191,8 @@ std::optional<std::array<Piece, 2>> detail::solve_inflecting_arms(double from, d
 
 core::Result<SegmentSolution> solve_g1_directions(const Pose2& start, const Pose2& end,
                                                   double alpha) {
-  if (!std::isfinite(alpha)) {
-    return core::fail(ErrorCode::bad_input, "the slope alpha must be a finite number", {}, "alpha");
+  if (!is_slope(alpha)) {
+    return core::fail(ErrorCode::bad_input, kSlopeRule, {}, "alpha");
   }
   if (!is_finite(start.position) || !is_finite(end.position) || !std::isfinite(start.direction) ||
       !std::isfinite(end.direction)) {

@@ -10,6 +10,7 @@
 #include "keyline/lac/g2_shooting.h"
 #include "keyline/lac/hermite.h"
 #include "keyline/lac/piece_shape.h"
+#include "keyline/lac/slope.h"
 
 namespace keyline::lac {
 namespace {
@@ -234,8 +235,8 @@ std::unexpected<core::Failure> no_chain(const UnitG2& request, double chord, con
 
 core::Result<void> checked(const CurvatureElement& start, const CurvatureElement& end,
                            double alpha) {
-  if (!std::isfinite(alpha)) {
-    return core::fail(ErrorCode::bad_input, "the slope alpha must be a finite number", {}, "alpha");
+  if (!is_slope(alpha)) {
+    return core::fail(ErrorCode::bad_input, kSlopeRule, {}, "alpha");
   }
   for (const auto* e : {&start, &end}) {
     if (!is_finite(e->pose.position) || !std::isfinite(e->pose.direction) ||

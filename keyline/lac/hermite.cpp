@@ -8,6 +8,7 @@
 #include "keyline/lac/chord_kernel.h"
 #include "keyline/lac/one_signed.h"
 #include "keyline/lac/region.h"
+#include "keyline/lac/slope.h"
 
 namespace keyline::lac {
 namespace {
@@ -118,8 +119,8 @@ core::Result<SegmentSolution> solve_g1(const HandleAngles& angles, double alpha)
 namespace detail {
 
 core::Result<SegmentSolution> solve_one_signed(const HandleAngles& angles, double alpha) {
-  if (!std::isfinite(alpha)) {
-    return core::fail(ErrorCode::bad_input, "the slope alpha must be a finite number", {}, "alpha");
+  if (!is_slope(alpha)) {
+    return core::fail(ErrorCode::bad_input, kSlopeRule, {}, "alpha");
   }
   const double sign = angles.turning < 0 ? -1 : 1;
   const double theta = sign * angles.turning;

@@ -7,6 +7,7 @@
 #include "keyline/lac/deviation.h"
 #include "keyline/lac/quasi_forms.h"
 #include "keyline/lac/quasi_hermite.h"
+#include "keyline/lac/slope.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
@@ -132,7 +133,7 @@ Result<Segment> standard_segment(double alpha, double lambda, const core::Interv
   const auto bad = [](const char* message, const char* path) {
     return core::fail(ErrorCode::bad_input, message, "", path);
   };
-  if (!std::isfinite(alpha)) return bad("the slope alpha must be a finite number", "alpha");
+  if (!is_slope(alpha)) return bad(kSlopeRule, "alpha");
   if (!std::isfinite(lambda)) return bad("lambda must be a finite number", "lambda");
   if (!std::isfinite(angles.low) || !std::isfinite(angles.high) || !(angles.low < angles.high))
     return bad("the interval of tangent angle must be two growing finite numbers", "interval");

@@ -5,13 +5,15 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/chord_kernel.h"
+#include "keyline/lac/slope.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::lac {
 
 core::Interval drawable_region(double alpha, double theta) {
-  if (!std::isfinite(alpha) || !(theta > 0 && theta < core::kPi)) {
-    throw core::InvalidInput("drawable_region: alpha must be finite, theta in (0, pi)");
+  if (!is_slope(alpha) || !(theta > 0 && theta < core::kPi)) {
+    throw core::InvalidInput(
+        "drawable_region: alpha must lie between -1e100 and 1e100, theta in (0, pi)");
   }
   const double limit = detail::limit_chord_angle(alpha, theta);
   return {theta - limit, limit};

@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/arm.h"
+#include "keyline/lac/slope.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
@@ -78,7 +79,7 @@ Reached reach(const detail::Arm& arm, double f) {
 
 core::Result<void> validate(const Piece& piece) {
   const auto bad = [](const char* message) { return core::fail(ErrorCode::bad_input, message); };
-  if (!std::isfinite(piece.alpha)) return bad("the slope alpha must be a finite number");
+  if (!is_slope(piece.alpha)) return bad(kSlopeRule);
   if (!(piece.length > 0) || std::isinf(piece.length)) return bad("the length must be positive");
   if (const char* rule = broken_rule(piece)) return bad(rule);
   if (!(std::abs(total_turning(piece)) <= kLargestTurning)) {

@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/lac/g2_hermite.h"
 #include "keyline/lac/piece_shape.h"
+#include "keyline/lac/slope.h"
 #include "keyline/lac/spline_local.h"
 #include "keyline/lac/spline_newton.h"
 
@@ -57,8 +58,8 @@ core::Result<void> check_options(const SplineOptions& options, std::size_t spans
                       {}, "alpha");
   }
   for (std::size_t i = 0; i < options.alpha.size(); ++i) {
-    if (!std::isfinite(options.alpha[i])) {
-      return core::fail(ErrorCode::bad_input, "the slope alpha must be a finite number", {},
+    if (!is_slope(options.alpha[i])) {
+      return core::fail(ErrorCode::bad_input, kSlopeRule, {},
                         options.alpha.size() > 1 ? item("alpha", i) : "alpha");
     }
   }

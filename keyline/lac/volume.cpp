@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/slope.h"
 #include "keyline/numeric/quadrature.h"
 #include "keyline/numeric/roots.h"
 
@@ -77,8 +78,8 @@ core::Result<void> checked(const Pose2& start, core::Point2 end, double alpha, d
   if (!is_finite(start.position) || !std::isfinite(start.direction) || !is_finite(end)) {
     return core::fail(ErrorCode::bad_input, "a position or direction is not finite");
   }
-  if (!std::isfinite(alpha)) {
-    return core::fail(ErrorCode::bad_input, "the slope alpha must be a finite number", {}, "alpha");
+  if (!is_slope(alpha)) {
+    return core::fail(ErrorCode::bad_input, kSlopeRule, {}, "alpha");
   }
   if (!(volume >= 0) || std::isinf(volume)) {
     return core::fail(ErrorCode::bad_input, "the volume must be a number from 0 on", {}, "volume");

@@ -88,5 +88,14 @@ TEST(SolveVolume, RefusesBadInput) {
   EXPECT_EQ(solve_volume({{0, 0}, 0}, {1, 0}, -1, 1).error().code, ErrorCode::undrawable);
 }
 
+TEST(SolveVolume, SlopesThatOverflowAreRefused) {
+  for (const double alpha : {-1e300, 1e154, 1e300}) {
+    const auto volume = solve_volume({{0, 0}, 0.6}, {2, 0}, alpha, 0.4);
+    ASSERT_FALSE(volume) << alpha;
+    EXPECT_EQ(volume.error().path, "alpha");
+    EXPECT_FALSE(solve_g1({0, 0}, {2, 0}, {3, 1.5}, alpha)) << alpha;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::lac
