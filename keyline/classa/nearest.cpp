@@ -108,7 +108,8 @@ struct Place {
 };
 
 Place place_at(double alpha, double log_s, int degree, const std::vector<Complex>& points) {
-  return {alpha, log_s, squares(misfits({alpha, log_s, degree}, points))};
+  const double cost = squares(misfits({alpha, log_s, degree}, points));
+  return {alpha, log_s, std::isfinite(cost) ? cost : HUGE_VAL};  // sorted by it: no NaN
 }
 
 std::vector<Place> best_of_grid(int degree, const std::vector<Complex>& points,
@@ -176,24 +177,10 @@ double farthest(const curve::Bezier2& from, const curve::Bezier2& to) {
   return most;
 }
 
-}  // namespace
-
-std::optional<NearestCurve> nearest_matrix_curve(const curve::Bezier2& given,
-                                                 const NearestOptions& options) {
+/// Precondition: a chord.
+std::optional<NearestCurve> nearest_from_start(const curve::Bezier2& given,
+                                               const NearestOptions& options) {
   const int degree = curve::degree(given);
-  double size = 0;
-  for (const Point2& p : given.control) size = std::max(size, distance(p, given.control.front()));
-  if (degree < 2 || distance(given.control.front(), given.control.back()) <= 1e-9 * size)
-    return std::nullopt;
-  if (edges_shrink(given.control)) {  // the same search from either end
-    auto back = nearest_matrix_curve(reverse(given), options);
-    if (back)
-      *back = {{-back->matrix.alpha, 1 / back->matrix.s},
-               reverse(back->curve),
-               back->distance,
-               back->rms};
-    return back;
-  }
   const Samples samples = sample_even(given);
   Place best;
   for (const Place& start : best_of_grid(degree, samples.points, options)) {
@@ -206,6 +193,23 @@ std::optional<NearestCurve> nearest_matrix_curve(const curve::Bezier2& given,
   nearest.distance = std::max(farthest(given, nearest.curve), farthest(nearest.curve, given));
   nearest.rms = samples.chord * std::sqrt(best.cost / kSamples);
   return nearest;
+}
+
+}  // namespace
+
+std::optional<NearestCurve> nearest_matrix_curve(const curve::Bezier2& given,
+                                                 const NearestOptions& options) {
+  double size = 0;
+  for (const Point2& p : given.control) size = std::max(size, distance(p, given.control.front()));
+  if (curve::degree(given) < 2 ||
+      distance(given.control.front(), given.control.back()) <= 1e-9 * size)
+    return std::nullopt;
+  if (!edges_shrink(given.control)) return nearest_from_start(given, options);
+  auto back = nearest_from_start(reverse(given), options);  // the same search from either end
+  if (back)
+    *back = {
+        {-back->matrix.alpha, 1 / back->matrix.s}, reverse(back->curve), back->distance, back->rms};
+  return back;
 }
 
 }  // namespace keyline::classa
