@@ -12,7 +12,6 @@
 namespace keyline::classa {
 namespace {
 
-using core::kPi;
 
 /// Arc of a circle, exactly: radius r, the angle as parameter.
 struct Arc {

@@ -11,7 +11,6 @@ namespace keyline::curve {
 namespace {
 
 using core::Point2;
-using core::Vector2;
 
 TEST(Bezier, QuarterCircleIsExact) {
   const Bezier2 arc = quarter_circle();

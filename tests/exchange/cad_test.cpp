@@ -52,7 +52,8 @@ Document sample() {
   d.space_curves.push_back({{"rail", "", ""}, {rail}});
   surface::BSplineSurface s{{2, 1}, {{{0, 0, 0, 1, 1, 1}, {0, 0, 2, 3, 3}}}, {3, 3, {}}, {}};
   for (int i = 0; i < 9; ++i) {
-    s.net.points.push_back({double(i / 3), double(i % 3), std::sin(i)});
+    const int row = i / 3;
+    s.net.points.push_back({double(row), double(i % 3), std::sin(i)});
     s.weights.push_back(i == 4 ? 2 : 1);
   }
   d.surfaces.push_back({{"hood", "", ""}, s, 0});

@@ -395,7 +395,7 @@ TEST(ImageReader, RefusesWhatIsNoPicture) {
   expect_bad("just text in a file named .png\n");
   expect_bad(std::string("\x89PNG\r\n\x1a\n", 8));
   expect_bad(std::string("II*\0", 4));
-  expect_bad("RIFF\0\0\0\0WEBP");
+  expect_bad(std::string("RIFF") + std::string(4, '\0') + "WEBP");
   const auto folder = read_image_file(fs::temp_directory_path());
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.error().code, core::ErrorCode::io);

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <unistd.h>
@@ -64,10 +65,10 @@ TEST(WriteAtomically, FailureKeepsWhatWasThere) {
   });
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, core::ErrorCode::cancelled);
-  EXPECT_THROW(
-      (void)write_atomically(
-          file, [](std::ostream&) -> core::Result<void> { throw std::runtime_error("broken"); }),
-      std::runtime_error);
+  const auto broken = [](std::ostream&) -> core::Result<void> {
+    throw std::runtime_error("broken");
+  };
+  EXPECT_THROW(std::ignore = write_atomically(file, broken), std::runtime_error);
   const auto bad = write_atomically(file, [](std::ostream& out) -> core::Result<void> {
     out.setstate(std::ios::badbit);
     return {};

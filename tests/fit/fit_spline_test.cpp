@@ -97,7 +97,8 @@ TEST(FitFunction, UnsortedAndRepeatedAbscissae) {
   std::vector<double> x;
   std::vector<double> y;
   for (int i = 0; i < 60; ++i) {
-    x.push_back((i * 37) % 60 / 2);  // each value twice, out of order
+    const int half = (i * 37) % 60 / 2;  // each value twice, out of order
+    x.push_back(half);
     y.push_back(std::sin(x.back() / 5));
   }
   const auto fit = fit_function(x, y, {}, small_budget());

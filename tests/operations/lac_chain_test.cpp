@@ -112,7 +112,7 @@ TEST(LacQuasi, DrawsEveryFormFromHandlesAndStandardForm) {
 }
 
 TEST(LacQuasi, ChoosesThePlaceAndRefusesNonsense) {
-  const auto path = [](json changes) {
+  const auto path = [](const json& changes) {
     json request{{"op", "lac.quasi"}, {"points", {{0, 0}, {2, 0}, {3, 1.5}}}, {"alpha", -1}};
     request.update(changes);
     const json answer = asked(request);

@@ -93,7 +93,7 @@ TEST(LacCompound, AnswersTheReferenceTable) {
 }
 
 TEST(LacCompound, RefusesBadRatiosAndCounts) {
-  const auto path = [](json changes) {
+  const auto path = [](const json& changes) {
     json request{{"points", {{0, 0}, {2, 0}, {3, 1.5}}}, {"alpha", {-1, 1.5}}, {"ratio", 0.4}};
     request.update(changes);
     const auto result = perform("lac.compound", request, {});
