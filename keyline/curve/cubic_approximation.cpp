@@ -11,7 +11,6 @@
 namespace keyline::curve {
 
 using core::Point2;
-using core::Vector2;
 using detail::Coefficients;
 using detail::Cubic;
 

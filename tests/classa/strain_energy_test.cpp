@@ -12,7 +12,6 @@
 namespace keyline::classa {
 namespace {
 
-
 /// Arc of a circle, exactly: radius r, the angle as parameter.
 struct Arc {
   double radius, angle;
