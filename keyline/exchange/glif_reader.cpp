@@ -185,7 +185,8 @@ class GlifReader {
       return skip("components within components without end");
     const auto bytes = read_file(folder_ / file_of(base), kLargest);
     if (!bytes) return skip("its file cannot be read");
-    if ((read_ += bytes->size()) > 4 * kLargest) return skip("components of too much text");
+    read_ += bytes->size();
+    if (read_ > 4 * kLargest) return skip("components of too much text");
     pugi::xml_document xml;
     const auto glyph = parse(xml, *bytes);
     if (!glyph) return skip("its file is no glyph");
