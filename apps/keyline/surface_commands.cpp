@@ -29,13 +29,31 @@ std::string name_of(const document::Document& document, std::size_t i) {
   return name.empty() ? fmt::format("surface {}", i + 1) : name;
 }
 
+/// The nearest curves of one matrix: of every patch, or of many patches of the worst alone.
+void find_nearest(SurfaceSubject& subject, int threads, const core::Progress& progress) {
+  constexpr std::size_t kMostPatches = 16;
+  auto& values = subject.values;
+  if (values.size() <= kMostPatches) {
+    surface::add_nearest(subject.surface, values, {}, threads, progress);
+    return;
+  }
+  const auto worst =
+      std::max_element(values.begin(), values.end(),
+                       [](const auto& a, const auto& b) { return a.value.sav < b.value.sav; });
+  std::vector<surface::PatchValue> alone{*worst};
+  surface::add_nearest(subject.surface, alone, {}, threads, progress);
+  *worst = std::move(alone.front());
+}
+
 /// Value of a surface; one that has none (rational, say) says why instead.
 Result<SurfaceSubject> valued(std::string name, const surface::Surface& s,
                               const AnalyzeCommand& command, const core::Progress& progress) {
   SurfaceSubject subject{std::move(name), s, {}, {}, 0};
-  auto values = surface::sav_by_patch(s, {}, command.common.threads, progress);
+  auto values =
+      surface::sav_by_patch(s, {}, command.common.threads, core::part_of(progress, 0, 0.3));
   if (values) {
     subject.values = std::move(*values);
+    find_nearest(subject, command.common.threads, core::part_of(progress, 0.3, 1));
     return subject;
   }
   if (values.error().code == core::ErrorCode::cancelled) return std::unexpected(values.error());
@@ -68,26 +86,31 @@ std::string text_of(const json& number) {
 }
 
 void print_curves(const json& curves) {
-  fmt::print("{:>8} {:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}\n", "patch", "curve", "type",
-             "CAV", "alpha", "s", "least a", "least s", "energy");
+  const bool nearest = std::any_of(curves.begin(), curves.end(),
+                                   [](const json& c) { return c.contains("nearest"); });
+  fmt::print("{:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}{}\n", "curve", "type", "CAV",
+             "alpha", "s", "least a", "least s", "energy",
+             nearest ? fmt::format(" {:>12} {:>9}", "nearest away", "its CAV") : "");
   for (const json& c : curves) {
     const json least = c["minimum"].is_object() ? c["minimum"] : json::object();
-    const std::string patch = c.contains("patch") ? fmt::format("{},{}", c["patch"][0].get<int>(),
-                                                                c["patch"][1].get<int>())
-                                                  : "";
-    fmt::print("{:>8} {:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}\n", patch,
+    const std::string beside = c.contains("nearest")
+                                   ? fmt::format(" {:>12} {:>9}", text_of(c["nearest"]["distance"]),
+                                                 text_of(c["nearest"]["cav"]))
+                                   : "";
+    fmt::print("{:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}{}\n",
                c["name"].get<std::string>(), c["type"].get<int>(), text_of(c["cav"]),
                text_of(c["alpha"]), text_of(c["s"]), text_of(least.value("alpha", json())),
-               text_of(least.value("s", json())), text_of(c["energy"]));
+               text_of(least.value("s", json())), text_of(c["energy"]), beside);
   }
 }
 
 void print_patches(const json& patches) {
-  fmt::print("{:>8} {:>10} {:>6}\n", "patch", "SAV", "worst");
+  fmt::print("{:>8} {:>10} {:>6} {:>11}\n", "patch", "SAV", "worst", "of nearest");
   for (const json& p : patches)
-    fmt::print("{:>8} {:>10} {:>6}\n",
+    fmt::print("{:>8} {:>10} {:>6} {:>11}\n",
                fmt::format("{},{}", p["patch"][0].get<int>(), p["patch"][1].get<int>()),
-               text_of(p["sav"]), p["worst"].get<std::string>());
+               text_of(p["sav"]), p["worst"].get<std::string>(),
+               text_of(p.value("nearest_sav", json())));
 }
 
 void print_summary(const json& result) {
@@ -108,7 +131,11 @@ void print_summary(const json& result) {
           ? fmt::format(" of patch {},{}", result["worst_patch"][0].get<int>(),
                         result["worst_patch"][1].get<int>())
           : "";
-  fmt::print("SAV {}  worst curve {}{}\n", text_of(result["sav"]),
+  const std::string nearest =
+      result.contains("nearest_sav")
+          ? fmt::format("  of the nearest curves {}", text_of(result["nearest_sav"]))
+          : "";
+  fmt::print("SAV {}{}  worst curve {}{}\n", text_of(result["sav"]), nearest,
              result["worst"].get<std::string>(), where);
   if (result.contains("patches"))
     print_patches(result["patches"]);

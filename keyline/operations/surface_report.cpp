@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,12 @@ namespace {
 constexpr std::size_t kMostPatchRows = 400;
 
 std::string number(double x, int digits = 4) { return figure::short_number(x, digits); }
+
+/// How far the nearest curve of one matrix lies and what it is worth, after the other cells.
+void add_nearest_cells(const surface::NetworkValue& c, std::vector<std::string>& cells) {
+  cells.push_back(c.nearest ? number(c.nearest->nearest.distance) : "");
+  cells.push_back(c.nearest && c.nearest->value ? number(c.nearest->value->cav) : "");
+}
 
 std::vector<std::string> curve_row(const surface::NetworkValue& c) {
   const classa::CurveValue& v = c.value;
@@ -53,7 +60,16 @@ report::ReportTable curve_table(const SurfaceValue& value, const std::string& ca
                    {"Energy"},
                    {"Energy least"},
                    {"Monotone", Alignment::text}};
-  for (const surface::NetworkValue& c : value.curves) table.rows.push_back(curve_row(c));
+  const bool nearest = std::any_of(value.curves.begin(), value.curves.end(),
+                                   [](const auto& c) { return c.nearest.has_value(); });
+  if (nearest) {
+    table.columns.push_back({"Nearest away"});
+    table.columns.push_back({"CAV of nearest"});
+  }
+  for (const surface::NetworkValue& c : value.curves) {
+    table.rows.push_back(curve_row(c));
+    if (nearest) add_nearest_cells(c, table.rows.back());
+  }
   return table;
 }
 
@@ -78,6 +94,18 @@ const PatchValue& worst_patch(const std::vector<PatchValue>& values) {
   return *std::max_element(
       values.begin(), values.end(),
       [](const PatchValue& a, const PatchValue& b) { return a.value.sav < b.value.sav; });
+}
+
+/// Sum with the nearest curves in place of types 4 and 5; empty where one is missing.
+std::optional<double> nearest_total(const std::vector<PatchValue>& values) {
+  double sum = 0;
+  for (const PatchValue& p : values)
+    for (const auto& c : p.value.curves) {
+      const bool beside = c.nearest && c.nearest->value;
+      if (c.value.type > 3 && !beside) return std::nullopt;
+      sum += c.value.type > 3 ? c.nearest->value->cav : c.value.cav;
+    }
+  return sum;
 }
 
 double total(const std::vector<PatchValue>& values) {
@@ -154,6 +182,9 @@ void set_head(const SurfaceSubject& subject, const ReportOptions& options, repor
                        subject.values.size() > 1 ? "sum of all patches" : ""},
                       {"Worst curve", worst.curves[worst.worst].name,
                        fmt::format("type {}", worst.curves[worst.worst].value.type)}};
+    if (const auto nearest = nearest_total(subject.values))
+      report.numbers.insert(report.numbers.begin() + 1,
+                            {"SAV of the nearest curves", number(*nearest), "of one matrix each"});
   }
   report.numbers.push_back({"Degrees", fmt::format("{} × {}", net.rows - 1, net.columns - 1), {}});
   report.numbers.push_back({"Bézier patches", std::to_string(grid.patches.size()), {}});

@@ -10,9 +10,15 @@ core::Result<nlohmann::json> run(const nlohmann::json& request, const Context& c
   options.alpha_max = number_or(request, "alpha_max", options.alpha_max);
   options.tolerance = number_or(request, "tolerance", options.tolerance);
   options.end_tolerance = optional_number(request, "end_tolerance");
-  const auto values = surface::sav_by_patch(surface_of(request, "surface"), options,
-                                            context.threads, context.progress);
+  const surface::Surface s = surface_of(request, "surface");
+  const bool nearest = boolean_or(request, "nearest", true);
+  auto values = surface::sav_by_patch(s, options, context.threads,
+                                      core::part_of(context.progress, 0, nearest ? 0.3 : 1));
   if (!values) return std::unexpected(values.error());
+  if (nearest)
+    surface::add_nearest(s, *values, options, context.threads,
+                         core::part_of(context.progress, 0.3, 1));
+  if (context.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   return patch_values_json(*values);
 }
 
@@ -29,7 +35,9 @@ Operation surface_sav_operation() {
        {"alpha_max", Type::number, false, "largest rotation angle of Tab. 2 in radians, 1.0982"},
        {"tolerance", Type::number, false, "in the alpha-s plane: when ratios are one, 1e-6"},
        {"end_tolerance", Type::number, false,
-        "how far the end of a curve's minimum may lie off, a length; 0.01 of its chord"}},
+        "how far the end of a curve's minimum may lie off, a length; 0.01 of its chord"},
+       {"nearest", Type::boolean, false,
+        "beside types 4 and 5 the nearest curve of one matrix: true unless given"}},
       run,
       {{"surface",
         {{"type", "bezier-surface"},

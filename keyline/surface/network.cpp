@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/numeric/parallel.h"
@@ -109,6 +110,27 @@ Result<std::vector<PatchValue>> sav_by_patch(const Surface& s, const CavOptions&
     values.push_back({row, column, std::move(**found[i])});
   }
   return values;
+}
+
+void add_nearest(const Surface& s, std::vector<PatchValue>& values, const CavOptions& options,
+                 int threads, const core::Progress& progress) {
+  const PatchGrid grid = patches_of(s);
+  std::vector<std::pair<PatchValue*, std::size_t>> wanted;
+  for (PatchValue& p : values)
+    for (std::size_t i = 0; i < p.value.curves.size(); ++i)
+      if (p.value.curves[i].value.type > 3) wanted.emplace_back(&p, i);
+  std::atomic<std::size_t> done = 0;
+  std::mutex reporting;
+  numeric::parallel_for(wanted.size(), threads, [&](std::size_t k) {
+    if (progress.stop_requested()) return;
+    const auto [patch, i] = wanted[k];
+    const auto at = static_cast<std::size_t>(patch->row * grid.columns + patch->column);
+    const auto curves = network_curves(grid.patches[at].net);
+    patch->value.curves[i].nearest = classa::nearest_value({curves[i].control, {}}, options);
+    const std::size_t count = ++done;
+    const std::lock_guard lock(reporting);
+    progress.report(static_cast<double>(count) / wanted.size(), "nearest curves");
+  });
 }
 
 }  // namespace keyline::surface

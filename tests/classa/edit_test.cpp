@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/classa/free_form.h"
+#include "keyline/classa/nearest_space.h"
 #include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
 #include "keyline/curve/polyline.h"
@@ -169,7 +170,29 @@ TEST(Nearest, ReversingChangesNothing) {
   EXPECT_NEAR(nearest->matrix.alpha, -back->matrix.alpha, 1e-6);
   EXPECT_NEAR(nearest->matrix.s, 1 / back->matrix.s, 1e-6);
   EXPECT_NEAR(nearest->distance, back->distance, 1e-7);
-  EXPECT_FALSE(nearest_matrix_curve({{{0, 0}, {1, 0}, {1, 1}, {0, 0}}, {}}));
+  EXPECT_FALSE(nearest_matrix_curve(curve::Bezier2{{{0, 0}, {1, 0}, {1, 1}, {0, 0}}, {}}));
+}
+
+TEST(Nearest, InSpace) {
+  const curve::Bezier2 flat{{{0, 0}, {1, 0}, {2.2, 0.4}, {2.5, 2}}, {}};
+  curve::Bezier3 tilted;
+  for (const Point2& p : flat.control) tilted.control.push_back({p.x + 3, 0.6 * p.y, 0.8 * p.y});
+  const auto plane = nearest_matrix_curve(flat);
+  const auto space = nearest_matrix_curve(tilted);
+  ASSERT_TRUE(plane && space);
+  EXPECT_NEAR(std::abs(space->flat.matrix.alpha), std::abs(plane->matrix.alpha), 1e-6);
+  EXPECT_NEAR(space->flat.matrix.s, plane->matrix.s, 1e-6);
+  EXPECT_NEAR(space->distance, plane->distance, 1e-6);
+  EXPECT_LT(core::distance(space->curve.control.back(), tilted.control.back()), 1e-12);
+
+  tilted.control[2].x += 0.1;
+  tilted.control[2].z += 0.1;
+  const auto twisted = nearest_matrix_curve(tilted);
+  const auto back = nearest_matrix_curve(reverse(tilted));
+  ASSERT_TRUE(twisted && back);
+  EXPECT_GT(twisted->distance, space->distance);
+  EXPECT_NEAR(twisted->distance, back->distance, 1e-6);
+  EXPECT_NEAR(twisted->flat.matrix.s, 1 / back->flat.matrix.s, 1e-5);
 }
 
 /// Whatever the points: finite, and the same from either end.

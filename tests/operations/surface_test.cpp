@@ -118,6 +118,17 @@ TEST(SurfaceOperations, SavNamesItsCurvesAndTheWorst) {
   for (const json& c : r["curves"]) sum += c["cav"].get<double>();
   EXPECT_NEAR(r["sav"].get<double>(), sum, 1e-9);
   EXPECT_TRUE(r["worst"].is_string());
+  double beside = 0;
+  for (const json& c : r["curves"]) {
+    ASSERT_GT(c["type"].get<int>(), 3);
+    EXPECT_GT(c["nearest"]["distance"].get<double>(), 0);
+    EXPECT_EQ(c["nearest"]["curve"]["points"].size(), 4U);
+    beside += c["nearest"]["cav"].get<double>();
+  }
+  EXPECT_NEAR(r["nearest_sav"].get<double>(), beside, 1e-9);
+  const json plain =
+      result_of({{"op", "surface.sav"}, {"surface", bicubic(5)}, {"nearest", false}});
+  EXPECT_FALSE(plain["curves"][0].contains("nearest"));
   EXPECT_EQ(error_of({{"op", "surface.sav"}, {"surface", bicubic(5)}, {"alpha_max", 1.6}})["path"],
             "alpha_max");
   json rational = saddle();

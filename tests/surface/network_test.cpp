@@ -201,5 +201,23 @@ TEST(SurfaceValue, EveryPatchOfASplineHasItsOwn) {
   EXPECT_EQ(sav_by_patch(s, {}, 1, progress).error().code, core::ErrorCode::cancelled);
 }
 
+TEST(SurfaceValue, NearestCurvesStandBesideTypesFourAndFive) {
+  BezierSurface s = one_matrix_patch(0.3, 1.4, 0.2, 1.5);
+  const Point3 kept = s.net.at(1, 2);
+  s.net.at(1, 2) = kept + Vector3{0, 0, 0.5};
+  auto values = sav_by_patch(s);
+  ASSERT_TRUE(values);
+  add_nearest(s, *values);
+  for (const NetworkValue& c : values->front().value.curves) {
+    SCOPED_TRACE(c.name);
+    ASSERT_EQ(c.nearest.has_value(), c.value.type > 3);
+    if (!c.nearest) continue;
+    EXPECT_GT(c.nearest->nearest.distance, 0);
+    EXPECT_LT(c.nearest->nearest.distance, 0.25);
+    ASSERT_TRUE(c.nearest->value);
+    EXPECT_LT(c.nearest->value->cav, 3);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::surface
