@@ -72,7 +72,7 @@ bool read_pixels(png_structp png, png_infop info, png_bytep* rows, std::size_t r
   png_read_update_info(png, info);
   if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "its pixels have an unknown form");
   png_read_image(png, rows);
-  png_read_end(png, nullptr);
+  png_read_end(png, info);
   return true;
 }
 

@@ -109,6 +109,20 @@ TEST(ImageReader, TurnsPicturesUpright) {
   }
 }
 
+// Some programs write EXIF behind the pixels.
+TEST(ImageReader, FindsPngOrientationBehindThePixels) {
+  std::string bytes = png_of(PNG_COLOR_TYPE_RGB, 8, rgb_pixels(), kWidth, kHeight, false, 6);
+  const std::size_t at = bytes.find("eXIf") - 4;
+  const std::size_t size = 12 + static_cast<unsigned char>(bytes[at + 3]);
+  const std::string chunk = bytes.substr(at, size);
+  bytes.erase(at, size);
+  bytes.insert(bytes.find("IEND") - 4, chunk);
+  const auto image = read_image(bytes);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->width(), kHeight);
+  EXPECT_NEAR(image->luminance.at(kHeight - 1 - 3, 2), expected(2, 3), 300);
+}
+
 void expect_bad(const std::string& bytes) {
   const auto image = read_image(bytes);
   ASSERT_FALSE(image);
