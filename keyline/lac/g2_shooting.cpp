@@ -13,6 +13,9 @@ using core::Vector2;
 
 constexpr double kAccepted = 2e-13;
 constexpr int kIterations = 30;
+/// Powers below this are flat but for a jump at zero, and a step in them means nothing: pieces of
+/// such slopes hardly bend near an inflection, and joints keep their sign.
+constexpr double kFlattest = 1e-3;
 
 /// Variables of the joints' curvatures; those of the ends are not used.
 using Variables = std::array<CurvatureVariable, 4>;
@@ -22,7 +25,7 @@ Variables variables_of(const UnitG2& request, const ShortChain& chain) {
   for (int i = 1; i < chain.pieces; ++i) {
     const double beside =
         std::max(std::abs(chain.curvature[i - 1]), std::abs(chain.curvature[i + 1]));
-    if (request.alpha >= 0) {
+    if (request.alpha >= 0 || (request.alpha > -kFlattest && chain.curvature[i] != 0)) {
       v[i].step = CurvatureStep::logarithm;
     } else if (request.alpha != -1 && std::abs(chain.curvature[i]) < 0.3 * beside) {
       v[i] = {CurvatureStep::power, -request.alpha};

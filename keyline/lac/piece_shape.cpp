@@ -221,8 +221,9 @@ PieceShape general_shape(double alpha, double k0, double k1, const CurvatureVari
     by = (chord[1] - chord[0]) / (2 * h);
     turning_by = (turning[1] - turning[0]) / (2 * h);
   };
+  // Of a power the width that changes the larger curvature by a millionth, however flat the power.
   const auto width = [size](const CurvatureVariable& v) {
-    return 1e-6 * (v.step == CurvatureStep::power    ? std::pow(size, v.power)
+    return 1e-6 * (v.step == CurvatureStep::power ? std::min(1.0, v.power) * std::pow(size, v.power)
                    : v.step == CurvatureStep::linear ? size
                                                      : 1.0);
   };

@@ -137,6 +137,7 @@ class Fit {
   ControlPolygon run() {
     best_ = family_.start(at_, points_);
     descend(best_, 25);
+    if (std::isinf(least_)) return {};
     for (int round = 0; round < 25 && least_ > 1e-14; ++round) {
       reweight();
       descend(last_, 2);

@@ -30,7 +30,8 @@ struct RationalCubic {
 /// piece. Empty polygon where there is none.
 RationalCubic rational_cubic(const UnitPiece& unit);
 
-/// Least deviation with ends, tangents and end curvatures kept, degree >= 5.
+/// Least deviation with ends, tangents and end curvatures kept, degree >= 5. Empty where the search
+/// cannot begin: end curvatures so large that no handle of a usual length meets them.
 ControlPolygon best_polygon(const UnitPiece& unit, int degree);
 
 /// The point of expansion of the paper's rule.

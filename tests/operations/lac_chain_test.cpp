@@ -74,6 +74,40 @@ TEST(LacBlend, JoinsTwoLines) {
       "at");
 }
 
+/// Close to 0 from below a piece from curvature 0 is a line that bends at its very end only; a step
+/// in the power of curvature that is linear along it once led to turns of 1e43 radians.
+TEST(LacBlend, JoinsTwoLinesWithSlopesCloseToZero) {
+  const json first{{"type", "polyline"}, {"points", {{0.5, 0}, {1, 0}}}};
+  const json second{{"type", "polyline"}, {"points", {{3, 1}, {3, 2}}}};
+  for (const double alpha : {-0.1, -1e-3, -1e-4, -1e-6, -1e-8, -1e-10, -1e-12}) {
+    for (const char* order : {"G1", "G2", "G3"}) {
+      SCOPED_TRACE(std::to_string(alpha) + " " + order);
+      const json answer = asked(
+          {{"op", "lac.blend"}, {"curves", {first, second}}, {"order", order}, {"alpha", alpha}});
+      ASSERT_EQ(answer["ok"], true) << answer;
+      EXPECT_LT(distance(evaluate(path_of_result(answer), 1), {3, 1}), 1e-10);
+      EXPECT_LT(answer["result"]["absolute_turning"].get<double>(), 1.7);
+    }
+  }
+}
+
+/// What cannot be drawn is refused, in no time.
+TEST(LacHermite, SlopesCloseToZeroAndOneHaveAnAnswer) {
+  for (const double near : {1e-12, 1e-8, 1e-4, 1e-2}) {
+    for (const double alpha : {-near, near, 1 - near, 1 + near}) {
+      for (const auto& curvatures : {json{0, 0}, json{1, 2}, json{-1, 1}, json{30, 30}}) {
+        const json answer = asked({{"op", "lac.hermite"},
+                                   {"start", {0, 0}},
+                                   {"end", {3, 1}},
+                                   {"directions", {-0.8, 0.9}},
+                                   {"curvatures", curvatures},
+                                   {"alpha", alpha}});
+        EXPECT_TRUE(answer["ok"] == true || answer["error"]["code"] == "undrawable") << answer;
+      }
+    }
+  }
+}
+
 TEST(LacVolume, GivesTheAreaOrTheNearest) {
   json request{{"op", "lac.volume"},
                {"points", {{0, 0}, {2, 0}}},
@@ -109,6 +143,16 @@ TEST(LacQuasi, DrawsEveryFormFromHandlesAndStandardForm) {
         {{"op", "lac.quasi"}, {"alpha", 2}, {"lambda", 0.4}, {"interval", {0, 1}}, {"form", form}});
     EXPECT_EQ(standard["ok"], true) << standard;
   }
+}
+
+/// A chord near its limit at a slope close to 1: the sharp end has a curvature of 1e9 per length.
+TEST(LacQuasi, RefusesTheBestFormOfANeedlePoint) {
+  const json answer = asked({{"op", "lac.quasi"},
+                             {"points", {{0, 0}, {2, 0}, {2.1, 0.2}}},
+                             {"alpha", 0.999999999999},
+                             {"form", "best"}});
+  ASSERT_EQ(answer["ok"], false) << answer;
+  EXPECT_EQ(answer["error"]["code"], "undrawable");
 }
 
 TEST(LacQuasi, ChoosesThePlaceAndRefusesNonsense) {
