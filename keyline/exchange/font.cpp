@@ -1,5 +1,6 @@
 #include "keyline/exchange/font.h"
 
+#include <array>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -110,6 +111,12 @@ FT_ULong take_character(std::string_view& text) {
   return code;
 }
 
+std::string name_of(FT_Face face, FT_UInt index) {
+  std::array<char, 64> name{};
+  if (FT_Get_Glyph_Name(face, index, name.data(), name.size()) != 0) return {};
+  return name.data();
+}
+
 Result<Glyph> coded_glyph(FT_Face face, FT_ULong code, const std::string& name) {
   const FT_UInt index = FT_Get_Char_Index(face, code);
   if (index == 0) return missing(name);
@@ -124,7 +131,7 @@ Result<std::vector<Glyph>> glyphs_of(FT_Face face, const std::string& wanted) {
   if (!core::is_utf8(wanted)) return missing("(no UTF-8)");
   if (wanted.size() > 1 && wanted[0] == '/') {
     const FT_UInt index = FT_Get_Name_Index(face, wanted.c_str() + 1);
-    if (index == 0) return missing(wanted);
+    if (index == 0 && wanted.substr(1) != name_of(face, 0)) return missing(wanted);
     return std::vector<Glyph>{{index, wanted.substr(1)}};
   }
   if (wanted.starts_with("U+") && wanted.size() > 2) {

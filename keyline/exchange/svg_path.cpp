@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "keyline/core/angle.h"
 
@@ -89,7 +90,10 @@ Ellipse ellipse_through(Point2 from, Point2 to, double rx, double ry, double rot
   }
   const Vector2 unit{half.x / rx, half.y / ry};
   const double square = dot(unit, unit);
-  double k = square > 0 ? std::sqrt(std::max(0.0, 1 / square - 1)) : 0;
+  // Rounding alone would move the centre of a half turn by 1e-8 radii.
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const double room = excess > 1 || square == 0 ? 0 : 1 / square - 1;
+  double k = room > kRounding ? std::sqrt(room) : 0;
   if (large == sweep) k = -k;
   const Vector2 center{k * unit.y, -k * unit.x};  // in the circle's frame
   const Vector2 start = unit - center;

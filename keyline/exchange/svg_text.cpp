@@ -93,6 +93,14 @@ std::string declared_encoding(std::string_view bytes) {
   return name;
 }
 
+/// Encodings in which XML's own characters, numbers and commands stand as in ASCII.
+bool agrees_with_ascii(std::string_view name) {
+  for (const char* family : {"iso-8859-", "latin", "windows-", "cp125", "koi8-", "mac", "us-ascii",
+                             "shift_jis", "euc-", "gb", "big5", "utf-8"})
+    if (name.starts_with(family)) return true;
+  return false;
+}
+
 Result<void> to_utf8(SvgText& text, std::string_view bytes) {
   const std::string_view given = text.in(bytes);
   const bool big = given.starts_with("\xfe\xff") || given.starts_with(std::string_view("\0<", 2));
@@ -101,12 +109,14 @@ Result<void> to_utf8(SvgText& text, std::string_view bytes) {
   if (big || little) {
     text.own = from_utf16(given, big);
   } else if (!core::is_utf8(given)) {
-    const std::string name = declared_encoding(given);
-    if (name != "iso-8859-1" && name != "latin1" && name != "windows-1252")
-      return fail(ErrorCode::unsupported,
-                  "the SVG file is not in UTF-8" + (name.empty() ? "" : " but in " + name),
+    std::string name = declared_encoding(given);
+    if (name.empty()) name = "utf-8";
+    if (!agrees_with_ascii(name))
+      return fail(ErrorCode::unsupported, "the SVG file is not in UTF-8 but in " + name,
                   "save it with the encoding UTF-8");
     text.own = from_western(given);
+    if (name != "iso-8859-1" && name != "latin1" && name != "windows-1252")
+      text.notes.push_back("names in " + name + ": only their ASCII letters are right");
   }
   return {};
 }

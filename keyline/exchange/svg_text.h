@@ -17,11 +17,11 @@ struct SvgText {
 };
 
 /// Uncompresses (.svgz: at most ten times the file and 10 MB more, so that no small file fills the
-/// memory), turns UTF-16, ISO 8859-1 and Windows-1252 into UTF-8 and puts in the entities the
-/// document type defines: those with a value in the file, nested at most eight deep, growing the
-/// text by at most half and 1 MB; files outside are never looked at. Fails: bad_input where the
-/// compressed data are broken or too large; unsupported for other
-///        encodings.
+/// memory), turns UTF-16, ISO 8859-1 and Windows-1252 into UTF-8 (of other encodings that hold
+/// ASCII, the names come out wrong, with a note) and puts in the entities the document type
+/// defines: those with a value in the file, nested at most eight deep, growing the text by at most
+/// half and 1 MB; files outside are never looked at. Fails: bad_input where the compressed data are
+/// broken or too large; unsupported for other encodings.
 core::Result<SvgText> svg_text(std::string_view bytes, std::size_t largest);
 
 }  // namespace keyline::exchange::detail

@@ -168,6 +168,9 @@ TEST(Font, ReadsTheSharedFonts) {
   }
   EXPECT_TRUE(read_document(folder / "Comfortaa-Regular.ttf", {.glyphs = "U+0053"}));
   EXPECT_TRUE(read_document(folder / "EBGaramond12-Italic.otf", {.glyphs = "/ampersand"}));
+  const auto none_known = read_document(folder / "EBGaramond12-Italic.otf", {.glyphs = "/.notdef"});
+  ASSERT_TRUE(none_known);
+  EXPECT_EQ(none_known->paths.size(), 2U);
   for (const char* none : {"\u4e2d", "/no-such-glyph", "U+xyz", ""}) {
     const auto missing = read_document(folder / "Comfortaa-Regular.ttf", {.glyphs = none});
     ASSERT_FALSE(missing) << none;

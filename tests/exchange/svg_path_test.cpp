@@ -109,6 +109,17 @@ TEST(SvgPath, ArcsWithSmallRadiiAreEnlarged) {
     EXPECT_NEAR(core::distance(evaluate(piece, 0.5), {5, 0}), 5, 1e-12);
 }
 
+TEST(SvgPath, HalfTurnsKeepTheirCentre) {
+  const Point2 from{10, 50};
+  const Point2 to{150, 151};
+  for (const double share : {0.1, 1.0}) {
+    const double radius = share * core::distance(from, to) / 2;
+    const auto arcs = detail::svg_arc(from, to, radius, radius, 0, false, true);
+    ASSERT_EQ(arcs.size(), 2U);
+    EXPECT_LT(core::distance(arcs[0].control[2], {130.5, 30.5}), 1e-12);
+  }
+}
+
 TEST(SvgPath, TurnedEllipseKeepsItsAxes) {
   const auto arcs = detail::svg_arc({0, 0}, {0, 4}, 4, 2, 90, false, true);
   // In the frame turned by 90 degrees the ellipse is (x/2)^2 + (y/4)^2 = 1 about its centre.

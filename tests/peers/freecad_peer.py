@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 import subprocess
+import tempfile
 from pathlib import Path
 
 NAME, READS, PLACED = "FreeCAD", ("step", "iges", "dxf", "svg"), True
@@ -20,16 +21,26 @@ def version():
     return text.split("+")[0]
 
 
+def inside(task, file):
+    """What a task of this file, run inside FreeCAD, says of the file."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "answer.json"
+        environment = dict(os.environ, KEYLINE_TASK=task, KEYLINE_IN=str(file), KEYLINE_OUT=str(out))
+        subprocess.run(["freecadcmd", __file__], env=environment, stdin=subprocess.DEVNULL,
+                       capture_output=True, timeout=600)
+        return json.loads(out.read_text())
+
+
+def counts(file):
+    """Number of curves and of faces; edges of faces are no curves of their own."""
+    return tuple(inside("count", file))
+
+
 def read(file):
     import numpy as np
     from plain_svg import Curve
 
-    out = Path(f"{file}.freecad.json")
-    out.unlink(missing_ok=True)
-    environment = dict(os.environ, KEYLINE_IN=str(file), KEYLINE_OUT=str(out))
-    subprocess.run(["freecadcmd", __file__], env=environment, stdin=subprocess.DEVNULL,
-                   capture_output=True, timeout=600)
-    rows = json.loads(out.read_text())
+    rows = inside("sample", file)
     return [Curve(np.array(r["points"])[:, :2], r["name"], "", "", r["kind"]) for r in rows]
 
 
@@ -38,7 +49,7 @@ def shapes(file):
     import FreeCAD
     import Part
 
-    if file.endswith((".step", ".iges")):
+    if file.endswith((".step", ".stp", ".p21", ".iges", ".igs")):
         shape = Part.Shape()
         shape.read(file)
         return [("", shape)]
@@ -63,9 +74,20 @@ def sample():
             points = [edge.valueAt(a + (b - a) * i / (COUNT - 1)) for i in range(COUNT)]
             kind = type(edge.Curve).__name__
             rows.append({"name": name, "kind": kind, "points": [[p.x, p.y, p.z] for p in points]})
-    with open(os.environ["KEYLINE_OUT"], "w") as file:
-        json.dump(rows, file)
+    return rows
+
+
+def count():
+    try:
+        found = [shape for _, shape in shapes(os.environ["KEYLINE_IN"])]
+    except Exception:  # Part.OCCError and others: it cannot be read
+        return [0, 0]
+    faces = sum(len(shape.Faces) for shape in found)
+    bound = sum(len({e.hashCode() for f in shape.Faces for e in f.Edges}) for shape in found)
+    return [sum(len(shape.Edges) for shape in found) - bound, faces]
 
 
 if "KEYLINE_OUT" in os.environ:
-    sample()
+    answer = {"sample": sample, "count": count}[os.environ["KEYLINE_TASK"]]()
+    with open(os.environ["KEYLINE_OUT"], "w") as out_file:
+        json.dump(answer, out_file)

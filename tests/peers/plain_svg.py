@@ -53,10 +53,11 @@ def page_matrix(root):
 
 
 def subpaths(data):
-    """Lists of Béziers (arrays of 2 or 4 points) of path data with M L H V C Z of both kinds."""
+    """Lists of Béziers (arrays of 2 or 4 points) of path data with M L H V C Q A Z of both
+    kinds."""
     tokens = re.findall(rf"[A-Za-z]|{NUMBER}", data)
     at, start, result, i, verb = 0j, 0j, [], 0, "M"
-    need = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "A": 7, "Z": 0}
+    need = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "Q": 4, "A": 7, "Z": 0}
     while i < len(tokens):
         if tokens[i].isalpha():
             verb = tokens[i]
@@ -75,6 +76,9 @@ def subpaths(data):
         elif kind == "C":
             ends = [base + complex(*v[k : k + 2]) for k in (0, 2, 4)]
             piece = np.array([at, *ends])
+        elif kind == "Q":
+            middle, end = (base + complex(*v[k : k + 2]) for k in (0, 2))
+            piece = np.array([at, (at + 2 * middle) / 3, (end + 2 * middle) / 3, end])
         elif kind == "A":
             piece = arc(at, v[:5], base + complex(*v[5:]))
         else:
