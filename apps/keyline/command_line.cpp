@@ -284,6 +284,11 @@ Command add_edit(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--limit", edit.limit, "surfaces: largest departure, a length")
       ->check(not_negative());
+  sub->add_option("--condition", edit.conditions,
+                  "surfaces: of a network curve, A1:s=1.1..1.4,alpha=0..0.3,end=0.1, "
+                  "branch=falling, tangent=kept; without A1: of all; may be repeated")
+      ->type_name("[CURVE:]NAME=VALUE,...")
+      ->allow_extra_args(false);
   sub->add_option("--alpha-range", edit.alpha_range, "low,high: where the minimum may lie")
       ->delimiter(',')
       ->expected(2);

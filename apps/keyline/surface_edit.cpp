@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/operations/fair_report.h"
+#include "keyline/operations/surface_conditions.h"
 #include "keyline/operations/surface_pictures.h"
 #include "keyline/report/html_report.h"
 
@@ -25,8 +26,28 @@ struct Edited {
   surface::EditResult result;
 };
 
-json request_of(const EditCommand& command) {
+/// Conditions as surface.edit takes them: of every curve from the options curves share, then those
+/// of --condition.
+Result<json> conditions_of(const EditCommand& command) {
+  json all = json::array();
+  json general = json::object();
+  if (!command.alpha_range.empty()) general["alpha"] = command.alpha_range;
+  if (!command.s_range.empty()) general["s"] = command.s_range;
+  if (command.branch != "own") general["branch"] = command.branch;
+  if (!general.empty()) all.push_back(general);
+  for (const std::string& text : command.conditions) {
+    auto condition = operations::condition_from_text(text);
+    if (!condition) return condition;
+    all.push_back(std::move(*condition));
+  }
+  return all;
+}
+
+Result<json> request_of(const EditCommand& command) {
   json request{{"keep", command.keep}, {"amount", command.amount}};
+  auto conditions = conditions_of(command);
+  if (!conditions) return conditions;
+  request["conditions"] = std::move(*conditions);
   if (command.limit) request["limit"] = *command.limit;
   if (command.alpha_max) request["alpha_max"] = *command.alpha_max;
   if (command.end_tolerance) request["end_tolerance"] = *command.end_tolerance;
@@ -40,6 +61,10 @@ void print_summary(const Edited& e) {
   fmt::print("{:>24} {:>11} {:>11}\n", "target", "departure", "SAV");
   for (const surface::TradeOff& t : e.result.tradeoff)
     fmt::print("{:>24} {:>11.5g} {:>11.5g}\n", t.name, t.departure, t.sav);
+  for (const surface::MissedTarget& m : e.result.missed)
+    fmt::print("{:>24} not found: {}, {}\n", m.target, m.curve, m.why);
+  for (const surface::MissedTarget& m : e.result.unmet)
+    fmt::print("short of the target {} is outside its condition: {}\n", m.curve, m.why);
 }
 
 operations::ReportOptions report_options(const EditCommand& command, const std::string& unit,
@@ -51,6 +76,7 @@ operations::ReportOptions report_options(const EditCommand& command, const std::
   options.command = command.common.command_line;
   options.generator = "Keyline " KEYLINE_VERSION;
   options.options = {{"keep", command.keep}, {"amount", fmt::format("{:g}", command.amount)}};
+  for (const std::string& c : command.conditions) options.options.push_back({"condition", c});
   return options;
 }
 
@@ -108,7 +134,9 @@ Result<Edited> edit_one(const document::NamedSurface& named, const surface::Edit
 
 int edit_surfaces(const EditCommand& command, const document::Document& document) {
   const CommonOptions& common = command.common;
-  auto options = operations::surface_edit_options(request_of(command));
+  const auto request = request_of(command);
+  if (!request) return report_failure(request.error());
+  auto options = operations::surface_edit_options(*request);
   if (!options) return report_failure(options.error());
   say_curves_left_out(document, common.quiet);
   std::vector<Edited> all;

@@ -3,6 +3,7 @@
 #include "keyline/exchange/json_surface.h"
 #include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/surface_conditions.h"
 #include "keyline/operations/surface_value_json.h"
 
 namespace keyline::operations {
@@ -20,6 +21,13 @@ Result<Keep> keep_of(const json& request) {
   if (name == "boundary") return Keep::boundary;
   return core::fail(ErrorCode::bad_input, "\"" + name + "\" cannot be kept",
                     "use start, corners or boundary", "keep");
+}
+
+json missed_json(const std::vector<surface::MissedTarget>& missed) {
+  json all = json::array();
+  for (const surface::MissedTarget& m : missed)
+    all.push_back({{"target", m.target}, {"curve", m.curve}, {"why", m.why}});
+  return all;
 }
 
 Result<json> run(const json& request, const Context& context) {
@@ -52,6 +60,9 @@ Result<surface::EditOptions> surface_edit_options(const json& request) {
   options.limit = optional_number(request, "limit");
   options.alpha_max = number_or(request, "alpha_max", options.alpha_max);
   options.end_tolerance = number_or(request, "end_tolerance", 0);
+  auto conditions = surface_conditions(request);
+  if (!conditions) return std::unexpected(conditions.error());
+  options.conditions = std::move(*conditions);
   return options;
 }
 
@@ -59,13 +70,16 @@ json surface_edit_json(const surface::EditResult& edited) {
   json tradeoff = json::array();
   for (const surface::TradeOff& t : edited.tradeoff)
     tradeoff.push_back({{"target", t.name}, {"departure", t.departure}, {"sav", t.sav}});
-  return json{{"surface", exchange::to_json(edited.surface)},
+  json result{{"surface", exchange::to_json(edited.surface)},
               {"before", surface_value_json(edited.before)},
               {"after", surface_value_json(edited.after)},
               {"departure", edited.departure},
               {"amount", edited.amount},
               {"target", edited.target},
-              {"tradeoff", std::move(tradeoff)}};
+              {"tradeoff", std::move(tradeoff)},
+              {"missed", missed_json(edited.missed)}};
+  if (!edited.unmet.empty()) result["unmet"] = missed_json(edited.unmet);
+  return result;
 }
 
 Operation surface_edit_operation() {
@@ -82,7 +96,11 @@ Operation surface_edit_operation() {
        {"alpha_max", Type::number, false, "as in surface.sav"},
        {"end_tolerance", Type::number, false,
         "as in surface.sav, but 0 unless given: ends are held, and a curve at its minimum scores "
-        "0"}},
+        "0"},
+       {"conditions", Type::any, false,
+        "per network curve: [{\"curve\": \"A1\", \"alpha\": [low, high], \"s\": [low, high], "
+        "\"end_tolerance\": length, \"branch\": \"growing\" or \"falling\", \"tangent\": true "
+        "(its start direction stays) or false}, ...]; without \"curve\" for every curve"}},
       run,
       {{"surface",
         {{"type", "bezier-surface"},

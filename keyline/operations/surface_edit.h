@@ -10,7 +10,7 @@ namespace keyline::operations {
 /// A B-spline surface that is one Bezier patch counts as that; unsupported for several.
 core::Result<surface::BezierSurface> one_patch(const surface::Surface& s);
 
-/// "keep", "amount", "limit", "alpha_max" and "end_tolerance" of a request.
+/// "keep", "amount", "limit", "alpha_max", "end_tolerance" and "conditions" of a request.
 core::Result<surface::EditOptions> surface_edit_options(const nlohmann::json& request);
 
 /// The result of surface.edit.

@@ -351,6 +351,14 @@ Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
        number(edited.departure) + (options.unit.empty() ? "" : "\u00A0" + options.unit),
        {}},
       {"Target", edited.target, fmt::format("{:.0f} %", 100 * edited.amount)}};
+  for (const surface::MissedTarget& m : edited.missed)
+    report.notes.push_back(
+        {report::NoteKind::note,
+         fmt::format("Target \"{}\" was not found. {}: {}.", m.target, m.curve, m.why)});
+  for (const surface::MissedTarget& m : edited.unmet)
+    report.notes.push_back(
+        {report::NoteKind::note,
+         fmt::format("Short of the target {} is outside its condition: {}.", m.curve, m.why)});
   auto page = surface_edit_page(given, edited, options);
   if (!page) return std::unexpected(page.error());
   report.sections.push_back({"Before and after",

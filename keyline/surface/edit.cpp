@@ -19,11 +19,33 @@ struct Candidate {
   Net net;
 };
 
-classa::CavOptions cav_options(const EditOptions& o) {
-  classa::CavOptions cav;
-  cav.alpha_max = o.alpha_max;
-  cav.end_tolerance = o.end_tolerance;
-  return cav;
+/// The value under the conditions of its curves.
+Result<SurfaceValue> value_of(const BezierSurface& s, const detail::EditTask& task) {
+  classa::CavOptions general;
+  general.alpha_max = task.options.alpha_max;
+  general.end_tolerance = task.options.end_tolerance;
+  return sav(s, [&](const NetworkCurve& c) {
+    const CurveCondition& condition = task.conditions[task.index_of(c)];
+    classa::CavOptions own = cav_options(condition, general);
+    if (!condition.alpha && !condition.s) return own;
+    const auto value = classa::cav(std::span<const core::Point3>(c.control), own);
+    if (value || value.error().code != ErrorCode::undrawable) return own;
+    own.alpha.reset();
+    own.s = general.s;
+    return own;
+  });
+}
+
+/// Conditions that the net does not meet.
+std::vector<MissedTarget> unmet_by(const Net& net, const detail::EditTask& task,
+                                   const std::string& target) {
+  std::vector<MissedTarget> all;
+  const auto given = network_curves(task.net);
+  const auto curves = network_curves(net);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (auto why = unmet(curves[i], given[i], task.conditions[i], task.options.alpha_max))
+      all.push_back({target, curves[i].name, *why + " (" + ranges_text(task.conditions[i]) + ")"});
+  return all;
 }
 
 Result<void> check(const BezierSurface& s, const EditOptions& o) {
@@ -33,6 +55,7 @@ Result<void> check(const BezierSurface& s, const EditOptions& o) {
   if (o.limit && !(*o.limit >= 0 && std::isfinite(*o.limit)))
     return fail(ErrorCode::bad_input, "the limit is negative or not finite",
                 "give a length of 0 or more", "limit");
+  if (auto sound = validate(o.conditions, s.net, o.alpha_max); !sound) return sound;
   const double size = extent(s.net);
   for (const NetworkCurve& c : network_curves(s.net))
     for (std::size_t i = 1; i < c.control.size(); ++i)
@@ -72,51 +95,88 @@ double amount_within(const BezierSurface& s, const Net& target, double limit, do
   return low;
 }
 
-std::vector<Candidate> candidates_of(const BezierSurface& s, const EditOptions& options) {
+/// Leaves out what is no choice: twice as far away as another of no higher SAV.
+void drop_poor(std::vector<Candidate>& all) {
+  const std::vector<Candidate> others = all;
+  std::erase_if(all, [&](const Candidate& c) {
+    return std::any_of(others.begin(), others.end(), [&](const Candidate& o) {
+      return o.tradeoff.sav <= c.tradeoff.sav && 2 * o.tradeoff.departure < c.tradeoff.departure;
+    });
+  });
+}
+
+std::vector<Candidate> candidates_of(const BezierSurface& s, const detail::EditTask& task,
+                                     std::vector<MissedTarget>& missed) {
   std::vector<Candidate> all;
-  const auto targets = detail::edit_targets(s.net, options);
-  for (const detail::Target& target : targets) {
+  auto found = detail::edit_targets(task);
+  missed = std::move(found.missed);
+  for (const detail::Target& target : found.targets) {
+    auto unmet = unmet_by(target.net, task, target.name);
+    if (!unmet.empty()) {
+      missed.push_back(std::move(unmet.front()));
+      continue;
+    }
     const BezierSurface moved{target.net, {}};
-    const auto value = sav(moved, cav_options(options));
+    const auto value = value_of(moved, task);
     if (!value) continue;
     all.push_back({{target.name, departure(s, moved), value->sav}, target.net});
-    options.progress.report(0.5 + 0.5 * all.size() / targets.size(), "trade-off");
+    task.options.progress.report(0.5 + 0.5 * all.size() / found.targets.size(), "trade-off");
   }
+  drop_poor(all);
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.tradeoff.departure < b.tradeoff.departure;
   });
   return all;
 }
 
-}  // namespace
-
-Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
-  auto before = sav(s, cav_options(options));
-  if (!before) return std::unexpected(before.error());
-  if (auto sound = check(s, options); !sound) return std::unexpected(sound.error());
-  const auto all = candidates_of(s, options);
-  if (options.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
-  EditResult result{s, *before, *before, 0, options.amount, "", {}};
-  for (const Candidate& c : all) result.tradeoff.push_back(c.tradeoff);
-  if (all.empty())
-    return fail(ErrorCode::undrawable, "no Class A net meets the conditions",
-                "keep less (\"start\"), or straighten rows and columns that turn by more than a "
-                "right angle",
-                "surface");
-  const Candidate* best = best_of(all, options.limit);
-  const bool within = best != nullptr;
-  if (!within) best = &all.front();
-  if (best->tradeoff.sav >= before->sav) {
-    result.target = "as given";
-    return result;
+std::unexpected<core::Failure> nothing_found(const EditResult& result, bool conditions) {
+  std::string message = conditions ? "no net meets the conditions" : "no Class A net was found";
+  for (std::size_t i = 0; i < result.missed.size(); ++i) {
+    const MissedTarget& m = result.missed[i];
+    message += (i == 0 ? ": " : "; ") + m.target + ", " + m.curve + ": " + m.why;
   }
-  result.target = best->tradeoff.name;
-  if (options.limit) result.amount = amount_within(s, best->net, *options.limit, options.amount);
-  result.surface = blend(s, best->net, result.amount);
-  auto after = sav(result.surface, cav_options(options));
+  return fail(ErrorCode::undrawable, std::move(message),
+              conditions ? "widen the ranges of the curves named, or keep less"
+                         : "keep less (\"start\"), or straighten rows and columns that turn by "
+                           "more than a right angle",
+              conditions ? "conditions" : "surface");
+}
+
+/// Slides to the target, as far as the limit allows.
+Result<void> slide(const BezierSurface& s, const Candidate& target, const detail::EditTask& task,
+                   EditResult& result) {
+  const EditOptions& options = task.options;
+  result.target = target.tradeoff.name;
+  if (options.limit) result.amount = amount_within(s, target.net, *options.limit, options.amount);
+  result.surface = blend(s, target.net, result.amount);
+  auto after = value_of(result.surface, task);
   if (!after) return std::unexpected(after.error());
   result.after = std::move(*after);
   result.departure = departure(s, result.surface);
+  result.unmet = unmet_by(result.surface.net, task, result.target);
+  return {};
+}
+
+}  // namespace
+
+Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
+  if (auto sound = sav(s, classa::CavOptions{.alpha_max = options.alpha_max}); !sound)
+    return std::unexpected(sound.error());
+  if (auto sound = check(s, options); !sound) return std::unexpected(sound.error());
+  const detail::EditTask task{s.net, options, conditions_by_curve(options.conditions, s.net)};
+  auto before = value_of(s, task);
+  if (!before) return std::unexpected(before.error());
+  EditResult result{s, *before, *before, 0, options.amount, "as given", {}, {}, {}};
+  const auto all = candidates_of(s, task, result.missed);
+  if (options.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
+  for (const Candidate& c : all) result.tradeoff.push_back(c.tradeoff);
+  const bool given_will_do = unmet_by(s.net, task, {}).empty();
+  if (all.empty() && (options.conditions.empty() || !given_will_do))
+    return nothing_found(result, !options.conditions.empty());
+  const Candidate* best = best_of(all, options.limit);
+  if (!best && !all.empty()) best = &all.front();
+  if (!best || (given_will_do && best->tradeoff.sav >= before->sav)) return result;
+  if (auto done = slide(s, *best, task, result); !done) return std::unexpected(done.error());
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/core/progress.h"
+#include "keyline/surface/conditions.h"
 #include "keyline/surface/network.h"
 
 namespace keyline::surface {
@@ -21,6 +22,7 @@ struct EditOptions {
   std::optional<double> end_tolerance = 0;  ///< of each curve's minimum, as in CavOptions; with 0 a
                                             ///< curve at its own minimum scores 0 exactly
   double alpha_max = classa::kDefaultAlphaMax;
+  std::vector<CurveCondition> conditions = {};  ///< per network curve; see conditions.h
   core::Progress progress = {};
 };
 
@@ -31,6 +33,13 @@ struct TradeOff {
   double sav = 0;
 };
 
+/// A target that was not found, or does not meet a condition: the curve it fails for, and why.
+struct MissedTarget {
+  std::string target;
+  std::string curve;
+  std::string why;
+};
+
 struct EditResult {
   BezierSurface surface;
   SurfaceValue before;
@@ -38,7 +47,11 @@ struct EditResult {
   double departure = 0;  ///< of `surface` from the given one; see departure() in closest_point.h
   double amount = 1;     ///< as used: less than asked for where the limit demands it
   std::string target;    ///< the trade-off that was taken
-  std::vector<TradeOff> tradeoff;  ///< by growing departure
+  std::vector<TradeOff> tradeoff;    ///< by growing departure
+  std::vector<MissedTarget> missed;  ///< others
+  /// Conditions that `surface` does not meet because it is only part of the way to the target,
+  /// which does.
+  std::vector<MissedTarget> unmet;
 };
 
 /// Editing of [Oya] §4.3: the surface whose network curves are Class A and of least energy.
@@ -50,8 +63,13 @@ struct EditResult {
 /// The target of least SAV within the limit is taken, the nearer one of equals; where none lies
 /// within the limit, the nearest of them as far as the limit allows.
 ///
-/// Errors: as sav; bad_input for amount outside [0, 1], a limit that is negative or not finite, a
-/// row or column with an edge of no length; undrawable where no target was found; cancelled.
+/// Conditions hold for every target (up to 1e-6) and set the minima the values are measured from;
+/// a curve that has no minimum within its ranges is valued as without them.
+///
+/// Errors: as sav and validate(conditions); bad_input for amount outside [0, 1], a limit that is
+/// negative or not finite, a row or column with an edge of no length; undrawable where no target
+/// was found, with the curves and conditions that are in the way and the nearest that exists;
+/// cancelled.
 core::Result<EditResult> edit(const BezierSurface& s, const EditOptions& options = {});
 
 }  // namespace keyline::surface

@@ -3,61 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/core/angle.h"
-#include "keyline/surface/one_matrix.h"
+#include "keyline/core/text.h"
 
 namespace keyline::surface::detail {
 namespace {
 
-using core::cross;
-using core::dot;
-using core::norm;
-using core::Point3;
-using core::Vector3;
-
-/// Largest net the one-matrix equations are solved for: degrees (4, 4) have more freedoms than
-/// equations, higher ones fewer.
-constexpr std::size_t kMostSolved = 25;
-constexpr double kMet = 1e-10;
-
-using Curve = std::vector<Point3>;
-
-/// Least-energy problem of a curve with these ends and this start tangent.
-core::Result<classa::EnergyMinimum> minimum_of(const Curve& c, const EditOptions& options) {
-  const Vector3 tangent = c[1] - c[0];
-  const Vector3 chord = c.back() - c[0];
-  const double angle = std::atan2(norm(cross(tangent, chord)), dot(tangent, chord));
-  classa::EnergyConditions e;
-  e.tangent = {norm(tangent), 0};
-  e.chord = {norm(chord) * std::cos(angle), norm(chord) * std::sin(angle)};
-  e.degree = static_cast<int>(c.size()) - 1;
-  e.end_tolerance = options.end_tolerance.value_or(0.01 * norm(chord));
-  e.alpha = {0, options.alpha_max};
-  if (e.degree < 2) return classa::EnergyMinimum{};
-  return classa::minimum_energy(e);
-}
-
-/// The curve of least energy from c[0] along its tangent to c.back(); empty where there is none.
-/// `from_end`: the same seen from the other end.
-Curve least_energy_curve(Curve c, bool from_end, const EditOptions& options) {
-  if (from_end) std::reverse(c.begin(), c.end());
-  if (c.size() > 2) {
-    const auto m = minimum_of(c, options);
-    if (!m) return {};
-    const Vector3 tangent = c[1] - c[0];
-    const Vector3 x = tangent / norm(tangent);
-    const Vector3 chord = c.back() - c[0];
-    const Vector3 off = chord - dot(chord, x) * x;
-    const Vector3 y = norm(off) > 1e-12 * norm(chord) ? off / norm(off) : Vector3{};
-    double length = m->beta * norm(tangent);
-    for (std::size_t i = 1; i < c.size(); ++i, length *= m->s) {
-      const double turn = (static_cast<double>(i) - 1) * m->alpha;
-      c[i] = c[i - 1] + length * (std::cos(turn) * x + std::sin(turn) * y);
-    }
-  }
-  if (from_end) std::reverse(c.begin(), c.end());
-  return c;
-}
+using core::Interval;
 
 void put(Net& net, const NetworkCurve& curve, const Curve& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -78,136 +29,126 @@ double mean_growth(const Net& net, bool rows) {
   return sum;
 }
 
-/// Which way edges are to grow: away from b00 where the start is kept, else as they do.
-struct Sense {
-  bool rows_from_end = false;
-  bool columns_from_end = false;
-};
+// ---- Translates ---------------------------------------------------------------------------
+
+/// Narrows `common` to what both ask; false where nothing is left.
+bool narrow(std::optional<Interval>& common, const std::optional<Interval>& other) {
+  if (!other) return true;
+  if (!common) common = other;
+  *common = {std::max(common->low, other->low), std::min(common->high, other->high)};
+  return common->low <= common->high;
+}
+
+/// What is asked of the first row (column) when all others are translates of it; empty, with the
+/// reason, where that cannot be.
+std::optional<CurveTask> common_task(const EditTask& task, bool rows, MissedTarget& missed) {
+  std::optional<CurveTask> common;
+  std::string first;
+  for (const NetworkCurve& c : network_curves(task.net)) {
+    if (c.is_row != rows) continue;
+    CurveTask own = task.curve(c, {});
+    if (!common) {
+      common = own;
+      first = c.name;
+      continue;
+    }
+    CurveCondition& all = common->condition;
+    const CurveCondition& more = own.condition;
+    missed.curve = c.name;
+    if (!narrow(all.alpha, more.alpha) || !narrow(all.s, more.s)) {
+      missed.why = "as a translate of " + first + " it would need a range that both share";
+      return std::nullopt;
+    }
+    if (more.branch && all.branch && *more.branch != *all.branch) {
+      missed.why = "as a translate of " + first + " its edges cannot grow the other way";
+      return std::nullopt;
+    }
+    if (more.branch) all.branch = more.branch;
+    if (more.end_tolerance)
+      all.end_tolerance = std::min(*more.end_tolerance, all.end_tolerance.value_or(HUGE_VAL));
+  }
+  missed.curve = first;
+  return common;
+}
+
+void add_translational(const EditTask& task, TargetSet& set) {
+  const Net& net = task.net;
+  Curve made[2];
+  for (const bool rows : {true, false}) {
+    MissedTarget missed{"translational", {}, {}};
+    const auto common = common_task(task, rows, missed);
+    if (common) made[rows ? 0 : 1] = least_energy_curve(*common);
+    if (!made[rows ? 0 : 1].empty()) continue;
+    if (common) missed.why = why_no_minimum(*common);
+    set.missed.push_back(std::move(missed));
+    return;
+  }
+  const auto& [row, column] = made;
+  Net moved = net;
+  for (int i = 0; i < net.rows; ++i)
+    for (int j = 0; j < net.columns; ++j) moved.at(i, j) = row[j] + (column[i] - column[0]);
+  set.targets.push_back({"translational", std::move(moved)});
+}
+
+// ---- One way ------------------------------------------------------------------------------
+
+/// Takes rows (columns) of `moved` to their minimum between their ends, which stay; false, with the
+/// reason, where one has none.
+bool straighten_out(const EditTask& task, Net& moved, bool rows, bool outer, bool inner,
+                    MissedTarget& missed) {
+  const Sense sense = sense_of(task.net, task.options.keep);
+  for (const NetworkCurve& c : network_curves(moved)) {
+    const int last = (c.is_row ? moved.rows : moved.columns) - 1;
+    const bool border = c.index == 0 || c.index == last;
+    if (c.is_row != rows || (border ? !outer : !inner)) continue;
+    CurveTask own = task.curve(c, sense);
+    own.end_tolerance = own.condition.end_tolerance = 0;  // whatever the minimum is judged by
+    const Curve best = least_energy_curve(own);
+    if (best.empty()) {
+      missed.curve = c.name;
+      missed.why = why_no_minimum(own);
+      return false;
+    }
+    put(moved, c, best);
+  }
+  return true;
+}
+
+/// Rows (or columns) alone at their minimum; with `frame` the two outer columns (rows) first.
+void add_one_way(const EditTask& task, bool rows, bool frame, TargetSet& set) {
+  MissedTarget missed{rows ? "rows" : "columns", {}, {}};
+  Net moved = task.net;
+  if ((!frame || straighten_out(task, moved, !rows, true, false, missed)) &&
+      straighten_out(task, moved, rows, frame, true, missed))
+    set.targets.push_back({missed.target, std::move(moved)});
+  else
+    set.missed.push_back(std::move(missed));
+}
+
+}  // namespace
+
 Sense sense_of(const Net& net, Keep keep) {
   if (keep == Keep::start) return {};
   return {mean_growth(net, true) < 0, mean_growth(net, false) < 0};
 }
 
-std::vector<Growth> wanted_growth(const Net& net, const Sense& sense, const EditOptions& options,
-                                  const std::vector<Growth>& before) {
-  std::vector<Growth> growth;
-  for (const NetworkCurve& c : network_curves(net)) {
-    const bool from_end = c.is_row ? sense.rows_from_end : sense.columns_from_end;
-    Curve points = c.control;
-    if (from_end) std::reverse(points.begin(), points.end());
-    const auto m =
-        points.size() > 2 ? minimum_of(points, options) : core::Result<classa::EnergyMinimum>{};
-    if (points.size() <= 2)
-      growth.push_back(std::nullopt);
-    else if (m)
-      growth.push_back((from_end ? -1 : 1) * std::log(m->s));
-    else
-      growth.push_back(before.empty() ? Growth{(from_end ? -1 : 1) * 0.39} : before[growth.size()]);
+CurveTask EditTask::curve(const NetworkCurve& c, const Sense& sense) const {
+  const CurveCondition& condition = conditions[index_of(c)];
+  const bool from_end = c.is_row ? sense.rows_from_end : sense.columns_from_end;
+  return {c.control, from_end && !condition.branch, condition, options.end_tolerance,
+          options.alpha_max};
+}
+
+TargetSet edit_targets(const EditTask& task) {
+  TargetSet set;
+  const Keep keep = task.options.keep;
+  if (keep == Keep::start) add_translational(task, set);
+  if (keep != Keep::boundary) add_solved(task, set);
+  if (keep != Keep::start) {
+    add_one_way(task, true, keep == Keep::corners, set);
+    add_one_way(task, false, keep == Keep::corners, set);
   }
-  return growth;
-}
-
-bool same(const std::vector<Growth>& a, const std::vector<Growth>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (a[i] && b[i] && std::abs(*a[i] - *b[i]) > 1e-8) return false;
-  return true;
-}
-
-std::vector<Freedom> freedom_of(const Net& net, Keep keep) {
-  std::vector<Freedom> freedom(net.points.size(), Freedom::free);
-  freedom[0] = Freedom::held;
-  if (keep == Keep::start) {
-    freedom[net.index(0, 1)] = Freedom::along;
-    freedom[net.index(1, 0)] = Freedom::along;
-    return freedom;
-  }
-  for (const std::size_t corner : {net.index(0, net.columns - 1), net.index(net.rows - 1, 0),
-                                   net.index(net.rows - 1, net.columns - 1)})
-    freedom[corner] = Freedom::held;
-  return freedom;
-}
-
-void add_solved(std::vector<Target>& targets, const Net& net, const EditOptions& options) {
-  OneMatrixProblem problem;
-  problem.net = net;
-  problem.freedom = freedom_of(net, options.keep);
-  problem.growth.assign(static_cast<std::size_t>(net.rows) + static_cast<std::size_t>(net.columns),
-                        std::nullopt);
-  OneMatrixNet found = solve_one_matrix(problem, net, false);
-  if (!(found.violation <= kMet)) return;
-  targets.push_back({"one matrix", found.net});
-  const Sense sense = sense_of(found.net, options.keep);
-  for (const double weight : {0.02, 0.1, 0.5, 3.0}) {
-    if (options.progress.stop_requested()) return;
-    problem.growth = wanted_growth(found.net, sense, options, problem.growth);
-    problem.growth_weight = weight;
-    const OneMatrixNet next = solve_one_matrix(problem, found.net, false);
-    if (!(next.violation <= kMet)) return;
-    found = next;
-    targets.push_back({"towards least energy", found.net});
-  }
-  bool met = false;
-  for (int round = 0; round < 8; ++round) {
-    const auto wanted = wanted_growth(found.net, sense, options, problem.growth);
-    if (met && same(wanted, problem.growth)) break;
-    problem.growth = wanted;
-    problem.growth_weight = 2;
-    const OneMatrixNet next = solve_one_matrix(problem, found.net, true);
-    if (!(next.violation <= kMet && next.growth_error <= 1e-9)) break;
-    met = true;
-    found = next;
-  }
-  if (met) targets.push_back({"least energy", found.net});
-}
-
-void add_translational(std::vector<Target>& targets, const Net& net, const EditOptions& options) {
-  const Curve row = least_energy_curve(row_of(net, 0), false, options);
-  const Curve column = least_energy_curve(column_of(net, 0), false, options);
-  if (row.empty() || column.empty()) return;
-  Net moved = net;
-  for (int i = 0; i < net.rows; ++i)
-    for (int j = 0; j < net.columns; ++j) moved.at(i, j) = row[j] + (column[i] - column[0]);
-  targets.push_back({"translational", std::move(moved)});
-}
-
-/// Rows (or columns) alone at their minimum; with `frame` the two outer columns (rows) first.
-void add_one_way(std::vector<Target>& targets, const Net& net, bool rows, bool frame,
-                 const EditOptions& options) {
-  const Sense sense = sense_of(net, options.keep);
-  Net moved = net;
-  const auto change = [&](bool row_curves, bool outer, bool inner) {
-    for (const NetworkCurve& c : network_curves(moved)) {
-      const int last = (c.is_row ? net.rows : net.columns) - 1;
-      const bool border = c.index == 0 || c.index == last;
-      if (c.is_row != row_curves || (border ? !outer : !inner)) continue;
-      const bool from_end = c.is_row ? sense.rows_from_end : sense.columns_from_end;
-      const Curve best = least_energy_curve(c.control, from_end, options);
-      if (best.empty()) return false;
-      put(moved, c, best);
-    }
-    return true;
-  };
-  if (frame && !change(!rows, true, false)) return;
-  if (!change(rows, frame, true)) return;
-  targets.push_back({rows ? "rows" : "columns", std::move(moved)});
-}
-
-}  // namespace
-
-std::vector<Target> edit_targets(const Net& net, const EditOptions& options) {
-  std::vector<Target> targets;
-  if (options.keep == Keep::start) add_translational(targets, net, options);
-  if (options.keep != Keep::boundary && net.points.size() <= kMostSolved)
-    add_solved(targets, net, options);
-  if (options.keep != Keep::start) {
-    // these ends have to stay, whatever tolerance the minimum is judged by
-    EditOptions held = options;
-    held.end_tolerance = 0;
-    const bool frame = options.keep == Keep::corners;
-    add_one_way(targets, net, true, frame, held);
-    add_one_way(targets, net, false, frame, held);
-  }
-  return targets;
+  return set;
 }
 
 }  // namespace keyline::surface::detail

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "keyline/surface/edit.h"
+#include "keyline/surface/edit_curve.h"
 
+/// Internals of room surface: the nets an edit may take a patch to.
 namespace keyline::surface::detail {
 
 struct Target {
@@ -12,7 +14,37 @@ struct Target {
   Net net;
 };
 
-/// All targets of edit() that exist for this net, exact ones only.
-std::vector<Target> edit_targets(const Net& net, const EditOptions& options);
+/// The targets that were found and why others were not.
+struct TargetSet {
+  std::vector<Target> targets;
+  std::vector<MissedTarget> missed;
+};
+
+/// Which way edges are to grow: away from b00 where the start is kept, else as they do.
+struct Sense {
+  bool rows_from_end = false;
+  bool columns_from_end = false;
+};
+Sense sense_of(const Net& net, Keep keep);
+
+/// A patch to be edited, with what is asked of each of its network curves.
+struct EditTask {
+  const Net& net;
+  const EditOptions& options;
+  std::vector<CurveCondition> conditions;  ///< in the order of network_curves
+
+  /// Place of a curve in that order.
+  std::size_t index_of(const NetworkCurve& c) const {
+    return static_cast<std::size_t>(c.is_row ? c.index : net.rows + c.index);
+  }
+  CurveTask curve(const NetworkCurve& c, const Sense& sense) const;
+};
+
+/// All targets of edit() that exist for this net, exact ones only. They may still miss a condition.
+TargetSet edit_targets(const EditTask& task);
+
+/// "one matrix", "towards least energy", "least energy" (one_matrix.h), where there are at least as
+/// many freedoms as equations.
+void add_solved(const EditTask& task, TargetSet& set);
 
 }  // namespace keyline::surface::detail

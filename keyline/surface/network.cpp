@@ -43,10 +43,7 @@ Result<CurveValue> value_of(const std::vector<Point3>& control, const CavOptions
   return classa::cav(std::span<const Point3>(control), options);
 }
 
-Result<void> check(const BezierSurface& s, const CavOptions& options) {
-  if (!(options.alpha_max > 0 && options.alpha_max < core::kPi / 2))
-    return fail(ErrorCode::bad_input, "alpha_max has to lie between 0 and pi/2",
-                "give radians, for example 1.0982", "alpha_max");
+Result<void> check(const BezierSurface& s) {
   if (is_rational(s))
     return fail(ErrorCode::unsupported, "a rational patch has no control matrices",
                 "approximate it by a polynomial patch", "weights");
@@ -65,10 +62,17 @@ std::vector<NetworkCurve> network_curves(const Net& net) {
 }
 
 Result<SurfaceValue> sav(const BezierSurface& s, const CavOptions& options) {
-  if (auto sound = check(s, options); !sound) return std::unexpected(sound.error());
+  if (!(options.alpha_max > 0 && options.alpha_max < core::kPi / 2))
+    return fail(ErrorCode::bad_input, "alpha_max has to lie between 0 and pi/2",
+                "give radians, for example 1.0982", "alpha_max");
+  return sav(s, [&options](const NetworkCurve&) { return options; });
+}
+
+Result<SurfaceValue> sav(const BezierSurface& s, const CavOptionsOf& options) {
+  if (auto sound = check(s); !sound) return std::unexpected(sound.error());
   SurfaceValue result;
   for (const NetworkCurve& curve : network_curves(s.net)) {
-    auto value = value_of(curve.control, options);
+    auto value = value_of(curve.control, options(curve));
     if (!value) {
       core::Failure failure = value.error();
       failure.path = failure.path.empty() ? curve.name : curve.name + "." + failure.path;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,10 @@ struct SurfaceValue {
 /// Errors: bad_input for alpha_max outside (0, pi/2) and as classa::cav; unsupported for a rational
 /// patch; undrawable as classa::cav, with the curve's name as path.
 core::Result<SurfaceValue> sav(const BezierSurface& s, const classa::CavOptions& options = {});
+
+/// The same with options of each curve's own.
+using CavOptionsOf = std::function<classa::CavOptions(const NetworkCurve&)>;
+core::Result<SurfaceValue> sav(const BezierSurface& s, const CavOptionsOf& options);
 
 /// The same for each Bézier patch of a surface.
 struct PatchValue {

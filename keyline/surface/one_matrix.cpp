@@ -10,6 +10,7 @@
 namespace keyline::surface::detail {
 namespace {
 
+using core::cross;
 using core::dot;
 using core::norm;
 using core::Point3;
@@ -26,6 +27,15 @@ double size_of(const Net& net) {
   double most = 0;
   for (const Point3& p : net.points) most = std::max(most, core::distance(p, middle));
   return 2 * most;
+}
+
+int degree_of(const Net& net, int curve) { return (curve < net.rows ? net.columns : net.rows) - 1; }
+
+/// Equations of one curve: its matrix, then growth, turn and tangent as wished.
+int residual_count(const OneMatrixProblem& p, int curve) {
+  const CurveWish& wish = p.wishes[curve];
+  return 3 * std::max(degree_of(p.net, curve) - 2, 0) + (wish.growth ? 1 : 0) +
+         (wish.turn ? 1 : 0) + (wish.tangent ? 3 : 0);
 }
 
 /// Residuals of the curves and of the departure, with unknowns as shares of the net's size.
@@ -81,12 +91,7 @@ class System {
     int axis;
   };
 
-  int degree_of(int curve) const {
-    return (curve < p_.net.rows ? p_.net.columns : p_.net.rows) - 1;
-  }
-  int residuals_of(int curve) const {
-    return 3 * std::max(degree_of(curve) - 2, 0) + (p_.growth[curve] ? 1 : 0);
-  }
+  int residuals_of(int curve) const { return residual_count(p_, curve); }
 
   Vector3 ray(std::size_t point) const {
     const Vector3 d = p_.net.points[point] - p_.net.points[0];
@@ -110,7 +115,7 @@ class System {
   std::vector<Vector3> edges_of(const Net& net, int curve) const {
     const bool row = curve < net.rows;
     std::vector<Vector3> edges;
-    for (int i = 0; i < degree_of(curve); ++i)
+    for (int i = 0; i < degree_of(net, curve); ++i)
       edges.push_back(row ? net.at(curve, i + 1) - net.at(curve, i)
                           : net.at(i + 1, curve - net.rows) - net.at(i, curve - net.rows));
     return edges;
@@ -120,20 +125,26 @@ class System {
   bool fill(const Net& net, int curve, Eigen::VectorXd& r) const {
     const auto e = edges_of(net, curve);
     int row = first_[curve];
+    const auto put = [&](Vector3 v) {
+      for (const double x : {v.x, v.y, v.z}) r[row++] = equation_weight_ * x / size_;
+    };
     for (const Vector3& edge : e)
       if (!(norm(edge) > kShortest * size_)) return false;
     for (std::size_t i = 2; i < e.size(); ++i) {
       const double a = dot(e[i - 2], e[i - 2]);
-      const Vector3 left = e[i] - (2 * dot(e[i - 2], e[i - 1]) / a) * e[i - 1] +
-                           (dot(e[i - 1], e[i - 1]) / a) * e[i - 2];
-      for (const double x : {left.x, left.y, left.z}) r[row++] = equation_weight_ * x / size_;
+      put(e[i] - (2 * dot(e[i - 2], e[i - 1]) / a) * e[i - 1] +
+          (dot(e[i - 1], e[i - 1]) / a) * e[i - 2]);
     }
-    if (p_.growth[curve] && e.size() > 1)
-      r[row] = p_.growth_weight *
-               (std::log(norm(e.back()) / norm(e.front())) / static_cast<double>(e.size() - 1) -
-                *p_.growth[curve]);
-    else if (p_.growth[curve])
-      r[row] = 0;
+    const CurveWish& wish = p_.wishes[curve];
+    if (wish.growth) {
+      const double steps = std::max<double>(static_cast<double>(e.size()) - 1, 1);
+      const double weight = wish.firm ? equation_weight_ : p_.growth_weight;
+      r[row++] = weight * (std::log(norm(e.back()) / norm(e.front())) / steps - *wish.growth);
+    }
+    if (wish.turn)
+      r[row++] =
+          equation_weight_ * (std::atan2(norm(cross(e[0], e[1])), dot(e[0], e[1])) - *wish.turn);
+    if (wish.tangent) put(e[0] - dot(e[0], *wish.tangent) * *wish.tangent);
     return true;
   }
 
@@ -175,13 +186,20 @@ std::vector<int> exact_rows(const OneMatrixProblem& p, bool with_growth) {
   std::vector<int> rows;
   int row = 0;
   for (int c = 0; c < p.net.rows + p.net.columns; ++c) {
-    const int degree = (c < p.net.rows ? p.net.columns : p.net.rows) - 1;
-    for (int i = 0; i < 3 * std::max(degree - 2, 0); ++i) rows.push_back(row++);
-    if (!p.growth[c]) continue;
-    if (with_growth) rows.push_back(row);
-    ++row;
+    const CurveWish& wish = p.wishes[c];
+    const int end = row + residual_count(p, c);
+    for (int i = 0; i < 3 * std::max(degree_of(p.net, c) - 2, 0); ++i) rows.push_back(row++);
+    if (wish.growth && !with_growth && !wish.firm) ++row;
+    while (row < end) rows.push_back(row++);
   }
   return rows;
+}
+
+/// The curve a row belongs to.
+int curve_of_row(const OneMatrixProblem& p, int row) {
+  int c = 0;
+  for (int first = residual_count(p, 0); row >= first; first += residual_count(p, c)) ++c;
+  return c;
 }
 
 /// Shortest steps that meet the linearised equations, shortened until they help.
@@ -229,11 +247,14 @@ OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start,
   plain.growth_weight = 1;
   const System system(plain, size, 1);
   polish(system, exact_rows(problem, exact_growth), x);
-  OneMatrixNet result{system.net_at(x), 0, 0};
+  OneMatrixNet result{system.net_at(x)};
   Eigen::VectorXd r;
   if (!system.evaluate(x, r, nullptr)) return {problem.net, 1, 1};
-  const auto hard = exact_rows(problem, false);
-  result.violation = hard.empty() ? 0 : Eigen::VectorXd(r(hard)).lpNorm<Eigen::Infinity>();
+  for (const int row : exact_rows(problem, false)) {
+    if (!(std::abs(r[row]) > result.violation)) continue;
+    result.violation = std::abs(r[row]);
+    result.worst = curve_of_row(problem, row);
+  }
   result.growth_error = r.head(system.equations()).lpNorm<Eigen::Infinity>();
   return result;
 }

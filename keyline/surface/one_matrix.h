@@ -16,20 +16,26 @@ namespace keyline::surface::detail {
 /// How a control point may move.
 enum class Freedom { held, along, free };  ///< along: on the ray from net.at(0, 0) through it
 
-/// Wanted growth of the edges of one curve: ln(s), or nothing.
-using Growth = std::optional<double>;
+/// What is asked of one curve beside having one matrix.
+struct CurveWish {
+  std::optional<double> growth;          ///< of its edges, ln(s), signed
+  bool firm = false;                     ///< growth is an equation even without `exact_growth`
+  std::optional<double> turn;            ///< alpha >= 0: an equation
+  std::optional<core::Vector3> tangent;  ///< unit direction of the first edge: equations
+};
 
 struct OneMatrixProblem {
-  Net net;                       ///< start, and what the result should stay near
-  std::vector<Freedom> freedom;  ///< in the order of net.points
-  std::vector<Growth> growth;    ///< in the order of network_curves; signed
-  double growth_weight = 0;      ///< against the departure of the net as share of its size
+  Net net;                        ///< start, and what the result should stay near
+  std::vector<Freedom> freedom;   ///< in the order of net.points
+  std::vector<CurveWish> wishes;  ///< in the order of network_curves
+  double growth_weight = 0;       ///< against the departure of the net as share of its size
 };
 
 struct OneMatrixNet {
   Net net;
-  double violation = 0;     ///< largest left-over of the equations as share of the net's size
+  double violation = 0;     ///< largest left-over of the equations, lengths as share of the size
   double growth_error = 0;  ///< largest |ln(s) - wanted|
+  int worst = 0;            ///< curve of the largest violation
 };
 
 /// The net nearest to problem.net (least squares) that meets the equations, from `start`: penalty

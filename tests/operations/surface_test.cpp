@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/operations/operation.h"
+#include "keyline/operations/surface_conditions.h"
 
 namespace keyline::operations {
 namespace {
@@ -160,6 +161,41 @@ TEST(SurfaceOperations, EditBringsSavDownAndSaysByHowMuchItDeparts) {
   EXPECT_LE(again["sav"].get<double>(), 1);
   EXPECT_EQ(error_of({{"op", "surface.edit"}, {"surface", bicubic(5)}, {"keep", "all"}})["path"],
             "keep");
+}
+
+TEST(SurfaceOperations, EditTakesConditionsPerCurve) {
+  json request{{"op", "surface.edit"}, {"surface", bicubic(5)}};
+  request["conditions"] = {{{"curve", "A1"}, {"s", {1.2, 1.3}}}, {{"alpha", {0.0, 1.0}}}};
+  const json r = result_of(request);
+  EXPECT_LE(r["after"]["curves"][0]["s"].get<double>(), 1.3 + 1e-6);
+  EXPECT_TRUE(r["missed"].is_array());
+  const auto path = [&](json conditions) {
+    request["conditions"] = std::move(conditions);
+    return error_of(request).value("path", "");
+  };
+  EXPECT_EQ(path(3), "conditions");
+  EXPECT_EQ(path(json::array({3})), "conditions[0]");
+  EXPECT_EQ(path({{{"s", {1, 2, 3}}}}), "conditions[0].s");
+  EXPECT_EQ(path({{{"s", {1, "x"}}}}), "conditions[0].s[1]");
+  EXPECT_EQ(path({{{"branch", "up"}}}), "conditions[0].branch");
+  EXPECT_EQ(path({{{"colour", "red"}}}), "conditions[0].colour");
+  EXPECT_EQ(path({{{"curve", "A77"}}}), "conditions[0].curve");
+}
+
+TEST(SurfaceOperations, ConditionsOfTheCommandLine) {
+  const auto read =
+      condition_from_text("A1:s=1.1..1.4,alpha=0.2,end=0.1,branch=falling,tangent=kept");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, (json{{"curve", "A1"},
+                         {"s", {1.1, 1.4}},
+                         {"alpha", {0.2, 0.2}},
+                         {"end_tolerance", 0.1},
+                         {"branch", "falling"},
+                         {"tangent", true}}));
+  EXPECT_FALSE(condition_from_text("s=1.3")->contains("curve"));
+  for (const char* text :
+       {"", "A1:", "s=1..2..3", "A1", "s=", "s=a..b", "tangent=1", "s=1..inf", "x=1"})
+    EXPECT_FALSE(condition_from_text(text)) << text;
 }
 
 TEST(SurfaceOperations, SweepsTakeLogAestheticQuasiAndFreeProfiles) {

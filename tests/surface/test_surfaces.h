@@ -30,6 +30,18 @@ inline BezierSurface crowned_patch() {
   return {net, {}};
 }
 
+/// A crowned patch pushed out of shape by hand, so to say: SAV between 250 and 410.
+inline BezierSurface distorted_patch() {
+  BezierSurface s = crowned_patch();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double a = 1.7 * i + 2.9 * j;
+      s.net.at(i, j) = s.net.at(i, j) +
+                       core::Vector3{4 * std::sin(a), 4 * std::cos(1.3 * a), 5 * std::sin(2.1 * a)};
+    }
+  return s;
+}
+
 /// The halves of a patch in u.
 inline std::pair<BezierSurface, BezierSurface> halves_u(const BezierSurface& s) {
   BezierSurface low = s;
