@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -133,6 +134,24 @@ Result<std::string> write_svg(const Sketch& sketch, double tolerance) {
   return std::move(written->content);
 }
 
+/// What driving the curvature reached, over all strokes.
+std::string drive_note(const Sketch& sketch) {
+  double before = 0;
+  double after = 0;
+  double count = 0;
+  for (const sketch::Stroke& stroke : sketch.trace.strokes) {
+    if (!stroke.driven) continue;
+    const auto n = static_cast<double>(stroke.target.size());
+    before += n * stroke.driven->before * stroke.driven->before;
+    after += n * stroke.driven->after * stroke.driven->after;
+    count += n;
+  }
+  if (count == 0) return {};
+  const double unit = std::sqrt(1 / count) / sketch.scale;
+  return fmt::format("curvature off its target by {:.3g} 1/{} (root mean square), {:.3g} before",
+                     unit * std::sqrt(after), sketch.unit, unit * std::sqrt(before));
+}
+
 void tell(const Sketch& sketch, const SketchCommand& command) {
   std::size_t pieces = 0;
   std::size_t segments = 0;
@@ -149,6 +168,7 @@ void tell(const Sketch& sketch, const SketchCommand& command) {
       fmt::format("{}{} stroke{}: {} line segments, {} quintic{}", size,
                   sketch.trace.strokes.size(), sketch.trace.strokes.size() == 1 ? "" : "s",
                   segments, pieces, pieces == 1 ? "" : "s"));
+  if (const std::string note = drive_note(sketch); !note.empty()) say(command.common.quiet, note);
 }
 
 }  // namespace

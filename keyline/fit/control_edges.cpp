@@ -85,9 +85,14 @@ double curvature_with_gradient(const Edges& e, double u, std::array<double, kEdg
   return kappa;
 }
 
-FreeLengths::FreeLengths(std::vector<Edges> start, bool closed, bool hold)
+FreeLengths::FreeLengths(std::vector<Edges> start, bool closed, bool hold, bool fix_ends)
     : start_(std::move(start)) {
   role_.assign(kEdges * start_.size(), Role::free);
+  if (fix_ends)
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      role_[k] = Role::fixed;
+      role_[role_.size() - 1 - k] = Role::fixed;
+    }
   for (std::size_t i = 0; i + (closed ? 0 : 1) < start_.size(); ++i)
     tie_joint(i, (i + 1) % start_.size());
   if (hold || closed) choose_pair();
@@ -104,11 +109,11 @@ Eigen::VectorXd FreeLengths::unknowns() const {
   return x;
 }
 
-bool FreeLengths::expand(const Eigen::VectorXd& x, Eigen::VectorXd& a,
-                         Eigen::MatrixXd* by_x) const {
+bool FreeLengths::expand(const Eigen::VectorXd& x, Eigen::VectorXd& a, RowMatrix* by_x) const {
   const auto all = static_cast<Eigen::Index>(role_.size());
   a.resize(all);
   if (by_x) by_x->setZero(all, size());
+  for (Eigen::Index k = 0; k < all; ++k) a[k] = start_at(static_cast<std::size_t>(k));
   for (Eigen::Index k = 0; k < size(); ++k) {
     const auto at = static_cast<Eigen::Index>(free_[static_cast<std::size_t>(k)]);
     if (!(std::abs(x[k]) < 600)) return false;
@@ -158,7 +163,7 @@ void FreeLengths::choose_pair() {
   if (pair_found_) role_[pair_[0]] = role_[pair_[1]] = Role::end;
 }
 
-void FreeLengths::expand_joint(const Joint& j, Eigen::VectorXd& a, Eigen::MatrixXd* by_x) const {
+void FreeLengths::expand_joint(const Joint& j, Eigen::VectorXd& a, RowMatrix* by_x) const {
   const double ratio = a[j.a1] / a[j.a5];
   a[j.target] = j.factor * a[j.a4] * ratio * ratio;
   if (!by_x) return;
@@ -166,7 +171,7 @@ void FreeLengths::expand_joint(const Joint& j, Eigen::VectorXd& a, Eigen::Matrix
                                        2 * by_x->row(j.a5) / a[j.a5]);
 }
 
-bool FreeLengths::expand_pair(Eigen::VectorXd& a, Eigen::MatrixXd* by_x) const {
+bool FreeLengths::expand_pair(Eigen::VectorXd& a, RowMatrix* by_x) const {
   const auto p = static_cast<Eigen::Index>(pair_[0]);
   const auto q = static_cast<Eigen::Index>(pair_[1]);
   const Vector2 dp = direction_at(pair_[0]);

@@ -15,6 +15,9 @@ namespace keyline::fit {
 
 inline constexpr std::size_t kEdges = 5;
 
+/// Derivatives are filled row by row.
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Control edges of a piece: directions d_n and lengths a_n, [Sketch] Eq. 12.
 struct Edges {
   std::array<core::Vector2, kEdges> direction;
@@ -34,8 +37,9 @@ double curvature_with_gradient(const Edges& e, double u, std::array<double, kEdg
 /// The unknowns: logarithms of free lengths; the others follow from joints and a held end.
 class FreeLengths {
  public:
-  /// closed: the last piece joins the first. hold (or closed): the end point stays.
-  FreeLengths(std::vector<Edges> start, bool closed, bool hold);
+  /// closed: the last piece joins the first. hold (or closed): the end point stays. fix_ends: the
+  /// first two and the last two lengths stay.
+  FreeLengths(std::vector<Edges> start, bool closed, bool hold, bool fix_ends = false);
 
   /// False where an end is to be held and all lengths free for that are parallel.
   bool can_hold() const { return !wants_pair_ || pair_found_; }
@@ -44,10 +48,10 @@ class FreeLengths {
   Eigen::VectorXd unknowns() const;
   /// All lengths, piece by piece, for the unknowns, with their derivatives where asked for; false
   /// where one would not be positive.
-  bool expand(const Eigen::VectorXd& x, Eigen::VectorXd& lengths, Eigen::MatrixXd* by_x) const;
+  bool expand(const Eigen::VectorXd& x, Eigen::VectorXd& lengths, RowMatrix* by_x) const;
 
  private:
-  enum class Role { free, joint, end };
+  enum class Role { free, joint, end, fixed };
   /// a2 of the next piece from a4, a5 of this one and its own a1: factor * a4 * (a1 / a5)^2.
   struct Joint {
     Eigen::Index target, a4, a5, a1;
@@ -60,8 +64,8 @@ class FreeLengths {
   }
   void tie_joint(std::size_t i, std::size_t next);
   void choose_pair();
-  void expand_joint(const Joint& joint, Eigen::VectorXd& a, Eigen::MatrixXd* by_x) const;
-  bool expand_pair(Eigen::VectorXd& a, Eigen::MatrixXd* by_x) const;
+  void expand_joint(const Joint& joint, Eigen::VectorXd& a, RowMatrix* by_x) const;
+  bool expand_pair(Eigen::VectorXd& a, RowMatrix* by_x) const;
 
   std::vector<Edges> start_;
   std::vector<Role> role_;

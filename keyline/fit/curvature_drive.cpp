@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include <Eigen/Core>
 
 #include "keyline/curve/jet.h"
 #include "keyline/curve/monotone.h"
+#include "keyline/fit/chain_displacement.h"
 #include "keyline/fit/control_edges.h"
 #include "keyline/numeric/levenberg_marquardt.h"
 
@@ -125,46 +125,131 @@ double rms_error(const PiecewiseBezier& chain, const std::vector<LocalTarget>& t
 struct Solution {
   PiecewiseBezier chain;
   numeric::LevenbergMarquardtReport report;
+  double moved = 0;  ///< farthest along the normals
 };
 
-Solution solve(const PiecewiseBezier& chain, const std::vector<Edges>& edges,
-               const FreeLengths& lengths, const std::vector<LocalTarget>& targets,
-               int iterations) {
-  double scale = 0;
-  for (const LocalTarget& t : targets) scale = std::max(scale, std::abs(t.curvature));
-  if (!(scale > 0)) scale = 1;
-  std::vector<Edges> now = edges;
-  Eigen::VectorXd a;
-  Eigen::MatrixXd by_x;
-  const auto function = [&](const Eigen::VectorXd& x, Eigen::VectorXd& residuals,
-                            Eigen::MatrixXd* jacobian) {
-    if (!lengths.expand(x, a, jacobian ? &by_x : nullptr)) return false;
-    for (Eigen::Index k = 0; k < a.size(); ++k)
-      now[static_cast<std::size_t>(k) / kEdges].length[static_cast<std::size_t>(k) % kEdges] = a[k];
-    const auto count = static_cast<Eigen::Index>(targets.size());
-    residuals.resize(count);
-    if (jacobian) jacobian->setZero(count, lengths.size());
-    std::array<double, kEdges> gradient{};
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const LocalTarget& t = targets[static_cast<std::size_t>(i)];
-      const double kappa =
-          curvature_with_gradient(now[t.piece], t.u, jacobian ? &gradient : nullptr);
-      residuals[i] = (kappa - t.curvature) / scale;
-      if (!jacobian) continue;
-      for (std::size_t n = 0; n < kEdges; ++n)
-        jacobian->row(i) +=
-            (gradient[n] / scale) * by_x.row(static_cast<Eigen::Index>(kEdges * t.piece + n));
-    }
+/// Everything the search for the lengths starts from.
+struct Problem {
+  const PiecewiseBezier& chain;
+  std::vector<Edges> edges;
+  FreeLengths lengths;
+  ChainDisplacement displacement;
+  int iterations = 100;
+  double max_deviation = 0;  ///< 0: any
+};
+
+/// Root of the weight of a length's own change (of its logarithm) to that of distance.
+constexpr double kEvenness = 0.1;
+
+/// Residuals of Eq. 14, and with `weight` > 0 of the way every place moved, in largest deviations,
+/// and of the lengths' own changes.
+class Residuals {
+ public:
+  Residuals(const Problem& problem, const std::vector<LocalTarget>& targets, double weight)
+      : problem_(problem), targets_(targets), now_(problem.edges), weight_(weight) {
+    for (const LocalTarget& t : targets) scale_ = std::max(scale_, std::abs(t.curvature));
+    if (!(scale_ > 0)) scale_ = 1;
+  }
+
+  bool operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
+    if (!problem_.lengths.expand(x, a_, jacobian ? &by_x_ : nullptr)) return false;
+    for (Eigen::Index k = 0; k < a_.size(); ++k)
+      now_[static_cast<std::size_t>(k) / kEdges].length[static_cast<std::size_t>(k) % kEdges] =
+          a_[k];
+    const auto count = static_cast<Eigen::Index>(targets_.size());
+    const Eigen::Index places = weight_ > 0 ? problem_.displacement.by_length().rows() : 0;
+    const Eigen::Index all = count + places + (weight_ > 0 ? a_.size() : 0);
+    residuals.resize(all);
+    if (jacobian) rows_.setZero(all, problem_.lengths.size());
+    add_curvatures(residuals, jacobian != nullptr);
+    if (weight_ > 0) add_distances(count, places, residuals, jacobian != nullptr);
+    if (jacobian) *jacobian = rows_;
     return residuals.allFinite();
-  };
-  Eigen::VectorXd x = lengths.unknowns();
-  Solution solution;
+  }
+
+ private:
+  void add_curvatures(Eigen::VectorXd& residuals, bool derivatives) {
+    std::array<double, kEdges> gradient{};
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      const LocalTarget& t = targets_[i];
+      const double kappa =
+          curvature_with_gradient(now_[t.piece], t.u, derivatives ? &gradient : nullptr);
+      const auto row = static_cast<Eigen::Index>(i);
+      residuals[row] = (kappa - t.curvature) / scale_;
+      for (std::size_t n = 0; derivatives && n < kEdges; ++n)
+        rows_.row(row) +=
+            (gradient[n] / scale_) * by_x_.row(static_cast<Eigen::Index>(kEdges * t.piece + n));
+    }
+  }
+
+  void add_distances(Eigen::Index first, Eigen::Index places, Eigen::VectorXd& residuals,
+                     bool derivatives) {
+    const double nearness = weight_ / problem_.max_deviation;
+    const double evenness = weight_ * kEvenness;
+    const ChainDisplacement& moved = problem_.displacement;
+    residuals.segment(first, places) = nearness * moved(a_);
+    residuals.tail(a_.size()) = evenness * (a_.array() / moved.start().array()).log();
+    if (!derivatives) return;
+    rows_.middleRows(first, places).noalias() = nearness * (moved.by_length() * by_x_);
+    rows_.bottomRows(a_.size()) = evenness * (a_.cwiseInverse().asDiagonal() * by_x_);
+  }
+
+  const Problem& problem_;
+  const std::vector<LocalTarget>& targets_;
+  std::vector<Edges> now_;
+  double weight_ = 0;
+  double scale_ = 0;
+  Eigen::VectorXd a_;
+  RowMatrix by_x_;
+  RowMatrix rows_;
+};
+
+Solution solve_weighted(const Problem& problem, const std::vector<LocalTarget>& targets,
+                        double weight) {
+  Eigen::VectorXd x = problem.lengths.unknowns();
   numeric::LevenbergMarquardtOptions options;
-  options.max_iterations = iterations;
-  solution.report = numeric::minimize_least_squares(function, x, options);
-  lengths.expand(x, a, nullptr);
-  solution.chain = chain_of(chain.pieces.front().control.front(), edges, a);
+  options.max_iterations = problem.iterations;
+  Solution solution;
+  solution.report =
+      numeric::minimize_least_squares(Residuals(problem, targets, weight), x, options);
+  Eigen::VectorXd a;
+  problem.lengths.expand(x, a, nullptr);
+  solution.chain = chain_of(problem.chain.pieces.front().control.front(), problem.edges, a);
+  solution.moved = problem.displacement(a).lpNorm<Eigen::Infinity>();
   return solution;
+}
+
+/// Largest curvature, ends of pieces included.
+double sharpest(const PiecewiseBezier& chain) {
+  constexpr int kSteps = 64;
+  double most = 0;
+  for (const Bezier2& piece : chain.pieces)
+    for (int i = 0; i <= kSteps; ++i)
+      most = std::max(most, std::abs(curvature(jet(piece, static_cast<double>(i) / kSteps))));
+  return most;
+}
+
+/// The lengths that meet the targets best; with a largest deviation, best of those that neither
+/// take the curve farther nor leave a spike between targets: the least weight of nearness that
+/// does, by halving of its logarithm.
+Solution solve(const Problem& problem, const std::vector<LocalTarget>& targets) {
+  if (problem.max_deviation <= 0) return solve_weighted(problem, targets, 0);
+  constexpr double kSpike = 1.2;
+  double low = -3;
+  double high = 2;
+  constexpr int kRounds = 5;
+  double bend = sharpest(problem.chain);
+  for (const LocalTarget& t : targets) bend = std::max(bend, std::abs(t.curvature));
+  Solution best{problem.chain, {}, 0};
+  for (int round = 0; round < kRounds; ++round) {
+    const double middle = 0.5 * (low + high);
+    Solution found = solve_weighted(problem, targets, std::pow(10, middle));
+    const bool good =
+        found.moved <= problem.max_deviation && sharpest(found.chain) <= kSpike * bend;
+    if (good) best = std::move(found);
+    (good ? high : low) = middle;
+  }
+  return best;
 }
 
 bool stays_monotone(const PiecewiseBezier& before, const PiecewiseBezier& after) {
@@ -234,21 +319,20 @@ Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget> targ
 }
 
 /// The longest part of the way to the target on which monotone pieces stay monotone.
-Solution keep_monotone(const PiecewiseBezier& chain, const std::vector<Edges>& edges,
-                       const FreeLengths& lengths, const std::vector<LocalTarget>& targets,
-                       int iterations, double& share) {
+Solution keep_monotone(const Problem& problem, const std::vector<LocalTarget>& targets,
+                       double& share) {
   double low = 0;
   double high = 1;
-  Solution best{chain, {}};
+  Solution best{problem.chain, {}, 0};
   for (int round = 0; round < 10; ++round) {
     const double way = round == 0 ? 1 : 0.5 * (low + high);
     std::vector<LocalTarget> part = targets;
     for (LocalTarget& t : part) {
-      const double now = curvature(jet(chain.pieces[t.piece], t.u));
+      const double now = curvature(jet(problem.chain.pieces[t.piece], t.u));
       t.curvature = now + way * (t.curvature - now);
     }
-    Solution found = solve(chain, edges, lengths, part, iterations);
-    if (stays_monotone(chain, found.chain)) {
+    Solution found = solve(problem, part);
+    if (stays_monotone(problem.chain, found.chain)) {
       best = std::move(found);
       low = way;
       if (round == 0) break;
@@ -258,6 +342,16 @@ Solution keep_monotone(const PiecewiseBezier& chain, const std::vector<Edges>& e
   }
   share = low;
   return best;
+}
+
+/// Targets with t over the whole chain.
+std::vector<CurvatureTarget> over_all(const std::vector<LocalTarget>& targets, std::size_t pieces) {
+  std::vector<CurvatureTarget> all;
+  for (const LocalTarget& t : targets)
+    all.push_back(
+        {(static_cast<double>(t.piece) + t.u) / static_cast<double>(pieces), t.curvature});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  return all;
 }
 
 }  // namespace
@@ -276,23 +370,26 @@ Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
     result.notes.push_back("split at " + std::to_string(splits) + " inflections inside pieces");
   const auto edges = edges_of(chain);
   if (!edges) return std::unexpected(edges.error());
-  const FreeLengths lengths(*edges, options.closed, options.hold_end);
-  if (!lengths.can_hold())
+  const Problem problem{chain,
+                        *edges,
+                        FreeLengths(*edges, options.closed, options.hold_end,
+                                    options.hold_curvature && !options.closed),
+                        ChainDisplacement(chain, *edges),
+                        options.max_iterations,
+                        options.max_deviation};
+  if (!problem.lengths.can_hold())
     return core::fail(ErrorCode::undrawable, "the end cannot be held: all free edges are parallel",
                       "let the end move", "hold_end");
-  Solution solution;
-  if (options.keep_monotone) {
-    solution =
-        keep_monotone(chain, *edges, lengths, *targets, options.max_iterations, result.share);
-  } else {
-    solution = solve(chain, *edges, lengths, *targets, options.max_iterations);
-  }
+  Solution solution = options.keep_monotone ? keep_monotone(problem, *targets, result.share)
+                                            : solve(problem, *targets);
   result.before = rms_error(chain, *targets);
   result.after = rms_error(solution.chain, *targets);
   result.end_moved = core::distance(solution.chain.pieces.back().control.back(),
                                     chain.pieces.back().control.back());
   result.iterations = solution.report.iterations;
   result.converged = solution.report.status == numeric::LevenbergMarquardtStatus::converged;
+  result.moved = solution.moved;
+  result.target = over_all(*targets, chain.pieces.size());
   result.chain = std::move(solution.chain);
   if (result.share < 1)
     result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");

@@ -16,9 +16,11 @@ struct CurvatureTarget {
 };
 
 struct CurvatureDriveOptions {
-  bool closed = false;         ///< the end stays in the start; implies hold_end
-  bool hold_end = false;       ///< the end point stays; else it moves with the lengths
-  bool keep_monotone = false;  ///< pieces of monotone curvature stay so
+  bool closed = false;          ///< the end stays in the start; implies hold_end
+  bool hold_end = false;        ///< the end point stays; else it moves with the lengths
+  bool hold_curvature = false;  ///< at both ends, where the curve goes on (open chains)
+  bool keep_monotone = false;   ///< pieces of monotone curvature stay so
+  double max_deviation = 0;  ///< farthest any quarter of a piece may move along its normal; 0: any
   int max_iterations = 100;
 };
 
@@ -27,9 +29,11 @@ struct CurvatureDrive {
   double before = 0;             ///< root mean square of curvature less target, at the targets
   double after = 0;
   double share = 1;      ///< of the way to the target that keep_monotone allowed, 0 … 1
+  double moved = 0;      ///< farthest the curve moved along its normals
   double end_moved = 0;  ///< distance of the end point from where it was
   int iterations = 0;
   bool converged = false;
+  std::vector<CurvatureTarget> target;  ///< as used: t over the chain that came back
   std::vector<std::string> notes;
 };
 
@@ -41,12 +45,15 @@ struct CurvatureDrive {
 /// (Eqs. 9 and 10 eliminate a length). An inflection cannot lie inside a piece of constant
 /// directions, so pieces are split at inflections first. Where targets are few, curvatures
 /// between them are interpolated (monotone cubics).
-/// Five lengths cannot meet every target: `after` says what was reached.
+/// Five lengths cannot meet every target: `after` says what was reached. Nor does Eq. 14 say where
+/// the curve lies: along nearly straight stretches any length will do. With max_deviation the
+/// distance moved counts as well, with the least weight that keeps the curve within.
 ///
 /// Fails: bad_input for pieces of a degree other than 1 to 5 or rational ones, pieces that do not
 ///        join, edges of no length, fewer than two targets, targets outside [0, 1] or not finite;
 ///        undrawable where the end is to be held on a chain whose free edges are all parallel.
-/// Accuracy: targets taken from a chain of the same directions are met to rounding.
+/// Accuracy: without max_deviation, targets from a chain of the same directions are met to
+/// rounding.
 core::Result<CurvatureDrive> drive_curvature(const curve::PiecewiseBezier& chain,
                                              std::vector<CurvatureTarget> targets,
                                              const CurvatureDriveOptions& options = {});

@@ -24,6 +24,7 @@ constexpr int kPieceSize = 4;  ///< a, b (end edges), c, d (tangential part of t
 constexpr int kIterations = 12;
 constexpr int kEvenPieces = 4;       ///< up to here joints are laid evenly, then where they lack
 constexpr double kStiffness = 1e-3;  ///< pull of the four lengths to a fifth of the piece
+constexpr double kLeastEdge = 0.5;   ///< of that fifth; shorter end edges hide a cusp behind them
 
 struct Joint {
   Point2 place;
@@ -299,7 +300,7 @@ class Fit {
     for (std::size_t k = 0; k < chain_.lengths.size(); ++k) {
       Lengths& l = chain_.lengths[k];
       const int at = piece_at(k);
-      const double least = 0.1 * rest_[k];
+      const double least = kLeastEdge * rest_[k];
       l.a = std::max(least, l.a + x[at]);
       l.b = std::max(least, l.b + x[at + 1]);
       l.c += x[at + 2];

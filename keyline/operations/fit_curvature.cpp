@@ -59,6 +59,9 @@ Result<json> run(const json& request, const Context&) {
   options.closed = path.closed;
   options.hold_end = boolean_or(request, "hold_end", false);
   options.keep_monotone = boolean_or(request, "keep_monotone", false);
+  const auto most = positive_number(request, "max_deviation");
+  if (!most) return std::unexpected(most.error());
+  options.max_deviation = most->value_or(0);
   const auto driven = fit::drive_curvature(*chain, *target, options);
   if (!driven) return std::unexpected(driven.error());
   document::Path out{{}, path.closed};
@@ -66,7 +69,8 @@ Result<json> run(const json& request, const Context&) {
   return json{{"curve", exchange::to_json(out)},  {"before", driven->before},
               {"after", driven->after},           {"converged", driven->converged},
               {"iterations", driven->iterations}, {"share", driven->share},
-              {"end_moved", driven->end_moved},   {"report", driven->notes}};
+              {"end_moved", driven->end_moved},   {"moved", driven->moved},
+              {"report", driven->notes}};
 }
 
 json example_curve() {
@@ -93,6 +97,8 @@ Operation fit_curvature_operation() {
        {"cutoff", Type::number, false,
         "wavelength that smooth halves; else twice the mean length of a piece"},
        {"hold_end", Type::boolean, false, "the end point stays; else it moves with the lengths"},
+       {"max_deviation", Type::number, false,
+        "farthest the curve may move; else as far as the lengths take it"},
        {"keep_monotone", Type::boolean, false, "pieces of monotone curvature stay so"}},
       run,
       {{"curve", example_curve()}, {"target", "smooth"}}};

@@ -140,13 +140,17 @@ Result<sketch::TraceResult> trace_drawn(
 
 json sketch_json(const sketch::TraceResult& trace, double scale) {
   json strokes = json::array();
-  for (const sketch::Stroke& stroke : trace.strokes)
+  for (const sketch::Stroke& stroke : trace.strokes) {
     strokes.push_back({{"points", points_json(stroke.points, scale)},
                        {"segments", points_json(stroke.segments, scale)},
                        {"curve", exchange::to_json(path_of(stroke, {scale, 0, {}}))},
                        {"corners", stroke.corners},
                        {"closed", stroke.closed},
                        {"width", scale * stroke.width}});
+    if (stroke.driven)
+      strokes.back()["curvature_error"] = {{"before", stroke.driven->before / scale},
+                                           {"after", stroke.driven->after / scale}};
+  }
   return {{"strokes", std::move(strokes)},
           {"size", {scale * trace.width, scale * trace.height}},
           {"report", trace.notes}};

@@ -1,7 +1,9 @@
 #include "keyline/sketch/stroke_curve.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "keyline/curve/piecewise_bezier.h"
 #include "keyline/fit/curvature_target.h"
 #include "keyline/fit/quintic_chain.h"
 #include "keyline/sketch/quintics.h"
@@ -64,15 +66,90 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   return chain.within_tolerance ? chain.pieces : pieces;
 }
 
-/// Drives quintics to the curvature aimed at, ends held; what cannot be driven stays.
-void drive(std::vector<curve::Bezier2>& pieces, bool closed, CurvatureAim aim, Stroke& stroke) {
+constexpr double kDriveShare = 0.3;  ///< of the width: how far driving may take a curve
+constexpr double kDriveGain = 0.9;   ///< of the error is left at most, or the curve stays
+constexpr int kDriveSteps = 15;
+constexpr std::size_t kDrivePieces = 20;  ///< driven at once: the work grows with their cube
+
+/// What driving did to pieces in a row: targets have t over them.
+struct DrivenRun {
+  std::size_t pieces = 0;
+  std::vector<fit::CurvatureTarget> target;
+  double before = 0;
+  double after = 0;
+};
+
+/// Root mean square of the curvature less its target.
+double off_target(const curve::PiecewiseBezier& chain,
+                  const std::vector<fit::CurvatureTarget>& target) {
+  double sum = 0;
+  for (const fit::CurvatureTarget& t : target) {
+    const double d = curvature(jet(chain, t.t)) - t.curvature;
+    sum += std::isfinite(d) ? d * d : 0;
+  }
+  return std::sqrt(sum / static_cast<double>(target.size()));
+}
+
+/// Drives the pieces from `first` up to `last` of a chain to the targets there (t over the chain),
+/// ends held, within the ink; what gains little stays.
+DrivenRun drive_part(const std::vector<curve::Bezier2>& all, std::size_t first, std::size_t last,
+                     const std::vector<fit::CurvatureTarget>& targets, double max_deviation,
+                     bool closed, std::vector<curve::Bezier2>& driven_pieces) {
+  const auto from = static_cast<std::ptrdiff_t>(first);
+  const auto to = static_cast<std::ptrdiff_t>(last);
+  const curve::PiecewiseBezier chain{{all.begin() + from, all.begin() + to}, 0};
+  std::vector<fit::CurvatureTarget> target;
+  for (const fit::CurvatureTarget& t : targets) {
+    const double at = t.t * static_cast<double>(all.size()) - static_cast<double>(first);
+    const double share = at / static_cast<double>(last - first);
+    if (share >= 0 && share < 1) target.push_back({share, t.curvature});
+  }
+  const auto driven = fit::drive_curvature(chain, target,
+                                           {.closed = closed,
+                                            .hold_end = true,
+                                            .hold_curvature = last - first < all.size(),
+                                            .max_deviation = max_deviation,
+                                            .max_iterations = kDriveSteps});
+  const bool good = driven && driven->after <= kDriveGain * driven->before;
+  const std::vector<curve::Bezier2>& pieces = good ? driven->chain.pieces : chain.pieces;
+  driven_pieces.insert(driven_pieces.end(), pieces.begin(), pieces.end());
+  if (good) return {pieces.size(), driven->target, driven->before, driven->after};
+  const double off = off_target(chain, target);
+  return {pieces.size(), target, off, off};
+}
+
+/// Drives the quintics of a run, long ones part by part: their joints stay as they are.
+void drive(std::vector<curve::Bezier2>& pieces, bool closed, double width,
+           const StrokeCurveOptions& options, std::vector<DrivenRun>& runs) {
   const curve::PiecewiseBezier chain{pieces, 0};
-  const auto target = aim == CurvatureAim::smooth ? fit::smooth_target(chain, closed)
-                                                  : fit::rhythm_target(chain, closed);
-  const auto driven = fit::drive_curvature(chain, target, {.closed = closed, .hold_end = true});
-  if (!driven || !(driven->after <= driven->before)) return;
-  stroke.target = target;
-  pieces = driven->chain.pieces;
+  const auto target = options.aim == CurvatureAim::smooth ? fit::smooth_target(chain, closed)
+                                                          : fit::rhythm_target(chain, closed);
+  const double most = std::max(2 * options.tolerance, kDriveShare * width);
+  std::vector<curve::Bezier2> driven;
+  const std::size_t parts = (pieces.size() + kDrivePieces - 1) / kDrivePieces;
+  for (std::size_t k = 0; k < parts; ++k)
+    runs.push_back(drive_part(pieces, k * pieces.size() / parts, (k + 1) * pieces.size() / parts,
+                              target, most, closed && parts == 1, driven));
+  pieces = std::move(driven);
+}
+
+/// Targets and errors of all parts as those of the whole stroke.
+void report_drive(const std::vector<DrivenRun>& runs, Stroke& stroke) {
+  double offset = 0;
+  double before = 0;
+  double after = 0;
+  for (const DrivenRun& run : runs) {
+    const auto count = static_cast<double>(run.pieces);
+    for (const fit::CurvatureTarget& t : run.target)
+      stroke.target.push_back(
+          {(offset + t.t * count) / static_cast<double>(stroke.curve.size()), t.curvature});
+    offset += count;
+    before += static_cast<double>(run.target.size()) * run.before * run.before;
+    after += static_cast<double>(run.target.size()) * run.after * run.after;
+  }
+  if (stroke.target.empty()) return;
+  const auto all = static_cast<double>(stroke.target.size());
+  stroke.driven = {std::sqrt(before / all), std::sqrt(after / all)};
 }
 
 /// The part of an axis that its group's points took.
@@ -90,10 +167,11 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
   stroke.widths = fine.widths;
   const auto runs = fit_segments(fine.points, fine.closed,
                                  {options.straightness, options.corner_angle, fine.width});
+  std::vector<DrivenRun> driven;
   for (const SegmentRun& run : runs) {
     const std::vector<curve::Bezier2> quadratic = quadratics(run.vertices, run.closed);
     std::vector<curve::Bezier2> pieces = quintics_of(run, fine, quadratic, options);
-    if (options.aim != CurvatureAim::none) drive(pieces, run.closed, options.aim, stroke);
+    if (options.aim != CurvatureAim::none) drive(pieces, run.closed, fine.width, options, driven);
     if (!stroke.curve.empty()) stroke.corners.push_back(stroke.curve.size());
     if (stroke.curve.empty() && fine.closed && !run.closed) stroke.corners.push_back(0);
     stroke.curve.insert(stroke.curve.end(), pieces.begin(), pieces.end());
@@ -105,7 +183,7 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
     stroke.segments.insert(stroke.segments.end(), run.vertices.begin() + static_cast<long>(skip),
                            run.vertices.end());
   }
-  if (runs.size() > 1) stroke.target.clear();  // of one run only
+  report_drive(driven, stroke);
   if (!runs.front().closed && fine.closed) stroke.segments.pop_back();
   return stroke;
 }

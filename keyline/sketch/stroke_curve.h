@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,14 @@ struct StrokeCurveOptions {
   /// [Sketch] section 5.
   double tolerance = 0.5;
   double width_share = 0.1;
+  /// Curves keep within twice the tolerance, or 0.3 of the width, of where they were.
   CurvatureAim aim = CurvatureAim::none;
+};
+
+/// Root mean square of the curvature less its target, in 1 / pixel.
+struct DriveReport {
+  double before = 0;
+  double after = 0;
 };
 
 /// One line of the drawing.
@@ -35,6 +43,7 @@ struct Stroke {
   std::vector<curve::Bezier2> curve;              ///< quintics, G2 but for corners
   std::vector<std::size_t> corners;               ///< pieces of `curve` that start with a corner
   std::vector<fit::CurvatureTarget> target;       ///< over all of `curve`; empty without an aim
+  std::optional<DriveReport> driven;              ///< empty without an aim
   bool closed = false;
   double width = 0;            ///< of the ink, median; 0 for outlines
   std::vector<double> widths;  ///< of the ink at every point

@@ -121,6 +121,53 @@ TEST(CurvatureDrive, KeepsMonotonePiecesMonotone) {
                     curve::MonotoneVerdict::no);
 }
 
+/// Farthest of the places of one chain from the places of the other.
+double farthest(const PiecewiseBezier& from, const PiecewiseBezier& to) {
+  constexpr int kPlaces = 400;
+  double most = 0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    double least = HUGE_VAL;
+    for (int k = 0; k <= 4 * kPlaces; ++k)
+      least = std::min(least, core::distance(evaluate(from, static_cast<double>(i) / kPlaces),
+                                             evaluate(to, k / (4.0 * kPlaces))));
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+// Nearly straight stretches say nothing about their length: without a bound curves drift away.
+TEST(CurvatureDrive, StaysWithinTheLargestDeviation) {
+  PiecewiseBezier start =
+      turning_chain(4, [](int i, int n) { return (n == 2 ? 1.3 : 1) + 0.2 * i; });
+  for (curve::Bezier2& piece : start.pieces)
+    for (Point2& p : piece.control) p = {p.x, 0.1 * p.y};
+  const auto target = smooth_target(start, false);
+  double last = HUGE_VAL;
+  for (const double most : {0.01, 0.05, 0.2}) {
+    SCOPED_TRACE(most);
+    const auto result = drive_curvature(start, target, {.hold_end = true, .max_deviation = most});
+    ASSERT_TRUE(result);
+    EXPECT_LE(result->moved, most);
+    EXPECT_LE(farthest(result->chain, start), 1.3 * most) << "measured at quarters of pieces";
+    EXPECT_LT(result->after, result->before);
+    EXPECT_LE(result->after, last * 1.05) << "more room, nearer";
+    last = result->after;
+  }
+}
+
+TEST(CurvatureDrive, HoldsPlaceAndCurvatureWhereTheCurveGoesOn) {
+  const PiecewiseBezier start = turning_chain(4, [](int, int) { return 1.0; });
+  auto targets = curvatures(start, 96);
+  for (auto& t : targets) t.curvature *= 1 + 0.2 * std::sin(5 * t.t);
+  const auto result = drive_curvature(start, targets, {.hold_end = true, .hold_curvature = true});
+  ASSERT_TRUE(result);
+  EXPECT_LT(result->after, result->before);
+  for (const double t : {0.0, 1.0}) {
+    EXPECT_LT(core::distance(evaluate(result->chain, t), evaluate(start, t)), 1e-9);
+    EXPECT_NEAR(curvature(jet(result->chain, t)), curvature(jet(start, t)), 1e-9);
+  }
+}
+
 TEST(CurvatureDrive, RefusesWhatItCannotTake) {
   const PiecewiseBezier start = turning_chain(1, [](int, int) { return 1.0; });
   const auto targets = curvatures(start, 10);

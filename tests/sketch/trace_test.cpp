@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/polygon.h"
+#include "keyline/curve/jet.h"
 
 namespace keyline::sketch {
 namespace {
@@ -95,6 +96,49 @@ TEST(Trace, StemsEndAtTheLineTheyMeet) {
                 0.75 * width + 1);
     }
   }
+}
+
+/// Sharpest curvature of a stroke.
+double sharpest(const Stroke& stroke) {
+  double most = 0;
+  for (const curve::Bezier2& piece : stroke.curve)
+    for (int i = 0; i <= 64; ++i) most = std::max(most, std::abs(curvature(jet(piece, i / 64.0))));
+  return most;
+}
+
+// Driving the curvature improves it, keeps the curve on its line and leaves no spikes.
+TEST(Trace, DrivenCurvesStayOnTheirLine) {
+  Image page = blank_page(420, 300);
+  Point2 last{20, 200};
+  for (int i = 1; i <= 190; ++i) {  // a long S with a hand's tremble and a straight foot
+    const double x = 20 + 2.0 * i;
+    const Point2 next{
+        x, 200 - (i < 60 ? 0 : 60 * (1 - std::cos(0.035 * (i - 60)))) + 0.6 * std::sin(0.4 * i)};
+    draw_line(page, last, next, 4, 0.5);
+    last = next;
+  }
+  const auto plain = trace(page);
+  ASSERT_TRUE(plain) << plain.error().message;
+  for (const CurvatureAim aim : {CurvatureAim::smooth, CurvatureAim::rhythm})
+    for (const double tolerance : {0.5, 0.0}) {
+      TraceOptions options;
+      options.curve.aim = aim;
+      options.curve.tolerance = tolerance;
+      const auto driven = trace(page, options);
+      ASSERT_TRUE(driven) << driven.error().message;
+      ASSERT_EQ(driven->strokes.size(), plain->strokes.size());
+      const Stroke& stroke = driven->strokes[0];
+      ASSERT_TRUE(stroke.driven);
+      EXPECT_LE(stroke.driven->after, stroke.driven->before);
+      EXPECT_LT(sharpest(stroke), 0.5);
+      for (const curve::Bezier2& piece : stroke.curve)
+        for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+          double least = HUGE_VAL;
+          for (const Point2 p : stroke.points)
+            least = std::min(least, core::distance(p, evaluate(piece, t)));
+          EXPECT_LT(least, 2.2);
+        }
+    }
 }
 
 TEST(Trace, SaysThatBlankPicturesHoldNoLine) {
