@@ -18,6 +18,7 @@ constexpr double kUnknown = -kNever;
 constexpr int kReach = 4;  // pieces on either side that a merge may move
 constexpr int kSqueezeRounds = 5;
 constexpr int kStartRounds = 14;
+constexpr std::size_t kMostSplinePoints = 500;
 // First numbers of pieces tried where the noise limits: short ones follow it.
 constexpr std::array kNoisyStarts{4, 7, 11};
 constexpr std::size_t kMostAlternatives = 14;  // pieces: longer chains are searched only once
@@ -257,6 +258,25 @@ void squeeze_start(ChainSearchResult& result, std::vector<FitPoint>& points, Cha
   }
 }
 
+/// The spline through all points in place of what came near them only: steps of one point's width
+/// (a ring about the neck of a traced bottle) are met by pieces that end there.
+void start_at_points(ChainSearchResult& result, const std::vector<FitPoint>& points,
+                     const ChainSearchOptions& options) {
+  const bool held = options.start.hold != Hold::free || options.end.hold != Hold::free;
+  if (held || noisy(options.accept) || points.size() > kMostSplinePoints) return;
+  FitChain chain = spline_chain(points, result.chain.closed);
+  if (chain.pieces.empty()) return;
+  ChainFitOptions fit;
+  fit.scale = options.accept.tolerance;
+  fit.iterations = 0;
+  const ChainFitReport report = fit_chain(chain, points, fit);
+  if (!accepts(options.accept, report, points, offsets(chain, points))) return;
+  result.chain = std::move(chain);
+  result.fit = report;
+  result.start_pieces = static_cast<int>(result.chain.pieces.size());
+  result.within_tolerance = true;
+}
+
 /// Dense clothoid chains, twice as many pieces each time, until one is accepted.
 void start_search(ChainSearchResult& result, std::vector<FitPoint>& points, bool closed,
                   const ChainSearchOptions& options) {
@@ -286,8 +306,12 @@ void start_search(ChainSearchResult& result, std::vector<FitPoint>& points, bool
     if (good || pieces >= most || options.progress.stop_requested()) break;
     pieces = std::min(most, noisy(options.accept) ? (3 * pieces + 1) / 2 : 2 * pieces);
   }
-  if (!result.within_tolerance && options.wanted_pieces == 0)
+  if (!result.within_tolerance && options.wanted_pieces == 0) {
+    const std::vector<FitPoint> original = points;
     squeeze_start(result, points, fit, options);
+    if (!result.within_tolerance && options.spline_start)
+      start_at_points(result, points = original, options);
+  }
   for (FitPiece& piece : result.chain.pieces) {
     piece.alpha_low = -kSteepestSlope;
     piece.alpha_high = kSteepestSlope;

@@ -28,7 +28,8 @@ struct ChainSearchOptions {
   Acceptance accept;
   int start_pieces = 48;
   int most_pieces = 400;
-  int wanted_pieces = 0;  ///< 0: as few as the tolerance allows; else this many
+  int wanted_pieces = 0;     ///< 0: as few as the tolerance allows; else this many
+  bool spline_start = true;  ///< where no dense chain is accepted, start from spline_chain()
   HeldEnd start;
   HeldEnd end;
   int threads = 0;
@@ -49,7 +50,12 @@ struct ChainSearchResult {
 /// local parabolas. Precondition: points in order, at least 3, total length about 1.
 FitChain dense_chain(const std::vector<FitPoint>& points, bool closed, int pieces);
 
-/// Fewest pieces found that `accept` takes: a dense chain, doubled until it is accepted, then
+/// The clothoid spline through the measured points, a piece for each span. Empty where there is
+/// none that is calm. Precondition: points in order, at least 3.
+FitChain spline_chain(const std::vector<FitPoint>& points, bool closed);
+
+/// Fewest pieces found that `accept` takes: a dense chain, doubled until it is accepted (where none
+/// is, and the noise is not what limits, the spline through all points), then
 /// neighbours merged, cheapest first, while it stays so; at last each joint once more with the
 /// largest offsets weighted up. Always returns the best chain known, with what it reaches.
 /// Precondition: points in order along a curve of length about 1, at least 3.

@@ -6,6 +6,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/chain_search.h"
+#include "keyline/lac/spline.h"
 
 namespace keyline::fairing {
 namespace {
@@ -106,6 +107,36 @@ FitChain dense_chain(const std::vector<FitPoint>& points, bool closed, int piece
     chain.feet.push_back({piece, at - piece});
   }
   if (!closed) chain.feet.back() = {pieces - 1, 1.0};
+  return chain;
+}
+
+FitChain spline_chain(const std::vector<FitPoint>& points, bool closed) {
+  std::vector<core::Point2> through;
+  FitChain chain;
+  for (const FitPoint& p : points) {
+    const int at = static_cast<int>(through.size());
+    const bool guide = p.count == 0;  // stands between two measured points
+    chain.feet.push_back(guide ? Foot{at - 1, 0.5} : Foot{at, 0});
+    if (!guide) through.push_back(p.position);
+  }
+  lac::SplineOptions clothoids;
+  clothoids.closed = closed;
+  const auto spline = lac::solve_spline(through, clothoids);
+  const std::size_t spans = closed ? through.size() : through.size() - 1;
+  if (!spline || spline->chain.pieces.size() != spans) return {};
+  chain.closed = closed;
+  chain.first_at_start = chain.last_at_end = !closed;
+  double direction = spline->chain.start.direction;
+  for (const lac::Segment& s : lac::segments(spline->chain)) {
+    chain.joints.push_back({s.start.position, direction, s.curvature_start});
+    chain.pieces.push_back({.length = s.length, .alpha = -1});
+    direction += lac::total_turning(s);
+  }
+  chain.joints.push_back({closed ? through.front() : through.back(), direction,
+                          spline->chain.pieces.back().curvature_end});
+  chain.turning = closed ? direction - chain.joints.front().direction : 0;
+  if (closed) chain.turning = 2 * core::kPi * std::round(chain.turning / (2 * core::kPi));
+  if (!closed) chain.feet.back() = {static_cast<int>(spans) - 1, 1.0};
   return chain;
 }
 

@@ -10,9 +10,20 @@ namespace {
 
 constexpr std::size_t kMostExactPieces = 8;  // longer chains are not drawn exactly by anyone
 constexpr double kExactness = 2e-7;          // of the length
+constexpr double kRate = 5;     // power of the pieces' length with which approximation gets near
+constexpr double kBetter = 10;  // times nearer than that is no approximation
 
-/// Full least squares without any pull; true where the chain then reproduces the points.
-bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, double exact) {
+/// A chain for free: one that follows any smooth curve of so few bends comes this near with
+/// `pieces` pieces, where `coarse` tells how near a few came. One that was made of pieces beats it
+/// by far.
+double by_approximation(double coarse, std::size_t few, std::size_t pieces) {
+  return coarse * std::pow(static_cast<double>(few) / static_cast<double>(pieces), kRate);
+}
+
+/// Full least squares without any pull; true where the chain then reproduces the points. `reached`
+/// tells the largest distance, either way.
+bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, double exact,
+               double& reached) {
   ChainFitOptions fit;
   fit.fine = true;
   fit.iterations = 150;
@@ -22,6 +33,7 @@ bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, do
   fit.hopeless = 0;
   FitChain chain = found.chain;
   const ChainFitReport report = fit_chain(chain, points, fit);
+  reached = report.max_offset;
   if (!(report.max_offset <= exact && report.max_gap <= 0.05 * exact)) return false;
   found.chain = std::move(chain);
   found.fit = report;
@@ -43,14 +55,21 @@ bool find_exact(ChainSearchResult& best, const std::vector<FitPoint>& points, bo
   const std::size_t most = 2 * best.chain.pieces.size() + 3;
   search.most_pieces = std::min<int>(96, static_cast<int>(points.size() / 4));
   search.start_pieces = std::min(48, search.most_pieces);
+  search.spline_start = false;  // any points have one
   const double loose = search.accept.tolerance;
+  const std::size_t few = best.chain.pieces.size();
+  double coarse = 0;
   for (const double share : {1.0, 0.1, 0.01, 0.0}) {
     search.accept = {std::max(exact, share * loose), 0};
     const bool known = share == 1 && best.chain.feet.size() == points.size();
     ChainSearchResult found = known ? best : search_chain(cut_digits(points), closed, search);
     if (!found.within_tolerance || found.chain.pieces.size() > most) return false;
-    const bool reached = share == 0 || converges(found, points, exact);
+    double off = found.fit.max_offset;
+    const bool reached = converges(found, points, exact, off) || share == 0;
+    if (share == 1) coarse = off;
     if (!reached) continue;
+    const std::size_t pieces = found.chain.pieces.size();
+    if (pieces > few && !(kBetter * off <= by_approximation(coarse, few, pieces))) return false;
     best = std::move(found);
     return true;
   }

@@ -58,30 +58,50 @@ struct Attempt {
   bool any_trend = false;  ///< offsets that show more than noise are let pass
 };
 
+/// Takes over what a search found for `points`, straightened and polished.
+void finish(RunResult& result, ChainSearchResult search, std::vector<FitPoint> points,
+            bool straightening) {
+  result.points = std::move(points);
+  for (std::size_t j = 0; j < result.points.size(); ++j)
+    result.points[j].weight = search.weights[j];
+  const bool found = search.within_tolerance;
+  result.fit = std::move(search.chain);
+  result.start_pieces = search.start_pieces;
+  if (found && straightening)
+    result.straightened = straighten(result.fit, result.points, result.accept);
+  result.within_tolerance = polish(result.fit, result.points, result.accept, result.exact);
+}
+
+/// The chain that reproduces the points, where there is one and its polish keeps it; else the
+/// result stays as it is.
+bool finish_exact(RunResult& result, ChainSearchResult search,
+                  const std::vector<FitPoint>& measured, const Run& run,
+                  const ChainSearchOptions& searching) {
+  if (!find_exact(search, measured, run.closed, searching)) return false;
+  RunResult exact = result;
+  exact.exact = true;
+  exact.accept = {exactness(result.accept), 0};
+  finish(exact, std::move(search), measured, searching.wanted_pieces == 0);
+  if (exact.within_tolerance) result = std::move(exact);
+  return result.exact;
+}
+
 /// Returns whether the search found a chain and its polish did not keep it: a tighter one may stay.
 bool solve_once(RunResult& result, const std::vector<FitPoint>& measured, const Run& run,
                 const RunFrame& frame, const curve::BSpline2& spline, RunOptions options,
                 Attempt attempt) {
   options.tolerance *= attempt.share;
   if (attempt.any_trend) options.noise = result.accept.noise = 0;
-  result.points =
+  std::vector<FitPoint> points =
       with_guides(cut_digits(measured), run.closed, rounded(options.tolerance / run.length));
   ChainSearchOptions searching = search_options(run, options);
   searching.start = held_end(run, frame, spline, true);
   searching.end = held_end(run, frame, spline, false);
-  ChainSearchResult search = search_chain(result.points, run.closed, searching);
+  ChainSearchResult search = search_chain(points, run.closed, searching);
   const bool found = search.within_tolerance;
-  if (attempt.share > 0.95 && !attempt.any_trend)
-    result.exact = find_exact(search, measured, run.closed, searching);
-  if (result.exact) result.points = measured;
-  for (std::size_t j = 0; j < result.points.size(); ++j)
-    result.points[j].weight = search.weights[j];
-  result.fit = std::move(search.chain);
-  result.start_pieces = search.start_pieces;
-  if (result.exact) result.accept = {exactness(result.accept), 0};
-  if (found && options.pieces == 0)
-    result.straightened = straighten(result.fit, result.points, result.accept);
-  result.within_tolerance = polish(result.fit, result.points, result.accept, result.exact);
+  const bool first = attempt.share > 0.95 && !attempt.any_trend;
+  if (first && finish_exact(result, search, measured, run, searching)) return false;
+  finish(result, std::move(search), std::move(points), options.pieces == 0);
   return found && !result.within_tolerance;
 }
 

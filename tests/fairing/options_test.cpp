@@ -225,6 +225,22 @@ TEST(FairOptions, StraightWallsOfABottleAreStraight) {
   EXPECT_LE(result.pieces.size(), 8U);
 }
 
+/// A bow that is no chain of such pieces: seven follow it nearly to the rounding of its points, as
+/// they follow any smooth curve. Two within the tolerance are the answer.
+TEST(FairOptions, NearnessThatAnyCurveGivesIsNotExactness) {
+  for (const double height : {98.51113, 98.511178, 90.0, 103.0}) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 59; ++i) {
+      const double u = i / 58.0;
+      const double z = height * std::sin(0.9 * core::kPi * u + 0.2) + 20 * u * u * u;
+      points.push_back({std::round(1e6 * u) / 1e3, std::round(1e3 * z) / 1e3});
+    }
+    const FairResult result = fair(line_through(points)).value();
+    EXPECT_TRUE(result.within_tolerance) << height;
+    EXPECT_LE(result.pieces.size(), 3U) << height;
+  }
+}
+
 /// More points than the fit takes one by one: every single one passes all the same.
 TEST(FairOptions, EachOfManyPointsPasses) {
   const acquire::KeyLine line =

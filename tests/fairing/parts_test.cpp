@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/fairing/chain_edit.h"
+#include "keyline/fairing/chain_search.h"
 #include "keyline/fairing/condense.h"
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/meet.h"
@@ -126,6 +127,25 @@ TEST(Condense, KeepsEndsCountsAndWeights) {
   std::vector<double> seen(100, 0);
   for (std::size_t j = 0; j < 1000; ++j) ++seen[condensed_index(j, 1000, 100)];
   for (std::size_t b = 0; b < 100; ++b) EXPECT_EQ(seen[b], fit[b].count);
+}
+
+/// Steps of a single point's width: too narrow for a few equal pieces, not for one a point.
+TEST(ChainSearch, StartsFromTheSplineThroughThePointsWhereNothingElseServes) {
+  std::vector<FitPoint> points;
+  for (int i = 0; i <= 60; ++i) {
+    const double step = i >= 20 && i < 24 ? 0.01 : 0;
+    points.push_back({.position = {i / 60.0, step + 0.02 * std::sin(i / 10.0)}});
+  }
+  ChainSearchOptions options;
+  options.accept.tolerance = 1e-3;
+  options.start_pieces = options.most_pieces = 12;
+  options.spline_start = false;
+  EXPECT_FALSE(search_chain(points, false, options).within_tolerance);
+  options.spline_start = true;
+  const ChainSearchResult found = search_chain(points, false, options);
+  EXPECT_TRUE(found.within_tolerance);
+  EXPECT_EQ(found.start_pieces, 60);
+  EXPECT_LT(found.chain.pieces.size(), 20U);
 }
 
 TEST(Guides, StandOnlyInWideGaps) {
