@@ -199,7 +199,7 @@ class Joiner {
       if (mates[k] >= 0) at(list[k]).mate = list[static_cast<std::size_t>(mates[k])];
   }
 
-  /// Free ends in a grid of cells as large as the gap, nearest and straightest pairs first.
+  /// Free ends whose ink lies no farther apart than the gap, nearest and straightest pairs first.
   void bridge_gaps() {
     std::vector<int> ends;
     for (std::size_t i = 0; i < branches_.size(); ++i)
@@ -211,11 +211,13 @@ class Joiner {
       int a, b;
     };
     std::vector<Pair> pairs;
+    double largest = 0;
+    for (const int end : ends) largest = std::max(largest, end_radius(end));
     for (std::size_t i = 0; i < ends.size(); ++i)
       for (std::size_t j = i + 1; j < ends.size(); ++j) {
         const Vector2 d = end_point(ends[j]) - end_point(ends[i]);
-        if (d.x > options_.gap) break;
-        const double gap = core::norm(d);
+        if (d.x > options_.gap + 2 * largest) break;
+        const double gap = core::norm(d) - end_radius(ends[i]) - end_radius(ends[j]);
         if (gap > options_.gap || !long_enough(ends[i], ends[j], gap)) continue;
         const double turn = bend_between(at(ends[i]), at(ends[j]));
         if (turn < 0.8 * options_.turn)
@@ -234,6 +236,9 @@ class Joiner {
     const GraphEdge& line = edge(at(b).edge);
     return at(b).at_end ? line.points.back() : line.points.front();
   }
+
+  /// How far the ink goes on beyond the line's end: half its width, and what thinning took.
+  double end_radius(int b) { return edge(at(b).edge).radii[at(b).anchor] + 0.5; }
 
   /// A closed loop is made of a line longer than its gap only; two ends of a dash make no loop.
   bool long_enough(int a, int b, double gap) {

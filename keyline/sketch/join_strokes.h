@@ -19,7 +19,7 @@ struct RawStroke {
 };
 
 struct JoinOptions {
-  double gap = 8;      ///< longest gap that is bridged, in pixels
+  double gap = 8;      ///< longest gap in the ink that is bridged, in pixels
   double turn = 1.05;  ///< radians: lines that turn more at a junction are two
 };
 

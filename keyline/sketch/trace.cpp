@@ -126,7 +126,7 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
   options.progress.report(0.6, "following lines");
   const Refiner refiner(tone);
   std::vector<FineStroke> strokes;
-  for (const RawStroke& line : join_strokes(graph, {options.gap.value_or(3 * width + 3), 1.05})) {
+  for (const RawStroke& line : join_strokes(graph, {options.gap.value_or(2.5 * width + 3), 1.05})) {
     if (options.progress.stop_requested()) return {};
     if (core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width)) continue;
     FineStroke fine = refiner.refine(line);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -95,6 +97,22 @@ TEST(Trace, StemsEndAtTheLineTheyMeet) {
       EXPECT_LT(std::min(core::distance(stem.front(), foot), core::distance(stem.back(), foot)),
                 0.75 * width + 1);
     }
+  }
+}
+
+// A gap is what one sees: from ink to ink.
+TEST(Trace, BridgesGapsInTheInk) {
+  Image page = blank_page(400, 60);
+  for (int k = 0; k < 12; ++k)  // dashes of 20 pixels, round ends included, with gaps of 10
+    draw_line(page, {22.0 + 30 * k, 30}, {38.0 + 30 * k, 30}, 4);
+  for (const auto& [gap, strokes] : {std::pair{std::optional<double>(7), 12U},
+                                     {std::optional<double>(12), 1U},
+                                     {std::optional<double>(), 1U}}) {
+    TraceOptions options;
+    options.gap = gap;
+    const auto result = trace(page, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), strokes) << "gap " << gap.value_or(-1);
   }
 }
 
