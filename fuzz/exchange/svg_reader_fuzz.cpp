@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   keyline::exchange::SvgReadLimits limits;
-  limits.pieces = 20'000;
+  limits.memory = std::size_t{1} << 20;
   limits.elements = 20'000;
   const auto contents =
       keyline::exchange::read_svg({reinterpret_cast<const char*>(data), size}, limits);

@@ -35,7 +35,7 @@ core::Failure failure_of(const ChildResult& child, CadFormat format) {
   const std::string title = title_of(format);
   if (child.out_of_time)
     return {ErrorCode::bad_input,
-            "reading takes too long and was given up",
+            "the " + title + " file takes too long and was given up",
             "split the file or simplify it",
             {}};
   if (child.signal != 0)

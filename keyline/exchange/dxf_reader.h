@@ -11,7 +11,7 @@ namespace keyline::exchange {
 /// Bounds that keep hostile files from using up the machine.
 struct DxfReadLimits {
   int depth = 16;                  ///< of inserts within blocks
-  std::size_t points = 1'000'000;  ///< made by inserts beyond one for every two bytes of the file
+  std::size_t points = 400'000;    ///< made by inserts beyond one for every two bytes of the file
   std::size_t curves = 4'000'000;  ///< in all
 };
 

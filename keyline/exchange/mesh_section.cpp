@@ -28,6 +28,12 @@ struct Segment {
   bool used = false;
 };
 
+/// The segments that end on an edge, in the order of the triangles.
+struct Ends {
+  std::vector<std::size_t> segments;
+  std::size_t first = 0;  ///< all before are used
+};
+
 struct HashPoint {
   std::size_t operator()(Point3 p) const {
     std::size_t hash = 0;
@@ -44,8 +50,8 @@ class Section {
     for (const Point3 p : mesh.points) height_.push_back(acquire::distance_from_plane(plane, p));
     for (const auto& triangle : mesh.triangles) cut(triangle);
     for (std::size_t i = 0; i < segments_.size(); ++i) {
-      at_[segments_[i].from].push_back(i);
-      at_[segments_[i].to].push_back(i);
+      at_[segments_[i].from].segments.push_back(i);
+      at_[segments_[i].to].segments.push_back(i);
     }
   }
 
@@ -54,7 +60,7 @@ class Section {
     for (const bool ends : {true, false})
       for (Segment& segment : segments_)
         for (const Edge start : {segment.from, segment.to}) {
-          if (segment.used || (ends && at_[start].size() == 2)) continue;
+          if (segment.used || (ends && at_[start].segments.size() == 2)) continue;
           add_line(start);
         }
     std::vector<double> length;
@@ -105,13 +111,12 @@ class Section {
     line.points.push_back(point_on(start));
     Edge edge = start;
     while (true) {
-      const auto& here = at_[edge];
+      auto& [here, first] = at_[edge];
       // Where more than two triangles meet, lines end.
       if (edge != start && here.size() != 2) break;
-      const auto next =
-          std::find_if(here.begin(), here.end(), [&](std::size_t i) { return !segments_[i].used; });
-      if (next == here.end()) break;
-      Segment& segment = segments_[*next];
+      while (first < here.size() && segments_[here[first]].used) ++first;
+      if (first == here.size()) break;
+      Segment& segment = segments_[here[first]];
       segment.used = true;
       edge = segment.from == edge ? segment.to : segment.from;
       const Point2 p = point_on(edge);
@@ -127,7 +132,7 @@ class Section {
   std::vector<double> height_;
   std::vector<Segment> segments_;
   std::unordered_map<Point3, std::uint32_t, HashPoint> first_;
-  std::unordered_map<Edge, std::vector<std::size_t>> at_;
+  std::unordered_map<Edge, Ends> at_;
   std::vector<SectionLine> found_;
 };
 

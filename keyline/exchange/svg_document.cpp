@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -52,13 +53,35 @@ bool is_current(const json& metadata, const SvgContents& svg) {
   return stated == metadata.end() || *stated == fingerprint(svg);
 }
 
-Document document_of(const SvgContents& svg) {
+/// The pieces in their order; of many straight lines on end a polyline, which takes a tenth of the
+/// room.
+std::vector<document::PlanarCurve> curves_of(std::vector<curve::Bezier2> pieces) {
+  constexpr std::size_t kMany = 64;
+  const auto is_line = [](const curve::Bezier2& piece) { return piece.control.size() == 2; };
+  std::vector<document::PlanarCurve> curves;
+  for (auto at = pieces.begin(); at != pieces.end();) {
+    const auto end = std::find_if_not(at, pieces.end(), is_line);
+    if (end - at < static_cast<std::ptrdiff_t>(kMany)) {
+      const auto next = std::max(end, at + 1);
+      for (; at != next; ++at) curves.push_back({std::move(*at)});
+      continue;
+    }
+    curve::Polyline2 line;
+    line.points.reserve(static_cast<std::size_t>(end - at) + 1);
+    line.points.push_back(at->control[0]);
+    for (; at != end; ++at) line.points.push_back(at->control[1]);
+    curves.push_back({std::move(line)});
+  }
+  return curves;
+}
+
+Document document_of(SvgContents svg) {
   Document document;
   document.unit = svg.unit;
-  for (const SvgCurve& curve : svg.curves) {
+  for (SvgCurve& curve : svg.curves) {
     document::NamedPath named{
         {curve.name, curve.layer, curve.color}, {{}, curve.closed}, curve.stroke_width};
-    for (const curve::Bezier2& piece : curve.pieces) named.path.curves.push_back({piece});
+    named.path.curves = curves_of(std::exchange(curve.pieces, {}));
     if (!named.path.curves.empty()) document.paths.push_back(std::move(named));
   }
   for (const SvgSkipped& skipped : svg.skipped)
@@ -72,15 +95,15 @@ std::string svg_unit(const std::string& unit) { return unit.empty() ? "mm" : uni
 }  // namespace
 
 Result<Document> read_svg_document(std::string_view bytes) {
-  const auto svg = read_svg(bytes);
+  auto svg = read_svg(bytes);
   if (!svg) return std::unexpected(svg.error());
-  if (svg->metadata.empty()) return document_of(*svg);
+  if (svg->metadata.empty()) return document_of(std::move(*svg));
   const auto metadata = parse_json(svg->metadata);
   if (metadata && is_current(*metadata, *svg)) {
     auto exact = document_from_json(*metadata);
     if (exact) return exact;
   }
-  Document document = document_of(*svg);
+  Document document = document_of(std::move(*svg));
   document.skipped.push_back(
       "the exact curves in the metadata: the drawing was changed after they were written");
   return document;

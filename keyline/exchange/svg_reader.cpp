@@ -40,7 +40,8 @@ struct Place {
 
 class SvgReader {
  public:
-  SvgReader(std::string_view bytes, const SvgReadLimits& limits) : bytes_(bytes), limits_(limits) {
+  SvgReader(std::string_view bytes, const SvgReadLimits& limits)
+      : bytes_(bytes), limits_(limits), room_(limits.memory + 17 * bytes.size()) {
     for (std::size_t i = bytes.find('\n'); i != bytes.npos; i = bytes.find('\n', i + 1))
       ends_.push_back(i);
   }
@@ -130,7 +131,7 @@ class SvgReader {
   }
 
   void read_element(const pugi::xml_node& node, const Place& outer) {
-    if (++visited_ > limits_.elements) return fill_up(node, "elements");
+    if (++visited_ > limits_.elements + bytes_.size() / 4) return fill_up(node, "elements");
     const std::string_view name = local_name(node);
     if (name == "metadata") return read_metadata(node);
     const bool shape = detail::is_svg_shape(name);
@@ -211,16 +212,16 @@ class SvgReader {
                                 : std::string()));
     const std::string name = name_of(node);
     std::size_t number = 0;
-    for (const SvgSubpath& subpath : data.subpaths) {
+    for (SvgSubpath& subpath : data.subpaths) {
       ++number;
       SvgCurve curve{number == 1 ? name : name + '#' + std::to_string(number),
                      place.layer,
-                     {},
+                     std::move(subpath.pieces),
                      subpath.closed,
                      place.paint.color(),
                      place.paint.stroke.empty() ? 0 : place.paint.width * scale_of(place.map)};
-      for (const curve::Bezier2& piece : subpath.pieces)
-        curve.pieces.push_back(transformed(piece, place.map));
+      curve.pieces.shrink_to_fit();
+      for (curve::Bezier2& piece : curve.pieces) piece = transformed(piece, place.map);
       keep(node, std::move(curve));
       if (full_) return;
     }
@@ -233,9 +234,17 @@ class SvgReader {
           skip(line(node), describe(node) + ": its coordinates are too large");
           return;
         }
-    pieces_ += curve.pieces.size();
-    if (pieces_ > limits_.pieces) return fill_up(node, "pieces of curves");
+    memory_ += memory_of(curve);
+    if (memory_ > room_) return fill_up(node, "curves for its size");
     contents_.curves.push_back(std::move(curve));
+  }
+
+  /// Bytes a curve takes here and in a document together, about.
+  static std::size_t memory_of(const SvgCurve& curve) {
+    std::size_t bytes = 400;
+    for (const curve::Bezier2& piece : curve.pieces)
+      bytes += piece.control.size() == 2 ? 120 : 150 + 20 * piece.control.size();
+    return bytes;
   }
 
   void fill_up(const pugi::xml_node& node, const std::string& what) {
@@ -326,7 +335,8 @@ class SvgReader {
   std::vector<pugi::xml_node> open_;                    ///< elements being read, outermost first
   std::map<std::string, std::pair<int, int>> ignored_;  ///< name: first line, count
   std::size_t visited_ = 0;
-  std::size_t pieces_ = 0;
+  std::size_t memory_ = 0;
+  std::size_t room_;  ///< for the curves
   bool full_ = false;
 };
 

@@ -198,7 +198,8 @@ std::string write_step(const document::Document& document) {
     const int before = writer.Model()->NbEntities();
     const auto mode =
         shape.ShapeType() == TopAbs_EDGE ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
-    if (writer.Transfer(shape, mode) != IFSelect_RetDone)
+    // Without the graph of the whole model, which nobody asks: it would be made anew every time.
+    if (writer.Transfer(shape, mode, Standard_False) != IFSelect_RetDone)
       throw std::runtime_error("\"" + name + "\" cannot be written as STEP");
     const auto item = item_of(writer, shape);
     if (!item.IsNull()) item->SetName(step_text(name));
