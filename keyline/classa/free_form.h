@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "keyline/classa/cav.h"
 #include "keyline/classa/nearest.h"
 #include "keyline/curve/bezier.h"
+#include "keyline/curve/piecewise_bezier.h"
 #include "keyline/curve/view.h"
 
 namespace keyline::classa {
@@ -13,16 +15,24 @@ namespace keyline::classa {
 struct Approximation {
   curve::Bezier2 curve;
   bool exact = false;    ///< it was one already
-  double deviation = 0;  ///< largest distance of 400 points of the given curve from it
+  double deviation = 0;  ///< bound of the largest distance between the two curves, either way
   double tolerance = 0;  ///< it was asked to meet
 };
 
+/// The given curve once more, as polynomial Béziers end to end whose `deviation` bounds their
+/// distance from it, at most the tolerance it is called with.
+using PiecesWithin = std::function<core::Result<curve::PiecewiseBezier>(double tolerance)>;
+
 /// The Bézier curve of the lowest degree 3 … 8 within the tolerance (a length; empty: 1e-3 of the
-/// size of the curve), end points and end tangents kept. Errors: not_converged where degree 8 does
-/// not meet it, with the deviation reached; bad_input for a tolerance that is not positive or a
-/// curve without length or with coinciding points at its ends.
+/// size of the curve), end points and end tangents kept. The deviation is bounded from the pieces
+/// (deviation_bound), to about 2 % of itself or of the tolerance; without `pieces` these are
+/// approximate_by_cubics', whose own share of the bound is rigorous only for Béziers, B-splines
+/// and polylines. Errors: not_converged where degree 8 does not meet it, with the deviation
+/// reached; bad_input for a tolerance that is not positive or a curve without length or with
+/// coinciding points at its ends; as `pieces`.
 core::Result<Approximation> approximate(const curve::PlanarView& c,
-                                        std::optional<double> tolerance = {});
+                                        std::optional<double> tolerance = {},
+                                        const PiecesWithin& pieces = {});
 
 /// A curve with its value, and for types 4 and 5 with the nearest curve that has one matrix.
 struct Evaluation {

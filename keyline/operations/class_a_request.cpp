@@ -4,6 +4,7 @@
 
 #include "keyline/exchange/json_curve.h"
 #include "keyline/exchange/json_space.h"
+#include "keyline/operations/derived_forms.h"
 #include "keyline/operations/fields.h"
 
 namespace keyline::operations {
@@ -164,9 +165,11 @@ Result<classa::Approximation> class_a_bezier(const document::Path& path,
   if (path.curves.size() == 1) {
     const auto* bezier = std::get_if<curve::Bezier2>(&path.curves[0].value);
     if (bezier && !is_rational(*bezier)) return classa::Approximation{*bezier, true};
-    return classa::approximate(curve::PlanarView(path.curves[0]), tolerance);
   }
-  return classa::approximate(curve::PlanarView(path), tolerance);
+  const auto pieces = [&path](double within) { return bounded_pieces(path, within); };
+  if (path.curves.size() == 1)
+    return classa::approximate(curve::PlanarView(path.curves[0]), tolerance, pieces);
+  return classa::approximate(curve::PlanarView(path), tolerance, pieces);
 }
 
 Result<classa::EditOptions> edit_options(const json& request) {

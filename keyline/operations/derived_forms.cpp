@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -81,23 +82,31 @@ Result<curve::PiecewiseBezier> pieces_of(const document::PlanarCurve& c, int deg
                     c.value);
 }
 
+Result<curve::PiecewiseBezier> joined_pieces(const document::Path& path, int degree,
+                                             double tolerance) {
+  curve::PiecewiseBezier all;
+  for (const document::PlanarCurve& c : path.curves) {
+    auto part = pieces_of(c, degree, tolerance);
+    if (!part) return part;
+    all.deviation = std::max(all.deviation, part->deviation);
+    std::move(part->pieces.begin(), part->pieces.end(), std::back_inserter(all.pieces));
+  }
+  return all;
+}
+
 Result<curve::PiecewiseBezier> pieces_for(const json& form, const char* name,
                                           const document::Path& path) {
   const auto tolerance = tolerance_of(form, name);
   if (!tolerance) return std::unexpected(tolerance.error());
   const auto degree = degree_of(form, name);
   if (!degree) return std::unexpected(degree.error());
-  curve::PiecewiseBezier all;
-  for (const document::PlanarCurve& c : path.curves) {
-    auto part = pieces_of(c, *degree, *tolerance);
-    if (!part) {
-      part.error().path = std::string(name) + ".tolerance";
-      return part;
-    }
-    all.deviation = std::max(all.deviation, part->deviation);
-    for (const curve::Bezier2& piece : part->pieces) all.pieces.push_back(raised(piece, *degree));
+  auto all = joined_pieces(path, *degree, *tolerance);
+  if (!all) {
+    all.error().path = std::string(name) + ".tolerance";
+    return all;
   }
-  if (all.deviation > *tolerance)
+  for (curve::Bezier2& piece : all->pieces) piece = raised(piece, *degree);
+  if (all->deviation > *tolerance)
     return fail(ErrorCode::not_converged, "the tolerance is below what doubles can do",
                 "give 1e-12 of the size or more", std::string(name) + ".tolerance");
   return all;
@@ -194,6 +203,10 @@ Result<void> add_forms(const json& request, json& holder) {
 }
 
 }  // namespace
+
+Result<curve::PiecewiseBezier> bounded_pieces(const document::Path& path, double tolerance) {
+  return joined_pieces(path, curve::kMaxBezierDegree, tolerance);
+}
 
 Result<void> add_derived_forms(const json& request, json& result) {
   const bool wanted =

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/error.h"
+#include "keyline/curve/piecewise_bezier.h"
+#include "keyline/document/planar_curve.h"
 
 namespace keyline::operations {
 
@@ -14,5 +16,10 @@ namespace keyline::operations {
 /// Fails: bad_input; unsupported where there is no curve; not_converged where the tolerance is
 /// below what doubles can do.
 core::Result<void> add_derived_forms(const nlohmann::json& request, nlohmann::json& result);
+
+/// The path as polynomial Béziers end to end whose `deviation` bounds their distance from it: what
+/// is polynomial exactly, log-aesthetic chains as quintics, all else as cubics.
+/// Fails: not_converged where the tolerance is below what doubles can do.
+core::Result<curve::PiecewiseBezier> bounded_pieces(const document::Path& path, double tolerance);
 
 }  // namespace keyline::operations
