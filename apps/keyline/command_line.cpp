@@ -280,8 +280,8 @@ Command add_edit(CLI::App& app) {
   sub->add_option("--alpha-max", edit.alpha_max, "largest rotation, radians (1.0982)");
   sub->add_option("--end-tolerance", edit.end_tolerance,
                   "how far the end may move, a length (0.01 of the chord; surfaces: 0)");
-  sub->add_option("--keep", edit.keep, "surfaces: start, corners or boundary")
-      ->capture_default_str();
+  sub->add_option("--keep", edit.keep,
+                  "surfaces: start, corners, joints or boundary; one patch start, several joints");
   sub->add_option("--limit", edit.limit, "surfaces: largest departure, a length")
       ->check(not_negative());
   sub->add_option("--condition", edit.conditions,

@@ -80,7 +80,7 @@ struct EditCommand {
   std::string branch = "own";
   std::optional<double> alpha_max;
   std::optional<double> end_tolerance;
-  std::string keep = "start";           ///< of a surface
+  std::string keep;                     ///< of a surface; empty: as surface.edit chooses
   std::optional<double> limit;          ///< of a surface: largest departure
   std::vector<std::string> conditions;  ///< of network curves: "A1:s=1.1..1.4"
   std::vector<double> alpha_range;      ///< of the minimum; empty: 0 to alpha_max

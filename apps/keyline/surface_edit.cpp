@@ -1,10 +1,12 @@
 #include "keyline/operations/surface_edit.h"
 
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/angle.h"
 #include "keyline/operations/fair_report.h"
 #include "keyline/operations/surface_conditions.h"
 #include "keyline/operations/surface_pictures.h"
@@ -22,8 +24,14 @@ using nlohmann::json;
 
 struct Edited {
   std::string name;
-  surface::BezierSurface given;
-  surface::EditResult result;
+  surface::Surface given;
+  surface::SurfaceEdit result;
+
+  /// Where the surface is one patch.
+  const surface::EditResult* one() const {
+    const auto& patches = result.edited.patches;
+    return patches.size() == 1 && patches.front().result ? &*patches.front().result : nullptr;
+  }
 };
 
 /// Conditions as surface.edit takes them: of every curve from the options curves share, then those
@@ -44,7 +52,8 @@ Result<json> conditions_of(const EditCommand& command) {
 }
 
 Result<json> request_of(const EditCommand& command) {
-  json request{{"keep", command.keep}, {"amount", command.amount}};
+  json request{{"amount", command.amount}};
+  if (!command.keep.empty()) request["keep"] = command.keep;
   auto conditions = conditions_of(command);
   if (!conditions) return conditions;
   request["conditions"] = std::move(*conditions);
@@ -54,17 +63,72 @@ Result<json> request_of(const EditCommand& command) {
   return request;
 }
 
+void print_one(const surface::EditResult& r) {
+  fmt::print("SAV {:.5g} to {:.5g}  departure {:.4g}  target {} ({:.3g} %)\n", r.before.sav,
+             r.after.sav, r.departure, r.target, 100 * r.amount);
+  fmt::print("{:>24} {:>11} {:>11}\n", "target", "departure", "SAV");
+  for (const surface::TradeOff& t : r.tradeoff)
+    fmt::print("{:>24} {:>11.5g} {:>11.5g}\n", t.name, t.departure, t.sav);
+  for (const surface::MissedTarget& m : r.missed)
+    fmt::print("{:>24} not found: {}, {}\n", m.target, m.curve, m.why);
+  for (const surface::MissedTarget& m : r.unmet)
+    fmt::print("short of the target {} is outside its condition: {}\n", m.curve, m.why);
+}
+
+void print_patches(const surface::SurfaceEdit& edit) {
+  double before = 0;
+  double after = 0;
+  for (const auto& p : values_before(edit)) before += p.value.sav;
+  for (const auto& p : values_after(edit)) after += p.value.sav;
+  fmt::print("{} patches  SAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
+             edit.edited.patches.size(), before, after, edit.edited.departure);
+  fmt::print("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure", "target");
+  for (std::size_t i = 0; i < edit.edited.patches.size(); ++i) {
+    const auto& [result, why] = edit.edited.patches[i];
+    const auto columns = static_cast<std::size_t>(edit.grid.columns);
+    const std::string place = fmt::format("{},{}", i / columns, i % columns);
+    if (result)
+      fmt::print("{:>8} {:>11.5g} {:>11.5g} {:>11.4g}  {}\n", place, result->before.sav,
+                 result->after.sav, result->departure, result->target);
+    else
+      fmt::print("{:>8} as given: {}\n", place, why.message);
+  }
+}
+
 void print_summary(const Edited& e) {
   if (!e.name.empty()) fmt::print("{}\n", e.name);
-  fmt::print("SAV {:.5g} to {:.5g}  departure {:.4g}  target {} ({:.3g} %)\n", e.result.before.sav,
-             e.result.after.sav, e.result.departure, e.result.target, 100 * e.result.amount);
-  fmt::print("{:>24} {:>11} {:>11}\n", "target", "departure", "SAV");
-  for (const surface::TradeOff& t : e.result.tradeoff)
-    fmt::print("{:>24} {:>11.5g} {:>11.5g}\n", t.name, t.departure, t.sav);
-  for (const surface::MissedTarget& m : e.result.missed)
-    fmt::print("{:>24} not found: {}, {}\n", m.target, m.curve, m.why);
-  for (const surface::MissedTarget& m : e.result.unmet)
-    fmt::print("short of the target {} is outside its condition: {}\n", m.curve, m.why);
+  if (const auto* one = e.one())
+    print_one(*one);
+  else
+    print_patches(e.result);
+}
+
+/// Joints between all patches of the file, also of different surfaces.
+struct Joints {
+  surface::JointSummary before;
+  surface::JointSummary after;
+};
+
+Joints joints_between(const std::vector<Edited>& all) {
+  std::vector<surface::BezierSurface> given;
+  std::vector<surface::BezierSurface> edited;
+  for (const Edited& e : all) {
+    const auto& patches = e.result.grid.patches;
+    given.insert(given.end(), patches.begin(), patches.end());
+    edited.insert(edited.end(), e.result.edited.surfaces.begin(), e.result.edited.surfaces.end());
+  }
+  const auto joints = surface::joints_of(given, 10 * surface::EdgeTolerance{}.gap);
+  return {measure_joints(joints, given), measure_joints(joints, edited)};
+}
+
+void print_joints(const Joints& j) {
+  if (j.before.joints == 0) return;
+  fmt::print(
+      "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
+      "G0 {} to {}  G1 {} to {}\n",
+      j.before.joints, j.before.gap, j.after.gap, j.before.angle * 180 / core::kPi,
+      j.after.angle * 180 / core::kPi, j.before.order_at_least[0], j.after.order_at_least[0],
+      j.before.order_at_least[1], j.after.order_at_least[1]);
 }
 
 operations::ReportOptions report_options(const EditCommand& command, const std::string& unit,
@@ -75,7 +139,8 @@ operations::ReportOptions report_options(const EditCommand& command, const std::
   options.unit = unit.empty() ? command.input.unit : unit;
   options.command = command.common.command_line;
   options.generator = "Keyline " KEYLINE_VERSION;
-  options.options = {{"keep", command.keep}, {"amount", fmt::format("{:g}", command.amount)}};
+  options.options = {{"amount", fmt::format("{:g}", command.amount)}};
+  if (!command.keep.empty()) options.options.push_back({"keep", command.keep});
   for (const std::string& c : command.conditions) options.options.push_back({"condition", c});
   return options;
 }
@@ -84,12 +149,20 @@ Result<figure::Drawing> page_of(const EditCommand& command, const std::vector<Ed
                                 const std::string& unit) {
   std::vector<figure::Drawing> pages;
   for (const Edited& e : all) {
+    const auto options = report_options(command, unit, e.name);
     auto page =
-        operations::surface_edit_page(e.given, e.result, report_options(command, unit, e.name));
+        e.one() ? operations::surface_edit_page(e.result.grid.patches.front(), *e.one(), options)
+                : operations::surface_edit_page(e.given, e.result, options);
     if (!page) return page;
     pages.push_back(std::move(*page));
   }
   return figure::stack(pages);
+}
+
+Result<report::Report> report_of(const Edited& e, const operations::ReportOptions& options) {
+  if (e.one())
+    return operations::surface_edit_report(e.result.grid.patches.front(), *e.one(), options);
+  return operations::surface_edit_report(e.given, e.result, options);
 }
 
 void add_pictures(Writers& writers, const EditCommand& command, const std::vector<Edited>& all,
@@ -97,8 +170,7 @@ void add_pictures(Writers& writers, const EditCommand& command, const std::vecto
   writers[".html"] = [&, unit]() -> Result<std::string> {
     std::vector<report::Report> reports;
     for (const Edited& e : all) {
-      auto made =
-          operations::surface_edit_report(e.given, e.result, report_options(command, unit, e.name));
+      auto made = report_of(e, report_options(command, unit, e.name));
       if (!made) return std::unexpected(made.error());
       reports.push_back(std::move(*made));
     }
@@ -122,12 +194,61 @@ void add_pictures(Writers& writers, const EditCommand& command, const std::vecto
   };
 }
 
-Result<Edited> edit_one(const document::NamedSurface& named, const surface::EditOptions& options) {
-  auto patch = operations::one_patch(named.surface);
-  if (!patch) return std::unexpected(patch.error());
-  auto result = surface::edit(*patch, options);
-  if (!result) return std::unexpected(result.error());
-  return Edited{named.label.name, std::move(*patch), std::move(*result)};
+/// The surface as edited, in the kind it was, or as its patches where they no longer meet.
+void add_edited(const document::NamedSurface& named, const surface::SurfaceEdit& edit,
+                document::Document& written) {
+  if (edit.whole) {
+    written.surfaces.push_back({named.label, *edit.whole, 0});
+    return;
+  }
+  const auto columns = static_cast<std::size_t>(edit.grid.columns);
+  for (std::size_t i = 0; i < edit.edited.surfaces.size(); ++i) {
+    document::Label label = named.label;
+    label.name = fmt::format("{}/patch-{}-{}", label.name.empty() ? "surface" : label.name,
+                             i / columns, i % columns);
+    written.surfaces.push_back({std::move(label), edit.edited.surfaces[i], 0});
+  }
+}
+
+/// What was edited and how it is written and shown.
+struct Session {
+  std::vector<Edited> all;
+  document::Document written;
+  json shown = json::array();
+};
+
+/// Edits every surface; one of several that cannot be stays as given, and that is said.
+Result<Session> edit_all(const EditCommand& command, const document::Document& document,
+                         const json& request, const core::Progress& progress) {
+  Session session;
+  session.written.unit = document.unit;
+  std::optional<core::Failure> failure;
+  for (std::size_t i = 0; i < document.surfaces.size(); ++i) {
+    const document::NamedSurface& named = document.surfaces[i];
+    const bool several =
+        document.surfaces.size() > 1 || surface::patches_of(named.surface).patches.size() > 1;
+    auto options = operations::surface_edit_options(request, several);
+    if (!options) return std::unexpected(options.error());
+    const double count = static_cast<double>(document.surfaces.size());
+    options->progress = core::part_of(progress, i / count, (i + 1) / count);
+    auto edit = surface::edit_surface(named.surface, *options, command.common.threads);
+    if (!edit && edit.error().code == core::ErrorCode::cancelled)
+      return std::unexpected(edit.error());
+    if (!edit) {
+      const std::string name = named.label.name.empty() ? "a surface" : named.label.name;
+      if (document.surfaces.size() > 1)
+        say(command.common.quiet, name + " left as given: " + edit.error().message);
+      if (!failure) failure = edit.error();
+      session.written.surfaces.push_back(named);
+      continue;
+    }
+    add_edited(named, *edit, session.written);
+    session.shown.push_back(operations::surface_edit_json(*edit));
+    if (!named.label.name.empty()) session.shown.back()["name"] = named.label.name;
+    session.all.push_back({named.label.name, named.surface, std::move(*edit)});
+  }
+  if (session.all.empty() && failure) return std::unexpected(*failure);
+  return session;
 }
 
 }  // namespace
@@ -136,35 +257,25 @@ int edit_surfaces(const EditCommand& command, const document::Document& document
   const CommonOptions& common = command.common;
   const auto request = request_of(command);
   if (!request) return report_failure(request.error());
-  auto options = operations::surface_edit_options(*request);
-  if (!options) return report_failure(options.error());
   say_curves_left_out(document, common.quiet);
-  std::vector<Edited> all;
-  json shown = json::array();
-  document::Document written;
-  written.unit = document.unit;
-  const core::Progress progress = interactive_progress(common.quiet);
-  for (std::size_t i = 0; i < document.surfaces.size(); ++i) {
-    const double count = static_cast<double>(document.surfaces.size());
-    options->progress = core::part_of(progress, i / count, (i + 1) / count);
-    auto edited = edit_one(document.surfaces[i], *options);
-    if (!edited) {
-      end_progress();
-      return report_failure(edited.error(), command.input.files.front());
-    }
-    written.surfaces.push_back({document.surfaces[i].label, edited->result.surface, 0});
-    shown.push_back(operations::surface_edit_json(edited->result));
-    if (!edited->name.empty()) shown.back()["name"] = edited->name;
-    all.push_back(std::move(*edited));
-  }
+  auto session = edit_all(command, document, *request, interactive_progress(common.quiet));
   end_progress();
-  if (!common.json && !common.quiet)
-    for (const Edited& e : all) print_summary(e);
-  Writers writers = curve_writers(written, common.tolerance.value_or(1e-6), common);
-  add_pictures(writers, command, all, document.unit);
+  if (!session) return report_failure(session.error(), command.input.files.front());
+  const Joints joints = joints_between(session->all);
+  if (!common.json && !common.quiet) {
+    for (const Edited& e : session->all) print_summary(e);
+    print_joints(joints);
+  }
+  Writers writers = curve_writers(session->written, common.tolerance.value_or(1e-6), common);
+  add_pictures(writers, command, session->all, document.unit);
   if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
-  if (common.json)
-    fmt::print("{}\n", (shown.size() == 1 ? json(shown[0]) : json{{"surfaces", shown}}).dump());
+  if (!common.json) return kDone;
+  json shown =
+      session->shown.size() == 1 ? json(session->shown[0]) : json{{"surfaces", session->shown}};
+  if (session->shown.size() > 1)
+    shown["joints"] = {{"before", operations::joints_json(joints.before)},
+                       {"after", operations::joints_json(joints.after)}};
+  fmt::print("{}\n", shown.dump());
   return kDone;
 }
 

@@ -14,13 +14,14 @@ using core::Result;
 using nlohmann::json;
 using surface::Keep;
 
-Result<Keep> keep_of(const json& request) {
-  const std::string name = string_or(request, "keep", "start");
+Result<Keep> keep_of(const json& request, bool several) {
+  const std::string name = string_or(request, "keep", several ? "joints" : "start");
   if (name == "start") return Keep::start;
   if (name == "corners") return Keep::corners;
+  if (name == "joints") return Keep::joints;
   if (name == "boundary") return Keep::boundary;
   return core::fail(ErrorCode::bad_input, "\"" + name + "\" cannot be kept",
-                    "use start, corners or boundary", "keep");
+                    "use start, corners, joints or boundary", "keep");
 }
 
 json missed_json(const std::vector<surface::MissedTarget>& missed) {
@@ -31,28 +32,37 @@ json missed_json(const std::vector<surface::MissedTarget>& missed) {
 }
 
 Result<json> run(const json& request, const Context& context) {
-  const auto patch = one_patch(surface_of(request, "surface"));
-  if (!patch) return std::unexpected(patch.error());
-  auto options = surface_edit_options(request);
+  const surface::Surface s = surface_of(request, "surface");
+  auto options = surface_edit_options(request, surface::patches_of(s).patches.size() > 1);
   if (!options) return std::unexpected(options.error());
   options->progress = context.progress;
-  const auto edited = surface::edit(*patch, *options);
-  if (!edited) return std::unexpected(edited.error());
-  return surface_edit_json(*edited);
+  const auto edit = surface::edit_surface(s, *options, context.threads);
+  if (!edit) return std::unexpected(edit.error());
+  return surface_edit_json(*edit);
+}
+
+json patch_edit_json(const surface::SurfaceEdit& edit, std::size_t i) {
+  const auto columns = static_cast<std::size_t>(edit.grid.columns);
+  const auto& [result, why] = edit.edited.patches[i];
+  json j{{"patch", {i / columns, i % columns}}};
+  if (!result) {
+    j["target"] = "as given";
+    j["why"] = why.message;
+    return j;
+  }
+  j["target"] = result->target;
+  j["amount"] = result->amount;
+  j["sav"] = {result->before.sav, result->after.sav};
+  j["departure"] = result->departure;
+  j["missed"] = missed_json(result->missed);
+  if (!result->unmet.empty()) j["unmet"] = missed_json(result->unmet);
+  return j;
 }
 
 }  // namespace
 
-Result<surface::BezierSurface> one_patch(const surface::Surface& s) {
-  const surface::PatchGrid grid = surface::patches_of(s);
-  if (grid.patches.size() == 1) return grid.patches.front();
-  return core::fail(ErrorCode::unsupported,
-                    "the surface has " + std::to_string(grid.patches.size()) + " Bezier patches",
-                    "edit one patch at a time", "surface");
-}
-
-Result<surface::EditOptions> surface_edit_options(const json& request) {
-  const auto keep = keep_of(request);
+Result<surface::EditOptions> surface_edit_options(const json& request, bool several) {
+  const auto keep = keep_of(request, several);
   if (!keep) return std::unexpected(keep.error());
   surface::EditOptions options;
   options.keep = *keep;
@@ -82,15 +92,45 @@ json surface_edit_json(const surface::EditResult& edited) {
   return result;
 }
 
+json joints_json(const surface::JointSummary& joints) {
+  return {{"joints", joints.joints},
+          {"G0", joints.order_at_least[0]},
+          {"G1", joints.order_at_least[1]},
+          {"gap", joints.gap},
+          {"angle", joints.angle}};
+}
+
+json surface_edit_json(const surface::SurfaceEdit& edit) {
+  const surface::PatchesEdit& all = edit.edited;
+  if (all.patches.size() == 1) return surface_edit_json(*all.patches.front().result);
+  json result{{"before", patch_values_json(values_before(edit))},
+              {"after", patch_values_json(values_after(edit))},
+              {"departure", all.departure},
+              {"patch_edits", json::array()},
+              {"joints", {{"before", joints_json(all.before)}, {"after", joints_json(all.after)}}}};
+  result["surface"] = edit.whole ? exchange::to_json(*edit.whole) : json(nullptr);
+  if (!edit.whole)
+    for (const surface::BezierSurface& s : all.surfaces)
+      result["surfaces"].push_back(exchange::to_json(s));
+  for (std::size_t i = 0; i < all.patches.size(); ++i)
+    result["patch_edits"].push_back(patch_edit_json(edit, i));
+  return result;
+}
+
 Operation surface_edit_operation() {
   using Type = Field::Type;
   return {
       "surface.edit",
       "Takes a Bezier patch to the nearest one whose rows and columns are Class A and of least "
       "energy (Oya, Hanafusa, Aoyama, 4.3), with the trade-off between SAV and departure.",
-      {{"surface", Type::surface, true, "a polynomial Bezier patch"},
+      {{"surface", Type::surface, true,
+        "a polynomial Bezier patch; or a B-spline surface, which is edited patch by patch, its "
+        "joints measured before and after"},
        {"keep", Type::string, false,
-        "start (the first corner and the tangents of its row and column), corners or boundary"},
+        "start (the first corner and the tangents of its row and column; the default of one "
+        "patch), "
+        "corners, joints (corners, boundary curves moving so that neighbours stay joined; the "
+        "default of several) or boundary"},
        {"amount", Type::number, false, "0 as given to 1 the target"},
        {"limit", Type::number, false, "largest departure from the given surface, a length"},
        {"alpha_max", Type::number, false, "as in surface.sav"},

@@ -8,7 +8,7 @@
 #include "keyline/figure/surface_view.h"
 #include "keyline/operations/report_options.h"
 #include "keyline/report/report.h"
-#include "keyline/surface/edit.h"
+#include "keyline/surface/edit_patches.h"
 #include "keyline/surface/interrogate.h"
 #include "keyline/surface/network.h"
 
@@ -79,6 +79,15 @@ core::Result<figure::Drawing> surface_edit_page(const surface::BezierSurface& gi
 /// The same as a report, with the table of curves before and after and the trade-off.
 core::Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
                                                  const surface::EditResult& edited,
+                                                 const ReportOptions& options = {});
+
+/// Of a surface of several patches: zebra and mean curvature before and after; in the report the
+/// tables of patches and joints too.
+core::Result<figure::Drawing> surface_edit_page(const surface::Surface& given,
+                                                const surface::SurfaceEdit& edit,
+                                                const ReportOptions& options = {});
+core::Result<report::Report> surface_edit_report(const surface::Surface& given,
+                                                 const surface::SurfaceEdit& edit,
                                                  const ReportOptions& options = {});
 
 }  // namespace keyline::operations

@@ -7,6 +7,7 @@
 #include "keyline/figure/plot.h"
 #include "keyline/figure/ticks.h"
 #include "keyline/operations/surface_pictures.h"
+#include "keyline/operations/surface_tables.h"
 
 namespace keyline::operations {
 
@@ -19,76 +20,7 @@ using surface::SurfaceValue;
 
 namespace {
 
-constexpr std::size_t kMostPatchRows = 400;
-
-std::string number(double x, int digits = 4) { return figure::short_number(x, digits); }
-
-/// How far the nearest curve of one matrix lies and what it is worth, after the other cells.
-void add_nearest_cells(const surface::NetworkValue& c, std::vector<std::string>& cells) {
-  cells.push_back(c.nearest ? number(c.nearest->nearest.distance) : "");
-  cells.push_back(c.nearest && c.nearest->value ? number(c.nearest->value->cav) : "");
-}
-
-std::vector<std::string> curve_row(const surface::NetworkValue& c) {
-  const classa::CurveValue& v = c.value;
-  const bool one = v.matrix.has_value();
-  return {c.name,
-          std::to_string(v.type),
-          number(v.cav),
-          one ? number(v.matrix->alpha) : "",
-          one ? number(v.matrix->s) : "",
-          v.minimum ? number(v.minimum->alpha) : "",
-          v.minimum ? number(v.minimum->s) : "",
-          std::isfinite(v.energy) ? number(v.energy) : "",
-          v.minimum ? number(v.minimum->energy) : "",
-          v.monotone.answer == curve::MonotoneVerdict::yes  ? "yes"
-          : v.monotone.answer == curve::MonotoneVerdict::no ? "no"
-                                                            : "undecided"};
-}
-
-report::ReportTable curve_table(const SurfaceValue& value, const std::string& caption) {
-  using report::Alignment;
-  report::ReportTable table;
-  table.caption = caption;
-  table.columns = {{"Curve", Alignment::text},
-                   {"Type"},
-                   {"CAV"},
-                   {"α"},
-                   {"s"},
-                   {"α least"},
-                   {"s least"},
-                   {"Energy"},
-                   {"Energy least"},
-                   {"Monotone", Alignment::text}};
-  const bool nearest = std::any_of(value.curves.begin(), value.curves.end(),
-                                   [](const auto& c) { return c.nearest.has_value(); });
-  if (nearest) {
-    table.columns.push_back({"Nearest away"});
-    table.columns.push_back({"CAV of nearest"});
-  }
-  for (const surface::NetworkValue& c : value.curves) {
-    table.rows.push_back(curve_row(c));
-    if (nearest) add_nearest_cells(c, table.rows.back());
-  }
-  return table;
-}
-
-report::ReportTable patch_table(const std::vector<PatchValue>& values) {
-  report::ReportTable table;
-  table.caption = "Surface aesthetic value by Bézier patch, counted along u and v";
-  table.columns = {{"Patch", report::Alignment::text},
-                   {"SAV"},
-                   {"Worst curve", report::Alignment::text},
-                   {"Its type"},
-                   {"Its CAV"}};
-  for (const PatchValue& p : values) {
-    if (table.rows.size() == kMostPatchRows) break;
-    const auto& worst = p.value.curves[p.value.worst];
-    table.rows.push_back({fmt::format("{}, {}", p.row, p.column), number(p.value.sav), worst.name,
-                          std::to_string(worst.value.type), number(worst.value.cav)});
-  }
-  return table;
-}
+std::string number(double x) { return figure::short_number(x, 4); }
 
 const PatchValue& worst_patch(const std::vector<PatchValue>& values) {
   return *std::max_element(
@@ -220,8 +152,8 @@ Result<report::Report> surface_report(const SurfaceSubject& subject, const Repor
                                 : "Network curves";
   value.figures.push_back({network_profiles(patch, which, options.unit),
                            "Curvature of the rows and columns of the control net"});
-  if (subject.values.size() > 1) value.tables.push_back(patch_table(subject.values));
-  value.tables.push_back(curve_table(worst.value, which));
+  if (subject.values.size() > 1) value.tables.push_back(surface_patch_table(subject.values));
+  value.tables.push_back(surface_curve_table(worst.value, which));
   report.sections.push_back(std::move(value));
   if (subject.values.size() > kMostPatchRows)
     report.notes.push_back(
@@ -249,134 +181,6 @@ Result<Drawing> surface_page(const std::vector<SurfaceSubject>& subjects,
   }
   page.title = options.title;
   return page;
-}
-
-namespace {
-
-struct Pair {
-  Drawing before;
-  Drawing after;
-};
-
-/// Range of a curvature over both surfaces.
-core::Interval common_range(const Surface& a, const Surface& b, FieldKind field) {
-  core::Interval range{0, 0};
-  bool first = true;
-  for (const Surface* s : {&a, &b}) {
-    const auto found = surface::interrogate(surface::sample_grid(*s, 65, 65), field);
-    if (!found) continue;
-    range.low = first ? found->range.low : std::min(range.low, found->range.low);
-    range.high = first ? found->range.high : std::max(range.high, found->range.high);
-    first = false;
-  }
-  return range;
-}
-
-/// The same picture of both, in the lights of the first and in the same colours.
-Result<Pair> before_and_after(const Surface& given, const Surface& edited, FieldKind field,
-                              const std::string& title, const std::string& unit) {
-  SurfacePicture picture;
-  picture.field = field;
-  picture.unit = unit;
-  picture.lighting = surface::completed({}, surface::sample_grid(given, 33, 33));
-  picture.stripe_count = stripes_for({given});
-  picture.range = common_range(given, edited, field);
-  picture.title = title + ", before";
-  auto before = surface_picture({given}, picture);
-  if (!before) return std::unexpected(before.error());
-  picture.title = title + ", after";
-  auto after = surface_picture({edited}, picture);
-  if (!after) return std::unexpected(after.error());
-  return Pair{std::move(*before), std::move(*after)};
-}
-
-}  // namespace
-
-Result<Drawing> surface_edit_page(const surface::BezierSurface& given,
-                                  const surface::EditResult& edited, const ReportOptions& options) {
-  std::vector<Drawing> cells;
-  for (const auto& [field, title] :
-       {std::pair{FieldKind::zebra, "Zebra"}, {FieldKind::mean, "Mean curvature"}}) {
-    auto pair = before_and_after(given, edited.surface, field, title, options.unit);
-    if (!pair) return std::unexpected(pair.error());
-    cells.push_back(std::move(pair->before));
-    cells.push_back(std::move(pair->after));
-  }
-  return figure::stack({figure::tile(cells, 2),
-                        network_profiles(given, "Network curves, before", options.unit),
-                        network_profiles(edited.surface, "Network curves, after", options.unit)});
-}
-
-namespace {
-
-/// Targets by departure; values below a thousandth stand at the foot.
-Drawing tradeoff_chart(const surface::EditResult& edited, const std::string& unit) {
-  figure::Plot plot;
-  plot.title = "What lower values cost";
-  plot.x.title = unit.empty() ? "largest departure" : "largest departure [" + unit + "]";
-  plot.x.low = 0;
-  plot.y = {"SAV", figure::Scale::log10, 1e-3, 1000};
-  figure::Series targets{.name = "targets", .kind = figure::SeriesKind::points, .size = 7};
-  for (const surface::TradeOff& t : edited.tradeoff)
-    targets.points.push_back({t.departure, std::max(t.sav, 1.3e-3)});
-  figure::Series taken{.name = "taken",
-                       .points = {{edited.departure, std::max(edited.after.sav, 1.3e-3)}},
-                       .kind = figure::SeriesKind::points,
-                       .color = figure::palette(1),
-                       .marker = figure::Marker::circle,
-                       .size = 12};
-  plot.series = {std::move(targets), std::move(taken)};
-  return figure::draw(plot);
-}
-
-}  // namespace
-
-Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
-                                           const surface::EditResult& edited,
-                                           const ReportOptions& options) {
-  report::Report report;
-  report.title = options.title.empty() ? "Surface edit" : options.title;
-  report.subtitle = options.subtitle;
-  report.options = options.options;
-  report.command = options.command;
-  report.generator = options.generator;
-  report.verdict = edited.after.sav <= 1 ? report::Verdict::good : report::Verdict::caution;
-  report.verdict_line =
-      fmt::format("SAV from {} to {}, {} from the given surface.", number(edited.before.sav),
-                  number(edited.after.sav), number(edited.departure));
-  report.numbers = {
-      {"SAV before", number(edited.before.sav), {}},
-      {"SAV after", number(edited.after.sav), {}},
-      {"Largest departure",
-       number(edited.departure) + (options.unit.empty() ? "" : "\u00A0" + options.unit),
-       {}},
-      {"Target", edited.target, fmt::format("{:.0f} %", 100 * edited.amount)}};
-  for (const surface::MissedTarget& m : edited.missed)
-    report.notes.push_back(
-        {report::NoteKind::note,
-         fmt::format("Target \"{}\" was not found. {}: {}.", m.target, m.curve, m.why)});
-  for (const surface::MissedTarget& m : edited.unmet)
-    report.notes.push_back(
-        {report::NoteKind::note,
-         fmt::format("Short of the target {} is outside its condition: {}.", m.curve, m.why)});
-  auto page = surface_edit_page(given, edited, options);
-  if (!page) return std::unexpected(page.error());
-  report.sections.push_back({"Before and after",
-                             {},
-                             {{std::move(*page), "Zebra, mean curvature and network curves"}},
-                             {}});
-  report::ReportTable tradeoff{"What lower values cost: targets by departure",
-                               {{"Target", report::Alignment::text}, {"Departure"}, {"SAV"}},
-                               {}};
-  for (const surface::TradeOff& t : edited.tradeoff)
-    tradeoff.rows.push_back({t.name, number(t.departure), number(t.sav)});
-  report.sections.push_back(
-      {"Surface aesthetic value",
-       {},
-       {{tradeoff_chart(edited, options.unit), "SAV of each target against its departure"}},
-       {curve_table(edited.before, "Network curves before"),
-        curve_table(edited.after, "Network curves after"), std::move(tradeoff)}});
-  return report;
 }
 
 }  // namespace keyline::operations

@@ -1,5 +1,7 @@
 #include "keyline/surface/bspline_surface.h"
 
+#include <algorithm>
+#include <functional>
 #include <string>
 
 #include "keyline/curve/bspline.h"
@@ -94,6 +96,20 @@ std::vector<BSplineSurface> cut_columns(const BSplineSurface& s) {
   return strips;
 }
 
+/// Whether breakpoints grow from 0 to 1 and cut as many spans.
+bool cut_spans(const std::vector<double>& breaks, int spans) {
+  return static_cast<int>(breaks.size()) == spans + 1 && breaks.front() == 0 &&
+         breaks.back() == 1 &&
+         std::adjacent_find(breaks.begin(), breaks.end(), std::greater_equal<>()) == breaks.end();
+}
+
+std::vector<double> full_knots(const std::vector<double>& breaks, int degree) {
+  std::vector<double> knots{breaks.front()};
+  for (const double t : breaks) knots.insert(knots.end(), degree, t);
+  knots.push_back(breaks.back());
+  return knots;
+}
+
 std::vector<double> bezier_knots(int count) {
   std::vector<double> knots(count, 0.0);
   knots.insert(knots.end(), count, 1.0);
@@ -148,6 +164,32 @@ PatchGrid to_beziers(const BSplineSurface& s) {
     for (int j = 0; j < grid.columns; ++j)
       grid.patches.push_back(transposed(BezierSurface{cut[j][i].net, cut[j][i].weights}));
   return grid;
+}
+
+std::optional<BSplineSurface> joined(const PatchGrid& grid, const std::vector<double>& u,
+                                     const std::vector<double>& v, double gap) {
+  if (!cut_spans(u, grid.rows) || !cut_spans(v, grid.columns)) return std::nullopt;
+  const int p = grid.patches.front().net.rows - 1;
+  const int q = grid.patches.front().net.columns - 1;
+  BSplineSurface s{{p, q}, {full_knots(u, p), full_knots(v, q)}, {}, {}};
+  s.net.rows = p * grid.rows + 1;
+  s.net.columns = q * grid.columns + 1;
+  s.net.points.resize(static_cast<std::size_t>(s.net.rows) * s.net.columns);
+  std::vector<bool> set(s.net.points.size(), false);
+  for (int k = 0; k < grid.rows * grid.columns; ++k) {
+    const BezierSurface& patch = grid.patches[static_cast<std::size_t>(k)];
+    if (is_rational(patch) || patch.net.rows != p + 1 || patch.net.columns != q + 1)
+      return std::nullopt;
+    for (int i = 0; i <= p; ++i)
+      for (int j = 0; j <= q; ++j) {
+        const auto at = s.net.index(p * (k / grid.columns) + i, q * (k % grid.columns) + j);
+        const Point3& point = patch.net.at(i, j);
+        if (set[at] && !(distance(s.net.points[at], point) <= gap)) return std::nullopt;
+        if (!set[at]) s.net.points[at] = point;
+        set[at] = true;
+      }
+  }
+  return s;
 }
 
 BSplineSurface to_bspline(const BezierSurface& s) {

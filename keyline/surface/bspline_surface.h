@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "keyline/core/error.h"
@@ -52,6 +53,13 @@ struct PatchGrid {
   std::vector<BezierSurface> patches;  ///< row after row
 };
 PatchGrid to_beziers(const BSplineSurface& s);
+
+/// The patches of a grid as one B-spline surface over these breakpoints, every inner one a knot of
+/// full multiplicity (as many as the degree). Empty where edges of neighbours differ by more than
+/// `gap` in a control point, degrees differ, a patch is rational, or the breakpoints are not those
+/// of the grid, growing from 0 to 1.
+std::optional<BSplineSurface> joined(const PatchGrid& grid, const std::vector<double>& u,
+                                     const std::vector<double>& v, double gap);
 
 /// The same surface as a B-spline without inner knots.
 BSplineSurface to_bspline(const BezierSurface& s);

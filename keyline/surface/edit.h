@@ -12,8 +12,9 @@
 namespace keyline::surface {
 
 /// What an edit leaves where it is: the corner b00 with the tangent directions of A1 and A5 there;
-/// the four corners; all four boundary curves.
-enum class Keep { start, corners, boundary };
+/// the four corners; the corners, each boundary curve moving as it alone asks for, so that the
+/// neighbour's moves with it and joints stay closed; all four boundary curves.
+enum class Keep { start, corners, joints, boundary };
 
 struct EditOptions {
   Keep keep = Keep::start;
@@ -59,7 +60,9 @@ struct EditResult {
 /// Targets: "translational" (start kept), rows and columns translates of A1 and A5, both taken to
 /// their minimum; "one matrix", the nearest net all of whose curves have one matrix each; from it
 /// in steps to "least energy", in which every one stands at its own minimum (solve_one_matrix);
-/// "rows" and "columns", those curves alone taken to their minimum between the ends that are kept.
+/// "rows" and "columns", those curves alone taken to their minimum between the ends that are kept
+/// (with the other boundary curves, unless these are kept); "boundaries" (joints kept), the four
+/// boundary curves at their minimum and the inside blended from them.
 /// The target of least SAV within the limit is taken, the nearer one of equals; where none lies
 /// within the limit, the nearest of them as far as the limit allows.
 ///

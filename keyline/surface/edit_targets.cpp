@@ -90,25 +90,35 @@ void add_translational(const EditTask& task, TargetSet& set) {
   set.targets.push_back({"translational", std::move(moved)});
 }
 
+/// Of a curve that is to come out the same whatever patch it is seen from.
+Sense own_sense(const NetworkCurve& c) {
+  const auto& p = c.control;
+  const bool falls = core::distance(p[p.size() - 2], p.back()) < core::distance(p[0], p[1]);
+  return {falls, falls};
+}
+
 // ---- One way ------------------------------------------------------------------------------
 
 /// Takes rows (columns) of `moved` to their minimum between their ends, which stay; false, with the
 /// reason, where one has none.
 bool straighten_out(const EditTask& task, Net& moved, bool rows, bool outer, bool inner,
                     MissedTarget& missed) {
-  const Sense sense = sense_of(task.net, task.options.keep);
+  const Sense common = sense_of(task.net, task.options.keep);
   for (const NetworkCurve& c : network_curves(moved)) {
     const int last = (c.is_row ? moved.rows : moved.columns) - 1;
     const bool border = c.index == 0 || c.index == last;
     if (c.is_row != rows || (border ? !outer : !inner)) continue;
-    CurveTask own = task.curve(c, sense);
+    const bool alone = border && task.options.keep == Keep::joints;
+    CurveTask own = task.curve(c, alone ? own_sense(c) : common);
     own.end_tolerance = own.condition.end_tolerance = 0;  // whatever the minimum is judged by
-    const Curve best = least_energy_curve(own);
+    Curve best = least_energy_curve(own);
     if (best.empty()) {
       missed.curve = c.name;
       missed.why = why_no_minimum(own);
       return false;
     }
+    best.front() = c.control.front();  // to the last digit
+    best.back() = c.control.back();
     put(moved, c, best);
   }
   return true;
@@ -123,6 +133,51 @@ void add_one_way(const EditTask& task, bool rows, bool frame, TargetSet& set) {
     set.targets.push_back({missed.target, std::move(moved)});
   else
     set.missed.push_back(std::move(missed));
+}
+
+// ---- Boundaries ---------------------------------------------------------------------------
+
+/// Shares of the length of a polygon up to each of its points.
+std::vector<double> length_shares(const Curve& c) {
+  std::vector<double> shares{0};
+  for (std::size_t i = 1; i < c.size(); ++i)
+    shares.push_back(shares.back() + core::distance(c[i - 1], c[i]));
+  for (double& x : shares) x /= shares.back();
+  return shares;
+}
+
+/// Inner points blended from the boundary (Coons): translates where opposite edges are.
+void blend_inside(Net& net) {
+  const Net given = net;
+  const int n = net.rows - 1;
+  const int m = net.columns - 1;
+  const auto u0 = length_shares(column_of(net, 0));
+  const auto u1 = length_shares(column_of(net, m));
+  const auto v0 = length_shares(row_of(net, 0));
+  const auto v1 = length_shares(row_of(net, n));
+  for (int i = 1; i < n; ++i)
+    for (int j = 1; j < m; ++j) {
+      const double u = 0.5 * (u0[i] + u1[i]);
+      const double v = 0.5 * (v0[j] + v1[j]);
+      const auto across = core::mix(given.at(0, j), given.at(n, j), u);
+      const auto along = core::mix(given.at(i, 0), given.at(i, m), v);
+      const auto corners = core::mix(core::mix(given.at(0, 0), given.at(0, m), v),
+                                     core::mix(given.at(n, 0), given.at(n, m), v), u);
+      net.at(i, j) = across + (along - corners);
+    }
+}
+
+/// All four boundary curves at their own minimum, what lies between blended from them.
+void add_blended(const EditTask& task, TargetSet& set) {
+  MissedTarget missed{"boundaries", {}, {}};
+  Net moved = task.net;
+  if (!straighten_out(task, moved, true, true, false, missed) ||
+      !straighten_out(task, moved, false, true, false, missed)) {
+    set.missed.push_back(std::move(missed));
+    return;
+  }
+  blend_inside(moved);
+  set.targets.push_back({missed.target, std::move(moved)});
 }
 
 }  // namespace
@@ -143,11 +198,12 @@ TargetSet edit_targets(const EditTask& task) {
   TargetSet set;
   const Keep keep = task.options.keep;
   if (keep == Keep::start) add_translational(task, set);
-  if (keep != Keep::boundary) add_solved(task, set);
+  if (keep == Keep::start || keep == Keep::corners) add_solved(task, set);
   if (keep != Keep::start) {
-    add_one_way(task, true, keep == Keep::corners, set);
-    add_one_way(task, false, keep == Keep::corners, set);
+    add_one_way(task, true, keep != Keep::boundary, set);
+    add_one_way(task, false, keep != Keep::boundary, set);
   }
+  if (keep == Keep::joints) add_blended(task, set);
   return set;
 }
 

@@ -163,6 +163,30 @@ TEST(SurfaceOperations, EditBringsSavDownAndSaysByHowMuchItDeparts) {
             "keep");
 }
 
+TEST(SurfaceOperations, EditOfASplineGoesByPatch) {
+  json rows = json::array();
+  for (int i = 0; i < 5; ++i) {
+    json row = json::array();
+    for (int j = 0; j < 4; ++j)
+      row.push_back({100.0 * i, 70.0 * j, 4.0 * i * i + 5.0 * j * j + 3 * std::sin(2.0 * i + j)});
+    rows.push_back(std::move(row));
+  }
+  const json spline{{"type", "bspline-surface"},
+                    {"degree", {3, 3}},
+                    {"knots", {{0, 0, 0, 0, 1, 2, 2, 2, 2}, {0, 0, 0, 0, 1, 1, 1, 1}}},
+                    {"points", rows}};
+  const json r = result_of({{"op", "surface.edit"}, {"surface", spline}});
+  EXPECT_EQ(r["surface"]["type"], "bspline-surface");  // boundaries are kept unless told otherwise
+  ASSERT_EQ(r["patch_edits"].size(), 2U);
+  EXPECT_LT(r["after"]["sav"].get<double>(), r["before"]["sav"].get<double>());
+  EXPECT_EQ(r["joints"]["before"]["G1"], 1);
+  EXPECT_EQ(r["joints"]["after"]["G0"], 1);
+  const json loose = result_of({{"op", "surface.edit"}, {"surface", spline}, {"keep", "start"}});
+  EXPECT_TRUE(loose["surface"].is_null());
+  EXPECT_EQ(loose["surfaces"].size(), 2U);
+  EXPECT_GT(loose["joints"]["after"]["gap"].get<double>(), 0.001);
+}
+
 TEST(SurfaceOperations, EditTakesConditionsPerCurve) {
   json request{{"op", "surface.edit"}, {"surface", bicubic(5)}};
   request["conditions"] = {{{"curve", "A1"}, {"s", {1.2, 1.3}}}, {{"alpha", {0.0, 1.0}}}};

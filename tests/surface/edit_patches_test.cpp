@@ -1,0 +1,129 @@
+#include "keyline/surface/edit_patches.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "test_surfaces.h"
+
+namespace keyline::surface {
+namespace {
+
+/// Bicubic, two by two patches, waves in its net: smooth joints.
+BSplineSurface four_patches() {
+  BSplineSurface s;
+  s.net = wavy_net(5, 5);
+  for (core::Point3& p : s.net.points) p = {40 * p.x, 40 * p.y, 6 * p.z};
+  s.knots = {{{0, 0, 0, 0, 0.4, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 3, 3, 3, 3}}};
+  return s;
+}
+
+TEST(Joints, FindsThePatchesOfASplineTogether) {
+  const auto patches = to_beziers(four_patches()).patches;
+  const auto joints = joints_of(patches, 1e-6);
+  ASSERT_EQ(joints.size(), 4U);
+  EXPECT_EQ(joints[0].first, 0U);
+  EXPECT_EQ(joints[0].second, 1U);
+  EXPECT_EQ(joints[0].edges, (std::array{Edge::v1, Edge::v0}));
+  const JointSummary summary = measure_joints(joints, patches);
+  EXPECT_EQ(summary.order_at_least[1], 4U);
+  EXPECT_LT(summary.gap, 1e-9);
+  auto apart = patches;
+  for (core::Point3& p : apart[3].net.points) p.z += 0.5;
+  EXPECT_EQ(joints_of(apart, 1e-6).size(), 2U);
+  const JointSummary torn = measure_joints(joints, apart);
+  EXPECT_EQ(torn.order_at_least[0], 2U);
+  EXPECT_NEAR(torn.gap, 0.5, 0.1);
+}
+
+TEST(Joints, SecondEdgeMayRunTheOtherWay) {
+  const auto [low, high] = halves_u(crowned_patch());
+  BezierSurface turned = high;  // v run backwards
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) turned.net.at(i, j) = high.net.at(i, 3 - j);
+  EXPECT_EQ(joints_of(std::vector{low, turned}, 1e-6).size(), 1U);
+}
+
+TEST(JoinedSurface, IsTheSplineItWasCutFrom) {
+  const BSplineSurface s = four_patches();
+  const PatchGrid grid = to_beziers(s);
+  const auto again = joined(grid, breakpoints_u(s), breakpoints_v(s), 1e-9);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(validate(*again));
+  EXPECT_EQ(again->net.rows, 7);
+  for (const double u : {0.0, 0.3, 0.4, 0.77, 1.0})
+    for (const double v : {0.0, 0.5, 0.9})
+      EXPECT_LT(distance(evaluate(s, u, v), evaluate(*again, u, v)), 1e-12);
+  PatchGrid torn = grid;
+  torn.patches[1].net.at(0, 0).z += 1;
+  EXPECT_FALSE(joined(torn, breakpoints_u(s), breakpoints_v(s), 1e-9));
+  EXPECT_FALSE(joined(grid, {0, 1}, breakpoints_v(s), 1e-9));
+}
+
+TEST(EditPatches, BoundaryKeptStaysOneSurface) {
+  const BSplineSurface s = four_patches();
+  EditOptions options;
+  options.keep = Keep::boundary;
+  const auto edit = edit_surface(s, options);
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->edited.before.order_at_least[1], 4U);
+  EXPECT_EQ(edit->edited.after.order_at_least[0], 4U);
+  EXPECT_LT(edit->edited.after.gap, 1e-9);
+  ASSERT_TRUE(edit->whole);
+  EXPECT_TRUE(std::holds_alternative<BSplineSurface>(*edit->whole));
+  double before = 0;
+  double after = 0;
+  for (const PatchValue& p : values_before(*edit)) before += p.value.sav;
+  for (const PatchValue& p : values_after(*edit)) after += p.value.sav;
+  EXPECT_LT(after, before);
+  EXPECT_GT(edit->edited.departure, 0);
+}
+
+TEST(EditPatches, JointsKeptMoveAndStayClosed) {
+  const BSplineSurface s = four_patches();
+  EditOptions options;
+  options.keep = Keep::joints;
+  const auto edit = edit_surface(s, options);
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->edited.after.order_at_least[0], 4U);
+  EXPECT_LT(edit->edited.after.gap, 1e-9);
+  EXPECT_TRUE(edit->whole);
+  for (const PatchValue& p : values_after(*edit)) EXPECT_LT(p.value.sav, 150);
+}
+
+TEST(EditPatches, LessKeptTellsTheGaps) {
+  const BSplineSurface s = four_patches();
+  EditOptions options;
+  options.keep = Keep::start;
+  const auto edit = edit_surface(s, options, 2);
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->edited.joints.size(), 4U);
+  EXPECT_LT(edit->edited.after.order_at_least[0], 4U);
+  EXPECT_GT(edit->edited.after.gap, 0.01);
+  EXPECT_FALSE(edit->whole);
+  EXPECT_EQ(edit->edited.surfaces.size(), 4U);
+}
+
+TEST(EditPatches, OnePatchIsAPatch) {
+  const auto edit = edit_surface(distorted_patch());
+  ASSERT_TRUE(edit);
+  ASSERT_TRUE(edit->whole);
+  EXPECT_TRUE(std::holds_alternative<BezierSurface>(*edit->whole));
+  EXPECT_LT(edit->edited.patches.front().result->after.sav, 1e-5);
+}
+
+TEST(EditPatches, WhatCannotBeEditedStays) {
+  BezierSurface collapsed = crowned_patch();
+  for (int j = 0; j < 4; ++j) collapsed.net.at(0, j) = collapsed.net.at(0, 0);
+  const std::vector<BezierSurface> patches{distorted_patch(), collapsed};
+  const auto edit = edit_patches(patches);
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_FALSE(edit->patches[1].result);
+  EXPECT_FALSE(edit->patches[1].why.message.empty());
+  EXPECT_EQ(edit->surfaces[1], collapsed);
+  EXPECT_FALSE(edit_patches(std::vector{collapsed}));
+  EXPECT_EQ(edit_surface(sphere_octant(1)).error().code, core::ErrorCode::unsupported);
+}
+
+}  // namespace
+}  // namespace keyline::surface
