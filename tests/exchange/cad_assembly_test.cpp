@@ -117,6 +117,63 @@ std::string assembly() {
          "#102=SHAPE_REPRESENTATION('',(#15),#23);\nENDSEC;\nEND-ISO-10303-21;\n";
 }
 
+/// A text with the first occurrence of a part replaced.
+std::string with(std::string text, const std::string& old, const std::string& now) {
+  return text.replace(text.find(old), old.size(), now);
+}
+
+TEST_F(CadAssembly, EverySchemaAndUnit) {
+  const std::string inches =
+      "#24=(CONVERSION_BASED_UNIT('INCH',#27)LENGTH_UNIT()NAMED_UNIT(#29));\n"
+      "#27=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#28);\n"
+      "#28=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+      "#29=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n";
+  const std::string metres = "#24=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));\n";
+  for (const char* schema :
+       {"CONFIG_CONTROL_DESIGN", "AUTOMOTIVE_DESIGN",
+        "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }"})
+    for (const auto& [unit, entities] : {std::pair{"m", metres}, std::pair{"in", inches}}) {
+      SCOPED_TRACE(std::string(schema) + ", " + unit);
+      std::string text = with(assembly(), "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }", schema);
+      // The second "pair" lies down: its z along (0, 1, 0), its x along (3, 0, 4) of "whole".
+      text = with(with(text, metres, entities),
+                  "#21=DIRECTION('',(0.,0.,1.));\n#22=DIRECTION('',(-1.,0.,0.));",
+                  "#21=DIRECTION('',(0.,1.,0.));\n#22=DIRECTION('',(3.,0.,4.));");
+      std::ofstream(folder_ / "a.step") << text;
+      const auto read = read_document(folder_ / "a.step");
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(read->unit, unit);
+      ASSERT_EQ(read->paths.size(), 2U);
+      ASSERT_EQ(read->space_curves.size(), 2U);
+      EXPECT_LT(distance(evaluate(read->paths[1].path, 1), {100, 3}), 1e-12);
+      // x (0.6, 0, 0.8), y = z x x = (0.8, 0, -0.6).
+      EXPECT_LT(distance(evaluate(read->space_curves[0].curve, 1), {1.8, 0, 52.4}), 1e-12);
+      EXPECT_LT(distance(evaluate(read->space_curves[1].curve, 1), {62.4, 0, 128.2}), 1e-12);
+      EXPECT_TRUE(read->skipped.empty());
+    }
+}
+
+TEST_F(CadAssembly, ScaledAndMirroredPlacementsAreReported) {
+  const std::string mapped =
+      "#56=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#110),#23);\n"
+      "#109=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#57),#23);\n"
+      "#110=MAPPED_ITEM('',#111,#112);\n#111=REPRESENTATION_MAP(#11,#109);\n";
+  const std::string plain =
+      "#56=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11,#57),#23);\n";
+  for (const auto& [x, scale, rigid] :
+       {std::tuple{"1.", "1.", true}, {"-1.", "1.", false}, {"1.", "2.", false}}) {
+    const std::string map = "#112=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#113,#114,#12," +
+                            std::string(scale) + ",#115);\n#113=DIRECTION('',(" + x +
+                            ",0.,0.));\n#114=DIRECTION('',(0.,1.,0.));\n"
+                            "#115=DIRECTION('',(0.,0.,1.));\n";
+    std::ofstream(folder_ / "a.step") << with(assembly(), plain, mapped + map);
+    const auto read = read_document(folder_ / "a.step");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->paths.size() + read->space_curves.size(), 4U);
+    EXPECT_EQ(read->skipped.empty(), rigid) << map;
+  }
+}
+
 TEST_F(CadAssembly, PlacementsOfSharedPartsKeepNamesAndColours) {
   std::ofstream(folder_ / "a.step") << assembly();
   const auto read = read_document(folder_ / "a.step");

@@ -7,6 +7,8 @@
 #include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
 #include <StepBasic_ProductDefinitionRelationship.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
+#include <StepGeom_Direction.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
 #include <StepRepr_Representation.hxx>
@@ -20,6 +22,7 @@
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
+#include <gp_XYZ.hxx>
 #include <map>
 #include <stdexcept>
 
@@ -152,6 +155,32 @@ std::pair<const char*, const char*> unit_of(STEPControl_Reader& reader) {
   return {"MM", "mm"};
 }
 
+/// OCCT places what a CARTESIAN_TRANSFORMATION_OPERATOR_3D maps, but neither scales nor mirrors it.
+bool is_rigid(const StepGeom_CartesianTransformationOperator3d& map) {
+  if (map.HasScale() && std::abs(map.Scale() - 1) > 1e-12) return false;
+  if (!map.HasAxis1() || !map.HasAxis2() || !map.HasAxis3()) return true;
+  const auto vector = [](const Handle(StepGeom_Direction) & d) {
+    return d->NbDirectionRatios() < 3
+               ? gp_XYZ(0, 0, 0)
+               : gp_XYZ(d->DirectionRatiosValue(1), d->DirectionRatiosValue(2),
+                        d->DirectionRatiosValue(3));
+  };
+  return vector(map.Axis1()).Crossed(vector(map.Axis2())).Dot(vector(map.Axis3())) >= 0;
+}
+
+void note_distorted(document::Document& document, const Handle(Interface_InterfaceModel) & model) {
+  int count = 0;
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto map =
+            Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(model->Value(i));
+        !map.IsNull() && !is_rigid(*map))
+      ++count;
+  if (count > 0)
+    document.skipped.push_back("the scale or mirroring of " + std::to_string(count) +
+                               (count == 1 ? " placement" : " placements") +
+                               ": parts stand there in their own size and hand");
+}
+
 }  // namespace
 
 document::Document read_step(const std::string& file) {
@@ -177,6 +206,7 @@ document::Document read_step(const std::string& file) {
   ShapeWalk walk(document, labels);
   for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
+  note_distorted(document, reader.WS()->Model());
   return document;
 }
 
