@@ -45,6 +45,7 @@ core::Result<Working> flatten(const RawCurve& raw, const AcquireOptions& options
     line.plane = fit_plane(points).plane;
   }
   Working work;
+  work.scattered = raw.scattered;
   double sum = 0;
   for (std::size_t k = 0; k < kept.size(); ++k) {
     work.points.push_back(to_plane(line.plane, points[k]));

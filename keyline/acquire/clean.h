@@ -15,6 +15,7 @@ struct Working {
   std::vector<core::Point2> points;
   std::vector<double> weights;
   std::vector<std::size_t> sources;
+  bool scattered = false;  ///< see RawCurve
 };
 
 /// Checks sizes of values and weights.

@@ -13,6 +13,7 @@ struct RawCurve {
   std::string id;
   std::vector<core::Point3> points;
   bool has_z = false;
+  bool scattered = false;  ///< a random sample, cut: the order of close neighbours is chance
   std::vector<double> weights;
   std::vector<int> source_lines;   ///< 1-based line of the file each point came from
   std::vector<std::string> notes;  ///< what the reader ignored or decided, one line each

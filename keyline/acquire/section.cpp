@@ -64,6 +64,7 @@ core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plan
   RawCurve section;
   section.id = cloud.id;
   section.has_z = true;
+  section.scattered = true;
   section.notes = cloud.notes;
   std::vector<double> distances, away;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

@@ -161,6 +161,7 @@ std::vector<bool> zigzags(const std::vector<core::Point2>& line) {
 RawCurve part_of(const RawCurve& section, const Indices& which) {
   RawCurve part;
   part.has_z = section.has_z;
+  part.scattered = section.scattered;
   for (const std::size_t i : which) {
     part.points.push_back(section.points[i]);
     if (!section.weights.empty()) part.weights.push_back(section.weights[i]);

@@ -12,10 +12,12 @@
 #include "keyline/acquire/kd_tree.h"
 #include "keyline/acquire/order.h"
 #include "keyline/acquire/statistics.h"
+#include "keyline/acquire/turnbacks.h"
 
 namespace keyline::acquire::detail {
 namespace {
 
+constexpr std::size_t kFewTurns = 4;         // that many corners any section may have
 constexpr std::size_t kMostOrdered = 20000;  // more points are averaged first
 
 /// Merges points at the same place wherever they stand in the input.
@@ -205,6 +207,21 @@ void join_runs(Working& work, KeyLine& line) {
   line.report.duplicates += merge_repeated(work);
 }
 
+/// Points of a random sample: what their order cannot tell is averaged, what is left is told.
+void calm(Working& work, KeyLine& line) {
+  const std::size_t averaged = average_turnbacks(work);
+  if (averaged > 0)
+    line.report.notes.push_back(std::to_string(averaged) +
+                                " point(s) at which the way through the sample would turn back "
+                                "averaged with their neighbours");
+  const std::size_t sharp = sharp_turns(work);
+  if (sharp > kFewTurns)
+    line.report.notes.push_back(
+        "the way through the sample turns sharply at " + std::to_string(sharp) +
+        " places: corners of the shape, or points whose order the sample does not tell; look at "
+        "the picture, and try another band");
+}
+
 }  // namespace
 
 void put_in_order(Working& work, const AcquireOptions& options, KeyLine& line) {
@@ -214,6 +231,7 @@ void put_in_order(Working& work, const AcquireOptions& options, KeyLine& line) {
   } else {
     order_anew(work, line);
   }
+  if (work.scattered && !options.ordered.value_or(false)) calm(work, line);
 }
 
 }  // namespace keyline::acquire::detail

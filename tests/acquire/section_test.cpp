@@ -92,5 +92,21 @@ TEST(Section, OneCurveComesBackAsItIs) {
   EXPECT_EQ(curves[0].id, cut.id);
 }
 
+/// A corner of a random sample: points nearer to each other than they scatter, in the order of the
+/// shortest way, which turns back among them.
+TEST(Section, TurnbacksOfASampleAreAveraged) {
+  RawCurve line;
+  line.has_z = line.scattered = true;
+  const auto add = [&](double x, double y) { line.points.push_back({x, y, 0}); };
+  for (int i = 0; i < 12; ++i) add(0.1 * i, 0);
+  add(1.195, -0.01), add(1.21, 0.02), add(1.19, 0.012), add(1.205, 0.05);
+  for (int i = 1; i < 12; ++i) add(1.2, 0.05 + 0.1 * i);
+  const KeyLine averaged = acquire_key_line(line).value();
+  EXPECT_LT(averaged.points.size(), line.points.size());
+  EXPECT_NEAR(averaged.length, 2.35, 0.03);
+  line.scattered = false;
+  EXPECT_EQ(acquire_key_line(line).value().points.size(), line.points.size());
+}
+
 }  // namespace
 }  // namespace keyline::acquire

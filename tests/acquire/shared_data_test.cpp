@@ -113,7 +113,7 @@ TEST_F(SharedData, CarCloudsGiveTheirCentreLine) {
     EXPECT_EQ(line->plane.axis_y, (core::Vector3{0, 0, 1}));
     EXPECT_TRUE(line->report.reordered);
     EXPECT_TRUE(line->closed);
-    EXPECT_GE(line->points.size() + 6, section->points.size());
+    EXPECT_GE(line->points.size() + 10, section->points.size());
     // Once round a car 4.7 m long and 1.3 m high, without going back and forth.
     EXPECT_GT(line->length, 10.0);
     EXPECT_LT(line->length, 11.5);
