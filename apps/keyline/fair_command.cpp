@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/document_file.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/operations/fair_report.h"
 #include "keyline/operations/fair_request.h"
@@ -135,11 +136,12 @@ int verdict_of(const std::vector<Faired>& all, const std::string& file) {
   return exit;
 }
 
-Result<std::vector<Faired>> fair_all(const FairCommand& command) {
+/// All key-lines of the input; `page` is that of a drawing.
+Result<std::vector<Faired>> fair_all(const FairCommand& command, std::optional<curve::Box2>& page) {
   const core::Progress progress = interactive_progress(command.common.quiet);
   auto options = options_of(command, progress);
   if (!options) return std::unexpected(options.error());
-  auto lines = load_key_lines(command.input);
+  auto lines = load_key_lines(command.input, &page);
   if (!lines) return std::unexpected(lines.error());
   std::vector<Faired> all;
   const double count = static_cast<double>(lines->size());
@@ -185,7 +187,22 @@ operations::ReportOptions report_options(const FairCommand& command, const Faire
   return options;
 }
 
-/// Pages of several key-lines follow each other in one report; pictures stand below each other.
+/// One column while a page holds it, else about as wide as high.
+int columns_of(const std::vector<figure::Drawing>& drawings) {
+  constexpr double kPage = 14400;
+  double width = 1;
+  double height = 0;
+  for (const figure::Drawing& d : drawings) {
+    width = std::max(width, d.width);
+    height = std::max(height, d.height);
+  }
+  const auto count = static_cast<double>(drawings.size());
+  if (count * (height + 16) < kPage) return 1;
+  return static_cast<int>(std::ceil(std::sqrt(count * height / width)));
+}
+
+/// Pages of several key-lines follow each other in one report; pictures stand below each other,
+/// many of them side by side too.
 void add_pictures(Writers& writers, const FairCommand& command, const std::vector<Faired>& all) {
   writers[".html"] = [&]() -> Result<std::string> {
     std::vector<report::Report> reports;
@@ -199,10 +216,15 @@ void add_pictures(Writers& writers, const FairCommand& command, const std::vecto
     for (const Faired& faired : all)
       drawings.push_back(
           operations::fair_picture(faired.line, faired.result, report_options(command, faired)));
-    return figure::tile(drawings, 1);
+    return figure::tile(drawings, columns_of(drawings));
   };
   writers[".pdf"] = [picture] { return figure::write_pdf(picture()); };
-  writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
+  writers[".png"] = [picture] {
+    constexpr double kMostPixels = 60e6;
+    const figure::Drawing drawing = picture();
+    return figure::write_png(
+        drawing, std::min(2.0, std::sqrt(kMostPixels / (drawing.width * drawing.height))));
+  };
 }
 
 nlohmann::json result_json(const std::vector<Faired>& all) {
@@ -216,6 +238,18 @@ nlohmann::json result_json(const std::vector<Faired>& all) {
   return {{"curves", std::move(list)}};
 }
 
+/// On the drawing's own page (y down from its upper edge): curves and drawing lie on each other.
+Result<std::string> svg_on_page(document::Document curves, const curve::Box2& page,
+                                double tolerance) {
+  const double height = page.high.y;
+  for (document::NamedPath& named : curves.paths)
+    named.path = document::transform(named.path, {1, 0, {0, -height}});
+  curves.page = curve::Box2{{0, -height}, {page.high.x, 0}};
+  auto written = exchange::format_document(curves, ".svg", {.tolerance = tolerance});
+  if (!written) return std::unexpected(written.error());
+  return std::move(written->content);
+}
+
 }  // namespace
 
 int run_fair(const FairCommand& command) {
@@ -224,16 +258,18 @@ int run_fair(const FairCommand& command) {
                                  command.input.files);
       !known)
     return report_failure(known.error());
-  const auto all = fair_all(command);
+  std::optional<curve::Box2> page;
+  const auto all = fair_all(command, page);
   if (!all) return report_failure(all.error());
   document::Document curves;
-  curves.unit = command.input.unit;
+  curves.unit = page && command.input.unit.empty() ? "px" : command.input.unit;
   double tolerance = HUGE_VAL;
   for (const Faired& faired : *all) {
     curves.paths.push_back({{faired.line.id, {}, {}}, operations::fair_curve(faired.result), 0});
     tolerance = std::min(tolerance, 0.1 * faired.result.tolerance);
   }
   Writers writers = curve_writers(curves, tolerance, command.common);
+  if (page) writers[".svg"] = [&] { return svg_on_page(curves, *page, tolerance); };
   add_pictures(writers, command, *all);
   if (auto done = write_outputs(command.common, writers); !done)
     return report_failure(done.error());

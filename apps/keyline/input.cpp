@@ -138,8 +138,9 @@ Result<std::vector<KeyLine>> join_files(const InputOptions& input) {
   return std::vector<KeyLine>{std::move(*line)};
 }
 
-/// The longer strokes of a drawing, in pixels.
-Result<std::vector<KeyLine>> trace_key_lines(const InputOptions& input) {
+/// The longer strokes of a drawing, in pixels, and the drawing's page.
+Result<std::vector<KeyLine>> trace_key_lines(const InputOptions& input,
+                                             std::optional<curve::Box2>* page) {
   const std::string& file = input.files.front();
   if (input.files.size() > 1)
     return fail(ErrorCode::bad_input, "one drawing at a time", "give one INPUT");
@@ -147,6 +148,7 @@ Result<std::vector<KeyLine>> trace_key_lines(const InputOptions& input) {
   if (!image) return std::unexpected(image.error());
   const auto trace = operations::trace_picture(std::move(*image), {});
   if (!trace) return in_file(Result<std::vector<KeyLine>>(std::unexpected(trace.error())), file);
+  if (page) *page = curve::Box2{{0, 0}, {static_cast<double>(trace->width), 1.0 * trace->height}};
   std::size_t skipped = 0;
   auto lines = in_file(operations::key_lines_of(*trace, skipped), file);
   if (!lines) return lines;
@@ -232,8 +234,9 @@ Result<document::Document> load_planar(const InputOptions& input) {
   return document;
 }
 
-Result<std::vector<KeyLine>> load_key_lines(const InputOptions& input) {
-  if (exchange::has_image_name(input.files.front())) return trace_key_lines(input);
+Result<std::vector<KeyLine>> load_key_lines(const InputOptions& input,
+                                            std::optional<curve::Box2>* page) {
+  if (exchange::has_image_name(input.files.front())) return trace_key_lines(input, page);
   if (holds_points(input.files.front())) {
     if (input.files.size() > 1) return join_files(input);
     return acquire_all(input, input.files.front());

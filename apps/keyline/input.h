@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace keyline::app {
 /// True for tables of points, which have to be acquired first.
 bool holds_points(const std::string& file);
 
-/// Key-lines to fair, one per curve of the input. Several files are parts of one.
-core::Result<std::vector<acquire::KeyLine>> load_key_lines(const InputOptions& input);
+/// Key-lines to fair, one per curve of the input. Several files are parts of one. `page` becomes
+/// that of a drawing, y up from its lower left corner.
+core::Result<std::vector<acquire::KeyLine>> load_key_lines(
+    const InputOptions& input, std::optional<curve::Box2>* page = nullptr);
 
 /// The polyline that is the whole path, else null.
 const curve::Polyline2* only_polyline(const document::Path& path);

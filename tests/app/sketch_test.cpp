@@ -160,6 +160,8 @@ TEST(Sketch, FairTakesADrawing) {
       run_keyline("fair " + example("sketch.png") + " --select stroke1 -o " + s.path("a.svg"));
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_NE(o.err.find("stroke1"), std::string::npos);
+  EXPECT_NE(slurp(s.path("a.svg")).find("viewBox=\"0 0 640 320\""), std::string::npos)
+      << "curves lie on the drawing";
 }
 
 }  // namespace
