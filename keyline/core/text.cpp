@@ -13,4 +13,12 @@ std::string number_text(double value, int significant_digits) {
   return {text.data(), end.ptr};
 }
 
+std::string on_one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  return line;
+}
+
 }  // namespace keyline::core

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace keyline::core {
 
 /// value with so many significant digits (1 to 17), for messages: the shorter of plain and
 /// scientific notation, no trailing zeros ("0.25", "1.5e-09", "nan", "inf"), whatever the locale.
 std::string number_text(double value, int significant_digits);
+
+/// The text with a space in place of every ASCII control character, so that it stays on its line.
+std::string on_one_line(std::string_view text);
 
 }  // namespace keyline::core

@@ -27,21 +27,23 @@ double gauss(const SpeedView& v, double low, double high) {
 }
 
 /// Calls accept(low, high, length) for panels from low to high in order; `whole` is their rule.
+/// No more than `halvings` are made: a curve far from the origin for its size has a speed of
+/// rounded numbers, which no panel is narrow enough for.
 template <class F>
 void refine(const SpeedView& v, double low, double high, double whole, double allowed, int depth,
-            F&& accept) {
+            int& halvings, F&& accept) {
   const double middle = 0.5 * (low + high);
   const double left = gauss(v, low, middle);
   const double right = gauss(v, middle, high);
   const double difference = std::abs(left + right - whole);
-  if (!(difference > std::max(allowed, 4e-16 * whole)) || depth >= kMaxDepth ||
+  if (!(difference > std::max(allowed, 4e-16 * whole)) || depth >= kMaxDepth || --halvings < 0 ||
       !(low < middle && middle < high)) {
     accept(low, middle, left);
     accept(middle, high, right);
     return;
   }
-  refine(v, low, middle, left, 0.5 * allowed, depth + 1, accept);
-  refine(v, middle, high, right, 0.5 * allowed, depth + 1, accept);
+  refine(v, low, middle, left, 0.5 * allowed, depth + 1, halvings, accept);
+  refine(v, middle, high, right, 0.5 * allowed, depth + 1, halvings, accept);
 }
 
 std::vector<double> cut(const std::vector<double>& breaks, double t0, double t1) {
@@ -60,9 +62,10 @@ void integrate(const SpeedView& v, const std::vector<double>& ends, double toler
     whole.push_back(gauss(v, ends[i], ends[i + 1]));
     total += whole.back();
   }
+  int halvings = 10'000 + 50 * static_cast<int>(whole.size());
   const double allowed = tolerance * total / static_cast<double>(whole.size());
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-    refine(v, ends[i], ends[i + 1], whole[i], allowed, 0, accept);
+    refine(v, ends[i], ends[i + 1], whole[i], allowed, 0, halvings, accept);
 }
 
 }  // namespace

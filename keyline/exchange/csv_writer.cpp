@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/analysis/profile.h"
+#include "keyline/core/text.h"
 #include "keyline/exchange/points_writer.h"
 
 namespace keyline::exchange {
@@ -11,11 +12,12 @@ namespace {
 
 /// A name as one field: quoted where it holds a separator.
 std::string field(const std::string& name) {
-  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+  const std::string line = core::on_one_line(name);
+  if (line.find_first_of(",\"") == std::string::npos) return line;
   std::string quoted = "\"";
-  for (const char c : name) {
+  for (const char c : line) {
     if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
+    quoted += c;
   }
   return quoted + '"';
 }

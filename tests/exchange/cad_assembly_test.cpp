@@ -219,6 +219,30 @@ TEST_F(CadAssembly, NamesColoursAndLayersComeBack) {
   }
 }
 
+TEST_F(CadAssembly, ControlCharactersInNamesBreakNoFile) {
+  Document d;
+  d.unit = "mm";
+  for (const char* name : {"a\nb", "c\td",
+                           "e\x01\x7f"
+                           "f",
+                           "g\r\nh"})
+    d.paths.push_back(
+        {{name, name, ""}, {{{curve::Bezier2{{{0, 0}, {4, 1}, {5, 7}}, {}}}}, false}, 0});
+  for (const char* file : {"c.step", "c.iges", "c.dxf"}) {
+    SCOPED_TRACE(file);
+    ASSERT_TRUE(write_document(d, folder_ / file));
+    const auto read = read_document(folder_ / file);
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->paths.size(), 4U);
+    EXPECT_EQ(read->paths[0].label.name, "a b");
+    EXPECT_EQ(read->paths[2].label.name, "e  f");
+  }
+  ASSERT_TRUE(write_document(d, folder_ / "c.csv"));
+  const auto table = read_document(folder_ / "c.csv");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->paths.size(), 4U);
+}
+
 TEST_F(CadAssembly, TrimLoopsComeWithTheSurface) {
   const fs::path file = KEYLINE_SHARED_DATA "/4_cad/iges/wing.iges";
   if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";

@@ -212,6 +212,17 @@ TEST_F(Files, ATableHoldsEveryCurve) {
   EXPECT_FALSE(format_document(d, ".svg", {}));
 }
 
+TEST_F(Files, CurvesFarFromTheOriginAreSampled) {
+  Document d;  // 1e9 times their size away: the speed is a rounded number
+  d.paths.push_back(
+      {{"far", "", ""},
+       {{{curve::Bezier2{{{1e9, 1e9}, {1e9 + 1, 1e9 + 2}, {1e9 + 4, 1e9}}, {}}}}, false},
+       0});
+  const auto csv = format_document(d, ".csv", {.samples = 11});
+  ASSERT_TRUE(csv);
+  EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 12);
+}
+
 TEST_F(Files, TheDeviationOfSamplesIsThatOfTheirPolygon) {
   Document d;
   lac::Chain circle{{{1, 0}, core::kPi / 2}, {{-1, 2 * core::kPi, 1, 1}}, true};

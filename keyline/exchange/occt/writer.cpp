@@ -37,6 +37,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/occt/geometry.h"
@@ -62,8 +63,8 @@ void for_each_shape(const document::Document& document, Add&& add) {
   for (const auto& named : document.surfaces) add(face_of(named.surface), named.label);
 }
 
-Handle(TCollection_HAsciiString) step_text(const std::string& text) {
-  return new TCollection_HAsciiString(text.c_str());
+Handle(TCollection_HAsciiString) one_line(const std::string& text) {
+  return new TCollection_HAsciiString(core::on_one_line(text).c_str());
 }
 
 /// What became of a shape in the file; null where nothing did.
@@ -81,8 +82,8 @@ void name_products(const Handle(Interface_InterfaceModel) & model, int before,
                    const std::string& name) {
   for (int i = before + 1; i <= model->NbEntities(); ++i)
     if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i))) {
-      product->SetId(step_text(name));
-      product->SetName(step_text(name));
+      product->SetId(one_line(name));
+      product->SetName(one_line(name));
     }
 }
 
@@ -132,7 +133,7 @@ class StepLooks {
       for (int i = 1; i <= items.Length(); ++i) all->ChangeValue(i).SetValue(items(i));
       Handle(StepVisual_PresentationLayerAssignment) layer =
           new StepVisual_PresentationLayerAssignment;
-      layer->Init(step_text(name), new TCollection_HAsciiString("visible"), all);
+      layer->Init(one_line(name), new TCollection_HAsciiString("visible"), all);
       writer_.Model()->AddWithRefs(layer);
     }
   }
@@ -202,7 +203,7 @@ std::string write_step(const document::Document& document) {
     if (writer.Transfer(shape, mode, Standard_False) != IFSelect_RetDone)
       throw std::runtime_error("\"" + name + "\" cannot be written as STEP");
     const auto item = item_of(writer, shape);
-    if (!item.IsNull()) item->SetName(step_text(name));
+    if (!item.IsNull()) item->SetName(one_line(name));
     name_products(writer.Model(), before, name);
     looks.add(shape, item, label);
   });
@@ -224,7 +225,7 @@ class IgesLooks {
     Handle(IGESBasic_Name) name;
     if (!label.name.empty()) {
       name = new IGESBasic_Name;
-      name->Init(1, new TCollection_HAsciiString(label.name.c_str()));
+      name->Init(1, one_line(label.name));
     }
     const Handle(IGESGraph_Color) color = color_of(document::color_value(label.color));
     const int level = level_of(label.layer);
@@ -245,7 +246,7 @@ class IgesLooks {
     for (const auto& [layer, level] : levels_) {
       if (layer == std::to_string(level)) continue;
       Handle(IGESAppli_LevelFunction) named = new IGESAppli_LevelFunction;
-      named->Init(2, 0, new TCollection_HAsciiString(layer.c_str()));
+      named->Init(2, 0, one_line(layer));
       writer_.AddEntity(named);
       names_of_levels_.emplace_back(named, level);
     }
