@@ -226,8 +226,13 @@ report::Section piece_section(const Material& m) {
   section.paragraphs.push_back(
       "Pieces are numbered from 0, as --interpretation PIECE:RHYTHM and PIECE:slope=NUMBER count "
       "them.");
-  section.tables.push_back(piece_table(m));
   report::ReportTable readings = reading_table(m.result);
+  if (!readings.rows.empty())
+    section.paragraphs.push_back(
+        "The first table has the slopes the chain was fitted with. The second tells what else the "
+        "points allow: where a simpler reading (zero, arc) is as plausible, they hardly tell the "
+        "slope, and the choice is the designer's.");
+  section.tables.push_back(piece_table(m));
   if (!readings.rows.empty()) section.tables.push_back(std::move(readings));
   return section;
 }
