@@ -66,11 +66,11 @@ Result<json> request_of(const EditCommand& command) {
 void print_one(const surface::EditResult& r) {
   fmt::print("SAV {:.5g} to {:.5g}  departure {:.4g}  target {} ({:.3g} %)\n", r.before.sav,
              r.after.sav, r.departure, r.target, 100 * r.amount);
-  fmt::print("{:>24} {:>11} {:>11}\n", "target", "departure", "SAV");
+  fmt::print("{:>31} {:>11} {:>11}\n", "target", "departure", "SAV");
   for (const surface::TradeOff& t : r.tradeoff)
-    fmt::print("{:>24} {:>11.5g} {:>11.5g}\n", t.name, t.departure, t.sav);
+    fmt::print("{:>31} {:>11.5g} {:>11.5g}\n", t.name, t.departure, t.sav);
   for (const surface::MissedTarget& m : r.missed)
-    fmt::print("{:>24} not found: {}, {}\n", m.target, m.curve, m.why);
+    fmt::print("{:>31} not found: {}, {}\n", m.target, m.curve, m.why);
   for (const surface::MissedTarget& m : r.unmet)
     fmt::print("short of the target {} is outside its condition: {}\n", m.curve, m.why);
 }

@@ -5,6 +5,7 @@
 
 #include "keyline/surface/closest_point.h"
 #include "keyline/surface/edit_targets.h"
+#include "keyline/surface/reduce.h"
 
 namespace keyline::surface {
 
@@ -16,7 +17,7 @@ namespace {
 
 struct Candidate {
   TradeOff tradeoff;
-  Net net;
+  BezierSurface surface;  ///< maybe of lower degree than the given one
 };
 
 /// The value under the conditions of its curves.
@@ -65,8 +66,12 @@ Result<void> check(const BezierSurface& s, const EditOptions& o) {
   return {};
 }
 
-BezierSurface blend(const BezierSurface& s, const Net& target, double amount) {
+/// The target itself at the end of the way, which keeps its degree.
+BezierSurface blend(const BezierSurface& s, const BezierSurface& whole, double amount) {
+  if (amount == 1) return whole;
   BezierSurface between = s;
+  const Net target =
+      elevate_degree(whole, s.net.rows - whole.net.rows, s.net.columns - whole.net.columns).net;
   for (std::size_t i = 0; i < s.net.points.size(); ++i)
     between.net.points[i] = core::mix(s.net.points[i], target.points[i], amount);
   return between;
@@ -84,7 +89,8 @@ const Candidate* best_of(const std::vector<Candidate>& all, std::optional<double
 }
 
 /// Largest amount up to `most` at which the blend stays within the limit.
-double amount_within(const BezierSurface& s, const Net& target, double limit, double most) {
+double amount_within(const BezierSurface& s, const BezierSurface& target, double limit,
+                     double most) {
   if (departure(s, blend(s, target, most)) <= limit) return most;
   double low = 0;
   double high = most;
@@ -105,23 +111,47 @@ void drop_poor(std::vector<Candidate>& all) {
   });
 }
 
-std::vector<Candidate> candidates_of(const BezierSurface& s, const detail::EditTask& task,
-                                     std::vector<MissedTarget>& missed) {
-  std::vector<Candidate> all;
+/// The targets of a task that meet its conditions, as far from `given` as they are.
+void add_candidates(const BezierSurface& given, const detail::EditTask& task,
+                    const std::string& prefix, std::vector<Candidate>& all,
+                    std::vector<MissedTarget>& missed) {
   auto found = detail::edit_targets(task);
-  missed = std::move(found.missed);
+  for (MissedTarget& m : found.missed) {
+    m.target = prefix + m.target;
+    missed.push_back(std::move(m));
+  }
   for (const detail::Target& target : found.targets) {
-    auto unmet = unmet_by(target.net, task, target.name);
+    auto unmet = unmet_by(target.net, task, prefix + target.name);
     if (!unmet.empty()) {
       missed.push_back(std::move(unmet.front()));
       continue;
     }
-    const BezierSurface moved{target.net, {}};
+    BezierSurface moved{target.net, {}};
     const auto value = value_of(moved, task);
     if (!value) continue;
-    all.push_back({{target.name, departure(s, moved), value->sav}, target.net});
+    const double away = departure(given, moved);
+    all.push_back({{prefix + target.name, away, value->sav}, std::move(moved)});
     task.options.progress.report(0.5 + 0.5 * all.size() / found.targets.size(), "trade-off");
   }
+}
+
+/// Where its own degree leaves more equations than freedoms: the targets of the nearest bicubic
+/// patch with the same corners. Curves are numbered anew there, so that none may have conditions.
+void add_bicubic(const BezierSurface& s, const EditOptions& options, std::vector<Candidate>& all,
+                 std::vector<MissedTarget>& missed) {
+  if (options.keep != Keep::corners || !options.conditions.empty()) return;
+  if (detail::solvable(s.net)) return;
+  const BezierSurface lower =
+      reduced_degree(s, std::min(s.net.rows - 1, 3), std::min(s.net.columns - 1, 3));
+  add_candidates(s, {lower.net, options, conditions_by_curve({}, lower.net)}, "bicubic, ", all,
+                 missed);
+}
+
+std::vector<Candidate> candidates_of(const BezierSurface& s, const detail::EditTask& task,
+                                     std::vector<MissedTarget>& missed) {
+  std::vector<Candidate> all;
+  add_candidates(s, task, "", all, missed);
+  add_bicubic(s, task.options, all, missed);
   drop_poor(all);
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.tradeoff.departure < b.tradeoff.departure;
@@ -147,13 +177,17 @@ Result<void> slide(const BezierSurface& s, const Candidate& target, const detail
                    EditResult& result) {
   const EditOptions& options = task.options;
   result.target = target.tradeoff.name;
-  if (options.limit) result.amount = amount_within(s, target.net, *options.limit, options.amount);
-  result.surface = blend(s, target.net, result.amount);
-  auto after = value_of(result.surface, task);
+  if (options.limit)
+    result.amount = amount_within(s, target.surface, *options.limit, options.amount);
+  result.surface = blend(s, target.surface, result.amount);
+  const Net& net = result.surface.net;
+  const bool lower = net.rows != s.net.rows || net.columns != s.net.columns;
+  auto after = lower ? value_of(result.surface, {net, options, conditions_by_curve({}, net)})
+                     : value_of(result.surface, task);
   if (!after) return std::unexpected(after.error());
   result.after = std::move(*after);
   result.departure = departure(s, result.surface);
-  result.unmet = unmet_by(result.surface.net, task, result.target);
+  if (!lower) result.unmet = unmet_by(net, task, result.target);
   return {};
 }
 

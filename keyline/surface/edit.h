@@ -42,7 +42,7 @@ struct MissedTarget {
 };
 
 struct EditResult {
-  BezierSurface surface;
+  BezierSurface surface;  ///< of lower degree than given where a bicubic target was taken whole
   SurfaceValue before;
   SurfaceValue after;
   double departure = 0;  ///< of `surface` from the given one; see departure() in closest_point.h
@@ -63,6 +63,9 @@ struct EditResult {
 /// "rows" and "columns", those curves alone taken to their minimum between the ends that are kept
 /// (with the other boundary curves, unless these are kept); "boundaries" (joints kept), the four
 /// boundary curves at their minimum and the inside blended from them.
+/// From degree 5 on nets of one matrix per curve do not exist for corners at will; with these kept
+/// the targets of the nearest bicubic patch stand beside, "bicubic, …". Such a target, taken whole,
+/// comes with its own degrees and network curves.
 /// The target of least SAV within the limit is taken, the nearer one of equals; where none lies
 /// within the limit, the nearest of them as far as the limit allows.
 ///

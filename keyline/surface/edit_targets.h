@@ -43,8 +43,11 @@ struct EditTask {
 /// All targets of edit() that exist for this net, exact ones only. They may still miss a condition.
 TargetSet edit_targets(const EditTask& task);
 
-/// "one matrix", "towards least energy", "least energy" (one_matrix.h), where there are at least as
-/// many freedoms as equations.
+/// Whether the net has at least as many freedoms as there are equations.
+bool solvable(const Net& net);
+
+/// "one matrix", "towards least energy", "least energy" (one_matrix.h), where the net is
+/// solvable.
 void add_solved(const EditTask& task, TargetSet& set);
 
 }  // namespace keyline::surface::detail

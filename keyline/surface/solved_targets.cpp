@@ -159,9 +159,11 @@ void add_least_energy(const EditTask& task, const Sense& sense, OneMatrixProblem
 
 }  // namespace
 
+bool solvable(const Net& net) { return net.points.size() <= kMostSolved; }
+
 void add_solved(const EditTask& task, TargetSet& set) {
   const Net& net = task.net;
-  if (net.points.size() > kMostSolved) return;
+  if (!solvable(net)) return;
   OneMatrixProblem problem;
   problem.net = net;
   problem.freedom = freedom_of(task);

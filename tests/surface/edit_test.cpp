@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/surface/closest_point.h"
+#include "keyline/surface/reduce.h"
 
 #include "test_surfaces.h"
 
@@ -122,6 +123,35 @@ TEST(SurfaceEdit, HigherDegreesHaveTheTranslationalTarget) {
   const EditResult r = edited(s, {});
   EXPECT_LT(r.after.sav, 1e-5);
   EXPECT_EQ(r.target, "translational");
+}
+
+TEST(SurfaceEdit, HigherDegreesWithCornersKeptHaveBicubicTargets) {
+  const BezierSurface s = elevate_degree(distorted_patch(), 2, 2);
+  EditOptions options;
+  options.keep = Keep::corners;
+  const EditResult r = edited(s, options);
+  EXPECT_EQ(r.before.curves.size(), 12U);
+  ASSERT_EQ(r.after.curves.size(), 8U);
+  EXPECT_LT(r.after.sav, 0.01);
+  EXPECT_EQ(r.target.substr(0, 9), "bicubic, ");
+  for (const int i : {0, 1})
+    for (const int j : {0, 1}) EXPECT_EQ(r.surface.net.at(3 * i, 3 * j), s.net.at(5 * i, 5 * j));
+  // The same surface as from the bicubic it was raised from.
+  const EditResult low = edited(distorted_patch(), options);
+  EXPECT_NEAR(r.departure, low.departure, 0.05 * low.departure);
+  options.amount = 0.5;
+  const EditResult half = edited(s, options);
+  EXPECT_EQ(half.surface.net.rows, 6);
+  EXPECT_LT(half.departure, r.departure);
+}
+
+TEST(ReducedDegree, FindsWhatWasRaised) {
+  const BezierSurface s = distorted_patch();
+  const BezierSurface again = reduced_degree(elevate_degree(s, 2, 3), 3, 3);
+  for (std::size_t i = 0; i < s.net.points.size(); ++i)
+    EXPECT_LT(core::distance(again.net.points[i], s.net.points[i]), 1e-9);
+  EXPECT_EQ(reduced_degree(s, 4, 3), elevate_degree(s, 1, 0));
+  EXPECT_EQ(reduced_degree(s, 2, 1).net.at(2, 1), s.net.at(3, 3));
 }
 
 TEST(SurfaceEdit, SaysWhatIsWrong) {
