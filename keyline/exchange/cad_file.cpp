@@ -1,6 +1,7 @@
 #include "keyline/exchange/cad_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
@@ -145,7 +146,8 @@ Result<Written> write_cad(const Document& document, CadFormat format, double tol
   auto child = run({"write", name_of(format)}, text, format, cad_limits(text.size()));
   if (!child) return std::unexpected(child.error());
   written.content = std::move(child->output);
-  if (document.unit == "px" || document.unit == "pt")
+  constexpr std::array<std::string_view, 7> kUnits = {"", "mm", "cm", "m", "km", "in", "ft"};
+  if (std::find(kUnits.begin(), kUnits.end(), document.unit) == kUnits.end())
     written.notes.push_back("the unit " + document.unit +
                             " is not in the file: its numbers are mm");
   return written;

@@ -145,8 +145,11 @@ class DxfReader {
 
   void take_header(const DxfTag& tag) {
     if (tag.code == 9) variable_ = std::string(tag.text);
-    if (variable_ == "$INSUNITS" && tag.code == 70)
-      document_.unit = unit_name(detail::integer_of(tag).value_or(0));
+    if (variable_ != "$INSUNITS" || tag.code != 70) return;
+    const int unit = detail::integer_of(tag).value_or(0);
+    document_.unit = unit_name(unit);
+    if (unit != 0 && document_.unit.empty())
+      problem("the unit of the drawing ($INSUNITS " + std::to_string(unit) + ")");
   }
 
   void close_polyline() {

@@ -33,6 +33,9 @@ class DxfWriter {
   explicit DxfWriter(const DxfWriteOptions& options) : options_(options) {}
 
   Result<Written> write(const Document& document) {
+    if (document.paths.empty() && document.space_curves.empty() && !document.surfaces.empty())
+      return core::fail(core::ErrorCode::bad_input, "DXF holds no surfaces",
+                        "choose .step, .iges or .json");
     for (const auto& named : document.paths)
       if (auto done = add(named); !done) return std::unexpected(done.error());
     for (const auto& named : document.space_curves) add(named);

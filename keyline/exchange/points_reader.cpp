@@ -297,11 +297,12 @@ core::Result<void> PointsTable::data_row(const Fields& fields, int number,
     if (!value) return std::unexpected(value.error());
     *target = *value;
   }
+  std::string plain;
   std::string_view id;
   if (columns_.id != kNone) {
     const auto k = static_cast<std::size_t>(columns_.id);
     if (k < fields.size()) id = fields[k];
-    if (id.size() >= 2 && id.front() == '"' && id.back() == '"') id = id.substr(1, id.size() - 2);
+    if (id.size() >= 2 && id.front() == '"' && id.back() == '"') id = plain = detail::unquoted(id);
   }
   RawCurve& curve = curve_of(id);
   curve.points.push_back(p);

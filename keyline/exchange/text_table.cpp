@@ -35,6 +35,15 @@ std::optional<double> missing_value(std::string_view field) {
   return std::nullopt;
 }
 
+/// Where a field in quotes ends, doubled quotes within let pass; 0 for a field without quotes.
+std::size_t end_of_quoted(std::string_view line) {
+  if (!line.starts_with('"')) return 0;
+  for (std::size_t at = line.find('"', 1); at != std::string_view::npos;
+       at = line.find('"', at + 2))
+    if (at + 1 == line.size() || line[at + 1] != '"') return at + 1;
+  return 0;
+}
+
 std::size_t count_numbers(std::string_view line, TableStyle style) {
   const auto fields = split(line, style);
   return static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), [&](auto field) {
@@ -47,6 +56,15 @@ std::size_t count_numbers(std::string_view line, TableStyle style) {
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string unquoted(std::string_view field) {
+  std::string text;
+  for (std::size_t i = 1; i + 1 < field.size(); ++i) {
+    text += field[i];
+    if (field[i] == '"' && field[i + 1] == '"') ++i;
+  }
   return text;
 }
 
@@ -63,7 +81,8 @@ std::vector<std::string_view> split(std::string_view line, TableStyle style) {
     return fields;
   }
   while (true) {
-    const std::size_t stop = line.find(style.separator);
+    line = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+    const std::size_t stop = line.find(style.separator, end_of_quoted(line));
     fields.push_back(trimmed(line.substr(0, stop)));
     if (stop == std::string_view::npos) break;
     line.remove_prefix(stop + 1);

@@ -15,7 +15,11 @@ struct TableStyle {
 
 std::string_view trimmed(std::string_view text);
 
-/// Fields of a line, trimmed; empty ones after the last separator are dropped.
+/// What a field within quotes holds, doubled quotes made single.
+std::string unquoted(std::string_view field);
+
+/// Fields of a line, trimmed; empty ones after the last separator are dropped. Separators within
+/// quotes separate nothing, except spaces.
 std::vector<std::string_view> split(std::string_view line, TableStyle style);
 
 /// A number written with point or comma, maybe in brackets; "nan", "inf", "null", "na", "n/a" and

@@ -212,6 +212,38 @@ TEST_F(Files, ATableHoldsEveryCurve) {
   EXPECT_FALSE(format_document(d, ".svg", {}));
 }
 
+TEST_F(Files, NamesComeBackFromATable) {
+  Document d;
+  const std::vector<std::string> names = {"a,b", "say \"x\"", "c;d", "tab\there", "\u00e9"};
+  for (const std::string& name : names)
+    d.paths.push_back({{name, "", ""}, {{{curve::Polyline2{{{0, 0}, {1, 2}, {3, 4}}}}}, false}, 0});
+  const auto csv = format_document(d, ".csv");
+  ASSERT_TRUE(csv);
+  const auto read = read_document(file("names.csv", csv->content));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->paths.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    EXPECT_EQ(read->paths[i].label.name, i == 3 ? "tab here" : names[i]);
+}
+
+TEST_F(Files, WhatAFormatCannotHoldIsSaid) {
+  Document d;
+  d.surfaces.push_back(mixed().surfaces[0]);
+  for (const char* extension : {".svg", ".dxf", ".csv", ".glif", ".pdf"})
+    EXPECT_FALSE(format_document(d, extension)) << extension;
+  Document far;
+  far.unit = "furlong";
+  far.paths.push_back({{"a", "", ""}, {{{curve::Bezier2{{{0, 0}, {1, 2}}, {}}}}, false}, 0});
+  const auto dxf = format_document(far, ".dxf");
+  ASSERT_TRUE(dxf);
+  EXPECT_THAT(dxf->notes.at(0), HasSubstr("furlong"));
+  const auto odd = read_document(file("u.dxf",
+                                      "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n13\n0\nENDSEC\n"
+                                      "0\nSECTION\n2\nENTITIES\n0\nLINE\n11\n1\n0\nEOF\n"));
+  ASSERT_TRUE(odd) << odd.error().message;
+  EXPECT_THAT(odd->skipped.at(0), HasSubstr("unit"));
+}
+
 TEST_F(Files, CurvesFarFromTheOriginAreSampled) {
   Document d;  // 1e9 times their size away: the speed is a rounded number
   d.paths.push_back(
