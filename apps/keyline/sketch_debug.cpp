@@ -93,32 +93,52 @@ figure::Plot histogram(const sketch::Stage& log) {
 
 using Value = double (*)(const curve::Jet2&);
 
+constexpr int kSteps = 32;  ///< of a piece in plots
+
+/// Arc length at equal steps of a chain's parameter, kSteps to a piece.
+std::vector<double> lengths_along(const std::vector<curve::Bezier2>& pieces) {
+  std::vector<double> lengths = {0};
+  for (const curve::Bezier2& piece : pieces)
+    for (int i = 1; i <= kSteps; ++i)
+      lengths.push_back(lengths.back() +
+                        core::distance(evaluate(piece, (i - 1.0) / kSteps),
+                                       evaluate(piece, static_cast<double>(i) / kSteps)));
+  return lengths;
+}
+
 figure::Series profile(const std::string& name, const std::vector<curve::Bezier2>& pieces,
                        Value value, std::size_t color) {
   figure::Series series{.name = name, .color = figure::palette(color)};
-  const auto n = static_cast<double>(pieces.size());
+  const std::vector<double> lengths = lengths_along(pieces);
   for (std::size_t k = 0; k < pieces.size(); ++k)
-    for (int i = 0; i <= 32; ++i)
+    for (std::size_t i = 0; i <= kSteps; ++i)
       series.points.push_back(
-          {(static_cast<double>(k) + i / 32.0) / n, value(jet(pieces[k], i / 32.0))});
+          {lengths[k * kSteps + i], value(jet(pieces[k], static_cast<double>(i) / kSteps))});
+  return series;
+}
+
+figure::Series target_of(const Stroke& stroke) {
+  figure::Series series{.name = "target", .color = figure::palette(2), .dash = {4, 3}};
+  const std::vector<double> lengths = lengths_along(stroke.curve);
+  for (const auto& t : stroke.target)
+    series.points.push_back({lengths[static_cast<std::size_t>(
+                                 std::lround(t.t * static_cast<double>(lengths.size() - 1)))],
+                             t.curvature});
   return series;
 }
 
 double curvature_of(const curve::Jet2& at) { return curvature(at); }
 double speed_of(const curve::Jet2& at) { return speed(at); }
 
-figure::Plot profiles(const Stroke& stroke, const std::string& title, Value value) {
+figure::Plot profiles(const Stroke& stroke, const std::string& title, const std::string& unit,
+                      Value value) {
   figure::Plot plot;
   plot.title = title + " of the longest stroke";
-  plot.x.title = "share of the pieces";
-  plot.y.title = title + ", pixels";
+  plot.x.title = "arc length, pixels";
+  plot.y.title = title + ", " + unit;
   plot.series = {profile("quadratics", stroke.quadratics, value, 1),
                  profile("quintics", stroke.curve, value, 0)};
-  if (value == curvature_of && !stroke.target.empty()) {
-    figure::Series target{.name = "target", .color = figure::palette(2), .dash = {4, 3}};
-    for (const auto& t : stroke.target) target.points.push_back({t.t, t.curvature});
-    plot.series.push_back(std::move(target));
-  }
+  if (value == curvature_of && !stroke.target.empty()) plot.series.push_back(target_of(stroke));
   return plot;
 }
 
@@ -184,9 +204,10 @@ Result<void> SketchDebug::write(const std::filesystem::path& folder,
     if (auto done = write_one(folder, name, drawing, scale); !done) return done;
   std::vector<std::pair<std::string, figure::Plot>> plots;
   if (log) plots.emplace_back("02-histogram", histogram(*log));
-  plots.emplace_back("11-curvature", profiles(trace.strokes.front(), "Curvature", curvature_of));
+  plots.emplace_back("11-curvature",
+                     profiles(trace.strokes.front(), "Curvature", "1/pixel", curvature_of));
   plots.emplace_back("12-derivative",
-                     profiles(trace.strokes.front(), "First derivative", speed_of));
+                     profiles(trace.strokes.front(), "First derivative", "pixels", speed_of));
   for (const auto& [name, plot] : plots)
     if (auto done = write_one(folder, name, figure::draw(plot), 1.5); !done) return done;
   return {};
