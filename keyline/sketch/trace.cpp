@@ -24,6 +24,10 @@ using core::Point2;
 /// one line of ink already.
 constexpr double kPictureReach = 3.5;
 
+/// Widths and two pixels, pixels at most: shorter lines that start at another are none.
+constexpr double kStub = 1.2;
+constexpr double kLongestStub = 5;
+
 constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
 constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
 constexpr double kGrainShare = 0.15;   ///< of the width: how far curves may pass from such lines
@@ -117,6 +121,9 @@ Ink find_ink(Tone& tone, const TraceOptions& options) {
   return ink;
 }
 
+/// True for what starts at a line and ends freely: short ones are where the pen went on a little.
+bool is_stub(const RawStroke& line) { return !line.closed && line.free_start != line.free_end; }
+
 /// Lines along the middle of the ink.
 std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double width,
                                      const TraceOptions& options) {
@@ -130,7 +137,9 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
     if (options.progress.stop_requested()) return {};
     if (core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width)) continue;
     FineStroke fine = refiner.refine(line);
-    if (core::polygon_length(fine.points, fine.closed) >= 1.5) strokes.push_back(std::move(fine));
+    const double length = core::polygon_length(fine.points, fine.closed);
+    if (length >= (is_stub(line) ? std::min(kStub * width + 2, kLongestStub) : 1.5))
+      strokes.push_back(std::move(fine));
   }
   end_on_lines(strokes);
   return strokes;

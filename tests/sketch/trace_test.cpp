@@ -100,6 +100,16 @@ TEST(Trace, StemsEndAtTheLineTheyMeet) {
   }
 }
 
+// Where the pen went a little beyond the line it meets, there is no line of its own.
+TEST(Trace, OvershootsAreNoLines) {
+  Image page = blank_page(320, 160);
+  draw_line(page, {20, 100}, {300, 100}, 2);
+  draw_line(page, {150, 20}, {150, 103}, 2);
+  const auto result = trace(page);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->strokes.size(), 2U);
+}
+
 // A gap is what one sees: from ink to ink.
 TEST(Trace, BridgesGapsInTheInk) {
   Image page = blank_page(400, 60);
