@@ -123,12 +123,14 @@ Joints joints_between(const std::vector<Edited>& all) {
 
 void print_joints(const Joints& j) {
   if (j.before.joints == 0) return;
+  const auto told = [](double x) { return x < 1e-9 ? 0 : x; };  // rounding is no gap
   fmt::print(
       "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
       "G0 {} to {}  G1 {} to {}\n",
-      j.before.joints, j.before.gap, j.after.gap, j.before.angle * 180 / core::kPi,
-      j.after.angle * 180 / core::kPi, j.before.order_at_least[0], j.after.order_at_least[0],
-      j.before.order_at_least[1], j.after.order_at_least[1]);
+      j.before.joints, told(j.before.gap), told(j.after.gap),
+      told(j.before.angle * 180 / core::kPi), told(j.after.angle * 180 / core::kPi),
+      j.before.order_at_least[0], j.after.order_at_least[0], j.before.order_at_least[1],
+      j.after.order_at_least[1]);
 }
 
 operations::ReportOptions report_options(const EditCommand& command, const std::string& unit,

@@ -100,6 +100,7 @@ void tradeoff() {
   plot.x.low = 0;
   for (const auto& [keep, name] : {std::pair{surface::Keep::start, "start kept"},
                                    {surface::Keep::corners, "corners kept"},
+                                   {surface::Keep::joints, "joints kept"},
                                    {surface::Keep::boundary, "boundary kept"}}) {
     surface::EditOptions options;
     options.keep = keep;

@@ -197,6 +197,9 @@ report::ReportTable patch_edits_table(const surface::SurfaceEdit& edit) {
   return table;
 }
 
+/// Rounding of doubles is no gap and no fold.
+double told(double x) { return x < 1e-9 ? 0 : x; }
+
 report::ReportTable joints_table(const surface::PatchesEdit& edited) {
   report::ReportTable table{"Joints between the patches",
                             {{"", report::Alignment::text},
@@ -209,8 +212,8 @@ report::ReportTable joints_table(const surface::PatchesEdit& edited) {
   for (const auto& [name, j] :
        {std::pair{"before", &edited.before}, std::pair{"after", &edited.after}})
     table.rows.push_back({name, std::to_string(j->joints), std::to_string(j->order_at_least[0]),
-                          std::to_string(j->order_at_least[1]), number(j->gap),
-                          number(j->angle * 180 / core::kPi) + "°"});
+                          std::to_string(j->order_at_least[1]), number(told(j->gap)),
+                          number(told(j->angle * 180 / core::kPi)) + "°"});
   return table;
 }
 
