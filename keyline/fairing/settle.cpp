@@ -146,6 +146,9 @@ class Polisher {
       if (refine(iterations, iterations > 6 ? 1e-9 : 1e-3)) return true;
     }
     chain_ = rough;
+    hold_loose_slopes();
+    if (refine(60, 1e-9)) return true;
+    chain_ = rough;
     const std::vector<FitPoint> original = points_;
     for (int round = 0; round < kPolishSqueezes; ++round) {
       weigh_up(original);
@@ -172,6 +175,20 @@ class Polisher {
            accepts(accept_, report, points_, offsets(chain_, points_));
   }
 
+  /// Slopes beside an inflection or a straight to -1: others bend at the far end alone and leave
+  /// the rest of the piece without a say in where it ends.
+  void hold_loose_slopes() {
+    for (std::size_t i = 0; i < chain_.pieces.size(); ++i) {
+      FitPiece& piece = chain_.pieces[i];
+      const double a = chain_.joints[i].curvature;
+      const double b = chain_.joints[i + 1].curvature;
+      const bool loose =
+          std::min(std::abs(a), std::abs(b)) <= kLoose * std::max(std::abs(a), std::abs(b));
+      if (piece.kind == PieceKind::curve && !slope_held(piece) && (a * b <= 0 || loose))
+        hold_slope(piece, -1);
+    }
+  }
+
   /// Lawson's weights, gently.
   void weigh_up(const std::vector<FitPoint>& original) {
     const std::vector<double> off = offsets(chain_, points_);
@@ -185,6 +202,7 @@ class Polisher {
 
   static constexpr double kClosedGap = 1e-9;
   static constexpr int kPolishSqueezes = 8;
+  static constexpr double kLoose = 0.05;  // smaller over larger curvature
 
   FitChain& chain_;
   std::vector<FitPoint>& points_;

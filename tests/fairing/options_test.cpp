@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "keyline/acquire/acquire.h"
+#include "keyline/core/angle.h"
+#include "keyline/core/polygon.h"
 #include "keyline/curve/concept.h"
 #include "keyline/exchange/points_reader.h"
 
@@ -248,6 +250,56 @@ TEST(FairOptions, EachOfManyPointsPasses) {
   const FairResult result = fair(line).value();
   EXPECT_TRUE(result.within_tolerance);
   EXPECT_LE(result.max_deviation, result.tolerance);
+}
+
+/// Corners rounded by the radius given, the polygon closed, in `count` steps of one length.
+std::vector<core::Point2> rounded_polygon(const std::vector<core::Point2>& corners, double radius,
+                                          int count) {
+  std::vector<core::Point2> outline;
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const core::Point2 b = corners[i];
+    const core::Vector2 in = b - corners[(i + n - 1) % n];
+    const core::Vector2 out = corners[(i + 1) % n] - b;
+    const double turn = core::angle_between(in, out);
+    const core::Vector2 along = in / core::norm(in);
+    core::Point2 at = b - radius * std::tan(turn / 2) * along;
+    for (int k = 0; k < 12; ++k) {
+      outline.push_back(at);
+      const double chord = 2 * radius * std::sin(turn / 24);
+      at = at + chord * core::rotate_ccw(along, turn * (k + 0.5) / 12);
+    }
+    outline.push_back(at);
+  }
+  outline.push_back(outline.front());
+  std::vector<core::Point2> points;
+  const double whole = core::polygon_length(outline, false);
+  double gone = 0;
+  std::size_t at = 0;
+  for (int i = 0; i < count; ++i) {
+    const double s = whole * i / count;
+    while (gone + core::distance(outline[at], outline[at + 1]) < s) {
+      gone += core::distance(outline[at], outline[at + 1]);
+      ++at;
+    }
+    const double step = core::distance(outline[at], outline[at + 1]);
+    points.push_back(outline[at] + (s - gone) / step * (outline[at + 1] - outline[at]));
+  }
+  return points;
+}
+
+/// Long straights between tight roundings: slopes that lose all bend at one end of a piece would
+/// leave the seam unclosed.
+TEST(FairOptions, RoundedPolygonsClose) {
+  const FairResult result = fair(line_through(rounded_polygon({{78.832748, 13.026724},
+                                                               {-26.965108, 93.988084},
+                                                               {-77.779475, 6.007919},
+                                                               {13.653516, -97.257194}},
+                                                              5, 700)))
+                                .value();
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_LE(result.pieces.size(), 24U);
+  for (const auto& joint : result.joints) EXPECT_LE(joint.gap, 1e-9 * result.length);
 }
 
 /// A thin ring about a neck, traced in whole pixels: a bump of two points on either side.
