@@ -108,12 +108,21 @@ Result<std::vector<RawCurve>> read_raw(const InputOptions& input, const std::str
   return cut_table(input, *raw);
 }
 
+/// Of those of the name wanted; where there are none, that of the number, counted from 1.
+bool is_wanted(const std::vector<RawCurve>& curves, std::size_t index, const std::string& wanted) {
+  if (wanted.empty() || curves[index].id == wanted) return true;
+  const bool named = std::any_of(curves.begin(), curves.end(),
+                                 [&](const RawCurve& curve) { return curve.id == wanted; });
+  return !named && wanted == std::to_string(index + 1);
+}
+
 Result<std::vector<KeyLine>> acquire_all(const InputOptions& input, const std::string& file) {
   const auto raw = in_file(read_raw(input, file), file);
   if (!raw) return std::unexpected(raw.error());
   std::vector<KeyLine> lines;
-  for (const RawCurve& curve : *raw) {
-    if (!input.select.empty() && curve.id != input.select) continue;
+  for (std::size_t i = 0; i < raw->size(); ++i) {
+    const RawCurve& curve = (*raw)[i];
+    if (!is_wanted(*raw, i, input.select)) continue;
     auto line = in_file(acquire::acquire_key_line(curve, acquire_options(input)),
                         raw->size() > 1 ? file + ": " + curve.id : file);
     if (!line) return std::unexpected(line.error());
