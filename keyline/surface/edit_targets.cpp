@@ -177,6 +177,8 @@ void add_blended(const EditTask& task, TargetSet& set) {
     return;
   }
   blend_inside(moved);
+  if (auto inside = solved_inside(task, moved))
+    set.targets.push_back({"one matrix inside", std::move(*inside)});
   set.targets.push_back({missed.target, std::move(moved)});
 }
 

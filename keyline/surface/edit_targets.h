@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,5 +50,9 @@ bool solvable(const Net& net);
 /// "one matrix", "towards least energy", "least energy" (one_matrix.h), where the net is
 /// solvable.
 void add_solved(const EditTask& task, TargetSet& set);
+
+/// The net nearest to this one, boundary held, all of whose curves have one matrix; its boundary
+/// curves have to have theirs. Empty where none is found.
+std::optional<Net> solved_inside(const EditTask& task, const Net& net);
 
 }  // namespace keyline::surface::detail

@@ -184,4 +184,17 @@ void add_solved(const EditTask& task, TargetSet& set) {
   add_least_energy(task, sense, problem, std::move(found), set);
 }
 
+std::optional<Net> solved_inside(const EditTask& task, const Net& net) {
+  if (!solvable(net)) return std::nullopt;
+  OneMatrixProblem problem;
+  problem.net = net;
+  problem.freedom.assign(net.points.size(), Freedom::held);
+  for (int i = 1; i + 1 < net.rows; ++i)
+    for (int j = 1; j + 1 < net.columns; ++j) problem.freedom[net.index(i, j)] = Freedom::free;
+  problem.wishes.resize(task.conditions.size());
+  OneMatrixNet found = solve_one_matrix(problem, net, false);
+  if (!(found.violation <= kMet)) return std::nullopt;
+  return std::move(found.net);
+}
+
 }  // namespace keyline::surface::detail
