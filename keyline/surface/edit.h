@@ -61,8 +61,9 @@ struct EditResult {
 /// their minimum; "one matrix", the nearest net all of whose curves have one matrix each; from it
 /// in steps to "least energy", in which every one stands at its own minimum (solve_one_matrix);
 /// "rows" and "columns", those curves alone taken to their minimum between the ends that are kept
-/// (with the other boundary curves, unless these are kept); "boundaries" (joints kept), the four
-/// boundary curves at their minimum and the inside blended from them.
+/// (with the other boundary curves, unless these are kept); "boundaries" (joints or corners
+/// kept), the four boundary curves at their minimum and the inside blended from them; "one matrix
+/// inside", the same with the inside solved so that its curves have one matrix each.
 /// From degree 5 on nets of one matrix per curve do not exist for corners at will; with these kept
 /// the targets of the nearest bicubic patch stand beside, "bicubic, …". Such a target, taken whole,
 /// comes with its own degrees and network curves.

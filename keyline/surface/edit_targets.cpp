@@ -171,14 +171,24 @@ void blend_inside(Net& net) {
 void add_blended(const EditTask& task, TargetSet& set) {
   MissedTarget missed{"boundaries", {}, {}};
   Net moved = task.net;
-  if (!straighten_out(task, moved, true, true, false, missed) ||
-      !straighten_out(task, moved, false, true, false, missed)) {
+  EditOptions alone = task.options;  // every boundary curve for itself
+  alone.keep = Keep::joints;
+  const EditTask own{task.net, alone, task.conditions};
+  if (!straighten_out(own, moved, true, true, false, missed) ||
+      !straighten_out(own, moved, false, true, false, missed)) {
     set.missed.push_back(std::move(missed));
     return;
   }
   blend_inside(moved);
-  if (auto inside = solved_inside(task, moved))
+  std::vector<Net> starts{moved};
+  for (const Target& t : set.targets)
+    if (t.name == "rows" || t.name == "columns") starts.push_back(t.net);
+  for (const Net& start : starts) {
+    auto inside = solved_inside(task, start);
+    if (!inside) continue;
     set.targets.push_back({"one matrix inside", std::move(*inside)});
+    break;
+  }
   set.targets.push_back({missed.target, std::move(moved)});
 }
 
@@ -205,7 +215,7 @@ TargetSet edit_targets(const EditTask& task) {
     add_one_way(task, true, keep != Keep::boundary, set);
     add_one_way(task, false, keep != Keep::boundary, set);
   }
-  if (keep == Keep::joints) add_blended(task, set);
+  if (keep == Keep::joints || keep == Keep::corners) add_blended(task, set);
   return set;
 }
 

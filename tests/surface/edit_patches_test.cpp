@@ -91,6 +91,16 @@ TEST(EditPatches, JointsKeptMoveAndStayClosed) {
   for (const PatchValue& p : values_after(*edit)) EXPECT_LT(p.value.sav, 150);
 }
 
+TEST(EditPatches, CurvesInsideKeptJointsHaveOneMatrix) {
+  EditOptions options;
+  options.keep = Keep::joints;
+  const auto r = edit(distorted_patch(), options);
+  ASSERT_TRUE(r) << r.error().message;
+  EXPECT_GT(r->before.sav, 250);
+  EXPECT_LT(r->after.sav, 25);
+  EXPECT_EQ(r->target, "one matrix inside");
+}
+
 TEST(EditPatches, LessKeptTellsTheGaps) {
   const BSplineSurface s = four_patches();
   EditOptions options;
