@@ -243,7 +243,7 @@ class SvgReader {
   static std::size_t memory_of(const SvgCurve& curve) {
     std::size_t bytes = 400;
     for (const curve::Bezier2& piece : curve.pieces)
-      bytes += piece.control.size() == 2 ? 120 : 150 + 20 * piece.control.size();
+      bytes += piece.control.size() == 2 ? 100 : 150 + 20 * piece.control.size();
     return bytes;
   }
 

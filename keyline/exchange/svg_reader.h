@@ -38,7 +38,7 @@ struct SvgReadLimits {
   std::size_t bytes = std::size_t{256} << 20;
   int depth = 200;                             ///< of nested elements
   int use_depth = 16;                          ///< of <use> within <use>
-  std::size_t memory = std::size_t{64} << 20;  ///< for curves, beside 17 times the file
+  std::size_t memory = std::size_t{24} << 20;  ///< for curves, beside 17 times the file
   std::size_t elements = 2'000'000;  ///< visited beside one in four bytes; repeated ones count
 };
 
