@@ -77,7 +77,9 @@ void limit(int resource, std::size_t most) {
                          const std::array<int, 3>& ends, const ChildLimits& limits) {
   for (int i = 0; i < 3; ++i)
     if (::dup2(ends[static_cast<std::size_t>(i)], i) < 0) ::_exit(127);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // shadow memory is larger
   limit(RLIMIT_AS, limits.memory);
+#endif
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<std::size_t>(limits.seconds) + 2);
   ::execv(program, arguments);
