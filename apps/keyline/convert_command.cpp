@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/json_document.h"
@@ -36,16 +37,12 @@ Result<document::Document> document_of_points(const InputOptions& input) {
   return document;
 }
 
-std::string counted(std::size_t count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 std::string contents(const document::Document& document) {
   std::string text;
   for (const auto& [count, thing] : {std::pair{document.paths.size(), "planar curve"},
                                      std::pair{document.space_curves.size(), "space curve"},
                                      std::pair{document.surfaces.size(), "surface"}})
-    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, thing);
+    if (count > 0) text += (text.empty() ? "" : ", ") + core::counted(count, thing);
   return text + (document.unit.empty() ? "" : " in " + document.unit);
 }
 
@@ -57,7 +54,7 @@ document::Document planar_of(const document::Document& document, bool quiet) {
   std::vector<std::string> notes;
   exchange::flatten(planar, notes);
   if (!planar.paths.empty())
-    say(quiet, counted(planar.paths.size(), "curve") +
+    say(quiet, core::counted(planar.paths.size(), "curve") +
                    " in space: pictures, SVG and glyphs show them in the coordinates of their "
                    "planes");
   return planar;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/operations/fair_report.h"
@@ -104,12 +105,12 @@ void tell(const FairCommand& command, const Faired& faired) {
   const std::string name = faired.line.id.empty() ? "" : faired.line.id + ": ";
   if (!command.common.json && !quiet) print_table(faired);
   for (const std::string& note : r.notes) say(quiet, name + note);
-  const std::size_t chains = r.curves.size();
-  say(quiet, fmt::format("{}{} points, {} piece{} in {} chain{}; largest deviation {:.4g}, rms "
-                         "{:.4g}, tolerance {:.4g}, noise {:.3g}",
-                         name, faired.line.points.size(), r.pieces.size(),
-                         r.pieces.size() == 1 ? "" : "s", chains, chains == 1 ? "" : "s",
-                         r.max_deviation, r.rms_deviation, r.tolerance, r.noise));
+  say(quiet,
+      fmt::format("{}{}, {} in {}; largest deviation {:.4g}, rms "
+                  "{:.4g}, tolerance {:.4g}, noise {:.3g}",
+                  name, core::counted(faired.line.points.size(), "point"),
+                  core::counted(r.pieces.size(), "piece"), core::counted(r.curves.size(), "chain"),
+                  r.max_deviation, r.rms_deviation, r.tolerance, r.noise));
 }
 
 /// Where the tolerance is missed, or that the work was cut short: after everything is written.

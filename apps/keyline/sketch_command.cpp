@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
 #include "keyline/exchange/scap_reader.h"
@@ -165,9 +166,8 @@ void tell(const Sketch& sketch, const SketchCommand& command) {
           ? fmt::format("{} x {} pixels, ", sketch.trace.width, sketch.trace.height)
           : "";
   say(command.common.quiet,
-      fmt::format("{}{} stroke{}: {} line segments, {} quintic{}", size,
-                  sketch.trace.strokes.size(), sketch.trace.strokes.size() == 1 ? "" : "s",
-                  segments, pieces, pieces == 1 ? "" : "s"));
+      fmt::format("{}{}: {}, {}", size, core::counted(sketch.trace.strokes.size(), "stroke"),
+                  core::counted(segments, "line segment"), core::counted(pieces, "quintic")));
   if (const std::string note = drive_note(sketch); !note.empty()) say(command.common.quiet, note);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/text.h"
 #include "keyline/operations/fair_report.h"
 #include "keyline/operations/surface_pictures.h"
 #include "keyline/operations/surface_value_json.h"
@@ -234,8 +235,8 @@ void add_pictures(Writers& writers, const std::vector<SurfaceSubject>& subjects,
 void say_curves_left_out(const document::Document& document, bool quiet) {
   const std::size_t curves = document.paths.size() + document.space_curves.size();
   if (curves == 0) return;
-  say(quiet, fmt::format("{} curve{} of the file left out beside its surfaces; --select takes one",
-                         curves, curves == 1 ? "" : "s"));
+  say(quiet, fmt::format("{} of the file left out beside its surfaces; --select takes one",
+                         core::counted(curves, "curve")));
 }
 
 int analyze_surfaces(const AnalyzeCommand& command, const document::Document& document) {

@@ -23,17 +23,13 @@ namespace {
 using core::ErrorCode;
 using detail::Working;
 
-std::string counted(std::size_t n, const char* one, const char* many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
 core::Result<Working> flatten(const RawCurve& raw, const AcquireOptions& options, KeyLine& line) {
   const std::vector<std::size_t> kept = detail::finite_points(raw);
   line.report.points_read = raw.points.size();
   line.report.non_finite = raw.points.size() - kept.size();
   if (line.report.non_finite > 0) {
     line.report.notes.push_back(
-        counted(line.report.non_finite, "point", "points") +
+        core::counted(line.report.non_finite, "point") +
         " dropped: a coordinate or weight is missing, not a number or infinite");
   }
   if (kept.empty()) return core::fail(ErrorCode::bad_input, "no point has finite coordinates");
@@ -69,7 +65,7 @@ void merge(Working& work, KeyLine& line) {
   const std::size_t merged = detail::merge_repeated(work);
   line.report.duplicates += merged;
   if (merged > 0) {
-    line.report.notes.push_back(counted(merged, "repeated point", "repeated points") + " merged");
+    line.report.notes.push_back(core::counted(merged, "repeated point") + " merged");
   }
 }
 
@@ -129,8 +125,7 @@ void drop_outliers(Working& work, double noise, std::size_t stride, KeyLine& lin
   }
   std::sort(line.report.outlier_sources.begin(), line.report.outlier_sources.end());
   if (line.report.outliers > 0) {
-    line.report.notes.push_back(counted(line.report.outliers, "stray point", "stray points") +
-                                " removed");
+    line.report.notes.push_back(core::counted(line.report.outliers, "stray point") + " removed");
   }
 }
 

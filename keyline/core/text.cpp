@@ -13,6 +13,12 @@ std::string number_text(double value, int significant_digits) {
   return {text.data(), end.ptr};
 }
 
+std::string counted(std::size_t n, std::string_view one, std::string_view many) {
+  std::string text = std::to_string(n) + ' ';
+  if (n == 1) return text.append(one);
+  return many.empty() ? text.append(one) + 's' : text.append(many);
+}
+
 std::string on_one_line(std::string_view text) {
   std::string line(text);
   std::replace_if(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,9 @@ namespace keyline::core {
 /// value with so many significant digits (1 to 17), for messages: the shorter of plain and
 /// scientific notation, no trailing zeros ("0.25", "1.5e-09", "nan", "inf"), whatever the locale.
 std::string number_text(double value, int significant_digits);
+
+/// So many of a thing, for messages: "1 piece", "2 pieces"; `many` where "s" is not the plural.
+std::string counted(std::size_t n, std::string_view one, std::string_view many = {});
 
 /// The text with a space in place of every ASCII control character, so that it stays on its line.
 std::string on_one_line(std::string_view text);

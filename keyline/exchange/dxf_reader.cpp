@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/exchange/dxf_color.h"
 #include "keyline/exchange/dxf_entity.h"
 
@@ -97,10 +98,10 @@ class DxfReader {
 
   Result<Document> finish() {
     for (const Item& item : items_) place(item, Outer{});
-    if (paper_ > 0) problems_.push_back(std::to_string(paper_) + " entities in paper space");
+    if (paper_ > 0)
+      problems_.push_back(core::counted(paper_, "entity", "entities") + " in paper space");
     for (const auto& [type, count] : ignored_)
-      problems_.push_back(type + ": " + std::to_string(count) +
-                          (count == 1 ? " entity" : " entities"));
+      problems_.push_back(type + ": " + core::counted(count, "entity", "entities"));
     document_.skipped = std::move(problems_);
     return std::move(document_);
   }

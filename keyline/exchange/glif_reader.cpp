@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/byte_lines.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/glif.h"
@@ -121,8 +122,7 @@ class GlifReader {
     name_ = glyph->attribute("name").as_string("glyph");
     if (auto done = add(*glyph, bytes, {}, 0); !done) return std::unexpected(done.error());
     if (anchors_ > 0)
-      document_.skipped.insert(document_.skipped.begin(),
-                               std::to_string(anchors_) + (anchors_ == 1 ? " anchor" : " anchors"));
+      document_.skipped.insert(document_.skipped.begin(), core::counted(anchors_, "anchor"));
     return std::move(document_);
   }
 

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/lednicer.h"
 #include "keyline/exchange/line_reader.h"
 #include "keyline/exchange/text_table.h"
@@ -331,8 +332,8 @@ core::Result<Curves> PointsTable::finish(const std::string& name) {
   };
   if (unknown_header_) note("the header names no x and y: the first columns taken");
   if (text_lines_ > 0 && !title_is_header)
-    note(std::to_string(text_lines_) + " title line(s) before the points");
-  if (junk_lines_ > 0) note(std::to_string(junk_lines_) + " text line(s) after the points ignored");
+    note(core::counted(text_lines_, "title line") + " before the points");
+  if (junk_lines_ > 0) note(core::counted(junk_lines_, "text line") + " after the points ignored");
   if (ignored_columns_ > 0) {
     note(std::to_string(ignored_columns_) +
          " further column(s) ignored: x, y, z taken from the "

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/svg_shapes.h"
 #include "keyline/exchange/svg_style.h"
 #include "keyline/exchange/svg_text.h"
@@ -54,8 +55,7 @@ class SvgReader {
     place.paint = styles_.paint(root, {});
     read_children(root, place);
     for (const auto& [name, count] : ignored_)
-      skip(count.first, name + ": " + std::to_string(count.second) +
-                            (count.second == 1 ? " element" : " elements") + " without curves");
+      skip(count.first, name + ": " + core::counted(count.second, "element") + " without curves");
     sort_skipped();
     return std::move(contents_);
   }

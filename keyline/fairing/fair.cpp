@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "keyline/core/polygon.h"
+#include "keyline/core/text.h"
 #include "keyline/fairing/assemble.h"
 #include "keyline/fairing/free_ends.h"
 #include "keyline/fairing/reading.h"
@@ -42,15 +43,17 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
 
 void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
   const std::string where = fmt::format("run {}", index);
-  result.notes.push_back(fmt::format("{}: {} pieces, merged from {}", where,
-                                     run.chain.pieces.size(), run.start_pieces));
+  result.notes.push_back(fmt::format("{}: {}, merged from {}", where,
+                                     core::counted(run.chain.pieces.size(), "piece"),
+                                     run.start_pieces));
   if (run.exact)
     result.notes.push_back(where +
                            ": the points are reproduced to rounding, so the chain that "
                            "does so is given rather than a shorter one");
   if (run.straightened > 0)
-    result.notes.push_back(
-        fmt::format("{}: {} pieces are exact lines or arcs", where, run.straightened));
+    result.notes.push_back(where + ": " +
+                           core::counted(run.straightened, "piece is an exact line or arc",
+                                         "pieces are exact lines or arcs"));
 }
 
 /// The whole of one key-line.
@@ -147,9 +150,8 @@ class Job {
     const analysis::Split found = analysis::split_monotone(spline, options);
     if (!found.merged.empty())
       result_.notes.push_back(fmt::format(
-          "run {}: {} waves of the spline's curvature that move it by less than {:.3g} were taken "
-          "for noise",
-          k, found.merged.size(), found.threshold));
+          "run {}: {} in the spline's curvature, of less than {:.3g} sideways, taken for noise", k,
+          core::counted(found.merged.size(), "wave"), found.threshold));
     for (const auto& piece : found.pieces) {
       result_.monotone.push_back(piece);
       result_.monotone_spline.push_back(static_cast<int>(k));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "keyline/analysis/continuity.h"
+#include "keyline/core/text.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/ticks.h"
 #include "keyline/operations/curve_samples.h"
@@ -22,7 +23,7 @@ using detail::length_text;
 void set_verdict(const CurveAnalysis& a, report::Report& report) {
   using enum MonotoneAnswer::Value;
   const std::size_t n = a.pieces.size();
-  const std::string parts = fmt::format("{} monotone piece{}", n, n == 1 ? "" : "s");
+  const std::string parts = core::counted(n, "monotone piece");
   switch (a.monotone.value) {
     case yes:
       report.verdict = report::Verdict::good;
@@ -138,9 +139,9 @@ void add_notes(const CurveAnalysis& a, const std::string& unit, report::Report& 
   if (!a.split.merged.empty())
     report.notes.push_back(
         {report::NoteKind::note,
-         fmt::format("{} wave{} of curvature that move the curve by less than {} were taken for "
+         fmt::format("{} of curvature that move the curve by less than {} were taken for "
                      "noise and merged.",
-                     a.split.merged.size(), a.split.merged.size() == 1 ? "" : "s",
+                     core::counted(a.split.merged.size(), "wave"),
                      length_text(a.split.threshold, unit, 3))});
   for (const auto& corner : a.split.corners)
     report.notes.push_back(

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/text.h"
 #include "keyline/curve/length.h"
 #include "keyline/document/color.h"
 #include "keyline/figure/line_drawing.h"
@@ -108,8 +109,7 @@ Result<report::Report> document_report(const document::Document& document,
   if (!picture) return std::unexpected(picture.error());
   report::Report report{.title = options.title,
                         .subtitle = options.subtitle,
-                        .verdict_line = fmt::format("{} curve{}", document.paths.size(),
-                                                    document.paths.size() == 1 ? "" : "s"),
+                        .verdict_line = core::counted(document.paths.size(), "curve"),
                         .options = options.options,
                         .command = options.command,
                         .generator = options.generator};

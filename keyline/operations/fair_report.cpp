@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "keyline/analysis/rhythm.h"
+#include "keyline/core/text.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/ticks.h"
 #include "keyline/operations/curve_samples.h"
@@ -46,14 +47,10 @@ std::size_t count_beyond(const FairResult& result) {
                     [&](double d) { return std::abs(d) > result.tolerance; }));
 }
 
-std::string plural(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
 void set_verdict(const Material& m, report::Report& report) {
   const FairResult& r = m.result;
   const std::string& unit = m.options.unit;
-  const std::string pieces = plural(r.pieces.size(), "piece", "pieces");
+  const std::string pieces = core::counted(r.pieces.size(), "piece");
   const std::string cut = r.cancelled ? " The work was cancelled; this is the best found." : "";
   if (r.within_tolerance) {
     report.verdict = r.cancelled ? report::Verdict::caution : report::Verdict::good;
@@ -65,7 +62,7 @@ void set_verdict(const Material& m, report::Report& report) {
   const std::size_t beyond = count_beyond(r);
   report.verdict_line =
       fmt::format("{} of {} lie{} beyond the tolerance of {}; the farthest is {}, {} off.{}",
-                  beyond, plural(r.offsets.size(), "point", "points"), beyond == 1 ? "s" : "",
+                  beyond, core::counted(r.offsets.size(), "point"), beyond == 1 ? "s" : "",
                   length_text(r.tolerance, unit), place_of(m, r.worst_point),
                   length_text(r.max_deviation, unit), cut);
 }
@@ -80,7 +77,7 @@ void set_numbers(const Material& m, report::Report& report) {
   for (const auto& joint : detail::chain_joints(r)) order = std::min(order, joint.joint.order);
   std::string shape = r.closed ? "closed" : "open";
   if (chains > 1) shape += fmt::format(", {} chains between corners", chains);
-  if (kept > 0) shape += ", " + plural(kept, "part", "parts") + " kept as given";
+  if (kept > 0) shape += ", " + core::counted(kept, "part") + " kept as given";
   report.numbers = {
       {"Pieces", fmt::format("{}", r.pieces.size()), shape},
       {"Largest deviation", length_text(r.max_deviation, unit, 3),
@@ -271,7 +268,7 @@ void add_notes(const Material& m, report::Report& report) {
   };
   if (!r.within_tolerance)
     warn(fmt::format("{} beyond the tolerance; give a larger tolerance or look for strays near {}.",
-                     plural(count_beyond(r), "point lies", "points lie"),
+                     core::counted(count_beyond(r), "point lies", "points lie"),
                      place_of(m, r.worst_point)));
   if (r.cancelled) warn("The work was cancelled before it was done.");
   for (std::size_t i = 0; i < r.pieces.size(); ++i)

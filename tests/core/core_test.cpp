@@ -16,6 +16,13 @@
 namespace keyline::core {
 namespace {
 
+TEST(Text, Counted) {
+  EXPECT_EQ(counted(1, "piece"), "1 piece");
+  EXPECT_EQ(counted(0, "piece"), "0 pieces");
+  EXPECT_EQ(counted(2, "entity", "entities"), "2 entities");
+  EXPECT_EQ(counted(1, "piece is", "pieces are"), "1 piece is");
+}
+
 TEST(Angle, WrapsIntoHalfOpenTurn) {
   EXPECT_DOUBLE_EQ(wrap_angle(3 * kPi), kPi);
   EXPECT_DOUBLE_EQ(wrap_angle(-kPi), kPi);

@@ -8,29 +8,15 @@
 #include "keyline/exchange/document_file.h"
 #include "keyline/lac/chain.h"
 
+#include "cad_fixture.h"
+
 namespace keyline::exchange {
 namespace {
 
 namespace fs = std::filesystem;
 using document::Document;
 
-class CadAssembly : public testing::Test {
- protected:
-  void SetUp() override {
-#ifdef KEYLINE_CAD_PROGRAM
-    ::setenv("KEYLINE_CAD", KEYLINE_CAD_PROGRAM, 1);
-    folder_ = fs::temp_directory_path() / ("keyline-assembly-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-#else
-    GTEST_SKIP() << "built without OCCT";
-#endif
-  }
-  void TearDown() override {
-    ::unsetenv("KEYLINE_CAD");
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-  fs::path folder_;
-};
+using CadAssembly = CadTest;
 
 /// A text with every "@k" replaced by the entity n + k, k from 0 to 9.
 std::string from(int n, const std::string& text) {

@@ -11,6 +11,8 @@
 #include "keyline/exchange/cad_file.h"
 #include "keyline/exchange/document_file.h"
 
+#include "cad_fixture.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -18,23 +20,7 @@ namespace fs = std::filesystem;
 using document::Document;
 using testing::HasSubstr;
 
-class Cad : public testing::Test {
- protected:
-  void SetUp() override {
-#ifdef KEYLINE_CAD_PROGRAM
-    ::setenv("KEYLINE_CAD", KEYLINE_CAD_PROGRAM, 1);
-    folder_ = fs::temp_directory_path() / ("keyline-cad-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-#else
-    GTEST_SKIP() << "built without OCCT";
-#endif
-  }
-  void TearDown() override {
-    ::unsetenv("KEYLINE_CAD");
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-  fs::path folder_;
-};
+using Cad = CadTest;
 
 Document sample() {
   Document d;

@@ -155,7 +155,7 @@ TEST(DxfReader, SaysWhatItLeavesOut) {
   EXPECT_EQ(d.paths.size(), 1U);
   EXPECT_THAT(d.skipped, testing::UnorderedElementsAre(
                              HasSubstr("radius is not positive"), HasSubstr("no block \"nowhere\""),
-                             "1 entities in paper space", "TEXT: 2 entities"));
+                             "1 entity in paper space", "TEXT: 2 entities"));
 }
 
 TEST(DxfReader, BoundsRecursionAndExplosion) {

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/occt/geometry.h"
 
 namespace keyline::exchange::occt {
@@ -143,8 +144,7 @@ void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& name
     }
     if (!loop.empty()) named.trim_loops.push_back(std::move(loop));
   }
-  skip(named.label.name, "trimmed by " + std::to_string(named.trims) +
-                             (named.trims == 1 ? " edge" : " edges") +
+  skip(named.label.name, "trimmed by " + core::counted(named.trims, "edge") +
                              ": the whole underlying surface is here");
 }
 
@@ -164,8 +164,7 @@ void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
 }
 
 void ShapeWalk::finish() {
-  if (points_ > 0)
-    document_.skipped.push_back(std::to_string(points_) + (points_ == 1 ? " point" : " points"));
+  if (points_ > 0) document_.skipped.push_back(core::counted(points_, "point"));
 }
 
 }  // namespace keyline::exchange::occt
