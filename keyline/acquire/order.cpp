@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "keyline/acquire/places.h"
 #include "keyline/acquire/spanning_tree.h"
 #include "keyline/acquire/statistics.h"
 
@@ -29,9 +30,16 @@ std::vector<double> steps_of(std::span<const core::Point2> points) {
   return steps;
 }
 
+/// Repeated points hang on the tree by edges of no length: searched for neighbours, each would find
+/// only the others at its place.
 bool follows_tree(std::span<const core::Point2> points) {
-  std::vector<double> edges;
-  for (const auto& edge : detail::spanning_tree(points, detail::neighbour_lists(points), false)) {
+  const std::vector<std::size_t> first = detail::first_at_place(points);
+  std::vector<core::Point2> places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (first[i] == i) places.push_back(points[i]);
+  }
+  std::vector<double> edges(points.size() - places.size(), 0.0);
+  for (const auto& edge : detail::spanning_tree(places, detail::neighbour_lists(places), false)) {
     edges.push_back(edge.length);
   }
   return trimmed_sum(steps_of(points)) <= 2 * trimmed_sum(std::move(edges));

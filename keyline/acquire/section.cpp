@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/acquire/places.h"
 #include "keyline/acquire/section_slope.h"
 #include "keyline/acquire/symmetry.h"
 #include "keyline/core/text.h"
@@ -58,6 +59,46 @@ void slide(RawCurve& section, const Plane& plane, const std::vector<double>& awa
                             " of them along the slope of the surface there");
 }
 
+/// Indices of the cloud's points within the band; `distances` are those of all its points.
+std::vector<std::size_t> within_band(const RawCurve& cloud, double band, const Plane& plane,
+                                     std::vector<double>& distances) {
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const double d = std::abs(distance_from_plane(plane, cloud.points[i]));
+    if (!std::isfinite(d)) continue;
+    distances.push_back(d);
+    if (d <= band) inside.push_back(i);
+  }
+  return inside;
+}
+
+/// Drops points at the same place as an earlier one and tells how many; weights are added up.
+void merge_repeated(RawCurve& section, std::vector<double>& away,
+                    const std::vector<core::Point3>& places) {
+  const std::vector<std::size_t> first = detail::first_at_place(places);
+  std::vector<std::size_t> at(first.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] != i) {
+      if (!section.weights.empty()) section.weights[at[first[i]]] += section.weights[i];
+      continue;
+    }
+    at[i] = kept;
+    section.points[kept] = section.points[i];
+    away[kept] = away[i];
+    if (!section.weights.empty()) section.weights[kept] = section.weights[i];
+    if (!section.source_lines.empty()) section.source_lines[kept] = section.source_lines[i];
+    ++kept;
+  }
+  if (kept == first.size()) return;
+  section.points.resize(kept);
+  away.resize(kept);
+  if (!section.weights.empty()) section.weights.resize(kept);
+  if (!section.source_lines.empty()) section.source_lines.resize(kept);
+  section.notes.push_back(std::to_string(first.size() - kept) +
+                          " of them at the same place as another merged");
+}
+
 template <class Foot>
 core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plane, Foot foot) {
   if (auto good = check(cloud, band); !good) return std::unexpected(good.error());
@@ -67,12 +108,10 @@ core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plan
   section.scattered = true;
   section.notes = cloud.notes;
   std::vector<double> distances, away;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const double d = distance_from_plane(plane, cloud.points[i]);
-    if (!std::isfinite(d)) continue;
-    distances.push_back(std::abs(d));
-    if (std::abs(d) > band) continue;
-    away.push_back(d);
+  std::vector<core::Point3> places;
+  for (const std::size_t i : within_band(cloud, band, plane, distances)) {
+    places.push_back(cloud.points[i]);
+    away.push_back(distance_from_plane(plane, cloud.points[i]));
     section.points.push_back(foot(cloud.points[i]));
     if (!cloud.weights.empty()) section.weights.push_back(cloud.weights[i]);
     if (!cloud.source_lines.empty()) section.source_lines.push_back(cloud.source_lines[i]);
@@ -81,6 +120,7 @@ core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plan
   section.notes.push_back("section: " + std::to_string(section.points.size()) + " of " +
                           std::to_string(cloud.points.size()) + " points lie within " +
                           core::number_text(band, 4) + " of the plane and were moved onto it");
+  merge_repeated(section, away, places);
   slide(section, plane, away);
   return section;
 }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "keyline/acquire/band.h"
 #include "keyline/acquire/kd_tree.h"
 #include "keyline/acquire/order.h"
+#include "keyline/acquire/places.h"
 #include "keyline/acquire/statistics.h"
 #include "keyline/acquire/turnbacks.h"
 
@@ -22,24 +21,13 @@ constexpr std::size_t kMostOrdered = 20000;  // more points are averaged first
 
 /// Merges points at the same place wherever they stand in the input.
 void merge_anywhere(Working& work, KeyLine& line) {
-  std::vector<std::size_t> by_place(work.points.size());
-  std::iota(by_place.begin(), by_place.end(), std::size_t{0});
-  std::sort(by_place.begin(), by_place.end(), [&](std::size_t a, std::size_t b) {
-    const core::Point2 p = work.points[a], q = work.points[b];
-    return std::tie(p.x, p.y, a) < std::tie(q.x, q.y, b);
-  });
+  const std::vector<std::size_t> first = first_at_place(work.points);
   std::vector<std::size_t> repeated;
-  std::size_t kept = by_place.empty() ? 0 : by_place[0];
-  for (std::size_t k = 1; k < by_place.size(); ++k) {
-    const std::size_t i = by_place[k];
-    if (work.points[i] == work.points[kept]) {
-      repeated.push_back(i);
-      if (!work.weights.empty()) work.weights[kept] += work.weights[i];
-    } else {
-      kept = i;
-    }
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] == i) continue;
+    repeated.push_back(i);
+    if (!work.weights.empty()) work.weights[first[i]] += work.weights[i];
   }
-  std::sort(repeated.begin(), repeated.end());
   remove_points(work, repeated);
   line.report.duplicates += repeated.size();
   if (!repeated.empty()) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kCells = PieceFrame::kCells;
 constexpr double kExact = 1e-9;      // a deviation that no other start will better
+constexpr double kStraight = 1e-13;  // turning in all, radians, that is rounding
 constexpr double kLeastBase = 1e-7;  // of 1 - alpha lambda x, before a cusp or an inflection
 
 /// log(1 + z) / z, for z > -1.
@@ -29,6 +30,15 @@ double turning_from_anchor(const LineModel& m, double s) {
   const double alpha = slope_at(m, s);
   const double stretched = x * log_ratio(-alpha * m.rate * x);
   return m.curvature * stretched * exp_ratio((1 - alpha) * m.rate * stretched);
+}
+
+/// Such a frame leaves a model nothing to tell: it has no curvature and any slope.
+bool is_straight(const PieceFrame& frame) { return frame.turning().cwiseAbs().sum() < kStraight; }
+
+LineFit straight_line(const PieceFrame& frame, double slope0, double slope1) {
+  const double none = std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd turning = Eigen::VectorXd::Zero(kCells);
+  return {{0, 0, 0.5, slope0, slope1}, frame.displacement(turning).norm(), none, none};
 }
 
 using Build = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
@@ -137,6 +147,11 @@ Eigen::VectorXd turning_of(const LineModel& m) {
 }
 
 LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
+  if (is_straight(frame)) {
+    LineFit fit = straight_line(frame, (low + high) / 2, (low + high) / 2);
+    if (!(high > low)) fit.slope_error0 = fit.slope_error1 = 0;
+    return fit;
+  }
   const Build build = [&](const Eigen::VectorXd& x) { return turning_of(one_line(x, low, high)); };
   const double width = high - low;
   LineFit best;
@@ -186,6 +201,8 @@ Eigen::VectorXd two_lines_guess(const LineModel& m, const SlopeBounds& b, double
 }  // namespace
 
 LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start) {
+  if (is_straight(frame))
+    return straight_line(frame, (bounds.low0 + bounds.high0) / 2, (bounds.low1 + bounds.high1) / 2);
   const Build build = [&](const Eigen::VectorXd& x) { return turning_of(two_lines(x, bounds)); };
   const double way = bounds.low0 > bounds.low1 ? 1 : -1;
   Eigen::VectorXd best_x;
@@ -273,6 +290,13 @@ Eigen::VectorXd turning_of_arcs(const Eigen::VectorXd& x) {
 }  // namespace
 
 ArcsFit fit_arcs(const PieceFrame& frame, int n) {
+  if (is_straight(frame)) {
+    ArcsFit fit;
+    fit.deviation = straight_line(frame, 0, 0).deviation;
+    fit.curvatures.assign(static_cast<std::size_t>(n), 0.0);
+    for (int k = 1; k < n; ++k) fit.breaks.push_back(static_cast<double>(k) / n);
+    return fit;
+  }
   const std::vector<int> ends = best_parts(frame.turning(), n);
   Eigen::VectorXd x(2 * n - 1);
   for (int k = 0; k < n; ++k) {

@@ -84,6 +84,18 @@ TEST(AcquireKeyLine, CountsWhatItDrops) {
   EXPECT_LT(line->noise, 1e-8);
 }
 
+TEST(AcquireKeyLine, MergesManyPointsAtFewPlaces) {
+  RawCurve raw;
+  for (int i = 0; i < 60000; ++i) {
+    const double x = 0.1 * (i * 31 % 70);
+    raw.points.push_back({x, 0.05 * x * x, 0});
+  }
+  const auto line = acquire_key_line(raw);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->points.size(), 70u);
+  EXPECT_EQ(line->report.duplicates, 60000u - 70u);
+}
+
 TEST(AcquireKeyLine, RecognisesClosedOutlines) {
   RawCurve raw;
   for (int i = 0; i < 40; ++i) {

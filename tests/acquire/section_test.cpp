@@ -49,6 +49,20 @@ TEST(Section, FeetGoAlongTheSurface) {
   EXPECT_LE(most, 2e-3);  // straight onto the plane: 0.8 * 0.03
 }
 
+TEST(Section, PointsThereSeveralTimesCountOnce) {
+  Random random(5);
+  RawCurve once = empty_cloud();
+  add_cone(once, random, 0, 1, 0.3, 400);
+  RawCurve thrice = once;
+  for (int copy = 0; copy < 2; ++copy)
+    thrice.points.insert(thrice.points.end(), once.points.begin(), once.points.end());
+  thrice.weights.assign(thrice.points.size(), 1);
+  const RawCurve expected = section_plane(once, kAcross, 0.03).value();
+  const RawCurve cut = section_plane(thrice, kAcross, 0.03).value();
+  EXPECT_EQ(cut.points, expected.points);
+  EXPECT_EQ(cut.weights, std::vector<double>(expected.points.size(), 3));
+}
+
 TEST(Section, FeetStayWhereNothingSlopes) {
   Random random(4);
   RawCurve cloud = empty_cloud();

@@ -108,6 +108,19 @@ TEST(Rhythm, SizeAndPoseDoNotMatter) {
   }
 }
 
+TEST(Rhythm, OtherReadingsOfALineHaveNoCurvature) {
+  const RhythmReading reading = read(testing::arcs({0}, {1}));
+  EXPECT_EQ(reading.best().rhythm, Rhythm::straight);
+  EXPECT_GT(reading.best().plausibility, 0.8);
+  ASSERT_EQ(reading.interpretations.size(), 8u);
+  for (const Interpretation& i : reading.interpretations) {
+    EXPECT_LE(i.deviation, 1e-12);
+    for (double curvature : i.curvatures) EXPECT_EQ(curvature, 0);
+    if (i.rhythm == Rhythm::zero) continue;
+    for (double error : i.slope_errors) EXPECT_EQ(error, 1000);
+  }
+}
+
 TEST(Rhythm, NoiseMakesTheReadingSimpler) {
   const SpiralCurve c = testing::compound(1, -0.7, 0.4, 0.5, -0.7, 1);
   EXPECT_EQ(read(c, {.noise = 1e-6}).best().slopes.size(), 2u);
