@@ -41,8 +41,7 @@ function(keyline_tests name)
   target_compile_definitions(
     ${target} PRIVATE KEYLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                       KEYLINE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
-  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
-                       PROPERTIES LABELS ${name} ENVIRONMENT "${keyline_test_environment}")
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${name})
 endfunction()
 
 add_library(keyline_warnings INTERFACE)
@@ -53,11 +52,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   # std::stable_sort of libstdc++ 12 calls what libstdc++ itself calls deprecated
   target_compile_options(keyline_warnings INTERFACE -Wno-deprecated-declarations)
 endif()
-set(keyline_test_environment "")
 if(KEYLINE_SANITIZE)
-  list(APPEND keyline_test_environment
-       "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
-       "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp")
   add_compile_options(-fsanitize=${KEYLINE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${KEYLINE_SANITIZE})
 endif()
