@@ -113,28 +113,40 @@ void tell(const FairCommand& command, const Faired& faired) {
                   r.max_deviation, r.rms_deviation, r.tolerance, r.noise));
 }
 
+std::string name_of(const Faired& faired) {
+  return faired.line.id.empty() ? "" : " (" + faired.line.id + ")";
+}
+
+/// One line for all that miss their tolerance: of the one that misses by most tolerances.
+int report_missed(const std::vector<const Faired*>& missed, const std::string& file) {
+  const auto excess = [](const Faired* f) { return f->result.max_deviation / f->result.tolerance; };
+  const Faired& worst = **std::ranges::max_element(missed, {}, excess);
+  const fairing::FairResult& r = worst.result;
+  const core::Point2 p = worst.line.points[r.worst_point];
+  const std::size_t others = missed.size() - 1;
+  const std::string more =
+      others == 0 ? "" : fmt::format("; {} more key-line{} too", others, others == 1 ? "" : "s");
+  return report_failure(
+      {core::ErrorCode::not_converged,
+       fmt::format("no chain found{} within {:.4g}: the best misses point {} at ({:.6g}, {:.6g}) "
+                   "by {:.4g}{}",
+                   name_of(worst), r.tolerance, r.worst_point, p.x, p.y, r.max_deviation, more),
+       "give a larger --tolerance, or look for strays there", ""},
+      file);
+}
+
 /// Where the tolerance is missed, or that the work was cut short: after everything is written.
 int verdict_of(const std::vector<Faired>& all, const std::string& file) {
-  int exit = kDone;
+  std::vector<const Faired*> missed;
   for (const Faired& faired : all) {
-    const fairing::FairResult& r = faired.result;
-    const std::string name = faired.line.id.empty() ? "" : " (" + faired.line.id + ")";
-    if (r.cancelled) {
-      report_failure(
-          {core::ErrorCode::cancelled, "cancelled" + name + "; the best found was kept", "", ""});
+    if (faired.result.cancelled) {
+      report_failure({core::ErrorCode::cancelled,
+                      "cancelled" + name_of(faired) + "; the best found was kept", "", ""});
       return kCancelled;
     }
-    if (r.within_tolerance) continue;
-    const core::Point2 p = faired.line.points[r.worst_point];
-    exit = report_failure(
-        {core::ErrorCode::not_converged,
-         fmt::format("no chain found{} within {:.4g}: the best misses point {} at ({:.6g}, {:.6g}) "
-                     "by {:.4g}",
-                     name, r.tolerance, r.worst_point, p.x, p.y, r.max_deviation),
-         "give a larger --tolerance, or look for strays there", ""},
-        file);
+    if (!faired.result.within_tolerance) missed.push_back(&faired);
   }
-  return exit;
+  return missed.empty() ? kDone : report_missed(missed, file);
 }
 
 /// All key-lines of the input; `page` is that of a drawing.

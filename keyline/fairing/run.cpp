@@ -10,6 +10,7 @@
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/run_frame.h"
 #include "keyline/fairing/settle.h"
+#include "keyline/fairing/straight_run.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -105,6 +106,20 @@ bool solve_once(RunResult& result, const std::vector<FitPoint>& measured, const 
   return found && !result.within_tolerance;
 }
 
+/// Points on a line need no search, unless more is asked of the run than to pass them.
+bool solve_straight(RunResult& result, const Run& run, const RunOptions& options) {
+  const bool held = run.clamp_start != Clamp::none || run.clamp_end != Clamp::none ||
+                    run.tie_start || run.tie_end;
+  if (run.closed || held || options.pieces > 0) return false;
+  auto line = straight_chain(result.points);
+  if (!line) return false;
+  result.fit = std::move(*line);
+  result.accept = {exactness(result.accept), 0};
+  result.within_tolerance = result.exact = true;
+  result.start_pieces = result.straightened = 1;
+  return true;
+}
+
 /// The search, once more with a tighter tolerance where polishing loses what it had found; and
 /// where errors that are no noise (traced pixels) leave trends with any chain, without regard to
 /// them.
@@ -135,7 +150,7 @@ RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOpt
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
   result.accept = search_options(run, options).accept;
-  solve(result, run, frame, spline, options);
+  if (!solve_straight(result, run, options)) solve(result, run, frame, spline, options);
   std::vector<std::size_t> measured;
   for (std::size_t j = 0; j < result.points.size(); ++j)
     if (result.points[j].count > 0) measured.push_back(j);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "keyline/fairing/chain_fit.h"
+
+namespace keyline::fairing::detail {
+
+/// The one line through points that lie on it in order, none farther off than rounding (1e-12):
+/// nothing shorter or nearer is to be found by a search. Empty for any other points.
+/// Precondition: total length about 1.
+std::optional<FitChain> straight_chain(const std::vector<FitPoint>& points);
+
+}  // namespace keyline::fairing::detail
