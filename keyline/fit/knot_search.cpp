@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -182,6 +183,16 @@ void polish(std::vector<detail::ScoredKnots>& ends, std::span<SplineSolver> solv
       });
 }
 
+/// Where one polynomial meets the data to their rounding: knots could only cost.
+std::optional<KnotSearchResult> without_knots(SplineSolver solver,
+                                              const BayesCriterion& criterion) {
+  const double q = solver.sum_of_squares({});
+  if (!(q + criterion.hidden <= criterion.floor)) return {};
+  KnotSearchResult result;
+  result.bic = criterion(q, 0);
+  return result;
+}
+
 }  // namespace
 
 double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_knots) const {
@@ -193,6 +204,7 @@ double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_kn
 
 KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& criterion,
                               const KnotSearchOptions& options) {
+  if (auto none = without_knots(solver, criterion)) return std::move(*none);
   KnotProblem problem(solver, criterion, options);
   SearchProgress progress(options.progress, steps_of(options));
   const auto trials =

@@ -49,7 +49,8 @@ struct KnotSearchResult {
 };
 
 /// Searches interior knots of least criterion for the solver's data and domain. The solver's
-/// data should be in a canonical frame (domain [0, 1], values of size about 1).
+/// data should be in a canonical frame (domain [0, 1], values of size about 1). Where Q is at its
+/// floor without any knot there is nothing to search for.
 KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& criterion,
                               const KnotSearchOptions& options);
 
