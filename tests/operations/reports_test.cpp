@@ -162,8 +162,8 @@ TEST(FairReport, SheetsManyPieces) {
     f.result.pieces.push_back(piece);
   }
   f.result.curves = {chain};
-  const auto& graphs =
-      section(fair_report(f.line, f.result), "Logarithmic curvature graphs and diagrams");
+  const report::Report report = fair_report(f.line, f.result);
+  const auto& graphs = section(report, "Logarithmic curvature graphs and diagrams");
   EXPECT_EQ(graphs.figures.size(), 7U);  // 40 of 50 pieces, six to a sheet
 }
 
