@@ -159,7 +159,10 @@ Result<acquire::KeyLine> key_line_of(const document::Path& path) {
   line.closed = path.closed && core::distance(evaluate(path, 0), evaluate(path, 1)) < 1e-6 * length;
   const int n = std::max<int>(kCurveSamples, 40 * static_cast<int>(path.curves.size()) + 1);
   std::vector<double> corners;
-  const auto joints = analysis::inner_continuity(view, {1e-6 * length, 0.02, 1e-3, 1e-2});
+  const analysis::ContinuityTolerance smooth{1e-6 * length, 0.02, 1e-3, 1e-2};
+  if (line.closed && analysis::continuity({view}, true, smooth).back().order == 0)
+    corners.push_back(0);
+  const auto joints = analysis::inner_continuity(view, smooth);
   const auto breaks = breakpoints(path);
   for (std::size_t k = 0; k < joints.size() && k + 2 < breaks.size() + 1; ++k)
     if (joints[k].order == 0) corners.push_back(table.length_at(breaks[k + 1]));

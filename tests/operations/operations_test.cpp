@@ -144,6 +144,20 @@ TEST(Request, ThreadsAreCheckedAndChangeNothing) {
   EXPECT_EQ(perform("fair", request, {}).error().path, "threads");
 }
 
+TEST(Fair, AClosedPathHasACornerWhereItBegins) {
+  const auto side = [](double x0, double y0, double x1, double y1) {
+    return json{{"type", "bezier"}, {"points", {{x0, y0}, {x1, y1}}}};
+  };
+  const json square = {
+      {"type", "path"},
+      {"closed", true},
+      {"curves", {side(0, 0, 8, 0), side(8, 0, 8, 6), side(8, 6, 0, 6), side(0, 6, 0, 0)}}};
+  const auto result = perform("fair", {{"curve", square}}, {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ((*result)["pieces"].size(), 4U);
+  EXPECT_LT((*result)["deviation"]["max"].get<double>(), 1e-9);
+}
+
 TEST(Continuity, SeesACornerAndASmoothJoint) {
   const auto line = [](double x0, double y0, double x1, double y1) {
     return json{{"type", "polyline"}, {"points", {{x0, y0}, {x1, y1}}}};
