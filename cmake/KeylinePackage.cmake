@@ -28,6 +28,8 @@ foreach(link IN LISTS links)
            "pkg_check_modules(${CMAKE_MATCH_1} REQUIRED IMPORTED_TARGET ${module})\n")
   elseif(link MATCHES "^(Eigen3|Boost|TBB|Threads|pugixml|nlohmann_json|fmt|ZLIB|PNG|JPEG|TIFF|Freetype|WebP)::")
     string(APPEND KEYLINE_DEPENDENCIES "find_dependency(${CMAKE_MATCH_1})\n")
+  elseif(link STREQUAL "SQLite::SQLite3")
+    string(APPEND KEYLINE_DEPENDENCIES "find_dependency(SQLite3)\n")
   elseif(link STREQUAL "nlopt_cxx")  # a plain library: say so early where it is missing
     string(APPEND KEYLINE_DEPENDENCIES "find_library(KEYLINE_NLOPT nlopt_cxx REQUIRED)\n")
   elseif(link STREQUAL "xsimd")

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyline/analysis/rhythm.h"
+#include "keyline/core/error.h"
+#include "keyline/core/progress.h"
+#include "keyline/document/document.h"
+#include "keyline/library/turning_profile.h"
+
+namespace keyline::library {
+
+/// One piece of monotone curvature of a stored curve.
+struct PieceEntry {
+  double share = 0;  ///< of the curve's length
+  analysis::Rhythm rhythm = analysis::Rhythm::straight;
+  std::vector<double> slopes;  ///< of the best reading, along growing radius
+  std::optional<double> lcg_slope;
+  std::optional<double> lcg_variance;
+  double volume = 0;
+  std::optional<double> self_affinity;  ///< deviation; see analysis/self_affinity.h
+};
+
+enum class Kind { curve, space_curve, surface };
+/// "curve" "space-curve" "surface".
+const char* kind_name(Kind kind);
+
+/// A curve or surface as the library keeps it: exact, with what was measured of it.
+struct Entry {
+  Kind kind = Kind::curve;
+  document::Document thing;  ///< one thing with its label and unit; trims and all
+  std::string source;        ///< where it comes from, as it was given
+  double size = 0;           ///< diagonal of the box around it
+  std::optional<double> length;
+  std::optional<double> volume;
+  std::optional<double> curvature_min;
+  std::optional<double> curvature_max;
+  std::vector<PieceEntry> pieces;
+  std::optional<int> cav_type;
+  std::optional<double> cav;               ///< [Oya] Tab. 2 by the letter
+  std::optional<double> nearest_cav;       ///< of the nearest curve of one matrix (types 4, 5)
+  std::optional<double> nearest_distance;  ///< and how far away it is
+  std::optional<double> sav;
+  std::optional<TurningProfile> turning;
+  std::string thumbnail;
+  std::vector<std::string> notes;  ///< what could not be measured, and why
+};
+
+/// The label of an entry's thing.
+const document::Label& label(const Entry& entry);
+
+struct DescribeOptions {
+  int threads = 0;  ///< <= 0: all of the machine's; the entries do not depend on it
+};
+
+/// Everything in a document as entries, measured: rhythm, slopes and volumes of every piece, CAV,
+/// SAV, size, thumbnail. Space curves that lie in a plane count as planar. What cannot be measured
+/// is left empty and noted; polylines have no curvature to measure.
+/// Fails: cancelled.
+core::Result<std::vector<Entry>> describe(const document::Document& document,
+                                          const std::string& source,
+                                          const DescribeOptions& options = {},
+                                          const core::Progress& progress = {});
+
+}  // namespace keyline::library
