@@ -147,12 +147,15 @@ json sketch_json(const sketch::TraceResult& trace, double scale) {
                        {"corners", stroke.corners},
                        {"closed", stroke.closed},
                        {"width", scale * stroke.width}});
+    if (!stroke.members.empty()) strokes.back()["members"] = stroke.members;
     if (stroke.driven)
       strokes.back()["curvature_error"] = {{"before", stroke.driven->before / scale},
                                            {"after", stroke.driven->after / scale}};
   }
   return {{"strokes", std::move(strokes)},
           {"size", {scale * trace.width, scale * trace.height}},
+          {"explained", trace.explained},
+          {"left_over", trace.left_over},
           {"report", trace.notes}};
 }
 

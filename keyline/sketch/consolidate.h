@@ -15,9 +15,11 @@ struct DrawnStroke {
 };
 
 struct ConsolidateOptions {
-  double width = 1;  ///< of the pen, in the strokes' unit
-  double reach = 0;  ///< farthest apart strokes of one line lie; 0: by width and length of strokes
-  double angle = 0.4;  ///< radians: strokes that differ more in direction are different lines
+  double width = 1;       ///< of the pen, in the strokes' unit
+  bool measured = false;  ///< the width was measured: it is taken as it is
+  double apart = 4;       ///< widths: farthest apart two passes of one line lie, and …
+  double hand = 0.08;     ///< … the share of their length that the hand errs on top
+  double angle = 0.4;     ///< radians: strokes that differ more in direction are different lines
 };
 
 /// The line that a group of strokes stands for.
@@ -25,15 +27,15 @@ struct MeantLine {
   std::vector<core::Point2> points;  ///< half a reach apart or closer
   bool closed = false;
   std::vector<std::size_t> members;  ///< indices of the strokes
+  double explained = 0;              ///< of their length, how much runs beside the line
 };
 
-/// Groups strokes that run beside each other or go on from one another, and gives every group the
-/// line along its middle.
+/// Groups strokes that are passes of one line (pass_evidence.h), and gives every group the line
+/// that meant_line finds; strokes it does not explain are grouped anew among themselves, so that
+/// each is a member of one line. Strokes alone stay as they are but for repeated points.
 ///
-/// Two strokes belong together if one runs along the other (within reach, direction within angle)
-/// for most of its length, or if an end of one runs along an end of the other, so that they go on
-/// from each other. The line of a group is that of meant_line; strokes alone stay as they
-/// are but for repeated points.
+/// A pen that is improbably thin or thick for the drawing (a file scaled without its pen) counts as
+/// the nearest probable one.
 /// Order: lines by their first member. Throws InvalidInput for a stroke of fewer than two points.
 std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
                                    const ConsolidateOptions& options = {});

@@ -6,7 +6,8 @@
 
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/align_strokes.h"
-#include "keyline/sketch/polyline_tools.h"
+#include "keyline/sketch/hold_line.h"
+#include "keyline/sketch/strip.h"
 #include "keyline/sketch/whittaker.h"
 
 namespace keyline::sketch {
@@ -17,160 +18,94 @@ using core::Point2;
 using core::Vector2;
 
 constexpr double kMostSamples = 400;    ///< of the longest stroke
-constexpr double kLongShare = 0.75;     ///< of the longest: strokes that may be the spine
-constexpr double kStripShare = 0.08;    ///< of their length: strokes farther apart are no strip
 constexpr double kStrayReach = 1;       ///< reaches: samples farther off are not beside the line
-constexpr std::size_t kCandidates = 9;  ///< spines tried
-constexpr std::size_t kCompared = 24;   ///< strokes each is compared with
-constexpr int kRounds = 3;              ///< of alignment and mean
+constexpr int kRounds = 2;              ///< of alignment and mean
+constexpr double kFarOnes = 0.9;        ///< rank of the distances to the next stroke …
+constexpr double kReachOfSpacing = 2;   ///< … that strokes are looked for at, so many times
+constexpr double kReachOfSpread = 1.5;  ///< and so many times where the strokes reach
+constexpr double kAskew = 4;            ///< spreads that a strip cut askew reaches past its end
+constexpr double kMostOff = 1.5;        ///< widths of the pen: what is farther lies on paper
+constexpr double kOffShare = 0.02;      ///< of a line that may lie on paper, or it is none
+constexpr double kOnStroke = 1;         ///< widths: where lines are held, so that curves stay on
 
 class Line {
  public:
   Line(const std::vector<SampledStroke>& strokes, const std::vector<std::size_t>& members,
-       double step, double reach, double angle)
-      : reach_(reach), angle_(angle) {
+       const LineOptions& options)
+      : width_(options.width), angle_(options.angle) {
     double longest = 0;
     for (const std::size_t m : members) longest = std::max(longest, strokes[m].length);
-    step_ = std::max(step, longest / kMostSamples);
+    step_ = std::max(options.step, longest / kMostSamples);
     for (const std::size_t m : members)
       strokes_.push_back(sample_stroke(strokes[m].points, strokes[m].closed, step_));
-    spread_ = std::max(reach_, 2 * strip_width());
+    near_ = std::clamp(kReachOfSpacing * spacing(options.reach), 2 * width_, options.reach);
   }
 
   void find() {
-    line_ = strokes_[spine()];
+    Strip strip = lay_strip(strokes_, near_, step_);
+    const double spread = spread_of(strip, strokes_, step_);
+    reach_ = std::max(near_, kReachOfSpread * spread);
+    cut_ends(strip, kAskew * spread);
+    set_line(middle_of(strip, strokes_, step_, 2 * reach_), false);
     close();
-    prolong();
     close_gap();
     for (int round = 0; round < kRounds; ++round) average();
+    set_line(hold_to_strokes(line_, strokes_, kOnStroke * width_, reach_, 4 * near_), line_.closed);
+    if (share_off(line_.points, line_.closed, strokes_, kMostOff * width_) > kOffShare)
+      take_longest();
+  }
+
+  /// A stroke is a line that lies on strokes, whatever the others do.
+  void take_longest() {
+    line_ = *std::max_element(strokes_.begin(), strokes_.end(),
+                              [](const auto& a, const auto& b) { return a.length < b.length; });
+    reach_ = near_;
   }
 
   const SampledStroke& line() const { return line_; }
 
-  /// Strokes, by index, of which less than half runs beside the line.
-  std::vector<std::size_t> strays() const {
-    std::vector<std::size_t> out;
-    for (std::size_t k = 0; k < strokes_.size(); ++k) {
-      const Alignment a = align(strokes_[k], line_, spread_);
-      const std::size_t n = a.at.size();
-      std::size_t beside = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        if (a.at[i] < 0) continue;
-        const Point2 p = strokes_[k].points[a.reversed ? n - 1 - i : i];
-        const Point2 q = line_.points[static_cast<std::size_t>(a.at[i])];
-        beside += core::distance(p, q) < kStrayReach * spread_ ? 1 : 0;
-      }
-      if (2 * beside < n) out.push_back(k);
+  /// Length of a stroke, by index, that runs beside the line.
+  double beside(std::size_t k) const {
+    const SampledStroke& s = strokes_[k];
+    const Alignment a = align(s, line_, reach_);
+    const std::size_t n = a.at.size();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (a.at[i] < 0) continue;
+      const Point2 p = s.points[a.reversed ? n - 1 - i : i];
+      const Point2 q = line_.points[static_cast<std::size_t>(a.at[i])];
+      count += core::distance(p, q) < kStrayReach * reach_ ? 1 : 0;
     }
-    return out.size() < strokes_.size() ? out : std::vector<std::size_t>{};
+    return s.length * static_cast<double>(count) / static_cast<double>(n);
   }
+
+  double length_of(std::size_t k) const { return strokes_[k].length; }
 
  private:
-  /// Indices of the strokes, longest first.
-  std::vector<std::size_t> by_length() const {
-    std::vector<std::size_t> order(strokes_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return strokes_[a].length > strokes_[b].length;
-    });
-    return order;
-  }
-
-  /// The long strokes, longest first.
-  std::vector<std::size_t> long_strokes() const {
-    std::vector<std::size_t> order = by_length();
-    std::size_t count = 1;
-    while (count < std::min(kCandidates, order.size()) &&
-           strokes_[order[count]].length > kLongShare * strokes_[order[0]].length)
-      ++count;
-    order.resize(count);
-    return order;
-  }
-
-  /// Usual distance of equal shares of the way of two long strokes: strokes that were all drawn
-  /// from one end of the line to the other make a strip, however close its windings lie.
-  double strip_width() const {
-    constexpr int kShares = 16;
-    const std::vector<std::size_t> order = long_strokes();
-    std::vector<double> apart;
-    for (std::size_t a = 0; a < order.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) {
-        const std::vector<Point2>& p = strokes_[order[a]].points;
-        const std::vector<Point2>& q = strokes_[order[b]].points;
-        double forward = 0;
-        double backward = 0;
-        for (std::size_t k = 0; k <= kShares; ++k) {
-          const Point2 at = p[(p.size() - 1) * k / kShares];
-          forward += core::distance(at, q[(q.size() - 1) * k / kShares]) / (kShares + 1);
-          backward +=
-              core::distance(at, q[(q.size() - 1) * (kShares - k) / kShares]) / (kShares + 1);
-        }
-        const double least = std::min(forward, backward);
-        if (least < kStripShare * strokes_[order[a]].length) apart.push_back(least);
+  /// Usual distance of a place on a stroke from the next stroke that runs along it, at most `most`.
+  double spacing(double most) const {
+    const StrokeGrid grid(strokes_, most);
+    std::vector<double> nearest;
+    for (std::size_t i = 0; i < strokes_.size(); ++i)
+      for (std::size_t k = 0; k < strokes_[i].points.size(); ++k) {
+        const Point2 p = strokes_[i].points[k];
+        const Vector2 t = strokes_[i].tangents[k];
+        double least = most;
+        grid.visit(p, most, [&](std::size_t j, std::size_t m) {
+          if (j != i && std::abs(dot(t, strokes_[j].tangents[m])) > std::cos(angle_))
+            least = std::min(least, core::distance(p, strokes_[j].points[m]));
+        });
+        if (least < most) nearest.push_back(least);
       }
-    if (apart.empty()) return 0;
-    const auto middle = apart.begin() + static_cast<long>(apart.size() / 2);
-    std::nth_element(apart.begin(), middle, apart.end());
-    return *middle;
-  }
-
-  /// Of the long strokes the one that the others lie nearest to.
-  std::size_t spine() const {
-    const std::vector<std::size_t> order = by_length();
-    const std::size_t candidates = long_strokes().size();
-    std::size_t best = order[0];
-    double least = -1;
-    for (std::size_t c = 0; c < candidates && candidates > 1; ++c) {
-      double cost = 0;
-      for (std::size_t k = 0; k < std::min(kCompared, order.size()); ++k)
-        if (k != c) cost += align(strokes_[order[k]], strokes_[order[c]], spread_).cost;
-      if (least >= 0 && cost >= least) continue;
-      least = cost;
-      best = order[c];
-    }
-    return best;
+    if (nearest.empty()) return most;
+    const auto rank =
+        nearest.begin() + static_cast<long>(kFarOnes * static_cast<double>(nearest.size() - 1));
+    std::nth_element(nearest.begin(), rank, nearest.end());
+    return *rank;
   }
 
   void set_line(const std::vector<Point2>& points, bool closed) {
     line_ = sample_stroke(points, closed, step_);
-  }
-
-  /// What of a stroke runs past the line's end (of its start where `before`), in the line's order;
-  /// nothing where it does not go on from there.
-  std::vector<Point2> overhang(const SampledStroke& s, const Alignment& a, bool before) const {
-    std::vector<Point2> over;
-    const std::size_t n = s.points.size();
-    for (std::size_t i = 0; i < n; ++i)
-      if (a.at[i] == (before ? Alignment::kBefore : Alignment::kAfter))
-        over.push_back(s.points[a.reversed ? n - 1 - i : i]);
-    if (over.size() < 3 || over.size() == n) return {};
-    const Point2 end = before ? line_.points.front() : line_.points.back();
-    const Vector2 way = before ? line_.tangents.front() : line_.tangents.back();
-    const std::size_t near = before ? over.size() - 1 : 0;
-    const Vector2 d = before ? over[near] - over[near - 2] : over[2] - over[0];
-    const bool goes_on = core::distance(over[near], end) < 2 * spread_ + step_ &&
-                         dot(d, way) > std::cos(3 * angle_) * core::norm(d);
-    return goes_on ? over : std::vector<Point2>{};
-  }
-
-  /// Adds to either end the longest of what runs past it, again and again.
-  void prolong() {
-    for (std::size_t round = 0; round < 2 * strokes_.size() && !line_.closed; ++round) {
-      std::vector<Point2> best;
-      bool at_start = false;
-      for (const SampledStroke& s : strokes_) {
-        const Alignment a = align(s, line_, spread_);
-        for (const bool before : {false, true}) {
-          std::vector<Point2> over = overhang(s, a, before);
-          if (over.size() > best.size()) best = std::move(over), at_start = before;
-        }
-      }
-      if (best.size() < 3) return;
-      std::vector<Point2> points = line_.points;
-      points.insert(at_start ? points.begin() : points.end(), best.begin(), best.end());
-      set_line(points, false);
-      close();
-    }
   }
 
   /// Closes a line whose last part runs along its first in the same direction; what overlaps goes.
@@ -187,11 +122,11 @@ class Line {
       if (i > 0)
         turned += std::atan2(core::cross(line_.tangents[i - 1], line_.tangents[i]),
                              dot(line_.tangents[i - 1], line_.tangents[i]));
-      if (i < n / 3 || away < std::min(4 * reach_, 0.2 * line_.length)) continue;
+      if (i < n / 3 || away < std::min(4 * near_, 0.2 * line_.length)) continue;
       const double laps = turned / (2 * M_PI);
       if (std::abs(laps - std::round(laps)) > 0.2 || std::abs(laps) > 1.3) continue;
       for (std::size_t j = 0; j < heads; ++j) {
-        if (core::distance(p[i], p[j]) > 1.5 * reach_) continue;
+        if (core::distance(p[i], p[j]) > 1.5 * near_) continue;
         if (dot(line_.tangents[i], line_.tangents[j]) < std::cos(1.5 * angle_)) continue;
         if (i - j < n / 4 || !runs_on(i, j)) continue;
         set_line({p.begin() + static_cast<long>(j), p.begin() + static_cast<long>(i)}, true);
@@ -202,9 +137,9 @@ class Line {
 
   /// Closes a line whose end faces its start.
   void close_gap() {
-    if (line_.closed || line_.points.size() < 12 || line_.length < 8 * reach_) return;
+    if (line_.closed || line_.points.size() < 12 || line_.length < 8 * near_) return;
     const Vector2 gap = line_.points.front() - line_.points.back();
-    if (core::norm(gap) > 2 * reach_) return;
+    if (core::norm(gap) > 2 * near_) return;
     if (dot(line_.tangents.front(), line_.tangents.back()) < std::cos(3 * angle_)) return;
     set_line(line_.points, true);
   }
@@ -213,10 +148,10 @@ class Line {
   bool runs_on(std::size_t i, std::size_t j) const {
     const std::vector<Point2>& p = line_.points;
     for (std::size_t k = i; k < p.size(); ++k) {
-      double least = 4 * reach_;
+      double least = 4 * near_;
       for (std::size_t m = j; m < std::min(i, j + 2 * (k - i) + 8); ++m)
         least = std::min(least, core::distance(p[k], p[m]));
-      if (least > 2 * reach_) return false;
+      if (least > 2 * near_) return false;
     }
     return true;
   }
@@ -243,7 +178,7 @@ class Line {
 
   /// Adds a stroke's offsets across the line, which its samples do not move along it.
   void add(const SampledStroke& s, std::vector<Vector2>& sum, std::vector<double>& weight) const {
-    const Alignment a = align(s, line_, spread_);
+    const Alignment a = align(s, line_, reach_);
     const std::size_t m = line_.points.size();
     std::vector<double> offset(m, 0);
     std::vector<double> count(m, 0);
@@ -308,25 +243,40 @@ class Line {
   std::vector<SampledStroke> strokes_;
   SampledStroke line_;
   double step_ = 1;
-  double reach_;
-  double spread_ = 0;  ///< how far apart strokes lie that were drawn whole, or reach
+  double width_;
+  double near_ = 0;   ///< how far apart neighbours lie, twice over
+  double reach_ = 0;  ///< how far from the line its strokes run
   double angle_;
 };
 
 }  // namespace
 
 MeantLine meant_line(const std::vector<SampledStroke>& strokes,
-                     const std::vector<std::size_t>& members, double step, double reach,
-                     double angle, std::vector<std::size_t>& strays) {
+                     const std::vector<std::size_t>& members, const LineOptions& options,
+                     std::vector<std::size_t>& strays) {
   strays.clear();
   const SampledStroke& only = strokes[members.front()];
-  if (members.size() == 1) return {only.points, only.closed, members};
-  Line line(strokes, members, step, reach, angle);
+  if (members.size() == 1) return {only.points, only.closed, members, only.length};
+  Line line(strokes, members, options);
   line.find();
-  MeantLine meant{line.line().points, line.line().closed, {}};
-  for (const std::size_t k : line.strays()) strays.push_back(members[k]);
-  for (const std::size_t m : members)
-    if (std::find(strays.begin(), strays.end(), m) == strays.end()) meant.members.push_back(m);
+  MeantLine meant{line.line().points, line.line().closed, {}, 0};
+  std::size_t longest = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const double beside = line.beside(k);
+    if (beside > most) longest = k, most = beside;
+    if (2 * beside < line.length_of(k)) {
+      strays.push_back(members[k]);
+    } else {
+      meant.members.push_back(members[k]);
+      meant.explained += beside;
+    }
+  }
+  if (meant.members.empty()) {  // then the line is the stroke that lies best with it
+    const SampledStroke& best = strokes[members[longest]];
+    std::erase(strays, members[longest]);
+    return {best.points, best.closed, {members[longest]}, best.length};
+  }
   return meant;
 }
 

@@ -8,18 +8,26 @@
 
 namespace keyline::sketch {
 
+struct LineOptions {
+  double width = 1;    ///< of the pen
+  double reach = 4;    ///< farthest apart that strokes of the line lie
+  double step = 1;     ///< between samples
+  double angle = 0.4;  ///< radians between strokes side by side
+};
+
 /// The one line that a group of strokes stands for.
 ///
-/// A middle one of the long strokes is taken for a spine, prolonged by what of the others runs past
-/// its ends, and closed where it runs into itself. All strokes are aligned with it in order (see
-/// align) and the line is the mean of what lies beside each of its samples, so that lines that wind
-/// around or cross themselves come out as they were drawn.
+/// The strokes are laid along each other in their order of passage (strip.h), so that lines that
+/// wind around or cross themselves come out as they were drawn; the line runs along their middle,
+/// is closed where it runs into itself, moved to the mean of what lies beside each of its samples,
+/// and held within a width of the pen of a stroke wherever strokes lie farther apart. Where more
+/// than 2 % of it would still lie farther than one and a half widths from all strokes, no such line
+/// is invented: the longest stroke stands for those that run beside it.
 ///
 /// members: indices into strokes; one alone gives that stroke.
 /// strays:  members of which less than half runs beside the line found; they are not its members.
-/// reach:   how far apart strokes of one line lie. step: spacing of samples. angle: radians.
 MeantLine meant_line(const std::vector<SampledStroke>& strokes,
-                     const std::vector<std::size_t>& members, double step, double reach,
-                     double angle, std::vector<std::size_t>& strays);
+                     const std::vector<std::size_t>& members, const LineOptions& options,
+                     std::vector<std::size_t>& strays);
 
 }  // namespace keyline::sketch

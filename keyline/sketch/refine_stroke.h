@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "keyline/core/point.h"
@@ -16,6 +17,7 @@ struct FineStroke {
   bool closed = false;
   bool free_start = true;  ///< ends in paper, not at another line
   bool free_end = true;
+  std::vector<std::size_t> members;  ///< drawn strokes it stands for; empty for a picture's ink
 };
 
 /// Takes strokes from pixels to where the ink's grey values say they are.

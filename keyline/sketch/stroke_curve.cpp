@@ -165,6 +165,7 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
   stroke.closed = fine.closed;
   stroke.width = fine.width;
   stroke.widths = fine.widths;
+  stroke.members = fine.members;
   const auto runs = fit_segments(fine.points, fine.closed,
                                  {options.straightness, options.corner_angle, fine.width});
   std::vector<DrivenRun> driven;

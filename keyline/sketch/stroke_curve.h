@@ -45,8 +45,9 @@ struct Stroke {
   std::vector<fit::CurvatureTarget> target;       ///< over all of `curve`; empty without an aim
   std::optional<DriveReport> driven;              ///< empty without an aim
   bool closed = false;
-  double width = 0;            ///< of the ink, median; 0 for outlines
-  std::vector<double> widths;  ///< of the ink at every point
+  double width = 0;                  ///< of the ink, median; 0 for outlines
+  std::vector<double> widths;        ///< of the ink at every point
+  std::vector<std::size_t> members;  ///< drawn strokes it stands for; empty for a picture's ink
 };
 
 /// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
+#include "keyline/sketch/explained.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/meet_lines.h"
 #include "keyline/sketch/morphology.h"
@@ -22,11 +23,13 @@ using core::Point2;
 
 /// Widths of the pen that traced lines of one line lie apart at most; what is closer has run into
 /// one line of ink already.
-constexpr double kPictureReach = 3.5;
+constexpr double kPictureApart = 3.5;
 
 /// Widths and two pixels, pixels at most: shorter lines that start at another are none.
 constexpr double kStub = 1.2;
 constexpr double kLongestStub = 5;
+
+constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
 
 constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
 constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
@@ -145,25 +148,39 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
   return strokes;
 }
 
-/// Strokes drawn several times become one; the width is that of the members.
-std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double width, double reach) {
+/// Strokes drawn several times become one; the width is that of the members. `explained` gets the
+/// length of strokes beside the line they are members of.
+std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double width,
+                               const ConsolidateOptions& passes, double& explained) {
   std::vector<DrawnStroke> drawn;
   for (const FineStroke& s : strokes) drawn.push_back({s.points, s.closed});
   std::vector<FineStroke> lines;
-  for (const MeantLine& line : consolidate(drawn, {.width = width, .reach = reach})) {
+  explained = 0;
+  for (const MeantLine& line : consolidate(drawn, passes)) {
+    explained += line.explained;
     if (line.members.size() == 1) {
       lines.push_back(strokes[line.members.front()]);
       continue;
     }
     FineStroke fine;
     fine.closed = line.closed;
-    for (const std::size_t m : line.members)
+    for (const std::size_t m : line.members) {
       fine.width += strokes[m].width / static_cast<double>(line.members.size());
+      fine.members.insert(fine.members.end(), strokes[m].members.begin(), strokes[m].members.end());
+    }
     resample(line.points, std::vector<double>(line.points.size(), fine.width), 0.7 * width,
              line.closed, fine.points, fine.widths);
     lines.push_back(std::move(fine));
   }
   return lines;
+}
+
+/// What little is explained is told.
+void tell_explained(const char* of_what, TraceResult& result) {
+  if (result.explained < kEnoughExplained)
+    result.notes.push_back("warning: the lines explain " +
+                           std::to_string(std::lround(100 * result.explained)) + " % of the " +
+                           of_what);
 }
 
 /// Curves of all strokes, longest first.
@@ -197,7 +214,9 @@ void warn_of_photograph(const Tone& tone, const Binary& ink, double width, Trace
 }  // namespace
 
 core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
-  TraceResult result{image.width(), image.height(), {}, {}};
+  TraceResult result;
+  result.width = image.width();
+  result.height = image.height();
   options.progress.report(0, "reading grey values");
   Tone tone = transform_intensity(image, options.tone);
   image = {};
@@ -205,7 +224,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (tone.light_on_dark) result.notes.push_back("light lines on dark ground");
   if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
   options.progress.report(0.2, "telling ink from paper");
-  const Ink found = find_ink(tone, options);
+  Ink found = find_ink(tone, options);
   const Binary& ink = found.picture;
   const double width = found.width;
   if (options.stage) show(options, "edges", laplacian_edges(ink));
@@ -213,7 +232,10 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
-  if (options.consolidate) lines = merged(lines, width, kPictureReach * width);
+  double unused = 0;  // it is ink that counts
+  if (options.consolidate)
+    lines = merged(lines, width,
+                   {.width = width, .measured = true, .apart = kPictureApart, .hand = 0}, unused);
   TraceOptions curves = options;
   if (found.grainy) {
     result.notes.push_back("grainy lines: looked at through a blur");
@@ -222,6 +244,10 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (auto done = add_curves(lines, curves, result); !done) return std::unexpected(done.error());
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
+  if (options.edge == Edge::center) {
+    result.explained = explained_ink(found.picture, result.strokes);
+    tell_explained("ink", result);
+  }
   for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);
   return result;
 }
@@ -232,25 +258,35 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
     return core::fail(core::ErrorCode::bad_input, what, "give strokes of two places and more");
   };
   std::vector<FineStroke> lines;
-  for (const DrawnStroke& s : strokes) {
+  TraceResult result;
+  double drawn = 0;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const DrawnStroke& s = strokes[i];
     if (!std::all_of(s.points.begin(), s.points.end(), [](Point2 p) { return is_finite(p); }))
       return bad("a stroke is not finite");
     const double length = core::polygon_length(s.points, s.closed);
-    if (!(length > 0.5 * width)) continue;
+    drawn += length;
+    if (!(length > 0.5 * width)) {
+      result.left_over.push_back(i);
+      continue;
+    }
     if (length > 1e6 * width) return bad("a stroke is a million times longer than its pen is wide");
     FineStroke fine;
     fine.closed = s.closed;
     fine.width = width;
+    fine.members = {i};
     resample(s.points, std::vector<double>(s.points.size(), width), 0.7 * width, s.closed,
              fine.points, fine.widths);
     lines.push_back(std::move(fine));
   }
   if (lines.empty()) return bad("no stroke has any length");
-  if (options.consolidate) lines = merged(lines, width, 0);
+  double explained = drawn;
+  if (options.consolidate) lines = merged(lines, width, {.width = width}, explained);
+  result.explained = std::min(1.0, explained / drawn);
+  tell_explained("strokes", result);
   TraceOptions scaled = options;
   scaled.curve.straightness *= width;
   scaled.curve.tolerance *= width;
-  TraceResult result;
   if (auto done = add_curves(lines, scaled, result); !done) return std::unexpected(done.error());
   return result;
 }

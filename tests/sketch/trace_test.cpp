@@ -181,5 +181,21 @@ TEST(Trace, SaysThatBlankPicturesHoldNoLine) {
   }
 }
 
+TEST(Trace, DrawnStrokesSayWhoStandsForThem) {
+  std::vector<DrawnStroke> strokes;
+  for (int k = 0; k < 3; ++k) strokes.push_back({{{0, 0.5 * k}, {40, 0.5 * k}, {100, 0.5 * k}}});
+  strokes.push_back({{{50, 60}, {50.2, 60}}});  // a dot
+  strokes.push_back({{{0, 80}, {100, 80}}});
+  TraceOptions options;
+  options.consolidate = true;
+  const auto result = trace_strokes(strokes, 1, options);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->strokes.size(), 2U);
+  EXPECT_EQ(result->strokes[0].members, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(result->strokes[1].members, (std::vector<std::size_t>{4}));
+  EXPECT_EQ(result->left_over, (std::vector<std::size_t>{3}));
+  EXPECT_GT(result->explained, 0.99);
+}
+
 }  // namespace
 }  // namespace keyline::sketch

@@ -1,0 +1,169 @@
+#include "keyline/sketch/hold_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "keyline/sketch/align_strokes.h"
+#include "keyline/sketch/whittaker.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::distance;
+using core::dot;
+using core::Point2;
+using core::Vector2;
+
+constexpr double kChange = 20;   ///< price of changing strokes, of the square of the way between
+constexpr double kWithin = 0.8;  ///< of `most`, aimed at, so that smoothing may use the rest
+constexpr int kRounds = 12;
+constexpr double kFirmer = 3;  ///< weight per round of places that are still too far off
+
+using Offsets = std::vector<std::optional<double>>;  ///< of a stroke across the line, by sample
+
+/// Offsets of a stroke beside a line; samples stepped over lie between their neighbours'.
+Offsets offsets_of(const SampledStroke& s, const SampledStroke& line, double reach) {
+  const Alignment a = align(s, line, reach);
+  const std::size_t m = line.points.size();
+  Offsets offsets(m);
+  int last = -1;
+  double before = 0;
+  for (std::size_t i = 0; i < a.at.size(); ++i) {
+    if (a.at[i] < 0) {
+      last = -1;
+      continue;
+    }
+    const auto j = static_cast<std::size_t>(a.at[i]);
+    const Point2 p = s.points[a.reversed ? a.at.size() - 1 - i : i];
+    const double off = dot(p - line.points[j], core::perpendicular_left(line.tangents[j]));
+    if (distance(p, line.points[j]) < 2 * reach &&
+        (!offsets[j] || std::abs(off) < std::abs(*offsets[j])))
+      offsets[j] = off;
+    if (last >= 0)
+      for (std::size_t k = (static_cast<std::size_t>(last) + 1) % m; k != j; k = (k + 1) % m) {
+        if ((j + m - k) % m > 3) break;
+        offsets[k] = 0.5 * (before + off);
+      }
+    last = a.at[i];
+    before = off;
+  }
+  return offsets;
+}
+
+/// By sample the offset of the stroke the line goes with: least squares of the offsets and, at a
+/// price, of the ways from one stroke to another.
+Offsets choose(const std::vector<Offsets>& all, std::size_t m) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const std::size_t n = all.size();
+  std::vector<std::vector<double>> cost(m, std::vector<double>(n, kNone));
+  std::vector<std::vector<std::size_t>> from(m, std::vector<std::size_t>(n, n));
+  double free_cost = 0;  // of a way that has no stroke beside it just before
+  std::size_t free_from = n;
+  std::vector<std::size_t> through(m, n);  // by sample without strokes: the stroke before
+  for (std::size_t k = 0; k < m; ++k) {
+    double least = kNone;
+    std::size_t best = n;
+    for (std::size_t b = 0; b < n; ++b) {
+      if (!all[b][k]) continue;
+      double c = free_cost;
+      std::size_t f = n;
+      if (k > 0)
+        for (std::size_t a = 0; a < n; ++a) {
+          if (!(cost[k - 1][a] < kNone)) continue;
+          const double way = a == b ? 0 : *all[a][k - 1] - *all[b][k];
+          if (const double sum = cost[k - 1][a] + kChange * way * way; f == n || sum < c)
+            c = sum, f = a;
+        }
+      cost[k][b] = c + *all[b][k] * *all[b][k];
+      from[k][b] = f;
+      if (cost[k][b] < least) least = cost[k][b], best = b;
+    }
+    if (best < n) {
+      free_cost = least;
+      free_from = best;
+    }
+    through[k] = free_from;
+  }
+  Offsets chosen(m);
+  std::size_t at = n;
+  for (std::size_t k = m; k-- > 0;) {
+    if (at == n) at = through[k];
+    if (at == n) break;
+    if (!all[at][k]) continue;  // no stroke here: wait for the one before
+    chosen[k] = all[at][k];
+    at = from[k][at];
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<Point2> hold_to_strokes(const SampledStroke& line,
+                                    const std::vector<SampledStroke>& strokes, double most,
+                                    double reach, double calm) {
+  const std::size_t m = line.points.size();
+  std::vector<Offsets> all;
+  for (const SampledStroke& s : strokes) all.push_back(offsets_of(s, line, reach));
+  const Offsets chosen = choose(all, m);
+  const auto too_far = [&](std::size_t k, double shift) {
+    return chosen[k] && std::abs(shift - *chosen[k]) > most;
+  };
+  std::vector<Point2> shift(m);
+  std::vector<Point2> aim(m);
+  std::vector<double> weight(m, 1e-2);
+  bool any = false;
+  for (int round = 0; round < kRounds; ++round) {
+    bool done = true;
+    for (std::size_t k = 0; k < m; ++k) {
+      if (!too_far(k, shift[k].x)) continue;
+      done = false;
+      const double goal = *chosen[k];
+      aim[k].x = std::clamp(shift[k].x, goal - kWithin * most, goal + kWithin * most);
+      weight[k] = weight[k] < 1 ? 1 : kFirmer * weight[k];
+    }
+    if (done) break;
+    any = true;
+    const double spacing = line.length / static_cast<double>(m);
+    shift = smooth_points(aim, weight, lambda_of_wavelength(std::max(8.0, calm / spacing)),
+                          line.closed);
+  }
+  std::vector<Point2> moved = line.points;
+  if (any)
+    for (std::size_t k = 0; k < m; ++k)
+      moved[k] = moved[k] + shift[k].x * core::perpendicular_left(line.tangents[k]);
+  return moved;
+}
+
+double share_off(const std::vector<Point2>& points, bool closed,
+                 const std::vector<SampledStroke>& strokes, double most) {
+  double coarse = most;
+  for (const SampledStroke& s : strokes)
+    coarse = std::max(coarse, s.length / static_cast<double>(s.points.size()) + most);
+  const StrokeGrid grid(strokes, coarse);
+  double off = 0;
+  double all = 0;
+  const std::size_t n = points.size();
+  for (std::size_t k = 0; k + (closed ? 0 : 1) < n; ++k) {
+    const Point2 p = core::mix(points[k], points[(k + 1) % n], 0.5);
+    const double length = distance(points[k], points[(k + 1) % n]);
+    double least = std::numeric_limits<double>::infinity();
+    grid.visit(p, coarse, [&](std::size_t s, std::size_t i) {
+      const std::vector<Point2>& q = strokes[s].points;
+      for (const std::size_t other : {i > 0 ? i - 1 : i, i + 1 < q.size() ? i + 1 : 0}) {
+        const Vector2 edge = q[other] - q[i];
+        const double along =
+            other == i || dot(edge, edge) == 0 ? 0 : dot(p - q[i], edge) / dot(edge, edge);
+        if (other == 0 && i + 1 == q.size() && !strokes[s].closed) continue;
+        least = std::min(least, distance(p, q[i] + std::clamp(along, 0.0, 1.0) * edge));
+      }
+      least = std::min(least, distance(p, q[i]));
+    });
+    all += length;
+    if (least > most) off += length;
+  }
+  return all > 0 ? off / all : 0;
+}
+
+}  // namespace keyline::sketch

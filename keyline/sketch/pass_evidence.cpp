@@ -1,0 +1,184 @@
+#include "keyline/sketch/pass_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <tuple>
+
+namespace keyline::sketch {
+namespace {
+
+using core::cross;
+using core::distance;
+using core::dot;
+using core::Point2;
+using core::Vector2;
+
+constexpr double kAgainst = 0.8;   ///< most that a place speaks against: hands slip
+constexpr double kSeen = 2.5;      ///< distances allowed: what is farther away is not compared
+constexpr double kShadowed = 0.5;  ///< of what speaks against is left across a stroke in between
+constexpr double kGoesOn = 0.7;    ///< of what speaks for it, where one ends and the other goes on
+constexpr double kGap = 3;         ///< widths: a line across a longer gap would be off its strokes
+
+/// The place of another stroke that is nearest to a sample.
+struct Beside {
+  std::size_t stroke = 0;
+  std::size_t sample = 0;
+  double distance = 0;
+  double across = 0;  ///< signed, along the normal of the sample
+  double angle = 0;   ///< between the directions, at most a right one
+};
+
+class Witness {
+ public:
+  Witness(const std::vector<SampledStroke>& strokes, const PassModel& model)
+      : strokes_(strokes),
+        model_(model),
+        seen_(kSeen * pass_distance(model, longest(strokes))),
+        grid_(strokes, seen_),
+        place_(strokes.size(), 0) {}
+
+  PassEvidence evidence() {
+    PassEvidence all(strokes_.size());
+    for (std::size_t a = 0; a < strokes_.size(); ++a) {
+      const SampledStroke& s = strokes_[a];
+      const double step = s.length / static_cast<double>(s.points.size());
+      for (std::size_t k = 0; k < s.points.size(); ++k) {
+        look(a, k);
+        for (std::size_t i = 0; i < beside_.size(); ++i) {
+          const std::size_t b = beside_[i].stroke;
+          const double says = 0.5 * step * speaks(a, k, i);
+          if (says == 0) continue;
+          all[a][b] += says;
+          all[b][a] += says;
+        }
+      }
+    }
+    return all;
+  }
+
+ private:
+  static double longest(const std::vector<SampledStroke>& strokes) {
+    double length = 0;
+    for (const SampledStroke& s : strokes) length = std::max(length, s.length);
+    return length;
+  }
+
+  /// Nearest places of all other strokes in sight of a sample, nearest first.
+  void look(std::size_t a, std::size_t k) {
+    for (const Beside& b : beside_) place_[b.stroke] = 0;
+    beside_.clear();
+    const Point2 p = strokes_[a].points[k];
+    const Vector2 t = strokes_[a].tangents[k];
+    grid_.visit(p, seen_, [&](std::size_t b, std::size_t m) {
+      if (b == a) return;
+      const double d = distance(strokes_[b].points[m], p);
+      if (place_[b] == 0) {
+        beside_.push_back({b, m, d});
+        place_[b] = beside_.size();
+      } else if (Beside& known = beside_[place_[b] - 1]; d < known.distance) {
+        known.sample = m;
+        known.distance = d;
+      }
+    });
+    for (Beside& b : beside_) {
+      const SampledStroke& s = strokes_[b.stroke];
+      b.across = cross(t, s.points[b.sample] - p);
+      b.angle = std::acos(std::min(1.0, std::abs(dot(t, s.tangents[b.sample]))));
+    }
+    std::sort(beside_.begin(), beside_.end(), [](const Beside& x, const Beside& y) {
+      return std::tie(x.distance, x.stroke) < std::tie(y.distance, y.stroke);
+    });
+  }
+
+  /// What sample k of stroke a says of the i-th stroke beside it, per length.
+  double speaks(std::size_t a, std::size_t k, std::size_t i) const {
+    const Beside& b = beside_[i];
+    const SampledStroke& other = strokes_[b.stroke];
+    const double apart = pass_distance(model_, std::min(strokes_[a].length, other.length));
+    if (b.distance > kSeen * apart) return 0;
+    const double turn = b.angle / model_.angle;
+    const Vector2 tangent = other.tangents[b.sample];
+    const Vector2 from = strokes_[a].points[k] - other.points[b.sample];
+    if (!other.closed && (b.sample == 0 || b.sample + 1 == other.points.size())) {
+      const double beyond = dot(from, b.sample == 0 ? -tangent : tangent);
+      const double step = other.length / static_cast<double>(other.points.size());
+      if (beyond > 0.5 * step) {
+        const double gap = kGap * model_.width;
+        const double aside = cross(tangent, from) / apart;
+        return std::max(0.0, kGoesOn * (1 - aside * aside - turn * turn - beyond / gap)) / apart;
+      }
+    }
+    const double far = b.distance / apart;
+    double says = std::max(1 - far * far - turn * turn, -kAgainst);
+    if (says < 0) says *= std::cos(b.angle) * (is_shadowed(i) ? kShadowed : 1);
+    return says / apart;
+  }
+
+  /// True where a nearer stroke runs between a sample and the i-th stroke beside it.
+  bool is_shadowed(std::size_t i) const {
+    return std::any_of(
+        beside_.begin(), beside_.begin() + static_cast<long>(i), [&](const Beside& nearer) {
+          return nearer.across * beside_[i].across > 0 && nearer.angle < model_.angle;
+        });
+  }
+
+  const std::vector<SampledStroke>& strokes_;
+  const PassModel& model_;
+  double seen_;
+  StrokeGrid grid_;
+  std::vector<Beside> beside_;
+  std::vector<std::size_t> place_;  ///< of a stroke in beside_, from 1; 0: none
+};
+
+}  // namespace
+
+double pass_distance(const PassModel& model, double length) {
+  return std::hypot(model.apart * model.width, model.hand * length);
+}
+
+PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model) {
+  return Witness(strokes, model).evidence();
+}
+
+std::vector<std::vector<std::size_t>> group_by_evidence(const PassEvidence& evidence) {
+  PassEvidence between = evidence;
+  std::vector<std::size_t> group(evidence.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  using Pair = std::tuple<double, std::size_t, std::size_t>;
+  const auto later = [](const Pair& p, const Pair& q) {
+    if (std::get<0>(p) != std::get<0>(q)) return std::get<0>(p) < std::get<0>(q);
+    return std::tie(std::get<1>(p), std::get<2>(p)) > std::tie(std::get<1>(q), std::get<2>(q));
+  };
+  std::priority_queue<Pair, std::vector<Pair>, decltype(later)> open(later);
+  const auto offer = [&](std::size_t a, std::size_t b, double says) {
+    if (says > 0) open.emplace(says, std::min(a, b), std::max(a, b));
+  };
+  for (std::size_t a = 0; a < between.size(); ++a)
+    for (const auto& [b, says] : between[a])
+      if (a < b) offer(a, b, says);
+  while (!open.empty()) {
+    const auto [says, a, b] = open.top();
+    open.pop();
+    const auto found = between[a].find(b);
+    if (found == between[a].end() || found->second != says) continue;  // no longer so
+    for (const auto& [c, more] : between[b]) {
+      between[c].erase(b);
+      if (c == a) continue;
+      const double sum = between[a][c] += more;
+      between[c][a] = sum;
+      offer(a, c, sum);
+    }
+    between[b].clear();
+    for (std::size_t& g : group)
+      if (g == b) g = a;
+  }
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < group.size(); ++i) members[group[i]].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& [name, list] : members) groups.push_back(std::move(list));
+  return groups;
+}
+
+}  // namespace keyline::sketch
