@@ -214,4 +214,16 @@ Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
   return result;
 }
 
+Result<void> move_edit(const BezierSurface& s, const BezierSurface& moved,
+                       const EditOptions& options, EditResult& result) {
+  const detail::EditTask task{s.net, options, conditions_by_curve(options.conditions, s.net)};
+  auto after = value_of(moved, task);
+  if (!after) return std::unexpected(after.error());
+  result.after = std::move(*after);
+  result.surface = moved;
+  result.departure = departure(s, moved);
+  result.unmet = unmet_by(moved.net, task, result.target);
+  return {};
+}
+
 }  // namespace keyline::surface

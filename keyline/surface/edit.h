@@ -79,4 +79,9 @@ struct EditResult {
 /// cancelled.
 core::Result<EditResult> edit(const BezierSurface& s, const EditOptions& options = {});
 
+/// The result of an edit of `s` that was moved on to another net of the same degrees: value,
+/// departure and unmet conditions are those of `moved`. Errors: as sav.
+core::Result<void> move_edit(const BezierSurface& s, const BezierSurface& moved,
+                             const EditOptions& options, EditResult& result);
+
 }  // namespace keyline::surface

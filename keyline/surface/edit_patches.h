@@ -15,26 +15,41 @@ struct PatchEdit {
   core::Failure why = {};
 };
 
-/// Several patches edited one by one, and what that does to their joints.
+/// What of the joints stays: nothing but what Keep says; the tangent planes of joints that have one
+/// in common; their curvature too.
+enum class HoldJoints { free, G1, G2 };
+
+/// Several patches edited as one problem, and what that does to their joints.
 struct PatchesEdit {
   std::vector<PatchEdit> patches;       ///< in the order given
   std::vector<BezierSurface> surfaces;  ///< of all patches, edited or as given
   std::vector<PatchJoint> joints;       ///< of the patches as given
   JointSummary before;
   JointSummary after;
+  std::size_t lost = 0;  ///< joints whose order is lower now, of what was to be held
   double departure = 0;  ///< largest of all
+  double sav_apart = 0;  ///< sum over the patches each edited for itself: what holding joints costs
+  double sav_before = 0;  ///< sum over the patches as given
+  double sav_after = 0;   ///< … as edited
 };
 
 /// edit() for every patch, shared among threads (<= 0: all of the machine's; the result does not
-/// depend on how many). Patches do not know of one another: with Keep::boundary joints stay
-/// where they are to the last digit, with Keep::joints they move and stay closed (unless conditions
-/// of single curves say otherwise), with less kept they may open; tangent planes across them change
-/// in all cases. `before` and `after` say by how much. Joints are edges that lie within ten times
-/// tolerance.gap of one another. Errors: the first patch's where no patch could be edited;
-/// unsupported for a rational patch; cancelled.
+/// depend on how many), then the nearest nets to all of these that hold the joints (hold_joints),
+/// and again from there, as long as the sum of SAV falls; of the way there as much as leaves the
+/// least SAV within the limit. Where a joint could not be held otherwise it stays where it is; one
+/// that is lower all the same counts as lost. Patches of which the SAV cannot be lowered that way
+/// may rise for the others' sake.
+/// HoldJoints::free: patches do not know of one another: with Keep::boundary joints stay where they
+/// are to the last digit, with Keep::joints they move and stay closed (unless conditions of single
+/// curves say otherwise), with less kept they may open; tangent planes across them change.
+/// Keep::start keeps the corner b00 of every patch, its tangents as far as the joints let it.
+/// `before` and `after` say by how much. Joints are edges that lie within ten times tolerance.gap
+/// of one another. Errors: the first patch's where no patch could be edited; unsupported for a
+/// rational patch; cancelled.
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options = {}, int threads = 1,
-                                       const EdgeTolerance& tolerance = {});
+                                       const EdgeTolerance& tolerance = {},
+                                       HoldJoints hold = HoldJoints::G1);
 
 /// A surface with its Bézier patches edited.
 struct SurfaceEdit {
@@ -47,7 +62,17 @@ struct SurfaceEdit {
 /// edit_patches() of the surface's patches; several come back as one B-spline surface with inner
 /// knots of full multiplicity where their edges still coincide (to 1e-9 of its size).
 core::Result<SurfaceEdit> edit_surface(const Surface& s, const EditOptions& options = {},
-                                       int threads = 1, const EdgeTolerance& tolerance = {});
+                                       int threads = 1, const EdgeTolerance& tolerance = {},
+                                       HoldJoints hold = HoldJoints::G1);
+
+/// edit_patches() of all patches of several surfaces, joints between them included.
+/// The PatchesEdit of each has its own patches alone; `together` (where given) gets that of all.
+core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> surfaces,
+                                                     const EditOptions& options = {},
+                                                     int threads = 1,
+                                                     const EdgeTolerance& tolerance = {},
+                                                     HoldJoints hold = HoldJoints::G1,
+                                                     PatchesEdit* together = nullptr);
 
 /// SAV of every patch before the edit, and after.
 std::vector<PatchValue> values_before(const SurfaceEdit& edit);

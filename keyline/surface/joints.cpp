@@ -7,6 +7,7 @@ namespace {
 
 using core::Point3;
 
+constexpr int kPlaces = 33;
 constexpr std::array<Edge, 4> kEdges{Edge::u0, Edge::u1, Edge::v0, Edge::v1};
 
 struct EdgeEnds {
@@ -55,15 +56,25 @@ std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches, double
   return joints;
 }
 
+std::vector<int> joint_orders(std::span<const PatchJoint> joints,
+                              std::span<const BezierSurface> patches,
+                              const EdgeTolerance& tolerance) {
+  std::vector<int> orders;
+  for (const PatchJoint& joint : joints)
+    orders.push_back(along(joint, patches, tolerance, kPlaces).order);
+  return orders;
+}
+
 JointSummary measure_joints(std::span<const PatchJoint> joints,
                             std::span<const BezierSurface> patches,
                             const EdgeTolerance& tolerance) {
   JointSummary summary;
   summary.joints = joints.size();
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const EdgeContinuity c = along(joints[i], patches, tolerance, 33);
+    const EdgeContinuity c = along(joints[i], patches, tolerance, kPlaces);
     summary.order_at_least[0] += c.order >= 0;
     summary.order_at_least[1] += c.order >= 1;
+    summary.order_at_least[2] += c.order >= 2;
     if (c.gap > summary.gap) summary.widest = i;
     if (c.angle > summary.angle) summary.sharpest = i;
     summary.gap = std::max(summary.gap, c.gap);

@@ -24,14 +24,19 @@ std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches, double
 /// How the patches fit along their joints.
 struct JointSummary {
   std::size_t joints = 0;
-  std::array<std::size_t, 2> order_at_least{};  ///< joints that are at least G0, at least G1
+  std::array<std::size_t, 3> order_at_least{};  ///< joints that are at least G0, G1, G2
   double gap = 0;                               ///< largest of all
   double angle = 0;                             ///< largest fold, radians
   std::size_t widest = 0;                       ///< joint of the largest gap, the first of equals
   std::size_t sharpest = 0;                     ///< joint of the largest fold
 };
 
-/// Measured at 33 places of every joint (edge_continuity).
+/// Order of every joint, -1 to 3, measured at 33 places of it (edge_continuity).
+std::vector<int> joint_orders(std::span<const PatchJoint> joints,
+                              std::span<const BezierSurface> patches,
+                              const EdgeTolerance& tolerance = {});
+
+/// The same places of every joint.
 JointSummary measure_joints(std::span<const PatchJoint> joints,
                             std::span<const BezierSurface> patches,
                             const EdgeTolerance& tolerance = {});

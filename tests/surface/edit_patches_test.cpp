@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/surface/hold_joints.h"
+
 #include "test_surfaces.h"
 
 namespace keyline::surface {
@@ -64,7 +66,7 @@ TEST(EditPatches, BoundaryKeptStaysOneSurface) {
   const BSplineSurface s = four_patches();
   EditOptions options;
   options.keep = Keep::boundary;
-  const auto edit = edit_surface(s, options);
+  const auto edit = edit_surface(s, options, 1, {}, HoldJoints::free);
   ASSERT_TRUE(edit) << edit.error().message;
   EXPECT_EQ(edit->edited.before.order_at_least[1], 4U);
   EXPECT_EQ(edit->edited.after.order_at_least[0], 4U);
@@ -83,12 +85,103 @@ TEST(EditPatches, JointsKeptMoveAndStayClosed) {
   const BSplineSurface s = four_patches();
   EditOptions options;
   options.keep = Keep::joints;
-  const auto edit = edit_surface(s, options);
+  const auto edit = edit_surface(s, options, 1, {}, HoldJoints::free);
   ASSERT_TRUE(edit) << edit.error().message;
   EXPECT_EQ(edit->edited.after.order_at_least[0], 4U);
   EXPECT_LT(edit->edited.after.gap, 1e-9);
   EXPECT_TRUE(edit->whole);
   for (const PatchValue& p : values_after(*edit)) EXPECT_LT(p.value.sav, 150);
+}
+
+double largest_jump_of_normals(const BezierSurface& a, const BezierSurface& b) {
+  double largest = 0;
+  for (int i = 0; i <= 20; ++i) {  // a's edge v = 1 is b's edge v = 0
+    const auto normal = [&](const BezierSurface& s, double v) {
+      const double h = 1e-6;
+      const double u = std::min(i / 20.0, 1 - h);
+      const double w = v > 0.5 ? v - h : v;
+      const core::Vector3 n = cross(evaluate(s, u + h, v) - evaluate(s, u, v),
+                                    evaluate(s, u, w + h) - evaluate(s, u, w));
+      return n / norm(n);
+    };
+    largest = std::max(largest, norm(normal(a, 1) - normal(b, 0)));
+  }
+  return largest;
+}
+
+// Tangent planes stay common and SAV falls; differences of the surfaces themselves say so too.
+TEST(EditPatches, JointsHeldStayTangent) {
+  const BSplineSurface s = four_patches();
+  for (const Keep keep : {Keep::joints, Keep::boundary}) {
+    EditOptions options;
+    options.keep = keep;
+    const auto edit = edit_surface(s, options, 2);
+    ASSERT_TRUE(edit) << edit.error().message;
+    const PatchesEdit& all = edit->edited;
+    EXPECT_EQ(all.before.order_at_least[1], 4U);
+    EXPECT_EQ(all.after.order_at_least[1], 4U);
+    EXPECT_EQ(all.lost, 0U);
+    EXPECT_LT(largest_jump_of_normals(all.surfaces[0], all.surfaces[1]), 1e-4);
+    EXPECT_LT(all.sav_after, 0.97 * all.sav_before);
+    EXPECT_LT(all.sav_apart, all.sav_after);
+    EXPECT_GT(all.departure, 0);
+    EXPECT_TRUE(edit->whole);
+  }
+}
+
+TEST(EditPatches, CurvatureIsHeldOnRequest) {
+  const BSplineSurface s = four_patches();
+  EditOptions options;
+  options.keep = Keep::joints;
+  const auto edit = edit_surface(s, options, 2, {}, HoldJoints::G2);
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->edited.before.order_at_least[2], 4U);
+  EXPECT_EQ(edit->edited.after.order_at_least[2], 4U);
+  EXPECT_LT(edit->edited.sav_after, edit->edited.sav_before);
+}
+
+TEST(EditPatches, LimitHoldsForPatchesTogether) {
+  EditOptions options;
+  options.keep = Keep::joints;
+  options.limit = 0.5;
+  const auto edit = edit_surface(four_patches(), options, 2);
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_LE(edit->edited.departure, 0.5);
+  EXPECT_EQ(edit->edited.after.order_at_least[1], 4U);
+}
+
+// Two surfaces of a file are one problem; the second edge runs the other way.
+TEST(EditPatches, SurfacesOfAFileAreHeldTogether) {
+  const auto patches = to_beziers(four_patches()).patches;
+  BezierSurface turned = patches[1];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) turned.net.at(i, j) = patches[1].net.at(3 - i, j);
+  const std::vector<Surface> surfaces{patches[0], turned};
+  EditOptions options;
+  options.keep = Keep::joints;
+  PatchesEdit together;
+  const auto edits = edit_surfaces(surfaces, options, 1, {}, HoldJoints::G1, &together);
+  ASSERT_TRUE(edits) << edits.error().message;
+  ASSERT_EQ(edits->size(), 2U);
+  EXPECT_EQ(together.before.order_at_least[1], 1U);
+  EXPECT_EQ(together.after.order_at_least[1], 1U);
+  EXPECT_LT(together.sav_after, together.sav_before);
+  EXPECT_EQ((*edits)[1].edited.joints.size(), 0U);
+}
+
+TEST(HoldJoints, MovesOnePatchWithItsNeighbour) {
+  const auto patches = to_beziers(four_patches()).patches;
+  const std::vector<BezierSurface> two{patches[0], patches[1]};
+  std::vector<BezierSurface> wanted = two;
+  for (int i = 0; i < 4; ++i) wanted[0].net.at(i, 3).z += 1;  // the common edge of one alone
+  const auto joints = joints_of(two, 1e-6);
+  ASSERT_EQ(joints.size(), 1U);
+  const auto held = hold_joints(two, wanted, std::vector{HeldJoint{joints[0], 1, false}});
+  EXPECT_GT(held[1].net.at(1, 0).z - two[1].net.at(1, 0).z, 0.1);
+  EXPECT_EQ(measure_joints(joints, held).order_at_least[1], 1U);
+  const auto loose = hold_joints(two, wanted, std::vector{HeldJoint{joints[0], 0, false}});
+  EXPECT_EQ(measure_joints(joints, loose).order_at_least[0], 1U);
+  EXPECT_EQ(measure_joints(joints, loose).order_at_least[1], 0U);
 }
 
 TEST(EditPatches, CurvesInsideKeptJointsHaveOneMatrix) {
@@ -105,7 +198,7 @@ TEST(EditPatches, LessKeptTellsTheGaps) {
   const BSplineSurface s = four_patches();
   EditOptions options;
   options.keep = Keep::start;
-  const auto edit = edit_surface(s, options, 2);
+  const auto edit = edit_surface(s, options, 2, {}, HoldJoints::free);
   ASSERT_TRUE(edit) << edit.error().message;
   EXPECT_EQ(edit->edited.joints.size(), 4U);
   EXPECT_LT(edit->edited.after.order_at_least[0], 4U);
