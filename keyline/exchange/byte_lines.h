@@ -1,9 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -45,16 +42,6 @@ inline std::string_view take_word(std::string_view& line) {
   const std::string_view word = line.substr(from, end - from);
   line.remove_prefix(end);
   return word;
-}
-
-/// The finite number a word starts with; empty where it starts with none. What follows is let pass,
-/// as everywhere with these formats.
-inline std::optional<double> leading_number(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace keyline::exchange::detail

@@ -74,6 +74,9 @@ Result<DxfCurve> light_polyline_of(const Tags& tags) {
     if (tag.code == 20) vertices.back().point.y = *value;
     if (tag.code == 42) vertices.back().bulge = *value;
   }
+  if (const int wanted = integer(tags, 90); wanted > static_cast<int>(vertices.size()))
+    return none("only " + std::to_string(vertices.size()) + " of its " + std::to_string(wanted) +
+                " vertices are there");
   return bent(vertices, (integer(tags, 70) & 1) != 0, frame_of(tags));
 }
 
@@ -159,7 +162,29 @@ const DxfTag* find(const Tags& tags, int code) {
   return found == tags.end() ? nullptr : &*found;
 }
 
+/// True for the codes the readers of this file take numbers from: coordinates, sizes, angles,
+/// counts and flags, the direction of extrusion.
+bool is_geometry(int code) {
+  const auto within = [code](int low, int high) { return code >= low && code <= high; };
+  return within(10, 38) || within(40, 47) || within(50, 59) || within(70, 79) || within(90, 99) ||
+         within(210, 239);
+}
+
+const DxfTag* unreadable(const Tags& tags) {
+  const auto found = std::find_if(tags.begin(), tags.end(), [](const DxfTag& tag) {
+    return is_geometry(tag.code) && !number_of(tag);
+  });
+  return found == tags.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+const DxfTag* unreadable(const DxfEntity& entity) {
+  if (const DxfTag* tag = unreadable(entity.tags)) return tag;
+  for (const Tags& vertex : entity.vertices)
+    if (const DxfTag* tag = unreadable(vertex)) return tag;
+  return nullptr;
+}
 
 double real(const Tags& tags, int code, double fallback) {
   const DxfTag* tag = find(tags, code);

@@ -18,6 +18,10 @@ struct DxfEntity {
   std::vector<std::vector<DxfTag>> vertices;
 };
 
+/// The first group that has to hold a finite number for the geometry and does not; null where all
+/// do.
+const DxfTag* unreadable(const DxfEntity& entity);
+
 /// First value of a code; the fallback where it is absent or no number.
 double real(const std::vector<DxfTag>& tags, int code, double fallback = 0);
 int integer(const std::vector<DxfTag>& tags, int code, int fallback = 0);

@@ -72,7 +72,10 @@ class DxfReader {
     while (true) {
       const auto tag = tags_.next();
       if (!tag) return broken(tag.error());
-      if (!*tag) break;
+      if (!*tag) {
+        cut_off();
+        break;
+      }
       if ((*tag)->code == 0) {
         finish_entity();
         if ((*tag)->text == "EOF") break;
@@ -91,9 +94,25 @@ class DxfReader {
  private:
   Result<Document> broken(const core::Failure& failure) {
     if (size(document_) == 0) return std::unexpected(failure);
-    finish_entity();
+    drop_entity();
     problems_.push_back("the rest of the file from " + failure.path + ": " + failure.message);
     return finish();
+  }
+
+  /// The file stopped before its EOF: what is open may be half of what was written.
+  void cut_off() {
+    if (!seen_section_) return;
+    const bool whole = section_.empty() && !entity_ && !polyline_;
+    drop_entity();
+    problems_.push_back(whole ? "nothing, but the file has no EOF at its end"
+                              : "the rest of the file: it is cut off before its EOF");
+  }
+
+  void drop_entity() {
+    for (const auto* open : {&polyline_, &entity_})
+      if (*open) problems_.push_back(describe(**open) + ": the file ends within it");
+    polyline_.reset();
+    entity_.reset();
   }
 
   Result<Document> finish() {
@@ -147,7 +166,9 @@ class DxfReader {
   void take_header(const DxfTag& tag) {
     if (tag.code == 9) variable_ = std::string(tag.text);
     if (variable_ != "$INSUNITS" || tag.code != 70) return;
-    const int unit = detail::integer_of(tag).value_or(0);
+    const auto given = detail::integer_of(tag);
+    if (!given) problem("the unit of the drawing: it is no number (" + tags_.place(tag) + ")");
+    const int unit = given.value_or(0);
     document_.unit = unit_name(unit);
     if (unit != 0 && document_.unit.empty())
       problem("the unit of the drawing ($INSUNITS " + std::to_string(unit) + ")");
@@ -175,6 +196,10 @@ class DxfReader {
   void finish(const DxfEntity& entity) {
     if (section_ == "TABLES") return add_layer(entity);
     if (section_ == "BLOCKS" && entity.type == "BLOCK") {
+      if (!is_readable(entity)) {
+        block_ = nullptr;
+        return;
+      }
       block_ = &blocks_[detail::text(entity.tags, 2)];
       *block_ = Block{detail::point(entity.tags, 10), {}};
       return;
@@ -188,8 +213,8 @@ class DxfReader {
 
   void add_layer(const DxfEntity& entity) {
     if (entity.type != "LAYER") return;
-    const int exact = detail::integer(entity.tags, 420, -1);
-    const int index = std::abs(detail::integer(entity.tags, 62, 7));
+    const int exact = color_number(entity, 420, -1);
+    const int index = std::abs(color_number(entity, 62, 7));
     layer_colors_[detail::text(entity.tags, 2)] =
         exact >= 0 ? detail::true_color(exact) : detail::aci_color(index);
   }
@@ -205,6 +230,7 @@ class DxfReader {
       ++paper_;
       return;
     }
+    if (!is_readable(entity)) return;
     Item item = labelled(entity);
     if (insert) {
       item.block = detail::text(entity.tags, 2);
@@ -221,15 +247,35 @@ class DxfReader {
     place(item, Outer{});
   }
 
-  std::string describe(const DxfEntity& entity) {
+  /// False, and said, where a number of its geometry cannot be read.
+  bool is_readable(const DxfEntity& entity) {
+    const DxfTag* tag = detail::unreadable(entity);
+    if (!tag) return true;
+    problem(describe(entity) + ": \"" + detail::text_of(*tag).substr(0, 40) + "\" at " +
+            tags_.place(*tag) + " is no number");
+    return false;
+  }
+
+  /// A colour as it is written; what cannot be read is said and counts as absent.
+  int color_number(const DxfEntity& entity, int code, int absent) {
+    for (const DxfTag& tag : entity.tags)
+      if (tag.code == code) {
+        const auto value = detail::integer_of(tag);
+        if (!value) problem(describe(entity) + ": a colour that is no number");
+        return value.value_or(absent);
+      }
+    return absent;
+  }
+
+  std::string describe(const DxfEntity& entity) const {
     return tags_.place({.place = entity.place}) + ": " + std::string(entity.type);
   }
 
   Item labelled(const DxfEntity& entity) {
     Item item;
     item.layer = detail::text(entity.tags, 8);
-    item.color = detail::integer(entity.tags, 62, 256);
-    const int exact = detail::integer(entity.tags, 420, -1);
+    item.color = color_number(entity, 62, 256);
+    const int exact = color_number(entity, 420, -1);
     if (exact >= 0) item.exact = detail::true_color(exact);
     bool ours = false;
     for (const DxfTag& tag : entity.tags) {

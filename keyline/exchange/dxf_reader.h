@@ -29,6 +29,8 @@ struct DxfReadLimits {
 /// Unit:    $INSUNITS.
 /// Skipped: other entities, counted by type, and what stands in paper space. Frozen layers and
 ///          layers switched off are read all the same.
+///          An entity with a number that cannot be read, and the one a file without EOF stops in,
+///          are left out and named with their line.
 /// Fails:   bad_input with "line N" or "byte N" where the file stops being DXF before anything was
 ///          read; after that the rest is reported as skipped.
 core::Result<document::Document> read_dxf(std::string_view bytes, const DxfReadLimits& limits = {});

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 
 namespace keyline::exchange::detail {
@@ -72,13 +73,7 @@ std::optional<std::pair<unsigned, std::size_t>> escape_at(std::string_view text)
 
 std::optional<double> number_of(const DxfTag& tag) {
   if (std::isfinite(tag.number)) return tag.number;
-  std::string_view text = trimmed(tag.text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  return core::finite_number(trimmed(tag.text));
 }
 
 std::optional<int> integer_of(const DxfTag& tag) {

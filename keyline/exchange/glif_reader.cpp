@@ -107,7 +107,7 @@ document::Path path_of(std::vector<Node> nodes) {
 
 std::optional<double> number(const pugi::xml_node& node, const char* name) {
   const char* text = node.attribute(name).value();
-  return detail::leading_number(text);
+  return core::finite_number(text);
 }
 
 /// A glyph being read with the components it is made of.
@@ -166,7 +166,14 @@ class GlifReader {
       return;
     }
     document::Path path = path_of(std::move(nodes));
-    if (path.curves.empty() || !validate(path)) return;
+    if (path.curves.empty()) {
+      document_.skipped.push_back("a contour without extent");
+      return;
+    }
+    if (const auto sound = validate(path); !sound) {
+      document_.skipped.push_back("a contour: " + sound.error().message);
+      return;
+    }
     const std::size_t count = document_.paths.size() + 1;
     const std::string own = count == 1 ? name_ : name_ + "#" + std::to_string(count);
     document_.paths.push_back({{own, name_, {}}, std::move(path), 0});
@@ -190,11 +197,16 @@ class GlifReader {
     pugi::xml_document xml;
     const auto glyph = parse(xml, *bytes);
     if (!glyph) return skip("its file is no glyph");
+    bool readable = true;
     const auto value = [&](const char* name, double fallback) {
-      return number(component, name).value_or(fallback);
+      if (!component.attribute(name)) return fallback;
+      const auto given = number(component, name);
+      readable = readable && given.has_value();
+      return given.value_or(fallback);
     };
     const detail::Affine own{value("xScale", 1), value("xyScale", 0), value("yxScale", 0),
                              value("yScale", 1), value("xOffset", 0), value("yOffset", 0)};
+    if (!readable) return skip("its place or scale is no number");
     if (!add(*glyph, *bytes, combined(outer, own), depth + 1)) skip("its file is broken");
   }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/byte_lines.h"
 #include "keyline/exchange/mesh.h"
 
@@ -59,11 +60,13 @@ class ObjReader {
   Result<void> vertex(std::string_view line) {
     double c[3] = {};
     for (double& value : c) {
-      const auto number = detail::leading_number(detail::take_word(line));
-      if (!number)
+      const std::string_view word = detail::take_word(line);
+      const auto number = core::finite_number(word);
+      if (!number && word.find_first_of("0123456789") == word.npos)
         return core::fail(ErrorCode::bad_input, "a vertex needs three numbers", "mend the line",
                           lines_.place());
-      value = *number;
+      if (!number) note("the vertex: \"" + std::string(word.substr(0, 30)) + "\" is no number");
+      value = number.value_or(std::numeric_limits<double>::quiet_NaN());
     }
     if (mesh_.points.size() >= std::numeric_limits<std::uint32_t>::max() / 2)
       return core::fail(ErrorCode::bad_input, "there are too many vertices", "split the file",
@@ -75,7 +78,7 @@ class ObjReader {
   void element(std::string_view line, bool face) {
     indices_.clear();
     for (auto word = detail::take_word(line); !word.empty(); word = detail::take_word(line)) {
-      const auto number = detail::leading_number(word.substr(0, word.find('/')));
+      const auto number = core::finite_number(word.substr(0, word.find('/')));
       const double count = static_cast<double>(mesh_.points.size());
       const double index = !number ? -1 : *number < 0 ? count + *number : *number - 1;
       if (!(index >= 0 && index < count))

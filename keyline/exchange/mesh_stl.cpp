@@ -2,6 +2,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/byte_lines.h"
 #include "keyline/exchange/mesh.h"
 
@@ -87,8 +88,10 @@ Result<Mesh> read_text(std::string_view bytes) {
   detail::ByteLines lines(bytes);
   std::array<Point3, 3> corners;
   std::size_t have = 0;
+  bool open = false;
   for (std::string_view line; lines.next(line);) {
     const std::string_view word = detail::take_word(line);
+    if (word == "solid" || word == "endsolid") open = word == "solid";
     if (word == "endloop" || word == "facet") {
       if (word == "endloop" && have != 3)
         return core::fail(ErrorCode::bad_input, "a triangle has three vertices", "mend the file",
@@ -99,7 +102,7 @@ Result<Mesh> read_text(std::string_view bytes) {
     if (word != "vertex") continue;
     double c[3] = {};
     for (double& value : c) {
-      const auto number = detail::leading_number(detail::take_word(line));
+      const auto number = core::finite_number(detail::take_word(line));
       if (!number || have == 3)
         return core::fail(
             ErrorCode::bad_input,
@@ -112,6 +115,9 @@ Result<Mesh> read_text(std::string_view bytes) {
   if (vertices.mesh().triangles.empty())
     return core::fail(ErrorCode::bad_input, "there is no triangle in it", "give an STL file",
                       "line 1");
+  if (open || have > 0)
+    vertices.mesh().skipped.push_back("what follows " + lines.place() +
+                                      ": the file ends before its endsolid");
   return vertices.take();
 }
 

@@ -95,15 +95,40 @@ class SvgReader {
     }
   }
 
+  /// A side of the page in a unit; empty where there is none, or a share of the window.
+  std::optional<detail::SvgLength> page_size(const pugi::xml_node& root, const char* name) {
+    const std::string_view text = root.attribute(name).value();
+    const auto length = detail::parse_svg_length(text);
+    if (!length && !text.empty() && text != "auto" && !text.ends_with('%'))
+      skip(line(root), std::string("the ") + name + " of the page, which is no length: \"" +
+                           std::string(text.substr(0, 40)) + "\"");
+    return length;
+  }
+
+  /// The attributes of an element that are there but no lengths are said.
+  void check_lengths(const pugi::xml_node& node, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      if (node.attribute(name) && std::strcmp(node.attribute(name).value(), "auto") != 0 &&
+          std::isnan(detail::svg_length(node, name, 0, {1, 1})))
+        skip(line(node), describe(node) + ": its " + name + " is no length");
+  }
+
+  void check_view_box(const pugi::xml_node& node) {
+    const char* text = node.attribute("viewBox").value();
+    if (*text != '\0' && !detail::parse_svg_view_box(text))
+      skip(line(node), describe(node) + ": a viewBox that cannot be read is ignored");
+  }
+
   /// User units to mm or px, y up.
   Affine outermost(const pugi::xml_node& root) {
-    auto width = detail::parse_svg_length(root.attribute("width").value());
-    auto height = detail::parse_svg_length(root.attribute("height").value());
+    auto width = page_size(root, "width");
+    auto height = page_size(root, "height");
     for (auto* size : {&width, &height})
       if (*size && !((*size)->value > 0)) {
         skip(line(root), "a size of the page that is not positive is ignored");
         size->reset();
       }
+    check_view_box(root);
     const bool physical = (width && width->physical) || (height && height->physical);
     contents_.unit = physical ? "mm" : "px";
     const auto in_unit = [physical](detail::SvgLength l) { return physical ? in_mm(l) : in_px(l); };
@@ -148,7 +173,11 @@ class SvgReader {
       read_use(node, place);
     } else {
       enter_layer(node, place);
-      if (name == "svg") enter_viewport(node, node, place);
+      if (name == "svg") {
+        check_lengths(node, {"x", "y", "width", "height"});
+        check_view_box(node);
+        enter_viewport(node, node, place);
+      }
       if (name == "switch")
         read_switch(node, place);
       else
@@ -204,6 +233,7 @@ class SvgReader {
   }
 
   void read_shape(const pugi::xml_node& node, const Place& place) {
+    check_lengths(node, {"rx", "ry"});
     SvgPathData data = detail::svg_shape(node, place.viewport);
     if (!data.error.empty())
       skip(line(node), describe(node) + ": " + data.error +
@@ -297,6 +327,7 @@ class SvgReader {
     if (++place.use_depth > limits_.use_depth ||
         std::find(open_.begin(), open_.end(), shown) != open_.end())
       return skip(line(node), describe(node) + ": shows itself, or is nested too deep");
+    check_lengths(node, {"x", "y", "width", "height"});
     const double x = detail::svg_length(node, "x", 0, place.viewport);
     const double y = detail::svg_length(node, "y", 0, place.viewport);
     if (std::isfinite(x) && std::isfinite(y))
