@@ -159,6 +159,7 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   KeyLine line;
   line.id = raw.id;
   line.report.notes = raw.notes;
+  for (const std::string& what : raw.left_out) line.report.notes.push_back("left out: " + what);
   auto flat = flatten(raw, options, line);
   if (!flat) return std::unexpected(flat.error());
   Working& work = *flat;

@@ -15,8 +15,9 @@ struct RawCurve {
   bool has_z = false;
   bool scattered = false;  ///< a random sample, cut: the order of close neighbours is chance
   std::vector<double> weights;
-  std::vector<int> source_lines;   ///< 1-based line of the file each point came from
-  std::vector<std::string> notes;  ///< what the reader ignored or decided, one line each
+  std::vector<int> source_lines;      ///< 1-based line of the file each point came from
+  std::vector<std::string> left_out;  ///< lines of the file that are no points: where and what
+  std::vector<std::string> notes;     ///< what the reader ignored or decided, one line each
 };
 
 }  // namespace keyline::acquire

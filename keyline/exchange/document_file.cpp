@@ -40,6 +40,7 @@ Result<Document> points_document(const fs::path& file) {
   const auto curves = read_points(file);
   if (!curves) return std::unexpected(curves.error());
   Document document;
+  if (!curves->empty()) document.skipped = curves->front().left_out;
   for (const acquire::RawCurve& raw : *curves) {
     const document::Label label{raw.id, {}, {}};
     std::vector<core::Point3> points;

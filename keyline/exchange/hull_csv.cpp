@@ -9,6 +9,7 @@
 #include "keyline/document/document.h"
 #include "keyline/exchange/byte_lines.h"
 #include "keyline/exchange/hull_table.h"
+#include "keyline/exchange/points_columns.h"
 #include "keyline/exchange/text_table.h"
 
 namespace keyline::exchange {
@@ -99,10 +100,20 @@ class HullCsv {
     std::vector<double> down;
     std::vector<std::vector<double>> rows;
     std::string_view line;
+    std::string remark;  // the place of text behind rows
     while (lines_.next(line)) {
       if (detail::trimmed(line).empty() || detail::is_comment(line)) continue;
       const auto fields = detail::split(line, style_);
+      if (fields.empty()) continue;
       const auto at = number(fields.front());
+      if (!at && !rows.empty() && detail::is_remark(fields, style_, 0, header_.size())) {
+        if (remark.empty()) remark = lines_.place();
+        left_out_.push_back(lines_.place() + ": " + detail::shortened(detail::trimmed(line)));
+        continue;
+      }
+      if (!remark.empty())
+        return fail(ErrorCode::bad_input, "this row does not fit the first line", "mend it",
+                    remark);
       auto row = numbers(fields);
       if (!row) return std::unexpected(row.error());
       if (!at || !std::isfinite(*at) || row->size() > across->size())
@@ -164,7 +175,7 @@ class HullCsv {
     std::vector<double> values;
     for (std::size_t k = 1; k < fields.size(); ++k) {
       const auto value = number(fields[k]);
-      if (!value || std::isinf(*value))
+      if (!value || std::abs(*value) > 1e100)
         return fail(ErrorCode::bad_input, "a number is expected in column " + std::to_string(k + 1),
                     "mend it, or leave it empty outside the hull", lines_.place());
       values.push_back(*value);
@@ -192,6 +203,7 @@ class HullCsv {
                   "line 1");
     HullTable made;
     made.unit = unit_;
+    made.left_out = left_out_;
     for (const std::size_t i : by_station_ ? columns : order)
       made.waterlines.push_back(by_station_ ? across[i] : down[i]);
     for (const std::size_t i : by_station_ ? order : columns)
@@ -206,6 +218,7 @@ class HullCsv {
   detail::TableStyle style_;
   std::vector<std::string_view> header_;
   std::string unit_;
+  std::vector<std::string> left_out_;
   bool by_station_ = false;
 };
 

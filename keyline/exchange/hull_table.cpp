@@ -148,6 +148,7 @@ Result<HullTable> hull_from_json(const json& j) {
 document::Document hull_document(const HullTable& hull) {
   document::Document document;
   document.unit = hull.unit;
+  document.skipped = hull.left_out;
   Lines lines(document);
   const std::size_t n = hull.stations.size();
   double widest = 0;

@@ -17,7 +17,8 @@ struct HullTable {
   std::vector<double> waterlines;
   std::vector<double> stations;
   std::vector<double> half_breadth;
-  std::string unit = {};  ///< as of documents; empty where none is stated
+  std::string unit = {};                   ///< as of documents; empty where none is stated
+  std::vector<std::string> left_out = {};  ///< lines of text behind the rows
 };
 
 /// {"attributes":{"LOA":…,"BOA":…,"Depth":…},"halfBreadths":{"waterlines":[…],"stations":[…],
@@ -32,7 +33,8 @@ bool is_hull_json(const nlohmann::json& j);
 /// and the stations; every further line the height of a waterline and its half-breadths, empty or
 /// dashes outside the hull. Or "station" ("ST") first and the two exchanged. Rows and columns in
 /// any order. Numbers plain, as fractions (3 1/2) or, in feet, as feet-inches-eighths (2-3-4, and
-/// 2-3-4+ for a sixteenth more). Fails: bad_input with "line N".
+/// 2-3-4+ for a sixteenth more). Text behind the rows is `left_out`. Fails: bad_input with "line
+/// N".
 core::Result<HullTable> read_hull_csv(std::string_view text);
 bool is_hull_csv(std::string_view head);
 

@@ -61,7 +61,16 @@ core::Result<std::string_view> LineReader::next(bool& end) {
     const char* from = buffer_.data() + position_;
     const char* to = buffer_.data() + filled_;
     const char* stop = std::find_if(from, to, [](char c) { return c == '\n' || c == '\r'; });
-    if (std::any_of(from, stop, is_control)) {
+    const char* control = std::find_if(from, stop, is_control);
+    end_mark_ = end_mark_ || std::find(from, control, '\x1a') != control;
+    if (control != stop && end_mark_) {
+      ended_early_ = true;
+      end = line_.empty();
+      position_ = filled_ = 0;
+      in_.setstate(std::ios::eofbit);
+      return std::string_view(line_);
+    }
+    if (control != stop) {
       return failure("this is not text (binary data found)",
                      "give a text file with one point per line");
     }

@@ -11,7 +11,8 @@
 namespace keyline::exchange {
 
 /// Reads text line by line in bounded memory: lines end with \n, \r\n or \r; a UTF-8 byte order
-/// mark is skipped. Binary content, UTF-16 and overlong lines are failures with the place
+/// mark is skipped. A ^Z (the end mark of CP/M and DOS) is white space, and what is no text behind
+/// one ends the input. Binary content, UTF-16 and overlong lines are failures with the place
 /// "name:line".
 class LineReader {
  public:
@@ -24,6 +25,9 @@ class LineReader {
 
   /// 1-based number of the line last returned.
   int number() const { return number_; }
+
+  /// True once bytes that are no text were met behind a ^Z, and left out.
+  bool ended_early() const { return ended_early_; }
 
   /// "name:line" of the line last returned.
   std::string place() const { return name_ + ":" + std::to_string(number_); }
@@ -43,6 +47,8 @@ class LineReader {
   int number_ = 0;
   bool started_ = false;
   bool after_return_ = false;
+  bool end_mark_ = false;
+  bool ended_early_ = false;
 };
 
 }  // namespace keyline::exchange

@@ -54,9 +54,10 @@ std::vector<SectionLine> section(const Mesh& mesh, const acquire::Plane& plane);
 /// Calls `take` for every point of a cloud, in order, without keeping them: memory does not grow
 /// with the file. Text (XYZ, PTS, CSV: the first three numbers of a line; a count or header before
 /// the points is let pass) or PLY.
-/// Fails: io; bad_input with "line N" or "byte N".
-core::Result<void> stream_points(const std::filesystem::path& file,
-                                 const std::function<void(core::Point3)>& take);
+/// Returns: what in it is no point, in words: text behind the points, points without all
+/// coordinates. Fails: io; bad_input with "line N" or "byte N".
+core::Result<std::vector<std::string>> stream_points(const std::filesystem::path& file,
+                                                     const std::function<void(core::Point3)>& take);
 
 /// True for files whose points have to be cut before there is a curve: .obj, .stl, .ply.
 bool is_mesh_file(const std::filesystem::path& file);

@@ -11,8 +11,9 @@
 #include <utility>
 
 #include "keyline/core/text.h"
-#include "keyline/exchange/lednicer.h"
+#include "keyline/exchange/airfoil_points.h"
 #include "keyline/exchange/line_reader.h"
+#include "keyline/exchange/points_columns.h"
 #include "keyline/exchange/text_table.h"
 
 namespace keyline::exchange {
@@ -20,39 +21,15 @@ namespace {
 
 using acquire::RawCurve;
 using core::ErrorCode;
+using detail::PointsColumns;
+using detail::shortened;
 using detail::TableStyle;
 using Fields = std::vector<std::string_view>;
 using Curves = std::vector<RawCurve>;
 
 constexpr double kLargest = 1e100;
-constexpr int kNone = -1;
-
-/// Which column holds what, counted from 0; kNone where absent.
-struct Columns {
-  int x = 0;
-  int y = 1;
-  int z = kNone;
-  int weight = kNone;
-  int id = kNone;
-
-  int last() const { return std::max({x, y, z, weight, id}); }
-};
-
-std::string shortened(std::string_view text) {
-  std::string out;
-  for (const char c : text.substr(0, 40)) {
-    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  return text.size() > 40 ? out + "..." : out;
-}
-
-int find_name(const std::vector<std::string>& names, std::initializer_list<const char*> wanted) {
-  for (const char* name : wanted) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at != names.end()) return static_cast<int>(at - names.begin());
-  }
-  return kNone;
-}
+constexpr int kNone = PointsColumns::kNone;
+constexpr std::size_t kFewest = 3;  // rows that make a table beyond doubt
 
 /// Reads lines one after the other into curves.
 class PointsTable {
@@ -60,23 +37,35 @@ class PointsTable {
   explicit PointsTable(const PointsOptions& options) : options_(options) {}
 
   core::Result<void> take(std::string_view line, int number, const std::string& place);
+  /// What the end of the input cut off, in words.
+  void cut_off(std::string what) { left_out_.push_back(std::move(what)); }
   core::Result<Curves> finish(const std::string& name);
 
  private:
+  struct Row {
+    core::Point3 point;
+    double weight = 1;
+    std::string id;
+  };
+
   core::Result<void> before_data(std::string_view line, int number, const std::string& place);
   core::Result<void> start(const Fields& fields, int number, const std::string& place);
-  core::Result<void> data_row(const Fields& fields, int number, const std::string& place);
+  core::Result<void> among_data(std::string_view line, int number, const std::string& place);
+  core::Result<void> take_up_again();
+  bool first_was_none(const Fields& fields) const;
   core::Result<double> number_in(const Fields& fields, int column, const std::string& place) const;
-  core::Result<int> column_named(const std::string& wanted, const std::string& place) const;
-  core::Result<void> choose_columns(const Fields& fields, const std::string& place);
-  bool is_header(const std::vector<std::string>& names) const;
-  bool all_numbers(const Fields& fields, std::size_t from) const;
-  bool is_junk(const Fields& fields) const;
+  core::Result<Row> row_of(const Fields& fields, const std::string& place) const;
+  void add(Row row, int number);
   RawCurve& curve_of(std::string_view id);
+  bool all_numbers(const Fields& fields, std::size_t from) const;
+  void remember_title(std::string_view line);
+  void restart(std::size_t fields, const std::string& place);
+  void name_curves();
+  void tell_left_out();
 
   const PointsOptions& options_;
   TableStyle style_;
-  Columns columns_;
+  PointsColumns columns_;
   std::vector<std::string> names_;
   std::string first_text_;  // shortened
   std::string last_text_;
@@ -84,9 +73,16 @@ class PointsTable {
   bool started_ = false;
   bool text_id_ = false;
   std::size_t text_lines_ = 0;
-  std::optional<std::string> junk_place_;
-  std::size_t junk_lines_ = 0;
+  std::size_t width_ = 0;  // fields of the first row
+  std::size_t rows_ = 0;
+  int first_line_ = 0;
   std::size_t ignored_columns_ = 0;
+  std::optional<core::Failure> remark_;    // the last line of text behind rows, as a failure
+  std::optional<core::Failure> unproven_;  // of the text before rows too few to be a curve
+  std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers
+  std::string remark_text_;
+  std::size_t run_ = 0;  // rows since the last line of text
+  std::vector<std::string> left_out_;
   Curves curves_;
   std::map<std::string, std::size_t, std::less<>> index_;
   std::size_t current_ = 0;
@@ -97,44 +93,82 @@ bool PointsTable::all_numbers(const Fields& fields, std::size_t from) const {
                      [&](auto f) { return detail::parse_number(f, style_).has_value(); });
 }
 
-bool PointsTable::is_header(const std::vector<std::string>& names) const {
-  if (names.size() < 2) return false;
-  const auto named = [&](const char* name) { return find_name(names, {name}) != kNone; };
-  const auto wanted = [&](const std::string& name) {
-    return !name.empty() && find_name(names, {detail::plain_name(name).c_str()}) != kNone;
-  };
-  const bool axes = (named("x") && (named("y") || named("z"))) || (named("y") && named("z"));
-  return axes || std::any_of(options_.columns.begin(), options_.columns.end(), wanted) ||
-         wanted(options_.id_column) || wanted(options_.weight_column);
-}
-
 core::Result<void> PointsTable::take(std::string_view line, int number, const std::string& place) {
   line = detail::trimmed(line);
   if (line.empty()) return {};
   if (!started_) return before_data(line, number, place);
   if (detail::is_comment(line)) return {};
-  const Fields fields = detail::split(line, style_);
-  if (fields.empty()) return {};
-  if (is_junk(fields)) {
-    if (!junk_place_) junk_place_ = place;
-    ++junk_lines_;
-    return {};
-  }
-  if (junk_place_) {
-    return core::fail(ErrorCode::bad_input, "text where a number belongs",
-                      "remove the line, or start it with #", *junk_place_);
-  }
-  return data_row(fields, number, place);
+  return among_data(line, number, place);
 }
 
-/// Text after the points of an airfoil file: no number in it, and not a row of the table.
-bool PointsTable::is_junk(const Fields& fields) const {
-  if (columns_.id != kNone) return false;
-  const bool numberless = std::none_of(fields.begin(), fields.end(), [&](auto f) {
-    return !f.empty() && detail::parse_number(f, style_).has_value();
-  });
-  const bool row = static_cast<int>(fields.size()) > columns_.last();
-  return numberless && (style_.separator == ' ' || !row);
+core::Result<void> PointsTable::among_data(std::string_view line, int number,
+                                           const std::string& place) {
+  const Fields fields = detail::split(line, style_);
+  if (fields.empty()) return {};
+  const auto x = static_cast<std::size_t>(columns_.x);
+  const bool remark = columns_.id == kNone ? detail::is_remark(fields, style_, x, width_)
+                                           : fields.size() < width_ && fields.size() <= x;
+  if (remark) {
+    remark_ = {ErrorCode::bad_input, "text where a number belongs: '" + shortened(line) + "'",
+               "remove the line, or start it with #", place};
+    remark_text_ = shortened(line);
+    left_out_.push_back("line " + std::to_string(number) + ": " + remark_text_);
+    return {};
+  }
+  if (first_was_none(fields)) {
+    restart(fields.size(), place);
+    return before_data(line, number, place);
+  }
+  auto row = row_of(fields, place);
+  if (!row) return std::unexpected(row.error());
+  if (remark_)
+    if (auto again = take_up_again(); !again) return again;
+  add(std::move(*row), number);
+  return {};
+}
+
+/// A first row of more numbers than the next, as the window before an airfoil's points, is no
+/// point.
+bool PointsTable::first_was_none(const Fields& fields) const {
+  const bool chosen = !names_.empty() || !options_.columns.empty() || text_id_;
+  return rows_ == 1 && !chosen && !remark_ && style_.separator == ' ' && fields.size() >= 2 &&
+         fields.size() < width_ && all_numbers(fields, 0);
+}
+
+void PointsTable::restart(std::size_t fields, const std::string& place) {
+  misfit_ = {
+      ErrorCode::bad_input,
+      "only " + std::to_string(fields) + " of at least " + std::to_string(width_) + " columns",
+      "give every point all its coordinates", place};
+  left_out_.push_back("line " + std::to_string(first_line_) + ": " +
+                      core::counted(width_, "number") + " before the rows of points");
+  curves_.clear();
+  index_.clear();
+  current_ = 0;
+  rows_ = run_ = 0;
+  ignored_columns_ = 0;
+  started_ = false;
+}
+
+/// Rows behind a line of text are a curve of its own where there are enough on both sides of it.
+core::Result<void> PointsTable::take_up_again() {
+  if (run_ < kFewest || unproven_ || columns_.id != kNone)
+    return std::unexpected(unproven_ ? *unproven_ : *remark_);
+  unproven_ = std::exchange(remark_, std::nullopt);
+  left_out_.pop_back();  // it is the name of what follows
+  run_ = 0;
+  current_ = curves_.size();
+  RawCurve curve;
+  curve.id = remark_text_;
+  curve.has_z = columns_.z != kNone;
+  curves_.push_back(std::move(curve));
+  return {};
+}
+
+void PointsTable::remember_title(std::string_view line) {
+  if (first_text_.empty()) first_text_ = shortened(line);
+  last_text_ = std::string(line.substr(0, 4096));
+  ++text_lines_;
 }
 
 core::Result<void> PointsTable::before_data(std::string_view line, int number,
@@ -168,85 +202,34 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
     for (const auto field : detail::split(text, {separator, false})) {
       names.push_back(detail::plain_name(field));
     }
-    if (is_header(names)) {
+    if (detail::is_points_header(names, options_)) {
       names_ = std::move(names);
       return {};
     }
   }
-  if (!comment) {
-    if (first_text_.empty()) first_text_ = shortened(line);
-    last_text_ = std::string(line.substr(0, 4096));
-    ++text_lines_;
-  }
-  return {};
-}
-
-core::Result<int> PointsTable::column_named(const std::string& wanted,
-                                            const std::string& place) const {
-  const int named = find_name(names_, {detail::plain_name(wanted).c_str()});
-  if (named != kNone) return named;
-  const bool digits =
-      !wanted.empty() && wanted.size() < 5 &&
-      std::all_of(wanted.begin(), wanted.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (digits && std::stoi(wanted) >= 1) return std::stoi(wanted) - 1;
-  std::string known;
-  for (const std::string& name : names_) known += (known.empty() ? "" : ", ") + name;
-  return core::fail(ErrorCode::bad_input, "there is no column '" + shortened(wanted) + "'",
-                    known.empty() ? "the file has no header: give the number of the column"
-                                  : "the columns are " + shortened(known),
-                    place);
-}
-
-core::Result<void> PointsTable::choose_columns(const Fields& fields, const std::string& place) {
-  columns_ = Columns{};
-  if (!options_.columns.empty()) {
-    if (options_.columns.size() < 2 || options_.columns.size() > 3) {
-      return core::fail(ErrorCode::bad_input, "two or three columns are needed",
-                        "name the columns of x, y and maybe z", "columns");
-    }
-    int* const wanted[] = {&columns_.x, &columns_.y, &columns_.z};
-    for (std::size_t k = 0; k < options_.columns.size(); ++k) {
-      const auto column = column_named(options_.columns[k], place);
-      if (!column) return std::unexpected(column.error());
-      *wanted[k] = *column;
-    }
-  } else if (!names_.empty()) {
-    std::vector<int> found;
-    for (const char* name : {"x", "y", "z"}) {
-      const int column = find_name(names_, {name});
-      if (column != kNone) found.push_back(column);
-    }
-    while (found.size() < 2) found.push_back(static_cast<int>(found.size()));
-    columns_.x = found[0];
-    columns_.y = found[1];
-    if (found.size() > 2) columns_.z = found[2];
-  } else {
-    const int first = text_id_ ? 1 : 0;
-    const int count = static_cast<int>(fields.size()) - first;
-    columns_ = {first, first + 1, count >= 3 ? first + 2 : kNone, kNone, text_id_ ? 0 : kNone};
-    ignored_columns_ = count > 3 ? static_cast<std::size_t>(count - 3) : 0;
-  }
-  if (columns_.weight == kNone) columns_.weight = find_name(names_, {"weight", "weights", "w"});
-  if (columns_.id == kNone) columns_.id = find_name(names_, {"id", "curve", "name", "curve_id"});
-  for (const auto& [name, target] : {std::pair{&options_.weight_column, &columns_.weight},
-                                     std::pair{&options_.id_column, &columns_.id}}) {
-    if (name->empty()) continue;
-    const auto column = column_named(*name, place);
-    if (!column) return std::unexpected(column.error());
-    *target = *column;
-  }
+  if (!comment) remember_title(line);
   return {};
 }
 
 core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
   started_ = true;
+  width_ = fields.size();
+  first_line_ = number;
   unknown_header_ = text_lines_ > 0 && style_.separator != ' ' &&
                     detail::split(last_text_, style_).size() == fields.size();
-  if (auto chosen = choose_columns(fields, place); !chosen) return chosen;
-  return data_row(fields, number, place);
+  const auto chosen = detail::choose_columns(names_, options_, width_, text_id_, place);
+  if (!chosen) return std::unexpected(chosen.error());
+  columns_ = *chosen;
+  if (names_.empty() && options_.columns.empty())
+    ignored_columns_ = width_ - std::min<std::size_t>(width_, text_id_ ? 4 : 3);
+  auto row = row_of(fields, place);
+  if (!row) return std::unexpected(row.error());
+  add(std::move(*row), number);
+  return {};
 }
 
 RawCurve& PointsTable::curve_of(std::string_view id) {
+  if (columns_.id == kNone && !curves_.empty()) return curves_[current_];
   if (!curves_.empty() && curves_[current_].id == id) return curves_[current_];
   const auto known = index_.find(id);
   if (known != index_.end()) {
@@ -286,33 +269,69 @@ core::Result<double> PointsTable::number_in(const Fields& fields, int column,
   return *value;
 }
 
-core::Result<void> PointsTable::data_row(const Fields& fields, int number,
-                                         const std::string& place) {
-  core::Point3 p;
-  double weight = 1;
-  const std::pair<int, double*> wanted[] = {
-      {columns_.x, &p.x}, {columns_.y, &p.y}, {columns_.z, &p.z}, {columns_.weight, &weight}};
+core::Result<PointsTable::Row> PointsTable::row_of(const Fields& fields,
+                                                   const std::string& place) const {
+  Row row;
+  const std::pair<int, double*> wanted[] = {{columns_.x, &row.point.x},
+                                            {columns_.y, &row.point.y},
+                                            {columns_.z, &row.point.z},
+                                            {columns_.weight, &row.weight}};
   for (const auto& [column, target] : wanted) {
     if (column == kNone) continue;
     const auto value = number_in(fields, column, place);
     if (!value) return std::unexpected(value.error());
     *target = *value;
   }
-  std::string plain;
-  std::string_view id;
-  if (columns_.id != kNone) {
-    const auto k = static_cast<std::size_t>(columns_.id);
-    if (k < fields.size()) id = fields[k];
-    if (id.size() >= 2 && id.front() == '"' && id.back() == '"') id = plain = detail::unquoted(id);
-  }
-  RawCurve& curve = curve_of(id);
-  curve.points.push_back(p);
+  const auto k = static_cast<std::size_t>(columns_.id);
+  if (columns_.id == kNone || k >= fields.size()) return row;
+  const std::string_view id = fields[k];
+  const bool quoted = id.size() >= 2 && id.front() == '"' && id.back() == '"';
+  row.id = quoted ? detail::unquoted(id) : std::string(id);
+  return row;
+}
+
+void PointsTable::add(Row row, int number) {
+  ++rows_;
+  if (++run_ >= kFewest) unproven_.reset();
+  RawCurve& curve = curve_of(row.id);
+  curve.points.push_back(row.point);
   curve.source_lines.push_back(number);
-  if (columns_.weight != kNone) curve.weights.push_back(weight);
-  return {};
+  if (columns_.weight != kNone) curve.weights.push_back(row.weight);
+}
+
+/// A curve takes the title of its file; of several, those without a name of their own.
+void PointsTable::name_curves() {
+  const bool title_is_header = unknown_header_ && text_lines_ == 1;
+  if (columns_.id != kNone || text_lines_ == 0 || title_is_header) return;
+  std::size_t number = 0;
+  for (RawCurve& curve : curves_) {
+    ++number;
+    if (curve.id.empty())
+      curve.id = number == 1 ? first_text_ : first_text_ + "#" + std::to_string(number);
+  }
+}
+
+void PointsTable::tell_left_out() {
+  const bool title_is_header = unknown_header_ && text_lines_ == 1;
+  for (RawCurve& curve : curves_) {
+    if (unknown_header_)
+      curve.notes.emplace_back("the header names no x and y: the first columns taken");
+    if (text_lines_ > 0 && !title_is_header)
+      curve.notes.push_back(core::counted(text_lines_, "title line") + " before the points");
+    if (ignored_columns_ > 0)
+      curve.notes.push_back(std::to_string(ignored_columns_) +
+                            " further column(s) ignored: x, y, z taken from the first three");
+  }
+  constexpr std::size_t kMost = 5;  // told one by one
+  const std::size_t more = left_out_.size() - std::min(left_out_.size(), kMost);
+  left_out_.resize(left_out_.size() - more);
+  if (more > 0) left_out_.push_back(core::counted(more, "further line"));
+  for (RawCurve& curve : curves_) curve.left_out = left_out_;
 }
 
 core::Result<Curves> PointsTable::finish(const std::string& name) {
+  if (unproven_) return std::unexpected(*unproven_);
+  if (misfit_ && rows_ < kFewest) return std::unexpected(*misfit_);
   if (curves_.empty()) {
     const bool empty = text_lines_ == 0 && names_.empty();
     return core::fail(ErrorCode::bad_input,
@@ -322,23 +341,12 @@ core::Result<Curves> PointsTable::finish(const std::string& name) {
                                                        : " (it starts with '" + first_text_ + "')"),
                       "give a text file with two or three numbers on each line", name);
   }
-  const bool title_is_header = unknown_header_ && text_lines_ == 1;
-  if (curves_.size() == 1 && curves_[0].id.empty() && text_lines_ > 0 && !title_is_header) {
-    curves_[0].id = first_text_;
+  if (curves_.size() == 1 && names_.empty()) {
+    detail::unfold_lednicer(curves_[0]);
+    detail::part_elements(curves_);
   }
-  if (curves_.size() == 1 && names_.empty()) detail::unfold_lednicer(curves_[0]);
-  const auto note = [&](const std::string& text) {
-    for (RawCurve& curve : curves_) curve.notes.push_back(text);
-  };
-  if (unknown_header_) note("the header names no x and y: the first columns taken");
-  if (text_lines_ > 0 && !title_is_header)
-    note(core::counted(text_lines_, "title line") + " before the points");
-  if (junk_lines_ > 0) note(core::counted(junk_lines_, "text line") + " after the points ignored");
-  if (ignored_columns_ > 0) {
-    note(std::to_string(ignored_columns_) +
-         " further column(s) ignored: x, y, z taken from the "
-         "first three");
-  }
+  name_curves();
+  tell_left_out();
   return std::move(curves_);
 }
 
@@ -357,6 +365,8 @@ core::Result<Curves> read_points(std::istream& in, const std::string& name,
       return std::unexpected(taken.error());
     }
   }
+  if (lines.ended_early())
+    table.cut_off("line " + std::to_string(lines.number()) + ": what follows the end mark (^Z)");
   return table.finish(name);
 }
 

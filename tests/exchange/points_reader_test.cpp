@@ -74,7 +74,9 @@ TEST(ReadPoints, SeligTitleAndJunkLinesAreIgnored) {
   ASSERT_TRUE(curves) << curves.error().message;
   EXPECT_EQ(curves->front().points.size(), 3u);
   EXPECT_EQ(curves->front().id, "SU-26M scanned 26");
-  EXPECT_EQ(curves->front().notes.size(), 2u);
+  EXPECT_EQ(curves->front().notes.size(), 1u);
+  EXPECT_EQ(curves->front().left_out,
+            (std::vector<std::string>{"line 7: http://x.example/", "line 8: + Profscan.exe"}));
 }
 
 TEST(ReadPoints, LednicerBecomesOneCurve) {
@@ -123,6 +125,82 @@ TEST(ReadPoints, MissingEntriesBecomeNonFinite) {
   for (std::size_t i = 1; i < 6; ++i) EXPECT_FALSE(core::is_finite(curves->front().points[i])) << i;
 }
 
+struct RealCase {
+  const char* name;
+  std::string text;
+  std::size_t curves;
+  std::size_t points;
+  std::vector<std::string> left_out;
+};
+
+// Lines as people leave them in files of points; what is data there was counted by hand.
+TEST(ReadPoints, RealFilesAreReadAsAPersonReadsThem) {
+  const std::string rows = "1.0 0.0\n0.5 0.06\n0.0 0.0\n0.5 -0.06\n1.0 0.0\n";
+  const std::string element = "0.9 0.1\n0.95 0.12\n1.0 0.1\n";
+  const RealCase cases[] = {
+      {"type behind",
+       "drop\n" + rows + "Profiltyp: Tropfen\n",
+       1,
+       5,
+       {"line 7: Profiltyp: Tropfen"}},
+      {"values behind",
+       "E 1\n" + rows + "\n p= 8 alfa0= -4.8\n cm0 = 0.1\n",
+       1,
+       5,
+       {"line 8: p= 8 alfa0= -4.8", "line 9: cm0 = 0.1"}},
+      {"a date behind", rows + "Stand: 12.05.1998\n", 1, 5, {"line 6: Stand: 12.05.1998"}},
+      {"a sentence that starts with a number",
+       rows + "8 percent thick, drawn by hand\n",
+       1,
+       5,
+       {"line 6: 8 percent thick, drawn by hand"}},
+      {"end mark", "a\n" + rows + "\x1a\n", 1, 5, {}},
+      {"end mark and padding",
+       rows + "\x1a" + std::string(3, '\0') + "abc",
+       1,
+       5,
+       {"line 6: what follows the end mark (^Z)"}},
+      {"window",
+       "two\n -1.0 2.0 -1.0 1.5\n" + rows,
+       1,
+       5,
+       {"line 2: 4 numbers before the rows of points"}},
+      {"window and elements",
+       "two\n -1.0 2.0 -1.0 1.5\n" + rows + "999.0 999.0\n" + element,
+       2,
+       8,
+       {"line 2: 4 numbers before the rows of points"}},
+      {"parts with headings", "Upper\n" + rows + "Lower\n" + element, 2, 8, {}},
+      {"commas", "x,y\n1,0\n0.5,1\n0,0\nProfil: Tropfen\n", 1, 3, {"line 5: Profil: Tropfen"}},
+  };
+  for (const RealCase& c : cases) {
+    SCOPED_TRACE(c.name);
+    const auto curves = parse(c.text);
+    ASSERT_TRUE(curves) << curves.error().message << ' ' << curves.error().path;
+    EXPECT_EQ(curves->size(), c.curves);
+    std::size_t points = 0;
+    for (const RawCurve& curve : *curves) points += curve.points.size();
+    EXPECT_EQ(points, c.points);
+    EXPECT_EQ(curves->front().left_out, c.left_out);
+  }
+}
+
+TEST(ReadPoints, PointsAt999BelongToLargeDrawings) {
+  const auto curves = parse("0 0\n500 500\n999 999\n1500 1400\n");
+  ASSERT_TRUE(curves);
+  EXPECT_EQ(curves->size(), 1u);
+  EXPECT_EQ(curves->front().points.size(), 4u);
+}
+
+TEST(ReadPoints, PartsKeepTheirNames) {
+  const auto curves = parse("wing\n0 0\n1 0\n2 1\nflap\n3 0\n4 0\n5 1\n");
+  ASSERT_TRUE(curves) << curves.error().message;
+  ASSERT_EQ(curves->size(), 2u);
+  EXPECT_EQ((*curves)[0].id, "wing");
+  EXPECT_EQ((*curves)[1].id, "flap");
+  EXPECT_EQ((*curves)[1].source_lines, (std::vector<int>{6, 7, 8}));
+}
+
 struct BadCase {
   const char* name;
   std::string text;
@@ -141,6 +219,10 @@ TEST(ReadPoints, FailuresTellThePlace) {
       {"text row", "0,0\n1,1\nx,y\n", "data.csv:3"},
       {"text between", "0 0\nfoo bar\n1 1\n", "data.csv:2"},
       {"columns missing", "0 0 0\n1 1 1\n2 2\n", "data.csv:3"},
+      {"a cut last row", "0 0\n1 1\n2\n", "data.csv:3"},
+      {"a broken last row", "0 0\n1 1\n2 2\n3 o.5\n", "data.csv:4"},
+      {"text within a curve", "0 0\n1 1\n2 2\nfoo bar\n3 3\n4 4\n", "data.csv:4"},
+      {"one row behind another", "0 0 0\n1 1\n", "data.csv:2"},
       {"large", "0,0\n1,1e300\n", "data.csv:2"},
       {"overflow", "0,0\n1,1e999\n", "data.csv:2"},
       {"binary", std::string("0,0\n\0\1\2", 7), "data.csv:2"},

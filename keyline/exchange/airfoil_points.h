@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "keyline/acquire/raw_curve.h"
 
 namespace keyline::exchange::detail {
@@ -9,5 +11,10 @@ namespace keyline::exchange::detail {
 /// edge, with a note. False, and nothing is changed, for points that do not start so.
 /// Precondition: the curve has points, and as many source lines.
 bool unfold_lednicer(acquire::RawCurve& curve);
+
+/// Airfoils of several elements, which a point (999, 999) parts (XFOIL and MSES): a curve for each,
+/// with a note. Such a point parts only where no curve could pass it: outside the box of the others
+/// enlarged by its own size. Precondition: one curve.
+void part_elements(std::vector<acquire::RawCurve>& curves);
 
 }  // namespace keyline::exchange::detail
