@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/curve/conversion.h"
 #include "keyline/document/arc.h"
 #include "keyline/exchange/cad_parts.h"
 #include "keyline/exchange/json_document.h"
@@ -47,9 +48,14 @@ core::Failure failure_of(const ChildResult& child, CadFormat format) {
             {}};
   std::string text = child.errors.substr(0, child.errors.find('\n'));
   if (text.empty()) text = "the reader of " + title + " files gave up";
+  std::string place;
+  if (const std::size_t colon = text.find(": "); text.starts_with("line ") && colon < 20) {
+    place = text.substr(0, colon);
+    text.erase(0, colon + 2);
+  }
   const std::size_t cut = text.find("; ");
-  if (cut == std::string::npos) return {ErrorCode::bad_input, text, "check the file", {}};
-  return {ErrorCode::bad_input, text.substr(0, cut), text.substr(cut + 2), {}};
+  if (cut == std::string::npos) return {ErrorCode::bad_input, text, "check the file", place};
+  return {ErrorCode::bad_input, text.substr(0, cut), text.substr(cut + 2), place};
 }
 
 Result<ChildResult> run(const std::vector<std::string>& arguments, std::string_view input,
@@ -83,9 +89,13 @@ Result<Document> simplified(const Document& document, double tolerance, double& 
     const auto parts = cad_parts(named.path, tolerance);
     if (!parts) return std::unexpected(parts.error());
     deviation = std::max(deviation, parts->deviation);
-    document::NamedPath path{named.label, {{}, named.path.closed}, 0};
-    for (const CadPart& part : parts->parts) path.path.curves.push_back(curve_of(part));
-    if (!path.path.curves.empty()) result.paths.push_back(std::move(path));
+    // The helper makes one thing of every path: parts that do not meet are paths of their own.
+    const bool whole = is_chain(*parts) || parts->parts.size() == 1;
+    for (const CadPart& part : parts->parts) {
+      if (!whole || &part == &parts->parts.front())
+        result.paths.push_back({named.label, {{}, named.path.closed}, 0});
+      result.paths.back().path.curves.push_back(curve_of(part));
+    }
   }
   for (const auto& named : document.space_curves) {
     const auto* chain = std::get_if<lac::SpaceChain>(&named.curve.value);
@@ -95,8 +105,7 @@ Result<Document> simplified(const Document& document, double tolerance, double& 
     }
     const auto quintics = lac::approximate_by_quintics(*chain, tolerance);
     deviation = std::max(deviation, quintics.deviation);
-    for (const curve::Bezier3& piece : quintics.pieces)
-      result.space_curves.push_back({named.label, {piece}});
+    result.space_curves.push_back({named.label, {curve::to_bspline(quintics.pieces, 0).value()}});
   }
   return result;
 }
@@ -146,10 +155,6 @@ Result<Written> write_cad(const Document& document, CadFormat format, double tol
   auto child = run({"write", name_of(format)}, text, format, cad_limits(text.size()));
   if (!child) return std::unexpected(child.error());
   written.content = std::move(child->output);
-  constexpr std::array<std::string_view, 7> kUnits = {"", "mm", "cm", "m", "km", "in", "ft"};
-  if (std::find(kUnits.begin(), kUnits.end(), document.unit) == kUnits.end())
-    written.notes.push_back("the unit " + document.unit +
-                            " is not in the file: its numbers are mm");
   return written;
 }
 

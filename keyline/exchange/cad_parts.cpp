@@ -168,7 +168,84 @@ void add_part(BulgedPolyline& line, const curve::BSpline2& part, double toleranc
   line.deviation = std::max(flat, line.deviation + cubics.deviation);
 }
 
+/// Pieces of a chain without weights.
+class ChainPieces {
+ public:
+  explicit ChainPieces(double tolerance) : tolerance_(tolerance) {}
+
+  void add(const CadLine& line) { pieces_.push_back({{line.from, line.to}, {}}); }
+  void add(const curve::Polyline2& line) {
+    for (std::size_t i = 1; i < line.points.size(); ++i)
+      pieces_.push_back({{line.points[i - 1], line.points[i]}, {}});
+  }
+  void add(const Arc& arc) {
+    const lac::Chain chain = document::chain_of(arc);
+    take(curve::approximate_by_cubics(chain, tolerance_));
+  }
+  void add(const curve::BSpline2& spline) {
+    if (!spline.weights.empty()) return take(curve::approximate_by_cubics(spline, tolerance_));
+    for (Bezier2& piece : curve::to_beziers(spline)) pieces_.push_back(std::move(piece));
+  }
+
+  /// Joints that rounding left apart are drawn together.
+  ChainSpline finish() {
+    for (std::size_t i = 1; i < pieces_.size(); ++i)
+      pieces_[i].control.front() = pieces_[i - 1].control.back();
+    return {curve::to_bspline(pieces_, 0).value(), deviation_};
+  }
+
+ private:
+  void take(const curve::PiecewiseBezier& cubics) {
+    deviation_ = std::max(deviation_, cubics.deviation);
+    pieces_.insert(pieces_.end(), cubics.pieces.begin(), cubics.pieces.end());
+  }
+
+  double tolerance_;
+  double deviation_ = 0;
+  std::vector<Bezier2> pieces_;
+};
+
 }  // namespace
+
+Point2 start_of(const CadPart& part) {
+  if (const auto* line = std::get_if<CadLine>(&part)) return line->from;
+  if (const auto* arc = std::get_if<Arc>(&part)) return document::point_on(*arc, arc->start);
+  if (const auto* line = std::get_if<curve::Polyline2>(&part)) return line->points.front();
+  return evaluate(std::get<curve::BSpline2>(part), 0);
+}
+
+Point2 end_of(const CadPart& part) {
+  if (const auto* line = std::get_if<CadLine>(&part)) return line->to;
+  if (const auto* arc = std::get_if<Arc>(&part))
+    return document::point_on(*arc, arc->start + arc->turn);
+  if (const auto* line = std::get_if<curve::Polyline2>(&part)) return line->points.back();
+  return evaluate(std::get<curve::BSpline2>(part), 1);
+}
+
+bool is_chain(const CadParts& parts) {
+  if (parts.parts.size() < 2) return false;
+  const Point2 first = start_of(parts.parts.front());
+  double size = 0;
+  for (const CadPart& part : parts.parts)
+    size = std::max({size, distance(first, start_of(part)), distance(first, end_of(part))});
+  for (std::size_t i = 1; i < parts.parts.size(); ++i)
+    if (distance(end_of(parts.parts[i - 1]), start_of(parts.parts[i])) > 1e-9 * size) return false;
+  return true;
+}
+
+bool is_bulged(const CadParts& parts) {
+  return std::none_of(parts.parts.begin(), parts.parts.end(), [](const CadPart& part) {
+    return std::holds_alternative<curve::BSpline2>(part);
+  });
+}
+
+ChainSpline chain_spline(const CadParts& parts, double tolerance) {
+  ChainPieces pieces(tolerance);
+  for (const CadPart& part : parts.parts) std::visit([&](const auto& p) { pieces.add(p); }, part);
+  ChainSpline spline = pieces.finish();
+  spline.deviation += parts.deviation;
+  return spline;
+}
 
 Result<CadParts> cad_parts(const document::Path& path, double tolerance) {
   Parts parts(tolerance);

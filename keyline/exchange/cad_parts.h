@@ -28,6 +28,26 @@ struct CadParts {
 /// Fails: as lac::to_bspline does.
 core::Result<CadParts> cad_parts(const document::Path& path, double tolerance);
 
+/// Where a part starts and ends.
+core::Point2 start_of(const CadPart& part);
+core::Point2 end_of(const CadPart& part);
+
+/// True for two or more parts each of which starts where the one before ends, to 1e-9 of their
+/// size: they can be written as one thing.
+bool is_chain(const CadParts& parts);
+
+/// True where every part is straight or circular.
+bool is_bulged(const CadParts& parts);
+
+/// A chain as one spline without weights, a knot of multiplicity `degree` at every joint: arcs and
+/// rational splines as cubics within `tolerance`, all else exactly. The deviation counts both that
+/// and that of the parts. Precondition: is_chain().
+struct ChainSpline {
+  curve::BSpline2 curve;
+  double deviation = 0;
+};
+ChainSpline chain_spline(const CadParts& parts, double tolerance);
+
 /// A run of straight and circular edges; bulge is tan(turn / 4) of the edge behind its vertex.
 struct BulgedPolyline {
   struct Vertex {

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/text.h"
+#include "keyline/document/units.h"
 #include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/cad_file.h"
 #include "keyline/exchange/csv_writer.h"
@@ -210,8 +214,57 @@ double extent(const Document& document) {
   return std::isfinite(size) ? size : 0;
 }
 
+namespace {
+
+/// The unit a file of that kind is written in: the document's own where the format has it, else mm.
+std::string unit_in(const std::string& extension, const std::string& unit) {
+  static const std::map<std::string, std::set<std::string>> kKnown = {
+      {".svg", {"mm", "cm", "m", "in", "pt", "px"}},
+      {".dxf", {"mm", "cm", "m", "km", "in", "ft"}},
+      {".step", {"mm", "cm", "m", "km", "in", "ft"}},
+      {".iges", {"mm", "cm", "m", "km", "in", "ft"}}};
+  const std::string name = extension == ".stp"   ? ".step"
+                           : extension == ".igs" ? ".iges"
+                                                 : extension;
+  const auto known = kKnown.find(name);
+  if (unit.empty() || known == kKnown.end() || known->second.contains(unit)) return unit;
+  return document::millimetres(unit) > 0 ? "mm" : unit;
+}
+
+Result<Written> format_in_unit(const Document& document, const std::string& extension,
+                               const WriteOptions& options);
+
+}  // namespace
+
 Result<Written> format_document(const Document& document, const std::string& extension,
                                 const WriteOptions& options) {
+  const std::string unit = unit_in(extension, document.unit);
+  if (unit == document.unit) {
+    auto written = format_in_unit(document, extension, options);
+    if (written && !unit.empty() && !(document::millimetres(unit) > 0))
+      written->notes.push_back("the unit " + unit +
+                               " is unknown: the numbers are written as they are");
+    const bool takes_mm =
+        unit.empty() && (extension.starts_with(".st") || extension.starts_with(".ig"));
+    if (written && takes_mm)
+      written->notes.emplace_back("no unit is given: the numbers are written as mm");
+    return written;
+  }
+  const double factor = document::millimetres(document.unit);
+  WriteOptions in_mm = options;
+  in_mm.tolerance *= factor;
+  auto written = format_in_unit(document::in_unit(document, unit), extension, in_mm);
+  if (!written) return written;
+  written->deviation /= factor;
+  written->notes.push_back("the file has no " + document.unit + ": written in mm, one " +
+                           document.unit + " being " + core::number_text(factor, 6) + " mm");
+  return written;
+}
+
+namespace {
+
+Result<Written> format_in_unit(const Document& document, const std::string& extension,
+                               const WriteOptions& options) {
   const double size = options.tolerance > 0 ? 0 : extent(document);
   const double tolerance = options.tolerance > 0 ? options.tolerance : size > 0 ? 1e-5 * size : 1;
   if (extension == ".json") return Written{to_json(document).dump(1) + "\n", 0, {}};
@@ -233,6 +286,8 @@ Result<Written> format_document(const Document& document, const std::string& ext
   return fail(ErrorCode::bad_input, "\"" + extension + "\" is no format that can be written",
               "use one of " + list);
 }
+
+}  // namespace
 
 Result<Written> write_document(const Document& document, const fs::path& file,
                                const WriteOptions& options) {

@@ -194,14 +194,6 @@ void DxfText::point(int code, core::Point3 p) {
 
 void DxfText::handle(int code) { text(code, handle_text(next_++)); }
 
-int dxf_unit(const std::string& unit) {
-  static constexpr std::array<std::pair<std::string_view, int>, 7> kUnits = {
-      {{"", 0}, {"in", 1}, {"ft", 2}, {"mm", 4}, {"cm", 5}, {"m", 6}, {"km", 7}}};
-  for (const auto& [name, code] : kUnits)
-    if (unit == name) return code;
-  return -1;
-}
-
 std::string dxf_text(std::string_view name) {
   constexpr std::size_t kLongest = 240;
   static constexpr char kDigits[] = "0123456789ABCDEF";

@@ -35,9 +35,6 @@ std::string dxf_text(std::string_view text);
 /// The same without the characters that names of layers may not hold; those become "_".
 std::string dxf_name(std::string_view text);
 
-/// $INSUNITS of a unit; -1 for one DXF does not know.
-int dxf_unit(const std::string& unit);
-
 /// The whole file around the entities: header, tables, blocks, objects.
 std::string dxf_file(const DxfText& entities, const std::set<std::string>& layers, int unit);
 

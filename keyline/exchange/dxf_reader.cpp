@@ -1,7 +1,6 @@
 #include "keyline/exchange/dxf_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,8 +10,10 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
+#include "keyline/document/units.h"
 #include "keyline/exchange/dxf_color.h"
 #include "keyline/exchange/dxf_entity.h"
+#include "keyline/exchange/dxf_units.h"
 
 namespace keyline::exchange {
 namespace {
@@ -47,14 +48,6 @@ struct Outer {
   std::string name;
   int depth = 0;
 };
-
-std::string unit_name(int code) {
-  static constexpr std::array<std::pair<int, const char*>, 8> kUnits = {
-      {{1, "in"}, {2, "ft"}, {4, "mm"}, {5, "cm"}, {6, "m"}, {7, "km"}, {21, "ft"}, {0, ""}}};
-  for (const auto& [value, name] : kUnits)
-    if (value == code) return name;
-  return {};
-}
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -122,6 +115,7 @@ class DxfReader {
     for (const auto& [type, count] : ignored_)
       problems_.push_back(type + ": " + core::counted(count, "entity", "entities"));
     document_.skipped = std::move(problems_);
+    if (scale_ != 1) return document::scaled(std::move(document_), scale_);
     return std::move(document_);
   }
 
@@ -168,10 +162,10 @@ class DxfReader {
     if (variable_ != "$INSUNITS" || tag.code != 70) return;
     const auto given = detail::integer_of(tag);
     if (!given) problem("the unit of the drawing: it is no number (" + tags_.place(tag) + ")");
-    const int unit = given.value_or(0);
-    document_.unit = unit_name(unit);
-    if (unit != 0 && document_.unit.empty())
-      problem("the unit of the drawing ($INSUNITS " + std::to_string(unit) + ")");
+    const detail::DxfUnit* unit = detail::dxf_unit_of(given.value_or(0));
+    if (!unit) problem("the unit of the drawing ($INSUNITS " + std::to_string(*given) + ")");
+    document_.unit = unit ? unit->name : "";
+    scale_ = unit ? unit->factor : 1;
   }
 
   void close_polyline() {
@@ -366,6 +360,7 @@ class DxfReader {
   DxfReadLimits limits_;
   std::size_t most_points_;
   Document document_;
+  double scale_ = 1;  ///< from the drawing's unit to ours
   std::string section_;
   std::string variable_;
   bool naming_section_ = false;

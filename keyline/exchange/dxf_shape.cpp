@@ -6,6 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/document/arc.h"
+#include "keyline/exchange/spline_corners.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -89,8 +90,8 @@ std::vector<document::PlanarCurve> flat_curves(const DxfShape& shape) {
     return {{curve::Polyline2{flat(line->points)}}};
   }
   if (const auto* spline = std::get_if<curve::BSpline3>(&shape))
-    return {
-        {curve::BSpline2{spline->degree, spline->knots, flat(spline->control), spline->weights}}};
+    return parted_at_corners(
+        {spline->degree, spline->knots, flat(spline->control), spline->weights});
   const auto* ellipse = std::get_if<EllipseArc>(&shape);
   if (ellipse)
     if (const auto arc = circle_of(*ellipse)) return {{document::chain_of(*arc)}};

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/curve/conversion.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/cad_parts.h"
 #include "keyline/exchange/dxf_color.h"
 #include "keyline/exchange/dxf_frame.h"
+#include "keyline/exchange/dxf_units.h"
 #include "keyline/lac/space.h"
 
 namespace keyline::exchange {
@@ -40,8 +42,7 @@ class DxfWriter {
       if (auto done = add(named); !done) return std::unexpected(done.error());
     for (const auto& named : document.space_curves) add(named);
     note(document);
-    written_.content =
-        detail::dxf_file(body_, layers_, std::max(0, detail::dxf_unit(document.unit)));
+    written_.content = detail::dxf_file(body_, layers_, detail::dxf_unit(document.unit));
     return std::move(written_);
   }
 
@@ -50,20 +51,24 @@ class DxfWriter {
     if (!document.surfaces.empty())
       written_.notes.push_back(std::to_string(document.surfaces.size()) +
                                " surfaces are not in the file: DXF holds none");
-    if (detail::dxf_unit(document.unit) < 0)
-      written_.notes.push_back("the unit " + document.unit +
-                               " is not in the file: DXF has none such");
   }
 
   Result<void> add(const document::NamedPath& named) {
-    // Polylines take their share of the tolerance for themselves.
-    const double share = options_.polylines ? options_.tolerance / 2 : options_.tolerance;
+    // Half the tolerance is for what is made of the parts: polylines, or one spline of a chain.
+    const double share = options_.tolerance / 2;
     auto parts = cad_parts(named.path, share);
     if (!parts) return std::unexpected(parts.error());
-    if (options_.polylines) {
+    const bool chain = is_chain(*parts);
+    if (options_.polylines || (chain && is_bulged(*parts))) {
       const BulgedPolyline line = bulged_polyline(*parts, named.path.closed, share);
       written_.deviation = std::max(written_.deviation, line.deviation);
       if (line.vertices.size() >= 2) light_polyline(named.label, line);
+      return {};
+    }
+    if (chain) {
+      const ChainSpline whole = chain_spline(*parts, share);
+      written_.deviation = std::max(written_.deviation, whole.deviation);
+      add_part(named.label, whole.curve);
       return {};
     }
     written_.deviation = std::max(written_.deviation, parts->deviation);
@@ -145,7 +150,8 @@ class DxfWriter {
     const auto quintics =
         lac::approximate_by_quintics(std::get<lac::SpaceChain>(value), options_.tolerance);
     written_.deviation = std::max(written_.deviation, quintics.deviation);
-    for (const curve::Bezier3& piece : quintics.pieces) add(named.label, piece);
+    const auto whole = curve::to_bspline(quintics.pieces, 0).value();
+    spline(named.label, whole.degree, whole.knots, whole.control, {}, false);
   }
 
   void add(const Label& label, const curve::Bezier3& c) {

@@ -206,20 +206,66 @@ TEST(DxfWriter, ReadsBack) {
   const Document d = read(written->content);
   EXPECT_EQ(d.unit, "mm");
   EXPECT_TRUE(d.skipped.empty());
-  ASSERT_EQ(d.paths.size(), 5U);  // line, spline, arc of the chain; spline; polyline
+  ASSERT_EQ(d.paths.size(), 3U);  // the chain is one spline
   ASSERT_EQ(d.space_curves.size(), 2U);
   EXPECT_EQ(d.paths[0].label, (document::Label{"Dachlinie \u00e4", "body", "#aa1100"}));
-  EXPECT_TRUE(std::holds_alternative<curve::Bezier2>(d.paths[0].path.curves[0].value));
-  EXPECT_NEAR(arc_of(d.paths[2].path.curves[0]).radius, 1 / 0.03, 1e-12);
-  EXPECT_EQ(std::get<curve::BSpline2>(d.paths[3].path.curves[0].value),
+  EXPECT_EQ(std::get<curve::BSpline2>(d.paths[1].path.curves[0].value),
             std::get<curve::BSpline2>(sample().paths[1].path.curves[0].value));
-  EXPECT_EQ(std::get<curve::Polyline2>(d.paths[4].path.curves[0].value).points[2],
+  EXPECT_EQ(std::get<curve::Polyline2>(d.paths[2].path.curves[0].value).points[2],
             (Point2{0.1, 3}));
   EXPECT_EQ(d.space_curves[0].label.layer, "wire");
-  const auto exact = std::get<lac::Chain>(sample().paths[0].path.curves[0].value);
-  for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_NEAR(distance(evaluate(d.paths[i].path, 0), lac::segment_at(exact, i).start.position), 0,
-                1e-12);
+  const auto exact = sample().paths[0].path;
+  EXPECT_EQ(evaluate(d.paths[0].path, 0), evaluate(exact, 0));
+  EXPECT_NEAR(distance(evaluate(d.paths[0].path, 1), evaluate(exact, 1)), 0, 1e-12);
+}
+
+// The side of a bulge is that of the turn: to the right, negative. Values by hand: a quarter circle
+// of radius 1 from (0,0), heading along x and turning right, ends at (1,-1); tan(90/4 degrees).
+TEST(DxfWriter, RightTurnsHaveNegativeBulges) {
+  Document d;
+  const lac::Chain chain{{{0, 0}, 0}, {{-1, core::kPi / 2, -1, -1}, {-1, 2, 0, 0}}, false};
+  d.paths.push_back({{"a", "", ""}, {{{chain}}, false}, 0});
+  const auto written = write_dxf(d, {.tolerance = 1e-3});
+  ASSERT_TRUE(written);
+  EXPECT_THAT(written->content, HasSubstr("\n42\n-0.41421356"));
+  const Document back = read(written->content);
+  ASSERT_EQ(back.paths.size(), 1U);
+  const Point2 middle = evaluate(back.paths[0].path.curves[0], 0.5);
+  EXPECT_NEAR(distance(middle, Point2{std::sqrt(0.5), std::sqrt(0.5) - 1}), 0, 1e-12);
+  EXPECT_NEAR(distance(evaluate(back.paths[0].path, 1), Point2{1, -3}), 0, 1e-12);
+}
+
+// A mirrored arc runs clockwise: DXF tells it by the angles of its ends in the order of the other
+// sense. From (1,0) by 60 degrees to the right around the origin: 300 to 360 degrees.
+TEST(DxfWriter, ArcsToTheRightStartWhereTheyEnd) {
+  Document d;
+  const lac::Chain chain{{{1, 0}, -core::kPi / 2}, {{-1, core::kPi / 3, -1, -1}}, false};
+  d.paths.push_back({{"a", "", ""}, {{{chain}}, false}, 0});
+  const auto written = write_dxf(d, {.tolerance = 1e-3});
+  ASSERT_TRUE(written);
+  const Document back = read(written->content);
+  ASSERT_EQ(back.paths.size(), 1U);
+  const auto arc = arc_of(only(back));
+  EXPECT_NEAR(arc.turn, core::kPi / 3, 1e-14);
+  EXPECT_NEAR(distance(evaluate(only(back), 0.5),
+                       Point2{std::cos(core::kPi / 6), -std::sin(core::kPi / 6)}),
+              0, 1e-12);
+}
+
+// A partial arc in a mirrored frame (extrusion -z): its angles count from the mirrored axis. By
+// hand: centre (2,0) becomes (-2,0), angles 30 to 90 become 150 to 90, at 150 degrees the start.
+TEST(DxfReader, MirroredPartialArcsStartWhereTheyShould) {
+  const Document d = read(drawing("0 ARC 8 0 10 2 20 0 40 1 50 30 51 90 230 -1"));
+  const Point2 start{-2 - std::cos(core::kPi / 6), 0.5};
+  EXPECT_NEAR(distance(evaluate(only(d), 0), start), 0, 1e-14);
+  EXPECT_NEAR(distance(evaluate(only(d), 1), Point2{-2, 1}), 0, 1e-14);
+}
+
+// What AutoCAD draws of a negative bulge: a half turn to the right from (0,0) to (2,0) is above.
+TEST(DxfReader, NegativeBulgesTurnRight) {
+  const Document d = read(drawing("0 LWPOLYLINE 8 0 90 2 70 0 10 0 20 0 42 -1 10 2 20 0"));
+  ASSERT_FALSE(d.paths.empty());
+  EXPECT_NEAR(distance(evaluate(d.paths[0].path, 0.5), Point2{1, 1}), 0, 1e-14);
 }
 
 TEST(DxfWriter, PolylinesOnRequestKeepArcs) {

@@ -2,11 +2,14 @@
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRep_Builder.hxx>
 #include <GeomConvert.hxx>
+#include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_Circle.hxx>
+#include <Geom_ElementarySurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
@@ -17,16 +20,21 @@
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Ax2.hxx>
+#include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/document/arc.h"
+#include "keyline/exchange/spline_corners.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -34,6 +42,8 @@ namespace {
 using core::Point3;
 using curve::BSpline3;
 using document::Label;
+
+constexpr double kTolerance = 1e-7;
 
 Point3 point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 gp_Pnt point(Point3 p) { return {p.x, p.y, p.z}; }
@@ -104,7 +114,19 @@ Handle(Geom_Curve) basis_of(Handle(Geom_Curve) c) {
   return c;
 }
 
+/// A stretch of a period, from within [0, period) and of no more than one. What is left of a whole
+/// one by rounding (Precision::PConfusion) counts as whole: OCCT makes a sliver of what is too much
+/// and fails close to minus one period.
+void normalize(double& first, double& last, double period) {
+  constexpr double kReach = 1e-9;
+  const double length = last - first > period - kReach ? period : last - first;
+  first -= std::floor(first / period) * period;
+  if (first < kReach || first > period - kReach) first = 0;
+  last = first + length;
+}
+
 BSpline3 spline_of(const Handle(Geom_Curve) & c, double first, double last) {
+  if (c->IsPeriodic()) normalize(first, last, c->Period());
   const Handle(Geom_BSplineCurve) spline =
       GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(c, first, last));
   if (spline->IsPeriodic()) spline->SetNotPeriodic();
@@ -137,21 +159,58 @@ void add_curve(document::Document& document, const opencascade::handle<Geom_Curv
     return;
   }
   const bool closed = made.control.front() == made.control.back();
-  add_path(document,
-           {curve::BSpline2{made.degree, std::move(made.knots), flat(made.control),
-                            std::move(made.weights)}},
-           closed, label);
+  const curve::BSpline2 planar{made.degree, std::move(made.knots), flat(made.control),
+                               std::move(made.weights)};
+  document.paths.push_back({label, {detail::parted_at_corners(planar), closed}, 0});
 }
 
+namespace {
+
+/// Surfaces of revolution are turned so that they start at 0, their own frame being free.
+Handle(Geom_Surface) trimmed(Handle(Geom_Surface) s, double u1, double u2, double v1, double v2) {
+  if (s->IsUPeriodic()) {
+    normalize(u1, u2, s->UPeriod());
+    if (const auto elementary = Handle(Geom_ElementarySurface)::DownCast(s->Copy());
+        !elementary.IsNull()) {
+      gp_Ax3 frame = elementary->Position();
+      frame.Rotate(frame.Axis(), frame.Direct() ? u1 : -u1);
+      elementary->SetPosition(frame);
+      s = elementary;
+      u2 -= u1;
+      u1 = 0;
+    }
+  }
+  if (s->IsVPeriodic()) {
+    normalize(v1, v2, s->VPeriod());
+    if (v2 - v1 == s->VPeriod()) v2 -= std::exchange(v1, 0);
+  }
+  return new Geom_RectangularTrimmedSurface(s, u1, u2, v1, v2);
+}
+
+/// Exactly, or within `deviation` where OCCT knows no exact form.
+Handle(Geom_BSplineSurface) converted(const Handle(Geom_Surface) & s, double& deviation) {
+  try {
+    return GeomConvert::SurfaceToBSplineSurface(s);
+  } catch (const Standard_Failure&) {
+    GeomConvert_ApproxSurface near(s, kTolerance, GeomAbs_C1, GeomAbs_C1, 8, 8, 100, 1);
+    if (!near.HasResult()) throw;
+    deviation = near.MaxError();
+    return near.Surface();
+  }
+}
+
+}  // namespace
+
 surface::Surface surface_of(const opencascade::handle<Geom_Surface>& whole, double u1, double u2,
-                            double v1, double v2) {
+                            double v1, double v2, double& deviation) {
+  deviation = 0;
   Handle(Geom_Surface) s = whole;
   while (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(s))
     s = trimmed->BasisSurface();
   const bool free_form = !Handle(Geom_BSplineSurface)::DownCast(s).IsNull() ||
                          !Handle(Geom_BezierSurface)::DownCast(s).IsNull();
-  if (!free_form) s = new Geom_RectangularTrimmedSurface(s, u1, u2, v1, v2);
-  Handle(Geom_BSplineSurface) spline = GeomConvert::SurfaceToBSplineSurface(s);
+  if (!free_form) s = trimmed(s, u1, u2, v1, v2);
+  Handle(Geom_BSplineSurface) spline = converted(s, deviation);
   spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
   if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
   if (spline->IsVPeriodic()) spline->SetVNotPeriodic();
@@ -171,8 +230,6 @@ surface::Surface surface_of(const opencascade::handle<Geom_Surface>& whole, doub
 }
 
 namespace {
-
-constexpr double kTolerance = 1e-7;
 
 /// A curve with the parameters it runs between.
 struct CurvePart {
@@ -315,7 +372,36 @@ TopoDS_Shape edge_of(const CurvePart& part) {
 
 }  // namespace
 
-TopoDS_Shape edge_of(const document::PlanarCurve& curve) { return edge_of(curve_of(curve)); }
+TopoDS_Shape shape_of(const document::Path& path) {
+  if (path.curves.size() == 1) return edge_of(curve_of(path.curves.front()));
+  // Neighbours share a vertex: what goes along a wire finds its way by them.
+  BRep_Builder builder;
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  const auto vertex = [&](const CurvePart& part, double at) {
+    TopoDS_Vertex made;
+    builder.MakeVertex(made, part.curve->Value(at), kTolerance);
+    return made;
+  };
+  TopoDS_Vertex first;
+  TopoDS_Vertex last;
+  for (const document::PlanarCurve& c : path.curves) {
+    const CurvePart part = curve_of(c);
+    if (first.IsNull()) first = last = vertex(part, part.first);
+    const bool closes = path.closed && &c == &path.curves.back();
+    const TopoDS_Vertex end = closes ? first : vertex(part, part.last);
+    TopoDS_Edge edge;
+    builder.MakeEdge(edge, part.curve, kTolerance);
+    builder.Add(edge, last.Oriented(TopAbs_FORWARD));
+    builder.Add(edge, end.Oriented(TopAbs_REVERSED));
+    builder.Range(edge, part.first, part.last);
+    builder.Add(wire, edge);
+    last = end;
+  }
+  wire.Closed(path.closed);
+  return wire;
+}
+
 TopoDS_Shape edge_of(const document::SpaceCurve& curve) { return edge_of(curve_of(curve)); }
 
 TopoDS_Shape face_of(const surface::Surface& surface) {

@@ -24,13 +24,13 @@ document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& curve
                                     double last);
 
 /// The B-spline form of the part of a surface in a box of parameters; B-spline and Bézier surfaces
-/// whole.
+/// whole. deviation: largest distance from it, 0 where the form is exact. Throws as above.
 surface::Surface surface_of(const opencascade::handle<Geom_Surface>& surface, double u1, double u2,
-                            double v1, double v2);
+                            double v1, double v2, double& deviation);
 
-/// An edge of a curve cad_parts() gives; a face of a whole surface. Throws std::runtime_error for
-/// what has no extent.
-TopoDS_Shape edge_of(const document::PlanarCurve& curve);
+/// A path of curves cad_parts() gives, as an edge or, of several, a wire of edges in their order; a
+/// face of a whole surface. Throws std::runtime_error for what has no extent.
+TopoDS_Shape shape_of(const document::Path& path);
 TopoDS_Shape edge_of(const document::SpaceCurve& curve);
 TopoDS_Shape face_of(const surface::Surface& surface);
 

@@ -20,6 +20,7 @@
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"
+#include "keyline/exchange/occt/value_check.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -113,6 +114,8 @@ void note_unread(IGESControl_Reader& reader, document::Document& document) {
 }  // namespace
 
 document::Document read_iges(const std::string& file) {
+  if (const std::string bad = bad_iges_value(text_of(file)); !bad.empty())
+    throw std::runtime_error(bad + "; mend the file");
   IGESControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
     throw std::runtime_error("this is no IGES file that can be read; check that it is complete");

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/occt/geometry.h"
@@ -92,6 +93,8 @@ void ShapeWalk::add(const TopoDS_Shape& shape, const TopLoc_Location& location, 
       return add_face(shape.Moved(location, false), named());
     case TopAbs_EDGE:
       return add_edge(shape.Moved(location, false), named());
+    case TopAbs_WIRE:
+      return add_wire(shape.Moved(location, false), named());
     case TopAbs_VERTEX:
       ++points_;
       return;
@@ -115,7 +118,11 @@ void ShapeWalk::add_face(const TopoDS_Shape& shape, Label label) {
     const Handle(Geom_Surface) s = BRep_Tool::Surface(face);
     if (s.IsNull()) return skip(label.name, "a face without surface");
     const Bounds b = bounds_of(face, s);
-    document::NamedSurface named{label, surface_of(s, b.u1, b.u2, b.v1, b.v2), 0};
+    double deviation = 0;
+    document::NamedSurface named{label, surface_of(s, b.u1, b.u2, b.v1, b.v2, deviation), 0};
+    if (deviation > 0)
+      skip(label.name, "its exact form; a surface within " + core::number_text(deviation, 2) +
+                           " of it is here");
     if (auto sound = validate(named.surface); !sound)
       return skip(label.name, sound.error().message);
     for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
@@ -133,15 +140,17 @@ void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& name
     if (part.Value().ShapeType() != TopAbs_WIRE) continue;
     std::vector<document::SpaceCurve> loop;
     BRepTools_WireExplorer edge(TopoDS::Wire(part.Value()), TopoDS::Face(face));
-    for (; edge.More(); edge.Next()) {
-      double first = 0;
-      double last = 0;
-      const Handle(Geom_Curve) c = BRep_Tool::Curve(edge.Current(), first, last);
-      if (c.IsNull()) continue;
-      document::SpaceCurve curve = space_curve_of(c, first, last);
-      const bool back = edge.Current().Orientation() == TopAbs_REVERSED;
-      if (validate(curve)) loop.push_back(back ? reverse(curve) : std::move(curve));
-    }
+    for (; edge.More(); edge.Next()) try {
+        double first = 0;
+        double last = 0;
+        const Handle(Geom_Curve) c = BRep_Tool::Curve(edge.Current(), first, last);
+        if (c.IsNull()) continue;
+        document::SpaceCurve curve = space_curve_of(c, first, last);
+        const bool back = edge.Current().Orientation() == TopAbs_REVERSED;
+        if (validate(curve)) loop.push_back(back ? reverse(curve) : std::move(curve));
+      } catch (const Standard_Failure& failure) {  // the surface is there all the same
+        skip(named.label.name, "an edge of its border: " + std::string(failure.GetMessageString()));
+      }
     if (!loop.empty()) named.trim_loops.push_back(std::move(loop));
   }
   skip(named.label.name, "trimmed by " + core::counted(named.trims, "edge") +
@@ -161,6 +170,58 @@ void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
   } catch (const Standard_Failure& failure) {
     skip(label.name, failure.GetMessageString());
   }
+}
+
+namespace {
+
+/// Curves of one wire as one path where they lie in z = 0 and each goes on where the one before
+/// ends, to 1e-7 of their size (the precision of CAD files); empty otherwise.
+std::optional<document::Path> chained(const document::Document& parts) {
+  if (!parts.space_curves.empty() || parts.paths.empty()) return std::nullopt;
+  document::Path path;
+  double size = 0;
+  const core::Point2 first = evaluate(parts.paths.front().path, 0);
+  for (const auto& named : parts.paths)
+    for (const double t : {0.5, 1.0})
+      size = std::max(size, distance(first, evaluate(named.path, t)));
+  const double reach = 1e-7 * size;
+  core::Point2 last = first;
+  for (const auto& named : parts.paths) {
+    if (distance(last, evaluate(named.path, 0)) > reach) return std::nullopt;
+    last = evaluate(named.path, 1);
+    path.curves.insert(path.curves.end(), named.path.curves.begin(), named.path.curves.end());
+  }
+  path.closed = distance(last, first) <= reach;
+  return path;
+}
+
+}  // namespace
+
+/// A chain of curves stays one.
+void ShapeWalk::add_wire(const TopoDS_Shape& shape, Label label) {
+  document::Document parts;
+  std::string failed;
+  for (TopoDS_Iterator part(shape); part.More(); part.Next()) try {
+      double first = 0;
+      double last = 0;
+      const TopoDS_Edge edge = TopoDS::Edge(part.Value());
+      const Handle(Geom_Curve) c = BRep_Tool::Curve(edge, first, last);
+      if (c.IsNull()) continue;
+      add_curve(parts, c, first, last, {});
+      if (edge.Orientation() != TopAbs_REVERSED) continue;
+      if (!parts.paths.empty()) parts.paths.back().path = reverse(parts.paths.back().path);
+    } catch (const Standard_Failure& failure) {
+      failed = failure.GetMessageString();
+    }
+  auto path = failed.empty() ? chained(parts) : std::nullopt;
+  if (!path) {
+    for (TopoDS_Iterator part(shape); part.More(); part.Next()) add_edge(part.Value(), label);
+    return;
+  }
+  ++edges_;
+  if (label.name.empty() || label.name.back() == '/')
+    label.name += "edge-" + std::to_string(edges_);
+  document_.paths.push_back({std::move(label), std::move(*path), 0});
 }
 
 void ShapeWalk::finish() {

@@ -33,6 +33,7 @@ class ShapeWalk {
   void add(const TopoDS_Shape& shape, const TopLoc_Location& location, Outer outer);
   void add_face(const TopoDS_Shape& shape, document::Label label);
   void add_edge(const TopoDS_Shape& shape, document::Label label);
+  void add_wire(const TopoDS_Shape& shape, document::Label label);
   void add_trims(const TopoDS_Shape& face, document::NamedSurface& named);
   void skip(const std::string& name, const std::string& why);
 

@@ -30,6 +30,7 @@
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"
+#include "keyline/exchange/occt/value_check.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -184,6 +185,8 @@ void note_distorted(document::Document& document, const Handle(Interface_Interfa
 }  // namespace
 
 document::Document read_step(const std::string& file) {
+  if (const std::string bad = bad_step_value(text_of(file)); !bad.empty())
+    throw std::runtime_error(bad + "; mend the file");
   STEPControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
     throw std::runtime_error("this is no STEP file that can be read; check that it is complete");

@@ -17,7 +17,13 @@
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepGeom_CompositeCurve.hxx>
+#include <StepGeom_CompositeCurveSegment.hxx>
+#include <StepGeom_HArray1OfCompositeCurveSegment.hxx>
 #include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_GeometricSet.hxx>
+#include <StepShape_GeometricSetSelect.hxx>
+#include <StepShape_HArray1OfGeometricSetSelect.hxx>
 #include <StepVisual_Colour.hxx>
 #include <StepVisual_HArray1OfLayeredItem.hxx>
 #include <StepVisual_LayeredItem.hxx>
@@ -57,8 +63,7 @@ const char* occt_unit(const std::string& unit) {
 /// Calls add(shape, label) for everything in the document.
 template <class Add>
 void for_each_shape(const document::Document& document, Add&& add) {
-  for (const auto& named : document.paths)
-    for (const auto& c : named.path.curves) add(edge_of(c), named.label);
+  for (const auto& named : document.paths) add(shape_of(named.path), named.label);
   for (const auto& named : document.space_curves) add(edge_of(named.curve), named.label);
   for (const auto& named : document.surfaces) add(face_of(named.surface), named.label);
 }
@@ -75,6 +80,36 @@ Handle(StepRepr_RepresentationItem)
   Handle(StepRepr_RepresentationItem) item;
   process->FindTypedTransient(mapper, STANDARD_TYPE(StepRepr_RepresentationItem), item);
   return item;
+}
+
+/// Makes one composite curve of the curves OCCT wrote of a wire behind the first `before` entities;
+/// null where there is no set of curves.
+Handle(StepRepr_RepresentationItem)
+    composite(const Handle(Interface_InterfaceModel) & model, int before, bool closed) {
+  for (int i = before + 1; i <= model->NbEntities(); ++i) {
+    const auto set = Handle(StepShape_GeometricSet)::DownCast(model->Value(i));
+    if (set.IsNull()) continue;
+    const int count = set->NbElements();
+    Handle(StepGeom_HArray1OfCompositeCurveSegment) segments =
+        new StepGeom_HArray1OfCompositeCurveSegment(1, count);
+    for (int k = 1; k <= count; ++k) {
+      Handle(StepGeom_CompositeCurveSegment) segment = new StepGeom_CompositeCurveSegment;
+      segment->Init(k < count || closed ? StepGeom_tcContinuous : StepGeom_tcDiscontinuous, true,
+                    set->ElementsValue(k).Curve());
+      segments->SetValue(k, segment);
+    }
+    Handle(StepGeom_CompositeCurve) curve = new StepGeom_CompositeCurve;
+    curve->Init(new TCollection_HAsciiString(""), segments, StepData_LUnknown);
+    StepShape_GeometricSetSelect only;
+    only.SetValue(curve);
+    Handle(StepShape_HArray1OfGeometricSetSelect) elements =
+        new StepShape_HArray1OfGeometricSetSelect(1, 1);
+    elements->SetValue(1, only);
+    set->SetElements(elements);
+    Handle(StepData_StepModel)::DownCast(model)->AddWithRefs(curve);
+    return curve;
+  }
+  return {};
 }
 
 /// OCCT numbers the products it makes; here every thing has its own name.
@@ -117,7 +152,7 @@ class StepLooks {
                                (rgb & 255) / 255.0, Quantity_TOC_sRGB);
     const Handle(StepVisual_Colour) none;
     const Handle(StepVisual_Colour) own = STEPConstruct_Styles::EncodeColor(color);
-    const bool curve = shape.ShapeType() == TopAbs_EDGE;
+    const bool curve = shape.ShapeType() == TopAbs_EDGE || shape.ShapeType() == TopAbs_WIRE;
     styles_.ClearStyles();
     styles_.AddStyle(
         item, styles_.MakeColorPSA(item, curve ? none : own, curve ? own : none, none, 0), {});
@@ -197,12 +232,14 @@ std::string write_step(const document::Document& document) {
   for_each_shape(document, [&](const TopoDS_Shape& shape, const document::Label& label) {
     const std::string name = label.name.empty() ? "keyline" : label.name;
     const int before = writer.Model()->NbEntities();
+    const bool wire = shape.ShapeType() == TopAbs_WIRE;
     const auto mode =
-        shape.ShapeType() == TopAbs_EDGE ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
+        wire || shape.ShapeType() == TopAbs_EDGE ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
     // Without the graph of the whole model, which nobody asks: it would be made anew every time.
     if (writer.Transfer(shape, mode, Standard_False) != IFSelect_RetDone)
       throw std::runtime_error("\"" + name + "\" cannot be written as STEP");
-    const auto item = item_of(writer, shape);
+    const auto item =
+        wire ? composite(writer.Model(), before, shape.Closed()) : item_of(writer, shape);
     if (!item.IsNull()) item->SetName(one_line(name));
     name_products(writer.Model(), before, name);
     looks.add(shape, item, label);
@@ -236,7 +273,7 @@ class IgesLooks {
         continue;
       if (!name.IsNull()) entity->AddProperty(name);
       if (!color.IsNull()) entity->InitColor(color);
-      if (level > 0) entity->InitLevel({}, level);
+      if (level > 0) at_levels_.emplace_back(entity, level);
     }
     if (!name.IsNull()) writer_.AddEntity(name);
   }
@@ -248,10 +285,10 @@ class IgesLooks {
       Handle(IGESAppli_LevelFunction) named = new IGESAppli_LevelFunction;
       named->Init(2, 0, one_line(layer));
       writer_.AddEntity(named);
-      names_of_levels_.emplace_back(named, level);
+      at_levels_.emplace_back(named, level);
     }
-    writer_.ComputeModel();  // takes levels away from properties
-    for (const auto& [named, level] : names_of_levels_) named->InitLevel({}, level);
+    writer_.ComputeModel();  // takes levels away from properties and composite curves
+    for (const auto& [entity, level] : at_levels_) entity->InitLevel({}, level);
   }
 
  private:
@@ -285,7 +322,7 @@ class IgesLooks {
   IGESControl_Writer& writer_;
   std::map<int, Handle(IGESGraph_Color)> colors_;
   std::map<std::string, int> levels_;
-  std::vector<std::pair<Handle(IGESAppli_LevelFunction), int>> names_of_levels_;
+  std::vector<std::pair<Handle(IGESData_IGESEntity), int>> at_levels_;
 };
 
 }  // namespace

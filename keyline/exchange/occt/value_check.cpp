@@ -1,0 +1,166 @@
+#include "keyline/exchange/occt/value_check.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+
+#include "keyline/core/text.h"
+
+namespace keyline::exchange::occt {
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+
+std::string told(std::size_t line, std::string_view value) {
+  return "line " + std::to_string(line) + ": \"" + core::on_one_line(value.substr(0, 40)) +
+         "\" is no value";
+}
+
+/// Goes through the words of a STEP file.
+class StepValues {
+ public:
+  explicit StepValues(std::string_view text) : text_(text) {}
+
+  std::string bad() {
+    for (at_ = std::min(text_.find("DATA;"), text_.size()); at_ < text_.size();) {
+      const char c = text_[at_];
+      if (c == '\'' || c == '"') {
+        skip_quoted(c);
+      } else if (text_.substr(at_, 2) == "/*") {
+        at_ = std::min(text_.find("*/", at_ + 2), text_.size() - 1) + 1;
+      } else if (is_start(c)) {
+        const std::size_t from = at_;
+        if (!is_value(word())) return told(line_of(from), text_.substr(from, at_ - from));
+      } else {
+        depth_ += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (c == ';') depth_ = 0;
+        ++at_;
+      }
+    }
+    return {};
+  }
+
+ private:
+  static bool is_start(char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == '#';
+  }
+
+  /// A quote within is doubled: it ends one string and starts the next.
+  void skip_quoted(char quote) { at_ = std::min(text_.find(quote, at_ + 1), text_.size() - 1) + 1; }
+
+  std::string_view word() {
+    const std::size_t from = at_;
+    while (at_ < text_.size() && !is_space(text_[at_]) &&
+           std::string_view("(),;=/'\"$*").find(text_[at_]) == std::string_view::npos)
+      ++at_;
+    return text_.substr(from, at_ - from);
+  }
+
+  /// Outside brackets words are keywords and numbers of instances; within, names stand before a
+  /// bracket of their own.
+  bool is_value(std::string_view word) const {
+    if (depth_ == 0 || word.starts_with('#')) return true;
+    const bool enumeration = word.size() > 2 && word.starts_with('.') && word.ends_with('.');
+    if (enumeration) return true;
+    if (!is_letter(word.front())) return core::finite_number(word).has_value();
+    std::size_t next = at_;
+    while (next < text_.size() && is_space(text_[next])) ++next;
+    return next < text_.size() && text_[next] == '(';
+  }
+
+  std::size_t line_of(std::size_t place) const {
+    return 1 + static_cast<std::size_t>(std::count(
+                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+};
+
+/// A number as Fortran writes it too, with D before the exponent.
+bool is_iges_number(std::string_view word) {
+  std::string plain(word);
+  for (char& c : plain)
+    if (c == 'D' || c == 'd') c = 'E';
+  return core::finite_number(plain).has_value();
+}
+
+/// The parameters of one entity; empty where all are numbers, strings or absent.
+std::string_view bad_parameter(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  const auto type = core::finite_number(text.substr(0, comma));
+  if (!type || *type < 100 || *type >= 200) return {};
+  for (std::size_t at = 0; at < text.size();) {
+    at = std::min(text.find_first_not_of(" \t", at), text.size());
+    std::size_t length = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), length);
+    const auto behind = static_cast<std::size_t>(end - text.data());
+    if (error == std::errc() && behind < text.size() && text[behind] == 'H')
+      at = std::min(behind + 1 + length, text.size());  // a string
+    const std::size_t stop = std::min(text.find_first_of(",;", at), text.size());
+    std::string_view word = text.substr(at, stop - at);
+    while (word.ends_with(' ')) word.remove_suffix(1);
+    if (!word.empty() && !is_iges_number(word)) return word;
+    if (stop < text.size() && text[stop] == ';') break;  // a remark may follow
+    at = stop + 1;
+  }
+  return {};
+}
+
+/// The global section starts with its separators, "1H,,1H;,", or leaves out the usual ones, ",,".
+bool has_usual_separators(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (line.size() > 72 && line[72] == 'G')
+      return line.starts_with(",,") || line.starts_with("1H,,1H;,");
+    at = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string bad_step_value(std::string_view text) { return StepValues(text).bad(); }
+
+std::string bad_iges_value(std::string_view text) {
+  constexpr std::size_t kData = 64;  // columns of a parameter line; the entity's number follows
+  // Other separators than "," and ";" are named at the start of the global section.
+  if (!has_usual_separators(text)) return {};
+  std::string parameters;
+  std::string_view owner;
+  std::size_t first = 1;
+  std::size_t number = 0;
+  std::string found;
+  const auto check = [&] {
+    const std::string_view bad = bad_parameter(parameters);
+    if (!bad.empty() && found.empty()) found = told(first, bad);
+    parameters.clear();
+  };
+  for (std::size_t at = 0; at < text.size() && found.empty();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
+    ++number;
+    if (line.size() < 73 || line[72] != 'P') continue;
+    if (line.substr(kData, 8) != owner) {
+      check();
+      owner = line.substr(kData, 8);
+      first = number;
+    }
+    parameters += line.substr(0, kData);
+  }
+  check();
+  return found;
+}
+
+}  // namespace keyline::exchange::occt

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace keyline::exchange::occt {
+
+/// What a file holds; empty where it cannot be read, which OCCT says better.
+std::string text_of(const std::string& file);
+
+/// The first value of a STEP file that is written like none, as "line 12: \"abc\" is no value";
+/// empty where there is none. OCCT takes such for 0. Looked at: what stands for a number or a name
+/// among the parameters of the DATA sections (ISO 10303-21, 6.4); what else may be wrong is OCCT's.
+std::string bad_step_value(std::string_view text);
+
+/// The same for the parameters of an IGES file's geometry (types 100 to 199; IGES 5.3, 2.2.2).
+std::string bad_iges_value(std::string_view text);
+
+}  // namespace keyline::exchange::occt
