@@ -272,8 +272,7 @@ class IgesLooks {
       if (entity.IsNull() || entity->TypeNumber() >= 200 || entity->TypeNumber() == kTransformation)
         continue;
       if (!name.IsNull()) entity->AddProperty(name);
-      if (!color.IsNull()) entity->InitColor(color);
-      if (level > 0) at_levels_.emplace_back(entity, level);
+      looks_.push_back({entity, color, level});
     }
     if (!name.IsNull()) writer_.AddEntity(name);
   }
@@ -285,13 +284,22 @@ class IgesLooks {
       Handle(IGESAppli_LevelFunction) named = new IGESAppli_LevelFunction;
       named->Init(2, 0, one_line(layer));
       writer_.AddEntity(named);
-      at_levels_.emplace_back(named, level);
+      looks_.push_back({named, {}, level});
     }
-    writer_.ComputeModel();  // takes levels away from properties and composite curves
-    for (const auto& [entity, level] : at_levels_) entity->InitLevel({}, level);
+    writer_.ComputeModel();  // takes them away from properties and composite curves
+    for (const Look& look : looks_) {
+      if (!look.color.IsNull()) look.entity->InitColor(look.color);
+      if (look.level > 0) look.entity->InitLevel({}, look.level);
+    }
   }
 
  private:
+  struct Look {
+    Handle(IGESData_IGESEntity) entity;
+    Handle(IGESGraph_Color) color;
+    int level = 0;
+  };
+
   Handle(IGESGraph_Color) color_of(int rgb) {
     if (rgb < 0) return {};
     Handle(IGESGraph_Color)& color = colors_[rgb];
@@ -322,7 +330,7 @@ class IgesLooks {
   IGESControl_Writer& writer_;
   std::map<int, Handle(IGESGraph_Color)> colors_;
   std::map<std::string, int> levels_;
-  std::vector<std::pair<Handle(IGESData_IGESEntity), int>> at_levels_;
+  std::vector<Look> looks_;
 };
 
 }  // namespace
