@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,11 +9,6 @@ namespace keyline::core {
 /// value with so many significant digits (1 to 17), for messages: the shorter of plain and
 /// scientific notation, no trailing zeros ("0.25", "1.5e-09", "nan", "inf"), whatever the locale.
 std::string number_text(double value, int significant_digits);
-
-/// The finite number a text is, from its first character to its last (a + may stand before it);
-/// what is too small for a double is 0, what is too large, "nan" and "inf" are none. Whatever the
-/// locale.
-std::optional<double> finite_number(std::string_view text);
 
 /// So many of a thing, for messages: "1 piece", "2 pieces"; `many` where "s" is not the plural.
 std::string counted(std::size_t n, std::string_view one, std::string_view many = {});

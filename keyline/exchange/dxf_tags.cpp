@@ -6,8 +6,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
+#include "keyline/exchange/finite_number.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -73,7 +73,7 @@ std::optional<std::pair<unsigned, std::size_t>> escape_at(std::string_view text)
 
 std::optional<double> number_of(const DxfTag& tag) {
   if (std::isfinite(tag.number)) return tag.number;
-  return core::finite_number(trimmed(tag.text));
+  return finite_number(trimmed(tag.text));
 }
 
 std::optional<int> integer_of(const DxfTag& tag) {

@@ -12,6 +12,7 @@
 #include "keyline/core/text.h"
 #include "keyline/exchange/byte_lines.h"
 #include "keyline/exchange/document_file.h"
+#include "keyline/exchange/finite_number.h"
 #include "keyline/exchange/glif.h"
 #include "keyline/exchange/svg_transform.h"
 
@@ -107,7 +108,7 @@ document::Path path_of(std::vector<Node> nodes) {
 
 std::optional<double> number(const pugi::xml_node& node, const char* name) {
   const char* text = node.attribute(name).value();
-  return core::finite_number(text);
+  return detail::finite_number(text);
 }
 
 /// A glyph being read with the components it is made of.

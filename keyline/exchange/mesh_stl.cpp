@@ -2,8 +2,8 @@
 #include <cstring>
 #include <unordered_map>
 
-#include "keyline/core/text.h"
 #include "keyline/exchange/byte_lines.h"
+#include "keyline/exchange/finite_number.h"
 #include "keyline/exchange/mesh.h"
 
 namespace keyline::exchange {
@@ -102,7 +102,7 @@ Result<Mesh> read_text(std::string_view bytes) {
     if (word != "vertex") continue;
     double c[3] = {};
     for (double& value : c) {
-      const auto number = core::finite_number(detail::take_word(line));
+      const auto number = detail::finite_number(detail::take_word(line));
       if (!number || have == 3)
         return core::fail(
             ErrorCode::bad_input,

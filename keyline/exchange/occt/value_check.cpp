@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "keyline/core/text.h"
+#include "keyline/exchange/finite_number.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -65,7 +66,7 @@ class StepValues {
     if (depth_ == 0 || word.starts_with('#')) return true;
     const bool enumeration = word.size() > 2 && word.starts_with('.') && word.ends_with('.');
     if (enumeration) return true;
-    if (!is_letter(word.front())) return core::finite_number(word).has_value();
+    if (!is_letter(word.front())) return detail::finite_number(word).has_value();
     std::size_t next = at_;
     while (next < text_.size() && is_space(text_[next])) ++next;
     return next < text_.size() && text_[next] == '(';
@@ -86,13 +87,13 @@ bool is_iges_number(std::string_view word) {
   std::string plain(word);
   for (char& c : plain)
     if (c == 'D' || c == 'd') c = 'E';
-  return core::finite_number(plain).has_value();
+  return detail::finite_number(plain).has_value();
 }
 
 /// The parameters of one entity; empty where all are numbers, strings or absent.
 std::string_view bad_parameter(std::string_view text) {
   const std::size_t comma = text.find(',');
-  const auto type = core::finite_number(text.substr(0, comma));
+  const auto type = detail::finite_number(text.substr(0, comma));
   if (!type || *type < 100 || *type >= 200) return {};
   for (std::size_t at = 0; at < text.size();) {
     at = std::min(text.find_first_not_of(" \t", at), text.size());
