@@ -66,10 +66,18 @@ struct Contours {
   }
 };
 
-Point2 point(const FT_Vector* v) { return {static_cast<double>(v->x), static_cast<double>(v->y)}; }
+/// Outlines are loaded at one pixel a unit, in 64ths of it, and drawn at twice that: the points
+/// TrueType implies halfway between handles are not rounded.
+constexpr int kShift = 1;
+constexpr double kSteps = 64 << kShift;
+
+Point2 point(const FT_Vector* v) {
+  return {static_cast<double>(v->x) / kSteps, static_cast<double>(v->y) / kSteps};
+}
 
 FT_Outline_Funcs drawing() {
   FT_Outline_Funcs functions{};
+  functions.shift = kShift;
   functions.move_to = [](const FT_Vector* to, void* user) {
     auto& c = *static_cast<Contours*>(user);
     c.close();
@@ -154,7 +162,8 @@ Result<std::vector<Glyph>> glyphs_of(FT_Face face, const std::string& wanted) {
 }
 
 Result<void> add_glyph(Document& document, FT_Face face, const Glyph& glyph) {
-  const bool loaded = FT_Load_Glyph(face, glyph.index, FT_LOAD_NO_SCALE) == 0;
+  const bool loaded = FT_Set_Pixel_Sizes(face, face->units_per_EM, face->units_per_EM) == 0 &&
+                      FT_Load_Glyph(face, glyph.index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
   if (!loaded || face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
     return core::fail(ErrorCode::bad_input, "the glyph \"" + glyph.name + "\" has no outline",
                       "choose another", "--glyph");

@@ -13,6 +13,8 @@
 #include "keyline/exchange/font.h"
 #include "keyline/exchange/glif.h"
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -146,9 +148,28 @@ TEST(Glif, TheGridIsKeptAndItsDeviationMeasured) {
     }
 }
 
+// A contour of handles alone, (0,0) (100,0) (100,100) (0,100) by the matrix of fuzz/make_fonts.py:
+// (50,600) (100,625) (75,675) (25,650). TrueType's points between stand halfway, at halves of a
+// unit.
+TEST(Font, ImpliedPointsAreNotRounded) {
+  const auto d = read_document(KEYLINE_SOURCE_DIR "/fuzz/seeds/font_reader_fuzz/composite.ttf",
+                               {.glyphs = "a"});
+  ASSERT_TRUE(d) << d.error().message;
+  ASSERT_EQ(d->paths.size(), 2U);
+  const auto& curves = d->paths[1].path.curves;
+  ASSERT_EQ(curves.size(), 4U);
+  std::vector<Point2> ends;
+  for (const auto& c : curves) ends.push_back(evaluate(c, 1));
+  EXPECT_THAT(ends, testing::UnorderedElementsAre(Point2{75, 612.5}, Point2{87.5, 650},
+                                                  Point2{50, 662.5}, Point2{37.5, 625}));
+  for (std::size_t i = 1; i < 4; ++i)  // no kink where a handle stands on both sides
+    EXPECT_NEAR(core::angle_between(jet(curves[i - 1], 1).first, jet(curves[i], 0).first), 0,
+                1e-14);
+}
+
 TEST(Font, ReadsTheSharedFonts) {
   const fs::path folder = KEYLINE_SHARED_DATA "/4_cad/font";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(fs::exists(folder), folder);
   // Contours and points by FreeType's ftdump and fontTools: EB Garamond Italic S has one contour.
   const auto s = read_document(folder / "EBGaramond12-Italic.otf", {.glyphs = "S"});
   ASSERT_TRUE(s) << s.error().message;
