@@ -94,20 +94,24 @@ int run_convert(const ConvertCommand& command) {
       planar_wanted ? planar_of(*document, common.quiet) : document::Document{};
   add_picture_writers(pictures, planar, "Curves", command.input.files.front(), common);
   if (!planar.paths.empty()) pictures.erase(".pdf");  // the drawing itself, in real size
+  exchange::OutputFiles files;
   for (const std::string& file : common.outputs) {
     if (const auto picture = pictures.find(exchange::extension_of(file));
         picture != pictures.end()) {
-      if (auto done = write_output(file, picture->second); !done)
+      if (auto done = add_output(files, file, picture->second); !done)
         return report_failure(done.error());
       continue;
     }
     const bool flat = is_planar_format(exchange::extension_of(file));
-    const auto written = exchange::write_document(flat ? planar : *document, file, options);
-    if (!written) return report_failure(written.error());
+    const auto written =
+        exchange::format_document(flat ? planar : *document, exchange::extension_of(file), options);
+    if (!written) return report_failure(exchange::in_file(written.error(), file));
+    if (auto done = files.add(file, written->content); !done) return report_failure(done.error());
     for (const std::string& note : written->notes)
       say(common.quiet, fmt::format("{}: {}", file, note));
     say(common.quiet, fmt::format("{}: deviation {:.3g}", file, written->deviation));
   }
+  if (auto done = files.commit(); !done) return report_failure(done.error());
   if (common.json) fmt::print("{}\n", exchange::to_json(*document).dump());
   return kDone;
 }

@@ -50,6 +50,7 @@ Result<void> check_outputs(const CommonOptions& common, const std::vector<std::s
   for (std::size_t i = 0; i < common.outputs.size(); ++i) {
     const std::string& file = common.outputs[i];
     if (auto done = check_extension(file, known); !done) return done;
+    if (auto can = exchange::check_writable(file); !can) return can;
     for (const std::string& input : inputs)
       if (are_one(file, input))
         return core::fail(core::ErrorCode::bad_input, "this is the input, which is not overwritten",
@@ -62,19 +63,19 @@ Result<void> check_outputs(const CommonOptions& common, const std::vector<std::s
   return {};
 }
 
-Result<void> write_output(const std::string& file, const Writer& writer) {
+Result<void> add_output(exchange::OutputFiles& files, const std::string& file,
+                        const Writer& writer) {
   const auto content = writer();
   if (!content) return std::unexpected(exchange::in_file(content.error(), file));
-  if (auto done = exchange::write_atomically(file, *content); !done)
-    return std::unexpected(exchange::in_file(done.error(), file));
-  return {};
+  return files.add(file, *content);
 }
 
 Result<void> write_outputs(const CommonOptions& common, const Writers& writers) {
+  exchange::OutputFiles files;
   for (const std::string& file : common.outputs)
-    if (auto done = write_output(file, writers.at(exchange::extension_of(file))); !done)
+    if (auto done = add_output(files, file, writers.at(exchange::extension_of(file))); !done)
       return done;
-  return {};
+  return files.commit();
 }
 
 Writers curve_writers(const document::Document& document, double tolerance,

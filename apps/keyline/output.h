@@ -7,6 +7,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/document/document.h"
+#include "keyline/exchange/atomic_file.h"
 
 #include "commands.h"
 
@@ -21,15 +22,17 @@ using Writers = std::map<std::string, Writer>;
 /// Extensions every command that returns curves can write, and `further` ones.
 std::vector<std::string> curve_extensions(const std::vector<std::string>& further = {});
 
-/// bad_input, before anything is computed, for an extension without writer, a file named twice and
-/// a file that is one of the inputs, which nothing may overwrite.
+/// bad_input, before anything is computed, for an extension without writer, a file named twice or
+/// a file that is one of the inputs, which nothing may overwrite; io
+/// for one that cannot be written.
 core::Result<void> check_outputs(const CommonOptions& common, const std::vector<std::string>& known,
                                  const std::vector<std::string>& inputs);
 
-/// Writes one file, whole or not at all.
-core::Result<void> write_output(const std::string& file, const Writer& writer);
+/// Makes ready one file of several.
+core::Result<void> add_output(exchange::OutputFiles& files, const std::string& file,
+                              const Writer& writer);
 
-/// Writes every output file, each whole or not at all.
+/// Writes every output file, all of them or none.
 core::Result<void> write_outputs(const CommonOptions& common, const Writers& writers);
 
 /// The writers every command has: what room exchange writes, within `tolerance` where a format

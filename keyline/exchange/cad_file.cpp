@@ -12,6 +12,7 @@
 #include "keyline/curve/conversion.h"
 #include "keyline/document/arc.h"
 #include "keyline/exchange/cad_parts.h"
+#include "keyline/exchange/document_file.h"
 #include "keyline/exchange/json_document.h"
 #include "keyline/lac/space.h"
 
@@ -137,6 +138,9 @@ Result<Document> read_cad(const fs::path& file, CadFormat format) {
   if (error)
     return fail(ErrorCode::io, "cannot be read: " + error.message(),
                 "check the name and the rights");
+  if (bytes > kLargestFile)
+    return fail(ErrorCode::bad_input,
+                "the file is larger than " + std::to_string(kLargestFile >> 20) + " MB", "split it");
   return read_cad(file, format, cad_limits(bytes));
 }
 

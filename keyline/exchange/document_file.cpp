@@ -174,14 +174,17 @@ Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
   std::string content;
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (!error && size <= largest) content.reserve(size);
+  const auto too_large = [&] {
+    return fail(ErrorCode::bad_input,
+                "the file is larger than " + std::to_string(largest >> 20) + " MB", "split it",
+                file.string());
+  };
+  if (!error && size > largest) return too_large();  // before anything is read, holes and all
+  if (!error) content.reserve(size);
   std::string chunk(std::size_t{1} << 20, '\0');
   while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
     content.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
-    if (content.size() > largest)
-      return fail(ErrorCode::bad_input,
-                  "the file is larger than " + std::to_string(largest >> 20) + " MB", "split it",
-                  file.string());
+    if (content.size() > largest) return too_large();
   }
   if (in.bad())
     return fail(ErrorCode::io, "reading failed", "check the device or the network", file.string());

@@ -13,10 +13,13 @@
 /// Files of every format to documents and back.
 namespace keyline::exchange {
 
+/// Bytes a file may hold that is read whole.
+inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;
+
 /// The whole of a file.
 /// Fails: io where it cannot be opened or read; bad_input where it holds more than `largest` bytes.
 core::Result<std::string> read_file(const std::filesystem::path& file,
-                                    std::uintmax_t largest = std::uintmax_t{512} << 20);
+                                    std::uintmax_t largest = kLargestFile);
 
 /// The first 1024 bytes of a file, for format_of(); io as read_file().
 core::Result<std::string> head_of(const std::filesystem::path& file);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <sstream>
 
 #include "keyline/exchange/atomic_file.h"
 
@@ -36,18 +37,16 @@ void write_points(std::ostream& out, std::span<const core::Point3> points) {
 core::Result<void> write_points(const std::filesystem::path& path,
                                 std::span<const core::Point2> points,
                                 std::span<const double> weights) {
-  return write_atomically(path, [&](std::ostream& out) -> core::Result<void> {
-    write_points(out, points, weights);
-    return {};
-  });
+  std::ostringstream text;
+  write_points(text, points, weights);
+  return write_atomically(path, text.str());
 }
 
 core::Result<void> write_points(const std::filesystem::path& path,
                                 std::span<const core::Point3> points) {
-  return write_atomically(path, [&](std::ostream& out) -> core::Result<void> {
-    write_points(out, points);
-    return {};
-  });
+  std::ostringstream text;
+  write_points(text, points);
+  return write_atomically(path, text.str());
 }
 
 }  // namespace keyline::exchange
