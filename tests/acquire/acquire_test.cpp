@@ -174,5 +174,25 @@ TEST(EstimateNoise, IsUnbiased) {
   EXPECT_LT(most, 1.25);
 }
 
+// A zigzag of known noise: a third and more of the windows hold a corner, so that the mean of what
+// is left is theirs, and the median that of the noise.
+TEST(EstimateNoise, CornersThatSpoilTheMeanDoNotSpoilTheEstimate) {
+  constexpr double kNoise = 0.01;
+  numeric::Random random(11);
+  std::vector<core::Point2> points;
+  core::Point2 at{0, 0};
+  for (int side = 0; side < 60; ++side) {
+    const core::Vector2 step = core::unit_vector(side % 2 == 0 ? 0.5 : -0.5);
+    for (int i = 0; i < 8 + side % 2; ++i) {
+      at = at + step;
+      const double off = kNoise * random.normal();
+      points.push_back(at + off * core::perpendicular_left(step));
+    }
+  }
+  const double found = estimate_noise(points, false);
+  EXPECT_GT(found, 0.6 * kNoise);
+  EXPECT_LT(found, 2 * kNoise);
+}
+
 }  // namespace
 }  // namespace keyline::acquire

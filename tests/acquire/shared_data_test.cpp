@@ -1,3 +1,5 @@
+#include "tests/shared_data.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -48,9 +50,7 @@ constexpr SharedCase kCases[] = {
 
 class SharedData : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!fs::exists(folder_)) GTEST_SKIP() << "shared data are absent";
-  }
+  void SetUp() override { KEYLINE_NEEDS_SHARED_DATA(fs::exists(folder_), folder_); }
   fs::path folder_ = fs::path(KEYLINE_SHARED_DATA);
 };
 

@@ -84,8 +84,15 @@ TEST(Analyze, RefusesCurvesWithoutLengthOrNumbers) {
   EXPECT_FALSE(analyze(curve::Bezier2{{{1, 1}, {1, 1}, {1, 1}}, {}}));
   EXPECT_FALSE(analyze(curve::Bezier2{{{0, 0}, {std::nan(""), 1}, {1, 1}}, {}}));
   EXPECT_FALSE(analyze(curve::Bezier2{{{0, 0}, {INFINITY, 1}, {1, 1}}, {}}));
+}
+
+// A curve of any size a double holds is the small one made larger.
+TEST(Analyze, HugeCurvesAreSmallOnesMadeLarger) {
+  const auto small = analyze(curve::Bezier2{{{0, 0}, {1, 1}, {2, 0.1}}, {}});
   const auto huge = analyze(curve::Bezier2{{{0, 0}, {1e150, 1e150}, {2e150, 1e149}}, {}});
-  EXPECT_TRUE(!huge || huge->length > 0);
+  ASSERT_TRUE(small && huge);
+  EXPECT_NEAR(huge->length / 1e150, small->length, 1e-9 * small->length);
+  EXPECT_EQ(huge->pieces.size(), small->pieces.size());
 }
 
 core::Point2 moved(core::Point2 p, double angle, double scale) {

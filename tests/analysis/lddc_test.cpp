@@ -62,6 +62,17 @@ TEST(Lddc, GradientIsTheSlope) {
   }
 }
 
+// A clothoid of curvature c s (length 1) has ds = ln(10) kappa dx / c where 10^x is the radius: a
+// bar of width w holds 2 sinh(w ln(10) / 2) 10^-x / c of the length, a line of slope -1.
+TEST(Lddc, InterceptIsThatOfTheClosedForm) {
+  for (const double k1 : {4.0, 8.0}) {
+    const double c = k1 - 0.5;
+    const Lddc d = curvature_distribution_diagram(testing::clothoid(0.5, k1, 1));
+    const double there = std::log10(2 * std::sinh(0.025 * std::log(10.0)) / c);
+    EXPECT_NEAR(d.intercept, there, 0.03) << k1;
+  }
+}
+
 TEST(Lddc, FullerCurvesHaveShorterDistanceAB) {
   const Lddc flat = curvature_distribution_diagram(testing::clothoid(0.1, 3, 1));
   const Lddc full = curvature_distribution_diagram(testing::clothoid(1, 3, 1));

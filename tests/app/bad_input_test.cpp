@@ -90,7 +90,7 @@ TEST(BadInput, MissingFile) {
 
 TEST(BadInput, Directory) {
   const Scratch s;
-  EXPECT_NE(run_keyline("fair --quiet " + s.path("")).status, 0);
+  expect_failure(run_keyline("fair --quiet " + s.path("")), 3, "is a directory");
 }
 
 TEST(BadInput, UnwritableOutputLeavesNothingBehind) {

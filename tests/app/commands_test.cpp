@@ -160,24 +160,5 @@ TEST(Commands, DrawTellsTheSegment) {
   expect_failure(run_keyline("draw --points 0,0 1,0 1,0.01 --alpha -1"), 1, "");
 }
 
-/// Interrupts a long run after a while: status 130, one line, nothing half written.
-TEST(Commands, InterruptAtAnyStage) {
-  for (const char* delay : {"0.02", "0.2", "0.5", "1"}) {
-    const Scratch s;
-    std::string text;
-    for (int i = 0; i < 60000; ++i) {
-      const double t = 0.0004 * i;
-      text += std::to_string(100 * std::cos(t) + 3 * std::sin(7 * t)) + "," +
-              std::to_string(60 * std::sin(t) + 2 * std::cos(5 * t)) + "\n";
-    }
-    const std::string input = s.write("long.csv", text);
-    const Outcome o = run_keyline(
-        "fair --quiet --threads 1 --tolerance 1e-5 " + input + " -o " + s.path("out.svg"),
-        std::string("timeout -s INT ") + delay);
-    EXPECT_TRUE(o.status == 130 || o.status == 124) << delay << " " << o.status << o.err;
-    EXPECT_LE(s.count(), 2U);
-  }
-}
-
 }  // namespace
 }  // namespace keyline::app_test

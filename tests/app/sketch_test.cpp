@@ -74,6 +74,7 @@ TEST(Sketch, PrintsWhatTheOperationAnswers) {
   const auto j = nlohmann::json::parse(o.out);
   EXPECT_EQ(j["unit"], "mm");
   EXPECT_NEAR(j["size"][0], 640 * 25.4 / 120, 1e-9);
+  ASSERT_GT(j["strokes"].size(), 0U);
   for (const auto& stroke : j["strokes"]) {
     EXPECT_GE(stroke["points"].size(), 2U);
     EXPECT_GE(stroke["segments"].size(), 2U);

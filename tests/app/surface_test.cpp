@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_keyline.h"
+#include "tests/shared_data.h"
 
 namespace keyline::app_test {
 namespace {
@@ -71,7 +72,7 @@ TEST(Surfaces, PicturesCanBeChosen) {
 /// Real patches: every one has a value or says why not.
 TEST(Surfaces, StepFilesOfOthersAreValuedPatchByPatch) {
   const std::string file = KEYLINE_SHARED_DATA "/4_cad/step/wigley.step";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  KEYLINE_NEEDS_SHARED_DATA(std::filesystem::exists(file), file);
   const Outcome o = run_keyline("analyze --quiet --json " + file);
   if (o.status == 2 && o.err.find("OCCT") != std::string::npos) GTEST_SKIP() << o.err;
   ASSERT_EQ(o.status, 0) << o.err;

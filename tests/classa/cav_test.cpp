@@ -79,6 +79,27 @@ TEST(Cav, TypesOfTable1) {
   EXPECT_EQ(zero_edge->type, 5);
 }
 
+// Tab. 2 of [Oya]: the CAV of a Class A curve with one matrix is its distance from the minimum in
+// the plane of alpha and s; here the minimum is given, and the distance (0.3, 0.4) by hand.
+TEST(Cav, OfClassAIsTheDistanceInThePlane) {
+  CavOptions options;
+  options.minimum = EnergyMinimum{0.2, 1.2, 1, 1, {1, 0}, true};
+  const auto value = cav(MatrixCurve{{0, 0}, {1, 0}, 2, {0.5, 1.6}, 3}, options);
+  ASSERT_TRUE(value) << value.error().message;
+  EXPECT_EQ(value->type, 2);
+  EXPECT_NEAR(value->cav, 0.5, 1e-12);
+}
+
+// CONTRACT: the end may lie 0.01 of the chord away. The energy falls as the end is let go, so that
+// the minimum uses all of it.
+TEST(Cav, EndMayLieAHundredthOfTheChordAway) {
+  const auto value = cav(kOya);
+  ASSERT_TRUE(value && value->minimum);
+  const curve::Bezier2 c = to_bezier(kOya);
+  const core::Vector2 chord = c.control.back() - c.control.front();
+  EXPECT_NEAR(norm(value->minimum->chord - chord) / norm(chord), 0.01, 1e-6);
+}
+
 TEST(Cav, ReversingAndMovingChangeNothing) {
   numeric::Random random(7);
   for (int i = 0; i < 60; ++i) {
@@ -209,6 +230,7 @@ TEST(Cav, SizeDoesNotMatter) {
 /// Whatever the points: a finite value or a reason.
 TEST(Cav, AnyPointsAtAll) {
   numeric::Random random(99);
+  int valued = 0;
   for (int i = 0; i < 400; ++i) {
     curve::Bezier2 c;
     const double grid = random.chance(0.5) ? 1.0 : 1e-3;
@@ -222,6 +244,7 @@ TEST(Cav, AnyPointsAtAll) {
       EXPECT_NE(value.error().code, ErrorCode::internal);
       continue;
     }
+    ++valued;
     EXPECT_TRUE(std::isfinite(value->cav));
     EXPECT_FALSE(std::isnan(value->energy));
     EXPECT_TRUE(value->minimum || !value->no_minimum.empty());
@@ -235,6 +258,7 @@ TEST(Cav, AnyPointsAtAll) {
                   1e-9 * value->minimum->energy + 1e-15);
     }
   }
+  EXPECT_GT(valued, 380);  // the points of a few coincide
 }
 
 }  // namespace

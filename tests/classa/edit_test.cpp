@@ -198,6 +198,8 @@ TEST(Nearest, InSpace) {
 /// Whatever the points: finite, and the same from either end.
 TEST(FreeForm, AnyPointsAtAll) {
   numeric::Random random(5);
+  int placed = 0;
+  int changed = 0;
   for (int i = 0; i < 40; ++i) {
     curve::Bezier2 c;
     const std::size_t count = 3 + random.index(6);
@@ -209,13 +211,17 @@ TEST(FreeForm, AnyPointsAtAll) {
     if (!one) continue;
     ASSERT_EQ(one->nearest.has_value(), two->nearest.has_value());
     if (!one->nearest) continue;
+    ++placed;
     EXPECT_TRUE(std::isfinite(one->nearest->distance));
     EXPECT_NEAR(one->nearest->rms, two->nearest->rms, 1e-9) << i;
     const auto edited = edit(c);
     if (edited) {
+      ++changed;
       EXPECT_LE(edited->after.cav, edited->before.cav + 1e-9) << i;
     }
   }
+  EXPECT_GT(placed, 20);
+  EXPECT_GT(changed, 20);
 }
 
 /// A logarithmic spiral turns into a polynomial of several matrices that lies beside one.

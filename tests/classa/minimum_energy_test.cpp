@@ -166,5 +166,28 @@ TEST(MinimumEnergy, BadConditions) {
   EXPECT_TRUE(refused({.s = {0, 1}}));
 }
 
+// Built from the answer: a curve that turns by more than a whole turn is among those that reach its
+// end in a narrow range around its matrix; whoever looks at the first turn alone finds none.
+TEST(MinimumEnergy, CurvesOfMoreThanOneTurnAreFound) {
+  const double alpha = 0.95;
+  const double s = 1.03 / std::cos(alpha);
+  const MatrixCurve truth{{0, 0}, {1, 0}, 1, {alpha, s}, 9};  // turns by 8 * 0.95 = 7.6 rad
+  const curve::Bezier2 c = to_bezier(truth);
+  EnergyConditions conditions;
+  conditions.chord = c.control.back() - c.control.front();
+  conditions.degree = 9;
+  conditions.alpha = {alpha - 0.02, alpha + 0.02};
+  conditions.s = {0.98 * s, 1.02 * s};
+  conditions.left = true;
+  const auto found = minimum_energy(conditions);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_LT(norm(found->chord - conditions.chord), 1e-9 * norm(conditions.chord));
+  EXPECT_NEAR(found->alpha, alpha, 0.02);
+  const MatrixCurve drawn{{0, 0}, {1, 0}, found->beta, {found->alpha, found->s}, 9};
+  const curve::Bezier2 reached = to_bezier(drawn);
+  EXPECT_LT(distance(reached.control.back(), c.control.back()), 1e-6 * norm(conditions.chord));
+  EXPECT_LE(found->energy, strain_energy(c) * (1 + 1e-9));
+}
+
 }  // namespace
 }  // namespace keyline::classa

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include "test_curves.h"
@@ -172,6 +173,79 @@ TEST(Monotone, SplinesPieceByPieceAndAtJoints) {
   // Quadratic spline: curvature jumps at the joint.
   const BSpline2 jump{2, {0, 0, 0, 1, 2, 2, 2}, {{0, 0}, {1, 0}, {2, 1}, {2, 5}}, {}};
   EXPECT_EQ(certify_monotone_curvature(jump).answer, Answer::no);
+}
+
+using Exact = boost::multiprecision::cpp_rational;
+
+/// r' . r'' of a quadratic, up to a positive factor, at its start and at its end, exactly: where
+/// the two differ in sign, curvature has an extremum between.
+std::pair<Exact, Exact> rates(const Bezier2& c) {
+  Exact start = 0;
+  Exact end = 0;
+  for (const double Point2::* axis : {&Point2::x, &Point2::y}) {
+    const Exact a(c.control[0].*axis);
+    const Exact b(c.control[1].*axis);
+    const Exact d(c.control[2].*axis);
+    start += (b - a) * (d - 2 * b + a);
+    end += (d - b) * (d - 2 * b + a);
+  }
+  return {start, end};
+}
+
+// Parabolas whose vertex lies a rounding within or before their start, whose differences of control
+// points are not exact in doubles: the answer is that of rational arithmetic.
+TEST(Monotone, CoordinatesThatRoundAreReadAsTheyAre) {
+  int within = 0;
+  for (unsigned seed = 0; seed < 3000; ++seed) {
+    Draw draw(seed);
+    const Vector2 edge = draw(0.5, 2) * core::unit_vector(draw(-3, 3));
+    const Vector2 bend = draw(0.2, 1) * core::perpendicular_left(edge);
+    const Point2 p0{1e-3 * draw(-1, 1), 1e-3 * draw(-1, 1)};
+    const Point2 p1 = p0 + edge;
+    Bezier2 c{{p0, p1, p1 + edge + bend}, {}};
+    const auto [start, end] = rates(c);
+    const bool monotone = start * end >= 0;
+    within += monotone ? 0 : 1;
+    const auto v = certify_monotone_curvature(c, 0);
+    EXPECT_EQ(v.answer == Answer::yes, monotone) << seed;
+  }
+  EXPECT_GT(within, 500);  // both kinds are among them
+  EXPECT_LT(within, 2500);
+}
+
+// (5 (2t - 1)^3, (2t - 1)^5): curvature falls to minus infinity, and from infinity on: its rate
+// never changes sign, only the cusp at the middle says that it is not monotone. Integer control
+// points.
+TEST(Monotone, ALoneCuspInsideIsSeen) {
+  const Bezier2 c{{{-5, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}, {5, 1}}, {}};
+  EXPECT_LT(curvature_rate(c, 0.3), 0);
+  EXPECT_LT(curvature_rate(c, 0.7), 0);
+  const auto v = certify_monotone_curvature(c);
+  EXPECT_EQ(v.answer, Answer::no);
+  EXPECT_EQ(v.witness, 0.5);
+}
+
+// Two parabolas end to end, curvature rising on both: at a joint it may jump up, not down.
+TEST(Monotone, JointsMayJumpTheWayTheCurveGoes) {
+  const double angle = 0.3;
+  const auto joined = [angle](double next) {
+    BSpline2 c{2, {0, 0, 0, 0.5, 0.5, 1, 1, 1}, {{0, 0}}, {}};
+    Vector2 edge{2, 0};
+    for (const double length : {2.0, 1.2, next, 0.6 * next}) {
+      edge = length * core::unit_vector(core::direction_of(edge));
+      c.control.push_back(c.control.back() + edge);
+      const bool joint = c.control.size() == 3;  // straight on at the joint
+      edge = core::rotate_ccw(edge, joint ? 0 : angle);
+    }
+    return c;
+  };
+  // Ends of a parabola of edges a, b: |a x b| / (2 |a|^3), so 0.205 before and 0.0887 / next after.
+  const auto up = certify_monotone_curvature(joined(0.3));
+  EXPECT_EQ(up.answer, Answer::yes);
+  EXPECT_EQ(up.direction, 1);
+  const auto down = certify_monotone_curvature(joined(0.7));
+  EXPECT_EQ(down.answer, Answer::no);
+  EXPECT_EQ(certify_monotone_curvature(reverse(joined(0.3))).answer, Answer::yes);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "keyline/lac/chain.h"
 
 #include "cad_fixture.h"
+#include "tests/shared_data.h"
 
 namespace keyline::exchange {
 namespace {
@@ -231,7 +232,7 @@ TEST_F(CadAssembly, ControlCharactersInNamesBreakNoFile) {
 
 TEST_F(CadAssembly, TrimLoopsComeWithTheSurface) {
   const fs::path file = KEYLINE_SHARED_DATA "/4_cad/iges/wing.iges";
-  if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(fs::exists(file), file);
   auto read = read_document(file);
   ASSERT_TRUE(read) << read.error().message;
   std::size_t curves = 0;

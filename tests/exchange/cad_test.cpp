@@ -15,6 +15,7 @@
 #include "keyline/exchange/document_file.h"
 
 #include "cad_fixture.h"
+#include "tests/shared_data.h"
 
 namespace keyline::exchange {
 namespace {
@@ -103,7 +104,7 @@ constexpr FileCase kFiles[] = {
 
 TEST_F(Cad, ReadsTheSharedFiles) {
   const fs::path folder = KEYLINE_SHARED_DATA "/4_cad";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(fs::exists(folder), folder);
   for (const FileCase& c : kFiles) {
     SCOPED_TRACE(c.name);
     const auto d = read_document(folder / c.name);

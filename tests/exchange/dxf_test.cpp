@@ -13,6 +13,8 @@
 #include "keyline/exchange/dxf_reader.h"
 #include "keyline/exchange/dxf_writer.h"
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -339,7 +341,7 @@ constexpr FileCase kFiles[] = {
 
 TEST(DxfReader, ReadsTheSharedFiles) {
   const std::filesystem::path folder = KEYLINE_SHARED_DATA "/4_cad";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(std::filesystem::exists(folder), folder);
   for (const FileCase& c : kFiles) {
     SCOPED_TRACE(c.name);
     const auto d = read_document(folder / c.name);

@@ -10,6 +10,8 @@
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/planar_form.h"
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -101,7 +103,7 @@ TEST(HullTable, LinesAreMadePlanar) {
 
 TEST(HullTable, ReadsTheSharedHull) {
   const std::filesystem::path file = KEYLINE_SHARED_DATA "/1_profiles/hull/gunnerus.json";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(std::filesystem::exists(file), file);
   const auto d = read_document(file);
   ASSERT_TRUE(d) << d.error().message;
   // 16 waterlines, 64 stations and 3 buttocks, of which one line has a single point.

@@ -11,6 +11,7 @@
 #include "keyline/numeric/random.h"
 
 #include "picture_files.h"
+#include "tests/shared_data.h"
 
 namespace keyline::exchange {
 namespace {
@@ -217,7 +218,7 @@ TEST(ImageReader, RefusesWhatIsNoPicture) {
 
 TEST(ImageReader, HostilePngFiles) {
   const fs::path folder = fs::path(KEYLINE_SHARED_DATA) / "4_cad/nasty/png";
-  if (!fs::is_directory(folder)) GTEST_SKIP() << "no " << folder;
+  KEYLINE_NEEDS_SHARED_DATA(fs::is_directory(folder), folder);
   for (const char* bad :
        {"badadler.png", "badcrc.png", "huge_eXIf_chunk.png", "huge_tEXt_chunk.png"}) {
     SCOPED_TRACE(bad);

@@ -14,6 +14,8 @@
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/section_file.h"
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -252,7 +254,7 @@ constexpr FileCase kFiles[] = {
 
 TEST(Mesh, ReadsTheSharedFiles) {
   const fs::path folder = KEYLINE_SHARED_DATA;
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(fs::exists(folder), folder);
   for (const FileCase& c : kFiles) {
     SCOPED_TRACE(c.name);
     const auto m = read_mesh(folder / c.name);

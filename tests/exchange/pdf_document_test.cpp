@@ -1,5 +1,7 @@
 #include "keyline/exchange/pdf_document.h"
 
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,6 +57,33 @@ TEST(PdfDocument, WhatHasNoSizeIsRefused) {
   EXPECT_FALSE(write_pdf_document(drawing("mm", 0), 1e-3));
   EXPECT_FALSE(write_pdf_document({}, 1e-3));
   EXPECT_FALSE(write_pdf_document(drawing("mm", 1e300), 1e-3));
+}
+
+// The handles of a cubic stand in the order of ISO 32000-1, 8.5.2: those of the start first. Taken
+// from where the curve starts, they are the given points less the first.
+TEST(PdfDocument, HandlesAreInTheOrderOfTheFormat) {
+  document::Document d;
+  d.unit = "mm";
+  d.paths.push_back(
+      {{"c", "", ""}, {{{curve::Bezier2{{{0, 0}, {1, 2}, {7, 3}, {8, 0}}, {}}}}, false}, 0});
+  const auto written = write_pdf_document(d, 1e-3);
+  ASSERT_TRUE(written);
+  const std::size_t end = written->content.find(" c\n");
+  ASSERT_NE(end, std::string::npos);
+  const std::size_t from = written->content.rfind(" w\n", end) + 3;
+  std::istringstream text(written->content.substr(from, end - from));
+  double x0 = 0;
+  double y0 = 0;
+  std::string verb;
+  text >> x0 >> y0 >> verb;
+  EXPECT_EQ(verb, "m");
+  for (const core::Point2 wanted : {core::Point2{1, 2}, {7, 3}, {8, 0}}) {
+    double x = 0;
+    double y = 0;
+    text >> x >> y;
+    EXPECT_NEAR(x - x0, wanted.x, 1e-9);
+    EXPECT_NEAR(y - y0, wanted.y, 1e-9);
+  }
 }
 
 }  // namespace

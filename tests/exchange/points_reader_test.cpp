@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -306,7 +308,7 @@ constexpr SharedCase kShared[] = {
 
 TEST(ReadPoints, ReadsTheSharedProfiles) {
   const std::filesystem::path folder = std::filesystem::path(KEYLINE_SHARED_DATA) / "1_profiles";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data are absent";
+  KEYLINE_NEEDS_SHARED_DATA(std::filesystem::exists(folder), folder);
   for (const SharedCase& c : kShared) {
     SCOPED_TRACE(c.file);
     const auto curves = read_points(folder / c.file);

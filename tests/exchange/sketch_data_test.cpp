@@ -16,6 +16,8 @@
 #include "keyline/sketch/consolidate.h"
 #include "keyline/sketch/trace.h"
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -83,7 +85,7 @@ Coverage coverage_of(const sketch::TraceResult& trace, const sketch::Binary& ink
 TEST(SketchData, PicturesAreCoveredWithoutAnyOption) {
   std::vector<fs::path> files = files_in(kSketches / "raster", ".png");
   for (const fs::path& file : files_in(kSketches / "derived_raster", ".png")) files.push_back(file);
-  if (files.empty()) GTEST_SKIP() << "no drawings in " << kSketches;
+  KEYLINE_NEEDS_SHARED_DATA(!files.empty(), kSketches);
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename().string());
     const auto image = read_image_file(file);
@@ -241,7 +243,7 @@ Grouped read_drawing(const fs::path& file) {
 // The bars of what consolidation has to reach, on the half it was not learnt on above all.
 TEST(SketchData, ConsolidationFindsTheTrueGroups) {
   const auto files = files_in(kSketches / "strokes", ".scap");
-  if (files.empty()) GTEST_SKIP() << "no strokes in " << kSketches;
+  KEYLINE_NEEDS_SHARED_DATA(!files.empty(), kSketches);
   const int variants = std::getenv("KEYLINE_FULL") ? 6 : 1;
   for (const bool learnt : {true, false}) {
     double sum = 0;

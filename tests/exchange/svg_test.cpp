@@ -10,6 +10,8 @@
 #include "keyline/exchange/svg_reader.h"
 #include "keyline/exchange/svg_writer.h"
 
+#include "tests/shared_data.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -297,7 +299,7 @@ std::string file_text(const std::filesystem::path& path) {
 
 TEST(SvgReader, ReadsDrawingsOfOthers) {
   const std::filesystem::path folder = KEYLINE_SHARED_DATA "/4_cad/svg";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(std::filesystem::exists(folder), folder);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     SCOPED_TRACE(entry.path().filename().string());
     const SvgContents c = contents(file_text(entry.path()));
@@ -312,7 +314,7 @@ TEST(SvgReader, ReadsDrawingsOfOthers) {
 
 TEST(SvgReader, StandsNastyFiles) {
   const std::filesystem::path folder = KEYLINE_SHARED_DATA "/4_cad/nasty/svg";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  KEYLINE_NEEDS_SHARED_DATA(std::filesystem::exists(folder), folder);
   // Curves expected beside the frame every file draws.
   const std::map<std::string, std::size_t> curves = {{"M-L-Z-A", 2},
                                                      {"M-M-implicit-M-implicit", 1},

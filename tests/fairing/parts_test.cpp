@@ -129,6 +129,21 @@ TEST(Condense, KeepsEndsCountsAndWeights) {
   for (std::size_t b = 0; b < 100; ++b) EXPECT_EQ(seen[b], fit[b].count);
 }
 
+// A mean of weighted points is sum(w p) / sum(w): by hand, runs of two between the ends.
+TEST(Condense, HeavyPointsDrawTheMean) {
+  const std::vector<core::Point2> points{{0, 0}, {1, 0}, {2, 4}, {3, 0}, {4, 8}, {5, 0}};
+  const std::vector<double> weights{1, 3, 1, 1, 7, 2};
+  const auto fit = condense(points, weights, 4);
+  ASSERT_EQ(fit.size(), 4U);
+  EXPECT_NEAR(fit[1].position.x, (3 * 1 + 1 * 2) / 4.0, 1e-15);
+  EXPECT_NEAR(fit[1].position.y, 1, 1e-15);
+  EXPECT_NEAR(fit[2].position.x, (1 * 3 + 7 * 4) / 8.0, 1e-15);
+  EXPECT_NEAR(fit[2].position.y, 7, 1e-15);
+  EXPECT_EQ(fit[1].weight, 4);
+  EXPECT_EQ(fit[2].weight, 8);
+  EXPECT_EQ(fit[3].weight, 2);
+}
+
 /// Steps of a single point's width: too narrow for a few equal pieces, not for one a point.
 TEST(ChainSearch, StartsFromTheSplineThroughThePointsWhereNothingElseServes) {
   std::vector<FitPoint> points;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "judge.h"
+#include "tests/shared_data.h"
 
 namespace keyline::fairing {
 namespace {
@@ -40,7 +41,7 @@ void fair_all(const std::vector<RealLine>& lines, std::size_t step = 1) {
 class RealInput : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!testing::real_files_present()) GTEST_SKIP() << "no folder " << KEYLINE_SHARED_DATA;
+    KEYLINE_NEEDS_SHARED_DATA(testing::real_files_present(), KEYLINE_SHARED_DATA);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "keyline/fit/bezier_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -81,6 +82,30 @@ TEST(BezierFit, BadInputIsRefused) {
   options.lowest_degree = 2;
   EXPECT_FALSE(fit_bezier(arc(1, 10), Vector2{1, 0}, {1, 0}, options));
   EXPECT_TRUE(fit_bezier(arc(0.5, 2), Vector2{1, 0}, core::unit_vector(0.5)));
+}
+
+/// Largest distance of points from a curve, by its points at small steps.
+double measured(const std::vector<Point2>& points, const curve::Bezier2& c) {
+  double most = 0;
+  for (const Point2 p : points) {
+    double least = HUGE_VAL;
+    for (int i = 0; i <= 20000; ++i)
+      least = std::min(least, core::distance(p, evaluate(c, i / 20000.0)));
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+TEST(BezierFit, DeviationIsTheLargestDistance) {
+  const auto circle = arc(2.5, 60);
+  for (const double tolerance : {1e-1, 1e-2}) {
+    BezierFitOptions options;
+    options.tolerance = tolerance;
+    const auto fit = fit_bezier(circle, {1, 0}, core::unit_vector(2.5), options);
+    ASSERT_TRUE(fit);
+    const double most = measured(circle, fit->curve);
+    EXPECT_NEAR(fit->deviation, most, 0.02 * most);
+  }
 }
 
 }  // namespace

@@ -172,5 +172,22 @@ TEST(LeastSquaresSpline, BadInputIsRefused) {
   EXPECT_THROW(SplineSolver(good, {0, 2}, 4), core::InvalidInput);
 }
 
+// Two data delta apart in the last span decide two coefficients: the part of the last column that
+// the one before does not hold is 2 delta / (|c1| |c2|) = 4 delta of its length. The limit is 1e-7.
+TEST(SplineSolver, RankIsJudgedAgainstTheColumn) {
+  const auto fitted = [](double delta) {
+    SplineData data;
+    data.parameters = {0, 0.75, 0.75 + delta};
+    data.columns = {{1, 2, 3}};
+    SplineSolver solver(data, {0, 1}, 2);
+    const double knots[] = {0.5};
+    return std::isfinite(solver.sum_of_squares(knots));
+  };
+  EXPECT_TRUE(fitted(1e-3));
+  EXPECT_TRUE(fitted(4e-8));
+  EXPECT_FALSE(fitted(1.5e-8));
+  EXPECT_FALSE(fitted(0));
+}
+
 }  // namespace
 }  // namespace keyline::fit

@@ -9,6 +9,7 @@
 #include "keyline/lac/region.h"
 
 #include "reference_table.h"
+#include "tests/shared_data.h"
 
 namespace keyline::lac {
 namespace {
@@ -34,7 +35,7 @@ double joint_gap(const Chain& chain) {
 
 TEST(SolveCompound, ReproducesTheReferenceTable) {
   const auto rows = read_reference("compound.csv");
-  if (rows.empty()) GTEST_SKIP() << "shared reference data not found";
+  KEYLINE_NEEDS_SHARED_DATA(!rows.empty(), "reference tables");
   for (const ReferenceRow& row : rows) {
     const auto value = [&](const char* name) { return std::stod(row.at(name)); };
     SCOPED_TRACE("alpha0 " + row.at("alpha0") + " alpha1 " + row.at("alpha1") + " theta " +

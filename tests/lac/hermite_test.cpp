@@ -1,8 +1,10 @@
 #include "keyline/lac/hermite.h"
 
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 #include "keyline/lac/region.h"
 
 #include "reference_table.h"
+#include "tests/shared_data.h"
 
 namespace keyline::lac {
 namespace {
@@ -21,7 +24,7 @@ HandleAngles angles_of(double theta, double psi) { return {theta, psi, 1, -psi};
 
 TEST(SolveG1, ReproducesTheReferenceTable) {
   const auto rows = read_reference("g1.csv");
-  if (rows.empty()) GTEST_SKIP() << "shared reference data not found";
+  KEYLINE_NEEDS_SHARED_DATA(!rows.empty(), "reference tables");
   int drawn = 0;
   double worst = 0;
   for (const ReferenceRow& row : rows) {
@@ -247,6 +250,28 @@ TEST(DrawableRegion, ClosedForms) {
   EXPECT_NEAR(drawable_region(4, 1e-5).high / 1e-5, 4.0 / 7, 1e-9);
   EXPECT_THROW(drawable_region(NAN, 1), core::InvalidInput);
   EXPECT_THROW(drawable_region(1, 4), core::InvalidInput);
+}
+
+// The bounds an error names are where drawing starts and stops: on both sides of each the solver is
+// asked itself.
+TEST(SolveG1, TheRegionAnErrorNamesIsTheOneThatCanBeDrawn) {
+  for (const double alpha : {-1.0, -0.3, 2.0, 5.0})
+    for (const double theta : {0.7, 1.9}) {
+      SCOPED_TRACE(std::to_string(alpha) + ' ' + std::to_string(theta));
+      const auto refused = solve_g1(HandleAngles{theta, 0.999 * theta}, alpha);
+      ASSERT_FALSE(refused);
+      const std::string& text = refused.error().message;
+      double low = 0;
+      double high = 0;
+      ASSERT_EQ(
+          std::sscanf(text.c_str() + text.find("between"), "between %lf and %lf", &low, &high), 2);
+      EXPECT_NEAR(low + high, theta, 1e-8);
+      const double little = 1e-3 * theta;
+      EXPECT_TRUE(solve_g1(HandleAngles{theta, low + little}, alpha));
+      EXPECT_TRUE(solve_g1(HandleAngles{theta, high - little}, alpha));
+      EXPECT_FALSE(solve_g1(HandleAngles{theta, low - little}, alpha));
+      EXPECT_FALSE(solve_g1(HandleAngles{theta, high + little}, alpha));
+    }
 }
 
 }  // namespace

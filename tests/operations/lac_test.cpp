@@ -7,6 +7,7 @@
 #include "keyline/operations/operation.h"
 
 #include "../lac/reference_table.h"
+#include "tests/shared_data.h"
 
 namespace keyline::operations {
 namespace {
@@ -40,7 +41,7 @@ void expect_undrawable(const json& answer) {
 
 TEST(LacSegment, AnswersTheReferenceTable) {
   const auto rows = read_reference("g1.csv");
-  if (rows.empty()) GTEST_SKIP() << "shared reference data not found";
+  KEYLINE_NEEDS_SHARED_DATA(!rows.empty(), "reference tables");
   for (const ReferenceRow& row : rows) {
     SCOPED_TRACE(row.at("alpha") + " " + row.at("theta_d") + " " + row.at("psi"));
     const json answer = asked({{"op", "lac.segment"},
@@ -63,7 +64,7 @@ TEST(LacSegment, AnswersTheReferenceTable) {
 
 TEST(LacCompound, AnswersTheReferenceTable) {
   const auto rows = read_reference("compound.csv");
-  if (rows.empty()) GTEST_SKIP() << "shared reference data not found";
+  KEYLINE_NEEDS_SHARED_DATA(!rows.empty(), "reference tables");
   for (const ReferenceRow& row : rows) {
     SCOPED_TRACE(row.at("alpha0") + " " + row.at("alpha1") + " " + row.at("theta_d") + " " +
                  row.at("psi"));

@@ -137,5 +137,31 @@ TEST(Thinning, KeepsConnectionsAndHoles) {
   }
 }
 
+// What thin() promises: no pixel of a staircase is left that could go. By the definition: ink
+// beside and ink above or below, and the connections stay without it.
+TEST(Thin, LeavesNoCornersOfStaircases) {
+  Binary ring(120, 120);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const double r = std::hypot(x - 60.0, 0.7 * (y - 60.0));
+      ring.at(x, y) = r > 34 && r < 39 ? 1 : 0;
+    }
+  Binary stairs(60, 60);  // a line of one pixel that goes beside and down in turns
+  for (int i = 5; i < 50; ++i) stairs.at(i, i) = stairs.at(i + 1, i) = 1;
+  for (const Binary& shape : {ring, stairs, house()}) {
+    const Binary lines = thin(shape);
+    for (int y = 0; y < lines.height; ++y)
+      for (int x = 0; x < lines.width; ++x) {
+        if (!lines.at(x, y)) continue;
+        const unsigned n = neighbours_of(lines, x, y);
+        const bool beside = (n & 0b01000100U) != 0;
+        const bool above_or_below = (n & 0b00010001U) != 0;
+        EXPECT_FALSE(beside && above_or_below && is_simple(n)) << x << ' ' << y;
+      }
+  }
+  const Binary line = thin(stairs);  // 46 pixels reach from one end to the other corner by corner
+  EXPECT_LE(std::count(line.data.begin(), line.data.end(), 1), 47);
+}
+
 }  // namespace
 }  // namespace keyline::sketch

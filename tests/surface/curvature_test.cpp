@@ -76,6 +76,24 @@ TEST(SurfaceCurvature, AgreesWithDifferencesOfPositions) {
   }
 }
 
+// z = (x^2 + 4 x y - 2 y^2) / 2 has the Hessian ((1, 2), (2, -2)) where it is level: eigenvalues 2
+// and -3 with eigenvectors (2, 1) and (1, -2).
+TEST(SurfaceCurvature, PrincipalDirectionsAreTheEigenvectors) {
+  BezierSurface s{{3, 3, {}}, {}};
+  const double place[] = {-0.5, 0, 0.5};
+  const double square[] = {0.25, -0.25, 0.25};  // Bernstein coefficients of (t - 1/2)^2
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      s.net.points.push_back(
+          {place[i], place[j], 0.5 * (square[i] + 4 * place[i] * place[j] - 2 * square[j])});
+  const auto k = curvature_of(jet(Surface{s}, 0.5, 0.5));
+  ASSERT_TRUE(k);
+  EXPECT_NEAR(k->largest, 2, 1e-14);
+  EXPECT_NEAR(k->smallest, -3, 1e-14);
+  EXPECT_NEAR(k->largest_direction.y / k->largest_direction.x, 0.5, 1e-14);
+  EXPECT_NEAR(k->smallest_direction.y / k->smallest_direction.x, -2, 1e-13);
+}
+
 TEST(SurfaceCurvature, DegenerateNetsHaveNone) {
   const BezierSurface point{{3, 3, std::vector<core::Point3>(9, {1, 2, 3})}, {}};
   EXPECT_FALSE(curvature_of(jet_with_normal(point, 0.5, 0.5)));

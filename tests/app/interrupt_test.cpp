@@ -1,0 +1,64 @@
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+/// Starts `keyline fair --quiet` on a file, with its standard error in another.
+pid_t started(const std::string& input, const std::string& output, const std::string& errors) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  const int file = ::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  ::dup2(file, 2);
+  ::execl(KEYLINE_PROGRAM, "keyline", "fair", "--quiet", "--threads", "1", "--tolerance", "1e-5",
+          input.c_str(), "-o", output.c_str(), nullptr);
+  std::_Exit(127);
+}
+
+/// A closed curve no few pieces follow: fairing it takes many seconds.
+std::string long_work() {
+  std::string text;
+  for (int i = 0; i < 60000; ++i) {
+    const double t = 0.0004 * i;
+    text += std::to_string(100 * std::cos(t) + 3 * std::sin(7 * t)) + "," +
+            std::to_string(60 * std::sin(t) + 2 * std::cos(5 * t)) + "\n";
+  }
+  return text;
+}
+
+// Twenty moments: the program ends by itself, with status 130, one line, and the old file.
+TEST(Interrupt, AtAnyMomentLeavesTheOldFile) {
+  const Scratch s;
+  const std::string input = s.write("long.csv", long_work());
+  const std::string output = s.write("out.svg", "old");
+  for (int moment = 1; moment <= 20; ++moment) {
+    SCOPED_TRACE(moment);
+    const pid_t child = started(input, output, s.path("err"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 45 * moment));
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status)) << "killed by the signal: nobody caught it";
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    const std::string said = slurp(s.path("err"));
+    EXPECT_TRUE(said.starts_with("keyline: ")) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_EQ(slurp(output), "old");
+    EXPECT_EQ(s.count(), 3U);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::app_test
