@@ -46,7 +46,7 @@ TEST(Interrupt, AtAnyMomentLeavesTheOldFile) {
   for (int moment = 1; moment <= 20; ++moment) {
     SCOPED_TRACE(moment);
     const pid_t child = started(input, output, s.path("err"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 45 * moment));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 25 * moment));
     ::kill(child, SIGINT);
     int status = 0;
     ::waitpid(child, &status, 0);
