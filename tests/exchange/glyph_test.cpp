@@ -160,8 +160,8 @@ TEST(Font, ImpliedPointsAreNotRounded) {
   ASSERT_EQ(curves.size(), 4U);
   std::vector<Point2> ends;
   for (const auto& c : curves) ends.push_back(evaluate(c, 1));
-  EXPECT_THAT(ends, testing::UnorderedElementsAre(Point2{75, 612.5}, Point2{87.5, 650},
-                                                  Point2{50, 662.5}, Point2{37.5, 625}));
+  EXPECT_THAT(ends, testing::UnorderedElementsAre(Point2{50, 612.5}, Point2{62.5, 650},
+                                                  Point2{25, 662.5}, Point2{12.5, 625}));
   for (std::size_t i = 1; i < 4; ++i)  // no kink where a handle stands on both sides
     EXPECT_NEAR(core::angle_between(jet(curves[i - 1], 1).first, jet(curves[i], 0).first), 0,
                 1e-14);
