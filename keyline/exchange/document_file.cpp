@@ -27,6 +27,7 @@
 #include "keyline/exchange/pdf_document.h"
 #include "keyline/exchange/points_reader.h"
 #include "keyline/exchange/svg_document.h"
+#include "keyline/exchange/svg_text.h"
 
 namespace keyline::exchange {
 namespace {
@@ -226,9 +227,10 @@ std::string unit_in(const std::string& extension, const std::string& unit) {
       {".dxf", {"mm", "cm", "m", "km", "in", "ft"}},
       {".step", {"mm", "cm", "m", "km", "in", "ft"}},
       {".iges", {"mm", "cm", "m", "km", "in", "ft"}}};
-  const std::string name = extension == ".stp"   ? ".step"
-                           : extension == ".igs" ? ".iges"
-                                                 : extension;
+  const std::string name = extension == ".stp"    ? ".step"
+                           : extension == ".igs"  ? ".iges"
+                           : extension == ".svgz" ? ".svg"
+                                                  : extension;
   const auto known = kKnown.find(name);
   if (unit.empty() || known == kKnown.end() || known->second.contains(unit)) return unit;
   return document::millimetres(unit) > 0 ? "mm" : unit;
@@ -273,6 +275,11 @@ Result<Written> format_in_unit(const Document& document, const std::string& exte
   if (extension == ".json") return Written{to_json(document).dump(1) + "\n", 0, {}};
   if (extension == ".csv") return write_csv(document, options.samples);
   if (extension == ".svg") return write_svg_document(document, tolerance);
+  if (extension == ".svgz") {
+    auto drawn = write_svg_document(document, tolerance);
+    if (drawn) drawn->content = detail::compressed_svg(drawn->content);
+    return drawn;
+  }
   if (extension == ".pdf") return write_pdf_document(document, tolerance);
   if (extension == ".dxf")
     return write_dxf(document, {.tolerance = tolerance, .polylines = options.polylines});

@@ -64,7 +64,7 @@ Format format_of(const std::filesystem::path& file, std::string_view head) {
 }
 
 std::vector<std::string> written_extensions() {
-  return {".svg", ".json", ".csv", ".dxf", ".step", ".stp", ".iges", ".igs", ".glif"};
+  return {".svg", ".svgz", ".json", ".csv", ".dxf", ".step", ".stp", ".iges", ".igs", ".glif"};
 }
 
 }  // namespace keyline::exchange

@@ -211,4 +211,20 @@ Result<SvgText> svg_text(std::string_view bytes, std::size_t largest) {
   return text;
 }
 
+std::string compressed_svg(std::string_view text) {
+  z_stream stream{};
+  constexpr int kGzip = 16 + MAX_WBITS;
+  constexpr int kMemory = 8;
+  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY);
+  std::string bytes(deflateBound(&stream, text.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_out = static_cast<uInt>(bytes.size());
+  deflate(&stream, Z_FINISH);
+  bytes.resize(bytes.size() - stream.avail_out);
+  deflateEnd(&stream);
+  return bytes;
+}
+
 }  // namespace keyline::exchange::detail

@@ -24,4 +24,7 @@ struct SvgText {
 /// broken or too large; unsupported for other encodings.
 core::Result<SvgText> svg_text(std::string_view bytes, std::size_t largest);
 
+/// The text as an .svgz file: the same bytes for the same text.
+std::string compressed_svg(std::string_view text);
+
 }  // namespace keyline::exchange::detail

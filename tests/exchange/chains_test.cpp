@@ -118,7 +118,7 @@ TEST_F(Chains, SizesAreTheSameInEveryPairOfUnitAndFormat) {
   const UnitCase units[] = {{"mm", 1},    {"cm", 10},    {"m", 1000},       {"km", 1e6},
                             {"in", 25.4}, {"ft", 304.8}, {"pt", 25.4 / 72}, {"px", 25.4 / 96}};
   for (const UnitCase& unit : units)
-    for (const char* name : {"u.svg", "u.json", "u.dxf", "u.step", "u.iges"}) {
+    for (const char* name : {"u.svg", "u.svgz", "u.json", "u.dxf", "u.step", "u.iges"}) {
       SCOPED_TRACE(std::string(unit.unit) + ' ' + name);
       const double wide = 254 / unit.millimetres;
       Document d;
