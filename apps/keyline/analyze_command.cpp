@@ -5,24 +5,22 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/document_file.h"
-#include "keyline/exchange/planar_form.h"
+#include "keyline/exchange/json_curve.h"
 #include "keyline/figure/drawing.h"
-#include "keyline/fit/fit_spline.h"
-#include "keyline/operations/analysis_json.h"
 #include "keyline/operations/analyze_report.h"
+#include "keyline/operations/class_a.h"
 #include "keyline/operations/class_a_figure.h"
-#include "keyline/operations/class_a_json.h"
-#include "keyline/operations/class_a_request.h"
 #include "keyline/operations/fair_report.h"
+#include "keyline/operations/perform.h"
 #include "keyline/operations/pictures.h"
 #include "keyline/report/html_report.h"
 
 #include "commands.h"
-#include "input.h"
 #include "output.h"
+#include "reading.h"
 #include "surface_commands.h"
 #include "terminal.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
@@ -32,22 +30,23 @@ using nlohmann::json;
 
 struct Subject {
   std::string name;
-  document::Path path;
-  double noise = 0;
-  analysis::CurveAnalysis analysis = {};
+  operations::AnalyzeAnswer answer;
   std::optional<classa::Evaluation> class_a = {};
+  json shown = {};
+  const document::Path& path() const { return answer.path; }
+  const analysis::CurveAnalysis& analysis() const { return answer.analysis; }
 };
 
 /// The value of a curve that one Bezier curve stands for; in "class_a" of the result, or why not.
-void add_class_a(Subject& subject, std::optional<double> tolerance, json& result) {
-  auto bezier = operations::class_a_bezier(subject.path, tolerance);
-  auto value = bezier ? classa::evaluate_curve(std::move(*bezier), {})
-                      : Result<classa::Evaluation>(std::unexpected(bezier.error()));
+void add_class_a(Subject& subject, std::optional<double> tolerance) {
+  json request{{"curve", exchange::to_json(subject.path())}};
+  if (tolerance) request["fit_tolerance"] = *tolerance;
+  const auto value = operations::carry_out("curve.cav", request, {});
   if (value) {
-    result["class_a"] = operations::evaluation_json(*value);
-    subject.class_a = std::move(*value);
+    subject.class_a = value->result_as<operations::EvaluationShown>()->evaluation;
+    subject.shown["class_a"] = operations::result_json(*value).value();
   } else {
-    result["class_a"] = {{"reason", value.error().message}};
+    subject.shown["class_a"] = {{"reason", value.error().message}};
   }
 }
 
@@ -70,73 +69,19 @@ void print_class_a(const json& value) {
   fmt::print("{}\n", line);
 }
 
-/// Points are analysed through their spline, as in steps 2 to 4 of fairing.
-Result<Subject> spline_of(const acquire::KeyLine& line, const CommonOptions& common,
-                          const core::Progress& progress) {
-  fit::SplineFitOptions options = fit::SplineFitOptions::for_fairing();
-  options.seed = static_cast<std::uint64_t>(common.seed);
-  options.threads = common.threads;
-  options.closed = line.closed && line.points.size() > 8;
-  options.order = std::min<int>(options.order, static_cast<int>(line.points.size()));
-  options.rounding = line.rounding;
-  options.progress = progress;
-  auto fit = fit::fit_spline(line.points, line.weights, options);
-  if (!fit) return std::unexpected(fit.error());
-  Subject subject;
-  subject.name = line.id;
-  subject.noise = line.noise;
-  subject.path.closed = line.closed;
-  subject.path.curves.push_back({std::move(fit->curve)});
+Result<Subject> analyzed(const operations::NamedCurve& curve, const AnalyzeCommand& command,
+                         const core::Progress& progress) {
+  json request = subject_of(curve, command.input);
+  request["seed"] = command.common.seed;
+  const auto outcome =
+      operations::carry_out("curve.analyze", request, {command.common.threads, progress});
+  if (!outcome) return std::unexpected(as_options(outcome.error()));
+  auto shown = operations::result_json(*outcome);
+  if (!shown) return std::unexpected(shown.error());
+  Subject subject{curve.name, *outcome->result_as<operations::AnalyzeAnswer>()};
+  subject.shown = std::move(*shown);
+  add_class_a(subject, command.common.tolerance);
   return subject;
-}
-
-/// Whether the vertices are points of a curve (a hull's offsets, a digitised outline), as fairing
-/// takes them, and not corners of a polygon: enough for a spline, and turning gently.
-bool holds_points_of_a_curve(const curve::Polyline2& line) {
-  constexpr std::size_t kFewest = 5;
-  constexpr double kGentle = 0.8;  // radians per vertex
-  double turning = 0;
-  for (std::size_t i = 2; i < line.points.size(); ++i)
-    turning += std::abs(core::angle_between(line.points[i - 1] - line.points[i - 2],
-                                            line.points[i] - line.points[i - 1]));
-  return line.points.size() >= kFewest &&
-         turning < kGentle * static_cast<double>(line.points.size() - 2);
-}
-
-Result<std::vector<Subject>> subjects_of(const AnalyzeCommand& command,
-                                         const document::Document& document) {
-  std::vector<Subject> subjects;
-  const core::Progress progress = interactive_progress(command.common.quiet);
-  for (const auto& named : document.paths) {
-    const auto* polyline = only_polyline(named.path);
-    if (!polyline || !holds_points_of_a_curve(*polyline)) {
-      subjects.push_back(
-          {.name = named.label.name, .path = named.path, .noise = command.input.noise.value_or(0)});
-      continue;
-    }
-    const auto line = key_line_of(named.path, command.input);
-    if (!line) return std::unexpected(exchange::in_file(line.error(), command.input.files.front()));
-    auto subject = spline_of(*line, command.common, progress);
-    if (!subject) return std::unexpected(subject.error());
-    subject->name = named.label.name;
-    subjects.push_back(std::move(*subject));
-  }
-  end_progress();
-  return subjects;
-}
-
-Result<std::vector<Subject>> subjects_of_points(const AnalyzeCommand& command) {
-  std::vector<Subject> subjects;
-  const core::Progress progress = interactive_progress(command.common.quiet);
-  const auto lines = load_key_lines(command.input);
-  if (!lines) return std::unexpected(lines.error());
-  for (const acquire::KeyLine& line : *lines) {
-    auto subject = spline_of(line, command.common, progress);
-    if (!subject) return std::unexpected(subject.error());
-    subjects.push_back(std::move(*subject));
-  }
-  end_progress();
-  return subjects;
 }
 
 void print_summary(const std::string& name, const json& result) {
@@ -167,8 +112,10 @@ operations::ReportOptions report_options(const AnalyzeCommand& command, const Su
   options.unit = command.input.unit;
   options.command = command.common.command_line;
   options.generator = "Keyline " KEYLINE_VERSION;
-  options.options = {{"noise", fmt::format("{:.4g}", subject.noise)},
-                     {"seed", std::to_string(command.common.seed)}};
+  options.options = {
+      {"noise",
+       fmt::format("{:.4g}", subject.answer.noise.value_or(command.input.noise.value_or(0)))},
+      {"seed", std::to_string(command.common.seed)}};
   return options;
 }
 
@@ -182,7 +129,7 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
         places.push_back({subject.name.empty() ? "the curve" : subject.name, &*subject.class_a});
     std::size_t place = 0;
     for (const Subject& subject : subjects) {
-      reports.push_back(operations::analyze_report(subject.analysis, subject.path,
+      reports.push_back(operations::analyze_report(subject.analysis(), subject.path(),
                                                    report_options(command, subject)));
       if (subject.class_a)
         reports.back().sections.push_back(operations::class_a_section(places, place++, {}));
@@ -192,7 +139,7 @@ void add_pictures(Writers& writers, const AnalyzeCommand& command,
   const auto picture = [&] {
     std::vector<figure::Drawing> drawings;
     for (const Subject& subject : subjects) {
-      drawings.push_back(operations::analyze_picture(subject.analysis, subject.path,
+      drawings.push_back(operations::analyze_picture(subject.analysis(), subject.path(),
                                                      report_options(command, subject)));
       if (subject.class_a)
         drawings.back() = figure::stack(
@@ -211,24 +158,35 @@ Result<void> check_curve_outputs(const AnalyzeCommand& command) {
                        command.input.files);
 }
 
-int analyze_curves(const AnalyzeCommand& command, Result<std::vector<Subject>> subjects) {
+/// Every curve of the input.
+Result<std::vector<Subject>> analyze_all(const AnalyzeCommand& command,
+                                         const operations::ReadAnswer& read) {
+  const core::Progress progress = interactive_progress(command.common.quiet);
+  std::vector<Subject> subjects;
+  for (const operations::NamedCurve& curve : read.curves) {
+    if (!curve.line && !std::holds_alternative<document::Path>(*curve.curve)) continue;
+    auto subject = analyzed(curve, command, progress);
+    if (!subject) return std::unexpected(subject.error());
+    subjects.push_back(std::move(*subject));
+  }
+  end_progress();
+  return subjects;
+}
+
+int analyze_curves(const AnalyzeCommand& command, const operations::ReadAnswer& read) {
   const CommonOptions& common = command.common;
-  if (!subjects) return report_failure(subjects.error());
+  const auto subjects = analyze_all(command, read);
+  if (!subjects) return report_failure(subjects.error(), command.input.files.front());
   json all = json::array();
   document::Document curves;
   curves.unit = command.input.unit;
   double size = HUGE_VAL;
-  for (Subject& subject : *subjects) {
-    auto found = operations::analyze_path(subject.path, subject.noise);
-    if (!found) return report_failure(found.error(), command.input.files.front());
-    subject.analysis = std::move(*found);
-    json result = operations::curve_analysis_json(subject.analysis);
-    add_class_a(subject, common.tolerance, result);
-    size = std::min(size, subject.analysis.length);
-    curves.paths.push_back({{subject.name, {}, {}}, subject.path, 0});
-    if (!common.json && !common.quiet) print_summary(subject.name, result);
-    if (!subject.name.empty()) result["name"] = subject.name;
-    all.push_back(std::move(result));
+  for (const Subject& subject : *subjects) {
+    size = std::min(size, subject.analysis().length);
+    curves.paths.push_back({{subject.name, {}, {}}, subject.path(), 0});
+    if (!common.json && !common.quiet) print_summary(subject.name, subject.shown);
+    all.push_back(subject.shown);
+    if (!subject.name.empty()) all.back()["name"] = subject.name;
   }
   const json shown = all.size() == 1 ? all[0] : json{{"curves", all}};
   Writers writers = curve_writers(curves, common.tolerance.value_or(1e-5 * size), common);
@@ -242,20 +200,13 @@ int analyze_curves(const AnalyzeCommand& command, Result<std::vector<Subject>> s
 }  // namespace
 
 int run_analyze(const AnalyzeCommand& command) {
-  const bool points = holds_points(command.input.files.front());
-  document::Document document;
-  if (!points) {
-    auto loaded = load_document(command.input);
-    if (!loaded) return report_failure(loaded.error());
-    document = std::move(*loaded);
-    if (!document.surfaces.empty()) return analyze_surfaces(command, document);
-    std::vector<std::string> notes;
-    exchange::flatten(document, notes);
-    for (const std::string& note : notes) say(command.common.quiet, note);
-  }
+  const auto read = read_files(command.input, interactive_progress(command.common.quiet));
+  if (!read) return report_failure(read.error());
+  end_progress();
+  if (!read->surfaces.empty()) return analyze_surfaces(command, read->document);
+  for (const std::string& skipped : read->skipped) say(command.common.quiet, skipped);
   if (auto known = check_curve_outputs(command); !known) return report_failure(known.error());
-  if (points) return analyze_curves(command, subjects_of_points(command));
-  return analyze_curves(command, subjects_of(command, document));
+  return analyze_curves(command, *read);
 }
 
 }  // namespace keyline::app

@@ -316,18 +316,34 @@ Command add_convert(CLI::App& app) {
 }
 
 Command add_batch(CLI::App& app) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<BatchCommand>();
   auto* sub = app.add_subcommand(
       "batch", "requests as lines of JSON on standard input, answers in the same order");
-  add_common(*sub, *options, false);
+  add_common(*sub, options->common, false);
+  sub->remove_option(sub->get_option("--json"));
+  sub->get_option("--seed")->description("of requests that take a seed and give none");
+  sub->get_option("--tolerance")->description("of requests that take a length so and give none");
+  sub->get_option("--threads")->description("processes that answer; 0: one for each core");
+  sub->add_option("--resume", options->resume,
+                  "file the answers go to; those in it already are not asked for again")
+      ->type_name("FILE");
+  sub->add_option("--time-limit", options->time_limit, "seconds a line may take; else any")
+      ->check(positive());
   sub->footer("Example: echo '{\"op\":\"lac.region\",\"theta\":1,\"alpha\":-1}' | keyline batch");
-  return {sub, [options](const std::string&) { return run_batch(*options); }};
+  return {sub, [options, sub](const std::string&) {
+            if (sub->count("--seed") > 0) options->seed = options->common.seed;
+            return run_batch(*options);
+          }};
 }
 
 Command add_operations(CLI::App& app) {
   auto options = std::make_shared<OperationsCommand>();
   auto* sub = app.add_subcommand("operations", "what can be requested; with a name, its schema");
   sub->add_option("NAME", options->name, "of an operation");
+  sub->add_option("--format", options->format,
+                  "schema; of one: result (its schema) or markdown; of all: typescript, python, "
+                  "openapi or markdown")
+      ->check(CLI::IsMember({"schema", "result", "typescript", "python", "openapi", "markdown"}));
   add_common(*sub, options->common, false);
   sub->footer("Example: keyline operations lac.segment");
   return {sub, runs(options, run_operations)};

@@ -137,11 +137,18 @@ struct ConvertCommand {
 };
 int run_convert(const ConvertCommand& command);
 
-int run_batch(const CommonOptions& common);
+struct BatchCommand {
+  CommonOptions common;
+  std::optional<long> seed;  ///< of requests that take one and give none; so with the tolerance
+  std::string resume;        ///< file of answers to go on with; empty: standard output
+  std::optional<double> time_limit;  ///< seconds a line may take
+};
+int run_batch(const BatchCommand& command);
 
 struct OperationsCommand {
   CommonOptions common;
-  std::string name;  ///< of the one to describe; empty: list all
+  std::string name;    ///< of the one to describe; empty: list all
+  std::string format;  ///< schema, result (its schema), typescript, python, openapi, markdown
 };
 int run_operations(const OperationsCommand& command);
 

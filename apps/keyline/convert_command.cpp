@@ -11,8 +11,8 @@
 #include "keyline/exchange/planar_form.h"
 
 #include "commands.h"
-#include "input.h"
 #include "output.h"
+#include "reading.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -20,19 +20,16 @@ namespace {
 
 using core::Result;
 
-/// Points as acquired: sorted, without strays.
-Result<document::Document> document_of_points(const InputOptions& input) {
-  const auto lines = load_key_lines(input);
-  if (!lines) return std::unexpected(lines.error());
-  document::Document document;
-  document.unit = input.unit;
-  for (const acquire::KeyLine& line : *lines) {
-    document::Path path;
-    path.closed = line.closed;
-    curve::Polyline2 polyline{line.points};
-    if (line.closed) polyline.points.push_back(polyline.points.front());
-    path.curves.push_back({std::move(polyline)});
-    document.paths.push_back({{line.id, {}, {}}, std::move(path), 0});
+/// What was read as a document; points as acquired: sorted, without strays.
+document::Document document_of(const operations::ReadAnswer& read) {
+  document::Document document = read.document;
+  document.unit = read.unit;
+  for (const operations::NamedCurve& named : read.curves) {
+    if (!named.line) continue;
+    curve::Polyline2 polyline{named.line->points};
+    if (named.line->closed) polyline.points.push_back(polyline.points.front());
+    document.paths.push_back(
+        {{named.name, {}, {}}, {{{std::move(polyline)}}, named.line->closed}, 0});
   }
   return document;
 }
@@ -74,9 +71,11 @@ int run_convert(const ConvertCommand& command) {
           check_outputs(common, curve_extensions({".pdf", ".png", ".html"}), command.input.files);
       !known)
     return report_failure(known.error());
-  auto document = holds_points(command.input.files.front()) ? document_of_points(command.input)
-                                                            : load_document(command.input);
-  if (!document) return report_failure(document.error());
+  const auto read = read_files(command.input, interactive_progress(common.quiet), false);
+  if (!read) return report_failure(read.error());
+  end_progress();
+  document::Document made = document_of(*read);
+  document::Document* const document = &made;
   if (command.trims) document::add_trim_curves(*document);
   say(common.quiet, fmt::format("{}: {}", command.input.files.front(), contents(*document)));
   for (const std::string& skipped : document->skipped) say(common.quiet, "skipped: " + skipped);

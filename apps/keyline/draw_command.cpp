@@ -7,7 +7,7 @@
 #include "keyline/exchange/json_curve.h"
 #include "keyline/exchange/json_space.h"
 #include "keyline/operations/draw_figure.h"
-#include "keyline/operations/operation.h"
+#include "keyline/operations/perform.h"
 #include "keyline/operations/space_figure.h"
 #include "keyline/report/html_report.h"
 

@@ -6,18 +6,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/json_curve.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/operations/class_a_figure.h"
-#include "keyline/operations/class_a_json.h"
-#include "keyline/operations/class_a_request.h"
+#include "keyline/operations/curve_edit.h"
 #include "keyline/operations/fair_report.h"
+#include "keyline/operations/perform.h"
 #include "keyline/report/html_report.h"
 
 #include "commands.h"
-#include "input.h"
 #include "output.h"
+#include "reading.h"
 #include "surface_commands.h"
 #include "terminal.h"
+#include "typed.h"
 
 namespace keyline::app {
 namespace {
@@ -36,6 +38,7 @@ struct Edited {
 /// The options in the words of operation curve.edit.
 json request_of(const EditCommand& command) {
   json request = json::object();
+  if (command.common.tolerance) request["fit_tolerance"] = *command.common.tolerance;
   request["amount"] = command.amount;
   request["direction"] = command.direction;
   request["branch"] = command.branch;
@@ -48,15 +51,14 @@ json request_of(const EditCommand& command) {
   return request;
 }
 
-Result<Edited> edit_path(const document::NamedPath& named, const classa::EditOptions& options,
-                         std::optional<double> tolerance) {
-  auto given = operations::class_a_bezier(named.path, tolerance);
-  if (!given) return std::unexpected(given.error());
-  auto result = classa::edit(given->curve, options);
-  if (!result) return std::unexpected(result.error());
-  auto shown = operations::class_a_edit_json(*result, *given, options);
+Result<Edited> edit_path(const document::NamedPath& named, json request) {
+  request["curve"] = exchange::to_json(named.path);
+  const auto outcome = operations::carry_out("curve.edit", request, {});
+  if (!outcome) return std::unexpected(outcome.error());
+  auto shown = operations::result_json(*outcome);
   if (!shown) return std::unexpected(shown.error());
-  return Edited{named.label.name, std::move(*given), std::move(*result), std::move(*shown)};
+  const auto& answer = *outcome->result_as<operations::CurveEditAnswer>();
+  return Edited{named.label.name, *answer.given, *answer.edited, std::move(*shown)};
 }
 
 std::string place_text(const classa::CurveValue& v) {
@@ -73,7 +75,8 @@ void print_summary(const Edited& e) {
   for (const auto& [word, value] :
        {std::pair{"before", &e.result.before}, std::pair{"after", &e.result.after}})
     fmt::print("{:>8} {:>5} {:>11.6g} {:>21} {:>11.6g} {:>10}\n", word, value->type, value->cav,
-               place_text(*value), value->energy, operations::answer_name(value->monotone.answer));
+               place_text(*value), value->energy,
+               core::word_of(operations::verdict_of(value->monotone.answer)));
 }
 
 operations::ReportOptions report_options(const EditCommand& command, const std::string& name) {
@@ -120,11 +123,15 @@ int run_edit(const EditCommand& command) {
           check_outputs(common, curve_extensions({".html", ".pdf", ".png"}), command.input.files);
       !known)
     return report_failure(known.error());
-  const auto options = operations::edit_options(request_of(command));
-  if (!options) return report_failure(options.error());
+  const json request = request_of(command);
+  const auto asked = from_json<operations::CurveEditRequest>(request, "curve.edit");
+  if (!asked) return report_failure(asked.error());
+  const classa::EditOptions options = operations::edit_options(*asked);
   const std::string& file = command.input.files.front();
-  const auto document = load_document(command.input);
-  if (!document) return report_failure(document.error());
+  const auto read = read_files(command.input, interactive_progress(common.quiet));
+  if (!read) return report_failure(read.error());
+  end_progress();
+  const document::Document* document = &read->document;
   if (!document->surfaces.empty()) return edit_surfaces(command, *document);
   if (document->paths.empty())
     return report_failure({core::ErrorCode::bad_input, "there is no planar curve or patch to edit",
@@ -136,7 +143,7 @@ int run_edit(const EditCommand& command) {
   json shown = json::array();
   double size = HUGE_VAL;
   for (const document::NamedPath& named : document->paths) {
-    auto edited = edit_path(named, *options, common.tolerance);
+    auto edited = edit_path(named, request);
     if (!edited) return report_failure(edited.error(), file);
     if (!common.json && !common.quiet) print_summary(*edited);
     size = std::min(size, size_of(edited->result.curve));
@@ -150,7 +157,7 @@ int run_edit(const EditCommand& command) {
   else
     shown = json{{"curves", shown}};
   Writers writers = curve_writers(curves, 1e-5 * size, common);
-  add_pictures(writers, command, all, *options);
+  add_pictures(writers, command, all, options);
   if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
   if (common.json) fmt::print("{}\n", shown.dump());
   return kDone;

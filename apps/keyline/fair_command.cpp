@@ -7,16 +7,17 @@
 #include "keyline/core/text.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/figure/drawing.h"
+#include "keyline/operations/fair.h"
 #include "keyline/operations/fair_report.h"
-#include "keyline/operations/fair_request.h"
+#include "keyline/operations/perform.h"
 #include "keyline/operations/pictures.h"
-#include "keyline/operations/spline_search.h"
 #include "keyline/report/html_report.h"
 
 #include "commands.h"
-#include "input.h"
 #include "output.h"
+#include "reading.h"
 #include "terminal.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
@@ -26,6 +27,7 @@ using core::Result;
 struct Faired {
   acquire::KeyLine line;
   fairing::FairResult result;
+  nlohmann::json shown;
 };
 
 /// The fields given, as a request of the operation `fair` has them.
@@ -40,49 +42,29 @@ nlohmann::json search_request(const SplineSearch& search) {
   return request;
 }
 
-Result<fairing::FairOptions> options_of(const FairCommand& command,
-                                        const core::Progress& progress) {
-  fairing::FairOptions options;
-  options.tolerance = command.common.tolerance.value_or(0);
-  options.pieces = command.pieces;
-  options.keep_corners = command.keep_corners;
-  if (auto done =
-          operations::read_spline_search(search_request(command.spline), {4, 6}, options.spline);
-      !done)
-    return std::unexpected(done.error());
-  options.seed = static_cast<std::uint64_t>(command.common.seed);
-  options.threads = command.common.threads;
-  options.progress = progress;
-  if (!command.clamp.empty())
-    if (auto done = operations::parse_clamp(command.clamp, options); !done)
-      return std::unexpected(done.error());
-  if (!command.region.empty()) {
-    const auto region = operations::parse_region(command.region);
-    if (!region) return std::unexpected(region.error());
-    options.region = *region;
-  }
-  for (const std::string& text : command.interpretations) {
-    const auto asked = operations::parse_interpretation(text);
-    if (!asked) return std::unexpected(asked.error());
-    options.interpretations.push_back(*asked);
-  }
-  return options;
-}
-
-/// Indices of points in the file to indices in the key-line, which may have lost some.
-Result<std::vector<std::size_t>> indices_in(const acquire::KeyLine& line,
-                                            const std::vector<long>& wanted) {
-  std::vector<std::size_t> found;
-  for (const long index : wanted) {
-    const auto at = std::find(line.sources.begin(), line.sources.end(),
-                              static_cast<std::size_t>(std::max(0L, index)));
-    if (index < 0 || at == line.sources.end())
-      return core::fail(core::ErrorCode::bad_input,
-                        fmt::format("point {} is not in the key-line", index),
-                        "it may have been dropped as stray; see --keep-strays", "--must-pass");
-    found.push_back(static_cast<std::size_t>(at - line.sources.begin()));
-  }
-  return found;
+/// The options given, as fields of the operation.
+Result<nlohmann::json> request_of(const FairCommand& command) {
+  nlohmann::json request = search_request(command.spline);
+  if (command.common.tolerance) request["tolerance"] = *command.common.tolerance;
+  request["pieces"] = command.pieces;
+  request["keep_corners"] = command.keep_corners;
+  request["seed"] = command.common.seed;
+  request["threads"] = command.common.threads;
+  if (!command.must_pass.empty()) request["must_pass"] = command.must_pass;
+  if (!command.clamp.empty()) request["clamp"] = command.clamp;
+  if (!command.interpretations.empty()) request["interpretation"] = command.interpretations;
+  if (command.region.empty()) return request;
+  const std::size_t colon = std::min(command.region.find(':'), command.region.size());
+  const auto low = core::parse_number(std::string_view(command.region).substr(0, colon));
+  const auto high = colon == command.region.size()
+                        ? std::nullopt
+                        : core::parse_number(std::string_view(command.region).substr(colon + 1));
+  if (!low || !high)
+    return core::fail(core::ErrorCode::bad_input,
+                      "\"" + command.region + "\" is no part of the length",
+                      "give a:b with 0 <= a < b <= 1", "--region");
+  request["region"] = {*low, *high};
+  return request;
 }
 
 void print_table(const Faired& faired) {
@@ -149,29 +131,50 @@ int verdict_of(const std::vector<Faired>& all, const std::string& file) {
   return missed.empty() ? kDone : report_missed(missed, file);
 }
 
-/// All key-lines of the input; `page` is that of a drawing.
-Result<std::vector<Faired>> fair_all(const FairCommand& command, std::optional<curve::Box2>& page) {
-  const core::Progress progress = interactive_progress(command.common.quiet);
-  auto options = options_of(command, progress);
-  if (!options) return std::unexpected(options.error());
-  auto lines = load_key_lines(command.input, &page);
-  if (!lines) return std::unexpected(lines.error());
+/// What was faired, and where it came from.
+struct Session {
   std::vector<Faired> all;
-  const double count = static_cast<double>(lines->size());
-  for (std::size_t i = 0; i < lines->size(); ++i) {
-    acquire::KeyLine& line = (*lines)[i];
-    auto indices = indices_in(line, command.must_pass);
-    if (!indices) return std::unexpected(indices.error());
-    options->must_pass = std::move(*indices);
-    options->progress =
-        core::part_of(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
-    auto result = fairing::fair(line, *options);
-    if (!result) return std::unexpected(result.error());
-    all.push_back({std::move(line), std::move(*result)});
-    if (all.back().result.cancelled) break;
+  std::optional<curve::Box2> page;  ///< of a picture
+};
+
+Result<Faired> fair_one(const operations::NamedCurve& curve, const FairCommand& command,
+                        const nlohmann::json& options, const core::Progress& progress) {
+  nlohmann::json request = subject_of(curve, command.input);
+  request.update(options);
+  const auto outcome = operations::carry_out("fair", request, {command.common.threads, progress});
+  if (!outcome) return std::unexpected(as_options(outcome.error()));
+  auto shown = operations::result_json(*outcome);
+  if (!shown) return std::unexpected(shown.error());
+  const auto& answer = *outcome->result_as<operations::FairAnswer>();
+  Faired faired{answer.line, answer.faired, std::move(*shown)};
+  faired.line.id = curve.name;
+  return faired;
+}
+
+/// All key-lines of the input.
+Result<Session> fair_all(const FairCommand& command) {
+  const core::Progress progress = interactive_progress(command.common.quiet);
+  const auto options = request_of(command);
+  if (!options) return std::unexpected(options.error());
+  const auto read = read_files(command.input, progress);
+  if (!read) return std::unexpected(read.error());
+  Session session;
+  if (read->page && read->document.paths.empty())
+    session.page = curve::Box2{read->page->low, read->page->high};
+  if (!read->skipped.empty())
+    say(command.common.quiet, fmt::format("{} in the file were skipped; keyline list names them",
+                                          core::counted(read->skipped.size(), "thing")));
+  const double count = static_cast<double>(read->curves.size());
+  for (std::size_t i = 0; i < read->curves.size(); ++i) {
+    auto faired = fair_one(read->curves[i], command, *options,
+                           core::part_of(progress, static_cast<double>(i) / count,
+                                         static_cast<double>(i + 1) / count));
+    if (!faired) return std::unexpected(faired.error());
+    session.all.push_back(std::move(*faired));
+    if (session.all.back().result.cancelled) break;
   }
   end_progress();
-  return all;
+  return session;
 }
 
 operations::ReportOptions report_options(const FairCommand& command, const Faired& faired) {
@@ -241,12 +244,11 @@ void add_pictures(Writers& writers, const FairCommand& command, const std::vecto
 }
 
 nlohmann::json result_json(const std::vector<Faired>& all) {
-  if (all.size() == 1) return operations::fair_json(all.front().result);
+  if (all.size() == 1) return all.front().shown;
   nlohmann::json list = nlohmann::json::array();
   for (const Faired& faired : all) {
-    nlohmann::json j = operations::fair_json(faired.result);
-    j["id"] = faired.line.id;
-    list.push_back(std::move(j));
+    list.push_back(faired.shown);
+    list.back()["id"] = faired.line.id;
   }
   return {{"curves", std::move(list)}};
 }
@@ -271,9 +273,10 @@ int run_fair(const FairCommand& command) {
                                  command.input.files);
       !known)
     return report_failure(known.error());
-  std::optional<curve::Box2> page;
-  const auto all = fair_all(command, page);
-  if (!all) return report_failure(all.error());
+  const auto session = fair_all(command);
+  if (!session) return report_failure(session.error());
+  const std::vector<Faired>* all = &session->all;
+  const std::optional<curve::Box2>& page = session->page;
   document::Document curves;
   curves.unit = page && command.input.unit.empty() ? "px" : command.input.unit;
   double tolerance = HUGE_VAL;

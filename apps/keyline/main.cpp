@@ -4,11 +4,13 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
 
 #include "command_line.h"
+#include "operation_command.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -76,11 +78,23 @@ int run(int argc, char** argv) {
   CLI::App app{"Keyline: aesthetic curves. Measured points in, a faired key-line out."};
   app.set_version_flag("--version", "keyline " KEYLINE_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "keyline COMMAND --help tells more. Exit status: 0 done, 1 no such answer, 2 bad "
-      "input, 3 file trouble, 130 cancelled.");
+  app.footer(tools_help() +
+             "keyline completion bash prints completion for the shell. keyline COMMAND --help "
+             "tells more. Exit status: 0 done, 1 no such answer, 2 bad "
+             "input, 3 file trouble, 130 cancelled.");
   const std::vector<Command> commands = add_commands(app);
 
+  const int named = argc > 2 && argv[1] == std::string_view("perform") ? 2 : 1;
+  if (argc > 1 && (named == 2 || !has_command(commands, argv[1])) &&
+      is_operation_command(argv[named]))
+    return run_operation_command(argv[named], {argv + named + 1, argv + argc});
+  if (argc == 3 && argv[1] == std::string_view("completion") &&
+      argv[2] == std::string_view("bash")) {
+    std::vector<std::string> names;
+    for (const Command& c : commands) names.push_back(c.parser->get_name());
+    std::fputs(bash_completion(names).c_str(), stdout);
+    return kDone;
+  }
   if (argc > 1 && argv[1][0] != '-' && !has_command(commands, argv[1]))
     return report_failure({core::ErrorCode::bad_input,
                            std::string("there is no command \"") + argv[1] + "\"",

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,14 +8,15 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/image_reader.h"
-#include "keyline/exchange/scap_reader.h"
 #include "keyline/operations/sketch_run.h"
+#include "keyline/operations/sketch_trace.h"
 
 #include "commands.h"
 #include "output.h"
 #include "sketch_debug.h"
 #include "terminal.h"
+#include "typed.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
@@ -23,14 +25,16 @@ using core::Result;
 
 /// What was traced, in the unit it is written in: pixels, or mm by --scale or --dpi.
 struct Sketch {
+  operations::SketchAnswer answer;
   sketch::TraceResult trace;
   double scale = 1;
   std::string unit = "px";
 };
 
 /// The command's options as a request, so that the operation's checks hold for both doors.
-Result<sketch::TraceOptions> options_of(const SketchCommand& command) {
-  nlohmann::json request = {{"edge", command.edge},
+Result<operations::SketchRequest> request_of(const SketchCommand& command) {
+  nlohmann::json request = {{"file", command.file},
+                            {"edge", command.edge},
                             {"consolidate", command.consolidate},
                             {"curvature", command.curvature},
                             {"flatten", command.flatten},
@@ -50,75 +54,27 @@ Result<sketch::TraceOptions> options_of(const SketchCommand& command) {
       request["thresholds"].push_back(text == "auto" ? nlohmann::json() : std::move(value));
     }
   }
-  return operations::trace_options(request);
-}
-
-/// A document's curves as strokes, sampled finely; width of the pen from the first that has one.
-std::vector<sketch::DrawnStroke> strokes_of(const document::Document& document, double& pen) {
-  std::vector<sketch::DrawnStroke> strokes;
-  for (const document::NamedPath& named : document.paths) {
-    if (pen <= 0) pen = named.stroke_width;
-    sketch::DrawnStroke stroke{{}, named.path.closed};
-    const int samples = 64 * std::max(1, static_cast<int>(named.path.curves.size()));
-    for (int i = 0; i <= samples; ++i) {
-      const core::Point2 p = evaluate(named.path, static_cast<double>(i) / samples);
-      if (stroke.points.empty() || stroke.points.back() != p) stroke.points.push_back(p);
-    }
-    if (stroke.closed && stroke.points.size() > 1 && stroke.points.front() == stroke.points.back())
-      stroke.points.pop_back();
-    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
-  }
-  if (pen <= 0) pen = exchange::extent(document) / 400;
-  return strokes;
-}
-
-Result<sketch::TraceResult> trace_vectors(const std::string& file,
-                                          const sketch::TraceOptions& options) {
-  if (exchange::extension_of(file) != ".scap") {
-    const auto document = exchange::read_document(file);
-    if (!document) return std::unexpected(document.error());
-    double pen = 0;
-    const auto strokes = strokes_of(*document, pen);
-    return operations::trace_drawn(strokes, pen, options);
-  }
-  const auto text = exchange::read_file(file);
-  if (!text) return std::unexpected(text.error());
-  const auto drawing = exchange::read_scap(*text);
-  if (!drawing) return std::unexpected(exchange::in_file(drawing.error(), file));
-  std::vector<sketch::DrawnStroke> strokes;
-  for (const exchange::ScapStroke& s : drawing->strokes) {
-    sketch::DrawnStroke stroke;
-    for (const core::Point2 p : s.points) stroke.points.push_back({p.x, drawing->height - p.y});
-    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
-  }
-  return operations::trace_drawn(strokes, drawing->pen, options);
+  set("scale", command.scale);
+  set("dpi", command.dpi);
+  return from_json<operations::SketchRequest>(request, "sketch.trace");
 }
 
 Result<Sketch> trace_file(const SketchCommand& command) {
-  auto options = options_of(command);
-  if (!options) return std::unexpected(options.error());
-  Sketch sketch;
-  if (command.scale) sketch.scale = *command.scale;
-  if (command.dpi) sketch.scale = 25.4 / *command.dpi;
-  if (command.scale || command.dpi) sketch.unit = "mm";
-  const std::string extension = exchange::extension_of(command.file);
-  const bool vectors =
-      extension == ".scap" || extension == ".svg" || extension == ".json" || extension == ".dxf";
+  const auto request = request_of(command);
+  if (!request) return std::unexpected(request.error());
   SketchDebug debug;
-  if (!command.debug.empty()) options->stage = [&](const sketch::Stage& s) { debug.add(s); };
-  options->progress = interactive_progress(command.common.quiet);
-  Result<sketch::TraceResult> trace = core::fail(core::ErrorCode::internal, "");
-  if (vectors) {
-    trace = trace_vectors(command.file, *options);
-  } else {
-    auto image = exchange::read_image_file(command.file);
-    if (!image) return std::unexpected(image.error());
-    trace = operations::trace_picture(std::move(*image), *options);
-  }
+  std::function<void(const sketch::Stage&)> stage;
+  if (!command.debug.empty()) stage = [&](const sketch::Stage& s) { debug.add(s); };
+  auto trace = operations::trace_drawing(*request, interactive_progress(command.common.quiet),
+                                         std::move(stage));
   end_progress();
   if (!trace) return std::unexpected(trace.error());
   if (!command.debug.empty())
     if (auto done = debug.write(command.debug, *trace); !done) return std::unexpected(done.error());
+  Sketch sketch;
+  sketch.scale = operations::scale_of(*request);
+  sketch.answer = operations::sketch_answer(*request, *trace);
+  sketch.unit = sketch.answer.unit;
   sketch.trace = std::move(*trace);
   return sketch;
 }
@@ -180,7 +136,8 @@ int run_sketch(const SketchCommand& command) {
     return report_failure(known.error());
   const auto sketch = trace_file(command);
   if (!sketch)
-    return report_failure(sketch.error(), sketch.error().path.empty() ? command.file : "");
+    return report_failure(as_options(sketch.error()),
+                          sketch.error().path.empty() ? command.file : "");
   const double tolerance = 0.02 * sketch->scale;
   document::Document document = operations::sketch_document(sketch->trace, sketch->scale, 0);
   document.unit = sketch->unit;
@@ -190,9 +147,7 @@ int run_sketch(const SketchCommand& command) {
   if (auto done = write_outputs(command.common, writers); !done)
     return report_failure(done.error());
   if (command.common.json) {
-    nlohmann::json result = operations::sketch_json(sketch->trace, sketch->scale);
-    result["unit"] = sketch->unit;
-    fmt::print("{}\n", result.dump());
+    fmt::print("{}\n", to_json(sketch->answer).dump());
   }
   tell(*sketch, command);
   return kDone;

@@ -10,11 +10,12 @@
 #include "keyline/core/text.h"
 #include "keyline/operations/fair_report.h"
 #include "keyline/operations/surface_pictures.h"
-#include "keyline/operations/surface_value_json.h"
+#include "keyline/operations/surface_value.h"
 #include "keyline/report/html_report.h"
 
 #include "output.h"
 #include "terminal.h"
+#include "typed.h"
 
 namespace keyline::app {
 namespace {
@@ -75,7 +76,7 @@ json curvature_json(const surface::Surface& s) {
 
 json result_of(const SurfaceSubject& subject) {
   json j = subject.values.empty() ? json{{"sav", nullptr}, {"no_value", subject.no_value}}
-                                  : operations::patch_values_json(subject.values);
+                                  : to_json(operations::shown(subject.values));
   j["name"] = subject.name;
   if (subject.trims > 0) j["trims"] = subject.trims;
   j["curvature"] = curvature_json(subject.surface);

@@ -7,14 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/angle.h"
+#include "keyline/exchange/json_surface.h"
 #include "keyline/operations/fair_report.h"
-#include "keyline/operations/surface_conditions.h"
 #include "keyline/operations/surface_pictures.h"
 #include "keyline/report/html_report.h"
 
 #include "output.h"
 #include "surface_commands.h"
 #include "terminal.h"
+#include "typed.h"
 
 namespace keyline::app {
 namespace {
@@ -44,9 +45,7 @@ Result<json> conditions_of(const EditCommand& command) {
   if (command.branch != "own") general["branch"] = command.branch;
   if (!general.empty()) all.push_back(general);
   for (const std::string& text : command.conditions) {
-    auto condition = operations::condition_from_text(text);
-    if (!condition) return condition;
-    all.push_back(std::move(*condition));
+    all.push_back(text);
   }
   return all;
 }
@@ -229,11 +228,14 @@ Result<Session> edit_all(const EditCommand& command, const document::Document& d
     const document::NamedSurface& named = document.surfaces[i];
     const bool several =
         document.surfaces.size() > 1 || surface::patches_of(named.surface).patches.size() > 1;
-    auto options = operations::surface_edit_options(request, several);
-    if (!options) return std::unexpected(options.error());
+    json whole = request;
+    whole["surface"] = exchange::to_json(named.surface);
+    const auto asked = from_json<operations::SurfaceEditRequest>(whole, "surface.edit");
+    if (!asked) return std::unexpected(asked.error());
+    surface::EditOptions options = operations::surface_edit_options(*asked, several);
     const double count = static_cast<double>(document.surfaces.size());
-    options->progress = core::part_of(progress, i / count, (i + 1) / count);
-    auto edit = surface::edit_surface(named.surface, *options, command.common.threads);
+    options.progress = core::part_of(progress, i / count, (i + 1) / count);
+    auto edit = surface::edit_surface(named.surface, options, command.common.threads);
     if (!edit && edit.error().code == core::ErrorCode::cancelled)
       return std::unexpected(edit.error());
     if (!edit) {
@@ -245,7 +247,7 @@ Result<Session> edit_all(const EditCommand& command, const document::Document& d
       continue;
     }
     add_edited(named, *edit, session.written);
-    session.shown.push_back(operations::surface_edit_json(*edit));
+    session.shown.push_back(to_json(operations::surface_edit_answer(*edit)));
     if (!named.label.name.empty()) session.shown.back()["name"] = named.label.name;
     session.all.push_back({named.label.name, named.surface, std::move(*edit)});
   }
@@ -275,8 +277,8 @@ int edit_surfaces(const EditCommand& command, const document::Document& document
   json shown =
       session->shown.size() == 1 ? json(session->shown[0]) : json{{"surfaces", session->shown}};
   if (session->shown.size() > 1)
-    shown["joints"] = {{"before", operations::joints_json(joints.before)},
-                       {"after", operations::joints_json(joints.after)}};
+    shown["joints"] = {{"before", to_json(operations::shown(joints.before))},
+                       {"after", to_json(operations::shown(joints.after))}};
   fmt::print("{}\n", shown.dump());
   return kDone;
 }

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/operations/operation.h"
+#include "keyline/operations/perform.h"
 
 namespace {
 

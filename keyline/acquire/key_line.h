@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/acquire/plane.h"
+#include "keyline/core/describe.h"
 #include "keyline/core/point.h"
 
 namespace keyline::acquire {
@@ -41,6 +42,25 @@ struct KeyLine {
   std::vector<std::size_t> sources;  ///< index into the raw points; empty where averaged
   Plane plane;
   AcquireReport report;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&KeyLine::points>("in their order, in the line's plane").count(2).needed(),
+        core::field<&KeyLine::weights>("one per point; none: all one"),
+        core::field<&KeyLine::closed>("smoothly: the last point is followed by the first"),
+        core::field<&KeyLine::ends_meet>("open, but the ends are the same place"),
+        core::field<&KeyLine::noise>("standard deviation normal to the curve")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&KeyLine::rounding>("step of the coordinates; 0: not rounded")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&KeyLine::length>("of the polygon").in("length"),
+        core::field<&KeyLine::corners>("indices of points, from 0"),
+        core::field<&KeyLine::sources>("index of each point in what was read; none: averaged"),
+        core::field<&KeyLine::report, &AcquireReport::notes>("what was done, in words"));
+  }
+  /// bad_input where lists do not match the points or indices do not exist.
+  static core::Result<void> check(const KeyLine& line);
 };
 
 }  // namespace keyline::acquire

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "keyline/analysis/profile.h"
+#include "keyline/core/describe.h"
 
 namespace keyline::analysis {
 
@@ -14,6 +15,19 @@ struct ContinuityTolerance {
   double angle = 1e-4;           ///< radians
   double curvature = 1e-3;       ///< relative
   double curvature_rate = 1e-2;  ///< relative
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&ContinuityTolerance::gap>("largest gap that still joins")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&ContinuityTolerance::angle>("largest angle of a G1 joint")
+            .in("radian")
+            .within(core::at_least(0)),
+        core::field<&ContinuityTolerance::curvature>("largest relative jump of a G2 joint")
+            .within(core::at_least(0)),
+        core::field<&ContinuityTolerance::curvature_rate>("the same of a G3 joint")
+            .within(core::at_least(0)));
+  }
 };
 
 /// What happens where one curve ends and the next begins. order is 0…3 for G0…G3, -1 where there
@@ -28,6 +42,15 @@ struct JointContinuity {
   double relative_curvature_jump = 0;
   double relative_curvature_rate_jump = 0;
   int order = -1;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&JointContinuity::position>("where the joint is"),
+        core::field<&JointContinuity::gap>("between the two ends").in("length"),
+        core::field<&JointContinuity::angle>("from one tangent to the next").in("radian"),
+        core::field<&JointContinuity::curvature_jump>("next less before").in("1/length"),
+        core::field<&JointContinuity::curvature_rate_jump>("of the rate").in("1/length^2"),
+        core::field<&JointContinuity::relative_curvature_jump>("relative to the larger curvature"));
+  }
 };
 
 /// The joint between two ends; scale > 0 as above. Where a curvature is not finite (a cusp) the

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/analysis/profile.h"
+#include "keyline/core/describe.h"
 
 namespace keyline::analysis {
 
@@ -12,6 +13,17 @@ namespace keyline::analysis {
 /// two in the diagram of curvature, named by the sign of their slope along growing radius) and
 /// the three that have no line there.
 enum class Rhythm { straight, arc, arcs, minus, zero, plus, plus_minus, minus_plus };
+
+constexpr auto choices(const Rhythm*) {
+  return core::words<Rhythm>({{Rhythm::straight, "straight"},
+                              {Rhythm::arc, "arc"},
+                              {Rhythm::arcs, "arcs"},
+                              {Rhythm::minus, "minus"},
+                              {Rhythm::zero, "zero"},
+                              {Rhythm::plus, "plus"},
+                              {Rhythm::plus_minus, "plus+minus"},
+                              {Rhythm::minus_plus, "minus+plus"}});
+}
 
 /// "straight" "arc" "arcs" "minus" "zero" "plus" "plus+minus" "minus+plus".
 const char* rhythm_name(Rhythm rhythm);
@@ -55,6 +67,20 @@ struct Interpretation {
   double deviation = 0;
   double score = 0;
   double plausibility = 0;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&Interpretation::rhythm>("what the piece reads as"),
+        core::field<&Interpretation::slopes>("none, one, or two along growing radius"),
+        core::field<&Interpretation::slope_errors>("their standard deviations"),
+        core::field<&Interpretation::breaks>(
+            "where lines or arcs meet, as fractions of the piece's length"),
+        core::field<&Interpretation::curvatures>("at the start, at each break and at the end")
+            .in("1/length"),
+        core::field<&Interpretation::deviation>("rms distance from the best curve of this kind")
+            .in("length"),
+        core::field<&Interpretation::score>("lower is better"),
+        core::field<&Interpretation::plausibility>("share among all readings listed"));
+  }
 };
 
 /// Interpretations of one piece, best first, one per rhythm (and number of slopes).

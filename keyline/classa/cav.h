@@ -7,6 +7,8 @@
 
 #include "keyline/classa/control_matrix.h"
 #include "keyline/classa/minimum_energy.h"
+#include "keyline/core/angle.h"
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 #include "keyline/curve/bezier.h"
@@ -17,6 +19,10 @@ namespace keyline::classa {
 /// Which way along a curve its ratios are read: where edges grow (s >= 1; reversing the curve then
 /// changes nothing), or as the points stand, where s < 1 belongs to the branch s <= cos(alpha).
 enum class Direction { growing, as_given };
+constexpr auto choices(const Direction*) {
+  return core::words<Direction>(
+      {{Direction::growing, "growing"}, {Direction::as_given, "as-given"}});
+}
 
 struct CavOptions {
   double alpha_max = kDefaultAlphaMax;  ///< of Tab. 2 and of the plane: radians in (0, pi/2)
@@ -31,6 +37,19 @@ struct CavOptions {
   /// Measure from this place instead of looking for the minimum: an edited curve is compared with
   /// the minimum of the curve it comes from.
   std::optional<EnergyMinimum> minimum = {};
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&CavOptions::alpha_max>("largest rotation, of Tab. 2 and of the plane")
+            .in("radian")
+            .within(core::between(0, core::kPi / 2)),
+        core::field<&CavOptions::tolerance>(
+            "in the alpha-s plane: ratios nearer than this are one and the same")
+            .within(core::at_least(0)),
+        core::field<&CavOptions::end_tolerance>(
+            "how far the minimum's end may lie off; 0.01 of the chord unless given")
+            .in("length")
+            .within(core::at_least(0)));
+  }
 };
 
 /// Where a curve stands ([Oya] Tab. 1 and 2).

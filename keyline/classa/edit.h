@@ -15,6 +15,10 @@ enum class Hold {
   ends,              ///< both ends; the start tangent follows
   start,             ///< start and start tangent; the end follows, as near to the old as it can
 };
+constexpr auto choices(const Hold*) {
+  return core::words<Hold>(
+      {{Hold::ends_and_tangent, "ends-and-tangent"}, {Hold::ends, "ends"}, {Hold::start, "start"}});
+}
 
 struct EditOptions {
   CavOptions cav;

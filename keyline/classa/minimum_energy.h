@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "keyline/classa/control_matrix.h"
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 
@@ -13,6 +14,9 @@ inline constexpr double kDefaultAlphaMax = 1.0982;
 
 /// The two parts of the Class A region: edges grow (s >= 1/cos alpha) or shrink (s <= cos alpha).
 enum class Branch { growing, falling };
+constexpr auto choices(const Branch*) {
+  return core::words<Branch>({{Branch::growing, "growing"}, {Branch::falling, "falling"}});
+}
 
 /// What a designer asks of a curve with one matrix: start point (the origin here), start tangent,
 /// where it ends, and in which part of the alpha-s plane it may lie.

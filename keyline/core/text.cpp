@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace keyline::core {
 
@@ -11,6 +12,14 @@ std::string number_text(double value, int significant_digits) {
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
                                  std::chars_format::general, std::clamp(significant_digits, 1, 17));
   return {text.data(), end.ptr};
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
 }
 
 std::string counted(std::size_t n, std::string_view one, std::string_view many) {

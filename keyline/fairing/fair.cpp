@@ -174,8 +174,8 @@ class Job {
     runs_ = {detail::run_between(line_, range.first, range.last)};
     const bool from_start = range.first == 0 && !line_.closed;
     const bool to_end = range.last + 1 == line_.points.size() && !line_.closed;
-    runs_[0].clamp_start = from_start ? options_.clamp_start : Clamp::g2;
-    runs_[0].clamp_end = to_end ? options_.clamp_end : Clamp::g2;
+    runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
+    runs_[0].clamp_end = to_end ? options_.clamp.end : Clamp::g2;
     if (auto done = fair_one(0, inside); !done) return std::unexpected(done.error());
     if (range.t_first > 0) kept_before_ = subcurve(*whole, 0, range.t_first);
     if (range.t_last < 1) kept_after_ = subcurve(*whole, range.t_last, 1);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "keyline/analysis/continuity.h"
 #include "keyline/analysis/rhythm.h"
 #include "keyline/analysis/split.h"
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/progress.h"
 #include "keyline/curve/bspline.h"
@@ -22,12 +24,40 @@ namespace keyline::fairing {
 /// What is held at an end of an open key-line: its position, also its direction, also its
 /// curvature, as the spline through the points (or the given curve) has them.
 enum class Clamp { none, g0, g1, g2 };
+constexpr auto choices(const Clamp*) {
+  return core::words<Clamp>(
+      {{Clamp::none, "none"}, {Clamp::g0, "G0"}, {Clamp::g1, "G1"}, {Clamp::g2, "G2"}});
+}
+
+struct EndClamps {
+  Clamp start = Clamp::none;
+  Clamp end = Clamp::none;
+  static constexpr auto describe() {
+    return core::fields(core::field<&EndClamps::start>("held at the start"),
+                        core::field<&EndClamps::end>("held at the end"));
+  }
+  static constexpr std::string_view kTextForm = "start:G1,end:G2, either one alone, G0 to G2";
+  static core::Result<EndClamps> from_text(std::string_view text);
+};
 
 /// A reading of one piece of the answer that replaces the one found.
 struct InterpretationOverride {
   int piece = 0;  ///< index into FairResult::pieces
   std::optional<analysis::Rhythm> rhythm;
   std::optional<double> slope;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&InterpretationOverride::piece>("which, from 0")
+            .within(core::from_to(0, 1'000'000))
+            .needed(),
+        core::field<&InterpretationOverride::rhythm>("how it is to read; or a slope"),
+        core::field<&InterpretationOverride::slope>("of its logarithmic curvature graph"));
+  }
+  static constexpr std::string_view kTextForm =
+      "PIECE:RHYTHM with straight, arc, minus, zero, plus, plus+minus or minus+plus, or "
+      "PIECE:slope=NUMBER, pieces counted from 0";
+  static core::Result<InterpretationOverride> from_text(std::string_view text);
+  static core::Result<void> check(const InterpretationOverride& asked);
 };
 
 struct FairOptions {
@@ -35,8 +65,7 @@ struct FairOptions {
       0;           ///< largest distance of a point, in the points' unit; 0: by the default rule
   int pieces = 0;  ///< wanted number of pieces; 0: as few as the tolerance allows
   bool keep_corners = true;
-  Clamp clamp_start = Clamp::none;
-  Clamp clamp_end = Clamp::none;
+  EndClamps clamp;
   std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
   std::vector<InterpretationOverride> interpretations;
   std::vector<std::size_t> must_pass;  ///< indices into the key-line's points
@@ -46,6 +75,26 @@ struct FairOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   core::Progress progress;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&FairOptions::tolerance>(
+            "largest distance of a point; by default three times the noise or 0.05 % of the length")
+            .in("length")
+            .within(core::kPositive),
+        core::field<&FairOptions::pieces>("wanted number of pieces; 0: as few as possible")
+            .within(core::from_to(0, 400)),
+        core::field<&FairOptions::keep_corners>("corners end chains"),
+        core::field<&FairOptions::clamp>(
+            "what is held at the ends: G0 position, G1 also direction, G2 also curvature"),
+        core::field<&FairOptions::region>("fair only this part of the length, as fractions of it")
+            .within(core::from_to(0, 1)),
+        core::field<&FairOptions::interpretations>("readings of pieces that replace those found")
+            .named("interpretation")
+            .or_bare_item(),
+        core::field<&FairOptions::must_pass>("indices of points the curve must pass, from 0"),
+        core::flattened<&FairOptions::spline>().narrow("order", core::from_to(4, 6)),
+        core::field<&FairOptions::seed>("of the search for knots; the same seed, the same result"));
+  }
 };
 
 /// One log-aesthetic piece of the answer and how it reads.
@@ -60,6 +109,17 @@ struct FairPiece {
   double deviation = 0;                                   ///< largest distance of its points
   std::vector<analysis::Interpretation> interpretations;  ///< of the points' spline, best first
   bool overridden = false;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&FairPiece::curve>("which member of the curve, from 0"),
+        core::field<&FairPiece::piece>("which of its pieces, from 0"),
+        core::field<&FairPiece::start>("arc length from the start of the whole").in("length"),
+        core::field<&FairPiece::length>("of the piece").in("length"),
+        core::field<&FairPiece::rhythm>("what it reads as"),
+        core::field<&FairPiece::slopes>("of its logarithmic curvature graph"),
+        core::field<&FairPiece::volume>("area over its chord").in("length^2"),
+        core::field<&FairPiece::deviation>("largest distance of its points").in("length"));
+  }
 };
 
 /// A member of the answer: a faired chain, or a part of the given curve that was kept.

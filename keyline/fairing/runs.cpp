@@ -63,8 +63,8 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
   cuts.push_back(n - 1);
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
     runs.push_back(stretch(line, cuts[k], cuts[k + 1] - cuts[k], options.must_pass));
-  runs.front().clamp_start = options.clamp_start;
-  runs.back().clamp_end = options.clamp_end;
+  runs.front().clamp_start = options.clamp.start;
+  runs.back().clamp_end = options.clamp.end;
   return runs;
 }
 

@@ -43,6 +43,21 @@ struct SplineFitOptions {
   std::vector<std::size_t> must_pass;
   core::Progress progress;
 
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&SplineFitOptions::order>("of the spline, degree + 1")
+            .within(core::from_to(2, 8)),
+        core::field<&SplineFitOptions::population>("individuals of the search for knots")
+            .within(core::from_to(2, 100'000)),
+        core::field<&SplineFitOptions::generations>("of the search for knots")
+            .within(core::from_to(0, 1'000'000)),
+        core::field<&SplineFitOptions::trials>("independent searches; the best is kept")
+            .within(core::from_to(1, 100'000)),
+        core::field<&SplineFitOptions::knots>(
+            "polished by local search, or ga: the plain genetic search of [Fairing]"),
+        core::field<&SplineFitOptions::parameter>("of the points along the curve"));
+  }
+
   /// A small budget for the fairing pipeline: smart start, population 30, generations 30, one
   /// trial, order 5 (continuous rate of curvature), smooth_chord, at most 800 data in the search.
   static SplineFitOptions for_fairing();

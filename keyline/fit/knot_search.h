@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/progress.h"
 #include "keyline/fit/least_squares_spline.h"
 
@@ -27,6 +28,10 @@ enum class KnotPlacement {
   ga,       ///< the best individual of the genetic search
   polished  ///< each trial's best improved by local search, then the best of them
 };
+constexpr auto choices(const KnotPlacement*) {
+  return core::words<KnotPlacement>(
+      {{KnotPlacement::polished, "polished"}, {KnotPlacement::ga, "ga"}});
+}
 
 struct KnotSearchOptions {
   int population = 100;

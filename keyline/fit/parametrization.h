@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/point.h"
 
 /// Parameters of ordered points, in [0, 1].
@@ -17,6 +18,11 @@ enum class Parametrization {
   /// that between single points this is chord length.
   smooth_chord
 };
+constexpr auto choices(const Parametrization*) {
+  return core::words<Parametrization>({{Parametrization::smooth_chord, "smooth-chord"},
+                                       {Parametrization::chord, "chord"},
+                                       {Parametrization::centripetal, "centripetal"}});
+}
 
 /// One parameter per point: 0 at the first and 1 at the last, increasing except that feet of
 /// smooth_chord may change places by about the noise. Empty where the total length is zero or

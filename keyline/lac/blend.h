@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/curve/concept.h"
 #include "keyline/lac/chain.h"
@@ -35,6 +36,10 @@ inline BlendEnd opposite(const BlendEnd& end) {
 }
 
 enum class BlendOrder { g1 = 1, g2 = 2, g3 = 3 };
+constexpr auto choices(const BlendOrder*) {
+  return core::words<BlendOrder>(
+      {{BlendOrder::g1, "G1"}, {BlendOrder::g2, "G2"}, {BlendOrder::g3, "G3"}});
+}
 
 struct BlendSolution {
   Chain chain;                          ///< G2 inside whatever the order

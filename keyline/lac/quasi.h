@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 #include "keyline/core/point.h"
@@ -20,6 +21,14 @@ enum class QuasiForm {
   rational_cubic,  ///< positions, tangents and end curvatures exact, then least LCG variance
   best,            ///< positions, tangents and end curvatures exact, then least deviation
 };
+constexpr auto choices(const QuasiForm*) {
+  return core::words<QuasiForm>({{QuasiForm::taylor_angle, "taylor-angle"},
+                                 {QuasiForm::taylor_arc, "taylor-arc"},
+                                 {QuasiForm::discrete_angle, "discrete-angle"},
+                                 {QuasiForm::discrete_arc, "discrete-arc"},
+                                 {QuasiForm::rational_cubic, "rational-cubic"},
+                                 {QuasiForm::best, "best"}});
+}
 
 struct QuasiOptions {
   QuasiForm form = QuasiForm::taylor_angle;

@@ -9,8 +9,8 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/length.h"
 #include "keyline/figure/curve_charts.h"
-#include "keyline/operations/class_a_json.h"
 #include "keyline/operations/report_parts.h"
+#include "keyline/operations/verdict.h"
 
 namespace keyline::operations {
 
@@ -183,8 +183,12 @@ report::Report edit_report(const classa::EditResult& edited, const classa::Appro
                {"Strain energy after", number(edited.after.energy), {}},
                {"Place before", place_text(edited.before), {}},
                {"Place after", place_text(edited.after), {}},
-               {"Monotone curvature before", answer_name(edited.before.monotone.answer), {}},
-               {"Monotone curvature after", answer_name(edited.after.monotone.answer), {}}};
+               {"Monotone curvature before",
+                std::string(core::word_of(verdict_of(edited.before.monotone.answer))),
+                {}},
+               {"Monotone curvature after",
+                std::string(core::word_of(verdict_of(edited.after.monotone.answer))),
+                {}}};
   std::vector<Drawing> drawings = edit_drawings(edited, given, options, report);
   r.sections = {{"Curves", {}, {{drawings[0], "Curves with their control polygons."}}, {}},
                 {"Curvature", {}, {{drawings[1], "Curvature along both curves."}}, {}},

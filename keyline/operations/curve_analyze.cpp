@@ -1,13 +1,16 @@
+#include "keyline/operations/curve_analyze.h"
+
+#include <algorithm>
+
 #include "keyline/curve/monotone.h"
-#include "keyline/operations/analysis_json.h"
-#include "keyline/operations/analyze_report.h"
-#include "keyline/operations/fields.h"
+#include "keyline/fit/fit_spline.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
 namespace {
 
 using analysis::MonotoneAnswer;
+using core::Result;
 
 MonotoneAnswer from_verdict(const curve::MonotoneVerdict& verdict) {
   switch (verdict.answer) {
@@ -59,17 +62,117 @@ std::function<MonotoneAnswer()> certificate_of(const document::Path& path) {
   return {};
 }
 
-core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) {
-  const document::Path path = path_of(request, "curve");
-  const double noise = number_or(request, "noise", 0);
-  const auto plot = integer_between(request, "plot_samples", 401, 2, 1'000'000);
-  if (!plot) return std::unexpected(plot.error());
-  const auto found = analyze_path(path, noise, *plot);
+std::vector<Event> events_of(const std::vector<analysis::CurvatureEvent>& found) {
+  using Kind = analysis::CurvatureEvent::Kind;
+  std::vector<Event> events;
+  for (const analysis::CurvatureEvent& e : found) {
+    events.push_back({e.t, e.arc_length, e.curvature, {}});
+    if (e.kind == Kind::maximum) events.back().kind = EventKind::maximum;
+    if (e.kind == Kind::minimum) events.back().kind = EventKind::minimum;
+  }
+  return events;
+}
+
+LcgGraph graph_of(const analysis::Lcg& lcg) {
+  LcgGraph graph;
+  if (lcg.defined) {
+    graph.slope = lcg.slope;
+    graph.intercept = lcg.intercept;
+    graph.variance = lcg.variance;
+  }
+  for (const auto& p : lcg.points) graph.points.push_back({p.log_radius, p.log_rate});
+  return graph;
+}
+
+LddcGraph graph_of(const analysis::Lddc& lddc) {
+  LddcGraph graph;
+  for (const auto& bar : lddc.bars)
+    if (bar.count > 0) graph.bars.push_back({bar.low, bar.count, bar.height});
+  for (const auto& top : lddc.c_curve) graph.c_curve.push_back({top.x, top.y});
+  if (lddc.has_gradient) graph.gradient = lddc.gradient;
+  graph.noise_tops = lddc.tops.size() - lddc.c_curve.size();
+  if (lddc.c_curve.empty()) return graph;
+  graph.a = {lddc.a.x, lddc.a.y};
+  graph.b = {lddc.b.x, lddc.b.y};
+  graph.distance_ab = lddc.distance_ab;
+  return graph;
+}
+
+AnalyzedPiece shown(const analysis::PieceAnalysis& piece) {
+  return {piece.extent.t,
+          piece.extent.arc_length,
+          {piece.extent.curvature_start, piece.extent.curvature_end},
+          piece.length,
+          piece.volume,
+          piece.rhythm,
+          piece.slopes,
+          piece.impression,
+          graph_of(piece.lcg),
+          graph_of(piece.lddc),
+          readings_of(piece.interpretations)};
+}
+
+/// Points are analysed through their spline, as in steps 2 to 4 of fairing.
+Result<document::Path> spline_of(const acquire::KeyLine& line, const AnalyzeRequest& request,
+                                 const Context& context) {
+  fit::SplineFitOptions options = fit::SplineFitOptions::for_fairing();
+  options.seed = request.seed;
+  options.threads = context.threads;
+  options.closed = line.closed && line.points.size() > 8;
+  options.order = std::min<int>(options.order, static_cast<int>(line.points.size()));
+  options.rounding = line.rounding;
+  options.progress = context.progress;
+  auto fit = fit::fit_spline(line.points, line.weights, options);
+  if (!fit) return std::unexpected(fit.error());
+  document::Path path = path_of({std::move(fit->curve)});
+  path.closed = line.closed;
+  return path;
+}
+
+Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context) {
+  const Subject& subject = request.subject;
+  auto line = measured_line(subject);
+  if (!line) return std::unexpected(std::move(line.error()));
+  const bool polygon = subject.curve && *line && !are_points_of_a_curve((**line).points);
+  if (!*line || polygon) {
+    auto found =
+        analyze_path(*subject.curve, subject.acquiring.noise.value_or(0), request.plot_samples);
+    if (!found) return std::unexpected(found.error());
+    AnalyzeAnswer answer = analyze_answer(std::move(*found));
+    answer.path = *subject.curve;
+    return answer;
+  }
+  auto spline = spline_of(**line, request, context);
+  if (!spline) return std::unexpected(std::move(spline.error()));
+  auto found = analyze_path(*spline, (**line).noise, request.plot_samples);
   if (!found) return std::unexpected(found.error());
-  return curve_analysis_json(*found);
+  AnalyzeAnswer answer = analyze_answer(std::move(*found));
+  answer.noise = (**line).noise;
+  answer.spline = *spline;
+  answer.path = std::move(*spline);
+  return answer;
 }
 
 }  // namespace
+
+AnalyzeAnswer analyze_answer(analysis::CurveAnalysis analysis) {
+  AnalyzeAnswer answer;
+  answer.length = analysis.length;
+  answer.volume = analysis.volume;
+  answer.curvature = {analysis.curvature_min, analysis.curvature_max, {}};
+  for (const auto& p : analysis.plot) answer.curvature.plot.push_back({p.arc_length, p.curvature});
+  answer.inflections = events_of(analysis.split.inflections);
+  answer.extrema = events_of(analysis.split.extrema);
+  answer.corners = events_of(analysis.split.corners);
+  for (const auto& wave : analysis.split.merged)
+    answer.merged.push_back({wave.t, wave.displacement});
+  answer.threshold = analysis.split.threshold;
+  for (const auto& piece : analysis.pieces) answer.pieces.push_back(shown(piece));
+  answer.monotone = verdict_of(analysis.monotone.value);
+  if (answer.monotone != Verdict::yes) answer.witness = analysis.monotone.witness;
+  answer.analysis = std::move(analysis);
+  return answer;
+}
 
 analysis::MonotoneAnswer certified_monotone(const document::Path& path) {
   const auto certify = certificate_of(path);
@@ -90,17 +193,13 @@ core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, d
 }
 
 Operation curve_analyze_operation() {
-  using Type = Field::Type;
-  return {
-      "curve.analyze",
-      "Length, volume, curvature, inflections, monotone pieces with their rhythm, logarithmic "
-      "curvature graph and diagram, and whether curvature is monotone.",
-      {{"curve", Type::curve, true, "any planar curve or path"},
-       {"noise", Type::number, false,
-        "standard deviation of the curve's positions; smaller waves are merged"},
-       {"plot_samples", Type::integer, false, "points of the curvature plot, 401 unless given"}},
-      run,
-      {{"curve", {{"type", "bezier"}, {"points", {{0, 0}, {1, 0}, {2, 0.3}, {2.6, 1.2}}}}}}};
+  return declare<run>(
+      {.name = "curve.analyze",
+       .summary = "Length, volume, curvature, inflections, monotone pieces with their rhythm, "
+                  "logarithmic curvature graph and diagram, and whether curvature is monotone. "
+                  "Points are analysed through their spline.",
+       .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[2,0],[3,1],[3,3]]}})"},
+       .long_running = true});
 }
 
 }  // namespace keyline::operations

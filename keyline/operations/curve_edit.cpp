@@ -1,48 +1,66 @@
-#include "keyline/exchange/json_space.h"
-#include "keyline/operations/class_a_json.h"
-#include "keyline/operations/class_a_request.h"
+#include "keyline/operations/curve_edit.h"
+
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
 namespace {
 
-using nlohmann::json;
+using core::Result;
 
-core::Result<json> run(const json& request, const Context&) {
-  const auto options = edit_options(request);
-  if (!options) return std::unexpected(options.error());
-  const auto subject = class_a_subject(request);
-  if (!subject) return std::unexpected(subject.error());
-  if (subject->space) {
-    const auto edited = classa::edit(*subject->space, *options);
-    if (!edited) return std::unexpected(edited.error());
-    return json{{"curve", exchange::to_json(edited->curve)},
-                {"before", curve_value_json(edited->flat.before)},
-                {"after", curve_value_json(edited->flat.after)},
-                {"target", {{"alpha", edited->flat.target.alpha}, {"s", edited->flat.target.s}}}};
-  }
-  const auto edited = classa::edit(subject->planar->curve, *options);
+Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::EditOptions& options) {
+  const auto edited = classa::edit(c, options);
   if (!edited) return std::unexpected(edited.error());
-  return class_a_edit_json(*edited, *subject->planar, *options);
+  CurveEditAnswer answer;
+  answer.curve.curve = document::SpaceCurve{edited->curve};
+  answer.before.value = shown(edited->flat.before);
+  answer.after.value = shown(edited->flat.after);
+  answer.target = {edited->flat.target.alpha, edited->flat.target.s};
+  return answer;
+}
+
+Result<CurveEditAnswer> run(const CurveEditRequest& request, const Context&) {
+  const classa::EditOptions options = edit_options(request);
+  const auto subject = class_a_subject(request.curve);
+  if (!subject) return std::unexpected(subject.error());
+  if (subject->space) return edit_in_space(*subject->space, options);
+  auto edited = classa::edit(subject->planar->curve, options);
+  if (!edited) return std::unexpected(edited.error());
+  const auto before = classa::evaluate_curve(*subject->planar, options.cav);
+  if (!before) return std::unexpected(before.error());
+  classa::CavOptions again = options.cav;
+  again.minimum = edited->before.minimum;
+  const auto after = classa::evaluate_curve({edited->curve, true}, again);
+  if (!after) return std::unexpected(after.error());
+  CurveEditAnswer answer;
+  answer.curve = made({edited->curve});
+  answer.before = shown(*before);
+  answer.after = shown(*after);
+  answer.target = {edited->target.alpha, edited->target.s};
+  answer.path.emplace();
+  for (const core::Point2& p : edited->path) answer.path->push_back({p.x, p.y});
+  answer.given = *subject->planar;
+  answer.edited = std::move(*edited);
+  return answer;
 }
 
 }  // namespace
 
+classa::EditOptions edit_options(const CurveEditRequest& request) {
+  classa::EditOptions options{.cav = cav_options(request.curve.options)};
+  options.amount = request.amount;
+  options.hold = request.hold;
+  if (request.target)
+    options.target = classa::ControlMatrix{request.target->alpha, request.target->s};
+  return options;
+}
+
 Operation curve_edit_operation() {
-  using Type = Field::Type;
-  std::vector<Field> fields = class_a_fields();
-  fields.push_back(
-      {"target", Type::any, false, "{alpha, s} to move to; the minimum-energy point unless given"});
-  fields.push_back(
-      {"hold", Type::string, false, "for a target: ends-and-tangent (default), ends or start"});
-  fields.push_back({"amount", Type::number, false, "0 the given curve to 1 the target (default)"});
-  return {"curve.edit",
-          "Slides a curve to its minimum-energy point or to a given place of the alpha-s plane; "
-          "start point, start tangent and end stay.",
-          std::move(fields),
-          run,
-          {{"curve", {{"type", "bezier"}, {"points", {{0, 0}, {1, 2}, {0, 4}, {-2, 5}}}}},
-           {"amount", 0.5}}};
+  return declare<run>(
+      {.name = "curve.edit",
+       .summary = "Slides a curve to its minimum-energy point or to a given place of the alpha-s "
+                  "plane; start point, start tangent and end stay.",
+       .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[1,2],[0,4],[-2,5]]},
+                        "amount":0.5})"}});
 }
 
 }  // namespace keyline::operations

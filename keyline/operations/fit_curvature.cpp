@@ -1,7 +1,6 @@
-#include "keyline/exchange/json_curve.h"
 #include "keyline/fit/curvature_drive.h"
 #include "keyline/fit/curvature_target.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -9,7 +8,76 @@ namespace {
 
 using core::ErrorCode;
 using core::Result;
-using nlohmann::json;
+
+enum class TargetKind { smooth, rhythm };
+constexpr auto choices(const TargetKind*) {
+  return core::words<TargetKind>({{TargetKind::smooth, "smooth"}, {TargetKind::rhythm, "rhythm"}});
+}
+
+/// A curvature wanted at a place of the path.
+struct WantedCurvature {
+  double t = 0;
+  double curvature = 0;
+  static constexpr auto describe() {
+    return core::fields(core::field<&WantedCurvature::t>("over the whole path")
+                            .within(core::from_to(0, 1))
+                            .needed(),
+                        core::field<&WantedCurvature::curvature>("signed, positive turning left")
+                            .in("1/length")
+                            .needed());
+  }
+};
+
+struct CurvatureRequest {
+  document::Path curve;
+  std::variant<TargetKind, std::vector<WantedCurvature>> target;
+  std::optional<double> cutoff;
+  bool hold_end = false;
+  std::optional<double> max_deviation;
+  bool keep_monotone = false;
+  static constexpr auto describe() {
+    using Request = CurvatureRequest;
+    return core::fields(
+        core::field<&Request::curve>("a path of Beziers of degree 5 or less").needed(),
+        core::field<&Request::target>("what the curvature is driven to: \"smooth\", \"rhythm\" or "
+                                      "a list of places")
+            .needed(),
+        core::field<&Request::cutoff>(
+            "wavelength that smooth halves; else twice the mean length of a piece")
+            .in("length"),
+        core::field<&Request::hold_end>("the end point stays; else it moves with the lengths"),
+        core::field<&Request::max_deviation>(
+            "farthest the curve may move; else as far as the lengths take it")
+            .in("length")
+            .within(core::kPositive),
+        core::field<&Request::keep_monotone>("pieces of monotone curvature stay so"));
+  }
+};
+
+struct CurvatureAnswer {
+  MadeCurve curve;
+  double before = 0;
+  double after = 0;
+  bool converged = false;
+  int iterations = 0;
+  double share = 1;
+  double end_moved = 0;
+  double moved = 0;
+  std::vector<std::string> report;
+  static constexpr auto describe() {
+    using Answer = CurvatureAnswer;
+    return core::fields(
+        core::flattened<&Answer::curve>(),
+        core::field<&Answer::before>("rms of curvature less target").in("1/length"),
+        core::field<&Answer::after>("the same of the curve returned").in("1/length"),
+        core::field<&Answer::converged>("whether the search ended by itself"),
+        core::field<&Answer::iterations>("of the search"),
+        core::field<&Answer::share>("of the way to the target that keep_monotone allowed"),
+        core::field<&Answer::end_moved>("distance of the end point from where it was").in("length"),
+        core::field<&Answer::moved>("farthest the curve moved along its normals").in("length"),
+        core::field<&Answer::report>("what was done beside it, in words"));
+  }
+};
 
 Result<curve::PiecewiseBezier> chain_of(const document::Path& path) {
   curve::PiecewiseBezier chain;
@@ -24,84 +92,56 @@ Result<curve::PiecewiseBezier> chain_of(const document::Path& path) {
   return chain;
 }
 
-Result<std::vector<fit::CurvatureTarget>> target_of(const json& request,
-                                                    const curve::PiecewiseBezier& chain,
-                                                    bool closed) {
-  const json& target = request.at("target");
-  if (target == "smooth") return fit::smooth_target(chain, closed, number_or(request, "cutoff", 0));
-  if (target == "rhythm") return fit::rhythm_target(chain, closed);
-  const auto bad = [] {
-    return core::fail(ErrorCode::bad_input, "is no target",
-                      "give \"smooth\", \"rhythm\" or a list of {\"t\", \"curvature\"}", "target");
-  };
-  if (!target.is_array()) return bad();
+std::vector<fit::CurvatureTarget> target_of(const CurvatureRequest& request,
+                                            const curve::PiecewiseBezier& chain) {
+  const bool closed = request.curve.closed;
+  if (const auto* kind = std::get_if<TargetKind>(&request.target))
+    return *kind == TargetKind::smooth
+               ? fit::smooth_target(chain, closed, request.cutoff.value_or(0))
+               : fit::rhythm_target(chain, closed);
   std::vector<fit::CurvatureTarget> list;
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    const json& item = target[i];
-    if (!item.is_object() || !item.contains("t") || !item.contains("curvature")) return bad();
-    const std::string where = "target[" + std::to_string(i) + "]";
-    const auto t = exchange::number_from_json(item["t"], where + ".t");
-    if (!t) return std::unexpected(t.error());
-    const auto curvature = exchange::number_from_json(item["curvature"], where + ".curvature");
-    if (!curvature) return std::unexpected(curvature.error());
-    list.push_back({*t, *curvature});
-  }
+  for (const WantedCurvature& wanted : std::get<1>(request.target))
+    list.push_back({wanted.t, wanted.curvature});
   return list;
 }
 
-Result<json> run(const json& request, const Context&) {
-  const document::Path path = path_of(request, "curve");
-  const auto chain = chain_of(path);
+Result<CurvatureAnswer> run(const CurvatureRequest& request, const Context&) {
+  const auto chain = chain_of(request.curve);
   if (!chain) return std::unexpected(chain.error());
-  const auto target = target_of(request, *chain, path.closed);
-  if (!target) return std::unexpected(target.error());
   fit::CurvatureDriveOptions options;
-  options.closed = path.closed;
-  options.hold_end = boolean_or(request, "hold_end", false);
-  options.keep_monotone = boolean_or(request, "keep_monotone", false);
-  const auto most = positive_number(request, "max_deviation");
-  if (!most) return std::unexpected(most.error());
-  options.max_deviation = most->value_or(0);
-  const auto driven = fit::drive_curvature(*chain, *target, options);
+  options.closed = request.curve.closed;
+  options.hold_end = request.hold_end;
+  options.keep_monotone = request.keep_monotone;
+  options.max_deviation = request.max_deviation.value_or(0);
+  auto driven = fit::drive_curvature(*chain, target_of(request, *chain), options);
   if (!driven) return std::unexpected(driven.error());
-  document::Path out{{}, path.closed};
+  document::Path out{{}, request.curve.closed};
   for (const curve::Bezier2& piece : driven->chain.pieces) out.curves.push_back({piece});
-  return json{{"curve", exchange::to_json(out)},  {"before", driven->before},
-              {"after", driven->after},           {"converged", driven->converged},
-              {"iterations", driven->iterations}, {"share", driven->share},
-              {"end_moved", driven->end_moved},   {"moved", driven->moved},
-              {"report", driven->notes}};
-}
-
-json example_curve() {
-  const auto piece = [](const std::vector<std::array<double, 2>>& points) {
-    return json{{"type", "bezier"}, {"points", points}};
-  };
-  return {{"type", "path"},
-          {"curves",
-           {piece({{0, 0}, {1, 0.1}, {2, 0.4}, {3, 0.9}, {4, 1.6}, {5, 2.5}}),
-            piece({{5, 2.5}, {6, 3.4}, {6.9, 4.5}, {7.7, 5.8}, {8.3, 7.2}, {8.7, 8.7}})}}};
+  CurvatureAnswer answer;
+  answer.curve.curve = std::move(out);
+  answer.before = driven->before;
+  answer.after = driven->after;
+  answer.converged = driven->converged;
+  answer.iterations = driven->iterations;
+  answer.share = driven->share;
+  answer.end_moved = driven->end_moved;
+  answer.moved = driven->moved;
+  answer.report = std::move(driven->notes);
+  return answer;
 }
 
 }  // namespace
 
 Operation fit_curvature_operation() {
-  using Type = Field::Type;
-  return {
-      "fit.curvature",
-      "Modifies a chain of quintic Beziers so that its curvature follows a target: directions of "
-      "the control edges stay, their lengths move, joints stay G2.",
-      {{"curve", Type::curve, true, "a path of Beziers of degree 5 or less"},
-       {"target", Type::any, true,
-        "[{\"t\", \"curvature\"}, ...] with t over the whole path, \"smooth\" or \"rhythm\""},
-       {"cutoff", Type::number, false,
-        "wavelength that smooth halves; else twice the mean length of a piece"},
-       {"hold_end", Type::boolean, false, "the end point stays; else it moves with the lengths"},
-       {"max_deviation", Type::number, false,
-        "farthest the curve may move; else as far as the lengths take it"},
-       {"keep_monotone", Type::boolean, false, "pieces of monotone curvature stay so"}},
-      run,
-      {{"curve", example_curve()}, {"target", "smooth"}}};
+  return declare<run>(
+      {.name = "fit.curvature",
+       .summary = "Modifies a chain of quintic Beziers so that its curvature follows a target: "
+                  "directions of the control edges stay, their lengths move, joints stay G2.",
+       .examples = {R"({"curve":{"type":"path","curves":[
+                  {"type":"bezier","points":[[0,0],[1,0.1],[2,0.4],[3,0.9],[4,1.6],[5,2.5]]},
+                  {"type":"bezier",
+                   "points":[[5,2.5],[6,3.4],[6.9,4.5],[7.7,5.8],[8.3,7.2],[8.7,8.7]]}]},
+                "target":"smooth"})"}});
 }
 
 }  // namespace keyline::operations

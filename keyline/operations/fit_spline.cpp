@@ -1,61 +1,87 @@
 #include "keyline/fit/fit_spline.h"
 
-#include <cmath>
-
-#include "keyline/exchange/json_curve.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
-#include "keyline/operations/spline_search.h"
 
 namespace keyline::operations {
 namespace {
 
 using core::Result;
-using nlohmann::json;
+using fit::SplineFitOptions;
 
-Result<fit::SplineFitOptions> options_of(const json& request, const Context& context) {
-  fit::SplineFitOptions options;
-  if (auto done = read_spline_search(request, {2, 8}, options); !done)
-    return std::unexpected(done.error());
-  options.seed = static_cast<std::uint64_t>(integer_or(request, "seed", 1));
-  options.closed = boolean_or(request, "closed", false);
-  for (const double index : numbers_of(request, "must_pass")) {
-    if (index < 0 || index != std::floor(index))
-      return core::fail(core::ErrorCode::bad_input, "an index is not a whole number",
-                        "give indices of points, from 0", "must_pass");
-    options.must_pass.push_back(static_cast<std::size_t>(index));
+struct SplineFitRequest {
+  std::optional<std::vector<core::Point2>> points;
+  std::optional<std::vector<double>> x;
+  std::optional<std::vector<double>> y;
+  std::vector<double> weights;
+  SplineFitOptions options;
+  static constexpr auto describe() {
+    using Request = SplineFitRequest;
+    return core::fields(
+        core::field<&Request::points>("points of a plane curve, in order; or x and y").count(1),
+        core::field<&Request::x>("abscissae of a function; with y, instead of points"),
+        core::field<&Request::y>("its values"),
+        core::field<&Request::weights>("one positive weight per point"),
+        core::field<&Request::options, &SplineFitOptions::must_pass>(
+            "indices of points the curve must pass, from 0"),
+        core::field<&Request::options, &SplineFitOptions::closed>("the points are a closed loop"),
+        core::flattened<&Request::options>(),
+        core::field<&Request::options, &SplineFitOptions::seed>(
+            "of the search; the same seed, the same result"));
   }
-  options.threads = context.threads;
-  options.progress = context.progress;
-  return options;
+};
+
+enum class Status { complete, cancelled };
+constexpr auto choices(const Status*) {
+  return core::words<Status>({{Status::complete, "complete"}, {Status::cancelled, "cancelled"}});
 }
 
-json report_json(const fit::SplineFitReport& report) {
-  return {{"status", report.status == fit::SplineFitStatus::complete ? "complete" : "cancelled"},
-          {"generations", report.generations},
-          {"evaluations", report.evaluations},
-          {"data_used", report.data_used},
-          {"rounding", report.rounding},
-          {"seed", report.seed}};
-}
+struct SearchReport {
+  Status status = Status::complete;
+  fit::SplineFitReport search;
+  static constexpr auto describe() {
+    using Report = fit::SplineFitReport;
+    return core::fields(
+        core::field<&SearchReport::status>("whether the whole search was done"),
+        core::field<&SearchReport::search, &Report::generations>("done, over all trials"),
+        core::field<&SearchReport::search, &Report::evaluations>("least-squares fits"),
+        core::field<&SearchReport::search, &Report::data_used>("data in the search"),
+        core::field<&SearchReport::search, &Report::rounding>("of the data; 0: none found"),
+        core::field<&SearchReport::search, &Report::seed>("as given"));
+  }
+};
+
+struct SplineFitAnswer {
+  MadeCurve curve;
+  std::vector<double> knots;
+  double sse = 0;
+  double bic = 0;
+  double deviation = 0;
+  double rms = 0;
+  SearchReport report;
+  static constexpr auto describe() {
+    using Answer = SplineFitAnswer;
+    return core::fields(core::flattened<&Answer::curve>(),
+                        core::field<&Answer::knots>("interior ones, increasing"),
+                        core::field<&Answer::sse>("weighted sum of squares"),
+                        core::field<&Answer::bic>("Bayes information criterion; lower is better"),
+                        core::field<&Answer::deviation>("largest distance of a point").in("length"),
+                        core::field<&Answer::rms>("root of the weighted mean square").in("length"),
+                        core::field<&Answer::report>("how the search went"));
+  }
+};
 
 /// Of a fit to points or to a function.
 template <class Fit>
-json fit_json(const Fit& fit, const curve::BSpline2& curve) {
-  return {{"curve", exchange::to_json(document::PlanarCurve{curve})},
-          {"knots", fit.interior_knots},
-          {"sse", fit.sse},
-          {"bic", fit.bic},
-          {"deviation", fit.deviation},
-          {"rms", fit.rms},
-          {"report", report_json(fit.report)}};
-}
-
-Result<json> fit_plane(const json& request, const fit::SplineFitOptions& options) {
-  const auto fit =
-      fit::fit_spline(points_of(request, "points"), numbers_of(request, "weights"), options);
-  if (!fit) return std::unexpected(fit.error());
-  return fit_json(*fit, fit->curve);
+SplineFitAnswer answer_of(Fit&& fit, curve::BSpline2 curve) {
+  const bool complete = fit.report.status == fit::SplineFitStatus::complete;
+  return {made({std::move(curve)}),
+          std::move(fit.interior_knots),
+          fit.sse,
+          fit.bic,
+          fit.deviation,
+          fit.rms,
+          {complete ? Status::complete : Status::cancelled, fit.report}};
 }
 
 /// A function's graph as a planar spline: abscissae of the control points are Greville's.
@@ -71,51 +97,38 @@ curve::BSpline2 graph_of(const fit::LeastSquaresSpline& spline) {
   return graph;
 }
 
-Result<json> fit_graph(const json& request, const fit::SplineFitOptions& options) {
-  const std::vector<double> x = numbers_of(request, "x");
-  const std::vector<double> y = numbers_of(request, "y");
-  const auto fit = fit::fit_function(x, y, numbers_of(request, "weights"), options);
-  if (!fit) return std::unexpected(fit.error());
-  return fit_json(*fit, graph_of(fit->spline));
-}
-
-Result<json> run(const json& request, const Context& context) {
-  const bool plane = request.contains("points");
-  const bool graph = request.contains("x") || request.contains("y");
-  if (plane == graph || (graph && !(request.contains("x") && request.contains("y"))))
+Result<SplineFitAnswer> run(const SplineFitRequest& request, const Context& context) {
+  const bool graph = request.x || request.y;
+  if (request.points.has_value() == graph || (graph && !(request.x && request.y)))
     return core::fail(core::ErrorCode::bad_input, "either \"points\" or \"x\" and \"y\" are wanted",
                       "give points of a curve, or x and y of a function", "points");
-  const auto options = options_of(request, context);
-  if (!options) return std::unexpected(options.error());
-  return plane ? fit_plane(request, *options) : fit_graph(request, *options);
+  SplineFitOptions options = request.options;
+  // [Fairing]'s plain search: random first knots, no polish.
+  if (options.knots == fit::KnotPlacement::ga) options.smart_start = false;
+  options.threads = context.threads;
+  options.progress = context.progress;
+  if (graph) {
+    auto fit = fit::fit_function(*request.x, *request.y, request.weights, options);
+    if (!fit) return std::unexpected(fit.error());
+    return answer_of(*fit, graph_of(fit->spline));
+  }
+  auto fit = fit::fit_spline(*request.points, request.weights, options);
+  if (!fit) return std::unexpected(fit.error());
+  return answer_of(*fit, fit->curve);
 }
 
 }  // namespace
 
 Operation fit_spline_operation() {
-  using Type = Field::Type;
-  return {"fit.spline",
-          "Least-squares B-spline through points of a curve or of a function, its knots found by a "
-          "genetic algorithm on the Bayes information criterion.",
-          {{"points", Type::points, false, "points of a plane curve, in order"},
-           {"x", Type::numbers, false, "abscissae of a function; with y, instead of points"},
-           {"y", Type::numbers, false, "its values"},
-           {"weights", Type::numbers, false, "one positive weight per point"},
-           {"must_pass", Type::numbers, false, "indices of points the curve must pass"},
-           {"order", Type::integer, false, "degree + 1, 4 to 6 recommended; 4 unless given"},
-           {"population", Type::integer, false, "individuals, 50 to 150 recommended"},
-           {"generations", Type::integer, false, "100 to 300 recommended"},
-           {"trials", Type::integer, false, "independent searches, 20 to 40 recommended"},
-           {"knots", Type::string, false, "\"polished\" (default) or \"ga\""},
-           {"parameter", Type::string, false,
-            "\"chord\" (default), \"centripetal\" or \"smooth-chord\""},
-           {"closed", Type::boolean, false, "the points are a closed loop"},
-           {"seed", Type::integer, false, "of the search; 1 unless given"}},
-          run,
-          {{"x", {0, 1, 2, 3, 4, 5, 6, 7}},
-           {"y", {0, 0.8, 0.9, 0.1, -0.7, -0.9, -0.3, 0.6}},
-           {"trials", 2},
-           {"generations", 20}}};
+  return declare<run>(
+      {.name = "fit.spline",
+       .summary = "Least-squares B-spline through points of a curve or of a function, its knots "
+                  "found by a genetic algorithm on the Bayes information criterion. [Fairing] "
+                  "recommends order 4 to 6, population 50 to 150, generations 100 to 300 and "
+                  "trials 20 to 40.",
+       .examples = {R"({"x":[0,1,2,3,4,5,6,7],"y":[0,0.8,0.9,0.1,-0.7,-0.9,-0.3,0.6],
+                        "trials":2,"generations":20})"},
+       .long_running = true});
 }
 
 }  // namespace keyline::operations

@@ -1,42 +1,60 @@
-#include "keyline/exchange/json_curve.h"
 #include "keyline/lac/compound.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/handles.h"
+#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
 namespace {
 
-core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) {
-  const auto handles = three_handles(request);
-  if (!handles) return std::unexpected(handles.error());
-  const auto alpha = numbers_of_count(request, "alpha", 2, 2);
-  if (!alpha) return std::unexpected(alpha.error());
-  const auto ratio = share_of(request, "ratio");
-  if (!ratio) return std::unexpected(ratio.error());
-  const auto& [p0, p1, p2] = *handles;
-  const auto solved = lac::solve_compound(p0, p1, p2, {(*alpha)[0], (*alpha)[1], *ratio});
+struct CompoundRequest {
+  Handles points;
+  std::array<double, 2> alpha{-1, -1};
+  double ratio = 0.5;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&CompoundRequest::points>(kHandles).needed(),
+        core::field<&CompoundRequest::alpha>("two slopes, the first for the end of smaller radius")
+            .needed(),
+        core::field<&CompoundRequest::ratio>(
+            "share of the whole turning that falls to the first slope, between 0 and 1")
+            .within(core::between(0, 1))
+            .needed());
+  }
+};
+
+struct CompoundResult {
+  MadeCurve curve;
+  std::array<double, 2> lambda{};
+  core::Point2 joint;
+  HandlesSolution solution;
+  static constexpr auto describe() {
+    return core::fields(
+        core::flattened<&CompoundResult::curve>(),
+        core::field<&CompoundResult::lambda>("of the standard forms of both pieces"),
+        core::field<&CompoundResult::joint>("where the pieces meet"),
+        core::flattened<&CompoundResult::solution>());
+  }
+};
+
+core::Result<CompoundResult> run(const CompoundRequest& request, const Context&) {
+  const auto& [p0, p1, p2] = request.points;
+  auto solved =
+      lac::solve_compound(p0, p1, p2, {request.alpha[0], request.alpha[1], request.ratio});
   if (!solved) return std::unexpected(solved.error());
-  return nlohmann::json{{"curve", exchange::to_json(document::PlanarCurve{solved->chain})},
-                        {"lambda", {solved->lambda0, solved->lambda1}},
-                        {"joint", exchange::to_json(solved->joint)},
-                        {"theta", solved->turning},
-                        {"chord_angle", solved->chord_angle},
-                        {"reversed", solved->reversed}};
+  return CompoundResult{made({std::move(solved->chain)}),
+                        {solved->lambda0, solved->lambda1},
+                        solved->joint,
+                        {solved->turning, solved->chord_angle, solved->reversed}};
 }
 
 }  // namespace
 
 Operation lac_compound_operation() {
-  using Type = Field::Type;
-  return {"lac.compound",
-          "The compound-rhythm curve from the handles P0, P1, P2: two log-aesthetic pieces with "
-          "curvature and its rate continuous at the joint (G3).",
-          {{"points", Type::points, true, "P0, P1, P2: ends P0 and P2, tangents along P0P1, P1P2"},
-           {"alpha", Type::numbers, true, "two slopes, the first for the end of smaller radius"},
-           {"ratio", Type::number, true,
-            "share of the whole turning that falls to the first slope, between 0 and 1"}},
-          run,
-          {{"points", {{0, 0}, {2, 0}, {3, 1.5}}}, {"alpha", {-1, 1.5}}, {"ratio", 0.4}}};
+  return declare<run>(
+      {.name = "lac.compound",
+       .summary = "The compound-rhythm curve from the handles P0, P1, P2: two log-aesthetic "
+                  "pieces with curvature and its rate continuous at the joint (G3).",
+       .examples = {R"({"points":[[0,0],[2,0],[3,1.5]],"alpha":[-1,1.5],"ratio":0.4})"}});
 }
 
 }  // namespace keyline::operations

@@ -1,8 +1,8 @@
-#include "keyline/exchange/json_curve.h"
 #include "keyline/lac/quasi.h"
-#include "keyline/operations/analysis_json.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/handles.h"
+#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/verdict.h"
 
 namespace keyline::operations {
 namespace {
@@ -10,118 +10,124 @@ namespace {
 using core::ErrorCode;
 using core::Result;
 using lac::QuasiForm;
-using nlohmann::json;
 
-constexpr std::pair<const char*, QuasiForm> kForms[] = {
-    {"taylor-angle", QuasiForm::taylor_angle},     {"taylor-arc", QuasiForm::taylor_arc},
-    {"discrete-angle", QuasiForm::discrete_angle}, {"discrete-arc", QuasiForm::discrete_arc},
-    {"rational-cubic", QuasiForm::rational_cubic}, {"best", QuasiForm::best}};
-
-std::string name_of(QuasiForm form) {
-  for (const auto& [name, value] : kForms)
-    if (value == form) return name;
-  return "";
+enum class Automatic { automatic };
+constexpr auto choices(const Automatic*) {
+  return core::words<Automatic>({{Automatic::automatic, "auto"}});
 }
 
-Result<QuasiForm> form_of(const json& request) {
-  const std::string asked = string_or(request, "form", "taylor-angle");
-  for (const auto& [name, value] : kForms)
-    if (asked == name) return value;
-  return core::fail(ErrorCode::bad_input, "\"" + asked + "\" is no form",
-                    "use taylor-angle, taylor-arc, discrete-angle, discrete-arc, rational-cubic or "
-                    "best",
-                    "form");
-}
-
-Result<lac::QuasiOptions> options_of(const json& request) {
-  lac::QuasiOptions options;
-  const auto form = form_of(request);
-  if (!form) return std::unexpected(form.error());
-  options.form = *form;
-  const int usual = options.form == QuasiForm::rational_cubic ? 3 : 8;
-  const auto degree = integer_between(request, "degree", usual, 3, 30);
-  if (!degree) return std::unexpected(degree.error());
-  options.degree = *degree;
-  const auto about = request.find("about");
-  if (about == request.end()) return options;
-  if (*about == "auto") {
-    options.automatic = true;
-    return options;
+struct QuasiRequest {
+  std::optional<Handles> points;
+  double alpha = -1;
+  std::optional<double> lambda;
+  std::optional<std::array<double, 2>> interval;
+  std::optional<int> degree;
+  QuasiForm form = QuasiForm::taylor_angle;
+  std::optional<std::variant<double, Automatic>> about;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&QuasiRequest::points>(kHandles),
+        core::field<&QuasiRequest::alpha>(kSlope).needed(),
+        core::field<&QuasiRequest::lambda>("of the standard form, with interval"),
+        core::field<&QuasiRequest::interval>("[from, to] in tangent angle").in("radian"),
+        core::field<&QuasiRequest::degree>(
+            "of the Bezier; at least 5 for best; 8 unless given, a rational cubic is of degree 3")
+            .within(core::from_to(3, 30)),
+        core::field<&QuasiRequest::form>("how the curve is approximated"),
+        core::field<&QuasiRequest::about>(
+            "Taylor forms: fraction of the interval to expand at, or \"auto\" for the best")
+            .within(core::from_to(0, 1)));
   }
-  const auto fraction = exchange::number_from_json(*about, "about");
-  if (!fraction || !(*fraction >= 0 && *fraction <= 1))
-    return core::fail(ErrorCode::bad_input, "\"about\" is out of range",
-                      "give a number from 0 to 1, or \"auto\"", "about");
-  options.about = *fraction;
+};
+
+struct QuasiLcg {
+  double slope = 0;
+  double variance = 0;
+  static constexpr auto describe() {
+    return core::fields(core::field<&QuasiLcg::slope>("of the line through the graph"),
+                        core::field<&QuasiLcg::variance>("of the slope along the graph"));
+  }
+};
+
+struct QuasiAnswer {
+  MadeCurve curve;
+  document::Path target;
+  QuasiForm form = QuasiForm::taylor_angle;
+  double about = 0;
+  double lambda = 0;
+  double deviation = 0;
+  Verdict monotone = Verdict::undecided;
+  std::optional<QuasiLcg> lcg;
+  static constexpr auto describe() {
+    return core::fields(
+        core::flattened<&QuasiAnswer::curve>(),
+        core::field<&QuasiAnswer::target>("the log-aesthetic segment it stands for"),
+        core::field<&QuasiAnswer::form>("the one taken"),
+        core::field<&QuasiAnswer::about>("Taylor forms: where it was expanded"),
+        core::field<&QuasiAnswer::lambda>("of the standard form"),
+        core::field<&QuasiAnswer::deviation>("bound of the distance from the target").in("length"),
+        core::field<&QuasiAnswer::monotone>("whether curvature is, certified"),
+        core::field<&QuasiAnswer::lcg>("logarithmic curvature graph; null for arcs and lines")
+            .null_if_empty());
+  }
+};
+
+lac::QuasiOptions options_of(const QuasiRequest& request) {
+  lac::QuasiOptions options;
+  options.form = request.form;
+  options.degree =
+      request.degree.value_or(request.form == QuasiForm::rational_cubic ? 3 : options.degree);
+  if (!request.about) return options;
+  if (const auto* fraction = std::get_if<double>(&*request.about))
+    options.about = *fraction;
+  else
+    options.automatic = true;
   return options;
 }
 
-Result<lac::QuasiResult> solve(const json& request, const lac::QuasiOptions& options) {
-  const double alpha = number_or(request, "alpha", -1);
-  if (request.contains("points") == (request.contains("lambda") || request.contains("interval")))
+Result<lac::QuasiResult> solve(const QuasiRequest& request) {
+  const lac::QuasiOptions options = options_of(request);
+  if (request.points.has_value() == (request.lambda || request.interval))
     return core::fail(ErrorCode::bad_input, "either handles or the standard form are wanted",
                       "give points, or lambda and interval", "points");
-  if (request.contains("points")) {
-    const auto handles = three_handles(request);
-    if (!handles) return std::unexpected(handles.error());
-    const auto& [p0, p1, p2] = *handles;
-    return lac::quasi_log_aesthetic(p0, p1, p2, alpha, options);
+  if (request.points) {
+    const auto& [p0, p1, p2] = *request.points;
+    return lac::quasi_log_aesthetic(p0, p1, p2, request.alpha, options);
   }
-  for (const char* name : {"lambda", "interval"})
-    if (!request.contains(name))
-      return core::fail(ErrorCode::bad_input, std::string("\"") + name + "\" is missing",
-                        "the standard form takes lambda and interval", name);
-  const auto interval = numbers_of_count(request, "interval", 2, 2);
-  if (!interval) return std::unexpected(interval.error());
-  return lac::quasi_log_aesthetic(alpha, number_or(request, "lambda", 0),
-                                  {(*interval)[0], (*interval)[1]}, options);
+  if (!request.lambda || !request.interval)
+    return core::fail(
+        ErrorCode::bad_input, request.lambda ? "\"interval\" is missing" : "\"lambda\" is missing",
+        "the standard form takes lambda and interval", request.lambda ? "interval" : "lambda");
+  const auto& [from, to] = *request.interval;
+  return lac::quasi_log_aesthetic(request.alpha, *request.lambda, {from, to}, options);
 }
 
-const char* answer_of(const curve::MonotoneVerdict& verdict) {
-  using Answer = curve::MonotoneVerdict::Answer;
-  return verdict.answer == Answer::yes ? "yes" : verdict.answer == Answer::no ? "no" : "undecided";
-}
-
-Result<json> run(const json& request, const Context&) {
-  const auto options = options_of(request);
-  if (!options) return std::unexpected(options.error());
-  const auto solved = solve(request, *options);
+Result<QuasiAnswer> run(const QuasiRequest& request, const Context&) {
+  auto solved = solve(request);
   if (!solved) return std::unexpected(solved.error());
-  json result{{"curve", exchange::to_json(document::PlanarCurve{solved->curve})},
-              {"target", exchange::to_json(document::PlanarCurve{lac::chain_of(solved->target)})},
-              {"form", name_of(solved->form)},
-              {"about", solved->about},
-              {"lambda", solved->lambda},
-              {"deviation", solved->deviation},
-              {"monotone", answer_of(solved->monotone)},
-              {"lcg", nullptr}};
-  if (solved->lcg_defined)
-    result["lcg"] = {{"slope", solved->lcg_slope}, {"variance", solved->lcg_variance}};
-  return result;
+  QuasiAnswer answer;
+  answer.curve = made({std::move(solved->curve)});
+  answer.target = path_of({lac::chain_of(solved->target)});
+  answer.form = solved->form;
+  answer.about = solved->about;
+  answer.lambda = solved->lambda;
+  answer.deviation = solved->deviation;
+  answer.monotone = verdict_of(solved->monotone.answer);
+  if (solved->lcg_defined) answer.lcg = QuasiLcg{solved->lcg_slope, solved->lcg_variance};
+  return answer;
 }
 
 }  // namespace
 
 Operation lac_quasi_operation() {
-  using Type = Field::Type;
-  return {"lac.quasi",
-          "A quasi-log-aesthetic curve: a Bézier close to a log-aesthetic segment, from three "
-          "handles (whose ends and tangents it meets itself) or from the standard form.",
-          {{"points", Type::points, false, "P0, P1, P2: ends P0 and P2, tangents along P0P1, P1P2"},
-           {"alpha", Type::number, true, "slope of the logarithmic curvature graph"},
-           {"lambda", Type::number, false, "of the standard form, with interval"},
-           {"interval", Type::numbers, false, "[from, to] in tangent angle, radians"},
-           {"degree", Type::integer, false, "3 to 30; at least 5 for best; 8 if left out"},
-           {"form", Type::string, false,
-            "taylor-angle (if left out), taylor-arc, discrete-angle, discrete-arc, rational-cubic "
-            "or best"},
-           {"about", Type::any, false,
-            "Taylor forms: fraction of the interval to expand at, or \"auto\" for the best"}},
-          run,
-          {{"points", {{0, 0}, {2, 0}, {3, 1.5}}},
-           {"alpha", -1},
-           {"degree", 8},
-           {"form", "taylor-angle"}}};
+  return declare<run>(
+      {.name = "lac.quasi",
+       .summary = "A quasi-log-aesthetic curve: a Bézier close to a log-aesthetic segment, from "
+                  "three handles (whose ends and tangents it meets itself) or from the standard "
+                  "form.",
+       .examples = {R"({"points":[[0,0],[2,0],[3,1.5]],"alpha":-1,"degree":8,
+                        "form":"taylor-angle"})",
+                    R"({"alpha":-1,"lambda":0.5,"interval":[0,1],"about":"auto"})"}});
 }
 
 }  // namespace keyline::operations

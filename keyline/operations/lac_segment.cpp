@@ -1,37 +1,53 @@
-#include "keyline/exchange/json_curve.h"
 #include "keyline/lac/clamped.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/handles.h"
+#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
 namespace {
 
-core::Result<nlohmann::json> run(const nlohmann::json& request, const Context&) {
-  const auto handles = three_handles(request);
-  if (!handles) return std::unexpected(handles.error());
-  const auto& [p0, p1, p2] = *handles;
-  const auto solved = lac::solve_g1_chain(p0, p1, p2, number_or(request, "alpha", -1));
+struct SegmentRequest {
+  Handles points;
+  double alpha = -1;
+  static constexpr auto describe() {
+    return core::fields(core::field<&SegmentRequest::points>(kHandles).needed(),
+                        core::field<&SegmentRequest::alpha>(kSlope).needed());
+  }
+};
+
+struct SegmentResult {
+  MadeCurve curve;
+  double lambda = 0;
+  HandlesSolution solution;
+  bool clamped = false;
+  static constexpr auto describe() {
+    return core::fields(
+        core::flattened<&SegmentResult::curve>(),
+        core::field<&SegmentResult::lambda>("of the standard form in the paper's configuration"),
+        core::flattened<&SegmentResult::solution>(),
+        core::field<&SegmentResult::clamped>(
+            "two pieces, because one's curvatures would leave the doubles"));
+  }
+};
+
+core::Result<SegmentResult> run(const SegmentRequest& request, const Context&) {
+  const auto& [p0, p1, p2] = request.points;
+  auto solved = lac::solve_g1_chain(p0, p1, p2, request.alpha);
   if (!solved) return std::unexpected(solved.error());
-  return nlohmann::json{{"curve", exchange::to_json(document::PlanarCurve{solved->chain})},
-                        {"lambda", solved->lambda},
-                        {"theta", solved->turning},
-                        {"chord_angle", solved->chord_angle},
-                        {"reversed", solved->reversed},
-                        {"clamped", solved->clamped}};
+  return SegmentResult{made({std::move(solved->chain)}),
+                       solved->lambda,
+                       {solved->turning, solved->chord_angle, solved->reversed},
+                       solved->clamped};
 }
 
 }  // namespace
 
 Operation lac_segment_operation() {
-  using Type = Field::Type;
-  return {
-      "lac.segment",
-      "The log-aesthetic segment of slope alpha through two ends with given tangents "
-      "(G1 Hermite), from the handles P0, P1, P2.",
-      {{"points", Type::points, true, "P0, P1, P2: ends P0 and P2, tangents along P0P1 and P1P2"},
-       {"alpha", Type::number, true, "slope of the logarithmic curvature graph; any number"}},
-      run,
-      {{"points", {{0, 0}, {2, 0}, {3, 1.5}}}, {"alpha", -1}}};
+  return declare<run>(
+      {.name = "lac.segment",
+       .summary = "The log-aesthetic segment of slope alpha through two ends with given tangents "
+                  "(G1 Hermite), from the handles P0, P1, P2.",
+       .examples = {R"({"points":[[0,0],[2,0],[3,1.5]],"alpha":-1})"}});
 }
 
 }  // namespace keyline::operations

@@ -1,6 +1,8 @@
-#include "keyline/exchange/json_curve.h"
+#include <algorithm>
+
+#include "keyline/core/text.h"
 #include "keyline/lac/spline.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -8,73 +10,96 @@ namespace {
 
 using core::ErrorCode;
 using core::Result;
-using nlohmann::json;
+using Ends = std::array<std::optional<double>, 2>;
 
-/// [start, end], either of them null for none.
-Result<void> read_ends(const json& request, const char* name,
-                       std::optional<double> lac::SplineEnd::* member,
-                       lac::SplineOptions& options) {
-  const auto it = request.find(name);
-  if (it == request.end()) return {};
-  if (!it->is_array() || it->size() != 2)
-    return core::fail(ErrorCode::bad_input, std::string("\"") + name + "\" is no pair",
-                      "give [start, end]; null for an end without", name);
-  lac::SplineEnd* const ends[2] = {&options.start, &options.end};
-  for (std::size_t i = 0; i < 2; ++i) {
-    if ((*it)[i].is_null()) continue;
-    const auto value =
-        exchange::number_from_json((*it)[i], std::string(name) + "[" + std::to_string(i) + "]");
-    if (!value) return std::unexpected(value.error());
-    ends[i]->*member = *value;
+struct SplineRequest {
+  std::vector<core::Point2> points;
+  std::vector<double> alpha{-1};
+  bool closed = false;
+  Ends directions;
+  Ends curvatures;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&SplineRequest::points>("what the curve passes, in order").count(1).needed(),
+        core::field<&SplineRequest::alpha>("one slope, or one per span").count(1).or_bare_item(),
+        core::field<&SplineRequest::closed>("whether the curve returns to the first point"),
+        core::field<&SplineRequest::directions>(
+            "[start, end] direction of travel; null for a free end")
+            .in("radian"),
+        core::field<&SplineRequest::curvatures>(
+            "[start, end] signed curvature; null for a free end")
+            .in("1/length"));
   }
-  return {};
-}
+};
 
-json report_of(const lac::SplineSolution& solved, std::size_t spans) {
-  json overridden = json::array();
-  for (const std::size_t span : solved.overridden)
-    overridden.push_back({{"span", span}, {"alpha", -1}});
-  return {{"spans", spans},
-          {"overridden", std::move(overridden)},
-          {"deviation", solved.deviation},
-          {"iterations", solved.iterations}};
-}
+struct OverriddenSpan {
+  std::size_t span = 0;
+  double alpha = -1;
+  static constexpr auto describe() {
+    return core::fields(core::field<&OverriddenSpan::span>("which, from 0"),
+                        core::field<&OverriddenSpan::alpha>("the slope it got"));
+  }
+};
 
-Result<json> run(const json& request, const Context&) {
-  const std::vector<core::Point2> points = points_of(request, "points");
+struct SplineReport {
+  std::size_t spans = 0;
+  std::vector<OverriddenSpan> overridden;
+  double deviation = 0;
+  int iterations = 0;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&SplineReport::spans>("pieces between points"),
+        core::field<&SplineReport::overridden>("spans whose curvature changes sign"),
+        core::field<&SplineReport::deviation>("largest distance of a point").in("length"),
+        core::field<&SplineReport::iterations>("of the solver"));
+  }
+};
+
+struct SplineResult {
+  MadeCurve curve;
+  SplineReport report;
+  static constexpr auto describe() {
+    return core::fields(core::flattened<&SplineResult::curve>(),
+                        core::field<&SplineResult::report>("what was overridden, how it went"));
+  }
+};
+
+lac::SplineOptions options_of(const SplineRequest& request) {
   lac::SplineOptions options;
-  options.closed = boolean_or(request, "closed", false);
-  const std::size_t spans = options.closed ? points.size() : points.size() - 1;
-  if (request.contains("alpha")) {
-    const auto alpha = numbers_of_count(request, "alpha", 1, std::max<std::size_t>(spans, 1));
-    if (!alpha) return std::unexpected(alpha.error());
-    options.alpha = *alpha;
-  }
-  if (auto read = read_ends(request, "directions", &lac::SplineEnd::direction, options); !read)
-    return std::unexpected(read.error());
-  if (auto read = read_ends(request, "curvatures", &lac::SplineEnd::curvature, options); !read)
-    return std::unexpected(read.error());
-  const auto solved = lac::solve_spline(points, options);
+  options.closed = request.closed;
+  options.alpha = request.alpha;
+  options.start = {request.directions[0], request.curvatures[0]};
+  options.end = {request.directions[1], request.curvatures[1]};
+  return options;
+}
+
+Result<SplineResult> run(const SplineRequest& request, const Context&) {
+  const std::size_t spans = request.closed ? request.points.size() : request.points.size() - 1;
+  if (request.alpha.size() > std::max<std::size_t>(spans, 1))
+    return core::fail(ErrorCode::bad_input,
+                      "\"alpha\" holds " + core::counted(request.alpha.size(), "number"),
+                      "give 1, or one for each of the " + core::counted(spans, "span"), "alpha");
+  auto solved = lac::solve_spline(request.points, options_of(request));
   if (!solved) return std::unexpected(solved.error());
-  return json{{"curve", exchange::to_json(document::PlanarCurve{solved->chain})},
-              {"report", report_of(*solved, spans)}};
+  SplineResult result;
+  result.report.spans = spans;
+  for (const std::size_t span : solved->overridden) result.report.overridden.push_back({span, -1});
+  result.report.deviation = solved->deviation;
+  result.report.iterations = solved->iterations;
+  result.curve = made({std::move(solved->chain)});
+  return result;
 }
 
 }  // namespace
 
 Operation lac_spline_operation() {
-  using Type = Field::Type;
-  return {"lac.spline",
-          "The G2 spline of log-aesthetic pieces through the points, one piece per span. Spans "
-          "whose curvature changes sign need a slope below 0; the report lists those overridden.",
-          {{"points", Type::points, true, "what the curve passes, in order"},
-           {"alpha", Type::number_or_numbers, false, "one slope, or one per span; -1 if left out"},
-           {"closed", Type::boolean, false, "whether the curve returns to the first point"},
-           {"directions", Type::any, false,
-            "[start, end] direction of travel in radians; null for a free end"},
-           {"curvatures", Type::any, false, "[start, end] signed curvature; null for a free end"}},
-          run,
-          {{"points", {{0, 0}, {1, 0.8}, {2.5, 1}, {4, 0.2}}}, {"alpha", -1}}};
+  return declare<run>(
+      {.name = "lac.spline",
+       .summary = "The G2 spline of log-aesthetic pieces through the points, one piece per span. "
+                  "Spans whose curvature changes sign need a slope below 0; the report lists those "
+                  "overridden.",
+       .examples = {R"({"points":[[0,0],[1,0.8],[2.5,1],[4,0.2]],"alpha":-1})",
+                    R"({"points":[[0,0],[3,0],[3,2],[0,2]],"closed":true})"}});
 }
 
 }  // namespace keyline::operations

@@ -1,15 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/progress.h"
 
-/// Every capability once: a named function from a request object to a result object. The command
-/// line, batch, the HTTP server and Python all go through here; CONTRACT lists the names.
+/// Every capability once: a function from a typed request to a typed result, both described once
+/// (core/describe.h). The command line, batch, the HTTP server and Python all go through perform;
+/// CONTRACT lists the names. docs/design/operations.md tells how to add one.
 namespace keyline::operations {
 
 /// How a request is served; nothing in it changes a result.
@@ -18,61 +19,53 @@ struct Context {
   core::Progress progress;
 };
 
-/// One field of a request: what the schema says of it and what reading it checks.
-struct Field {
-  enum class Type {
-    number,
-    integer,
-    boolean,
-    string,
-    point,
-    points,
-    point3,
-    points3,
-    numbers,
-    number_or_numbers,
-    curve,
-    curves,
-    surface,
-    surfaces,
-    any
-  };
-  std::string name;
-  Type type = Type::any;
-  bool required = false;
-  std::string text;  ///< one sentence for the schema and the help
+struct Operation {
+  std::string name = {};
+  std::string summary = {};
+  std::vector<std::string> examples = {};  ///< requests that succeed, as JSON without "op"
+  bool long_running = false;               ///< may pass 200 ms: reports progress, can be cancelled
+  bool reads_files = false;
+  bool writes_files = false;
+
+  const core::Type* request = nullptr;
+  const core::Type* result = nullptr;
+  /// Precondition: `request` points to a sound record of the request's type. Holds one of the
+  /// result's.
+  core::Result<std::shared_ptr<void>> (*run)(const void* request, const Context& context) = nullptr;
 };
 
-struct Operation {
-  std::string name;
-  std::string summary;
-  std::vector<Field> fields;
-  /// Precondition: the request has passed check_fields.
-  core::Result<nlohmann::json> (*run)(const nlohmann::json& request, const Context& context);
-  nlohmann::json example;  ///< a request that succeeds, without "op"
+namespace detail {
+
+template <class F>
+struct Signature;
+template <class Request_, class Result_>
+struct Signature<core::Result<Result_> (*)(const Request_&, const Context&)> {
+  using Request = Request_;
+  using Answer = Result_;
 };
+
+}  // namespace detail
+
+/// The operation that `Run` is: core::Result<Answer> Run(const Request&, const Context&), both
+/// described structs. `facts` tells the rest: declare<run>({.name = "lac.segment", …}).
+template <auto Run>
+Operation declare(Operation facts) {
+  using Of = detail::Signature<decltype(Run)>;
+  facts.request = &core::type_of<typename Of::Request>();
+  facts.result = &core::type_of<typename Of::Answer>();
+  facts.run = [](const void* request,
+                 const Context& context) -> core::Result<std::shared_ptr<void>> {
+    auto answer = Run(*static_cast<const typename Of::Request*>(request), context);
+    if (!answer) return std::unexpected(std::move(answer.error()));
+    return std::make_shared<typename Of::Answer>(std::move(*answer));
+  };
+  return facts;
+}
 
 /// All of them, by name. Built once, on first use.
 const std::vector<Operation>& operations();
 
 /// Null where there is no such name.
 const Operation* find_operation(const std::string& name);
-
-/// JSON Schema (2020-12) of an operation's request.
-nlohmann::json request_schema(const Operation& operation);
-
-/// Runs one operation: fields checked, then run, then "samples", "bezier" and "nurbs" added to a
-/// result that holds a curve. Never throws: what goes wrong inside is an `internal` failure.
-core::Result<nlohmann::json> perform(const std::string& name, const nlohmann::json& request,
-                                     const Context& context);
-
-/// The answer to one request object {"op":…, "id":…, …} in the public form with "ok".
-nlohmann::json answer(const nlohmann::json& request, const Context& context);
-
-/// The same for one line of text, which need not be JSON at all.
-std::string answer_line(const std::string& line, const Context& context);
-
-/// {"code":…, "message":…, "path":…, "hint":…}.
-nlohmann::json failure_json(const core::Failure& failure);
 
 }  // namespace keyline::operations

@@ -3,7 +3,6 @@
 #include "keyline/core/error.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/operations/curve_samples.h"
-#include "keyline/operations/fair_request.h"
 
 namespace keyline::operations {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "keyline/acquire/key_line.h"
 #include "keyline/core/error.h"
 #include "keyline/document/document.h"
@@ -12,9 +10,6 @@
 /// What the doors and sketch.trace share about drawings.
 namespace keyline::operations {
 
-/// Options of a sketch.trace request (bad_input with the field's name otherwise).
-core::Result<sketch::TraceOptions> trace_options(const nlohmann::json& request);
-
 /// sketch::trace; unsupported where Keyline was built without room sketch.
 core::Result<sketch::TraceResult> trace_picture(sketch::Image image,
                                                 const sketch::TraceOptions& options);
@@ -22,8 +17,8 @@ core::Result<sketch::TraceResult> trace_picture(sketch::Image image,
 core::Result<sketch::TraceResult> trace_drawn(const std::vector<sketch::DrawnStroke>& strokes,
                                               double width, const sketch::TraceOptions& options);
 
-/// The result of sketch.trace, lengths times `scale`.
-nlohmann::json sketch_json(const sketch::TraceResult& trace, double scale);
+/// A stroke's quintics, mapped.
+document::Path path_of(const sketch::Stroke& stroke, const core::Similarity2& map);
 
 /// The strokes "stroke1", "stroke2", … with their widths: coordinates times `scale`, moved up by
 /// `lift`.

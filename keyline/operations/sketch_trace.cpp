@@ -1,6 +1,11 @@
+#include "keyline/operations/sketch_trace.h"
+
+#include <algorithm>
+
+#include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/scap_reader.h"
 #include "keyline/operations/base64.h"
-#include "keyline/operations/fields.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/sketch_run.h"
 
@@ -9,7 +14,6 @@ namespace {
 
 using core::ErrorCode;
 using core::Result;
-using nlohmann::json;
 
 /// A wave of a soft pen, 48 × 32 pixels.
 constexpr const char* kExample =
@@ -18,14 +22,9 @@ constexpr const char* kExample =
     "1vtIEj8VGBgYTUKcGBgYWPajhNVPoB4wYFmPFoi/k8Di5ucxQ3dnaWj6nMGfGAAkq7xgUI10+gAAAABJRU5ErkJg"
     "gg==";
 
-Result<sketch::Image> image_of(const json& request) {
-  const std::string file = string_or(request, "file", "");
-  const std::string encoded = string_or(request, "image", "");
-  if (file.empty() == encoded.empty())
-    return core::fail(ErrorCode::bad_input, "a drawing is wanted, once",
-                      "give either \"image\" (base64) or \"file\"", "image");
-  if (!file.empty()) return exchange::read_image_file(file);
-  const auto bytes = decode_base64(encoded);
+Result<sketch::Image> image_of(const SketchRequest& request) {
+  if (!request.file.empty()) return exchange::read_image_file(request.file);
+  const auto bytes = decode_base64(request.image);
   if (!bytes)
     return core::fail(ErrorCode::bad_input, "is not base64", "encode the picture's bytes", "image");
   auto image = exchange::read_image(*bytes);
@@ -33,45 +32,125 @@ Result<sketch::Image> image_of(const json& request) {
   return image;
 }
 
-Result<json> run(const json& request, const Context& context) {
-  auto options = trace_options(request);
-  if (!options) return std::unexpected(options.error());
-  options->progress = context.progress;
-  const auto scale = positive_number(request, "scale");
-  if (!scale) return std::unexpected(scale.error());
-  auto image = image_of(request);
-  if (!image) return std::unexpected(image.error());
-  const auto trace = trace_picture(std::move(*image), *options);
+/// A document's curves as strokes, sampled finely; width of the pen from the first that has one.
+std::vector<sketch::DrawnStroke> strokes_of(const document::Document& document, double& pen) {
+  std::vector<sketch::DrawnStroke> strokes;
+  for (const document::NamedPath& named : document.paths) {
+    if (pen <= 0) pen = named.stroke_width;
+    sketch::DrawnStroke stroke{{}, named.path.closed};
+    const int samples = 64 * std::max(1, static_cast<int>(named.path.curves.size()));
+    for (int i = 0; i <= samples; ++i) {
+      const core::Point2 p = evaluate(named.path, static_cast<double>(i) / samples);
+      if (stroke.points.empty() || stroke.points.back() != p) stroke.points.push_back(p);
+    }
+    if (stroke.closed && stroke.points.size() > 1 && stroke.points.front() == stroke.points.back())
+      stroke.points.pop_back();
+    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
+  }
+  if (pen <= 0) pen = exchange::extent(document) / 400;
+  return strokes;
+}
+
+Result<sketch::TraceResult> trace_vectors(const std::string& file,
+                                          const sketch::TraceOptions& options) {
+  if (exchange::extension_of(file) != ".scap") {
+    const auto document = exchange::read_document(file);
+    if (!document) return std::unexpected(document.error());
+    double pen = 0;
+    const auto strokes = strokes_of(*document, pen);
+    return trace_drawn(strokes, pen, options);
+  }
+  const auto text = exchange::read_file(file);
+  if (!text) return std::unexpected(text.error());
+  const auto drawing = exchange::read_scap(*text);
+  if (!drawing) return std::unexpected(exchange::in_file(drawing.error(), file));
+  std::vector<sketch::DrawnStroke> strokes;
+  for (const exchange::ScapStroke& s : drawing->strokes) {
+    sketch::DrawnStroke stroke;
+    for (const core::Point2 p : s.points) stroke.points.push_back({p.x, drawing->height - p.y});
+    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
+  }
+  return trace_drawn(strokes, drawing->pen, options);
+}
+
+std::vector<core::Point2> scaled(std::vector<core::Point2> points, double scale) {
+  for (core::Point2& p : points) p = {scale * p.x, scale * p.y};
+  return points;
+}
+
+StrokeShown shown(const sketch::Stroke& stroke, double scale) {
+  StrokeShown all;
+  all.points = scaled(stroke.points, scale);
+  all.segments = scaled(stroke.segments, scale);
+  all.curve.curve = path_of(stroke, {scale, 0, {}});
+  all.corners = stroke.corners;
+  all.closed = stroke.closed;
+  all.width = scale * stroke.width;
+  if (!stroke.members.empty()) all.members = stroke.members;
+  if (stroke.driven)
+    all.curvature_error =
+        CurvatureErrorShown{stroke.driven->before / scale, stroke.driven->after / scale};
+  return all;
+}
+
+Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
+  auto trace = trace_drawing(request, context.progress, {});
   if (!trace) return std::unexpected(trace.error());
-  return sketch_json(*trace, scale->value_or(1));
+  return sketch_answer(request, std::move(*trace));
 }
 
 }  // namespace
 
+double scale_of(const SketchRequest& request) {
+  constexpr double kInch = 25.4;  // mm
+  if (request.dpi) return kInch / *request.dpi;
+  return request.scale.value_or(1);
+}
+
+Result<sketch::TraceResult> trace_drawing(const SketchRequest& request,
+                                          const core::Progress& progress,
+                                          std::function<void(const sketch::Stage&)> stage) {
+  if (request.file.empty() == request.image.empty())
+    return core::fail(ErrorCode::bad_input, "a drawing is wanted, once",
+                      "give either \"image\" (base64) or \"file\"", "image");
+  if (request.scale && request.dpi)
+    return core::fail(ErrorCode::bad_input, "the scale is given twice",
+                      "give either \"scale\" or \"dpi\"", "dpi");
+  sketch::TraceOptions options = request.options;
+  if (request.thresholds)
+    options.binarize.regions = {request.thresholds->begin(), request.thresholds->end()};
+  options.progress = progress;
+  options.stage = std::move(stage);
+  const std::string extension = exchange::extension_of(request.file);
+  if (extension == ".scap" || extension == ".svg" || extension == ".json" || extension == ".dxf")
+    return trace_vectors(request.file, options);
+  auto image = image_of(request);
+  if (!image) return std::unexpected(image.error());
+  return trace_picture(std::move(*image), options);
+}
+
+SketchAnswer sketch_answer(const SketchRequest& request, sketch::TraceResult trace) {
+  const double scale = scale_of(request);
+  SketchAnswer answer;
+  for (const sketch::Stroke& stroke : trace.strokes) answer.strokes.push_back(shown(stroke, scale));
+  answer.size = {scale * trace.width, scale * trace.height};
+  answer.unit = request.scale || request.dpi ? "mm" : "px";
+  answer.explained = trace.explained;
+  answer.left_over = trace.left_over;
+  answer.report = trace.notes;
+  answer.trace = std::move(trace);
+  return answer;
+}
+
 Operation sketch_trace_operation() {
-  using Type = Field::Type;
-  return {
-      "sketch.trace",
-      "The lines of a drawing as G2 chains of quintics: points along their middle, line segments, "
-      "curve, width. The unit is the pixel (or mm with scale), y up from the lower left corner.",
-      {{"image", Type::string, false, "PNG, JPEG, TIFF or WebP in base64; or \"file\""},
-       {"file", Type::string, false, "path of such a picture; or \"image\""},
-       {"threshold", Type::number, false,
-        "0 to 1 of the log picture: what is darker is ink; else by region"},
-       {"thresholds", Type::any, false, "64 numbers or nulls: thresholds of the 8 x 8 regions"},
-       {"log_gain", Type::number, false, "the a of y = a log x; else such that paper is 1"},
-       {"flatten", Type::string, false, "auto, on or off: take the paper's own shades out"},
-       {"polarity", Type::string, false, "auto, dark (lines on light) or light (lines on dark)"},
-       {"edge", Type::string, false, "center (default) or outer: the ink's outer border"},
-       {"scale", Type::number, false, "mm per pixel"},
-       {"consolidate", Type::boolean, false, "lines drawn several times become one"},
-       {"curvature", Type::string, false, "none (default), smooth or rhythm: what it is driven to"},
-       {"tolerance", Type::number, false,
-        "largest distance of the curve from the line, in pixels (0.5); 0: a quintic per segment"},
-       {"gap", Type::number, false, "longest gap bridged, in pixels"},
-       {"specks", Type::integer, false, "pieces of ink of fewer pixels are dirt"}},
-      run,
-      {{"image", kExample}}};
+  return declare<run>(
+      {.name = "sketch.trace",
+       .summary = "The lines of a drawing as G2 chains of quintics: points along their middle, "
+                  "line segments, curve, width. The unit is the pixel (or mm with scale), y up "
+                  "from the lower left corner.",
+       .examples = {std::string(R"({"image":")") + kExample + R"("})"},
+       .long_running = true,
+       .reads_files = true});
 }
 
 }  // namespace keyline::operations

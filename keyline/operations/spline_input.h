@@ -2,10 +2,9 @@
 
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "keyline/core/error.h"
 #include "keyline/curve/bspline.h"
+#include "keyline/operations/values.h"
 
 namespace keyline::operations {
 
@@ -13,17 +12,15 @@ namespace keyline::operations {
 struct SplineInput {
   curve::BSpline3 curve;
   double deviation = 0;  ///< bound of the distance from the given curve; 0: exact
-  bool planar = true;    ///< all z are 0
+  bool planar = true;    ///< given in the plane: all z are 0
 };
 
-/// Polylines, Béziers and B-splines exactly, with points [x, y] or [x, y, z]; log-aesthetic curves,
-/// in the plane or in space, within `tolerance` (> 0); a path as its members end to end.
-/// Errors name the place in the value.
-core::Result<SplineInput> spline_from_json(const nlohmann::json& j, const std::string& where,
-                                           double tolerance);
+/// Polylines, Béziers and B-splines exactly; log-aesthetic curves, in the plane or in space, within
+/// `tolerance` (> 0); a path as its members end to end.
+core::Result<SplineInput> spline_of(const AnyCurve& curve, double tolerance);
 
-/// A size to measure tolerances by: largest difference of two coordinates in the value's points,
-/// or the length of a log-aesthetic curve. 1 where there is none.
-double size_of_curve_json(const nlohmann::json& j);
+/// A size to measure tolerances by: largest difference of two coordinates of its points, or the
+/// length of a log-aesthetic curve. 1 where there is none.
+double size_of(const AnyCurve& curve);
 
 }  // namespace keyline::operations

@@ -1,107 +1,113 @@
-#include "keyline/exchange/json_space.h"
-#include "keyline/exchange/json_surface.h"
-#include "keyline/operations/fields.h"
+#include "keyline/operations/joint.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/values.h"
 #include "keyline/surface/continuity.h"
 
 namespace keyline::operations {
 namespace {
 
-using core::ErrorCode;
-using core::Result;
-using nlohmann::json;
 using surface::Edge;
 
-Result<std::optional<std::array<Edge, 2>>> edges_of(const json& request) {
-  if (!request.contains("edges")) return std::nullopt;
-  const json& value = request.at("edges");
-  std::array<Edge, 2> edges{};
-  bool sound = value.is_array() && value.size() == 2;
-  for (std::size_t i = 0; sound && i < 2; ++i) {
-    const auto edge =
-        value[i].is_string() ? surface::edge_named(value[i].get<std::string>()) : std::nullopt;
-    sound = edge.has_value();
-    if (sound) edges[i] = *edge;
-  }
-  if (!sound)
-    return core::fail(ErrorCode::bad_input, "two edges are wanted here",
-                      "give for example [\"u1\", \"u0\"], of u0 u1 v0 v1", "edges");
-  return edges;
-}
-
-json sample_json(const surface::EdgeSample& s) {
-  json j{{"along", s.along}, {"position", exchange::to_json(s.position)}, {"gap", s.gap}};
-  if (!s.defined) return j;
-  j["angle"] = s.angle;
-  j["curvature_jump"] = s.curvature_jump;
-  j["rate_jump"] = s.rate_jump;
-  return j;
-}
-
-json result_json(const surface::EdgeContinuity& c) {
-  json samples = json::array();
-  for (const surface::EdgeSample& s : c.samples) samples.push_back(sample_json(s));
-  return {
-      {"edges", {surface::edge_name(c.edges[0]), surface::edge_name(c.edges[1])}},
-      {"order", c.order < 0 ? "none" : "G" + std::to_string(c.order)},
-      {"pass",
-       {{"G0", c.order >= 0}, {"G1", c.order >= 1}, {"G2", c.order >= 2}, {"G3", c.order >= 3}}},
-      {"gap", c.gap},
-      {"angle", c.angle},
-      {"curvature_jump", c.curvature_jump},
-      {"rate_jump", c.rate_jump},
-      {"relative_curvature_jump", c.relative_curvature_jump},
-      {"relative_rate_jump", c.relative_rate_jump},
-      {"tolerance",
-       {{"gap", c.tolerance.gap},
-        {"angle", c.tolerance.angle},
-        {"curvature", c.tolerance.curvature},
-        {"curvature_rate", c.tolerance.curvature_rate}}},
-      {"along", std::move(samples)}};
-}
-
-Result<json> run(const json& request, const Context&) {
-  const json& values = request.at("surfaces");
-  if (values.size() != 2)
-    return core::fail(ErrorCode::bad_input, "two surfaces are compared", "give two", "surfaces");
-  const auto first = exchange::surface_from_json(values[0], "surfaces[0]");
-  const auto second = exchange::surface_from_json(values[1], "surfaces[1]");
-  const auto edges = edges_of(request);
-  if (!edges) return std::unexpected(edges.error());
+struct EdgeRequest {
+  std::vector<surface::Surface> surfaces;
+  std::optional<std::array<Edge, 2>> edges;
   surface::EdgeTolerance tolerance;
-  tolerance.gap = number_or(request, "gap", tolerance.gap);
-  tolerance.angle = number_or(request, "angle", tolerance.angle);
-  tolerance.curvature = number_or(request, "curvature", tolerance.curvature);
-  tolerance.curvature_rate = number_or(request, "curvature_rate", tolerance.curvature_rate);
-  const auto places = integer_between(request, "places", 101, 2, 100'000);
-  if (!places) return std::unexpected(places.error());
-  const auto found = surface::edge_continuity(*first, *second, *edges, tolerance, *places);
+  int places = 101;
+  static constexpr auto describe() {
+    using Request = EdgeRequest;
+    return core::fields(
+        core::field<&Request::surfaces>("the two surfaces").count(2, 2).needed(),
+        core::field<&Request::edges>(
+            "an edge of each; unless given, the two nearest to each other"),
+        core::flattened<&Request::tolerance>(),
+        core::field<&Request::places>("places along the edge").within(core::from_to(2, 100'000)));
+  }
+};
+
+struct EdgeSampleShown {
+  double along = 0;
+  core::Point3 position;
+  double gap = 0;
+  std::optional<double> angle;
+  std::optional<double> curvature_jump;
+  std::optional<double> rate_jump;
+  static constexpr auto describe() {
+    using Sample = EdgeSampleShown;
+    return core::fields(
+        core::field<&Sample::along>("parameter of the first edge"),
+        core::field<&Sample::position>("on the first edge"),
+        core::field<&Sample::gap>("to the second edge").in("length"),
+        core::field<&Sample::angle>("fold, where both sides have a normal").in("radian"),
+        core::field<&Sample::curvature_jump>("of normal curvature, largest").in("1/length"),
+        core::field<&Sample::rate_jump>("of its rate across the edge").in("1/length^2"));
+  }
+};
+
+struct Passed {
+  bool g0 = false;
+  bool g1 = false;
+  bool g2 = false;
+  bool g3 = false;
+  static constexpr auto describe() {
+    return core::fields(core::field<&Passed::g0>("no gap").named("G0"),
+                        core::field<&Passed::g1>("no fold").named("G1"),
+                        core::field<&Passed::g2>("no jump of curvature").named("G2"),
+                        core::field<&Passed::g3>("nor of its rate").named("G3"));
+  }
+};
+
+struct EdgeAnswer {
+  std::array<Edge, 2> edges{};
+  Order order = Order::none;
+  Passed pass;
+  surface::EdgeContinuity largest;
+  std::vector<EdgeSampleShown> along;
+  static constexpr auto describe() {
+    using Answer = EdgeAnswer;
+    using Found = surface::EdgeContinuity;
+    return core::fields(
+        core::field<&Answer::edges>("that were compared"),
+        core::field<&Answer::order>("of continuity; none where there is a gap"),
+        core::field<&Answer::pass>("whether each order is reached"),
+        core::field<&Answer::largest, &Found::gap>("largest").in("length"),
+        core::field<&Answer::largest, &Found::angle>("largest fold").in("radian"),
+        core::field<&Answer::largest, &Found::curvature_jump>("largest").in("1/length"),
+        core::field<&Answer::largest, &Found::rate_jump>("largest").in("1/length^2"),
+        core::field<&Answer::largest, &Found::relative_curvature_jump>("as compared"),
+        core::field<&Answer::largest, &Found::relative_rate_jump>("as compared"),
+        core::field<&Answer::largest, &Found::tolerance>("that was applied"),
+        core::field<&Answer::along>("place by place"));
+  }
+};
+
+EdgeSampleShown shown(const surface::EdgeSample& s) {
+  if (!s.defined) return {s.along, s.position, s.gap, {}, {}, {}};
+  return {s.along, s.position, s.gap, s.angle, s.curvature_jump, s.rate_jump};
+}
+
+core::Result<EdgeAnswer> run(const EdgeRequest& request, const Context&) {
+  auto found = surface::edge_continuity(request.surfaces[0], request.surfaces[1], request.edges,
+                                        request.tolerance, request.places);
   if (!found) return std::unexpected(found.error());
-  return result_json(*found);
+  EdgeAnswer answer;
+  answer.edges = found->edges;
+  answer.order = order_of(found->order);
+  answer.pass = {found->order >= 0, found->order >= 1, found->order >= 2, found->order >= 3};
+  for (const surface::EdgeSample& s : found->samples) answer.along.push_back(shown(s));
+  answer.largest = std::move(*found);
+  return answer;
 }
 
 }  // namespace
 
 Operation surface_continuity_operation() {
-  using Type = Field::Type;
-  const auto plane = [](double from, double to) {
-    return json{{"type", "bezier-surface"},
-                {"points", {{{from, 0, 0}, {from, 1, 0}}, {{to, 0, 0}, {to, 1, 0}}}}};
-  };
-  return {
-      "surface.continuity",
-      "Gap, fold angle, curvature jump and jump of its rate along the common edge of two surfaces, "
-      "and the order G0 to G3 they amount to.",
-      {{"surfaces", Type::surfaces, true, "the two surfaces"},
-       {"edges", Type::any, false,
-        "an edge of each: u0, u1, v0 or v1; unless given, the two nearest to each other"},
-       {"gap", Type::number, false, "largest gap that still joins, 0.001"},
-       {"angle", Type::number, false, "largest fold of a G1 joint in radians, 0.016 degrees"},
-       {"curvature", Type::number, false, "largest relative jump of a G2 joint, 0.01"},
-       {"curvature_rate", Type::number, false, "the same of a G3 joint, 0.05"},
-       {"places", Type::integer, false, "places along the edge, 101 unless given"}},
-      run,
-      {{"surfaces", json::array({plane(0, 1), plane(1, 2)})}}};
+  return declare<run>(
+      {.name = "surface.continuity",
+       .summary = "Gap, fold angle, curvature jump and jump of its rate along the common edge of "
+                  "two surfaces, and the order G0 to G3 they amount to.",
+       .examples = {R"({"surfaces":[
+           {"type":"bezier-surface","points":[[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]]},
+           {"type":"bezier-surface","points":[[[1,0,0],[1,1,0]],[[2,0,0],[2,1,0]]]}]})"}});
 }
 
 }  // namespace keyline::operations

@@ -1,22 +1,151 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "keyline/operations/surface_value.h"
 #include "keyline/surface/edit_patches.h"
 
-/// What surface.edit and the command line's edit have in common.
+/// Class A editing of a surface: the operation surface.edit.
 namespace keyline::operations {
 
-/// "keep", "amount", "limit", "alpha_max", "end_tolerance" and "conditions" of a request.
-/// Without "keep" the start of a single patch is kept, and the joints of `several`.
-core::Result<surface::EditOptions> surface_edit_options(const nlohmann::json& request,
-                                                        bool several);
+struct SurfaceEditRequest {
+  surface::Surface surface;
+  std::optional<surface::Keep> keep;
+  double amount = 1;
+  std::optional<double> limit;
+  double alpha_max = classa::kDefaultAlphaMax;
+  double end_tolerance = 0;
+  std::vector<surface::CurveCondition> conditions;
+  static constexpr auto describe() {
+    using Request = SurfaceEditRequest;
+    return core::fields(
+        core::field<&Request::surface>(
+            "a polynomial Bezier patch; or a B-spline surface, which is edited patch by patch, its "
+            "joints measured before and after")
+            .needed(),
+        core::field<&Request::keep>(
+            "start (the first corner and the tangents of its row and column; the default of one "
+            "patch), corners, joints (corners, boundary curves moving so that neighbours stay "
+            "joined; the default of several) or boundary"),
+        core::field<&Request::amount>("0 as given to 1 the target").within(core::from_to(0, 1)),
+        core::field<&Request::limit>("largest departure from the given surface")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&Request::alpha_max>("largest rotation, as in surface.sav")
+            .in("radian")
+            .within(core::between(0, core::kPi / 2)),
+        core::field<&Request::end_tolerance>(
+            "how far a curve's minimum may end off it; 0: a curve at its minimum scores 0")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&Request::conditions>("of network curves").or_bare_item());
+  }
+};
 
-/// The result of surface.edit for one patch, and for any surface.
-nlohmann::json surface_edit_json(const surface::EditResult& edited);
-nlohmann::json surface_edit_json(const surface::SurfaceEdit& edit);
+struct JointsShown {
+  std::size_t joints = 0;
+  std::size_t g0 = 0;
+  std::size_t g1 = 0;
+  double gap = 0;
+  double angle = 0;
+  static constexpr auto describe() {
+    return core::fields(core::field<&JointsShown::joints>("in all"),
+                        core::field<&JointsShown::g0>("at least G0").named("G0"),
+                        core::field<&JointsShown::g1>("at least G1").named("G1"),
+                        core::field<&JointsShown::gap>("largest").in("length"),
+                        core::field<&JointsShown::angle>("largest fold").in("radian"));
+  }
+};
+JointsShown shown(const surface::JointSummary& joints);
 
-/// {"joints", "G0", "G1", "gap", "angle"}.
-nlohmann::json joints_json(const surface::JointSummary& joints);
+struct JointsChange {
+  JointsShown before;
+  JointsShown after;
+  static constexpr auto describe() {
+    return core::fields(core::field<&JointsChange::before>("as given"),
+                        core::field<&JointsChange::after>("as edited"));
+  }
+};
+
+struct TradeOffShown {
+  std::string target;
+  double departure = 0;
+  double sav = 0;
+  static constexpr auto describe() {
+    return core::fields(core::field<&TradeOffShown::target>("its name"),
+                        core::field<&TradeOffShown::departure>("at amount 1").in("length"),
+                        core::field<&TradeOffShown::sav>("value there"));
+  }
+};
+
+struct MissedShown {
+  std::string target;
+  std::string curve;
+  std::string why;
+  static constexpr auto describe() {
+    return core::fields(core::field<&MissedShown::target>("that was not found"),
+                        core::field<&MissedShown::curve>("in the way"),
+                        core::field<&MissedShown::why>("in words"));
+  }
+};
+
+struct PatchEditShown {
+  PatchPlace patch{};
+  std::string target;
+  std::optional<std::string> why;
+  std::optional<double> amount;
+  std::optional<std::array<double, 2>> sav;
+  std::optional<double> departure;
+  std::optional<std::vector<MissedShown>> missed;
+  std::optional<std::vector<MissedShown>> unmet;
+  static constexpr auto describe() {
+    using Patch = PatchEditShown;
+    return core::fields(core::field<&Patch::patch>("row and column, from 0"),
+                        core::field<&Patch::target>("taken, or \"as given\""),
+                        core::field<&Patch::why>("it stays as given"),
+                        core::field<&Patch::amount>("as used"),
+                        core::field<&Patch::sav>("before and after"),
+                        core::field<&Patch::departure>("largest").in("length"),
+                        core::field<&Patch::missed>("targets not found"),
+                        core::field<&Patch::unmet>("conditions not met part of the way"));
+  }
+};
+
+struct SurfaceEditAnswer {
+  std::optional<surface::Surface> surface;
+  std::optional<std::vector<surface::Surface>> surfaces;
+  SurfaceValueShown before;
+  SurfaceValueShown after;
+  double departure = 0;
+  std::optional<double> amount;
+  std::optional<std::string> target;
+  std::optional<std::vector<TradeOffShown>> tradeoff;
+  std::optional<std::vector<MissedShown>> missed;
+  std::optional<std::vector<MissedShown>> unmet;
+  std::optional<std::vector<PatchEditShown>> patch_edits;
+  std::optional<JointsChange> joints;
+
+  std::optional<surface::SurfaceEdit> edit;  ///< not part of the public form: for pictures
+
+  static constexpr auto describe() {
+    using Answer = SurfaceEditAnswer;
+    return core::fields(
+        core::field<&Answer::surface>("edited; null where its patches no longer meet")
+            .null_if_empty(),
+        core::field<&Answer::surfaces>("then: the patches one by one"),
+        core::field<&Answer::before>("value of the given surface"),
+        core::field<&Answer::after>("value of the edited one"),
+        core::field<&Answer::departure>("largest, from the given surface").in("length"),
+        core::field<&Answer::amount>("as used, of one patch"),
+        core::field<&Answer::target>("that was taken, of one patch"),
+        core::field<&Answer::tradeoff>("every target found, of one patch, by departure"),
+        core::field<&Answer::missed>("others, of one patch"),
+        core::field<&Answer::unmet>("conditions not met part of the way, of one patch"),
+        core::field<&Answer::patch_edits>("of several patches, one by one"),
+        core::field<&Answer::joints>("between several patches"));
+  }
+};
+SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit);
+
+/// The options of a request; `several`: the surface is one of several patches.
+surface::EditOptions surface_edit_options(const SurfaceEditRequest& request, bool several);
 
 }  // namespace keyline::operations

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/point.h"
 #include "keyline/curve/bezier.h"
 #include "keyline/fit/curvature_drive.h"
@@ -15,6 +16,11 @@ namespace keyline::sketch {
 
 /// Which curvature quintics are driven to after they were fitted ([Sketch] section 6).
 enum class CurvatureAim { none, smooth, rhythm };
+constexpr auto choices(const CurvatureAim*) {
+  return core::words<CurvatureAim>({{CurvatureAim::none, "none"},
+                                    {CurvatureAim::smooth, "smooth"},
+                                    {CurvatureAim::rhythm, "rhythm"}});
+}
 
 struct StrokeCurveOptions {
   double straightness = 0.75;  ///< of a group of points, pixels: see SegmentOptions

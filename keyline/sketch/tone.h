@@ -3,12 +3,22 @@
 #include <cstdint>
 #include <optional>
 
+#include "keyline/core/describe.h"
 #include "keyline/sketch/image.h"
 
 namespace keyline::sketch {
 
 enum class Polarity { automatic, dark_on_light, light_on_dark };
+constexpr auto choices(const Polarity*) {
+  return core::words<Polarity>({{Polarity::automatic, "auto"},
+                                {Polarity::dark_on_light, "dark"},
+                                {Polarity::light_on_dark, "light"}});
+}
 enum class Flatten { automatic, on, off };
+constexpr auto choices(const Flatten*) {
+  return core::words<Flatten>(
+      {{Flatten::automatic, "auto"}, {Flatten::on, "on"}, {Flatten::off, "off"}});
+}
 
 struct ToneOptions {
   /// The a of y = a·log x (x from 1 to 256, y = 1 is white); empty: such that the paper is white.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/point.h"
 #include "keyline/core/progress.h"
@@ -25,6 +26,9 @@ enum class Edge {
   center,  ///< the middle of its lines
   outer    ///< the outer border of its pieces, as in the paper
 };
+constexpr auto choices(const Edge*) {
+  return core::words<Edge>({{Edge::center, "center"}, {Edge::outer, "outer"}});
+}
 
 /// The picture after one stage of the way, for those who want to see where it went wrong.
 struct Stage {

@@ -3,9 +3,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "keyline/classa/cav.h"
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 #include "keyline/surface/network.h"
@@ -26,6 +28,23 @@ struct CurveCondition {
   /// Whether the direction of its first edge stays. Empty: as EditOptions::keep says, which is
   /// no, but for A1 and the first column where the start is kept.
   std::optional<bool> tangent = {};
+  static constexpr auto describe() {
+    using Condition = CurveCondition;
+    return core::fields(
+        core::field<&Condition::curve>(
+            "of the network, \"A1\", \"A2\", ...; every one unless given"),
+        core::field<&Condition::alpha>("where its rotation may lie").in("radian"),
+        core::field<&Condition::s>("where its scale may lie"),
+        core::field<&Condition::end_tolerance>("of its minimum")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&Condition::branch>("growing (s >= 1/cos alpha) or falling (s <= cos alpha)"),
+        core::field<&Condition::tangent>("whether its start direction stays"));
+  }
+  static constexpr std::string_view kTextForm =
+      "CURVE:NAME=VALUE,..., for example A1:s=1.1..1.4,alpha=0..0.3,end=0.1,branch=falling,"
+      "tangent=kept; without A1: of all";
+  static core::Result<CurveCondition> from_text(std::string_view text);
 };
 
 /// bad_input for a curve that the net does not have or that is named twice, ranges that are empty,

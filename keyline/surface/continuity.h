@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/surface/surface.h"
 
@@ -12,6 +13,10 @@ namespace keyline::surface {
 
 /// Border of a surface: u = 0, u = 1, v = 0 or v = 1, run along growing v or u.
 enum class Edge { u0, u1, v0, v1 };
+constexpr auto choices(const Edge*) {
+  return core::words<Edge>(
+      {{Edge::u0, "u0"}, {Edge::u1, "u1"}, {Edge::v0, "v0"}, {Edge::v1, "v1"}});
+}
 
 /// How far two surfaces may differ along a common edge and still count as joined. Curvature and its
 /// rate across the edge are compared relative to the larger of the two, curvature no smaller than
@@ -22,6 +27,19 @@ struct EdgeTolerance {
   double angle = 0.016 * 3.14159265358979323846 / 180;
   double curvature = 0.01;       ///< relative
   double curvature_rate = 0.05;  ///< relative
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&EdgeTolerance::gap>("largest gap that still joins")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&EdgeTolerance::angle>("largest fold of a G1 joint")
+            .in("radian")
+            .within(core::at_least(0)),
+        core::field<&EdgeTolerance::curvature>("largest relative jump of a G2 joint")
+            .within(core::at_least(0)),
+        core::field<&EdgeTolerance::curvature_rate>("the same of a G3 joint")
+            .within(core::at_least(0)));
+  }
 };
 
 /// What happens at one place of the edge, from the first surface to the second. `angle` is the

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/progress.h"
 #include "keyline/surface/conditions.h"
@@ -15,6 +16,12 @@ namespace keyline::surface {
 /// the four corners; the corners, each boundary curve moving as it alone asks for, so that the
 /// neighbour's moves with it and joints stay closed; all four boundary curves.
 enum class Keep { start, corners, joints, boundary };
+constexpr auto choices(const Keep*) {
+  return core::words<Keep>({{Keep::start, "start"},
+                            {Keep::corners, "corners"},
+                            {Keep::joints, "joints"},
+                            {Keep::boundary, "boundary"}});
+}
 
 struct EditOptions {
   Keep keep = Keep::start;

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 #include "keyline/surface/sample_grid.h"
@@ -11,6 +12,15 @@
 namespace keyline::surface {
 
 enum class FieldKind { gaussian, mean, principal, zebra, isophote, reflection, highlight };
+constexpr auto choices(const FieldKind*) {
+  return core::words<FieldKind>({{FieldKind::gaussian, "gaussian"},
+                                 {FieldKind::mean, "mean"},
+                                 {FieldKind::principal, "principal"},
+                                 {FieldKind::zebra, "zebra"},
+                                 {FieldKind::isophote, "isophote"},
+                                 {FieldKind::reflection, "reflection"},
+                                 {FieldKind::highlight, "highlight"}});
+}
 
 /// By the name it has here; empty for any other.
 std::optional<FieldKind> field_named(std::string_view name);

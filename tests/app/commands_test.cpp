@@ -99,7 +99,7 @@ TEST(Commands, TheSearchOfTheSplineIsChosen) {
     ASSERT_EQ(o.status, 0) << o.err;
     EXPECT_NE(json::parse(o.out)["spline"], json::parse(polished.out)["spline"]) << search;
   }
-  expect_failure(run_keyline(fair + " --knots loose"), 2, "is no way to place knots");
+  expect_failure(run_keyline(fair + " --knots loose"), 2, "is no choice here");
   expect_failure(run_keyline(fair + " --trials 0"), 2, "from 1 to 100000");
 }
 

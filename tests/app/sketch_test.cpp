@@ -78,8 +78,10 @@ TEST(Sketch, PrintsWhatTheOperationAnswers) {
   for (const auto& stroke : j["strokes"]) {
     EXPECT_GE(stroke["points"].size(), 2U);
     EXPECT_GE(stroke["segments"].size(), 2U);
-    EXPECT_EQ(stroke["curve"]["type"], "path");
-    EXPECT_EQ(stroke["curve"]["curves"][0]["points"].size(), 6U);
+    // a stroke of one quintic is that quintic
+    const auto& curve = stroke["curve"];
+    const auto& first = curve["type"] == "path" ? curve["curves"][0] : curve;
+    EXPECT_EQ(first["points"].size(), 6U);
     EXPECT_GT(stroke["width"], 0.1);
   }
 }
@@ -149,7 +151,7 @@ TEST(Sketch, RefusesWhatIsNoPicture) {
   for (const std::size_t at : {18U, 30U}) bomb.replace(at, 4, std::string("\x40\x9c\0\0", 4));
   expect_failure(run_keyline("sketch " + s.write("bomb.tif", bomb)), 2, "64 megapixels");
   expect_failure(run_keyline("sketch " + example("sketch.png") + " --thresholds 0.5,0.6"), 2,
-                 "64 numbers");
+                 "give 64");
   expect_failure(run_keyline("sketch " + example("sketch.png") + " --threshold 2"), 2,
                  "from 0 to 1");
   expect_failure(run_keyline("sketch " + example("sketch.png") + " --debug /proc/no"), 3, "folder");

@@ -26,8 +26,8 @@ const lac::Chain& only_chain(const FairResult& result) {
 
 TEST(FairOptions, ClampsHold) {
   FairOptions options;
-  options.clamp_start = Clamp::g1;
-  options.clamp_end = Clamp::g2;
+  options.clamp.start = Clamp::g1;
+  options.clamp.end = Clamp::g2;
   const FairResult result = fair(bow(), options).value();
   const lac::Chain& chain = only_chain(result);
   const curve::BSpline2& spline = result.splines[0];

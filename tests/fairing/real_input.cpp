@@ -10,7 +10,7 @@
 #include "keyline/acquire/acquire.h"
 #include "keyline/acquire/section.h"
 #include "keyline/exchange/points_reader.h"
-#include "keyline/operations/fair_request.h"
+#include "keyline/operations/subject.h"
 
 namespace keyline::fairing::testing {
 namespace {
@@ -135,7 +135,7 @@ std::vector<RealLine> bezier_cars() {
         c.control.push_back({p[0].get<double>(), p[1].get<double>()});
       curves.push_back(c);
     }
-    auto line = operations::key_line_of(string_together(curves, 0.05));
+    auto line = operations::sampled_line(string_together(curves, 0.05));
     if (line) lines.push_back({path.stem().string(), std::move(*line)});
     if (!line) ADD_FAILURE() << path << ": " << line.error().message;
   }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
-#include "keyline/operations/operation.h"
+#include "keyline/operations/perform.h"
 
 namespace keyline::operations {
 namespace {

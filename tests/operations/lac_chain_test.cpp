@@ -1,10 +1,11 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "keyline/exchange/json_curve.h"
 #include "keyline/exchange/json_space.h"
-#include "keyline/operations/operation.h"
+#include "keyline/operations/perform.h"
 
 namespace keyline::operations {
 namespace {
@@ -71,7 +72,7 @@ TEST(LacBlend, JoinsTwoLines) {
       "order");
   EXPECT_EQ(
       asked({{"op", "lac.blend"}, {"curves", {first, second}}, {"at", {0, 2}}})["error"]["path"],
-      "at");
+      "at[1]");
 }
 
 /// Close to 0 from below a piece from curvature 0 is a line that bends at its very end only; a step

@@ -1,10 +1,11 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "keyline/core/angle.h"
 #include "keyline/exchange/json_curve.h"
-#include "keyline/operations/operation.h"
+#include "keyline/operations/perform.h"
 
 #include "../lac/reference_table.h"
 #include "tests/shared_data.h"

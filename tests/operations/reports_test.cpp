@@ -10,8 +10,8 @@
 #include "keyline/exchange/points_reader.h"
 #include "keyline/exchange/svg_reader.h"
 #include "keyline/operations/analyze_report.h"
+#include "keyline/operations/fair.h"
 #include "keyline/operations/fair_report.h"
-#include "keyline/operations/fair_request.h"
 #include "keyline/operations/pictures.h"
 #include "keyline/report/html_report.h"
 

@@ -1,9 +1,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
-#include "keyline/operations/operation.h"
-#include "keyline/operations/surface_conditions.h"
+#include "keyline/operations/perform.h"
+#include "keyline/surface/conditions.h"
 
 namespace keyline::operations {
 namespace {
@@ -70,9 +71,9 @@ TEST(SurfaceOperations, InterrogateNamesTheMistake) {
     return e.value("path", "");
   };
   EXPECT_EQ(path("kind", "stripes"), "kind");
-  EXPECT_EQ(path("grid", {1, 5}), "grid");
-  EXPECT_EQ(path("grid", {2.5, 5}), "grid");
-  EXPECT_EQ(path("grid", {1e9, 1e9}), "grid");
+  EXPECT_EQ(path("grid", {1, 5}), "grid[0]");
+  EXPECT_EQ(path("grid", {2.5, 5}), "grid[0]");
+  EXPECT_EQ(path("grid", {1e9, 1e9}), "grid[0]");
   EXPECT_EQ(path("view", {0, 0, 0}), "view");
   EXPECT_EQ(path("stripe_count", -3), "stripe_count");
   EXPECT_EQ(path("surface", {{"type", "bezier"}}), "surface.type");
@@ -94,7 +95,7 @@ TEST(SurfaceOperations, ContinuityPassesOrFails) {
   EXPECT_EQ(error_of({{"op", "surface.continuity"},
                       {"surfaces", {plane(0, 1), plane(1, 2)}},
                       {"edges", {"u1", "top"}}})["path"],
-            "edges");
+            "edges[1]");
 }
 
 json bicubic(double distortion) {
@@ -207,19 +208,20 @@ TEST(SurfaceOperations, EditTakesConditionsPerCurve) {
 }
 
 TEST(SurfaceOperations, ConditionsOfTheCommandLine) {
+  using surface::CurveCondition;
   const auto read =
-      condition_from_text("A1:s=1.1..1.4,alpha=0.2,end=0.1,branch=falling,tangent=kept");
+      CurveCondition::from_text("A1:s=1.1..1.4,alpha=0.2,end=0.1,branch=falling,tangent=kept");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(*read, (json{{"curve", "A1"},
-                         {"s", {1.1, 1.4}},
-                         {"alpha", {0.2, 0.2}},
-                         {"end_tolerance", 0.1},
-                         {"branch", "falling"},
-                         {"tangent", true}}));
-  EXPECT_FALSE(condition_from_text("s=1.3")->contains("curve"));
+  EXPECT_EQ(read->curve, "A1");
+  EXPECT_EQ(read->s, (core::Interval{1.1, 1.4}));
+  EXPECT_EQ(read->alpha, (core::Interval{0.2, 0.2}));
+  EXPECT_EQ(read->end_tolerance, 0.1);
+  EXPECT_EQ(read->branch, classa::Branch::falling);
+  EXPECT_EQ(read->tangent, true);
+  EXPECT_EQ(CurveCondition::from_text("s=1.3")->curve, "");
   for (const char* text :
        {"", "A1:", "s=1..2..3", "A1", "s=", "s=a..b", "tangent=1", "s=1..inf", "x=1"})
-    EXPECT_FALSE(condition_from_text(text)) << text;
+    EXPECT_FALSE(CurveCondition::from_text(text)) << text;
 }
 
 TEST(SurfaceOperations, SweepsTakeLogAestheticQuasiAndFreeProfiles) {

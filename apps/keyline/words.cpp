@@ -1,0 +1,259 @@
+#include "words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/core/text.h"
+#include "keyline/operations/json_form.h"
+#include "keyline/operations/perform.h"
+#include "keyline/operations/schema.h"
+
+namespace keyline::app {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Field;
+using core::Result;
+using core::Type;
+using nlohmann::json;
+using Kind = Type::Kind;
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(at, from), text.size());
+    parts.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  return parts;
+}
+
+/// Turns the words of one option into JSON.
+class Words {
+ public:
+  explicit Words(const Field& field) : field_(field) {}
+
+  Result<json> value(const Type& type, const std::vector<std::string>& words) const {
+    if (words.size() == 1 && (words[0].starts_with('[') || words[0].starts_with('{'))) {
+      json j = json::parse(words[0], nullptr, false);
+      if (j.is_discarded()) return wrong(words[0], "give sound JSON");
+      return j;
+    }
+    if (type.kind == Kind::optional) return value(type.item(), words);
+    if (type.kind == Kind::list) return list(type, words);
+    if (words.empty()) {
+      if (type.kind == Kind::boolean) return json(true);
+      return wrong("", "give a value after it");
+    }
+    if (words.size() > 1) return wrong(words[1], "give one value");
+    return single(type, words[0]);
+  }
+
+ private:
+  std::unexpected<core::Failure> wrong(const std::string& word, const std::string& hint) const {
+    return fail(ErrorCode::bad_input,
+                word.empty() ? "a value is missing" : "\"" + word + "\" does not belong here", hint,
+                option_name(field_.name));
+  }
+
+  Result<json> number(const std::string& word, bool whole) const {
+    const auto value = core::parse_number(word);
+    if (!value) return wrong(word, operations::bounds_in_words(field_.bounds, whole));
+    if (whole && *value == std::floor(*value) && std::abs(*value) < 9e15)
+      return json(static_cast<std::int64_t>(*value));
+    return json(*value);
+  }
+
+  Result<json> numbers(const std::vector<std::string>& words) const {
+    json all = json::array();
+    for (const std::string& word : words) {
+      auto value = number(word, false);
+      if (!value) return value;
+      all.push_back(std::move(*value));
+    }
+    return all;
+  }
+
+  Result<json> single(const Type& type, const std::string& word) const {
+    switch (type.kind) {
+      case Kind::boolean:
+        if (word == "true" || word == "yes" || word == "on") return json(true);
+        if (word == "false" || word == "no" || word == "off") return json(false);
+        return wrong(word, "give yes or no");
+      case Kind::integer:
+        return number(word, true);
+      case Kind::number:
+        return number(word, false);
+      case Kind::point:
+      case Kind::point3:
+        return numbers(split(word, ','));
+      case Kind::interval: {
+        const char at = word.find(':') != std::string::npos ? ':' : ',';
+        return numbers(split(word, at));
+      }
+      case Kind::one_of:
+        return one_of(type, word);
+      case Kind::value:
+        return from_file(type, word);
+      case Kind::text:
+      case Kind::choice:
+      case Kind::record:
+      case Kind::optional:
+      case Kind::list:
+        break;
+    }
+    return json(word);
+  }
+
+  Result<json> one_of(const Type& type, const std::string& word) const {
+    for (std::size_t i = 0; i < type.alternative_count; ++i) {
+      const Type& alternative = type.alternatives[i]();
+      const bool numeric = alternative.kind == Kind::number || alternative.kind == Kind::integer;
+      if (numeric && !core::parse_number(word)) continue;
+      if (alternative.kind == Kind::choice &&
+          std::find(alternative.words, alternative.words + alternative.word_count, word) ==
+              alternative.words + alternative.word_count)
+        continue;
+      const bool point = alternative.kind == Kind::point || alternative.kind == Kind::point3;
+      if (point && !numbers(split(word, ','))) continue;
+      return single(alternative, word);
+    }
+    return json(word);
+  }
+
+  Result<json> list(const Type& type, const std::vector<std::string>& words) const {
+    const Kind item =
+        type.item().kind == Kind::optional ? type.item().item().kind : type.item().kind;
+    const bool plain = item == Kind::number || item == Kind::integer || item == Kind::boolean ||
+                       item == Kind::text || item == Kind::choice;
+    json all = json::array();
+    for (const std::string& word : words)
+      for (const std::string& part : plain ? split(word, ',') : std::vector{word}) {
+        if (type.item().kind == Kind::optional && (part == "auto" || part == "null")) {
+          all.push_back(nullptr);
+          continue;
+        }
+        auto value =
+            single(type.item().kind == Kind::optional ? type.item().item() : type.item(), part);
+        if (!value) return value;
+        all.push_back(std::move(*value));
+      }
+    return all;
+  }
+
+  /// The first thing of the kind in the file, by document.read.
+  Result<json> from_file(const Type& type, const std::string& word) const {
+    const std::size_t hash = word.find('#');
+    json request{{"file", word.substr(0, hash)}};
+    if (hash != std::string::npos) request["select"] = word.substr(hash + 1);
+    const auto read = operations::perform("document.read", request, {});
+    if (!read) return std::unexpected(read.error());
+    const bool surface = type.name == "Surface";
+    const json& things = (*read)[surface ? "surfaces" : "curves"];
+    for (const json& thing : things) {
+      if (surface) return thing["surface"];
+      if (thing.contains("curve")) return thing["curve"];
+      return json{{"type", "polyline"}, {"points", thing["line"]["points"]}};
+    }
+    return wrong(word, surface ? "give a file that holds a surface" : "give a file with a curve");
+  }
+
+  const Field& field_;
+};
+
+std::string placeholder(const Type& type) {
+  switch (type.kind) {
+    case Kind::boolean:
+      return "";
+    case Kind::integer:
+      return "N";
+    case Kind::number:
+      return "NUMBER";
+    case Kind::text:
+      return "TEXT";
+    case Kind::choice: {
+      std::string all;
+      for (std::size_t i = 0; i < type.word_count; ++i)
+        all += (i > 0 ? "|" : "") + std::string(type.words[i]);
+      return all;
+    }
+    case Kind::point:
+      return "X,Y";
+    case Kind::point3:
+      return "X,Y,Z";
+    case Kind::interval:
+      return "LOW:HIGH";
+    case Kind::optional:
+      return placeholder(type.item());
+    case Kind::list: {
+      const std::string item = placeholder(type.item());
+      return item.find(',') != std::string::npos || type.item().kind == Kind::value ? item + "..."
+                                                                                    : item + ",...";
+    }
+    case Kind::record:
+      return type.from_text ? "TEXT" : "JSON";
+    case Kind::one_of: {
+      std::string all;
+      for (std::size_t i = 0; i < type.alternative_count; ++i)
+        all += (i > 0 ? "|" : "") + placeholder(type.alternatives[i]());
+      return all;
+    }
+    case Kind::value:
+      return "FILE";
+  }
+  return "";
+}
+
+std::string range_text(const core::Bounds& b) {
+  const auto text = [](double x) { return core::number_text(x, 6); };
+  if (std::isfinite(b.low) && std::isfinite(b.high)) return text(b.low) + " to " + text(b.high);
+  if (std::isfinite(b.low)) return (b.low_excluded ? "more than " : "at least ") + text(b.low);
+  if (std::isfinite(b.high)) return (b.high_excluded ? "less than " : "at most ") + text(b.high);
+  return "";
+}
+
+}  // namespace
+
+std::string option_name(std::string_view field) {
+  std::string name = "--" + std::string(field);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+Result<json> value_of(const Field& field, const std::vector<std::string>& words) {
+  return Words(field).value(field.type(), words);
+}
+
+std::string help_line(const Field& field, const void* member) {
+  const std::string holder = placeholder(field.type());
+  std::string more;
+  const auto add = [&](const std::string& text) {
+    if (!text.empty()) more += (more.empty() ? "" : "; ") + text;
+  };
+  add(std::string(field.unit));
+  add(range_text(field.bounds));
+  if (field.required) add("needed");
+  const json value = operations::default_of(field, member);
+  if (!value.is_null() && !value.is_structured()) {
+    const std::string shown = value.is_string() ? value.get<std::string>() : value.dump();
+    if (shown != "false") add("default " + shown);
+  }
+  return fmt::format("  {:<34} {}{}\n",
+                     option_name(field.name) + (holder.empty() ? "" : " " + holder), field.text,
+                     more.empty() ? "" : " (" + more + ")");
+}
+
+core::Failure as_options(core::Failure failure) {
+  const std::size_t end = failure.path.find_first_of(".[:/ ");
+  if (end == std::string::npos && !failure.path.empty() && !failure.path.starts_with("--"))
+    failure.path = option_name(failure.path);
+  else if (end != std::string::npos && failure.path[end] == '[')
+    failure.path = option_name(failure.path.substr(0, end)) + failure.path.substr(end);
+  return failure;
+}
+
+}  // namespace keyline::app

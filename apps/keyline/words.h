@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "keyline/core/describe.h"
+#include "keyline/core/error.h"
+
+/// Options of a command line made from described fields: --must-pass 3,8 for must_pass.
+namespace keyline::app {
+
+/// "must_pass" as "--must-pass".
+std::string option_name(std::string_view field);
+
+/// What was typed for a field as the JSON its reader takes: numbers, points 1,2, lists 1,2,3 or
+/// several words, ranges a:b, words of a choice; curves and surfaces as the name of a file that
+/// holds one, FILE or FILE#NAME; JSON itself where it begins with [ or {. No word at all is `true`.
+/// Fails: bad_input with the option as path.
+core::Result<nlohmann::json> value_of(const core::Field& field,
+                                      const std::vector<std::string>& words);
+
+/// One line of help: "--alpha NUMBER  slope of … (radian; 0 to 1; default 0.5)".
+std::string help_line(const core::Field& field, const void* member);
+
+/// A failure of the library, its field as the option that was typed.
+core::Failure as_options(core::Failure failure);
+
+}  // namespace keyline::app

@@ -1,0 +1,255 @@
+#include "keyline/document/planar_edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "keyline/core/angle.h"
+#include "keyline/core/text.h"
+#include "keyline/curve/conversion.h"
+#include "keyline/curve/view.h"
+
+namespace keyline::document {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Point2;
+using core::Result;
+using core::Vector2;
+
+constexpr double kCorner = 1e-7;  // radians: a turn of the tangent at a joint above this
+constexpr int kChecks = 64;       // places of every smooth stretch where curvature is looked at
+
+template <class Curve>
+Curve part_of(const Curve& c, const core::Interval& t) {
+  if constexpr (std::is_same_v<Curve, lac::Chain>) {
+    return lac::part(c, t.low, t.high);
+  } else {
+    Curve rest = t.high < 1 ? split(c, t.high).first : c;
+    return t.low > 0 ? split(rest, t.low / t.high).second : rest;
+  }
+}
+
+Point2 image(Point2 p, const core::Pose2& axis) {
+  const Vector2 along = core::unit_vector(axis.direction);
+  const Vector2 v = p - axis.position;
+  return axis.position + 2 * dot(v, along) * along - v;
+}
+
+lac::Chain image(lac::Chain chain, const core::Pose2& axis) {
+  chain.start = {image(chain.start.position, axis), 2 * axis.direction - chain.start.direction};
+  for (lac::Piece& piece : chain.pieces) {
+    piece.curvature_start = -piece.curvature_start;
+    piece.curvature_end = -piece.curvature_end;
+  }
+  return chain;
+}
+curve::Polyline2 image(curve::Polyline2 c, const core::Pose2& axis) {
+  for (Point2& p : c.points) p = image(p, axis);
+  return c;
+}
+template <class Curve>
+Curve image(Curve c, const core::Pose2& axis) {
+  for (Point2& p : c.control) p = image(p, axis);
+  return c;
+}
+
+/// A member's offset as a planar curve of its own; the third derivative lacks the second derivative
+/// of curvature, which no fit looks at.
+struct OffsetView {
+  const PlanarCurve* base;
+  double distance;
+};
+curve::Jet2 jet(const OffsetView& c, double t) {
+  const curve::Jet2 j = document::jet(*c.base, t);
+  const double speed = norm(j.first);
+  const double bend = cross(j.first, j.second) / std::pow(speed, 3);
+  const double rate = cross(j.first, j.third) / std::pow(speed, 3) -
+                      3 * bend * dot(j.first, j.second) / (speed * speed);
+  const double scale = 1 - c.distance * bend;
+  curve::Jet2 o = j;
+  o.point = j.point + c.distance * perpendicular_left(j.first / speed);
+  o.first = scale * j.first;
+  o.second = scale * j.second - c.distance * rate * j.first;
+  o.third = scale * j.third - 2 * c.distance * rate * j.second;
+  return o;
+}
+Point2 evaluate(const OffsetView& c, double t) { return jet(c, t).point; }
+std::vector<double> breakpoints(const OffsetView& c) { return document::breakpoints(*c.base); }
+
+/// The radius of curvature that the distance reaches, if any.
+Result<void> room_for(const PlanarCurve& c, double distance) {
+  const std::vector<double> breaks = breakpoints(c);
+  double tightest = 0;
+  double at = 0;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+    for (int k = 0; k <= kChecks; ++k) {
+      // from inside the stretch at its ends, where curvature may jump
+      const double u = std::clamp(static_cast<double>(k) / kChecks, 1e-9, 1 - 1e-9);
+      const double t = (1 - u) * breaks[i] + u * breaks[i + 1];
+      const double bend = curve::curvature(document::jet(c, t));
+      if (!(bend * distance > tightest * distance)) continue;
+      tightest = bend;
+      at = t;
+    }
+  if (tightest * distance < 1) return {};
+  const Point2 p = evaluate(c, at);
+  return fail(ErrorCode::undrawable,
+              "the offset turns back where the radius of curvature is " +
+                  core::number_text(1 / std::abs(tightest), 6) + ", at (" +
+                  core::number_text(p.x, 6) + ", " + core::number_text(p.y, 6) + ")",
+              "give a distance below that radius, or the other side", "distance");
+}
+
+/// Lines and arcs exactly.
+std::optional<lac::Chain> exact_offset(const PlanarCurve& c, double distance) {
+  const auto* chain = std::get_if<lac::Chain>(&c.value);
+  if (!chain) return std::nullopt;
+  lac::Chain moved = *chain;
+  moved.start.position = moved.start.position +
+                         distance * perpendicular_left(core::unit_vector(moved.start.direction));
+  for (lac::Piece& p : moved.pieces) {
+    if (p.curvature_start != p.curvature_end) return std::nullopt;
+    const double scale = 1 - distance * p.curvature_start;
+    p.length *= scale;
+    p.curvature_start = p.curvature_end = p.curvature_start / scale;
+  }
+  return moved;
+}
+
+void append_offset(const PlanarCurve& c, double distance, double tolerance, Offset& to) {
+  if (auto exact = exact_offset(c, distance)) {
+    to.path.curves.push_back({std::move(*exact)});
+    return;
+  }
+  const OffsetView view{&c, distance};
+  auto pieces = curve::approximate_by_cubics(curve::PlanarView(view), tolerance);
+  to.deviation = std::max(to.deviation, pieces.deviation);
+  for (curve::Bezier2& piece : pieces.pieces) to.path.curves.push_back({std::move(piece)});
+}
+
+/// The arc about a corner from the end of one offset to the start of the next; nothing where there
+/// is no corner.
+Result<void> turn_corner(const PlanarCurve& before, const PlanarCurve& after, double distance,
+                         Offset& to) {
+  const double in = curve::tangent_angle(jet(before, 1));
+  const double out = curve::tangent_angle(jet(after, 0));
+  const double turn = core::wrap_angle(out - in);
+  if (std::abs(turn) < kCorner) return {};
+  const Point2 corner = evaluate(after, 0);
+  if (turn * distance > 0)
+    return fail(ErrorCode::undrawable,
+                "the offset crosses itself at the corner (" + core::number_text(corner.x, 6) +
+                    ", " + core::number_text(corner.y, 6) + ")",
+                "split the path there and trim the parts, or give the other side", "distance");
+  const Point2 start = corner + distance * perpendicular_left(core::unit_vector(in));
+  const double bend = turn > 0 ? 1 / std::abs(distance) : -1 / std::abs(distance);
+  const lac::Piece arc{-1, std::abs(turn * distance), bend, bend};
+  to.path.curves.push_back({lac::Chain{{start, in}, {arc}, false}});
+  ++to.arcs;
+  return {};
+}
+
+std::vector<PlanarCurve> smooth_members(const Path& path) {
+  std::vector<PlanarCurve> all;
+  for (const PlanarCurve& c : path.curves) {
+    const auto* line = std::get_if<curve::Polyline2>(&c.value);
+    if (!line) {
+      all.push_back(c);
+      continue;
+    }
+    for (std::size_t i = 0; i + 1 < line->points.size(); ++i)
+      if (line->points[i] != line->points[i + 1])
+        all.push_back({curve::Bezier2{{line->points[i], line->points[i + 1]}, {}}});
+  }
+  return all;
+}
+
+}  // namespace
+
+PlanarCurve part(const PlanarCurve& c, const core::Interval& t) {
+  return std::visit([&](const auto& v) { return PlanarCurve{part_of(v, t)}; }, c.value);
+}
+
+Path part(const Path& path, const core::Interval& t) {
+  Path result;
+  const auto count = static_cast<double>(path.curves.size());
+  for (std::size_t i = 0; i < path.curves.size(); ++i) {
+    const double low = std::max(t.low * count - static_cast<double>(i), 0.0);
+    const double high = std::min(t.high * count - static_cast<double>(i), 1.0);
+    if (!(low < high)) continue;
+    const bool whole = low == 0 && high == 1;
+    result.curves.push_back(whole ? path.curves[i] : part(path.curves[i], {low, high}));
+    if (auto* chain = std::get_if<lac::Chain>(&result.curves.back().value); chain)
+      chain->closed = false;
+  }
+  return result;
+}
+
+PlanarCurve mirrored(const PlanarCurve& c, const core::Pose2& axis) {
+  return std::visit([&](const auto& v) { return PlanarCurve{image(v, axis)}; }, c.value);
+}
+
+Path mirrored(const Path& path, const core::Pose2& axis) {
+  Path result{{}, path.closed};
+  for (const PlanarCurve& c : path.curves) result.curves.push_back(mirrored(c, axis));
+  return result;
+}
+
+Result<Offset> offset(const Path& path, double distance, double tolerance) {
+  const std::vector<PlanarCurve> members = smooth_members(path);
+  Offset made;
+  made.path.closed = path.closed;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (i > 0)
+      if (auto done = turn_corner(members[i - 1], members[i], distance, made); !done)
+        return std::unexpected(done.error());
+    if (auto room = room_for(members[i], distance); !room) return std::unexpected(room.error());
+    append_offset(members[i], distance, tolerance, made);
+  }
+  const bool alone = members.size() == 1 && std::holds_alternative<lac::Chain>(members[0].value);
+  if (path.closed && !alone)
+    if (auto done = turn_corner(members.back(), members.front(), distance, made); !done)
+      return std::unexpected(done.error());
+  return made;
+}
+
+Result<Joined> joined(const std::vector<Path>& curves, double gap) {
+  Joined made;
+  std::vector<bool> used(curves.size(), false);
+  const auto append = [&](std::size_t i, bool backwards) {
+    used[i] = true;
+    const Path next = backwards ? reverse(curves[i]) : curves[i];
+    if (backwards) made.reversed.push_back(i);
+    made.path.curves.insert(made.path.curves.end(), next.curves.begin(), next.curves.end());
+  };
+  append(0, false);
+  for (std::size_t round = 1; round < curves.size(); ++round) {
+    const Point2 end = evaluate(made.path, 1);
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t best = 0;
+    bool backwards = false;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      for (const bool turned : {false, true}) {
+        const double away = used[i] ? nearest : core::distance(end, evaluate(curves[i], turned));
+        if (!(away < nearest)) continue;
+        nearest = away;
+        best = i;
+        backwards = turned;
+      }
+    if (nearest > gap)
+      return fail(ErrorCode::undrawable,
+                  "the nearest end is " + core::number_text(nearest, 6) + " away from (" +
+                      core::number_text(end.x, 6) + ", " + core::number_text(end.y, 6) + ")",
+                  "allow a larger gap with the tolerance, or blend the curves", "tolerance");
+    made.gap = std::max(made.gap, nearest);
+    append(best, backwards);
+  }
+  const double closing = core::distance(evaluate(made.path, 1), evaluate(made.path, 0));
+  made.path.closed = made.path.curves.size() > 1 && closing <= gap;
+  if (made.path.closed) made.gap = std::max(made.gap, closing);
+  return made;
+}
+
+}  // namespace keyline::document

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/core/interval.h"
+#include "keyline/core/pose.h"
+#include "keyline/document/planar_curve.h"
+
+/// Work on whole curves: parts, mirror images, offsets, paths of several.
+namespace keyline::document {
+
+/// The part of the curve between two parameters, each type as itself. Precondition:
+/// 0 <= low < high <= 1.
+PlanarCurve part(const PlanarCurve& c, const core::Interval& t);
+/// The same of a path: whole members stay as they are. Never closed.
+Path part(const Path& path, const core::Interval& t);
+
+/// The mirror image in the line through the pose's position along its direction.
+PlanarCurve mirrored(const PlanarCurve& c, const core::Pose2& axis);
+Path mirrored(const Path& path, const core::Pose2& axis);
+
+struct Offset {
+  Path path;
+  double deviation = 0;  ///< of its members from the exact offset, at most the tolerance
+  int arcs = 0;          ///< put in where the given path has a corner that opens
+};
+/// The path at a constant distance to its left (right where negative): of a log-aesthetic piece of
+/// constant curvature exactly, of all else cubics within the tolerance (> 0), an arc about every
+/// corner that opens.
+/// Fails: undrawable where the distance reaches a radius of curvature (the offset would turn back),
+/// with that radius, and at a corner that closes.
+core::Result<Offset> offset(const Path& path, double distance, double tolerance);
+
+struct Joined {
+  Path path;
+  double gap = 0;                     ///< largest between neighbours
+  std::vector<std::size_t> reversed;  ///< curves that run the other way in it
+};
+/// Curves end to end in one path: from the first on, each end goes on with the curve whose end is
+/// nearest. Closed where the last end meets the first start within `gap`.
+/// Fails: undrawable where the nearest end is farther than `gap`, with how far.
+core::Result<Joined> joined(const std::vector<Path>& curves, double gap);
+
+}  // namespace keyline::document

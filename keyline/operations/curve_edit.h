@@ -1,0 +1,57 @@
+#pragma once
+
+#include "keyline/operations/class_a.h"
+#include "keyline/operations/made_curve.h"
+
+/// Class A editing of a curve: the operation curve.edit.
+namespace keyline::operations {
+
+/// A place of the alpha-s plane.
+struct PlaneTarget {
+  double alpha = 0;
+  double s = 1;
+  static constexpr auto describe() {
+    return core::fields(core::field<&PlaneTarget::alpha>("rotation").in("radian").needed(),
+                        core::field<&PlaneTarget::s>("scale").needed());
+  }
+};
+
+struct CurveEditRequest {
+  ClassARequest curve;
+  std::optional<PlaneTarget> target;
+  classa::Hold hold = classa::Hold::ends_and_tangent;
+  double amount = 1;
+  static constexpr auto describe() {
+    using Request = CurveEditRequest;
+    return core::fields(core::flattened<&Request::curve>(),
+                        core::field<&Request::target>(
+                            "place of the plane to move to; the minimum-energy point unless given"),
+                        core::field<&Request::hold>("for a target: what stays"),
+                        core::field<&Request::amount>("0 the given curve to 1 the target")
+                            .within(core::from_to(0, 1)));
+  }
+};
+
+struct CurveEditAnswer {
+  MadeCurve curve;
+  EvaluationShown before;
+  EvaluationShown after;
+  PlaneTarget target;
+  std::optional<std::vector<std::array<double, 2>>> path;
+
+  std::optional<classa::Approximation> given;  ///< not part of the public form, like `edited`
+  std::optional<classa::EditResult> edited;
+
+  static constexpr auto describe() {
+    using Answer = CurveEditAnswer;
+    return core::fields(
+        core::flattened<&Answer::curve>(), core::field<&Answer::before>("value of the given curve"),
+        core::field<&Answer::after>("measured against the same minimum"),
+        core::field<&Answer::target>("the place the slide ends at"),
+        core::field<&Answer::path>("[alpha, s] from the given place to the target"));
+  }
+};
+
+classa::EditOptions edit_options(const CurveEditRequest& request);
+
+}  // namespace keyline::operations

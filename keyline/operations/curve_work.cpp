@@ -1,0 +1,257 @@
+#include <algorithm>
+
+#include "keyline/analysis/continuity.h"
+#include "keyline/analysis/profile.h"
+#include "keyline/document/planar_edit.h"
+#include "keyline/operations/made_curve.h"
+#include "keyline/operations/registry.h"
+
+/// Work on curves as they stand in files: reverse, mirror, trim, split, offset, join.
+namespace keyline::operations {
+namespace {
+
+using core::ErrorCode;
+using core::Result;
+
+constexpr const char* kAnyPlanar = "any planar curve or path";
+constexpr const char* kRibbon = R"({"type":"bezier","points":[[0,0],[1,2],[3,2],[4,0]]})";
+
+std::string on_ribbon(const std::string& more) {
+  return std::string(R"({"curve":)") + kRibbon + more + "}";
+}
+
+MadeCurve made_path(document::Path path) {
+  MadeCurve curve;
+  curve.curve = std::move(path);
+  return curve;
+}
+
+struct CurveOnly {
+  MadeCurve curve;
+  static constexpr auto describe() { return core::fields(core::flattened<&CurveOnly::curve>()); }
+};
+
+struct ReverseRequest {
+  document::Path curve;
+  static constexpr auto describe() {
+    return core::fields(core::field<&ReverseRequest::curve>(kAnyPlanar).needed());
+  }
+};
+
+Result<CurveOnly> run_reverse(const ReverseRequest& request, const Context&) {
+  return CurveOnly{made_path(document::reverse(request.curve))};
+}
+
+struct MirrorRequest {
+  document::Path curve;
+  core::Point2 point;
+  double direction = core::kPi / 2;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&MirrorRequest::curve>(kAnyPlanar).needed(),
+        core::field<&MirrorRequest::point>("on the mirror line; the origin unless given"),
+        core::field<&MirrorRequest::direction>("of the mirror line, from the x axis").in("radian"));
+  }
+};
+
+Result<CurveOnly> run_mirror(const MirrorRequest& request, const Context&) {
+  return CurveOnly{
+      made_path(document::mirrored(request.curve, {request.point, request.direction}))};
+}
+
+/// Parameters of fractions of the length.
+class Places {
+ public:
+  explicit Places(const document::Path& path) : view_(analysis::view(path)), table_(view_) {}
+  double parameter(double fraction) const {
+    if (fraction <= 0) return 0;
+    return fraction >= 1 ? 1 : table_.parameter_at(fraction * table_.length());
+  }
+  double length() const { return table_.length(); }
+  const analysis::ArcLengthTable& table() const { return table_; }
+
+ private:
+  analysis::CurveView view_;
+  analysis::ArcLengthTable table_;
+};
+
+struct TrimRequest {
+  document::Path curve;
+  double from = 0;
+  double to = 1;
+  static constexpr auto describe() {
+    return core::fields(core::field<&TrimRequest::curve>(kAnyPlanar).needed(),
+                        core::field<&TrimRequest::from>("where the part begins, as a fraction of "
+                                                        "the length")
+                            .within(core::from_to(0, 1)),
+                        core::field<&TrimRequest::to>("where it ends").within(core::from_to(0, 1)));
+  }
+};
+
+Result<CurveOnly> run_trim(const TrimRequest& request, const Context&) {
+  if (!(request.from < request.to))
+    return core::fail(ErrorCode::bad_input, "nothing would be left",
+                      "give \"from\" less than \"to\"", "to");
+  const Places places(request.curve);
+  return CurveOnly{made_path(document::part(
+      request.curve, {places.parameter(request.from), places.parameter(request.to)}))};
+}
+
+struct SplitRequest {
+  document::Path curve;
+  std::vector<double> at;
+  bool corners = false;
+  static constexpr auto describe() {
+    return core::fields(core::field<&SplitRequest::curve>(kAnyPlanar).needed(),
+                        core::field<&SplitRequest::at>("where, as fractions of the length")
+                            .within(core::between(0, 1))
+                            .or_bare_item(),
+                        core::field<&SplitRequest::corners>("also wherever the direction jumps"));
+  }
+};
+
+struct SplitResult {
+  std::vector<CurveOnly> parts;
+  static constexpr auto describe() {
+    return core::fields(core::field<&SplitResult::parts>("in order along the curve"));
+  }
+};
+
+Result<SplitResult> run_split(const SplitRequest& request, const Context&) {
+  const Places places(request.curve);
+  std::vector<double> cuts{0, 1};
+  for (const double fraction : request.at) cuts.push_back(places.parameter(fraction));
+  if (request.corners) {
+    const analysis::CurveView view = analysis::view(request.curve);
+    const auto joints = analysis::inner_continuity(view);
+    const auto breaks = document::breakpoints(request.curve);
+    for (std::size_t i = 0; i < joints.size() && i + 2 < breaks.size(); ++i)
+      if (joints[i].order <= 0) cuts.push_back(breaks[i + 1]);
+  }
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  if (cuts.size() == 2)
+    return core::fail(ErrorCode::bad_input, "there is nowhere to split",
+                      "give \"at\", or \"corners\" for a curve that has some", "at");
+  SplitResult result;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    result.parts.push_back({made_path(document::part(request.curve, {cuts[i], cuts[i + 1]}))});
+  return result;
+}
+
+struct OffsetRequest {
+  document::Path curve;
+  double distance = 0;
+  std::optional<double> tolerance;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&OffsetRequest::curve>(kAnyPlanar).needed(),
+        core::field<&OffsetRequest::distance>("to the left; to the right where negative")
+            .in("length")
+            .needed(),
+        core::field<&OffsetRequest::tolerance>(
+            "largest deviation from the exact offset; 1e-5 of the length unless given")
+            .in("length")
+            .within(core::kPositive));
+  }
+};
+
+struct OffsetResult {
+  MadeCurve curve;
+  double deviation = 0;
+  int arcs = 0;
+  static constexpr auto describe() {
+    return core::fields(
+        core::flattened<&OffsetResult::curve>(),
+        core::field<&OffsetResult::deviation>("bound of the distance from the exact offset")
+            .in("length"),
+        core::field<&OffsetResult::arcs>("put in about corners that open"));
+  }
+};
+
+Result<OffsetResult> run_offset(const OffsetRequest& request, const Context&) {
+  constexpr double kUsual = 1e-5;  // of the length
+  const double length = Places(request.curve).length();
+  auto made = document::offset(request.curve, request.distance,
+                               request.tolerance.value_or(kUsual * length));
+  if (!made) return std::unexpected(made.error());
+  return OffsetResult{made_path(std::move(made->path)), made->deviation, made->arcs};
+}
+
+struct JoinRequest {
+  std::vector<document::Path> curves;
+  double tolerance = 1e-6;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&JoinRequest::curves>("two or more, in any order and direction; the path "
+                                          "begins with the first")
+            .count(2)
+            .needed(),
+        core::field<&JoinRequest::tolerance>("largest gap between ends that are one")
+            .in("length")
+            .within(core::at_least(0)));
+  }
+};
+
+struct JoinResult {
+  MadeCurve curve;
+  double gap = 0;
+  std::vector<std::size_t> reversed;
+  static constexpr auto describe() {
+    return core::fields(
+        core::flattened<&JoinResult::curve>(),
+        core::field<&JoinResult::gap>("largest between neighbours").in("length"),
+        core::field<&JoinResult::reversed>("curves that run the other way in it, from 0"));
+  }
+};
+
+Result<JoinResult> run_join(const JoinRequest& request, const Context&) {
+  auto made = document::joined(request.curves, request.tolerance);
+  if (!made) return std::unexpected(made.error());
+  return JoinResult{made_path(std::move(made->path)), made->gap, std::move(made->reversed)};
+}
+
+}  // namespace
+
+Operation curve_reverse_operation() {
+  return declare<run_reverse>({.name = "curve.reverse",
+                               .summary = "The same curve from its end to its start.",
+                               .examples = {on_ribbon("")}});
+}
+
+Operation curve_mirror_operation() {
+  return declare<run_mirror>({.name = "curve.mirror",
+                              .summary = "The mirror image of a curve, every type as itself.",
+                              .examples = {on_ribbon(R"(,"point":[5,0])")}});
+}
+
+Operation curve_trim_operation() {
+  return declare<run_trim>({.name = "curve.trim",
+                            .summary = "A part of a curve, every type as itself.",
+                            .examples = {on_ribbon(R"(,"from":0.25,"to":0.75)")}});
+}
+
+Operation curve_split_operation() {
+  return declare<run_split>({.name = "curve.split",
+                             .summary = "A curve cut into parts, every type as itself.",
+                             .examples = {on_ribbon(R"(,"at":[0.5])")}});
+}
+
+Operation curve_offset_operation() {
+  return declare<run_offset>(
+      {.name = "curve.offset",
+       .summary =
+           "The curve at a constant distance: of lines and arcs exactly, of others as cubics "
+           "within the tolerance, with an arc about every corner that opens.",
+       .examples = {on_ribbon(R"(,"distance":0.3)")}});
+}
+
+Operation curve_join_operation() {
+  return declare<run_join>(
+      {.name = "curve.join",
+       .summary = "Curves end to end as one path, turned and put in order as their ends ask for.",
+       .examples = {std::string(R"({"curves":[)") + kRibbon +
+                    R"(,{"type":"polyline","points":[[6,1],[4,0]]}]})"}});
+}
+
+}  // namespace keyline::operations

@@ -1,0 +1,271 @@
+#include "keyline/operations/document_read.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "keyline/acquire/join.h"
+#include "keyline/acquire/lattice.h"
+#include "keyline/acquire/section.h"
+#include "keyline/acquire/section_curves.h"
+#include "keyline/acquire/symmetry.h"
+#include "keyline/exchange/document_file.h"
+#include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/lattice_reader.h"
+#include "keyline/exchange/mesh.h"
+#include "keyline/exchange/planar_form.h"
+#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/section_file.h"
+#include "keyline/operations/registry.h"
+#include "keyline/operations/sketch_run.h"
+
+namespace keyline::operations {
+namespace {
+
+using acquire::KeyLine;
+using acquire::RawCurve;
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+
+template <class T>
+Result<T> in_file(Result<T> result, const std::string& file) {
+  if (result) return result;
+  return std::unexpected(exchange::in_file(result.error(), file));
+}
+
+Result<std::vector<RawCurve>> read_lattice_input(const InputRequest& input,
+                                                 const std::string& file) {
+  const auto lattice = exchange::read_lattice(file);
+  if (!lattice) return std::unexpected(lattice.error());
+  const auto index = static_cast<std::size_t>(input.row ? *input.row : *input.column);
+  auto curve =
+      input.row ? acquire::lattice_row(*lattice, index) : acquire::lattice_column(*lattice, index);
+  if (!curve) return std::unexpected(curve.error());
+  return std::vector<RawCurve>{std::move(*curve)};
+}
+
+/// Clouds whose columns are told: read whole, then cut.
+Result<std::vector<RawCurve>> cut_table(const InputRequest& input,
+                                        const std::vector<RawCurve>& clouds) {
+  constexpr double kBand = 1.0 / 150;  // of the size, as section_of_file
+  const auto request = exchange::parse_section(input.section);
+  if (!request) return std::unexpected(request.error());
+  std::vector<RawCurve> cuts;
+  for (const RawCurve& cloud : clouds) {
+    acquire::Plane plane = request->plane.value_or(acquire::Plane{});
+    if (!request->plane) {
+      const auto found = acquire::symmetry_plane(cloud.points);
+      if (!found) return std::unexpected(found.error());
+      plane = found->plane;
+    }
+    double size = 0;
+    for (const core::Point3& p : cloud.points)
+      if (core::is_finite(p)) size = std::max(size, core::distance(p, cloud.points.front()));
+    const double band = size > 0 && std::isfinite(size) ? size * kBand : 1;
+    auto curve = acquire::section_plane(cloud, plane, input.band.value_or(band));
+    if (!curve) return std::unexpected(curve.error());
+    for (RawCurve& part : acquire::section_curves(*curve, plane)) cuts.push_back(std::move(part));
+  }
+  return cuts;
+}
+
+Result<exchange::FileSection> cut_file(const InputRequest& input, const std::string& file) {
+  const auto request = exchange::parse_section(input.section);
+  if (!request) return std::unexpected(request.error());
+  return exchange::section_of_file(file, *request, input.band);
+}
+
+Result<std::vector<RawCurve>> read_raw(const InputRequest& input, const std::string& file) {
+  if (input.row || input.column) return read_lattice_input(input, file);
+  const bool told =
+      !input.columns.empty() || !input.weight_column.empty() || !input.id_column.empty();
+  if (!input.section.empty() && !told && file != "-") {
+    auto cut = cut_file(input, file);
+    if (!cut) return std::unexpected(cut.error());
+    return std::move(cut->curves);
+  }
+  exchange::PointsOptions options;
+  options.columns = input.columns;
+  options.weight_column = input.weight_column;
+  options.id_column = input.id_column;
+  auto raw = file == "-" ? exchange::read_points(std::cin, "standard input", options)
+                         : exchange::read_points(std::filesystem::path(file), options);
+  if (!raw || input.section.empty()) return raw;
+  return cut_table(input, *raw);
+}
+
+/// Of those of the name wanted; where there are none, that of the number, counted from 1.
+bool is_wanted(const std::vector<RawCurve>& curves, std::size_t index, const std::string& wanted) {
+  if (wanted.empty() || curves[index].id == wanted) return true;
+  const bool named = std::any_of(curves.begin(), curves.end(),
+                                 [&](const RawCurve& curve) { return curve.id == wanted; });
+  return !named && wanted == std::to_string(index + 1);
+}
+
+Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::string& file) {
+  const auto raw = in_file(read_raw(input, file), file);
+  if (!raw) return std::unexpected(raw.error());
+  std::vector<KeyLine> lines;
+  for (std::size_t i = 0; i < raw->size(); ++i) {
+    const RawCurve& curve = (*raw)[i];
+    if (!is_wanted(*raw, i, input.select)) continue;
+    auto line = in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)),
+                        raw->size() > 1 ? file + ": " + curve.id : file);
+    if (!line) return std::unexpected(line.error());
+    line->id = curve.id;
+    lines.push_back(std::move(*line));
+  }
+  if (lines.empty())
+    return fail(ErrorCode::bad_input, "no curve is named \"" + input.select + "\"",
+                "leave \"select\" out to take all", file);
+  return lines;
+}
+
+Result<std::vector<KeyLine>> join_files(const InputRequest& input) {
+  std::vector<RawCurve> parts;
+  for (const std::string& file : input.file) {
+    auto raw = in_file(read_raw(input, file), file);
+    if (!raw) return std::unexpected(raw.error());
+    for (RawCurve& curve : *raw) parts.push_back(std::move(curve));
+  }
+  auto line = acquire::acquire_joined(parts, acquire_options(input.acquiring));
+  if (!line) return std::unexpected(line.error());
+  return std::vector<KeyLine>{std::move(*line)};
+}
+
+NamedCurve named(KeyLine line) {
+  NamedCurve curve;
+  curve.name = line.id;
+  curve.line = std::move(line);
+  return curve;
+}
+
+/// The longer strokes of a drawing, in pixels, and the drawing's page.
+Result<ReadAnswer> read_drawing(const InputRequest& input, const core::Progress& progress) {
+  const std::string& file = input.file.front();
+  auto image = exchange::read_image_file(file);
+  if (!image) return std::unexpected(image.error());
+  sketch::TraceOptions options;
+  options.progress = progress;
+  const auto trace = in_file(trace_picture(std::move(*image), options), file);
+  if (!trace) return std::unexpected(trace.error());
+  std::size_t skipped = 0;
+  auto lines = in_file(key_lines_of(*trace, skipped), file);
+  if (!lines) return std::unexpected(lines.error());
+  ReadAnswer answer;
+  answer.unit = input.unit.empty() ? "px" : input.unit;
+  answer.page = Page{{0, 0}, {static_cast<double>(trace->width), 1.0 * trace->height}};
+  for (KeyLine& line : *lines)
+    if (input.select.empty() || line.id == input.select)
+      answer.curves.push_back(named(std::move(line)));
+  if (answer.curves.empty())
+    return fail(ErrorCode::bad_input, "holds no line long enough to fair", "check \"select\"",
+                file);
+  if (skipped > 0)
+    answer.curves.front().line->report.notes.push_back(
+        std::to_string(skipped) + " short strokes of the drawing were left out");
+  return answer;
+}
+
+/// The lines in which a plane cuts a mesh; of a cloud, its section as acquired.
+Result<document::Document> section_document(const InputRequest& input, const std::string& file) {
+  const auto cut = cut_file(input, file);
+  if (!cut) return std::unexpected(cut.error());
+  document::Document document;
+  for (std::size_t i = 0; i < cut->curves.size(); ++i) {
+    const RawCurve& curve = cut->curves[i];
+    curve::Polyline2 line;
+    bool closed = cut->closed[i];
+    if (cut->ordered) {
+      for (const core::Point3 p : curve.points) line.points.push_back({p.x, p.y});
+    } else {
+      const auto acquired = acquire::acquire_key_line(curve, acquire_options(input.acquiring));
+      if (!acquired) return std::unexpected(acquired.error());
+      line.points = acquired->points;
+      closed = acquired->closed;
+    }
+    if (closed) line.points.push_back(line.points.front());
+    document.paths.push_back({{curve.id, {}, {}}, {{{std::move(line)}}, closed}, 0});
+  }
+  return document;
+}
+
+template <class Thing>
+NamedCurve named(const document::Label& label, const Thing& curve, double width) {
+  return {label.name, label.layer, label.color, width, AnyCurve{curve}, {}};
+}
+
+ReadAnswer answer_of(document::Document document) {
+  ReadAnswer answer;
+  answer.unit = document.unit;
+  for (const auto& p : document.paths)
+    answer.curves.push_back(named(p.label, p.path, p.stroke_width));
+  for (const auto& c : document.space_curves) answer.curves.push_back(named(c.label, c.curve, 0));
+  for (const auto& s : document.surfaces)
+    answer.surfaces.push_back({s.label.name, s.label.layer, s.label.color, s.surface, s.trims});
+  if (document.page) answer.page = Page{document.page->low, document.page->high};
+  answer.skipped = document.skipped;
+  answer.document = std::move(document);
+  return answer;
+}
+
+Result<ReadAnswer> read_curves(const InputRequest& input) {
+  const std::string& file = input.file.front();
+  auto document = exchange::is_mesh_file(file) && !input.section.empty()
+                      ? section_document(input, file)
+                      : exchange::read_document(file, {.glyphs = input.glyphs});
+  if (!document) return std::unexpected(document.error());
+  if (auto done = in_file(document::select(*document, input.select), file); !done)
+    return std::unexpected(done.error());
+  if (!input.unit.empty()) document->unit = input.unit;
+  if (input.planar && document->surfaces.empty()) {
+    exchange::flatten(*document, document->skipped);
+    if (document->paths.empty())
+      return fail(ErrorCode::bad_input, "there is no planar curve in it",
+                  "give curves that lie in a plane", file);
+  }
+  return answer_of(std::move(*document));
+}
+
+bool holds_points(const std::string& file) {
+  if (file == "-") return true;
+  if (exchange::is_mesh_file(file)) return false;
+  return exchange::format_of(file, exchange::head_of(file).value_or("")) ==
+         exchange::Format::points;
+}
+
+Result<ReadAnswer> run(const InputRequest& request, const Context& context) {
+  return read_input(request, context.progress);
+}
+
+}  // namespace
+
+Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress& progress) {
+  const std::string& file = request.file.front();
+  const bool points = !exchange::has_image_name(file) && holds_points(file);
+  if (!points && request.file.size() > 1)
+    return fail(ErrorCode::bad_input, "several files are parts of one key-line of points",
+                "give one file of curves, or one drawing, at a time", "file");
+  if (exchange::has_image_name(file)) return read_drawing(request, progress);
+  if (!points) return read_curves(request);
+  auto lines = request.file.size() > 1 ? join_files(request) : acquire_all(request, file);
+  if (!lines) return std::unexpected(lines.error());
+  ReadAnswer answer;
+  answer.unit = request.unit;
+  for (KeyLine& line : *lines) answer.curves.push_back(named(std::move(line)));
+  return answer;
+}
+
+Operation document_read_operation() {
+  return declare<run>(
+      {.name = "document.read",
+       .summary =
+           "What a file holds: curves and surfaces as they are, measured points put in order "
+           "and cleaned, the lines of a drawing.",
+       .examples = {R"({"file":"examples/clothoid.csv"})"},
+       .long_running = true,
+       .reads_files = true});
+}
+
+}  // namespace keyline::operations

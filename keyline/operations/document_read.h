@@ -1,0 +1,128 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyline/core/progress.h"
+#include "keyline/document/document.h"
+#include "keyline/operations/subject.h"
+
+/// Files as operations: document.read, document.list, document.write.
+namespace keyline::operations {
+
+/// Where curves, points or surfaces come from and how they are to be read.
+struct InputRequest {
+  std::vector<std::string> file;
+  std::vector<std::string> columns;
+  std::string weight_column;
+  std::string id_column;
+  std::string select;
+  std::string glyphs;
+  std::string section;
+  std::optional<double> band;
+  std::optional<long> row;
+  std::optional<long> column;
+  Acquiring acquiring;
+  std::string unit;
+  bool planar = false;
+  static constexpr auto describe() {
+    using Request = InputRequest;
+    return core::fields(
+        core::field<&Request::file>(
+            "points (csv, tsv, dat, xyz, pts), curves (svg, dxf, step, iges, glif, json), fonts "
+            "(ttf, otf; with glyphs), meshes (obj, stl, ply; with section), drawings (png, jpeg, "
+            "tiff, webp); several files are parts of one key-line")
+            .count(1)
+            .or_bare_item()
+            .needed(),
+        core::field<&Request::columns>("of points: names or numbers of x, y and maybe z"),
+        core::field<&Request::weight_column>("of points: column of weights"),
+        core::field<&Request::id_column>("of points: column that tells curves apart"),
+        core::field<&Request::select>(
+            "take only what has this name, lies on this layer, or has this number, from 1"),
+        core::field<&Request::glyphs>("of a font: characters, /name or U+0053"),
+        core::field<&Request::section>(
+            "cut a cloud or mesh by a plane, as in y=0; auto: by its symmetry plane"),
+        core::field<&Request::band>("half thickness of the section of a cloud")
+            .in("length")
+            .within(core::kPositive),
+        core::field<&Request::row>("of a lattice of range data, from 0").within(core::at_least(0)),
+        core::field<&Request::column>("of a lattice of range data, from 0")
+            .within(core::at_least(0)),
+        core::flattened<&Request::acquiring>(),
+        core::field<&Request::unit>("of the coordinates; else the file's own"),
+        core::field<&Request::planar>(
+            "curves in space that lie in a plane as planar ones, others left out and told"));
+  }
+};
+
+/// A curve, or points, with its label.
+struct NamedCurve {
+  std::string name;
+  std::string layer;
+  std::string color;
+  double stroke_width = 0;
+  std::optional<AnyCurve> curve;
+  std::optional<acquire::KeyLine> line;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&NamedCurve::name>("in the file; may be empty"),
+        core::field<&NamedCurve::layer>("may be empty"),
+        core::field<&NamedCurve::color>("#rrggbb; may be empty"),
+        core::field<&NamedCurve::stroke_width>("0: none given")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&NamedCurve::curve>("the curve, exact"),
+        core::field<&NamedCurve::line>("measured points, put in order and cleaned"));
+  }
+};
+
+struct NamedSurfaceValue {
+  std::string name;
+  std::string layer;
+  std::string color;
+  surface::Surface surface;
+  int trims = 0;
+  static constexpr auto describe() {
+    using Named = NamedSurfaceValue;
+    return core::fields(core::field<&Named::name>("in the file; may be empty"),
+                        core::field<&Named::layer>("may be empty"),
+                        core::field<&Named::color>("#rrggbb; may be empty"),
+                        core::field<&Named::surface>("whole, as without its trims").needed(),
+                        core::field<&Named::trims>("edges that cut a face out of it"));
+  }
+};
+
+struct Page {
+  core::Point2 low;
+  core::Point2 high;
+  static constexpr auto describe() {
+    return core::fields(core::field<&Page::low>("lower left"),
+                        core::field<&Page::high>("upper right"));
+  }
+};
+
+struct ReadAnswer {
+  std::string unit;
+  std::vector<NamedCurve> curves;
+  std::vector<NamedSurfaceValue> surfaces;
+  std::optional<Page> page;
+  std::vector<std::string> skipped;
+
+  document::Document document;  ///< not part of the public form: for pictures
+
+  static constexpr auto describe() {
+    using Answer = ReadAnswer;
+    return core::fields(core::field<&Answer::unit>("of all lengths; empty: none given"),
+                        core::field<&Answer::curves>("planar, then in space, in the file's order"),
+                        core::field<&Answer::surfaces>("in the file's order"),
+                        core::field<&Answer::page>("what a drawing shows"),
+                        core::field<&Answer::skipped>("what the file holds beside, in words"));
+  }
+};
+
+/// The things of a file: measured points as acquired lines, all else as curves and surfaces.
+core::Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress& progress);
+
+}  // namespace keyline::operations

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "keyline/operations/operation.h"
+
+/// Requests as JSON: what every door calls.
+namespace keyline::operations {
+
+/// What an operation made of a request, typed: for what shows it. A door needs only result_json.
+struct Outcome {
+  const Operation* operation = nullptr;
+  std::shared_ptr<const void> request;
+  std::shared_ptr<const void> result;
+
+  /// The result where it is of that type, else null.
+  template <class Answer>
+  const Answer* result_as() const {
+    return operation->result == &core::type_of<Answer>() ? static_cast<const Answer*>(result.get())
+                                                         : nullptr;
+  }
+  template <class Request>
+  const Request* request_as() const {
+    return operation->request == &core::type_of<Request>()
+               ? static_cast<const Request*>(request.get())
+               : nullptr;
+  }
+};
+
+/// Fields read and checked, each once, the operation run, the forms asked for added to its curves.
+/// "op" and "id" are let pass. Never throws: what goes wrong inside is an `internal` failure.
+core::Result<Outcome> carry_out(const std::string& name, const nlohmann::json& request,
+                                const Context& context);
+
+core::Result<nlohmann::json> result_json(const Outcome& outcome);
+
+/// Both in one.
+core::Result<nlohmann::json> perform(const std::string& name, const nlohmann::json& request,
+                                     const Context& context);
+
+/// The answer to one request object {"op":…, "id":…, …} in the public form with "ok".
+nlohmann::json answer(const nlohmann::json& request, const Context& context);
+
+/// The same for one line of text, which need not be JSON at all.
+std::string answer_line(const std::string& line, const Context& context);
+/// `defaults` {"seed":…, "tolerance":…} stand for what a request leaves out, where its operation
+/// has such a field; a tolerance only where it is a length.
+std::string answer_line(const std::string& line, const Context& context,
+                        const nlohmann::json& defaults);
+
+/// The failure as the answer to a line, with its id where the line has one.
+std::string failed_line(const std::string& line, const core::Failure& failure);
+
+/// {"code":…, "message":…, "path":…, "hint":…}.
+nlohmann::json failure_json(const core::Failure& failure);
+
+}  // namespace keyline::operations

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyline/operations/made_curve.h"
+#include "keyline/sketch/trace.h"
+
+/// From a drawing to curves as an operation: sketch.trace.
+namespace keyline::operations {
+
+struct SketchRequest {
+  std::string image;
+  std::string file;
+  sketch::TraceOptions options;
+  std::optional<std::array<std::optional<double>, sketch::kRegionCount>> thresholds;
+  std::optional<double> scale;
+  std::optional<double> dpi;
+  static constexpr auto describe() {
+    using Request = SketchRequest;
+    using Trace = sketch::TraceOptions;
+    using Ink = sketch::BinarizeOptions;
+    using Tone = sketch::ToneOptions;
+    using Curve = sketch::StrokeCurveOptions;
+    return core::fields(
+        core::field<&Request::image>("PNG, JPEG, TIFF or WebP in base64; or file"),
+        core::field<&Request::file>(
+            "path of such a picture, or of pen strokes (scap, svg, dxf, json); or image"),
+        core::field<&Request::options, &Trace::binarize, &Ink::threshold>(
+            "of the log picture: what is darker is ink; else by region")
+            .within(core::from_to(0, 1)),
+        core::field<&Request::thresholds>(
+            "of the 8 x 8 regions, row by row from the top left; null: found")
+            .within(core::from_to(0, 1)),
+        core::field<&Request::options, &Trace::tone, &Tone::gain>(
+            "the a of y = a log x; else such that paper is 1")
+            .named("log_gain")
+            .within(core::kPositive),
+        core::field<&Request::options, &Trace::tone, &Tone::flatten>(
+            "take the paper's own shades out"),
+        core::field<&Request::options, &Trace::tone, &Tone::polarity>(
+            "dark lines on light paper, or light ones on dark"),
+        core::field<&Request::options, &Trace::edge>("the middle of the lines, or the ink's outer "
+                                                     "border"),
+        core::field<&Request::scale>("mm per pixel; else lengths are pixels")
+            .within(core::kPositive),
+        core::field<&Request::dpi>("pixels per inch, in place of scale: lengths are mm then")
+            .within(core::kPositive),
+        core::field<&Request::options, &Trace::consolidate>("lines drawn several times become one"),
+        core::field<&Request::options, &Trace::curve, &Curve::aim>(
+            "what the curves' curvature is driven to")
+            .named("curvature"),
+        core::field<&Request::options, &Trace::curve, &Curve::tolerance>(
+            "largest distance of the curve from the line; 0: a quintic per line segment")
+            .in("pixel")
+            .within(core::at_least(0)),
+        core::field<&Request::options, &Trace::gap>("longest gap bridged; else by the stroke width")
+            .in("pixel")
+            .within(core::at_least(0)),
+        core::field<&Request::options, &Trace::specks>(
+            "pieces of ink of fewer pixels are dirt; else by the stroke width")
+            .within(core::from_to(0, 1 << 20)));
+  }
+};
+
+struct CurvatureErrorShown {
+  double before = 0;
+  double after = 0;
+  static constexpr auto describe() {
+    return core::fields(core::field<&CurvatureErrorShown::before>("rms").in("1/length"),
+                        core::field<&CurvatureErrorShown::after>("rms").in("1/length"));
+  }
+};
+
+struct StrokeShown {
+  std::vector<core::Point2> points;
+  std::vector<core::Point2> segments;
+  MadeCurve curve;
+  std::vector<std::size_t> corners;
+  bool closed = false;
+  double width = 0;
+  std::optional<std::vector<std::size_t>> members;
+  std::optional<CurvatureErrorShown> curvature_error;
+  static constexpr auto describe() {
+    using Stroke = StrokeShown;
+    return core::fields(
+        core::field<&Stroke::points>("along the line's middle"),
+        core::field<&Stroke::segments>("vertices of the line segments"),
+        core::flattened<&Stroke::curve>(),
+        core::field<&Stroke::corners>("pieces of the curve that start with a corner"),
+        core::field<&Stroke::closed>("whether the line is"),
+        core::field<&Stroke::width>("of the ink, median").in("length"),
+        core::field<&Stroke::members>("drawn strokes it stands for, from 0"),
+        core::field<&Stroke::curvature_error>("curvature less its target"));
+  }
+};
+
+struct SketchAnswer {
+  std::vector<StrokeShown> strokes;
+  std::array<double, 2> size{};
+  std::string unit;
+  double explained = 1;
+  std::vector<std::size_t> left_over;
+  std::vector<std::string> report;
+
+  sketch::TraceResult trace;  ///< not part of the public form: for pictures
+
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&SketchAnswer::strokes>("the lines, longest first"),
+        core::field<&SketchAnswer::size>("of the picture").in("length"),
+        core::field<&SketchAnswer::unit>("of lengths: px, or mm where the scale is known"),
+        core::field<&SketchAnswer::explained>(
+            "share of the ink, or of the strokes' length, that lies beside a curve"),
+        core::field<&SketchAnswer::left_over>("drawn strokes that no line stands for, from 0"),
+        core::field<&SketchAnswer::report>("what was decided, left out or looks doubtful"));
+  }
+};
+
+/// Millimetres per pixel; 1 where lengths are pixels.
+double scale_of(const SketchRequest& request);
+
+/// The drawing traced: a picture, or pen strokes of a file of vectors.
+core::Result<sketch::TraceResult> trace_drawing(const SketchRequest& request,
+                                                const core::Progress& progress,
+                                                std::function<void(const sketch::Stage&)> stage);
+
+SketchAnswer sketch_answer(const SketchRequest& request, sketch::TraceResult trace);
+
+}  // namespace keyline::operations

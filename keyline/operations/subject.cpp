@@ -1,0 +1,120 @@
+#include "keyline/operations/subject.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/acquire/acquire.h"
+#include "keyline/analysis/continuity.h"
+#include "keyline/analysis/profile.h"
+#include "keyline/core/angle.h"
+
+namespace keyline::operations {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+
+constexpr int kCurveSamples = 801;
+
+/// The vertices of a path that is one polyline, or is made of straight edges that turn as points of
+/// a curve do; else none.
+std::vector<core::Point2> vertices_of(const document::Path& path) {
+  if (path.curves.size() == 1)
+    if (const auto* line = std::get_if<curve::Polyline2>(&path.curves.front().value))
+      return line->points;
+  std::vector<core::Point2> vertices;
+  for (const document::PlanarCurve& c : path.curves) {
+    const auto* line = std::get_if<curve::Polyline2>(&c.value);
+    const auto* edge = std::get_if<curve::Bezier2>(&c.value);
+    if (!line && !(edge && edge->control.size() == 2)) return {};
+    for (const core::Point2 p : line ? line->points : edge->control)
+      if (vertices.empty() || vertices.back() != p) vertices.push_back(p);
+  }
+  return are_points_of_a_curve(vertices) ? vertices : std::vector<core::Point2>{};
+}
+
+Result<acquire::KeyLine> acquired(const std::vector<core::Point2>& points, const Subject& subject) {
+  acquire::RawCurve raw;
+  for (const core::Point2 p : points) raw.points.push_back({p.x, p.y, 0});
+  raw.weights = subject.weights;
+  acquire::AcquireOptions options = acquire_options(subject.acquiring);
+  if (subject.curve) {
+    options.ordered = true;
+    if (subject.curve->closed && !options.closed) options.closed = true;
+  }
+  return acquire::acquire_key_line(raw, options);
+}
+
+}  // namespace
+
+acquire::AcquireOptions acquire_options(const Acquiring& told) {
+  acquire::AcquireOptions options;
+  options.closed = told.closed;
+  if (told.keep_order) options.ordered = true;
+  options.remove_outliers = !told.keep_strays;
+  options.noise = told.noise;
+  return options;
+}
+
+bool are_points_of_a_curve(const std::vector<core::Point2>& vertices) {
+  constexpr std::size_t kFewest = 5;          // for a spline
+  constexpr double kOctagon = core::kPi / 4;  // its turn at a vertex: polygons of fewer sides
+  if (vertices.size() < kFewest) return false;
+  double turning = 0;
+  for (std::size_t i = 2; i < vertices.size(); ++i)
+    turning += std::abs(
+        core::angle_between(vertices[i - 1] - vertices[i - 2], vertices[i] - vertices[i - 1]));
+  return turning <= kOctagon * static_cast<double>(vertices.size() - 2);
+}
+
+Result<acquire::KeyLine> sampled_line(const document::Path& path) {
+  const analysis::CurveView view = analysis::view(path);
+  const analysis::ArcLengthTable table(view);
+  const double length = table.length();
+  if (!(length > 0) || !std::isfinite(length))
+    return fail(ErrorCode::bad_input, "the curve has no length", "give a curve with extent",
+                "curve");
+  acquire::KeyLine line;
+  line.length = length;
+  line.closed = path.closed && core::distance(evaluate(path, 0), evaluate(path, 1)) < 1e-6 * length;
+  const int n = std::max<int>(kCurveSamples, 40 * static_cast<int>(path.curves.size()) + 1);
+  std::vector<double> corners;
+  const analysis::ContinuityTolerance smooth{1e-6 * length, 0.02, 1e-3, 1e-2};
+  if (line.closed && analysis::continuity({view}, true, smooth).back().order == 0)
+    corners.push_back(0);
+  const auto joints = analysis::inner_continuity(view, smooth);
+  const auto breaks = breakpoints(path);
+  for (std::size_t k = 0; k < joints.size() && k + 2 < breaks.size() + 1; ++k)
+    if (joints[k].order == 0) corners.push_back(table.length_at(breaks[k + 1]));
+  std::vector<double> at;
+  for (int i = 0; i < n; ++i) at.push_back(length * i / (n - 1));
+  at.insert(at.end(), corners.begin(), corners.end());
+  std::sort(at.begin(), at.end());
+  for (const double s : at) {
+    const core::Point2 p = evaluate(path, table.parameter_at(s));
+    if (!line.points.empty() && core::distance(line.points.back(), p) < 1e-9 * length) continue;
+    line.points.push_back(p);
+    const bool corner = std::any_of(corners.begin(), corners.end(),
+                                    [&](double c) { return std::abs(c - s) < 1e-9 * length; });
+    if (corner) line.corners.push_back(line.points.size() - 1);
+  }
+  if (line.closed) line.points.pop_back();
+  return line;
+}
+
+Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject) {
+  using Line = std::optional<acquire::KeyLine>;
+  if ((subject.points ? 1 : 0) + (subject.curve ? 1 : 0) + (subject.line ? 1 : 0) != 1)
+    return fail(ErrorCode::bad_input, "either \"points\" or \"curve\" is wanted",
+                "give one of the two, or a \"line\"", "points");
+  if (subject.line) return Line{subject.line};
+  const std::vector<core::Point2> points =
+      subject.points ? *subject.points : vertices_of(*subject.curve);
+  if (points.empty()) return Line{};
+  auto line = acquired(points, subject);
+  if (!line) return std::unexpected(line.error());
+  return Line{std::move(*line)};
+}
+
+}  // namespace keyline::operations

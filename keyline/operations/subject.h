@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "keyline/acquire/acquire.h"
+#include "keyline/acquire/key_line.h"
+#include "keyline/operations/values.h"
+
+/// What `fair` and `curve.analyze` work on: one place decides what counts as measured points.
+namespace keyline::operations {
+
+/// What may be told of measured points instead of being recognised.
+struct Acquiring {
+  std::optional<bool> closed;
+  std::optional<double> noise;
+  bool keep_order = false;
+  bool keep_strays = false;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&Acquiring::closed>("whether the points are a closed outline; else recognised"),
+        core::field<&Acquiring::noise>("standard deviation of the positions; else estimated")
+            .in("length")
+            .within(core::at_least(0)),
+        core::field<&Acquiring::keep_order>("never put points in another order"),
+        core::field<&Acquiring::keep_strays>("never drop a point as stray"));
+  }
+};
+
+acquire::AcquireOptions acquire_options(const Acquiring& told);
+
+struct Subject {
+  std::optional<std::vector<core::Point2>> points;
+  std::optional<document::Path> curve;
+  std::optional<acquire::KeyLine> line;
+  std::vector<double> weights;
+  Acquiring acquiring;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&Subject::points>("measured points; or curve, or line").count(1),
+        core::field<&Subject::curve>(
+            "any planar curve or path; or points. The vertices of a polyline are points in their "
+            "order"),
+        core::field<&Subject::line>("a key-line as document.read gives it; or points"),
+        core::field<&Subject::weights>("one positive weight per point"),
+        core::flattened<&Subject::acquiring>());
+  }
+};
+
+/// Whether vertices are points of a curve (a hull's offsets, a digitised outline) and not corners
+/// of a polygon: enough for a spline, and turning on average no more than an octagon's.
+bool are_points_of_a_curve(const std::vector<core::Point2>& vertices);
+
+/// The subject's points as a key-line, where it is made of points: those given (put in order and
+/// cleaned), those of a line as they are, the vertices of a polyline in their order. Empty where it
+/// is another curve. bad_input unless it is one of the three.
+core::Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject);
+
+/// A curve as a key-line: samples evenly spaced in arc length, no noise, the curve's own corners.
+core::Result<acquire::KeyLine> sampled_line(const document::Path& path);
+
+}  // namespace keyline::operations

@@ -1,0 +1,146 @@
+#include "keyline/operations/values.h"
+
+#include <nlohmann/json.hpp>
+
+#include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json_space.h"
+#include "keyline/exchange/json_surface.h"
+#include "keyline/operations/json_form.h"
+
+namespace keyline::operations {
+namespace {
+
+using core::Result;
+using core::Type;
+using nlohmann::json;
+
+template <class T>
+Result<void> keep(Result<T> read, void* value) {
+  if (!read) return std::unexpected(std::move(read.error()));
+  *static_cast<T*>(value) = std::move(*read);
+  return {};
+}
+
+json path_json(const document::Path& path) {
+  const bool alone = path.curves.size() == 1 &&
+                     (!path.closed || std::holds_alternative<lac::Chain>(path.curves[0].value));
+  return alone ? exchange::to_json(path.curves.front()) : exchange::to_json(path);
+}
+
+json path_json(const SpacePath& path) {
+  json members = json::array();
+  for (const document::SpaceCurve& c : path.curves) members.push_back(exchange::to_json(c));
+  return {{"type", "path"}, {"curves", std::move(members)}, {"closed", path.closed}};
+}
+
+json path_json(const document::SpaceCurve& c) { return exchange::to_json(c); }
+
+json curve_json(const AnyCurve& curve) {
+  return std::visit([](const auto& c) { return path_json(c); }, curve);
+}
+
+bool is_space_path(const json& j) {
+  if (!j.is_object() || j.value("type", json()) != "path") return false;
+  const auto members = j.find("curves");
+  if (members == j.end() || !members->is_array()) return false;
+  return std::any_of(members->begin(), members->end(),
+                     [](const json& m) { return exchange::is_space_curve(m); });
+}
+
+Result<SpacePath> space_path_from_json(const json& j, const std::string& where) {
+  SpacePath path;
+  for (std::size_t i = 0; i < j["curves"].size(); ++i) {
+    auto c = exchange::space_curve_from_json(j["curves"][i],
+                                             where + ".curves[" + std::to_string(i) + "]");
+    if (!c) return std::unexpected(c.error());
+    path.curves.push_back(std::move(*c));
+  }
+  if (j.contains("closed") && j["closed"].is_boolean()) path.closed = j["closed"].get<bool>();
+  return path;
+}
+
+Result<AnyCurve> any_curve_from_json(const json& j, const std::string& where) {
+  const auto any = [](auto read) -> Result<AnyCurve> {
+    if (!read) return std::unexpected(std::move(read.error()));
+    return AnyCurve{std::move(*read)};
+  };
+  if (is_space_path(j)) return any(space_path_from_json(j, where));
+  if (j.is_object() && exchange::is_space_curve(j))
+    return any(exchange::space_curve_from_json(j, where));
+  return any(exchange::path_from_json(j, where));
+}
+
+constexpr ValueForm kPathForm{
+    [](const json& j, const std::string& where, void* value) {
+      return keep(exchange::path_from_json(j, where), value);
+    },
+    [](const void* value) { return path_json(*static_cast<const document::Path*>(value)); },
+    R"({"$ref":"#/$defs/Curve"})"};
+
+constexpr ValueForm kAnyCurveForm{
+    [](const json& j, const std::string& where, void* value) {
+      return keep(any_curve_from_json(j, where), value);
+    },
+    [](const void* value) { return curve_json(*static_cast<const AnyCurve*>(value)); },
+    R"({"$ref":"#/$defs/Curve"})"};
+
+constexpr ValueForm kBoundedForm{
+    [](const json& j, const std::string& where, void* value) -> Result<void> {
+      auto& bounded = *static_cast<BoundedCurve*>(value);
+      if (auto done = keep(any_curve_from_json(j, where), &bounded.curve); !done) return done;
+      const auto deviation = j.find("deviation");
+      if (deviation == j.end()) return {};
+      return keep(exchange::number_from_json(*deviation, where + ".deviation"), &bounded.deviation);
+    },
+    [](const void* value) {
+      const auto& bounded = *static_cast<const BoundedCurve*>(value);
+      const auto* path = std::get_if<document::Path>(&bounded.curve);
+      const bool beziers =
+          path && std::holds_alternative<curve::Bezier2>(path->curves.front().value);
+      json j = beziers ? exchange::to_json(*path) : curve_json(bounded.curve);
+      j["deviation"] = bounded.deviation;
+      return j;
+    },
+    R"({"allOf":[{"$ref":"#/$defs/Curve"}],
+        "properties":{"deviation":{"type":"number","minimum":0}},"required":["deviation"]})"};
+
+constexpr ValueForm kSurfaceForm{
+    [](const json& j, const std::string& where, void* value) {
+      return keep(exchange::surface_from_json(j, where), value);
+    },
+    [](const void* value) {
+      return exchange::to_json(*static_cast<const surface::Surface*>(value));
+    },
+    R"({"$ref":"#/$defs/Surface"})"};
+
+constexpr Type value_type(std::string_view name, const ValueForm& form) {
+  Type type;
+  type.kind = Type::Kind::value;
+  type.name = name;
+  type.form = &form;
+  return type;
+}
+constexpr Type kPath = value_type("Curve", kPathForm);
+constexpr Type kAnyCurve = value_type("Curve", kAnyCurveForm);
+constexpr Type kBounded = value_type("BoundedCurve", kBoundedForm);
+constexpr Type kSurface = value_type("Surface", kSurfaceForm);
+
+}  // namespace
+
+document::Path path_of(document::PlanarCurve curve) {
+  document::Path path;
+  if (const auto* chain = std::get_if<lac::Chain>(&curve.value)) path.closed = chain->closed;
+  path.curves.push_back(std::move(curve));
+  return path;
+}
+
+}  // namespace keyline::operations
+
+namespace keyline::core {
+
+const Type& ValueType<document::Path>::type() { return operations::kPath; }
+const Type& ValueType<operations::AnyCurve>::type() { return operations::kAnyCurve; }
+const Type& ValueType<operations::BoundedCurve>::type() { return operations::kBounded; }
+const Type& ValueType<surface::Surface>::type() { return operations::kSurface; }
+
+}  // namespace keyline::core

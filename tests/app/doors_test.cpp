@@ -1,0 +1,195 @@
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "keyline/operations/perform.h"
+#include "keyline/operations/schema.h"
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+using core::Type;
+using nlohmann::json;
+using operations::Operation;
+
+/// A value near the one given, within the field's bounds; null where the kind is not varied.
+json varied(const core::Field& field, const Type& type, const json& given, std::mt19937& dice) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(dice);
+  };
+  const core::Bounds& b = field.bounds;
+  switch (type.kind) {
+    case Type::Kind::boolean:
+      return uniform(0, 1) < 0.5;
+    case Type::Kind::integer: {
+      const double low = std::isfinite(b.low) ? b.low : 0;
+      return static_cast<std::int64_t>(std::floor(uniform(low, std::min(b.high, low + 5) + 0.999)));
+    }
+    case Type::Kind::number: {
+      const double about = given.is_number()      ? given.get<double>()
+                           : std::isfinite(b.low) ? b.low + 0.5
+                                                  : 0.5;
+      const double low = std::max(b.low, about - 0.2 * std::abs(about) - 0.01);
+      const double high = std::min(b.high, about + 0.2 * std::abs(about) + 0.01);
+      const double value = uniform(low, high);
+      return core::contains(b, value) ? json(value) : json();
+    }
+    case Type::Kind::choice:
+      return std::string(type.words[dice() % type.word_count]);
+    case Type::Kind::optional:
+      return varied(field, type.item(), given, dice);
+    default:
+      return {};
+  }
+}
+
+/// The example with some of its single values, and some it leaves out, changed.
+json varied(const Operation& operation, json request, std::mt19937& dice) {
+  core::visit_fields(*operation.request, operation.request->make().get(),
+                     [&](const core::Field& field, void*) {
+                       if (field.name == "file" || dice() % 3 != 0) return;
+                       const std::string name(field.name);
+                       const json given = request.contains(name) ? request[name] : json();
+                       if (json value = varied(field, field.type(), given, dice); !value.is_null())
+                         request[name] = std::move(value);
+                     });
+  return request;
+}
+
+std::string quoted(const std::string& text) {
+  std::string all = "'";
+  for (const char c : text) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return all + "'";
+}
+
+/// The same request typed: every field an option.
+std::string typed(const Operation& operation, const json& request) {
+  std::string line = "perform " + operation.name + " --json";
+  for (const auto& [name, value] : request.items()) {
+    std::string option = "--" + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    const std::string text = value.is_boolean()  ? (value.get<bool>() ? "yes" : "no")
+                             : value.is_string() ? value.get<std::string>()
+                                                 : value.dump();
+    line += " " + option + "=" + quoted(text);
+  }
+  return line;
+}
+
+struct Case {
+  const Operation* operation;
+  json request;
+};
+
+std::vector<Case> cases() {
+  std::mt19937 dice(7);
+  std::vector<Case> all;
+  for (const Operation& operation : operations::operations()) {
+    if (operation.writes_files) continue;  // two doors would write one file
+    for (const std::string& example : operation.examples)
+      all.push_back({&operation, json::parse(example)});
+  }
+  const std::size_t examples = all.size();
+  for (int i = 0; i < 200; ++i) {
+    const Case& base = all[static_cast<std::size_t>(i) % examples];
+    all.push_back({base.operation, varied(*base.operation, base.request, dice)});
+  }
+  return all;
+}
+
+TEST(Doors, CommandLineAndBatchAnswerAlikeToTheLastBit) {
+  const Scratch s;
+  const std::vector<Case> all = cases();
+  std::string lines;
+  for (const Case& c : all) {
+    json request = c.request;
+    request["op"] = c.operation->name;
+    lines += request.dump() + "\n";
+  }
+  const std::string there = "cd " KEYLINE_SOURCE_DIR " && ";
+  const Outcome batch = run_keyline("batch --quiet <" + s.write("requests", lines), there);
+  ASSERT_EQ(batch.status, 0) << batch.err;
+  std::istringstream answers(batch.out);
+  std::size_t good = 0;
+  for (const Case& c : all) {
+    std::string line;
+    ASSERT_TRUE(std::getline(answers, line));
+    const json answer = json::parse(line);
+    const std::string command = typed(*c.operation, c.request);
+    const Outcome o = run_keyline(command, there);
+    if (answer["ok"] == true) {
+      EXPECT_EQ(o.out, answer["result"].dump() + "\n") << command;
+      ++good;
+    } else {
+      EXPECT_NE(o.status, 0) << command;
+      EXPECT_NE(o.err.find(answer["error"]["message"].get<std::string>()), std::string::npos)
+          << command << '\n'
+          << o.err << '\n'
+          << line;
+    }
+  }
+  EXPECT_GT(good, all.size() / 2);  // most are answered, not refused
+}
+
+/// One polyline as points, as a curve value, in a table and in a drawing: one curve through all.
+TEST(Doors, TheSamePointsGiveTheSamePiecesWhateverHoldsThem) {
+  const Scratch s;
+  json points = json::array();
+  std::string table;
+  std::string drawing = "<svg xmlns='http://www.w3.org/2000/svg'><polyline fill='none' points='";
+  for (int i = 0; i < 60; ++i) {
+    const double x = std::round(1e4 * i / 59.0) / 100;
+    const double y = std::round(1e4 * std::sin(0.05 * x)) / 100 * 0.2;
+    points.push_back({x, y});
+    table += json(x).dump() + "," + json(y).dump() + "\n";
+    drawing += json(x).dump() + "," + json(-y).dump() + " ";
+  }
+  const json curve{{"type", "polyline"}, {"points", points}};
+  const std::string lines = json{{"op", "fair"}, {"points", points}}.dump() + "\n" +
+                            json{{"op", "fair"}, {"curve", curve}}.dump() + "\n";
+  std::istringstream answers(run_keyline("batch --quiet <" + s.write("lines", lines)).out);
+  std::vector<std::size_t> pieces;
+  for (std::string line; std::getline(answers, line);)
+    pieces.push_back(json::parse(line)["result"]["pieces"].size());
+  for (const std::string& file :
+       std::vector<std::string>{s.write("a.csv", table), s.write("a.json", curve.dump()),
+                                s.write("a.svg", drawing + "'/></svg>")}) {
+    const Outcome o = run_keyline("fair --quiet --json " + file);
+    ASSERT_EQ(o.status, 0) << o.err;
+    pieces.push_back(json::parse(o.out)["pieces"].size());
+  }
+  ASSERT_EQ(pieces.size(), 5U);
+  for (const std::size_t n : pieces) EXPECT_EQ(n, pieces.front());
+  EXPECT_LT(pieces.front(), 10U);
+}
+
+TEST(Tools, WorkOnCurvesOfAFile) {
+  const Scratch s;
+  const std::string file = example("cubic.json");
+  const std::string reversed = s.path("reversed.json");
+  EXPECT_EQ(run_keyline("reverse --quiet " + file + " -o " + reversed).status, 0);
+  const Outcome o = run_keyline("compare --json " + file + " " + reversed);
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_LT(json::parse(o.out)["largest"].get<double>(), 1e-9);
+  EXPECT_GT(json::parse(o.out)["ends"][0].get<double>(), 0.1);
+  const std::string halves = s.path("halves.json");
+  EXPECT_EQ(run_keyline("split --quiet " + file + " --at 0.5 -o " + halves).status, 0);
+  const Outcome listed = run_keyline("list --json " + halves);
+  EXPECT_EQ(json::parse(listed.out)["things"].size(), 2U) << listed.err;
+  const Outcome joined = run_keyline("join --json --tolerance 1e-6 " + halves);
+  EXPECT_EQ(joined.status, 0) << joined.err;
+  for (const char* command : {"trim --from 0.2 --to 0.6 ", "mirror --point 0,0 --direction 0 ",
+                              "offset --distance=-0.01 "}) {
+    const std::string out = s.path("out.svg");
+    const Outcome done = run_keyline(std::string(command) + "--quiet " + file + " -o " + out);
+    EXPECT_EQ(done.status, 0) << command << done.err;
+    EXPECT_TRUE(std::filesystem::exists(out)) << command;
+  }
+}
+
+}  // namespace
+}  // namespace keyline::app_test
