@@ -10,7 +10,7 @@
 namespace keyline::exchange {
 namespace {
 
-constexpr double kClosing = 1e-9;  // of the size
+constexpr double kMeeting = 1e-9;  // of the size: ends this near are one
 
 double size_of(const std::vector<curve::Bezier2>& pieces) {
   double size = 0;
@@ -25,14 +25,14 @@ void close(SvgPath& path) {
   if (path.pieces.empty()) return;
   const core::Point2 start = path.pieces.front().control.front();
   core::Point2& end = path.pieces.back().control.back();
-  if (core::distance(start, end) > kClosing * size_of(path.pieces)) return;
+  if (core::distance(start, end) > kMeeting * size_of(path.pieces)) return;
   end = start;
   path.closed = true;
 }
 
 /// Ends of neighbours that rounding has parted are made one, so that the pen stays down.
 void join(std::vector<curve::Bezier2>& pieces) {
-  const double reach = 1e-14 * size_of(pieces);
+  const double reach = kMeeting * size_of(pieces);
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     const core::Point2 end = pieces[i - 1].control.back();
     core::Point2& start = pieces[i].control.front();
