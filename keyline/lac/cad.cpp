@@ -54,7 +54,7 @@ void append(CadBeziers& out, Bezier2 piece, double bound, bool known_monotone = 
   out.pieces.push_back(std::move(piece));
 }
 
-/// Part without inflection.
+/// Part without inflection, as cubics (raised to the degree asked for).
 bool append_cubics(const Segment& part, const CadOptions& o, CadBeziers& out) {
   const UnitPiece unit = detail::unit_piece(piece_of(part));
   const auto cubics = detail::cubics_of(unit, o.tolerance / unit.length, o.monotone);
@@ -62,7 +62,7 @@ bool append_cubics(const Segment& part, const CadOptions& o, CadBeziers& out) {
     Bezier2 b;
     b.control.reserve(4);
     for (const Vector2 v : c.cubic.control) b.control.push_back(place_point(part, unit, v));
-    append(out, std::move(b), c.bound * unit.length, c.monotone);
+    append(out, curve::elevate_degree(b, o.degree - 3), c.bound * unit.length, c.monotone);
   }
   return !cubics.empty();
 }
@@ -73,10 +73,12 @@ struct QuinticTry {
 };
 QuinticTry try_quintic(const Segment& s) {
   const UnitPiece unit = detail::unit_piece(piece_of(s));
+  const QuinticTry none{{}, std::numeric_limits<double>::infinity()};
+  if (unit.turning > 3) return none;
+  const detail::ControlPolygon polygon = detail::best_polygon(unit, 5);
+  if (polygon.empty()) return none;  // no handle of a usual length meets such end curvatures
   QuinticTry q;
-  if (unit.turning > 3) return {{}, std::numeric_limits<double>::infinity()};
-  for (const Vector2 v : detail::best_polygon(unit, 5))
-    q.bezier.control.push_back(place_point(s, unit, v));
+  for (const Vector2 v : polygon) q.bezier.control.push_back(place_point(s, unit, v));
   q.bound = deviation_bound(s, q.bezier);
   return q;
 }
@@ -115,6 +117,15 @@ bool append_quintics(const Segment& s, const CadOptions& o, CadBeziers& out) {
   return true;
 }
 
+/// Quintics, and cubics where those end: next to a cusp their handles have no room.
+bool append_side(const Segment& side, const CadOptions& o, bool cuspidal, CadBeziers& out) {
+  if (o.degree == 3 || cuspidal) return append_cubics(side, o, out);
+  const CadBeziers before = out;
+  if (append_quintics(side, o, out)) return true;
+  out = before;
+  return append_cubics(side, o, out);
+}
+
 bool is_straight(const Segment& s) { return s.curvature_start == 0 && s.curvature_end == 0; }
 
 Bezier2 straight_piece(const Segment& s, int degree) {
@@ -135,9 +146,7 @@ bool append_segment(const Segment& s, const CadOptions& o, CadBeziers& out) {
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     Segment side = breaks.size() == 2 ? s : part(s, breaks[i], breaks[i + 1]);
     if (breaks.size() == 3) (i == 0 ? side.curvature_end : side.curvature_start) = 0;
-    const bool done =
-        o.degree == 3 || cuspidal ? append_cubics(side, o, out) : append_quintics(side, o, out);
-    if (!done) return false;
+    if (!append_side(side, o, cuspidal, out)) return false;
   }
   return true;
 }

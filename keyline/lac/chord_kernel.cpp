@@ -8,6 +8,7 @@
 #include "keyline/lac/arm.h"
 #include "keyline/lac/chord_search.h"
 #include "keyline/lac/quick_search.h"
+#include "keyline/numeric/power_mean.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::lac::detail {
@@ -46,6 +47,27 @@ ChordSample sample_at(const Decays& d, double theta, double q, Vector2 axis, dou
   return s;
 }
 
+/// From this |b| q on, b < 0, the turning lies within e^-600 of the light end.
+constexpr double kTurnedLate = 600;
+
+/// chord_value where all the turning lies next to the light end: the rest is straight. With x from
+/// there the arc length goes as S = (e^{a q} - 1) / a, and the chord is 1 + G / S seen from the
+/// light end, G = integral of e^{a x} (e^{-i theta e^{b x}} - 1) (see clamped.cpp). For a >= 0.4
+/// the second term is below e^-240.
+ChordValue late_chord(const Decays& d, double theta, double q) {
+  if (d.a >= 0.4) return {{1, 0}, {0, 0}};
+  Vector2 g;
+  Vector2 power{1, 0};  // (-i theta)^k / k!
+  for (int k = 1; k < 60; ++k) {
+    power = (-theta / k) * core::perpendicular_left(power);
+    g = g + power / (-k * d.b - d.a);
+  }
+  const double growth = numeric::expm1_over(d.a * q) * q;  // S; may be infinite
+  const double share = 1 / growth;
+  const double slope = -share * (d.a + share);  // d(1/S)/dq = -e^{aq} / S^2
+  return {Vector2{1, 0} + share * Vector2{g.x, -g.y}, slope * Vector2{g.x, -g.y}};
+}
+
 }  // namespace
 
 Decays decays_of(double alpha) {
@@ -68,6 +90,7 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
     const double slope = (d.b > d.a ? 1 : -1) * circle_slope(theta);
     return {length * middle, slope * length * core::perpendicular_left(middle)};
   }
+  if (d.b < 0 && -d.b * q > kTurnedLate && std::isfinite(q)) return late_chord(d, theta, q);
   const Arm arm = unit_arm(d, theta, q);
   PanelWalk walk(arm, q, 6.5, 3.2);
   Panel panel;

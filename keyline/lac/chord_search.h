@@ -73,6 +73,12 @@ inline double newton_step(const SearchSetup& setup, const ChordSample& s) {
   return std::abs(x) < 1e-300 ? -s.miss / s.slope : -std::log1p(x) / setup.k;
 }
 
+/// Halves the bracket, or its logarithm where it spans orders of magnitude.
+inline double middle_of(double low, double high) {
+  if (high > 1000 * (1 + low)) return std::sqrt((1 + low) * (1 + high)) - 1;
+  return (low + high) / 2;
+}
+
 /// The q > 0 with at(q).miss = 0, where at(0).miss < 0.
 template <class F>
 ChordSolution search_chord(const SearchSetup& setup, F&& at) {
@@ -101,7 +107,8 @@ ChordSolution search_chord(const SearchSetup& setup, F&& at) {
       high = limit.q;
     }
     if (std::isfinite(high) && high - low <= 4e-16 * high) break;
-    if (!(next > low && next < high)) next = (low + std::min(high, setup.largest)) / 2;
+    const bool slow = iteration > 12 && iteration % 3 == 0 && std::isfinite(high);
+    if (slow || !(next > low && next < high)) next = middle_of(low, std::min(high, setup.largest));
     q = next;
   }
   return {ChordStatus::solved, q, s.length, iteration};

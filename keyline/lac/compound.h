@@ -18,10 +18,14 @@ struct CompoundRhythm {
 };
 
 struct CompoundSolution {
-  Chain chain;            ///< two pieces, from P0 to P2
-  bool reversed = false;  ///< the piece of alpha0 comes last: the radius falls from P0 to P2
-  double lambda0 = 0;     ///< of the standard form: reference point is the start for
-  double lambda1 = 0;     ///< alpha0 <= 1, the joint for alpha0 > 1 ([Compound] Fig. 5)
+  Chain chain;                  ///< two pieces, from P0 to P2; up to six where clamped
+  std::size_t joint_piece = 1;  ///< the first piece after the joint of the two slopes
+  bool reversed = false;        ///< the piece of alpha0 comes last: the radius falls from P0 to P2
+  double lambda0 = 0;  ///< of the standard form: reference point is the start for alpha0 <= 1, the
+  double lambda1 = 0;  ///< joint for alpha0 > 1 ([Compound] Fig. 5); at most the largest double
+  /// Curvature leaves e^-250 … e^250 over the chord: it stays constant from e^-100 and e^100 on,
+  /// and the curve is told from the exact one by less than 1e-40 of the chord (see G1Chain).
+  bool clamped = false;
   core::Point2 joint;
   double turning = 0;      ///< theta, signed
   double chord_angle = 0;  ///< psi at P0, signed
@@ -30,6 +34,7 @@ struct CompoundSolution {
 
 /// The compound-rhythm curve from P0 to P2 with tangents P1-P0 and P2-P1; at most one.
 /// Accuracy, failures and straight lines as solve_g1; turning_share outside (0, 1) is bad_input.
+/// Inside the drawable region nothing is refused.
 core::Result<CompoundSolution> solve_compound(core::Point2 p0, core::Point2 p1, core::Point2 p2,
                                               const CompoundRhythm& rhythm);
 
@@ -41,5 +46,7 @@ core::Result<CompoundSolution> solve_compound(const HandleAngles& angles,
 /// end orders. Closed form: [0, theta] where the flatter piece has 0 <= alpha1 < 1 and runs out
 /// before the sharper one (or alpha1 = 1, alpha0 <= 1). InvalidInput for a bad rhythm or theta.
 core::Interval drawable_region(const CompoundRhythm& rhythm, double theta);
+/// Whether the curve at the region's border exists itself (it ends in an inflection or a cusp).
+bool border_is_drawn(const CompoundRhythm& rhythm, double theta);
 
 }  // namespace keyline::lac

@@ -236,20 +236,34 @@ bool give_way(const SplineProblem& problem, const SplineState& state, std::vecto
   return true;
 }
 
+/// Spans of a slope from 0 on in which the curvature has come to change sign get slope -1; false
+/// where there are none.
+bool give_way_at_inflections(const SplineProblem& problem, const SplineState& state,
+                             std::vector<double>& wanted) {
+  bool any = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!(wanted[i] >= 0) || keeps_sign(problem, state, i)) continue;
+    wanted[i] = -1;
+    any = true;
+  }
+  return any;
+}
+
 /// From the clothoid spline to the slopes wanted. Spans in which curvature changes sign (for slopes
 /// from 0 on), then, as long as no curve is found, those in which it is nearest to vanishing keep
 /// -1: `wanted` becomes what was reached.
 core::Result<void> reach_slopes(SplineProblem& problem, std::vector<double>& wanted,
                                 SplineState& state, int& iterations) {
   const SplineState clothoids = state;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i] >= 0 && !keeps_sign(problem, clothoids, i)) wanted[i] = -1;
-  }
+  give_way_at_inflections(problem, clothoids, wanted);
   double share = 0;
   for (int round = 0; round < 40; ++round) {
     state = clothoids;
-    if (bend_slopes(problem, wanted, state, iterations, share)) return {};
-    if (!give_way(problem, state, wanted)) break;
+    if (bend_slopes(problem, wanted, state, iterations, share)) {
+      if (!give_way_at_inflections(problem, state, wanted)) return {};
+    } else if (!give_way(problem, state, wanted)) {
+      break;
+    }
   }
   const auto far = std::max_element(wanted.begin(), wanted.end(), [](double a, double b) {
     return std::abs(a + 1) < std::abs(b + 1);
@@ -362,6 +376,10 @@ core::Result<SplineSolution> solve_spline(std::span<const Point2> points,
   solution.iterations = iterations;
   for (std::size_t i = 0; i < spans; ++i) {
     if (reached[i] != prepared.wanted[i]) solution.overridden.push_back(i);
+  }
+  if (const auto valid = validate(solution.chain); !valid) {
+    return core::fail(ErrorCode::not_converged, "no sound curve of these slopes was found",
+                      "use slopes nearer to -1", "alpha");
   }
   return solution;
 }

@@ -27,12 +27,15 @@ struct CompoundResult {
   std::array<double, 2> lambda{};
   core::Point2 joint;
   HandlesSolution solution;
+  bool clamped = false;
   static constexpr auto describe() {
     return core::fields(
         core::flattened<&CompoundResult::curve>(),
         core::field<&CompoundResult::lambda>("of the standard forms of both pieces"),
         core::field<&CompoundResult::joint>("where the pieces meet"),
-        core::flattened<&CompoundResult::solution>());
+        core::flattened<&CompoundResult::solution>(),
+        core::field<&CompoundResult::clamped>(
+            "the curvature would leave the doubles and stays constant from e^-100 and e^100 on"));
   }
 };
 
@@ -44,7 +47,8 @@ core::Result<CompoundResult> run(const CompoundRequest& request, const Context&)
   return CompoundResult{made({std::move(solved->chain)}),
                         {solved->lambda0, solved->lambda1},
                         solved->joint,
-                        {solved->turning, solved->chord_angle, solved->reversed}};
+                        {solved->turning, solved->chord_angle, solved->reversed},
+                        solved->clamped};
 }
 
 }  // namespace

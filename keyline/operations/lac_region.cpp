@@ -53,8 +53,7 @@ Region region_of(double alpha, double theta) {
 }
 
 Region region_of(const lac::CompoundRhythm& rhythm, double theta) {
-  const core::Interval psi = lac::drawable_region(rhythm, theta);
-  return {psi, !lac::solve_compound({theta, psi.high, 1, 0}, rhythm).has_value()};
+  return {lac::drawable_region(rhythm, theta), !lac::border_is_drawn(rhythm, theta)};
 }
 
 RegionResult shown(const Region& region, bool mirrored) {
