@@ -8,8 +8,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
 #include "keyline/lac/hermite.h"
-#include "keyline/lac/piece_shape.h"
-#include "keyline/lac/space_shooting.h"
+#include "keyline/lac/space_steer.h"
 
 namespace keyline::lac {
 namespace {
@@ -18,129 +17,19 @@ using core::ErrorCode;
 using core::Point3;
 using core::Result;
 using core::Vector3;
-using detail::SpaceShot;
+using detail::space::angle_between;
+using detail::space::chord_frame;
+using detail::space::ChordFrame;
+using detail::space::Invariants;
+using detail::space::Miss;
 using detail::SpaceUnknowns;
-using Miss = std::array<double, 3>;
-
-/// What does not depend on place: both tangents against the chord, and how far the end tangent is
-/// turned about the chord out of the plane of the start tangent (0: the arc of a plane curve).
-struct Invariants {
-  double first = 0;
-  double last = 0;
-  double twist = 0;
-};
-
-/// Orthonormal, x along the chord.
-struct ChordFrame {
-  Vector3 x, y, z;
-};
-
-Vector3 unit(Vector3 v) { return v / norm(v); }
-
-Vector3 from(const ChordFrame& f, Vector3 v) { return v.x * f.x + v.y * f.y + v.z * f.z; }
-Vector3 into(const ChordFrame& f, Vector3 v) { return {dot(v, f.x), dot(v, f.y), dot(v, f.z)}; }
-
-/// y towards `side` (any direction where that lies along the chord).
-ChordFrame chord_frame(Vector3 chord, Vector3 side) {
-  const Vector3 x = unit(chord);
-  Vector3 across = side - dot(side, x) * x;
-  if (norm(across) < 1e-14)
-    across = cross(x, std::abs(x.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0});
-  const Vector3 y = unit(across);
-  return {x, y, cross(x, y)};
-}
-
-double angle_between(Vector3 a, Vector3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
-
-Vector3 end_tangent(const Invariants& i) {
-  const double s = std::sin(i.last);
-  return {std::cos(i.last), -s * std::cos(i.twist), -s * std::sin(i.twist)};
-}
-
-/// Angle of the start tangent against the chord, and direction of the end tangent, less the wanted
-/// ones, for a curve in its standard frame.
-Miss miss_of(Vector3 chord, Vector3 tangent, const Invariants& wanted) {
-  const Vector3 there = into(chord_frame(chord, {1, 0, 0}), tangent);
-  const double c = std::cos(wanted.last);
-  const Vector3 along{-std::sin(wanted.last), -c * std::cos(wanted.twist),
-                      -c * std::sin(wanted.twist)};
-  const Vector3 around{0, std::sin(wanted.twist), -std::cos(wanted.twist)};
-  const double x = dot(there, along);
-  const double y = dot(there, around);
-  const double sine = std::hypot(x, y);
-  // Far off, the angle still tells how far.
-  const double angle = std::atan2(sine, dot(there, end_tangent(wanted)));
-  const double scale = sine > 1e-8 ? angle / sine : angle > 1 ? HUGE_VAL : 1;
-  return {angle_between({1, 0, 0}, chord) - wanted.first, scale * x, scale * y};
-}
-
-double size_of(const Miss& miss) {
-  double size = 0;
-  for (const double m : miss) size = std::isfinite(m) ? std::max(size, std::abs(m)) : 1e300;
-  return size;
-}
-
-bool reasonable(const SpaceUnknowns& x) {
-  return std::isfinite(x.bend) && std::isfinite(x.twist) && x.length > 1e-6 && x.length < 100 &&
-         std::abs(x.twist) < 4 * core::kPi;
-}
-
-/// Newton's step for a miss, with the derivatives of a shot; empty where the matrix is singular.
-std::optional<Miss> newton_step(const SpaceShot& shot, const Miss& at, const Invariants& wanted) {
-  constexpr double kSize = 1e-6;
-  std::array<std::array<double, 3>, 3> slope{};
-  const Miss base = miss_of(shot.chord, shot.tangent, wanted);
-  for (int i = 0; i < 3; ++i) {
-    const Miss near = miss_of(shot.chord + kSize * shot.chord_by[i],
-                              shot.tangent + kSize * shot.tangent_by[i], wanted);
-    for (int row = 0; row < 3; ++row) slope[row][i] = (near[row] - base[row]) / kSize;
-  }
-  Miss step = at;
-  if (!detail::solve_small(slope, step)) return std::nullopt;
-  return size_of(step) < 1e6 ? std::optional(step) : std::nullopt;
-}
-
-SpaceUnknowns moved(const SpaceUnknowns& x, const Miss& step, double share) {
-  return {x.bend - share * step[0], x.twist - share * step[1],
-          x.length * std::exp(-share * std::clamp(step[2] / x.length, -1.0, 1.0))};
-}
-
-/// A shot that starts and ends apart, and its miss.
-struct Aimed {
-  SpaceShot shot;
-  Miss miss{};
-};
-std::optional<Aimed> aim(const SpaceStandardForm& form, const SpaceUnknowns& x,
-                         const Invariants& wanted) {
-  if (!reasonable(x)) return std::nullopt;
-  const auto shot = detail::shoot_space(form, x);
-  if (!shot || !(norm(shot->chord) > 1e-3)) return std::nullopt;
-  return Aimed{*shot, miss_of(shot->chord, shot->tangent, wanted)};
-}
-
-/// Newton's method on quick shots, with steps shortened until the miss falls.
-bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enough, SpaceUnknowns& x,
-           int& iterations) {
-  auto here = aim(form, x, wanted);
-  for (int i = 0; here && i < 12; ++i) {
-    const double size = size_of(here->miss);
-    if (size <= enough) return true;
-    const auto step = newton_step(here->shot, here->miss, wanted);
-    if (!step) return false;
-    ++iterations;
-    double share = 1;
-    for (;; share /= 2) {
-      if (share < 0.02) return false;
-      const SpaceUnknowns next = moved(x, *step, share);
-      const auto there = aim(form, next, wanted);
-      if (!there || !(size_of(there->miss) < (1 - 0.1 * share) * size)) continue;
-      x = next;
-      here = there;
-      break;
-    }
-  }
-  return here && size_of(here->miss) <= enough;
-}
+using detail::space::miss_of;
+using detail::space::moved;
+using detail::space::newton_step;
+using detail::space::reasonable;
+using detail::space::size_of;
+using detail::space::steer;
+using detail::space::unit;
 
 /// A curve of the family in the standard frame, integrated exactly.
 struct Member {
@@ -265,14 +154,39 @@ std::vector<Way> ways(const Invariants& wanted, double alpha) {
   return all;
 }
 
-/// The member moved so that it starts and ends where it should.
-SpaceChain placed(const Member& m, const SpaceHermite& data) {
+struct Search {
+  std::optional<Member> found;
+  double furthest = 0;
+  int iterations = 0;
+};
+
+/// By the ways from known curves; where none leads there, from places all over the family.
+Search find_member(const SpaceStandardForm& form, const Invariants& wanted) {
+  Search s;
+  for (const Way& way : ways(wanted, form.alpha)) {
+    const Reached reached = follow(form, wanted, way);
+    s.iterations += reached.iterations;
+    s.furthest = std::max(s.furthest, reached.share);
+    if (reached.share == 1) s.found = polished(form, wanted, reached.x, s.iterations);
+    if (s.found) return s;
+  }
+  for (const SpaceUnknowns& x : detail::space::search_family(form, wanted, s.iterations)) {
+    s.found = polished(form, wanted, x, s.iterations);
+    if (s.found) return s;
+  }
+  return s;
+}
+
+/// The member moved so that it starts and ends where it should, or its mirror image.
+SpaceChain placed(const Member& m, const SpaceHermite& data, bool mirrored) {
   const Vector3 own = m.end.position - Point3{};
   const Vector3 wanted = data.end - data.start;
   const ChordFrame a = chord_frame(own, {1, 0, 0});
-  const ChordFrame b = chord_frame(wanted, data.start_tangent);
+  ChordFrame b = chord_frame(wanted, data.start_tangent);
+  if (mirrored) b.z = -b.z;
   const auto turn = [&](Vector3 v) { return from(b, into(a, v)); };
   const double scale = norm(wanted) / norm(own);
+  const double twist = mirrored ? -scale : scale;
   SpaceChain chain = m.chain;
   const Vector3 tangent = unit(turn({1, 0, 0}));
   const Vector3 binormal = unit(cross(tangent, turn({0, 1, 0})));
@@ -281,8 +195,8 @@ SpaceChain placed(const Member& m, const SpaceHermite& data) {
     p.length *= scale;
     p.curvature_start /= scale;
     p.curvature_end /= scale;
-    p.torsion_start /= scale;
-    p.torsion_end /= scale;
+    p.torsion_start /= twist;
+    p.torsion_end /= twist;
   }
   return chain;
 }
@@ -345,30 +259,22 @@ Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, do
                     angle_between(chord, data.end_tangent), std::atan2(-end.z, -end.y)};
   if (std::abs(dot(cross(chord, data.start_tangent), data.end_tangent)) < 1e-12)
     return solve_in_plane(data, wanted, alpha, beta);
-  const SpaceStandardForm form{alpha, beta, 0, omega, 0};
-  double furthest = 0;
-  int iterations = 0;
-  std::optional<Member> found;
-  for (const Way& way : ways(wanted, alpha)) {
-    const Reached reached = follow(form, wanted, way);
-    iterations += reached.iterations;
-    furthest = std::max(furthest, reached.share);
-    if (reached.share == 1) found = polished(form, wanted, reached.x, iterations);
-    if (found) break;
-  }
-  if (!found) {
+  const bool mirrored = wanted.twist < 0;
+  wanted.twist = std::abs(wanted.twist);
+  const Search search = find_member({alpha, beta, 0, omega, 0}, wanted);
+  if (!search.found) {
     return core::fail(ErrorCode::undrawable, "no space curve of these slopes meets the tangents",
-                      "one was followed " + core::number_text(100 * furthest, 3) +
+                      "one was followed " + core::number_text(100 * search.furthest, 3) +
                           " % of the way from a plane curve: turn the tangents towards the chord, "
                           "or take slopes nearer to 0 and a smaller omega");
   }
-  const Member& m = *found;
+  const Member& m = *search.found;
   SpaceSolution solution;
-  solution.chain = placed(m, data);
+  solution.chain = placed(m, data, mirrored);
   solution.lambda = m.form.lambda;
-  solution.nu = m.form.nu;
+  solution.nu = mirrored ? -m.form.nu : m.form.nu;
   solution.length = m.chain.pieces[0].length;
-  solution.iterations = iterations;
+  solution.iterations = search.iterations;
   return solution;
 }
 

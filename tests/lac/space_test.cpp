@@ -225,6 +225,75 @@ TEST(SolveG1Space, MeetsTangentsFarFromTheChord) {
   }
 }
 
+/// A curve of the standard form that turns by up to 2.6 rad and twists by up to 3, either way.
+std::optional<SpacePiece> random_piece(std::mt19937& random, SpaceStandardForm& form) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  form = {3 * unit(random), 3 * unit(random), 1.5 * unit(random), unit(random), 2 * unit(random)};
+  if (random() % 4 == 0) form.beta = std::round(form.beta);
+  const double length = 0.3 + 1.2 * std::abs(unit(random));
+  const auto piece = standard_piece(form, length);
+  if (!piece) return std::nullopt;
+  const double turning = std::abs(total_turning(curvature_law(*piece)));
+  const double twist = std::abs(total_turning(torsion_law(*piece)));
+  if (!(turning > 0.05 && turning < 2.6 && twist > 0.01 && twist < 3)) return std::nullopt;
+  return *piece;
+}
+
+// Data taken from a curve have one. A search from other starts once found 19 of 30 refused ones.
+TEST(SolveG1Space, RefusesNoDataTakenFromACurve) {
+  std::mt19937 random(12);
+  int asked = 0;
+  int refused = 0;
+  while (asked < 300) {
+    SpaceStandardForm form;
+    const auto piece = random_piece(random, form);
+    if (!piece) continue;
+    ++asked;
+    const SpaceFrame end = frame_at({{}, {*piece}}, 1);
+    const SpaceHermite data{{0, 0, 0}, end.position, {1, 0, 0}, end.tangent};
+    // omega counts in the sense in which the data turn.
+    const Vector3 chord = end.position - Point3{};
+    const double sense = dot(cross(chord, Vector3{1, 0, 0}), end.tangent) > 0 ? -1 : 1;
+    const double omega = form.beta < 0 ? sense * form.omega : form.omega;
+    const auto solved = solve_g1_space(data, form.alpha, form.beta, omega);
+    if (!solved) {
+      ++refused;
+      ADD_FAILURE() << form.alpha << ' ' << form.beta << ' ' << form.lambda << ' ' << form.omega
+                    << ' ' << form.nu << ' ' << piece->length << ": " << solved.error().hint;
+      continue;
+    }
+    EXPECT_LT(miss(solved->chain, data), 2e-12);
+  }
+  EXPECT_EQ(refused, 0);
+}
+
+TEST(SolveG1Space, TheMirrorImageOfTheDataHasTheMirrorImageOfTheCurve) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto mirrored = [](Vector3 v) { return Vector3{v.x, v.y, -v.z}; };
+  for (int n = 0; n < 40; ++n) {
+    const SpaceHermite data{{0, 0, 0},
+                            {3, unit(random), unit(random)},
+                            {1, 0.5 * unit(random), 0.5 * unit(random)},
+                            {1, unit(random), unit(random)}};
+    const SpaceHermite other{{0, 0, 0},
+                             Point3{} + mirrored(data.end - Point3{}),
+                             mirrored(data.start_tangent),
+                             mirrored(data.end_tangent)};
+    const double beta = n % 2 == 0 ? -1 : 0.7;
+    const auto a = solve_g1_space(data, -1, beta, 0.3);
+    const auto b = solve_g1_space(other, -1, beta, 0.3);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (!a) continue;
+    const SpacePiece& p = a->chain.pieces[0];
+    const SpacePiece& q = b->chain.pieces[0];
+    EXPECT_NEAR(p.torsion_start, -q.torsion_start, 1e-10);
+    EXPECT_NEAR(p.torsion_end, -q.torsion_end, 1e-10);
+    EXPECT_NEAR(p.curvature_start, q.curvature_start, 1e-10);
+    EXPECT_NEAR(a->nu, -b->nu, 1e-10);
+  }
+}
+
 TEST(SolveG1Space, InAPlaneIsThePlaneCurve) {
   const double h = 1 / std::sqrt(2.0);
   const SpaceHermite data{{1, 1, 1}, {3, 1 + h, 1 + h}, {1, 0, 0}, {1, 2 * h, 2 * h}};
