@@ -87,9 +87,38 @@ double foot(const Homogeneous& h, const Frame& f, double guess) {
     const double change = std::clamp(dot(b.point - f.point, f.tangent) / pace, -0.25, 0.25);
     t -= change;
     if (!(t > -0.5 && t < 1.5)) break;
-    if (std::abs(change) < 1e-14) return t;
+    if (std::abs(change) < 1e-14 || std::abs(change) * pace < 1e-15) return t;
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The same from no guess: of the places where the Bézier crosses the normal forwards the one
+/// nearest to the segment's point; NaN where there is none.
+double searched_foot(const Homogeneous& h, const Frame& f) {
+  const int places = 12 * h.degree();
+  const auto ahead = [&](double t) { return dot(at(h, t).point - f.point, f.tangent); };
+  double nearest = std::numeric_limits<double>::infinity();
+  double low = -1;
+  bool behind = ahead(0) <= 0;
+  for (int i = 1; i <= places; ++i) {
+    const double t = static_cast<double>(i) / places;
+    const bool now_behind = ahead(t) <= 0;
+    if (behind && !now_behind) {
+      const double off = norm(at(h, t - 0.5 / places).point - f.point);
+      if (off < nearest) {
+        nearest = off;
+        low = t - 1.0 / places;
+      }
+    }
+    behind = now_behind;
+  }
+  if (low < 0) return std::numeric_limits<double>::quiet_NaN();
+  double high = low + 1.0 / places;
+  for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
+    const double middle = 0.5 * (low + high);
+    (ahead(middle) <= 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 /// v -> t: feet, moved linearly so that ends meet ends; simply v where a foot is lost.
@@ -105,11 +134,21 @@ class ParameterMap {
     if (v >= 1) return 1;
     if (!sound_) return guess;
     const double shift = -(1 - v) * start_ + v * (1 - end_);
-    const double t = foot(h_, frame_at(unit_, v), guess - shift) + shift;
-    return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : guess;
+    const Frame frame = frame_at(unit_, v);
+    double t = foot(h_, frame, guess - shift);
+    const auto off = [&](double u) {
+      return std::isfinite(u) ? norm(at(h_, u).point - frame.point)
+                              : std::numeric_limits<double>::infinity();
+    };
+    if (const double found = off(t); !(found < kNear)) {  // lost, or the foot of another branch
+      const double other = searched_foot(h_, frame);
+      if (off(other) < found) t = other;
+    }
+    return std::isfinite(t) ? std::clamp(t + shift, 0.0, 1.0) : guess;
   }
 
  private:
+  static constexpr double kNear = 1e-3;  ///< of the length
   const Homogeneous& h_;
   const UnitPiece& unit_;
   double start_ = 0;
@@ -221,8 +260,22 @@ std::vector<double> map_series(const ParameterMap& map, const Stretch& s, double
   return {0.5 * (t0 + t1), 0.5 * (t1 - t0)};
 }
 
-double stretch_bound(const Homogeneous& h, const UnitPiece& unit, const ParameterMap& map,
-                     const Stretch& s, double t0, double t1) {
+/// Derivative of the series' sum, not normalised.
+Vector2 slope_of(const TaylorSeries& s, double x) {
+  Vector2 v = double(s.degree) * s.coefficient[s.degree];
+  for (int k = s.degree - 1; k > 0; --k) v = double(k) * s.coefficient[k] + x * v;
+  return v;
+}
+
+/// Bound over a stretch; loose where the points compared are not the nearest to each other, so that
+/// shorter stretches would give a smaller one.
+struct StretchBound {
+  double bound = 0;
+  bool loose = false;
+};
+
+StretchBound stretch_bound(const Homogeneous& h, const UnitPiece& unit, const ParameterMap& map,
+                           const Stretch& s, double t0, double t1) {
   const std::vector<double> t = map_series(map, s, t0, t1);
   const double middle = s.series.arc;
   const Vector2 origin = displacement(unit.piece, middle);
@@ -233,15 +286,21 @@ double stretch_bound(const Homogeneous& h, const UnitPiece& unit, const Paramete
   const int degree = rational ? carried + s.series.degree : std::max(carried, s.series.degree);
   const int nodes = 6 * degree;
   double largest = 0;
+  double across = 0;
   for (int j = 0; j < nodes; ++j) {
     const double x = std::cos(core::kPi * (j + 0.5) / nodes);
     const double u = (chebyshev_sum(t, x) - 0.5 * (t0 + t1)) / (0.5 * (t1 - t0));
     const Weighted q = chebyshev_sum(b.series, u);
-    const Vector2 p = core::rotate_ccw(sum(s.series, 0.5 * (s.v1 - s.v0) * x), direction);
-    largest = std::max(largest, norm(q.point - q.weight * p));
+    const double along = 0.5 * (s.v1 - s.v0) * x;
+    const Vector2 p = core::rotate_ccw(sum(s.series, along), direction);
+    const Vector2 tangent = core::rotate_ccw(slope_of(s.series, along), direction);
+    const Vector2 off = q.point - q.weight * p;
+    largest = std::max(largest, norm(off));
+    across = std::max(across, std::abs(cross(tangent, off)));
   }
   const double left_out = b.cut + (b.cut_weight + 1) * s.remainder + b.cut_weight * (s.v1 - s.v0);
-  return (largest / std::cos(core::kPi / 12) + left_out) / b.least_weight;
+  return {(largest / std::cos(core::kPi / 12) + left_out) / b.least_weight,
+          largest > 1.2 * across + 2 * kAllowed};
 }
 
 /// Stretches of [v0, v1], in order.
@@ -264,6 +323,50 @@ void cut(const UnitPiece& unit, double v0, double v1, int depth, std::vector<Str
   out.push_back(s);
 }
 
+/// Bound over stretches from t0 on; t0 becomes the parameter at their end. Loose ones are halved.
+class Walk {
+ public:
+  Walk(const UnitPiece& unit, const Homogeneous& h) : unit_(unit), h_(h), map_(h, unit) {}
+
+  void run(const Stretch& s) {
+    const double guess = t0_ + (1 - t0_) * (s.v1 - s.v0) / (1 - s.v0);
+    const double t1 = std::max(map_(s.v1, guess), std::nextafter(t0_, 2.0));
+    const StretchBound b = stretch_bound(h_, unit_, map_, s, t0_, std::min(t1, 1.0));
+    if (b.loose && b.bound > largest_ && halvings_ > 0) {
+      --halvings_;
+      const double middle = 0.5 * (s.v0 + s.v1);
+      run(stretch(s.v0, middle));
+      run(stretch(middle, s.v1));
+      return;
+    }
+    largest_ = std::max(largest_, b.bound);
+    t0_ = std::min(t1, std::nextafter(1.0, 0.0));
+  }
+  double largest() const { return largest_; }
+
+ private:
+  /// Within a stretch that was cut before: by its series, or straight.
+  Stretch stretch(double v0, double v1) const {
+    const double middle = 0.5 * (v0 + v1);
+    Stretch p{v0, v1,
+              taylor_series(unit_, detail::SeriesVariable::arc_length, middle, kSeriesDegree), 0};
+    p.remainder = remainder_bound(p.series, 0.5 * (v1 - v0));
+    if (!(p.remainder <= kAllowed)) {
+      p.series.degree = 1;
+      p.series.coefficient[1] = {1, 0};
+      p.remainder = (v1 - v0) * std::abs(turning(unit_.piece, v1) - turning(unit_.piece, v0));
+    }
+    return p;
+  }
+
+  const UnitPiece& unit_;
+  const Homogeneous& h_;
+  ParameterMap map_;
+  int halvings_ = 24;  ///< left
+  double t0_ = 0;
+  double largest_ = 0;
+};
+
 }  // namespace
 
 double deviation_bound(const Segment& segment, const curve::Bezier2& bezier) {
@@ -273,15 +376,9 @@ double deviation_bound(const Segment& segment, const curve::Bezier2& bezier) {
   const double bend = inflection(unit.piece);
   if (bend > 0) cut(unit, 0, bend, 0, stretches);
   cut(unit, std::max(bend, 0.0), 1, 0, stretches);
-  const ParameterMap map(h, unit);
-  double largest = 0;
-  double t0 = 0;
-  for (const Stretch& s : stretches) {
-    const double guess = t0 + (1 - t0) * (s.v1 - s.v0) / (1 - s.v0);
-    const double t1 = std::max(map(s.v1, guess), std::nextafter(t0, 2.0));
-    largest = std::max(largest, stretch_bound(h, unit, map, s, t0, std::min(t1, 1.0)));
-    t0 = std::min(t1, std::nextafter(1.0, 0.0));
-  }
+  Walk walk(unit, h);
+  for (const Stretch& s : stretches) walk.run(s);
+  const double largest = walk.largest();
   if (!std::isfinite(largest)) return std::numeric_limits<double>::infinity();
   return unit.length * (largest + kAllowed);
 }

@@ -105,7 +105,7 @@ Drawn draw_form(const UnitPiece& unit, const QuasiOptions& o) {
     RationalCubic c = rational_cubic(unit);
     return {std::move(c.polygon), std::move(c.weights), 0};
   }
-  if (o.form == QuasiForm::best) return {best_polygon(unit, o.degree), {}, 0};
+  if (o.form == QuasiForm::best) return {best_polygon(unit, o.degree, true), {}, 0};
   return {discrete_polygon(unit, variable, o.degree), {}, 0};
 }
 
@@ -164,6 +164,21 @@ Result<Segment> standard_segment(double alpha, double lambda, const core::Interv
   return place(asked, start);
 }
 
+namespace {
+
+/// Of low degree and close to an arc the rational cubic can be the closer one: then that, raised.
+void take_closer_rational(QuasiResult& r, const QuasiOptions& options) {
+  const auto rational = quasi_log_aesthetic(r.target, {QuasiForm::rational_cubic, 3, {}, false});
+  if (!rational || !(rational->deviation < r.deviation)) return;
+  QuasiResult closer = *rational;
+  closer.curve = curve::elevate_degree(rational->curve, options.degree - 3);
+  closer.form = QuasiForm::best;
+  detail::measure(closer);
+  if (closer.deviation < r.deviation) r = std::move(closer);
+}
+
+}  // namespace
+
 Result<QuasiResult> quasi_log_aesthetic(const Segment& segment, const QuasiOptions& options) {
   if (auto valid = validate(segment); !valid) return std::unexpected(valid.error());
   const UnitPiece unit = detail::unit_piece(piece_of(segment));
@@ -184,6 +199,7 @@ Result<QuasiResult> quasi_log_aesthetic(const Segment& segment, const QuasiOptio
         from_local(segment.start, {unit.length * v.x, unit.length * unit.mirror * v.y}));
   r.curve.weights = std::move(drawn.weights);
   detail::measure(r);
+  if (r.form == QuasiForm::best) take_closer_rational(r, options);
   return r;
 }
 

@@ -19,7 +19,10 @@ enum class QuasiForm {
   discrete_angle,  ///< control edges along the tangents at the middle of equal parts of angle
   discrete_arc,    ///< the same for equal parts of arc length, edges of equal length
   rational_cubic,  ///< positions, tangents and end curvatures exact, then least LCG variance
-  best,            ///< positions, tangents and end curvatures exact, then least deviation
+  /// Positions, tangents and end curvatures exact, then least deviation; the rational cubic raised
+  /// to the degree where that is closer (few degrees, close to an arc): never worse than any other
+  /// form of the degree.
+  best,
 };
 constexpr auto choices(const QuasiForm*) {
   return core::words<QuasiForm>({{QuasiForm::taylor_angle, "taylor-angle"},
@@ -83,8 +86,9 @@ core::Result<QuasiResult> quasi_log_aesthetic(double alpha, double lambda,
 
 /// G1 Hermite interpolation ([QLAC] §4): the Bézier itself runs from P0 to P2 with tangents along
 /// P1-P0 and P2-P1, met to rounding; for the polynomial forms Lambda and the interval are solved
-/// for on the Bézier (two unknowns, Newton from the log-aesthetic solution), so its Lambda differs
-/// a little from that of `target`, the log-aesthetic segment through the same handles.
+/// for on the Bézier (two unknowns, Newton from the log-aesthetic solution, then from places all
+/// over both), so its Lambda differs from that of `target`, the log-aesthetic segment through the
+/// same handles: a little where the series serves, much where it is at its end.
 /// Fails as solve_g1, as above, and undrawable where no Lambda serves at this degree.
 core::Result<QuasiResult> quasi_log_aesthetic(core::Point2 p0, core::Point2 p1, core::Point2 p2,
                                               double alpha, const QuasiOptions& options);

@@ -87,28 +87,31 @@ class Family {
     }
   }
 
-  /// Unit speed at the ends, inner points by least squares at equal arc length.
-  VectorXd start(const std::vector<double>& at, const std::vector<Vector2>& points) const {
+  /// Handles of the given lengths, all else by least squares against points at given parameters;
+  /// `miss` is the root mean square that is left.
+  VectorXd start(double first, double last, const std::vector<double>& at,
+                 const std::vector<Vector2>& points, double& miss) const {
     VectorXd x = VectorXd::Zero(unknowns());
-    x[0] = x[2] = 1.0 / n_;
-    x[1] = x[3] = 2.0 / n_;
-    const int inner = n_ - 5;
-    if (inner == 0) return x;
+    x[0] = first;
+    x[2] = last;
     const ControlPolygon fixed = polygon(x);
     const int rows = static_cast<int>(at.size());
-    MatrixXd a(rows, inner);
-    MatrixXd rest(rows, 2);
+    const int columns = unknowns() - 2;
+    const auto unknown = [](int column) { return column == 0 ? 1 : column + 2; };
+    MatrixXd a(2 * rows, columns);
+    VectorXd rest(2 * rows);
     for (int j = 0; j < rows; ++j) {
       const Basis basis(n_, at[j]);
       const Vector2 r = points[j] - combine(basis.value, fixed);
-      rest.row(j) << r.x, r.y;
-      for (int i = 0; i < inner; ++i) a(j, i) = basis.value[3 + i];
+      rest.segment<2>(2 * j) << r.x, r.y;
+      for (int i = 0; i < columns; ++i) {
+        const Vector2 d = change(x, basis.value, unknown(i));
+        a.block<2, 1>(2 * j, i) << d.x, d.y;
+      }
     }
-    const MatrixXd solved = a.colPivHouseholderQr().solve(rest);
-    for (int i = 0; i < inner; ++i) {
-      x[4 + 2 * i] = solved(i, 0);
-      x[5 + 2 * i] = solved(i, 1);
-    }
+    const VectorXd solved = a.householderQr().solve(rest);
+    for (int i = 0; i < columns; ++i) x[unknown(i)] = solved[i];
+    miss = (a * solved - rest).norm() / std::sqrt(static_cast<double>(rows));
     return x;
   }
 
@@ -118,34 +121,118 @@ class Family {
   Vector2 end_, end_tangent_;
 };
 
+/// Where a search begins: unknowns, and parameters of the feet.
+struct Start {
+  VectorXd x;
+  std::vector<double> feet;
+  double miss = 0;
+};
+
+/// Fractions of the arc length, close at the ends; where one end is much sharper than the other,
+/// as many by tangent angle, so that it is not passed by.
+std::vector<double> places(const UnitPiece& unit, int count) {
+  std::vector<double> at;
+  const double k0 = unit.piece.curvature_start;
+  const double k1 = unit.piece.curvature_end;
+  const bool uneven = k0 * k1 > 0 && std::max(k0, k1) > 20 * std::min(k0, k1);
+  for (int j = 0; j < count; ++j) {
+    const double v = 0.5 - 0.5 * std::cos(core::kPi * (j + 0.5) / count);
+    at.push_back(v);
+    if (uneven) at.push_back(fraction_at_turning(unit.piece, v));
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+/// Share of the parameter up to each place where it runs as the power gamma of the curvature over
+/// the arc length: 0 arc length, 1 tangent angle.
+std::vector<double> parameters(const UnitPiece& unit, const std::vector<double>& at, double gamma) {
+  if (gamma == 0) return at;
+  constexpr int kPanels = 400;
+  const double floor = 0.02 * unit.turning;  // an inflection takes its share too
+  const auto rate = [&](double v) {
+    return std::pow(std::min(std::abs(curvature(unit.piece, v)), 1e6) + floor, gamma);
+  };
+  std::vector<double> sum{0};
+  const auto place = [](int i) { return 0.5 - 0.5 * std::cos(core::kPi * i / kPanels); };
+  for (int i = 0; i < kPanels; ++i) {
+    const double v0 = place(i), v1 = place(i + 1);
+    sum.push_back(sum.back() + (v1 - v0) * rate(0.5 * (v0 + v1)));
+  }
+  std::vector<double> out;
+  for (const double v : at) {
+    const double k = std::acos(1 - 2 * v) / core::kPi * kPanels;
+    const int i = std::clamp(static_cast<int>(k), 0, kPanels - 1);
+    out.push_back((sum[i] + (k - i) * (sum[i + 1] - sum[i])) / sum.back());
+  }
+  return out;
+}
+
 /// Smallest largest normal distance at places of the piece: damped Gauss-Newton steps on weighted
 /// distances, weights growing where the distance is large (Lawson's rule).
 class Fit {
  public:
-  Fit(const UnitPiece& unit, int degree) : family_(unit, degree), degree_(degree) {
-    const int count = 4 * degree + 8;
-    for (int j = 0; j < count; ++j) {
-      const double v = 0.5 - 0.5 * std::cos(core::kPi * (j + 0.5) / count);
-      at_.push_back(v);
+  Fit(const UnitPiece& unit, int degree) : unit_(unit), family_(unit, degree), degree_(degree) {
+    at_ = places(unit, 4 * degree + 8);
+    for (const double v : at_) {
       points_.push_back(displacement(unit.piece, v));
       tangents_.push_back(core::unit_vector(turning(unit.piece, v)));
     }
-    feet_ = at_;
-    weights_ = VectorXd::Constant(count, 1.0);
   }
 
-  ControlPolygon run() {
-    best_ = family_.start(at_, points_);
-    descend(best_, 25);
+  /// From unit speed alone, or, where that leaves much, from the best of many starts too.
+  ControlPolygon run(bool thorough) {
+    double miss = 0;
+    const double handle = 1.0 / degree_;
+    descend_from({family_.start(handle, handle, at_, points_, miss), at_, miss});
+    if (thorough && !(least_ < kGood))
+      for (const Start& start : starts()) descend_from(start);
     if (std::isinf(least_)) return {};
-    for (int round = 0; round < 25 && least_ > 1e-14; ++round) {
-      reweight();
-      descend(last_, 2);
-    }
     return family_.polygon(best_);
   }
 
  private:
+  /// Deviation from which on, of the length, other starts are worth their time.
+  static constexpr double kGood = 1e-9;
+  static constexpr std::size_t kStarts = 6;
+
+  /// Handles about those of each parameter's own speed; the closest first.
+  std::vector<Start> starts() const {
+    std::vector<Start> all;
+    for (const double gamma : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const std::vector<double> t = parameters(unit_, at_, gamma);
+      const double first = at_.front() / t.front() / degree_;
+      const double last = (1 - at_.back()) / (1 - t.back()) / degree_;
+      Start best{{}, t, std::numeric_limits<double>::infinity()};
+      for (const double a : {0.4, 0.6, 0.8, 1.0, 1.3, 1.7})
+        for (const double b : {0.4, 0.6, 0.8, 1.0, 1.3, 1.7}) {
+          double miss = 0;
+          VectorXd x = family_.start(a * first, b * last, t, points_, miss);
+          if (miss < best.miss) best = {std::move(x), t, miss};
+        }
+      if (best.x.size() > 0) all.push_back(std::move(best));
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Start& a, const Start& b) { return a.miss < b.miss; });
+    if (all.size() > kStarts) all.resize(kStarts);
+    return all;
+  }
+
+  void descend_from(const Start& start) {
+    weights_ = VectorXd::Constant(static_cast<Eigen::Index>(at_.size()), 1.0);
+    damping_ = 1e-6;
+    round_least_ = std::numeric_limits<double>::infinity();
+    feet_of_last_ = start.feet;
+    last_ = start.x;
+    residuals_.resize(0);
+    descend(start.x, 40);
+    if (std::isinf(round_least_)) return;
+    for (int round = 0; round < 25 && least_ > 1e-14; ++round) {
+      reweight();
+      descend(last_, 2);
+    }
+  }
+
   /// Distances along the normals at x, feet moved along; false where a foot is lost.
   bool distances(const VectorXd& x, VectorXd& r, MatrixXd* jacobian) {
     const ControlPolygon b = family_.polygon(x);
@@ -179,6 +266,7 @@ class Fit {
 
   void keep_better(const VectorXd& x, const VectorXd& r) {
     const double largest = r.cwiseAbs().maxCoeff();
+    round_least_ = std::min(round_least_, largest);
     if (!(largest < least_)) return;
     least_ = largest;
     best_ = x;
@@ -187,7 +275,7 @@ class Fit {
   void descend(VectorXd x, int steps) {
     VectorXd r;
     MatrixXd jacobian;
-    feet_ = feet_of_best_.empty() ? at_ : feet_of_best_;
+    feet_ = feet_of_last_;
     if (!distances(x, r, &jacobian)) return;
     keep_better(x, r);
     for (int step = 0; step < steps && least_ > 1e-15; ++step) {
@@ -214,7 +302,7 @@ class Fit {
       keep_better(x, r);
       if (settled) break;
     }
-    feet_of_best_ = feet_;
+    feet_of_last_ = feet_;
     last_ = x;
     residuals_ = r;
   }
@@ -228,17 +316,21 @@ class Fit {
     damping_ = std::min(damping_, 1e-6);
   }
 
+  const UnitPiece& unit_;
   Family family_;
   int degree_;
-  std::vector<double> at_, feet_, feet_of_best_;
+  std::vector<double> at_, feet_, feet_of_last_;
   std::vector<Vector2> points_, tangents_;
   VectorXd weights_, best_, last_, residuals_;
   double damping_ = 1e-6;
   double least_ = std::numeric_limits<double>::infinity();
+  double round_least_ = std::numeric_limits<double>::infinity();  ///< from the present start
 };
 
 }  // namespace
 
-ControlPolygon best_polygon(const UnitPiece& unit, int degree) { return Fit(unit, degree).run(); }
+ControlPolygon best_polygon(const UnitPiece& unit, int degree, bool thorough) {
+  return Fit(unit, degree).run(thorough);
+}
 
 }  // namespace keyline::lac::detail

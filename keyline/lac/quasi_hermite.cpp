@@ -1,8 +1,10 @@
 #include "keyline/lac/quasi_hermite.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/hermite.h"
@@ -66,9 +68,39 @@ class Hermite {
     return miss->size() < 1e-11;
   }
 
+  /// The paper's scan for Lambda ([QLAC] §4) in both unknowns: from the places that miss least,
+  /// every solution found, each once.
+  std::vector<Unknowns> scan() {
+    struct Place {
+      Unknowns x;
+      double miss = 0;
+    };
+    std::vector<Place> places;
+    for (double log_ratio = -12; log_ratio <= 12; log_ratio += 0.5)
+      for (double log_share = -1.2; log_share <= 0.95; log_share += 0.1) {
+        const Unknowns x{log_ratio, turning_ * std::exp(log_share)};
+        if (const auto miss = at(x)) places.push_back({x, miss->size()});
+      }
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.miss < b.miss; });
+    if (places.size() > kTried) places.resize(kTried);
+    std::vector<Unknowns> found;
+    for (const Place& place : places) {
+      Unknowns x = place.x;
+      if (!solve(x)) continue;
+      const bool known = std::any_of(found.begin(), found.end(), [&](const Unknowns& y) {
+        return std::abs(y.log_ratio - x.log_ratio) + std::abs(y.turning - x.turning) < 1e-7;
+      });
+      if (!known) found.push_back(x);
+    }
+    return found;
+  }
+
   int iterations = 0;
 
  private:
+  static constexpr std::size_t kTried = 40;
+
   std::optional<Miss> at(const Unknowns& x) const {
     if (!(x.turning > 1e-3 * turning_ && x.turning < 6.2) || !(std::abs(x.log_ratio) < 60))
       return std::nullopt;
@@ -134,6 +166,24 @@ curve::Bezier2 laid_over(const detail::Drawn& drawn, Point2 p0, Point2 p1, Point
   return c;
 }
 
+/// The curve of solved unknowns over the handles, measured.
+QuasiResult laid_result(const SegmentSolution& solution, const Unknowns& x, double alpha,
+                        const QuasiOptions& settled, const std::array<Point2, 3>& handles,
+                        double mirror) {
+  const UnitPiece solved = piece_from(alpha, x);
+  const detail::Drawn drawn = draw_form(solved, settled);
+  QuasiResult r;
+  r.target = solution.segment;
+  r.form = settled.form;
+  r.about = settled.about.value_or(0);
+  r.lambda = lambda_of(solved.piece);
+  r.curve = laid_over(drawn, handles[0], handles[1], handles[2], mirror);
+  const double chord = norm(drawn.polygon.back() - drawn.polygon.front());
+  r.series_bound = distance(handles[0], handles[2]) / chord * drawn.series_bound;
+  detail::measure(r);
+  return r;
+}
+
 bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == QuasiForm::best; }
 
 }  // namespace
@@ -154,23 +204,23 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
              unit.turning};
   Hermite hermite(*angles, alpha, *settled);
-  if (!hermite.solve(x))
-    return core::fail(ErrorCode::undrawable,
-                      "no Lambda gives a curve of this form and degree with these end tangents",
-                      "raise the degree, or take the form best or rational-cubic");
-  const UnitPiece solved = piece_from(alpha, x);
-  const detail::Drawn drawn = draw_form(solved, *settled);
-  QuasiResult r;
-  r.target = solution->segment;
-  r.form = settled->form;
-  r.about = settled->about.value_or(0);
-  r.lambda = lambda_of(solved.piece);
-  r.curve = laid_over(drawn, p0, p1, p2, unit.mirror);
-  const double chord = norm(drawn.polygon.back() - drawn.polygon.front());
-  r.series_bound = distance(p0, p2) / chord * drawn.series_bound;
-  r.iterations = hermite.iterations;
-  detail::measure(r);
-  return r;
+  const auto result = [&](const Unknowns& solved) {
+    return laid_result(*solution, solved, alpha, *settled, {p0, p1, p2}, unit.mirror);
+  };
+  if (hermite.solve(x)) {
+    QuasiResult r = result(x);
+    r.iterations = hermite.iterations;
+    return r;
+  }
+  std::optional<QuasiResult> closest;
+  for (const Unknowns& found : hermite.scan()) {
+    QuasiResult r = result(found);
+    if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+  }
+  if (closest) return *std::move(closest);
+  return core::fail(ErrorCode::undrawable,
+                    "no Lambda gives a curve of this form and degree with these end tangents",
+                    "raise the degree, or take the form best or rational-cubic");
 }
 
 }  // namespace keyline::lac

@@ -155,8 +155,8 @@ TEST(Cad, RefusesBadRequests) {
 TEST(ToBeziers, QuinticsNextToACusp) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (int n = 0; n < 150; ++n) {
-    const double ratio = std::pow(10.0, 12 * unit(random));
+  for (int n = 0; n < 12; ++n) {
+    const double ratio = std::pow(10.0, 8 * unit(random));
     const double alpha = 1 + 2 * unit(random);
     Segment s{{}, alpha, 1, 1, 1 / ratio};
     const double turning = total_turning(s);
