@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "keyline/curve/chain_deviation.h"
 #include "keyline/curve/jet.h"
 #include "keyline/curve/monotone.h"
 #include "keyline/fit/chain_displacement.h"
@@ -125,7 +126,7 @@ double rms_error(const PiecewiseBezier& chain, const std::vector<LocalTarget>& t
 struct Solution {
   PiecewiseBezier chain;
   numeric::LevenbergMarquardtReport report;
-  double moved = 0;  ///< farthest along the normals
+  double moved = 0;  ///< bound of the distance from the start, see moved_bound
 };
 
 /// Everything the search for the lengths starts from.
@@ -136,7 +137,14 @@ struct Problem {
   ChainDisplacement displacement;
   int iterations = 100;
   double max_deviation = 0;  ///< 0: any
+  curve::ChainEnds ends = curve::ChainEnds::matched;
 };
+
+/// Bound of the distance between the start and a chain; what a free end has moved along the curve
+/// does not count. As sharp as `wanted` asks.
+double moved_bound(const Problem& problem, const PiecewiseBezier& chain, double wanted) {
+  return curve::deviation_bound(chain, problem.chain, wanted, problem.ends);
+}
 
 /// Root of the weight of a length's own change (of its logarithm) to that of distance.
 constexpr double kEvenness = 0.1;
@@ -215,7 +223,9 @@ Solution solve_weighted(const Problem& problem, const std::vector<LocalTarget>& 
   Eigen::VectorXd a;
   problem.lengths.expand(x, a, nullptr);
   solution.chain = chain_of(problem.chain.pieces.front().control.front(), problem.edges, a);
-  solution.moved = problem.displacement(a).lpNorm<Eigen::Infinity>();
+  const double about = problem.displacement(a).lpNorm<Eigen::Infinity>();
+  solution.moved = moved_bound(problem, solution.chain,
+                               problem.max_deviation > 0 ? problem.max_deviation : about);
   return solution;
 }
 
@@ -254,8 +264,8 @@ Solution solve(const Problem& problem, const std::vector<LocalTarget>& targets) 
 
 bool stays_monotone(const PiecewiseBezier& before, const PiecewiseBezier& after) {
   for (std::size_t i = 0; i < before.pieces.size(); ++i)
-    if (certify_monotone_curvature(before.pieces[i], 1e-6).answer == curve::MonotoneVerdict::yes &&
-        certify_monotone_curvature(after.pieces[i], 1e-6).answer == curve::MonotoneVerdict::no)
+    if (certify_monotone_curvature(before.pieces[i]).answer == curve::MonotoneVerdict::yes &&
+        certify_monotone_curvature(after.pieces[i]).answer != curve::MonotoneVerdict::yes)
       return false;
   return true;
 }
@@ -370,13 +380,15 @@ Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
     result.notes.push_back("split at " + std::to_string(splits) + " inflections inside pieces");
   const auto edges = edges_of(chain);
   if (!edges) return std::unexpected(edges.error());
-  const Problem problem{chain,
-                        *edges,
-                        FreeLengths(*edges, options.closed, options.hold_end,
-                                    options.hold_curvature && !options.closed),
-                        ChainDisplacement(chain, *edges),
-                        options.max_iterations,
-                        options.max_deviation};
+  const Problem problem{
+      chain,
+      *edges,
+      FreeLengths(*edges, options.closed, options.hold_end,
+                  options.hold_curvature && !options.closed),
+      ChainDisplacement(chain, *edges),
+      options.max_iterations,
+      options.max_deviation,
+      options.closed || options.hold_end ? curve::ChainEnds::matched : curve::ChainEnds::trimmed};
   if (!problem.lengths.can_hold())
     return core::fail(ErrorCode::undrawable, "the end cannot be held: all free edges are parallel",
                       "let the end move", "hold_end");

@@ -19,8 +19,8 @@ struct CurvatureDriveOptions {
   bool closed = false;          ///< the end stays in the start; implies hold_end
   bool hold_end = false;        ///< the end point stays; else it moves with the lengths
   bool hold_curvature = false;  ///< at both ends, where the curve goes on (open chains)
-  bool keep_monotone = false;   ///< pieces of monotone curvature stay so
-  double max_deviation = 0;  ///< farthest any quarter of a piece may move along its normal; 0: any
+  bool keep_monotone = false;   ///< pieces certified monotone stay so
+  double max_deviation = 0;     ///< largest distance from the curve given, a bound; 0: any
   int max_iterations = 100;
 };
 
@@ -28,8 +28,10 @@ struct CurvatureDrive {
   curve::PiecewiseBezier chain;  ///< quintics; pieces with an inflection come back as two
   double before = 0;             ///< root mean square of curvature less target, at the targets
   double after = 0;
-  double share = 1;      ///< of the way to the target that keep_monotone allowed, 0 … 1
-  double moved = 0;      ///< farthest the curve moved along its normals
+  double share = 1;  ///< of the way to the target that keep_monotone allowed, 0 … 1
+  /// Bound of the distance between the curve and the one given, either way
+  /// (curve::deviation_bound); what a free end moved along the curve does not count.
+  double moved = 0;
   double end_moved = 0;  ///< distance of the end point from where it was
   int iterations = 0;
   bool converged = false;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/surface/closest_point.h"
+#include "keyline/surface/departure.h"
 #include "keyline/surface/edit_targets.h"
 #include "keyline/surface/reduce.h"
 
@@ -91,12 +91,12 @@ const Candidate* best_of(const std::vector<Candidate>& all, std::optional<double
 /// Largest amount up to `most` at which the blend stays within the limit.
 double amount_within(const BezierSurface& s, const BezierSurface& target, double limit,
                      double most) {
-  if (departure(s, blend(s, target, most)) <= limit) return most;
+  if (departure_bound(s, blend(s, target, most), limit) <= limit) return most;
   double low = 0;
   double high = most;
-  for (int i = 0; i < 30 && high - low > 1e-6; ++i) {
+  for (int i = 0; i < 12 && high - low > 1e-3 * most; ++i) {
     const double middle = 0.5 * (low + high);
-    (departure(s, blend(s, target, middle)) <= limit ? low : high) = middle;
+    (departure_bound(s, blend(s, target, middle), limit) <= limit ? low : high) = middle;
   }
   return low;
 }
@@ -129,7 +129,7 @@ void add_candidates(const BezierSurface& given, const detail::EditTask& task,
     BezierSurface moved{target.net, {}};
     const auto value = value_of(moved, task);
     if (!value) continue;
-    const double away = departure(given, moved);
+    const double away = departure_bound(given, moved);
     all.push_back({{prefix + target.name, away, value->sav}, std::move(moved)});
     task.options.progress.report(0.5 + 0.5 * all.size() / found.targets.size(), "trade-off");
   }
@@ -186,7 +186,7 @@ Result<void> slide(const BezierSurface& s, const Candidate& target, const detail
                      : value_of(result.surface, task);
   if (!after) return std::unexpected(after.error());
   result.after = std::move(*after);
-  result.departure = departure(s, result.surface);
+  result.departure = departure_bound(s, result.surface);
   if (!lower) result.unmet = unmet_by(net, task, result.target);
   return {};
 }

@@ -26,7 +26,7 @@ constexpr auto choices(const Keep*) {
 struct EditOptions {
   Keep keep = Keep::start;
   double amount = 1;                 ///< 0 the given net … 1 the target, control points between
-  std::optional<double> limit = {};  ///< largest departure, in the surface's unit
+  std::optional<double> limit = {};  ///< largest departure (a bound), in the surface's unit
   std::optional<double> end_tolerance = 0;  ///< of each curve's minimum, as in CavOptions; with 0 a
                                             ///< curve at its own minimum scores 0 exactly
   double alpha_max = classa::kDefaultAlphaMax;
@@ -52,9 +52,9 @@ struct EditResult {
   BezierSurface surface;  ///< of lower degree than given where a bicubic target was taken whole
   SurfaceValue before;
   SurfaceValue after;
-  double departure = 0;  ///< of `surface` from the given one; see departure() in closest_point.h
-  double amount = 1;     ///< as used: less than asked for where the limit demands it
-  std::string target;    ///< the trade-off that was taken
+  double departure = 0;              ///< of `surface` from the given one, a bound: see departure.h
+  double amount = 1;                 ///< as used: less than asked for where the limit demands it
+  std::string target;                ///< the trade-off that was taken
   std::vector<TradeOff> tradeoff;    ///< by growing departure
   std::vector<MissedTarget> missed;  ///< others
   /// Conditions that `surface` does not meet because it is only part of the way to the target,

@@ -40,7 +40,7 @@ TEST(SurfaceEdit, DistortedPatchWithStartKeptReachesZero) {
             1e-9);
   EXPECT_LT(angle_between(r.surface.net.at(1, 0) - s.net.at(0, 0), s.net.at(1, 0) - s.net.at(0, 0)),
             1e-9);
-  EXPECT_NEAR(r.departure, departure(s, r.surface), 1e-9);
+  EXPECT_NEAR(r.departure, departure(s, r.surface), 0.01 * r.departure);
 }
 
 TEST(SurfaceEdit, CornersKeptTradesSavAgainstDeparture) {
@@ -184,6 +184,22 @@ TEST(ClosestPoint, FindsThePointItStartedFrom) {
       EXPECT_NEAR(p.distance, 3, 1e-9);
     }
   EXPECT_LT(departure(s, elevate_degree(crowned_patch(), 1, 2)), 1e-9);
+}
+
+// Sampled at 33 x 33 places it was understated by up to 0.2 %, and a limit passed by 0.1 %.
+TEST(SurfaceEdit, DepartureIsABoundAndTheLimitHolds) {
+  for (const double limit : {0.5, 1.7, 3.4}) {
+    SCOPED_TRACE(limit);
+    const BezierSurface s = distorted_patch();
+    EditOptions options;
+    options.keep = Keep::corners;
+    options.limit = limit;
+    const EditResult r = edited(s, options);
+    EXPECT_LE(r.departure, limit);
+    const double sampled = departure(s, r.surface, 61);
+    EXPECT_LE(sampled, r.departure);
+    EXPECT_GE(sampled, 0.98 * r.departure);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,162 @@
+#include "keyline/curve/chain_deviation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/curve/closest_point.h"
+
+namespace keyline::curve {
+namespace {
+
+using core::Point2;
+using core::Vector2;
+
+constexpr int kMostHalvings = 11;
+
+/// Largest distance of two curves at equal parameter, bounded by their control points.
+double difference(Bezier2 a, Bezier2 b) {
+  const int most = std::max(degree(a), degree(b));
+  a = elevate_degree(a, most - degree(a));
+  b = elevate_degree(b, most - degree(b));
+  double largest = 0;
+  for (std::size_t i = 0; i < a.control.size(); ++i)
+    largest = std::max(largest, distance(a.control[i], b.control[i]));
+  return largest;
+}
+
+/// Foot of p on q near u, kept within [low, high].
+double foot(const Bezier2& q, Point2 p, double u, double low, double high) {
+  for (int i = 0; i < 6; ++i) {
+    const auto j = jet(q, u);
+    const Vector2 off = j.point - p;
+    const double square = dot(j.first, j.first);
+    const double slope = std::max(square + dot(off, j.second), 0.25 * square);
+    if (!(slope > 0)) break;
+    u = std::clamp(u - dot(off, j.first) / slope, low, high);
+  }
+  return u;
+}
+
+/// h against q over [u0, u1].
+double part_bound(const Bezier2& h, const Bezier2& q, double u0, double u1, double wanted,
+                  int halvings) {
+  const double bound = difference(h, subcurve(q, u0, u1));
+  if (bound <= wanted || halvings == kMostHalvings) return bound;
+  const auto [left, right] = split(h, 0.5);
+  const double u = foot(q, left.control.back(), 0.5 * (u0 + u1), u0, u1);
+  const double halves = std::max(part_bound(left, q, u0, u, wanted, halvings + 1),
+                                 part_bound(right, q, u, u1, wanted, halvings + 1));
+  return std::min(bound, halves);
+}
+
+/// Parameters of both chains that belong together.
+struct Pair {
+  double a = 0, b = 0;
+};
+
+void check(const PiecewiseBezier& c) {
+  if (c.pieces.empty()) throw core::InvalidInput("deviation_bound: a chain without pieces");
+  for (const Bezier2& piece : c.pieces)
+    if (is_rational(piece)) throw core::InvalidInput("deviation_bound: a rational piece");
+}
+
+double foot_on(const PiecewiseBezier& c, Point2 p) { return closest_point(c, p).t; }
+
+/// The pair at one end, t = 0 or 1.
+Pair end_pair(const PiecewiseBezier& a, const PiecewiseBezier& b, double t, ChainEnds ends) {
+  if (ends == ChainEnds::matched) return {t, t};
+  const double on_a = foot_on(a, evaluate(b, t));
+  return on_a == t ? Pair{t, foot_on(b, evaluate(a, t))} : Pair{on_a, t};
+}
+
+/// Both ends and every joint of either with its foot on the other, growing in both.
+std::vector<Pair> pairs_of(const PiecewiseBezier& a, const PiecewiseBezier& b, ChainEnds ends) {
+  const Pair first = end_pair(a, b, 0, ends);
+  const Pair last = end_pair(a, b, 1, ends);
+  std::vector<Pair> inner;
+  const auto joint = [](const PiecewiseBezier& c, std::size_t i) {
+    return static_cast<double>(i) / static_cast<double>(c.pieces.size());
+  };
+  for (std::size_t i = 1; i < a.pieces.size(); ++i)
+    inner.push_back({joint(a, i), foot_on(b, a.pieces[i].control.front())});
+  for (std::size_t i = 1; i < b.pieces.size(); ++i)
+    inner.push_back({foot_on(a, b.pieces[i].control.front()), joint(b, i)});
+  std::sort(inner.begin(), inner.end(), [](const Pair& x, const Pair& y) { return x.a < y.a; });
+  std::vector<Pair> pairs{first};
+  for (const Pair& p : inner)
+    if (p.a > pairs.back().a && p.b > pairs.back().b && p.a < last.a && p.b < last.b)
+      pairs.push_back(p);
+  pairs.push_back(last);
+  return pairs;
+}
+
+/// The part of a chain between two parameters, cut at its joints: pieces and where they end.
+struct Part {
+  Bezier2 piece;
+  double from = 0, to = 0;  ///< share of the parameters asked for
+};
+std::vector<Part> parts_of(const PiecewiseBezier& c, double t0, double t1) {
+  const auto n = static_cast<double>(c.pieces.size());
+  std::vector<Part> parts;
+  double at = t0;
+  while (at < t1) {
+    const auto piece = std::min(static_cast<std::size_t>(at * n + 1e-12), c.pieces.size() - 1);
+    const double end = std::min(t1, (static_cast<double>(piece) + 1) / n);
+    const double low = std::clamp(at * n - static_cast<double>(piece), 0.0, 1.0);
+    const double high = std::clamp(end * n - static_cast<double>(piece), 0.0, 1.0);
+    if (high > low)
+      parts.push_back(
+          {subcurve(c.pieces[piece], low, high), (at - t0) / (t1 - t0), (end - t0) / (t1 - t0)});
+    if (!(end > at)) break;
+    at = end;
+  }
+  return parts;
+}
+
+/// A stretch of both whose joints did not all find their foot in order: cut at equal shares.
+double stretch_bound(const PiecewiseBezier& a, const PiecewiseBezier& b, const Pair& from,
+                     const Pair& to, double wanted) {
+  const auto pa = parts_of(a, from.a, to.a);
+  const auto pb = parts_of(b, from.b, to.b);
+  if (pa.empty() || pb.empty()) {  // one has no length there
+    const Point2 p = evaluate(pa.empty() ? a : b, pa.empty() ? from.a : from.b);
+    double largest = 0;
+    for (const Part& part : pa.empty() ? pb : pa)
+      for (const Point2& c : part.piece.control) largest = std::max(largest, distance(c, p));
+    return largest;
+  }
+  double largest = 0;
+  std::size_t i = 0, j = 0;
+  double at = 0;
+  while (i < pa.size() && j < pb.size()) {
+    const double end = std::min(pa[i].to, pb[j].to);
+    const auto local = [](const Part& p, double s) {
+      return std::clamp((s - p.from) / (p.to - p.from), 0.0, 1.0);
+    };
+    const double a0 = local(pa[i], at), a1 = local(pa[i], end);
+    if (a1 > a0)
+      largest = std::max(largest, part_bound(subcurve(pa[i].piece, a0, a1), pb[j].piece,
+                                             local(pb[j], at), local(pb[j], end), wanted, 0));
+    if (pa[i].to <= end) ++i;
+    if (j < pb.size() && pb[j].to <= end) ++j;
+    at = end;
+  }
+  return largest;
+}
+
+}  // namespace
+
+double deviation_bound(const PiecewiseBezier& a, const PiecewiseBezier& b, double wanted,
+                       ChainEnds ends) {
+  check(a);
+  check(b);
+  const std::vector<Pair> pairs = pairs_of(a, b, ends);
+  double largest = 0;
+  for (std::size_t k = 0; k + 1 < pairs.size(); ++k)
+    largest = std::max(largest, stretch_bound(a, b, pairs[k], pairs[k + 1], wanted));
+  return largest;
+}
+
+}  // namespace keyline::curve
