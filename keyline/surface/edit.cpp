@@ -221,7 +221,7 @@ Result<void> move_edit(const BezierSurface& s, const BezierSurface& moved,
   if (!after) return std::unexpected(after.error());
   result.after = std::move(*after);
   result.surface = moved;
-  result.departure = departure(s, moved);
+  result.departure = departure_bound(s, moved);
   result.unmet = unmet_by(moved.net, task, result.target);
   return {};
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "keyline/numeric/parallel.h"
-#include "keyline/surface/closest_point.h"
+#include "keyline/surface/departure.h"
 #include "keyline/surface/hold_joints.h"
 
 namespace keyline::surface {
@@ -166,7 +166,7 @@ class Together {
   double farthest(const std::vector<BezierSurface>& moved) const {
     std::vector<double> away(moved.size());
     numeric::parallel_for(moved.size(), threads_, [&](std::size_t i) {
-      away[i] = moved[i] == given_[i] ? 0 : departure(given_[i], moved[i]);
+      away[i] = moved[i] == given_[i] ? 0 : departure_bound(given_[i], moved[i]);
     });
     return *std::max_element(away.begin(), away.end());
   }

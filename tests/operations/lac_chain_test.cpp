@@ -157,13 +157,13 @@ TEST(LacQuasi, DrawsEveryFormFromHandlesAndStandardForm) {
 }
 
 /// A chord near its limit at a slope close to 1: the sharp end has a curvature of 1e9 per length.
-TEST(LacQuasi, RefusesTheBestFormOfANeedlePoint) {
+TEST(LacQuasi, TheBestFormOfANeedlePointIsClose) {
   const json answer = asked({{"op", "lac.quasi"},
                              {"points", {{0, 0}, {2, 0}, {2.1, 0.2}}},
                              {"alpha", 0.999999999999},
                              {"form", "best"}});
-  ASSERT_EQ(answer["ok"], false) << answer;
-  EXPECT_EQ(answer["error"]["code"], "undrawable");
+  ASSERT_EQ(answer["ok"], true) << answer;
+  EXPECT_LT(answer["result"]["deviation"], 1e-8);
 }
 
 TEST(LacQuasi, ChoosesThePlaceAndRefusesNonsense) {
