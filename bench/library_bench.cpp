@@ -150,8 +150,8 @@ BENCHMARK(library_like_rhythm)->Name("library/like+rhythm/100000")->Unit(benchma
 void library_rhythm(benchmark::State& state) {
   library::Criteria wanted;
   wanted.rhythm = "accelerating";
-  wanted.slope = library::parse_range("-1±0.2").value();
-  wanted.cav = library::parse_range("<1").value();
+  wanted.slope = library::Range::from_text("-1±0.2").value();
+  wanted.cav = library::Range::from_text("<1").value();
   ask(state, wanted);
 }
 BENCHMARK(library_rhythm)->Name("library/rhythm+slope+cav/100000")->Unit(benchmark::kMillisecond);

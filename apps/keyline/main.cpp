@@ -84,6 +84,8 @@ int run(int argc, char** argv) {
              "input, 3 file trouble, 130 cancelled.");
   const std::vector<Command> commands = add_commands(app);
 
+  if (argc > 2 && is_operation_command(std::string(argv[1]) + "." + argv[2]))
+    return run_operation_command(std::string(argv[1]) + "." + argv[2], {argv + 3, argv + argc});
   const int named = argc > 2 && argv[1] == std::string_view("perform") ? 2 : 1;
   if (argc > 1 && (named == 2 || !has_command(commands, argv[1])) &&
       is_operation_command(argv[named]))

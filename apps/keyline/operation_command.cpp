@@ -10,6 +10,7 @@
 #include "keyline/operations/perform.h"
 
 #include "arguments.h"
+#include "result_table.h"
 #include "terminal.h"
 #include "words.h"
 
@@ -62,7 +63,8 @@ struct DoorOptions {
   }
 };
 
-/// Single values of a result, one line each; lists and objects are left to --json.
+/// Single values of a result, one line each, and lists of records as tables; the rest is left to
+/// --json.
 std::string summary(const core::Type& type, const void* value) {
   std::string text;
   core::visit_fields(type, value, [&](const Field& field, const void* member) {
@@ -71,6 +73,7 @@ std::string summary(const core::Type& type, const void* value) {
       member = its->held(member);
       its = &its->item();
     }
+    if (member && its->kind == Kind::list) text += table_of(*its, member);
     if (!member || its->kind > Kind::choice) return;
     const auto shown = operations::write_json(*its, member);
     if (!shown) return;
@@ -297,7 +300,8 @@ std::string tools_help() {
   for (const Tool& tool : kTools) text += fmt::format("  {:<27} {}\n", tool.name, tool.text);
   return text +
          "Every operation is a command too (keyline perform NAME, or its name alone):\n"
-         "  keyline lac.segment --points 0,0 2,0 3,1.5 --alpha -1\n";
+         "  keyline lac.segment --points 0,0 2,0 3,1.5 --alpha -1\n"
+         "  keyline library find --rhythm accelerating --slope -1±0.2\n";
 }
 
 std::string bash_completion(const std::vector<std::string>& other_commands) {

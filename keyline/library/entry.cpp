@@ -147,18 +147,6 @@ Entry describe_thing(Document thing, const std::string& source) {
 
 }  // namespace
 
-const char* kind_name(Kind kind) {
-  switch (kind) {
-    case Kind::curve:
-      return "curve";
-    case Kind::space_curve:
-      return "space-curve";
-    case Kind::surface:
-      break;
-  }
-  return "surface";
-}
-
 const document::Label& label(const Entry& entry) {
   if (!entry.thing.paths.empty()) return entry.thing.paths.front().label;
   if (!entry.thing.space_curves.empty()) return entry.thing.space_curves.front().label;

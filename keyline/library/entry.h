@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/analysis/rhythm.h"
+#include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 #include "keyline/core/progress.h"
 #include "keyline/document/document.h"
@@ -21,11 +22,26 @@ struct PieceEntry {
   std::optional<double> lcg_variance;
   double volume = 0;
   std::optional<double> self_affinity;  ///< deviation; see analysis/self_affinity.h
+  static constexpr auto describe() {
+    using P = PieceEntry;
+    return core::fields(
+        core::field<&P::share>("of the curve's length"),
+        core::field<&P::rhythm>("what it reads as"),
+        core::field<&P::slopes>("of its lines, along growing radius"),
+        core::field<&P::lcg_slope>("of the line through its logarithmic curvature graph"),
+        core::field<&P::lcg_variance>("mean square of the graph's residuals"),
+        core::field<&P::volume>("area over its chord").in("length^2"),
+        core::field<&P::self_affinity>(
+            "how far its second half, scaled, is from the whole in log radius: 0 where it "
+            "corresponds to its parent"));
+  }
 };
 
 enum class Kind { curve, space_curve, surface };
-/// "curve" "space-curve" "surface".
-const char* kind_name(Kind kind);
+constexpr auto choices(const Kind*) {
+  return core::words<Kind>(
+      {{Kind::curve, "curve"}, {Kind::space_curve, "space-curve"}, {Kind::surface, "surface"}});
+}
 
 /// A curve or surface as the library keeps it: exact, with what was measured of it.
 struct Entry {

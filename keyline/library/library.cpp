@@ -97,7 +97,7 @@ Result<void> insert_curve(Writer& writer, const Entry& e, std::int64_t digest) {
   const std::string notes = joined(e.notes);
   const auto type = e.cav_type ? std::optional<double>(*e.cav_type) : std::nullopt;
   return writer.curve.bind(1, digest)
-      .bind(2, std::string_view(kind_name(e.kind)))
+      .bind(2, core::word_of(e.kind))
       .bind(3, named.name)
       .bind(4, named.layer)
       .bind(5, e.thing.unit)
@@ -171,8 +171,9 @@ Result<Added> add_one(Database& database, Writer& writer, const Entry& entry) {
 }
 
 Kind kind_of(const std::string& name) {
-  if (name == kind_name(Kind::curve)) return Kind::curve;
-  return name == kind_name(Kind::surface) ? Kind::surface : Kind::space_curve;
+  for (const Kind kind : {Kind::curve, Kind::space_curve})
+    if (name == core::word_of(kind)) return kind;
+  return Kind::surface;
 }
 
 Result<Entry> read_curve(Database& database, std::int64_t id) {
@@ -298,7 +299,7 @@ Result<document::Document> export_document(Library& library, const std::vector<s
       return core::fail(ErrorCode::bad_input,
                         "number " + std::to_string(ids[i]) + " is in \"" + thing.unit +
                             "\", the first in \"" + all.unit + "\"",
-                        "export what shares a unit", "ids");
+                        "export what shares a unit", "numbers");
     all.unit = thing.unit;
     std::ranges::move(thing.paths, std::back_inserter(all.paths));
     std::ranges::move(thing.space_curves, std::back_inserter(all.space_curves));

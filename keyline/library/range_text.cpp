@@ -1,14 +1,11 @@
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "keyline/library/search.h"
 
 namespace keyline::library {
 namespace {
-
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 std::optional<double> number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -18,47 +15,46 @@ std::optional<double> number(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::optional<core::Interval> around(std::string_view text) {
+std::optional<Range> around(std::string_view text) {
   for (const std::string_view sign : {"±", "+-"}) {
     const std::size_t at = text.find(sign);
     if (at == std::string_view::npos) continue;
     const auto middle = number(text.substr(0, at));
     const auto half = number(text.substr(at + sign.size()));
-    if (middle && half && *half >= 0) return core::Interval{*middle - *half, *middle + *half};
+    if (middle && half && *half >= 0) return Range{*middle - *half, *middle + *half};
   }
   return std::nullopt;
 }
 
-std::optional<core::Interval> between(std::string_view text) {
+std::optional<Range> between(std::string_view text) {
   const std::size_t at = text.find("..");
   if (at == std::string_view::npos) return std::nullopt;
   const auto low = number(text.substr(0, at));
   const auto high = number(text.substr(at + 2));
-  if (low && high && *low <= *high) return core::Interval{*low, *high};
+  if (low && high && *low <= *high) return Range{*low, *high};
   return std::nullopt;
 }
 
-/// The next double: "<1" leaves 1 itself out.
-std::optional<core::Interval> one_sided(std::string_view text) {
+std::optional<Range> one_sided(std::string_view text) {
   const bool below = text.starts_with('<');
   if (!below && !text.starts_with('>')) return std::nullopt;
   const bool closed = text.substr(1).starts_with('=');
   const auto end = number(text.substr(closed ? 2 : 1));
   if (!end) return std::nullopt;
-  const double outside = below ? -kUnbounded : kUnbounded;
-  const double last = closed ? *end : std::nextafter(*end, outside);
-  return below ? core::Interval{outside, last} : core::Interval{last, outside};
+  // The next double: "<1" leaves 1 itself out.
+  const double last = closed ? *end : std::nextafter(*end, below ? -HUGE_VAL : HUGE_VAL);
+  return below ? Range{{}, last} : Range{last, {}};
 }
 
 }  // namespace
 
-core::Result<core::Interval> parse_range(std::string_view text) {
+core::Result<Range> Range::from_text(std::string_view text) {
   if (const auto range = one_sided(text)) return *range;
   if (const auto range = around(text)) return *range;
   if (const auto range = between(text)) return *range;
-  if (const auto value = number(text)) return core::Interval{*value, *value};
+  if (const auto value = number(text)) return Range{*value, *value};
   return core::fail(core::ErrorCode::bad_input, "\"" + std::string(text) + "\" is no range",
-                    "give -1±0.2, 0..1, <1 or >2");
+                    "give " + std::string(kTextForm));
 }
 
 }  // namespace keyline::library

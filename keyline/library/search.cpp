@@ -1,6 +1,7 @@
 #include "keyline/library/search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -21,11 +22,14 @@ struct Where {
   std::vector<std::variant<double, std::string>> values;
 
   void add(const std::string& condition) { text += (text.empty() ? "" : " AND ") + condition; }
-  void add_range(const std::string& column, const std::optional<core::Interval>& range) {
+  void add_range(const std::string& column, const std::optional<Range>& range) {
     if (!range) return;
     add(column + " BETWEEN ? AND ?");
-    values.emplace_back(range->low);
-    values.emplace_back(range->high);
+    add_ends(*range);
+  }
+  void add_ends(const Range& range) {
+    values.emplace_back(range.low.value_or(-HUGE_VAL));
+    values.emplace_back(range.high.value_or(HUGE_VAL));
   }
   void add_pattern(const std::string& column, const std::string& pattern) {
     if (pattern.empty()) return;
@@ -61,10 +65,7 @@ Result<Where> where_of(const Criteria& wanted) {
   }
   if (wanted.slope) {
     piece.add("(slope BETWEEN ? AND ? OR second_slope BETWEEN ? AND ?)");
-    for (int i = 0; i < 2; ++i) {
-      piece.values.emplace_back(wanted.slope->low);
-      piece.values.emplace_back(wanted.slope->high);
-    }
+    for (int i = 0; i < 2; ++i) piece.add_ends(*wanted.slope);
   }
   piece.add_range("self_affinity", wanted.self_affinity);
   Where where;

@@ -92,8 +92,8 @@ RhythmCount count_rhythm(Questions& ask, Rhythm rhythm) {
 Result<Statistics> statistics(Library& library) {
   Questions ask(library.database());
   const auto of_kind = [&](Kind kind) {
-    return ask.count(std::string("SELECT count(*) FROM curve WHERE kind = '") + kind_name(kind) +
-                     "'");
+    return ask.count("SELECT count(*) FROM curve WHERE kind = '" +
+                     std::string(core::word_of(kind)) + "'");
   };
   Statistics all;
   all.things = ask.count("SELECT count(*) FROM curve");

@@ -13,6 +13,12 @@ struct Spread {
   double low = 0;  ///< a tenth lies below
   double median = 0;
   double high = 0;  ///< a tenth lies above
+  static constexpr auto describe() {
+    return core::fields(core::field<&Spread::count>("those that have it"),
+                        core::field<&Spread::low>("a tenth lies below"),
+                        core::field<&Spread::median>("half lies below"),
+                        core::field<&Spread::high>("a tenth lies above"));
+  }
 };
 
 /// One type of the survey.
@@ -25,6 +31,17 @@ struct RhythmCount {
   double length = 0;     ///< share of all pieces' length, sizes made equal
   Spread slope;          ///< of the first line, along growing radius
   Spread self_affinity;  ///< deviation; 0: the part corresponds to its parent (Fig. 7)
+  static constexpr auto describe() {
+    using R = RhythmCount;
+    return core::fields(
+        core::field<&R::rhythm>("its name"), core::field<&R::impression>("in [Fairing]'s words"),
+        core::field<&R::is_of_the_five>("whether it is one of the five types of [Fairing] Fig. 8"),
+        core::field<&R::curves>("whose longest piece it is"),
+        core::field<&R::pieces>("that read as it"),
+        core::field<&R::length>("its share of all curves' length, each curve counting alike"),
+        core::field<&R::slope>("of the first line"),
+        core::field<&R::self_affinity>("deviation; 0: the part corresponds to its parent"));
+  }
 };
 
 /// The survey of [Fairing] section 2.2 over a library.
@@ -39,6 +56,18 @@ struct Statistics {
   Spread self_affinity;  ///< of all pieces that have a radius that changes
   Spread cav;
   Spread sav;
+  static constexpr auto describe() {
+    using S = Statistics;
+    return core::fields(
+        core::field<&S::things>("in the library"), core::field<&S::curves>("planar ones"),
+        core::field<&S::space_curves>("curves in space"), core::field<&S::surfaces>("patches"),
+        core::field<&S::without_rhythm>("curves that were not measured"),
+        core::field<&S::in_the_five>("share of the pieces that are of the five types"),
+        core::field<&S::rhythms>("the survey of [Fairing] section 2.2"),
+        core::field<&S::self_affinity>("of all pieces whose radius changes"),
+        core::field<&S::cav>("curve aesthetic values"),
+        core::field<&S::sav>("surface aesthetic values"));
+  }
 };
 
 core::Result<Statistics> statistics(Library& library);

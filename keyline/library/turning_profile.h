@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "keyline/core/describe.h"
 #include "keyline/curve/view.h"
 
 namespace keyline::library {
@@ -27,6 +28,13 @@ struct TurningMatch {
   double distance = 0;  ///< root of the summed squared differences, radians
   bool reversed = false;
   bool mirrored = false;
+  static constexpr auto describe() {
+    using M = TurningMatch;
+    return core::fields(
+        core::field<&M::distance>("root of the summed squared differences of turning").in("radian"),
+        core::field<&M::reversed>("laid over the other travelled the other way"),
+        core::field<&M::mirrored>("laid over its mirror image"));
+  }
 };
 
 /// The best of both directions and, where allowed, of both mirror images.

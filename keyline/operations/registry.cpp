@@ -14,7 +14,9 @@ std::vector<Operation> all_operations() {
       fit_curvature_operation(),   fit_spline_operation(),          lac_blend_operation(),
       lac_compound_operation(),    lac_hermite_operation(),         lac_quasi_operation(),
       lac_region_operation(),      lac_segment_operation(),         lac_space_operation(),
-      lac_spline_operation(),      lac_volume_operation(),          surface_continuity_operation(),
+      lac_spline_operation(),      lac_volume_operation(),          library_add_operation(),
+      library_export_operation(),  library_find_operation(),        library_measure_operation(),
+      library_show_operation(),    library_stats_operation(),       surface_continuity_operation(),
       surface_edit_operation(),    surface_interrogate_operation(), surface_loft_operation(),
       surface_revolve_operation(), surface_sav_operation(),         surface_sweep_operation()};
 }

@@ -65,6 +65,19 @@ TEST(Documentation, EveryCommandOfTheClassAGuideRuns) {
   }
 }
 
+TEST(Documentation, EveryCommandOfTheLibraryGuideRuns) {
+  const auto commands = commands_of("guide/library.md");
+  EXPECT_GE(commands.size(), 6U);
+  const Scratch s;
+  std::string before = within(s);
+  for (const std::string& command : commands) {
+    const Outcome o = run_keyline(command, before);
+    if (o.err.find("no design library") != std::string::npos) GTEST_SKIP() << o.err;
+    EXPECT_EQ(o.status, 0) << command << '\n' << o.err;
+    before = "cd " + s.path("") + " && ";
+  }
+}
+
 #ifdef KEYLINE_HAS_SKETCH
 TEST(Documentation, EveryCommandOfTheSketchGuideRuns) {
   const auto commands = commands_of("guide/sketch.md");
