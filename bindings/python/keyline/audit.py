@@ -1,0 +1,208 @@
+"""An audit of many files on many machines: python -m keyline.audit [OPTIONS] GLOB…
+
+Every file is measured by library.measure: each of its curves and surfaces with rhythm, slopes, CAV, SAV,
+size. Tasks are named by the content they work on, so that a file is measured once however often it is
+asked for, and a task that dies with its worker is simply run again: the table is the same as that of
+--serial, byte for byte, in the order of the files' names.
+
+  --scheduler tcp://…   a Dask scheduler; without it a cluster on this machine (--workers N of them)
+  --serial              no Dask at all
+  -o FILE               .csv (default: standard output), .parquet (needs pyarrow), or a design library
+                        (any other name), which is added to and never holds a thing twice
+
+The exit status is 0 also where files could not be read: the table has a row that says why.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import glob
+import hashlib
+import os
+import sys
+import tempfile
+from typing import Any, Iterable, Iterator
+
+import keyline
+
+COLUMNS = (
+    "file", "number", "name", "layer", "kind", "unit", "size", "length", "volume", "rhythm", "slopes",
+    "pieces", "lcg_variance", "self_affinity", "cav_type", "cav", "nearest_cav", "sav", "notes", "error",
+)  # fmt: skip
+
+# What a task is named by beside its content: another measure, another name.
+VERSION = f"keyline-{keyline.__version__}-1"
+# A worker that is killed takes its task's reputation with it; Dask gives up on a task after three. A file
+# that kills its worker by itself is reported after so many.
+DEATHS = 25
+
+
+def content_key(path: str) -> str:
+    """The name of the task that measures a file: its content, and how it is read (by its extension)."""
+    digest = hashlib.sha256(VERSION.encode())
+    digest.update(os.path.splitext(path)[1].lower().encode() + b"\0")
+    with open(path, "rb") as file:
+        for block in iter(lambda: file.read(1 << 20), b""):
+            digest.update(block)
+    return "keyline-audit-" + digest.hexdigest()
+
+
+def measure(path: str) -> dict[str, Any]:
+    """The entries of a file, or why there are none. Runs on a worker; one thread, no memory of others."""
+    try:
+        return {"entries": keyline.perform("library.measure", {"file": path}, threads=1)["entries"]}
+    except keyline.Error as failure:
+        return {"entries": [], "error": str(failure)}
+
+
+def main_piece(entry: dict[str, Any]) -> dict[str, Any]:
+    """The longest piece: what a curve is called by."""
+    pieces = entry.get("pieces", [])
+    return max(pieces, key=lambda p: p["share"], default={})
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return ""
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def rows_of(path: str, measured: dict[str, Any]) -> Iterator[dict[str, str]]:
+    """The lines of the table for one file."""
+    if "error" in measured:
+        yield {"file": path, "error": measured["error"]}
+    for number, entry in enumerate(measured["entries"], start=1):
+        piece = main_piece(entry)
+        row = {name: _text(entry.get(name)) for name in COLUMNS}
+        row.update(file=path, number=str(number), pieces=str(len(entry.get("pieces", []))), error="")
+        row.update(rhythm=piece.get("rhythm", ""), slopes=" ".join(map(repr, piece.get("slopes", []))))
+        row.update(lcg_variance=_text(piece.get("lcg_variance")), self_affinity=_text(piece.get("self_affinity")))
+        row.update(notes="; ".join(entry.get("notes", [])))
+        yield row
+
+
+class Table:
+    """Rows into a file that is there whole or not at all."""
+
+    def __init__(self, target: str | None) -> None:
+        self.rows: list[dict[str, str]] = []
+        self.target = target
+
+    def add(self, path: str, measured: dict[str, Any]) -> None:
+        """The rows of one file."""
+        self.rows += rows_of(path, measured)
+
+    def finish(self) -> None:
+        """Written in the order of files and numbers, whatever order they came in."""
+        self.rows.sort(key=lambda row: (row["file"], int(row.get("number") or 0)))
+        if self.target and self.target.endswith(".parquet"):
+            return self._parquet()
+        if not self.target:
+            return self._csv(sys.stdout)
+        folder = os.path.dirname(os.path.abspath(self.target))
+        with tempfile.NamedTemporaryFile("w", dir=folder, newline="", encoding="utf-8", delete=False) as file:
+            self._csv(file)
+        os.replace(file.name, self.target)
+
+    def _csv(self, file: Any) -> None:
+        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(self.rows)
+
+    def _parquet(self) -> None:
+        try:
+            import pyarrow
+            import pyarrow.parquet
+        except ImportError:
+            raise SystemExit("keyline.audit: Parquet needs pyarrow, which is not installed; write .csv") from None
+        columns = {name: [row.get(name, "") for row in self.rows] for name in COLUMNS}
+        pyarrow.parquet.write_table(pyarrow.table(columns), self.target)
+
+
+class Shelf:
+    """Entries into a design library; one file, one transaction."""
+
+    def __init__(self, target: str) -> None:
+        self.target = target
+        self.failed: list[str] = []
+
+    def add(self, path: str, measured: dict[str, Any]) -> None:
+        """The entries of one file."""
+        if "error" in measured:
+            self.failed.append(f"{path}: {measured['error']}")
+        elif measured["entries"]:
+            fields = {"library": self.target, "entries": measured["entries"], "source": path}
+            keyline.perform("library.add", fields)
+
+    def finish(self) -> None:
+        """What could not be read is told."""
+        for line in sorted(self.failed):
+            print(f"keyline.audit: {line}", file=sys.stderr)
+
+
+def serial(paths: Iterable[str]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """One file after the other, here."""
+    for path in paths:
+        yield path, measure(path)
+
+
+def distributed(paths: list[str], scheduler: str | None, workers: int) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The same on Dask, in the order in which they are done."""
+    import dask
+    from distributed import Client, LocalCluster, as_completed
+
+    dask.config.set({"distributed.scheduler.allowed-failures": DEATHS})
+    cluster = None
+    if scheduler is None:
+        cluster = LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+    with Client(scheduler or cluster) as client:
+        same: dict[str, list[str]] = {}
+        for path in paths:
+            same.setdefault(content_key(path), []).append(path)
+        tasks = [client.submit(measure, group[0], key=key, pure=True) for key, group in same.items()]
+        for task in as_completed(tasks):
+            try:
+                measured = task.result()
+            except Exception as death:  # KilledWorker: the file took every worker with it
+                measured = {"entries": [], "error": f"not measured: {type(death).__name__}"}
+            for path in same[task.key]:
+                yield path, measured
+            task.release()
+    if cluster:
+        cluster.close()
+
+
+def files_of(patterns: list[str]) -> list[str]:
+    """The files the patterns mean, each once, by name; ** goes into folders."""
+    found = {f for pattern in patterns for f in glob.glob(pattern, recursive=True) if os.path.isfile(f)}
+    return sorted(found)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(prog="python -m keyline.audit", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser.add_argument("pattern", nargs="+", metavar="GLOB")
+    parser.add_argument("-o", "--output", metavar="FILE")
+    parser.add_argument("--scheduler", metavar="ADDRESS")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("--serial", action="store_true")
+    told = parser.parse_args(arguments)
+    paths = files_of(told.pattern)
+    if not paths:
+        print("keyline.audit: no file is meant by " + " ".join(told.pattern), file=sys.stderr)
+        return 2
+    table = told.output is None or told.output.endswith((".csv", ".parquet"))
+    sink: Table | Shelf = Table(told.output) if table else Shelf(told.output)
+    run = serial(paths) if told.serial else distributed(paths, told.scheduler, told.workers)
+    for done, (path, measured) in enumerate(run, start=1):
+        sink.add(path, measured)
+        if sys.stderr.isatty():
+            print(f"\r{done} of {len(paths)} files", end="", file=sys.stderr)
+    sink.finish()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
