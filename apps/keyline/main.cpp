@@ -16,6 +16,16 @@
 namespace keyline::app {
 namespace {
 
+/// A word as a shell has to be given it: in quotes where it holds more than plain characters.
+std::string as_typed(const std::string& word) {
+  constexpr const char* kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 bool has_command(const std::vector<Command>& commands, const std::string& name) {
   return std::ranges::any_of(commands,
                              [&](const Command& c) { return c.parser->get_name() == name; });
@@ -111,7 +121,7 @@ int run(int argc, char** argv) {
     return report_usage(commands, e, argc > 1 ? argv[1] : "");
   }
   std::string typed = "keyline";
-  for (int i = 1; i < argc; ++i) typed += std::string(" ") + argv[i];
+  for (int i = 1; i < argc; ++i) typed += " " + as_typed(argv[i]);
   const auto chosen =
       std::ranges::find_if(commands, [](const Command& c) { return c.parser->parsed(); });
   return chosen->run(typed);
