@@ -6,13 +6,13 @@ namespace keyline::curve {
 
 /// What of two chains is compared.
 enum class ChainEnds {
-  matched,   ///< start with start, end with end
-  trimmed,   ///< what one reaches beyond the normal at the other's end is left out
+  matched,  ///< start with start, end with end
+  trimmed,  ///< what one reaches beyond the normal at the other's end is left out
 };
 
 /// A bound of the largest distance, either way, between two chains of polynomial Béziers run the
-/// same way: one is carried onto the other by a piecewise linear change of parameter through feet of
-/// its points and of both chains' joints, so that no part of either is left out, and the
+/// same way: one is carried onto the other by a piecewise linear change of parameter through feet
+/// of its points and of both chains' joints, so that no part of either is left out, and the
 /// differences are bounded by their Bernstein coefficients. Nothing is left to samples but how
 /// sharp the bound is: parts are halved, eleven times at most, until each is below `wanted`.
 /// Rigorous up to rounding. Throws InvalidInput where a chain is empty or a piece rational.

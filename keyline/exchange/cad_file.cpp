@@ -140,7 +140,8 @@ Result<Document> read_cad(const fs::path& file, CadFormat format) {
                 "check the name and the rights");
   if (bytes > kLargestFile)
     return fail(ErrorCode::bad_input,
-                "the file is larger than " + std::to_string(kLargestFile >> 20) + " MB", "split it");
+                "the file is larger than " + std::to_string(kLargestFile >> 20) + " MB",
+                "split it");
   return read_cad(file, format, cad_limits(bytes));
 }
 

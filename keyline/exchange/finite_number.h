@@ -7,8 +7,9 @@
 
 namespace keyline::exchange::detail {
 
-/// The finite number a text is, from its first character to its last (a + may stand before it); what
-/// is too small for a double is 0, what is too large, "nan" and "inf" are none. Whatever the locale.
+/// The finite number a text is, from its first character to its last (a + may stand before it);
+/// what is too small for a double is 0, what is too large, "nan" and "inf" are none. Whatever the
+/// locale.
 inline std::optional<double> finite_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;

@@ -26,7 +26,8 @@ enum class Mode { read, write };  ///< write makes the library where there is no
 bool is_available();
 
 /// The library of who asks where none is named: KEYLINE_LIBRARY of the environment, else keyline's
-/// folder among the user's data (XDG_DATA_HOME, ~/.local/share). Empty where there is no such place.
+/// folder among the user's data (XDG_DATA_HOME, ~/.local/share). Empty where there is no such
+/// place.
 std::filesystem::path default_file();
 
 /// An open library. Not for two threads at once; open it once in each.

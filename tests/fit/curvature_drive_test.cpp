@@ -201,7 +201,8 @@ TEST(CurvatureDrive, WhatIsCertifiedMonotoneStaysCertified) {
   int certified = 0;
   for (int n = 0; n < 20; ++n) {
     const double growth = 1.03 + 0.12 * unit(random);  // Class A while edges turn by less
-    const PiecewiseBezier start = turning_chain(2, [&](int i, int k) { return std::pow(growth, 5 * i + k); });
+    const PiecewiseBezier start =
+        turning_chain(2, [&](int i, int k) { return std::pow(growth, 5 * i + k); });
     const auto kept = drive_curvature(start, rhythm_target(start, false), {.keep_monotone = true});
     ASSERT_TRUE(kept);
     ASSERT_EQ(kept->chain.pieces.size(), start.pieces.size());
