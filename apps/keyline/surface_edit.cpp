@@ -81,6 +81,11 @@ void print_patches(const surface::SurfaceEdit& edit) {
   for (const auto& p : values_after(edit)) after += p.value.sav;
   fmt::print("{} patches  SAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
              edit.edited.patches.size(), before, after, edit.edited.departure);
+  if (edit.edited.lost > 0)
+    fmt::print("{} of {} joints lost their order\n", edit.edited.lost, edit.edited.joints.size());
+  if (edit.edited.sav_apart < after)
+    fmt::print("joints are held; each patch for itself would come to SAV {:.5g}\n",
+               edit.edited.sav_apart);
   fmt::print("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure", "target");
   for (std::size_t i = 0; i < edit.edited.patches.size(); ++i) {
     const auto& [result, why] = edit.edited.patches[i];
@@ -125,11 +130,14 @@ void print_joints(const Joints& j) {
   const auto told = [](double x) { return x < 1e-9 ? 0 : x; };  // rounding is no gap
   fmt::print(
       "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
-      "G0 {} to {}  G1 {} to {}\n",
+      "G0 {} to {}  G1 {} to {}  G2 {} to {}\n",
       j.before.joints, told(j.before.gap), told(j.after.gap),
       told(j.before.angle * 180 / core::kPi), told(j.after.angle * 180 / core::kPi),
       j.before.order_at_least[0], j.after.order_at_least[0], j.before.order_at_least[1],
-      j.after.order_at_least[1]);
+      j.after.order_at_least[1], j.before.order_at_least[2], j.after.order_at_least[2]);
+  if (j.after.order_at_least[1] < j.before.order_at_least[1])
+    fmt::print("warning: {} of {} tangent joints are lost\n",
+               j.before.order_at_least[1] - j.after.order_at_least[1], j.before.order_at_least[1]);
 }
 
 operations::ReportOptions report_options(const EditCommand& command, const std::string& unit,
@@ -218,12 +226,32 @@ struct Session {
   json shown = json::array();
 };
 
+/// All surfaces of a file as one problem, so that joints between them hold too; nothing where that
+/// has no answer or there is one surface alone.
+std::optional<std::vector<surface::SurfaceEdit>> edited_together(
+    const document::Document& document, const surface::EditOptions& options, int threads) {
+  if (document.surfaces.size() < 2) return {};
+  std::vector<surface::Surface> all;
+  for (const document::NamedSurface& named : document.surfaces) all.push_back(named.surface);
+  auto edits = surface::edit_surfaces(all, options, threads);
+  if (!edits) return {};
+  return std::move(*edits);
+}
+
+/// One of them; or why none of its patches could be edited.
+Result<surface::SurfaceEdit> taken(surface::SurfaceEdit& edit) {
+  for (const surface::PatchEdit& p : edit.edited.patches)
+    if (p.result) return std::move(edit);
+  return std::unexpected(edit.edited.patches.front().why);
+}
+
 /// Edits every surface; one of several that cannot be stays as given, and that is said.
 Result<Session> edit_all(const EditCommand& command, const document::Document& document,
                          const json& request, const core::Progress& progress) {
   Session session;
   session.written.unit = document.unit;
   std::optional<core::Failure> failure;
+  std::optional<std::vector<surface::SurfaceEdit>> together;
   for (std::size_t i = 0; i < document.surfaces.size(); ++i) {
     const document::NamedSurface& named = document.surfaces[i];
     const bool several =
@@ -235,7 +263,9 @@ Result<Session> edit_all(const EditCommand& command, const document::Document& d
     surface::EditOptions options = operations::surface_edit_options(*asked, several);
     const double count = static_cast<double>(document.surfaces.size());
     options.progress = core::part_of(progress, i / count, (i + 1) / count);
-    auto edit = surface::edit_surface(named.surface, options, command.common.threads);
+    if (i == 0) together = edited_together(document, options, command.common.threads);
+    auto edit = together ? taken((*together)[i])
+                         : surface::edit_surface(named.surface, options, command.common.threads);
     if (!edit && edit.error().code == core::ErrorCode::cancelled)
       return std::unexpected(edit.error());
     if (!edit) {

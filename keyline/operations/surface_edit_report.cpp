@@ -26,20 +26,18 @@ struct Pair {
   Drawing after;
 };
 
-/// Range of a curvature over all surfaces.
+/// Usual range of a curvature over all surfaces, so that one spike does not take all the colours.
 core::Interval common_range(const Surface& given, const std::vector<Surface>& edited,
                             FieldKind field) {
   const int places = edited.size() > 9 ? 17 : 65;
-  std::optional<core::Interval> range;
+  std::vector<double> all;
   const auto take = [&](const Surface& s, int count) {
     const auto found = surface::interrogate(surface::sample_grid(s, count, count), field);
-    if (!found) return;
-    if (!range) range = found->range;
-    range = {std::min(range->low, found->range.low), std::max(range->high, found->range.high)};
+    if (found) all.insert(all.end(), found->values.begin(), found->values.end());
   };
   take(given, 65);
   for (const Surface& s : edited) take(s, places);
-  return range.value_or(core::Interval{0, 0});
+  return usual_range(std::move(all));
 }
 
 /// The same picture of both, in the lights of the first and in the same colours.
@@ -236,9 +234,11 @@ Result<report::Report> surface_edit_report(const Surface& given, const surface::
   report.verdict = torn || bent ? report::Verdict::caution : report::Verdict::good;
   report.verdict_line = fmt::format(
       "SAV of {} patches from {} to {}; {}.", all.surfaces.size(), number(before), number(after),
-      torn   ? "edges that met before have gaps now"
-      : bent ? "edges still meet, but some that were tangent before have a fold now"
-             : "their joints are as good as before");
+      torn   ? std::string("edges that met before have gaps now")
+      : bent ? fmt::format("{} of {} tangent joints have a fold now",
+                           all.before.order_at_least[1] - all.after.order_at_least[1],
+                           all.before.order_at_least[1])
+             : std::string("their joints are as good as before"));
   report.numbers = {{"SAV before", number(before), "sum of all patches"},
                     {"SAV after", number(after), {}},
                     {"Largest departure",

@@ -81,14 +81,6 @@ void place_camera(figure::SurfaceView& view, const SurfacePicture& options,
   view.up = norm(cross(n, view.view)) > 1e-6 * norm(view.view) ? n : b;
 }
 
-core::Interval usual_range(std::vector<double> values) {
-  std::erase_if(values, [](double x) { return !std::isfinite(x); });
-  if (values.empty()) return {0, 1};
-  std::sort(values.begin(), values.end());
-  const std::size_t cut = values.size() / 50;
-  return {values[cut], values[values.size() - 1 - cut]};
-}
-
 figure::SurfaceMesh mesh_of(const JetGrid& grid) {
   figure::SurfaceMesh mesh{grid.rows, grid.columns, {}, {}, {}};
   for (const surface::SurfaceJet& j : grid.jets) {
@@ -170,6 +162,14 @@ figure::Plot profile_plot(const surface::BezierSurface& s, bool rows, const std:
 }
 
 }  // namespace
+
+core::Interval usual_range(std::vector<double> values) {
+  std::erase_if(values, [](double x) { return !std::isfinite(x); });
+  if (values.empty()) return {0, 1};
+  std::sort(values.begin(), values.end());
+  const std::size_t cut = values.size() / 50;
+  return {values[cut], values[values.size() - 1 - cut]};
+}
 
 double stripes_for(const std::vector<Surface>& surfaces) {
   constexpr double kPairs = 8;  // over the whole picture

@@ -27,6 +27,9 @@ struct SurfacePicture {
   std::optional<core::Vector3> view = {};    ///< empty: obliquely on the mean normal
 };
 
+/// The range of the finite values without the outer 2 % at either end; [0, 1] where there is none.
+core::Interval usual_range(std::vector<double> values);
+
 /// Pairs of stripes at which about eight show on the surfaces: 12 to 400.
 double stripes_for(const std::vector<surface::Surface>& surfaces);
 

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Dense>
+
 namespace keyline::sketch {
 namespace {
 
 using core::distance;
+using core::Point2;
 using core::Vector2;
 
 constexpr std::size_t kMostBranches = 10;
@@ -119,6 +122,33 @@ double bend_between(const Branch& a, const Branch& b) {
   const double first = turn(-a.outward, chord);
   const double second = turn(chord, b.outward);
   return 0.5 * std::abs(first + second) + std::abs(first - second);
+}
+
+double off_parabola(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach) {
+  std::vector<Point2> points;
+  for (const Branch* branch : {&a, &b}) {
+    const GraphEdge& line = graph.edges[static_cast<std::size_t>(branch->edge)];
+    const std::size_t n = line.points.size();
+    double run = 0;
+    for (std::size_t i = branch->anchor; run <= std::max(reach, 16.0);
+         i += branch->at_end ? -1 : 1) {
+      points.push_back(line.points[i]);
+      if (i == (branch->at_end ? 0 : n - 1)) break;
+      run += distance(line.points[i], line.points[branch->at_end ? i - 1 : i + 1]);
+    }
+  }
+  const Vector2 chord = b.place - a.place;
+  const double length = std::max(core::norm(chord), 1e-9);
+  Eigen::MatrixX3d rows(static_cast<Eigen::Index>(points.size()), 3);
+  Eigen::VectorXd across(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Vector2 d = points[static_cast<std::size_t>(i)] - a.place;
+    const double x = core::dot(chord, d) / (length * length) - 0.5;
+    rows.row(i) << 1, x, x * x;
+    across[i] = core::cross(chord, d) / length;
+  }
+  const Eigen::VectorXd rest = rows * rows.householderQr().solve(across) - across;
+  return rest.norm() / std::sqrt(static_cast<double>(points.size()));
 }
 
 std::vector<int> pair_up(const std::vector<Branch>& branches, double turn) {

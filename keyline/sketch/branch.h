@@ -27,6 +27,10 @@ Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip)
 /// as a plain arc makes it, and all that an arc does not explain. Radians.
 double bend_between(const Branch& a, const Branch& b);
 
+/// Root mean square distance of the points of two branches, up to `reach` out from where they are
+/// clear of the junction, from the parabola that fits both best.
+double off_parabola(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach);
+
 /// Who goes on with whom, of least sum of bends, a branch left over counting half `turn`; -1 for
 /// those. Pairs that bend more than `turn` are not made. At most ten branches (more are left over).
 std::vector<int> pair_up(const std::vector<Branch>& branches, double turn);

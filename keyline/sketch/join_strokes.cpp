@@ -1,6 +1,7 @@
 #include "keyline/sketch/join_strokes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -16,12 +17,17 @@ using core::distance;
 using core::Point2;
 using core::Vector2;
 
+/// Two lines that cross at 10 degrees share about 23 half widths, 1 / tan 5 degrees twice; only
+/// nearly straight ones are believed where it is that long.
+constexpr double kLongestShared = 24;
+constexpr double kBendOfLong = 0.3;
+
 class Joiner {
  public:
   Joiner(const StrokeGraph& graph, const JoinOptions& options) : graph_(graph), options_(options) {
     make_clusters();
     make_branches();
-    for (std::size_t c = 0; c < members_.size(); ++c) match(members_[c]);
+    for (std::size_t c = 0; c < members_.size(); ++c) match(members_[c], shared_[c]);
     bridge_gaps();
   }
 
@@ -134,7 +140,8 @@ class Joiner {
   bool is_shared_stretch(int e) const {
     const GraphEdge& line = edge(e);
     const double wide = std::max(node(line.from).radius, node(line.to).radius);
-    if (length_of(line) > 8 * wide) return false;
+    const double length = length_of(line);
+    if (length > kLongestShared * wide) return false;
     if (node(line.from).edges.size() != 3 || node(line.to).edges.size() != 3) return false;
     std::vector<Branch> left;
     std::vector<Branch> right;
@@ -150,7 +157,8 @@ class Joiner {
         std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
     const double crossed =
         std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
-    return std::min(straight, crossed) < (length_of(line) > 4 * wide ? 0.6 : 0.9);
+    const double most = length > 8 * wide ? kBendOfLong : length > 4 * wide ? 0.6 : 0.9;
+    return std::min(straight, crossed) < most;
   }
 
   /// Two branches out of a node that soon meet again at their other ends: the sides of a hole.
@@ -165,6 +173,12 @@ class Joiner {
   void make_branches() {
     branches_.resize(2 * graph_.edges.size());
     std::vector<double> radius(graph_.nodes.size(), 0);
+    shared_.assign(graph_.nodes.size(), 0);
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      if (!bridge_[e]) continue;
+      double& longest = shared_[static_cast<std::size_t>(root(graph_.edges[e].from))];
+      longest = std::max(longest, length_of(graph_.edges[e]));
+    }
     for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
       double& r = radius[static_cast<std::size_t>(root(static_cast<int>(n)))];
       r = std::max(r, graph_.nodes[n].radius);
@@ -186,12 +200,36 @@ class Joiner {
     }
   }
 
-  void match(const std::vector<int>& list) {
+  /// Of two lines that share a long stretch the directions beside it tell little: those go on with
+  /// each other that lie on one parabola, far out.
+  bool match_far_out(const std::vector<int>& list, double shared) {
+    std::array<std::array<double, 4>, 4> off{};
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        off[a][b] = off[b][a] = off_parabola(graph_, at(list[a]), at(list[b]), 2 * shared);
+    std::size_t best = 1;
+    for (const std::size_t mate : {2, 3}) {
+      const auto sum = [&](std::size_t m) {
+        return off[0][m] + off[m == 1 ? 2 : 1][m == 3 ? 2 : 3];
+      };
+      if (sum(mate) < sum(best)) best = mate;
+    }
+    const std::array<std::size_t, 2> rest = {best == 1 ? 2U : 1U, best == 3 ? 2U : 3U};
+    for (const auto& [a, b] : {std::pair{std::size_t{0}, best}, std::pair{rest[0], rest[1]}}) {
+      if (bend_between(at(list[a]), at(list[b])) > options_.turn) return false;
+      at(list[a]).mate = list[b];
+      at(list[b]).mate = list[a];
+    }
+    return true;
+  }
+
+  void match(const std::vector<int>& list, double shared) {
     if (list.size() == 2) {  // no junction at all
       at(list[0]).mate = list[1];
       at(list[1]).mate = list[0];
       return;
     }
+    if (list.size() == 4 && shared > 0 && match_far_out(list, shared)) return;
     std::vector<Branch> branches;
     for (const int id : list) branches.push_back(at(id));
     const std::vector<int> mates = pair_up(branches, options_.turn);
@@ -327,6 +365,7 @@ class Joiner {
   std::vector<int> parent_;
   std::vector<bool> bridge_;
   std::vector<std::vector<int>> members_;
+  std::vector<double> shared_;  ///< longest edge that disappeared, by cluster
   std::vector<Branch> branches_;
 };
 

@@ -9,10 +9,10 @@
 namespace keyline::sketch {
 
 struct LineOptions {
-  double width = 1;    ///< of the pen
-  double reach = 4;    ///< farthest apart that strokes of the line lie
-  double step = 1;     ///< between samples
-  double angle = 0.4;  ///< radians between strokes side by side
+  double width = 1;     ///< of the pen
+  double reach = 4;     ///< farthest apart that strokes of the line lie
+  double step = 1;      ///< between samples
+  double angle = 0.45;  ///< radians between strokes side by side
 };
 
 /// The one line that a group of strokes stands for.

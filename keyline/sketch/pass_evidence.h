@@ -9,10 +9,10 @@ namespace keyline::sketch {
 
 /// What makes two strokes passes of one line.
 struct PassModel {
-  double width = 1;    ///< of the pen, in the strokes' unit
-  double apart = 4;    ///< widths that two passes of one line lie apart at most, and …
-  double hand = 0.08;  ///< … the share of their length that the hand errs on top
-  double angle = 0.4;  ///< radians between them
+  double width = 1;     ///< of the pen, in the strokes' unit
+  double apart = 4;     ///< widths that two passes of one line lie apart at most, and …
+  double hand = 0.09;   ///< … the share of their length that the hand errs on top
+  double angle = 0.45;  ///< radians between them
 };
 
 /// By stroke, the strokes that something speaks for or against, and how strongly. Symmetric.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
+#include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/meet_lines.h"
@@ -211,9 +212,26 @@ void warn_of_photograph(const Tone& tone, const Binary& ink, double width, Trace
                            " % of the picture is dark; is it a drawing?");
 }
 
+/// A picture whose pixels were repeated is traced at its own size: the steps are not its lines'.
+core::Result<TraceResult> trace_enlarged(const Image& image, int times,
+                                         const TraceOptions& options) {
+  TraceOptions own = options;
+  if (own.gap) *own.gap /= times;
+  if (own.specks) *own.specks /= times * times;
+  if (own.curve.tolerance > 0)
+    own.curve.tolerance = std::max(own.curve.tolerance / times, StrokeCurveOptions{}.tolerance);
+  auto result = trace(reduced(image, times), own);
+  if (!result) return result;
+  enlarge(*result, times);
+  result->notes.push_back("the picture was enlarged " + std::to_string(times) +
+                          " times by repeating pixels: traced at its own size");
+  return result;
+}
+
 }  // namespace
 
 core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
+  if (const int times = enlargement(image); times > 1) return trace_enlarged(image, times, options);
   TraceResult result;
   result.width = image.width();
   result.height = image.height();

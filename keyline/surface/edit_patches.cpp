@@ -309,6 +309,7 @@ PatchesEdit part_of_edit(const PatchesEdit& all, std::span<const BezierSurface> 
   part.after = measure_joints(part.joints, part.surfaces, tolerance);
   part.sav_before = sum_of(part.patches, &EditResult::before);
   part.sav_after = sum_of(part.patches, &EditResult::after);
+  part.sav_apart = part.sav_after;
   for (const PatchEdit& p : part.patches)
     if (p.result) part.departure = std::max(part.departure, p.result->departure);
   return part;
@@ -323,7 +324,6 @@ core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> su
   std::vector<BezierSurface> patches;
   std::vector<SurfaceEdit> edits;
   for (const Surface& s : surfaces) {
-    if (is_rational(s)) return std::unexpected(rational());
     edits.push_back({patches_of(s), {}, {}});
     const auto& own = edits.back().grid.patches;
     patches.insert(patches.end(), own.begin(), own.end());

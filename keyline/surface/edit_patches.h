@@ -66,7 +66,9 @@ core::Result<SurfaceEdit> edit_surface(const Surface& s, const EditOptions& opti
                                        HoldJoints hold = HoldJoints::G1);
 
 /// edit_patches() of all patches of several surfaces, joints between them included.
-/// The PatchesEdit of each has its own patches alone; `together` (where given) gets that of all.
+/// Patches of rational surfaces stay where they are. The PatchesEdit of each has its own patches
+/// alone, `sav_apart` of it is not known and stands at what is reached; `together` (where given)
+/// gets that of all.
 core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> surfaces,
                                                      const EditOptions& options = {},
                                                      int threads = 1,

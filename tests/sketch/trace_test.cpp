@@ -10,6 +10,12 @@
 
 #include "keyline/core/polygon.h"
 #include "keyline/curve/jet.h"
+#include "keyline/sketch/enlargement.h"
+
+#include "kinds_generator.h"
+#include "keyline/sketch/enlargement.h"
+
+#include "kinds_generator.h"
 
 namespace keyline::sketch {
 namespace {
@@ -195,6 +201,28 @@ TEST(Trace, DrawnStrokesSayWhoStandsForThem) {
   EXPECT_EQ(result->strokes[1].members, (std::vector<std::size_t>{4}));
   EXPECT_EQ(result->left_over, (std::vector<std::size_t>{3}));
   EXPECT_GT(result->explained, 0.99);
+}
+
+// Repeated pixels are no steps of the line: the same curves come out, as many times as large.
+TEST(Trace, EnlargedPicturesAreTracedAtTheirOwnSize) {
+  const Image small = testing::make_kind("width 4", 3).image;
+  Image large;
+  constexpr int kTimes = 4;
+  large.luminance = Raster<std::uint16_t>(kTimes * small.width(), kTimes * small.height());
+  for (int y = 0; y < large.height(); ++y)
+    for (int x = 0; x < large.width(); ++x)
+      large.luminance.at(x, y) = small.luminance.at(x / kTimes, y / kTimes);
+  EXPECT_EQ(enlargement(small), 1);
+  EXPECT_EQ(enlargement(large), kTimes);
+  const auto own = trace(small);
+  const auto result = trace(large);
+  ASSERT_TRUE(own && result);
+  ASSERT_EQ(result->strokes.size(), own->strokes.size());
+  EXPECT_EQ(result->width, large.width());
+  const Stroke& stroke = result->strokes[0];
+  EXPECT_EQ(stroke.curve.size(), own->strokes[0].curve.size());
+  EXPECT_NEAR(stroke.width, kTimes * own->strokes[0].width, 1e-9);
+  EXPECT_EQ(stroke.curve[0].control[0].x, kTimes * own->strokes[0].curve[0].control[0].x);
 }
 
 }  // namespace

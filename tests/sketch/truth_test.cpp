@@ -2,12 +2,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "keyline/sketch/trace.h"
 
 #include "drawing_generator.h"
+#include "kinds_generator.h"
 
 namespace keyline::sketch {
 namespace {
@@ -44,6 +47,8 @@ struct Score {
   std::size_t found = 0;    ///< strokes of the answer
   std::size_t matched = 0;  ///< true strokes with one of the answer all along, and its only one
   double worst_ratio = 0;   ///< largest 95th percentile over what is allowed for the width
+  double square = 0;        ///< sum and number of the squared distances of matching curves
+  double count = 0;
 };
 
 double percentile95(std::vector<double> v) {
@@ -52,7 +57,7 @@ double percentile95(std::vector<double> v) {
 }
 
 Score score_of(const testing::TrueDrawing& truth, const TraceResult& result) {
-  Score score{truth.strokes.size(), result.strokes.size(), 0, 0};
+  Score score{truth.strokes.size(), result.strokes.size()};
   std::vector<std::vector<Point2>> answers;
   for (const Stroke& s : result.strokes) answers.push_back(sampled(s));
   for (const testing::TrueStroke& t : truth.strokes) {
@@ -62,8 +67,10 @@ Score score_of(const testing::TrueDrawing& truth, const TraceResult& result) {
       std::vector<double> off;
       for (const Point2 p : answer) off.push_back(distance_to(t.points, p));
       const double far = percentile95(off);
-      if (far > t.width + 2) continue;
+      if (far > 0.75 * t.width + 1) continue;  // lines one and a half widths off are others
       ++mates;
+      for (const double d : off) score.square += d * d;
+      score.count += static_cast<double>(off.size());
       std::size_t covered = 0;
       for (const Point2 p : t.points)
         covered += distance_to(answer, p) < 0.5 * t.width + 1.5 ? 1 : 0;
@@ -99,6 +106,42 @@ TEST(Truth, DrawingsComeBackStrokeByStroke) {
   }
   std::printf("%d of %d drawings, %zu of %zu strokes one to one\n", right, count, matched, strokes);
   EXPECT_GE(right, 0.95 * count);
+}
+
+/// Kinds that are still short of the bar of 0.9, with the share that came back one to one when this
+/// was written (20 seeds): they may get better, not worse.
+const std::map<std::string, double> kShort = {{"crossing 15", 0.85}, {"tangle", 0.45}};
+
+TEST(Truth, EveryKindComesBackOneToOne) {
+  const int count = std::getenv("KEYLINE_FULL") ? 20 : 4;
+  double wanted = 0;
+  double matched = 0;
+  for (const std::string& kind : testing::drawing_kinds()) {
+    Score all;
+    int right = 0;
+    for (int seed = 1; seed <= count; ++seed) {
+      const auto truth = testing::make_kind(kind, static_cast<std::uint64_t>(seed));
+      const auto result = trace(truth.image);
+      ASSERT_TRUE(result) << kind << ", seed " << seed << ": " << result.error().message;
+      const Score score = score_of(truth, *result);
+      right += score.found == score.wanted && score.matched == score.wanted ? 1 : 0;
+      all.wanted += score.wanted;
+      all.matched += score.matched;
+      all.square += score.square;
+      all.count += score.count;
+    }
+    const double rms = std::sqrt(all.square / std::max(1.0, all.count));
+    std::printf("%-12s %2d of %2d drawings, %3zu of %3zu lines, rms %.2f\n", kind.c_str(), right,
+                count, all.matched, all.wanted, rms);
+    wanted += static_cast<double>(all.wanted);
+    matched += static_cast<double>(all.matched);
+    const auto bar = kShort.find(kind);
+    EXPECT_GE(right, std::floor((bar == kShort.end() ? 0.9 : bar->second) * count - 1e-9)) << kind;
+    if (bar == kShort.end()) {
+      EXPECT_LE(rms, 0.3) << kind;
+    }
+  }
+  std::printf("%.1f %% of the lines\n", 100 * matched / wanted);
 }
 
 }  // namespace
