@@ -13,6 +13,9 @@ using core::ErrorCode;
 using core::fail;
 using core::Result;
 
+/// Who reads a library too makes the files of its write-ahead log beside it for as long as it is
+/// open.
+constexpr bool kLogBeside = true;
 /// An example that stands alone: made by the example of library.add.
 constexpr const char* kExample = R"({"library":"/tmp/keyline-example.kl"})";
 
@@ -139,14 +142,16 @@ Operation library_find_operation() {
                             .summary = "Things of a design library by rhythm, slope, CAV, SAV, "
                                        "size, name, or by a curve they look like.",
                             .examples = {kExample},
-                            .reads_files = true});
+                            .reads_files = true,
+                            .writes_files = kLogBeside});
 }
 
 Operation library_show_operation() {
   return declare<run_show>({.name = "library.show",
                             .summary = "One thing of a design library, with all that is known.",
                             .examples = {R"({"library":"/tmp/keyline-example.kl","number":1})"},
-                            .reads_files = true});
+                            .reads_files = true,
+                            .writes_files = kLogBeside});
 }
 
 Operation library_export_operation() {
@@ -164,7 +169,8 @@ Operation library_stats_operation() {
        .summary = "The survey of a design library: how many curves of each of the five types, "
                   "their slopes, how self-affine their pieces are.",
        .examples = {kExample},
-       .reads_files = true});
+       .reads_files = true,
+       .writes_files = kLogBeside});
 }
 
 }  // namespace keyline::operations
