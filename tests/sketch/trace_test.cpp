@@ -13,9 +13,6 @@
 #include "keyline/sketch/enlargement.h"
 
 #include "kinds_generator.h"
-#include "keyline/sketch/enlargement.h"
-
-#include "kinds_generator.h"
 
 namespace keyline::sketch {
 namespace {
