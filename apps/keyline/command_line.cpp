@@ -125,6 +125,9 @@ Command add_fair(CLI::App& app) {
   add_common(*sub, fair.common);
   sub->add_option("--pieces", fair.pieces, "wanted number of pieces; 0: as few as possible")
       ->check(CLI::Range(0, 400));
+  sub->add_option("--criterion", fair.criterion,
+                  "what the chain is to be within the tolerance: fewest-pieces (default) or "
+                  "least-variation, of curvature");
   sub->add_option("--clamp", fair.clamp,
                   "hold ends: start:G1,end:G2 (G0 position, G1 direction, "
                   "G2 curvature)");

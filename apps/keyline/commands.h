@@ -52,6 +52,7 @@ struct FairCommand {
   CommonOptions common;
   InputOptions input;
   int pieces = 0;
+  std::string criterion;  ///< empty: the default of `fair`
   std::string clamp;
   std::string region;
   std::vector<std::string> interpretations;

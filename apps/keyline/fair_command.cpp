@@ -47,6 +47,7 @@ Result<nlohmann::json> request_of(const FairCommand& command) {
   nlohmann::json request = search_request(command.spline);
   if (command.common.tolerance) request["tolerance"] = *command.common.tolerance;
   request["pieces"] = command.pieces;
+  if (!command.criterion.empty()) request["criterion"] = command.criterion;
   request["keep_corners"] = command.keep_corners;
   request["seed"] = command.common.seed;
   request["threads"] = command.common.threads;

@@ -92,7 +92,12 @@ class Job {
     const int pieces = options_.pieces == 0
                            ? 0
                            : std::max(1, static_cast<int>(std::lround(options_.pieces * share)));
-    return {result_.tolerance, line_.noise, pieces, options_.threads, core::part_of(whole, 0.4, 1)};
+    return {.tolerance = result_.tolerance,
+            .noise = line_.noise,
+            .pieces = pieces,
+            .criterion = options_.criterion,
+            .threads = options_.threads,
+            .progress = core::part_of(whole, 0.4, 1)};
   }
 
   /// Neighbouring chains end in one place at a corner: half way between their ends.

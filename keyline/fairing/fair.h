@@ -29,6 +29,15 @@ constexpr auto choices(const Clamp*) {
       {{Clamp::none, "none"}, {Clamp::g0, "G0"}, {Clamp::g1, "G1"}, {Clamp::g2, "G2"}});
 }
 
+/// What the chain is to be, within the tolerance: as short as possible, or of least variation of
+/// curvature (L^3 * integral of (d curvature / ds)^2 ds, Moreton and Sequin), with no wave of
+/// curvature that the points do not ask for.
+enum class Criterion { fewest_pieces, least_variation };
+constexpr auto choices(const Criterion*) {
+  return core::words<Criterion>({{Criterion::fewest_pieces, "fewest-pieces"},
+                                 {Criterion::least_variation, "least-variation"}});
+}
+
 struct EndClamps {
   Clamp start = Clamp::none;
   Clamp end = Clamp::none;
@@ -64,6 +73,7 @@ struct FairOptions {
   double tolerance =
       0;           ///< largest distance of a point, in the points' unit; 0: by the default rule
   int pieces = 0;  ///< wanted number of pieces; 0: as few as the tolerance allows
+  Criterion criterion = Criterion::fewest_pieces;
   bool keep_corners = true;
   EndClamps clamp;
   std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
@@ -83,6 +93,8 @@ struct FairOptions {
             .within(core::kPositive),
         core::field<&FairOptions::pieces>("wanted number of pieces; 0: as few as possible")
             .within(core::from_to(0, 400)),
+        core::field<&FairOptions::criterion>(
+            "what the chain is to be within the tolerance: as short as possible, or as calm"),
         core::field<&FairOptions::keep_corners>("corners end chains"),
         core::field<&FairOptions::clamp>(
             "what is held at the ends: G0 position, G1 also direction, G2 also curvature"),

@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
+#include "keyline/fairing/calm_run.h"
 #include "keyline/fairing/condense.h"
 #include "keyline/fairing/exact_chain.h"
 #include "keyline/fairing/guides.h"
@@ -16,6 +17,9 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostFitPoints = 1200;
+// What an end is off along the curve, and cells and means tell only nearly, has to fit in as well.
+constexpr double kInside = 0.995;
+constexpr double kPassed = 1e3;  // a point to be passed is off by so much less than others may
 
 /// A number cut to seven digits, see cut_digits.
 double rounded(double x) {
@@ -138,6 +142,39 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
   }
 }
 
+/// The solved curve as a chain whose pieces meet to the last digit, moved as little as that takes.
+FitChain closed_chain(const DenseCurve& curve, const std::vector<FitPoint>& points,
+                      double tolerance) {
+  FitChain chain = chain_of(curve);
+  ChainFitOptions fit;
+  fit.fine = true;
+  fit.scale = tolerance;
+  fit.close_gaps = true;
+  fit.iterations = 20;
+  fit_chain(chain, points, fit);
+  return chain;
+}
+
+/// The curve of least variation in the tolerance, in log-aesthetic pieces.
+void solve_least_variation(RunResult& result, const Run& run, const RunFrame& frame,
+                           const curve::BSpline2& spline, const RunOptions& options) {
+  const double tolerance = kInside * result.accept.tolerance;
+  result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
+  for (FitPoint& p : result.points)
+    if (p.must_pass) p.share = kPassed;
+  CalmRunOptions calm;
+  calm.tolerance = tolerance;
+  calm.pieces = options.pieces;
+  calm.start = held_end(run, frame, spline, true);
+  calm.end = held_end(run, frame, spline, false);
+  calm.progress = options.progress;
+  CalmRun found = solve_calm(result.points, run.closed, calm);
+  result.fit = closed_chain(found.curve, result.points, tolerance);
+  result.start_pieces = static_cast<int>(result.fit.pieces.size());
+  result.dense = std::move(found.curve);
+  result.within_tolerance = found.band.within;
+}
+
 /// The run solved for a tolerance, whether or not every single point passes in the end.
 RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
@@ -150,7 +187,12 @@ RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOpt
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
   result.accept = search_options(run, options).accept;
-  if (!solve_straight(result, run, options)) solve(result, run, frame, spline, options);
+  if (!solve_straight(result, run, options)) {
+    if (options.criterion == Criterion::least_variation)
+      solve_least_variation(result, run, frame, spline, options);
+    else
+      solve(result, run, frame, spline, options);
+  }
   std::vector<std::size_t> measured;
   for (std::size_t j = 0; j < result.points.size(); ++j)
     if (result.points[j].count > 0) measured.push_back(j);
@@ -193,6 +235,16 @@ void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
     joint.position = end.joint.position;
     hold = std::max(hold, end.hold);
   };
+  if (!result.dense.joints.empty()) {
+    const double tolerance = kInside * result.accept.tolerance;
+    result.within_tolerance =
+        hold_ends(result.dense, result.points, tolerance, held_end(run, frame, spline, true),
+                  held_end(run, frame, spline, false))
+            .within;
+    result.fit = closed_chain(result.dense, result.points, tolerance);
+    result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
+    return;
+  }
   FitChain& chain = result.fit;
   tie(chain.joints.front(), chain.hold_start, held_end(run, frame, spline, true));
   tie(chain.joints.back(), chain.hold_end, held_end(run, frame, spline, false));

@@ -5,6 +5,7 @@
 
 #include "keyline/core/similarity.h"
 #include "keyline/fairing/chain_search.h"
+#include "keyline/fairing/dense_curve.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/lac/chain.h"
 
@@ -28,6 +29,7 @@ struct RunOptions {
   double tolerance = 0;  ///< in the points' unit
   double noise = 0;
   int pieces = 0;
+  Criterion criterion = Criterion::fewest_pieces;
   int threads = 0;
   core::Progress progress;
 };
@@ -55,6 +57,7 @@ struct RunResult {
   bool exact = false;  ///< reproduces the points to rounding
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
+  DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
 };
 
 /// The shortest chain within the tolerance, solved in a frame of the run's own (size 1, direction

@@ -1,0 +1,176 @@
+#include "keyline/fairing/band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kBoundary = 0.995;  // share of the way to zero that a multiplier may go
+constexpr double kKept = 0.001;      // least share of its slack that a point keeps in a step
+constexpr double kFirstRoom = 0.5;   // of the tolerance: least slack at the start
+constexpr double kCentred = 1e4;     // products of slack and multiplier stay this near the barrier
+
+}  // namespace
+
+Springs::Springs(const std::vector<FitPoint>& points, std::vector<double> offsets, double weight)
+    : points_(points), offset_(std::move(offsets)), weight_(weight) {}
+
+Pull Springs::pull(std::size_t j) const {
+  const double w = weight_ * points_[j].weight;
+  return {w, w * offset_[j]};
+}
+
+double Springs::merit(const std::vector<double>& offsets, double) const {
+  double sum = 0;
+  for (std::size_t j = 0; j < offsets.size(); ++j)
+    sum += points_[j].weight * offsets[j] * offsets[j];
+  return 0.5 * weight_ * sum;
+}
+
+void Springs::move(const std::vector<double>& offsets, const std::vector<double>&, double) {
+  offset_ = offsets;
+}
+
+Band::Band(const std::vector<FitPoint>& points, double tolerance)
+    : points_(points), tolerance_(tolerance), pair_(points.size()) {}
+
+double Band::room_high(std::size_t j, double offset) const {
+  return tolerance_ - offset - points_[j].share * points_[j].high;
+}
+
+double Band::room_low(std::size_t j, double offset) const {
+  return tolerance_ + offset + points_[j].share * points_[j].low;
+}
+
+Pull Band::pull(std::size_t j) const {
+  const auto& [high, low] = pair_[j];
+  const double up = room_high(j, offset_[j]) + high.extra;
+  const double down = room_low(j, offset_[j]) + low.extra;
+  return {high.multiplier / up + low.multiplier / down,
+          (barrier_ + high.multiplier * high.extra) / up -
+              (barrier_ + low.multiplier * low.extra) / down};
+}
+
+void Band::start(const std::vector<double>& offsets, double barrier) {
+  offset_ = offsets;
+  barrier_ = barrier;
+  const double least = kFirstRoom * tolerance_;
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    auto& [high, low] = pair_[j];
+    const double up = room_high(j, offsets[j]);
+    const double down = room_low(j, offsets[j]);
+    high.extra = std::max(0.0, least - up);
+    low.extra = std::max(0.0, least - down);
+    high.multiplier = barrier / (up + high.extra);
+    low.multiplier = barrier / (down + low.extra);
+  }
+  price_ = 0;
+  set_price();
+}
+
+bool Band::allows(const std::vector<double>& offsets, double share) const {
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    const auto& [high, low] = pair_[j];
+    const double up = room_high(j, offsets[j]) + (1 - share) * high.extra;
+    const double down = room_low(j, offsets[j]) + (1 - share) * low.extra;
+    if (!(up > kKept * (room_high(j, offset_[j]) + high.extra))) return false;
+    if (!(down > kKept * (room_low(j, offset_[j]) + low.extra))) return false;
+  }
+  return true;
+}
+
+double Band::longest(const std::vector<double>& meant) const {
+  double share = 1;
+  for (std::size_t j = 0; j < meant.size(); ++j) {
+    const auto& [high, low] = pair_[j];
+    const double up = room_high(j, offset_[j]) + high.extra;
+    const double down = room_low(j, offset_[j]) + low.extra;
+    const double by_up = -meant[j] - high.extra;
+    const double by_down = meant[j] - low.extra;
+    if (by_up < 0) share = std::min(share, -kBoundary * up / by_up);
+    if (by_down < 0) share = std::min(share, -kBoundary * down / by_down);
+  }
+  return share;
+}
+
+double Band::merit(const std::vector<double>& offsets, double share) const {
+  double logs = 0;
+  double extra = 0;
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    const auto& [high, low] = pair_[j];
+    const double up = room_high(j, offsets[j]) + (1 - share) * high.extra;
+    const double down = room_low(j, offsets[j]) + (1 - share) * low.extra;
+    logs += std::log(up / tolerance_ * down / tolerance_);
+    extra += high.extra + low.extra;
+  }
+  return price_ * (1 - share) * extra - barrier_ * logs;
+}
+
+void Band::move(const std::vector<double>& offsets, const std::vector<double>& meant,
+                double share) {
+  std::vector<double> by_high(offsets.size());
+  std::vector<double> by_low(offsets.size());
+  double dual = 1;
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    const auto& [high, low] = pair_[j];
+    const double up = room_high(j, offset_[j]) + high.extra;
+    const double down = room_low(j, offset_[j]) + low.extra;
+    by_high[j] = (barrier_ + high.multiplier * (meant[j] + high.extra)) / up - high.multiplier;
+    by_low[j] = (barrier_ + low.multiplier * (low.extra - meant[j])) / down - low.multiplier;
+    if (by_high[j] < 0) dual = std::min(dual, -kBoundary * high.multiplier / by_high[j]);
+    if (by_low[j] < 0) dual = std::min(dual, -kBoundary * low.multiplier / by_low[j]);
+  }
+  offset_ = offsets;
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    auto& [high, low] = pair_[j];
+    high.extra *= 1 - share;
+    low.extra *= 1 - share;
+    const double up = barrier_ / (room_high(j, offsets[j]) + high.extra);
+    const double down = barrier_ / (room_low(j, offsets[j]) + low.extra);
+    high.multiplier = std::clamp(high.multiplier + dual * by_high[j], up / kCentred, up * kCentred);
+    low.multiplier =
+        std::clamp(low.multiplier + dual * by_low[j], down / kCentred, down * kCentred);
+  }
+  set_price();
+}
+
+void Band::recentre() {
+  for (std::size_t j = 0; j < pair_.size(); ++j) {
+    auto& [high, low] = pair_[j];
+    high.multiplier = barrier_ / (room_high(j, offset_[j]) + high.extra);
+    low.multiplier = barrier_ / (room_low(j, offset_[j]) + low.extra);
+  }
+  set_price();
+}
+
+void Band::rescale(double by) {
+  price_ *= by;
+  for (auto& [high, low] : pair_) {
+    high.multiplier *= by;
+    low.multiplier *= by;
+  }
+}
+
+void Band::set_price() {
+  double most = 0;
+  for (const auto& [high, low] : pair_) most = std::max({most, high.multiplier, low.multiplier});
+  price_ = std::max(price_, 2 * most);
+}
+
+double Band::extra() const {
+  double most = 0;
+  for (const auto& [high, low] : pair_) most = std::max({most, high.extra, low.extra});
+  return most;
+}
+
+double Band::largest() const {
+  double most = 0;
+  for (std::size_t j = 0; j < offset_.size(); ++j) {
+    most = std::max(most, offset_[j] + points_[j].share * points_[j].high);
+    most = std::max(most, -offset_[j] - points_[j].share * points_[j].low);
+  }
+  return most;
+}
+
+}  // namespace keyline::fairing::detail

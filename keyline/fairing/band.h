@@ -1,0 +1,104 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/fairing/chain_fit.h"
+
+/// The tolerance as what it is: limits on every point's offset, met by a primal-dual interior
+/// point method. Shared by the dense curve and the chain of log-aesthetic pieces.
+namespace keyline::fairing::detail {
+
+/// What a point asks of the quadratic model: weight * (d offset)^2 / 2 + slope * d offset.
+struct Pull {
+  double weight = 0;
+  double slope = 0;
+};
+
+/// What the points ask of a curve while it is solved for.
+class Limits {
+ public:
+  virtual ~Limits() = default;
+  virtual Pull pull(std::size_t j) const = 0;
+  /// Largest share of Newton's step, one at most, that the changes it means allow.
+  virtual double longest(const std::vector<double>& meant) const = 0;
+  /// Whether a step of that share of Newton's may lead to these offsets.
+  virtual bool allows(const std::vector<double>& offsets, double share) const = 0;
+  /// What these offsets cost after such a step.
+  virtual double merit(const std::vector<double>& offsets, double share) const = 0;
+  /// Moves on: new offsets by a step of that share, and the changes Newton's whole step meant.
+  virtual void move(const std::vector<double>& offsets, const std::vector<double>& meant,
+                    double share) = 0;
+  /// The energy's unit has been changed: what is counted in it follows.
+  virtual void rescale(double by) = 0;
+};
+
+/// Springs: half the weight times the square of every offset.
+class Springs : public Limits {
+ public:
+  Springs(const std::vector<FitPoint>& points, std::vector<double> offsets, double weight);
+  Pull pull(std::size_t j) const override;
+  double longest(const std::vector<double>&) const override { return 1; }
+  bool allows(const std::vector<double>&, double) const override { return true; }
+  double merit(const std::vector<double>& offsets, double share) const override;
+  void move(const std::vector<double>& offsets, const std::vector<double>&, double) override;
+  void rescale(double) override {}
+
+ private:
+  const std::vector<FitPoint>& points_;
+  std::vector<double> offset_;
+  double weight_;
+};
+
+/// Slacks and multipliers of offset + high <= tolerance and -offset - low <= tolerance, a pair a
+/// point. A first curve need not keep to them: what a limit is passed by counts as extra width,
+/// which every step of Newton's takes back as far as it goes (an infeasible interior point).
+///
+/// Source: S. Wright, Primal-Dual Interior-Point Methods (SIAM, 1997), chapters 1 and 6.
+class Band : public Limits {
+ public:
+  Band(const std::vector<FitPoint>& points, double tolerance);
+
+  Pull pull(std::size_t j) const override;
+
+  void start(const std::vector<double>& offsets, double barrier);
+
+  double longest(const std::vector<double>& meant) const override;
+  bool allows(const std::vector<double>& offsets, double share) const override;
+  /// -barrier * sum of the slacks' logarithms + price * extra width.
+  double merit(const std::vector<double>& offsets, double share) const override;
+  /// Multipliers go as far as none loses its sign.
+  void move(const std::vector<double>& offsets, const std::vector<double>& meant,
+            double share) override;
+  void rescale(double by) override;
+
+  void set_barrier(double barrier) { barrier_ = barrier; }
+  /// Multipliers anew from the slacks as they are.
+  void recentre();
+  double barrier() const { return barrier_; }
+  /// Largest extra width left.
+  double extra() const;
+  /// Largest of |offset + spread|.
+  double largest() const;
+
+ private:
+  void set_price();
+  struct Side {
+    double multiplier = 0;
+    double extra = 0;
+  };
+  struct Pair {
+    Side high;
+    Side low;
+  };
+  double room_high(std::size_t j, double offset) const;
+  double room_low(std::size_t j, double offset) const;
+
+  const std::vector<FitPoint>& points_;
+  double tolerance_;
+  double barrier_ = 1;
+  double price_ = 0;
+  std::vector<double> offset_;
+  std::vector<Pair> pair_;
+};
+
+}  // namespace keyline::fairing::detail

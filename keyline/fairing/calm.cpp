@@ -1,0 +1,254 @@
+#include "keyline/fairing/calm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kSeen = 0.02;   // of the curvature's range: lower waves are not seen
+constexpr double kTurn = 1e-3;   // of the range: what counts as a turn at all
+constexpr int kRounds = 4;       // in which an extremum may move on
+constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
+constexpr int kTrialSteps = 40;
+constexpr double kTrialGap = 0.03;
+
+std::vector<double> curvatures(const DenseCurve& curve) {
+  std::vector<double> k;
+  for (const FitJoint& joint : curve.joints) k.push_back(joint.curvature);
+  return k;
+}
+
+double range_of(const DenseCurve& curve) {
+  const std::vector<double> k = curvatures(curve);
+  const auto [low, high] = std::minmax_element(k.begin(), k.end());
+  return *high - *low;
+}
+
+/// A swing of curvature that may go: which extrema bound it.
+struct Removal {
+  double sideways = HUGE_VAL;  ///< how far a wave of this swing and width departs from its middle
+  std::size_t first = 0;
+  std::size_t count = 0;  ///< 1 at an end, else 2
+};
+
+/// Amplitude of a wave whose curvature swings by so much over half a wave's length: of
+/// swing/2 * sin(pi s / half), integrated twice.
+double sideways(double swing, double half) {
+  return 0.5 * std::abs(swing) * half * half / (std::numbers::pi * std::numbers::pi);
+}
+
+std::vector<Removal> removals(const DenseCurve& curve, const std::vector<int>& extrema) {
+  std::vector<Removal> all;
+  const std::size_t n = extrema.size();
+  const auto add = [&](int a, int b, double lap, std::size_t first, std::size_t count) {
+    const double swing = (curve.joints[b].curvature - curve.joints[a].curvature) / curve.length;
+    const double half = std::abs(curve.at[b] - curve.at[a] + lap) * curve.length;
+    all.push_back({sideways(swing, half), first, count});
+  };
+  for (std::size_t i = 0; i + 1 < n; ++i) add(extrema[i], extrema[i + 1], 0, i, 2);
+  if (curve.closed) {
+    if (n > 2) add(extrema[n - 1], extrema[0], 1, n - 1, 2);
+  } else if (n > 0) {
+    add(0, extrema[0], 0, 0, 1);
+    add(extrema[n - 1], static_cast<int>(curve.joints.size()) - 1, 0, n - 1, 1);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Removal& a, const Removal& b) { return a.sideways < b.sideways; });
+  return all;
+}
+
+std::vector<int> without(const std::vector<int>& extrema, const Removal& gone) {
+  std::vector<int> left;
+  for (std::size_t i = 0; i < extrema.size(); ++i) {
+    const std::size_t after = (i + extrema.size() - gone.first) % extrema.size();
+    if (after >= gone.count) left.push_back(extrema[i]);
+  }
+  return left;
+}
+
+/// Senses of the cells for extrema at these nodes, alternately as the curve has them.
+void set_senses(DenseCurve& curve, const std::vector<int>& extrema) {
+  const std::size_t cells = curve.joints.size() - 1;
+  curve.sense.assign(cells, 0);
+  const auto k = [&](int node) { return curve.joints[node].curvature; };
+  const auto mark = [&](int from, int to, double rise) {
+    for (int c = from; c < to; ++c) curve.sense[c] = rise < 0 ? -1 : 1;
+  };
+  const int last = static_cast<int>(cells);
+  if (extrema.empty()) {
+    if (!curve.closed) mark(0, last, k(last) - k(0));
+    return;
+  }
+  for (std::size_t i = 0; i + 1 < extrema.size(); ++i)
+    mark(extrema[i], extrema[i + 1], k(extrema[i + 1]) - k(extrema[i]));
+  if (extrema.size() == 1) {
+    // One turn: up to it what is lower, or down to it what is higher, than the ends' mean.
+    const double ends = 0.5 * (k(0) + k(last));
+    mark(0, extrema[0], k(extrema[0]) - ends);
+    mark(extrema[0], last, ends - k(extrema[0]));
+    return;
+  }
+  const double first = k(extrema[1]) - k(extrema[0]);
+  const double end = k(extrema.back()) - k(extrema[extrema.size() - 2]);
+  mark(0, extrema.front(), -first);
+  mark(extrema.back(), last, -end);
+}
+
+/// Extremum nodes moved to where curvature turns now, within their runs.
+std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extrema) {
+  std::vector<int> now = extrema;
+  const int last = static_cast<int>(curve.joints.size()) - 1;
+  for (std::size_t i = 0; i < extrema.size(); ++i) {
+    const int from = i == 0 ? 0 : extrema[i - 1];
+    const int to = i + 1 == extrema.size() ? last : extrema[i + 1];
+    const bool top = extrema[i] > 0 && curve.sense[extrema[i] - 1] > 0;
+    for (int node = from; node <= to; ++node) {
+      const double rise = curve.joints[node].curvature - curve.joints[now[i]].curvature;
+      if (top ? rise > 0 : rise < 0) now[i] = node;
+    }
+  }
+  return now;
+}
+
+}  // namespace
+
+std::vector<int> extrema_of(const DenseCurve& curve, double least) {
+  const std::vector<double> k = curvatures(curve);
+  const int n = static_cast<int>(k.size());
+  std::vector<int> found;
+  // A closed curve is read from its highest node on.
+  const int start =
+      curve.closed ? static_cast<int>(std::max_element(k.begin(), k.end()) - k.begin()) : 0;
+  const auto node = [&](int i) { return curve.closed ? (start + i) % (n - 1) : i; };
+  int low = node(0);
+  int high = node(0);
+  int way = curve.closed ? -1 : 0;
+  if (curve.closed) found.push_back(node(0));
+  for (int i = 0; i < n; ++i) {
+    const int at = node(i);
+    if (k[at] < k[low]) low = at;
+    if (k[at] > k[high]) high = at;
+    if (way >= 0 && k[at] < k[high] - least) {
+      if (way > 0) found.push_back(high);
+      way = -1;
+      low = at;
+    } else if (way <= 0 && k[at] > k[low] + least) {
+      if (way < 0) found.push_back(low);
+      way = 1;
+      high = at;
+    }
+    if (way > 0) low = at;
+    if (way < 0) high = at;
+  }
+  if (curve.closed && found.size() == 1) found.clear();
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+namespace {
+
+BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
+                         std::vector<int> extrema, const CalmOptions& options) {
+  BandOptions band = options.band;
+  band.warm = true;
+  band.iterations = kTrialSteps;
+  band.gap = kTrialGap;
+  BandReport report;
+  for (int round = 0; round < kRounds; ++round) {
+    set_senses(curve, extrema);
+    report = least_variation(curve, points, band);
+    if (!report.within) return report;
+    const std::vector<int> now = moved_on(curve, extrema);
+    if (now == extrema) break;
+    extrema = now;
+  }
+  return report;
+}
+
+/// The search for waves to take out.
+class Calming {
+ public:
+  Calming(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options)
+      : curve_(curve), points_(points), options_(options) {}
+
+  CalmReport run() {
+    report_.band = least_variation(curve_, points_, options_.band);
+    report_.least_energy = report_.band.energy;
+    if (!report_.band.within) return report_;
+    take(extrema_of(curve_, kSeen * range_of(curve_)), true);
+    while (!options_.band.progress.stop_requested() && (together() || single()));
+    return report_;
+  }
+
+ private:
+  /// Solves with these extrema alone; takes what is found where it is worth it.
+  bool take(const std::vector<int>& extrema, bool any_count = false) {
+    DenseCurve trial = curve_;
+    const BandReport found = solve_without(trial, points_, extrema, options_);
+    if (!found.within || found.energy > options_.worth * report_.band.energy) return false;
+    if (!any_count && turns(trial) >= turns(curve_)) return false;
+    curve_ = std::move(trial);
+    report_.band = found;
+    return true;
+  }
+
+  static std::size_t turns(const DenseCurve& curve) {
+    return extrema_of(curve, kTurn * range_of(curve)).size();
+  }
+
+  /// All waves at once that are lost in the tolerance.
+  bool together() {
+    const std::vector<int> extrema = extrema_of(curve_, kTurn * range_of(curve_));
+    std::vector<char> gone(extrema.size(), 0);
+    std::size_t count = 0;
+    for (const Removal& r : removals(curve_, extrema)) {
+      if (r.sideways > options_.band.tolerance) break;
+      const std::size_t next = (r.first + r.count - 1) % extrema.size();
+      if (gone[r.first] || gone[next] || refused(extrema, r)) continue;
+      gone[r.first] = gone[next] = 1;
+      ++count;
+    }
+    if (count < 2) return false;
+    std::vector<int> left;
+    for (std::size_t i = 0; i < extrema.size(); ++i)
+      if (!gone[i]) left.push_back(extrema[i]);
+    if (tried_together_) return false;
+    tried_together_ = !take(left);
+    return !tried_together_;
+  }
+
+  bool single() {
+    const std::vector<int> extrema = extrema_of(curve_, kTurn * range_of(curve_));
+    for (const Removal& r : removals(curve_, extrema)) {
+      if (r.sideways > kHopeless * options_.band.tolerance) break;
+      if (refused(extrema, r)) continue;
+      if (take(without(extrema, r))) return true;
+      refusals_.push_back(r.sideways);
+    }
+    return false;
+  }
+
+  /// The same swing again: it was tried and is not worth it.
+  bool refused(const std::vector<int>&, const Removal& r) const {
+    return std::any_of(refusals_.begin(), refusals_.end(),
+                       [&](double s) { return std::abs(s - r.sideways) < 1e-3 * s; });
+  }
+
+  DenseCurve& curve_;
+  const std::vector<FitPoint>& points_;
+  const CalmOptions& options_;
+  CalmReport report_;
+  std::vector<double> refusals_;
+  bool tried_together_ = false;
+};
+
+}  // namespace
+
+CalmReport calm(DenseCurve& curve, const std::vector<FitPoint>& points,
+                const CalmOptions& options) {
+  return Calming(curve, points, options).run();
+}
+
+}  // namespace keyline::fairing::detail

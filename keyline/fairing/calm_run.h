@@ -1,0 +1,40 @@
+#pragma once
+
+#include "keyline/core/interval.h"
+#include "keyline/fairing/calm.h"
+#include "keyline/fairing/chain_search.h"
+
+namespace keyline::fairing::detail {
+
+struct CalmRunOptions {
+  double tolerance = 0;  ///< of the points' offsets, in their unit
+  int pieces = 0;        ///< wanted; 0: they follow
+  core::Interval slopes{-3, 3};
+  HeldEnd start;
+  HeldEnd end;
+  core::Progress progress;
+};
+
+struct CalmRun {
+  DenseCurve curve;  ///< of log-aesthetic pieces
+  BandReport band;
+  double free_energy = 0;  ///< least there is in the band, waves and pieces apart
+  double calm_energy = 0;  ///< the same without waves that the points do not ask for
+  int waves_removed = 0;
+};
+
+/// The whole way of a run: the curve of least variation of curvature in the tolerance, its waves
+/// calmed, its graph of curvature cut into as few log-aesthetic pieces as keep the energy within a
+/// tenth of that, the pieces solved for again in the tolerance; where they cannot keep it, the runs
+/// of curvature that leave it get a piece more.
+/// Precondition: points in order along a curve of length about 1, at least 3; guides among them.
+CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options);
+
+/// The same pieces once more with their ends held elsewhere.
+BandReport hold_ends(DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance,
+                     const HeldEnd& start, const HeldEnd& end);
+
+/// As a chain under construction, feet and holds included.
+FitChain chain_of(const DenseCurve& curve);
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "keyline/fairing/chain_fit.h"
+
+/// A curve of log-aesthetic pieces, followed in many cells.
+namespace keyline::fairing::detail {
+
+/// Nodes stand at fixed shares `at` of the length, pieces between some of them; curvature is times
+/// the length, so that the scale-free energy L^3 * integral of (d curvature / ds)^2 is the sum over
+/// the cells of (change of curvature)^2 / (share of the length), whatever the length. A curve that
+/// is free has a piece of slope -1 (curvature linear in arc length) for each cell.
+struct DenseCurve {
+  std::vector<double> at;        ///< 0 … 1, increasing
+  std::vector<FitJoint> joints;  ///< as many; a closed curve repeats its first
+  std::vector<int> cut;          ///< nodes where pieces meet, the first and the last among them
+  std::vector<double> value;     ///< curvature (times length) there
+  std::vector<double> alpha;     ///< of the pieces, one fewer
+  double length = 1;
+  std::vector<Foot> feet;  ///< one per point: cell and fraction
+  bool closed = false;
+  double turning = 0;  ///< of the whole closed curve
+  Hold hold_start = Hold::free;
+  Hold hold_end = Hold::free;
+  FitJoint held_start;  ///< where a held end is held
+  FitJoint held_end;
+  /// Pieces that are circular arcs or straight lines; the curvatures of a line's ends stay 0.
+  std::vector<PieceKind> kind;  ///< empty: all are curves
+  /// Which way curvature may run in each piece: +1 up, -1 down, 0 either. Empty: either everywhere.
+  std::vector<signed char> sense;
+};
+
+/// Curvature of a cell at its start, middle and end, and by the curvatures at its piece's ends.
+struct CellShape {
+  std::array<double, 3> curvature{};
+  std::array<double, 3> by_start{};
+  std::array<double, 3> by_end{};
+};
+
+/// Of all cells; also sets the joints' curvatures.
+std::vector<CellShape> shapes_of(DenseCurve& curve);
+
+/// Piece of every cell.
+std::vector<int> pieces_of(const DenseCurve& curve);
+
+/// The curve with a piece of slope -1 for each of its cells.
+void set_free(DenseCurve& curve);
+
+/// The closed curve begun at another node.
+DenseCurve begun_at(const DenseCurve& curve, int node);
+
+/// What a piece's share of the variation counts: more where curvature runs against its sense.
+double piece_price(const DenseCurve& curve, int piece);
+/// Whether the piece is an arc or a line.
+bool flat(const DenseCurve& curve, std::size_t piece);
+
+/// A place in a cell, and how it depends on its piece's end curvatures (times length).
+struct CellPlace {
+  core::Point2 at;
+  double angle = 0;
+  core::Vector2 by_start;
+  core::Vector2 by_end;
+  double angle_by_start = 0;
+  double angle_by_end = 0;
+};
+CellPlace place_in_cell(const DenseCurve& curve, const CellShape& shape, int cell, double fraction);
+
+/// Signed distance of the point left of its foot.
+double offset_of(const DenseCurve& curve, const std::vector<CellShape>& shapes,
+                 const FitPoint& point, const Foot& foot);
+
+/// One Newton step of the foot along the curve.
+void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, const FitPoint& point,
+               Foot& foot);
+
+/// Sum over the cells, see above; each times its piece's price where `priced`.
+double variation(const DenseCurve& curve, const std::vector<CellShape>& shapes,
+                 bool priced = false);
+
+/// A first curve along the points: nodes at the points and evenly between them so that there are
+/// at least `least` cells; poses and curvatures from local parabolas over `reach` of the length
+/// either way.
+DenseCurve dense_curve(const std::vector<FitPoint>& points, bool closed, int least);
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,152 @@
+#include "keyline/fairing/dense_riccati.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace keyline::fairing::detail {
+namespace {
+
+/// S states: 6, or 12 where the start state rides along so that a closed curve can be tied to it.
+template <int S>
+class Sweep {
+ public:
+  Sweep(const std::vector<Cell>& cells, const DenseBoundary& boundary)
+      : cells_(cells), boundary_(boundary) {}
+
+  DenseStep run() {
+    DenseStep step;
+    end_value();
+    gains_.resize(cells_.size());
+    values_.resize(cells_.size());
+    for (std::size_t i = cells_.size(); i-- > 0 && sound_;) backward(i);
+    if (sound_) forward(step);
+    step.sound = sound_;
+    return step;
+  }
+
+ private:
+  using MatrixS = Eigen::Matrix<double, S, S>;
+  using VectorS = Eigen::Matrix<double, S, 1>;
+  static constexpr int kStart = 3;
+  static constexpr int kEnd = 4;
+  struct Gain {
+    VectorS by_state;
+    double offset = 0;
+  };
+  /// Of x, y and direction after a cell: what the rest of the curve costs by them.
+  struct Value {
+    Eigen::Matrix<double, 3, S> by_state;
+    Eigen::Vector3d slope;
+  };
+
+  void end_value() {
+    value_.setZero();
+    slope_.setZero();
+    const Matrix6& h = boundary_.end_hessian;
+    value_.template topLeftCorner<6, 6>() = h;
+    slope_.template head<6>() = boundary_.end_gradient;
+    if constexpr (S == 12) {
+      value_.template bottomRightCorner<6, 6>() = h;
+      value_.template topRightCorner<6, 6>() = -h;
+      value_.template bottomLeftCorner<6, 6>() = -h;
+      slope_.template tail<6>() = -boundary_.end_gradient;
+    }
+  }
+
+  void backward(std::size_t i) {
+    const Cell& cell = cells_[i];
+    values_[i] = {value_.template topRows<3>(), slope_.template head<3>()};
+    MatrixS a = MatrixS::Identity();
+    a.template topLeftCorner<3, 6>() = cell.step;
+    const Passage& passage = cell.passage;
+    if (passage.ends_piece && !passage.arc) {
+      a(kStart, kStart) = 0;
+      a(kStart, kEnd) = 1;
+    }
+    const bool chosen = passage.ends_piece && !passage.ends_curve;
+    if (chosen) a(kEnd, kEnd) = 0;
+    VectorS c = VectorS::Zero();
+    c.template head<3>() = cell.gap;
+    const MatrixS va = value_ * a;
+    const VectorS v = slope_ + value_ * c;
+    gains_[i] = {VectorS::Zero(), 0};
+    const VectorS qux = va.row(kEnd).transpose();
+    const double quu = value_(kEnd, kEnd);
+    const double qu = v(kEnd);
+    value_.noalias() = a.transpose() * va;
+    slope_ = a.transpose() * v;
+    if (chosen && !passage.fixed) {
+      if (!(quu > 0) || !std::isfinite(quu)) {
+        sound_ = false;
+        return;
+      }
+      gains_[i] = {-qux / quu, -qu / quu};
+      value_.noalias() += qux * gains_[i].by_state.transpose();
+      slope_ += gains_[i].offset * qux;
+    }
+    value_.template topLeftCorner<6, 6>() += cell.hessian;
+    value_ = (0.5 * (value_ + value_.transpose())).eval();
+    slope_.template head<6>() += cell.gradient;
+  }
+
+  /// Start state: with S = 12 both halves are the same unknown.
+  Vector6 start_change() {
+    Matrix6 h = value_.template topLeftCorner<6, 6>();
+    Vector6 g = slope_.template head<6>();
+    if constexpr (S == 12) {
+      h += value_.template bottomRightCorner<6, 6>();
+      h += value_.template topRightCorner<6, 6>();
+      h += value_.template bottomLeftCorner<6, 6>();
+      g += slope_.template tail<6>();
+    }
+    h.diagonal() *= 1 + 1e-12;
+    for (int k = 0; k < 6; ++k) {
+      if (!boundary_.fixed_start[k]) continue;
+      h.row(k).setZero();
+      h.col(k).setZero();
+      h(k, k) = 1;
+      g(k) = 0;
+    }
+    const Eigen::LDLT<Matrix6> factor(h);
+    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0)) sound_ = false;
+    return -factor.solve(g);
+  }
+
+  void forward(DenseStep& step) {
+    const Vector6 start = start_change();
+    VectorS x;
+    x.template head<6>() = start;
+    if constexpr (S == 12) x.template tail<6>() = start;
+    step.state.reserve(cells_.size() + 1);
+    step.state.push_back(start);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const double u = gains_[i].by_state.dot(x) + gains_[i].offset;
+      const Eigen::Vector3d pose = cells_[i].step * x.template head<6>() + cells_[i].gap;
+      x.template head<3>() = pose;
+      const Passage& passage = cells_[i].passage;
+      if (passage.ends_piece && !passage.arc) x(kStart) = x(kEnd);
+      if (passage.ends_piece && !passage.ends_curve) x(kEnd) = u;
+      const Eigen::Vector3d costate = values_[i].by_state * x + values_[i].slope;
+      step.largest_costate = std::max(step.largest_costate, costate.cwiseAbs().maxCoeff());
+      step.state.push_back(x.template head<6>());
+    }
+  }
+
+  const std::vector<Cell>& cells_;
+  const DenseBoundary& boundary_;
+  MatrixS value_;
+  VectorS slope_;
+  std::vector<Gain> gains_;
+  std::vector<Value> values_;
+  bool sound_ = true;
+};
+
+}  // namespace
+
+DenseStep solve_cells(const std::vector<Cell>& cells, const DenseBoundary& boundary) {
+  if (boundary.closed) return Sweep<12>(cells, boundary).run();
+  return Sweep<6>(cells, boundary).run();
+}
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,400 @@
+#include "keyline/fairing/least_variation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/fairing/band.h"
+#include "keyline/fairing/dense_riccati.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kHeld = 1e4;   // weight of held ends and seams, in squared tolerances
+constexpr double kReach = 1e2;  // the same of where an open curve ends beside its last point
+constexpr double kBarrierDrop = 0.25;
+constexpr double kExtra = 1e-6;             // of the tolerance: extra width that counts as none
+constexpr double kInflectionSlope = -0.25;  // steeper slopes alone may meet an inflection
+constexpr double kSide = 0.8;               // of a curvature that may go in a step
+constexpr int kHalvings = 5;
+constexpr double kLeastDamping = 1e-2;
+constexpr double kMostDamping = 1e9;
+constexpr int kStiffenings = 6;
+constexpr int kFollowSteps = 12;
+constexpr double kFollowed = 0.5;  // of the tolerance: a first curve so near is near enough
+constexpr double kFollowGain = 1e-2;
+
+struct Gaps {
+  std::vector<Eigen::Vector3d> cell;
+  Vector6 seam = Vector6::Zero();
+  double sum = 0;
+};
+
+using Shapes = std::vector<CellShape>;
+
+class Search {
+ public:
+  Search(DenseCurve& curve, const std::vector<FitPoint>& points, const BandOptions& options)
+      : curve_(curve), points_(points), options_(options), unit_(options.tolerance) {
+    shapes_ = shapes_of(curve_);
+    piece_ = pieces_of(curve_);
+    settle_feet(curve_, shapes_, 3);
+    offsets_ = offsets_of(curve_, shapes_);
+    gaps_ = gaps_of(curve_, shapes_);
+    energy_unit_ = energy_scale();
+    multiplier_ = Vector6::Zero();
+  }
+
+  /// Follows the points closely: springs, stiffened until all lie well inside the tolerance or the
+  /// curve follows them no closer.
+  void follow() {
+    double weight = 1 / (unit_ * unit_ * static_cast<double>(points_.size()));
+    for (int round = 0; round < kStiffenings; ++round, weight *= 10) {
+      Springs springs(points_, offsets_, weight);
+      limits_ = &springs;
+      damping_ = 0;
+      finished_ = false;
+      for (int i = 0; i < kFollowSteps && !finished_; ++i) iterate();
+      energy_unit_ = energy_scale();
+      if (largest() < kFollowed * unit_ && closed_enough()) return;
+    }
+  }
+
+  BandReport run() {
+    Band band(points_, unit_);
+    band.start(offsets_, 0.5 / static_cast<double>(points_.size()));
+    limits_ = &band;
+    band_ = &band;
+    damping_ = 0;
+    finished_ = false;
+    energy_unit_ = energy_scale();
+    BandReport report;
+    while (report.iterations < options_.iterations && !finished_ &&
+           !options_.progress.stop_requested()) {
+      ++report.iterations;
+      iterate();
+    }
+    report.converged = converged_;
+    report.energy = variation(curve_, shapes_);
+    report.max_offset = largest();
+    report.within = report.max_offset <= options_.tolerance && closed_enough();
+    return report;
+  }
+
+ private:
+  double largest() const {
+    double most = 0;
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      const double share = points_[j].share;
+      most = std::max(most, offsets_[j] + share * points_[j].high);
+      most = std::max(most, -offsets_[j] - share * points_[j].low);
+    }
+    return most;
+  }
+
+  double energy_scale() const { return std::max(variation(curve_, shapes_), unit_ * unit_); }
+
+  bool closed_enough() const { return gaps_.sum <= 1e-2 * unit_; }
+
+  void settle_feet(DenseCurve& curve, const Shapes& shapes, int rounds) const {
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      if (pinned(j)) continue;
+      for (int r = 0; r < rounds; ++r) move_foot(curve, shapes, points_[j], curve.feet[j]);
+    }
+  }
+
+  bool pinned(std::size_t j) const { return !curve_.closed && (j == 0 || j + 1 == points_.size()); }
+
+  std::vector<double> offsets_of(const DenseCurve& curve, const Shapes& shapes) const {
+    std::vector<double> off(points_.size());
+    for (std::size_t j = 0; j < off.size(); ++j)
+      off[j] = offset_of(curve, shapes, points_[j], curve.feet[j]);
+    return off;
+  }
+
+  Gaps gaps_of(const DenseCurve& curve, const Shapes& shapes) const {
+    Gaps gaps;
+    for (std::size_t i = 0; i + 1 < curve.joints.size(); ++i) {
+      const CellPlace end = place_in_cell(curve, shapes[i], static_cast<int>(i), 1);
+      const FitJoint& to = curve.joints[i + 1];
+      gaps.cell.push_back(
+          {end.at.x - to.position.x, end.at.y - to.position.y, end.angle - to.direction});
+      gaps.sum += gaps.cell.back().lpNorm<1>();
+    }
+    const int held = static_cast<int>(curve.hold_end);
+    if (!curve.closed && held == 0) return gaps;
+    const FitJoint& first = curve.closed ? curve.joints.front() : curve.held_end;
+    const FitJoint& last = curve.joints.back();
+    gaps.seam << last.position.x - first.position.x, last.position.y - first.position.y,
+        last.direction - first.direction - (curve.closed ? curve.turning : 0),
+        last.curvature - first.curvature * (curve.closed ? 1 : curve.length), 0, 0;
+    for (int k = 0; k < 4; ++k)
+      if (!curve.closed && k > held) gaps.seam(k) = 0;
+    gaps.sum += gaps.seam.head<3>().lpNorm<1>() + 0.1 * std::abs(gaps.seam(3));
+    return gaps;
+  }
+
+  /// How far the end lies before or beyond the last point (or the start, the first), along it.
+  double along(const DenseCurve& curve, const Shapes& shapes, std::size_t j) const {
+    const Foot& foot = curve.feet[j];
+    const CellPlace s = place_in_cell(curve, shapes[foot.piece], foot.piece, foot.fraction);
+    return core::dot(s.at - points_[j].position, {std::cos(s.angle), std::sin(s.angle)});
+  }
+
+  double merit(const DenseCurve& curve, const Shapes& shapes, const std::vector<double>& offsets,
+               double gaps, double share) const {
+    double sum = variation(curve, shapes, true) / energy_unit_ + limits_->merit(offsets, share);
+    if (!curve.closed)
+      for (const std::size_t j : {std::size_t{0}, points_.size() - 1}) {
+        const double a = along(curve, shapes, j) / unit_;
+        sum += 0.5 * kReach * a * a;
+      }
+    return sum + gap_price_ * gaps;
+  }
+
+  Vector6 derivative(const CellPlace& s, int cell, core::Vector2 n) const {
+    const FitJoint& from = curve_.joints[cell];
+    const core::Vector2 arm = s.at - from.position;
+    Vector6 d;
+    d << n.x, n.y, core::cross(arm, n), core::dot(s.by_start, n), core::dot(s.by_end, n),
+        core::dot(arm, n) / curve_.length;
+    return d;
+  }
+
+  std::vector<Cell> model() const {
+    std::vector<Cell> cells(curve_.joints.size() - 1);
+    for (std::size_t i = 0; i < cells.size(); ++i) add_cell(cells[i], static_cast<int>(i));
+    for (std::size_t j = 0; j < points_.size(); ++j) add_point(cells, j);
+    const std::size_t pieces = curve_.alpha.size();
+    for (std::size_t p = 0; p < pieces; ++p) {
+      Passage& passage = cells[curve_.cut[p + 1] - 1].passage;
+      passage.ends_piece = true;
+      passage.arc = flat(curve_, p);
+      passage.ends_curve = p + 1 == pieces;
+      passage.fixed = !passage.ends_curve && (flat(curve_, p + 1) || end_of_line(p + 2));
+    }
+    return cells;
+  }
+
+  bool line(std::size_t p) const {
+    return !curve_.kind.empty() && curve_.kind[p] == PieceKind::line;
+  }
+
+  /// Whether a line begins or ends at the cut: its curvature there is 0 and stays it.
+  bool end_of_line(std::size_t cut) const {
+    const std::size_t pieces = curve_.alpha.size();
+    const bool before = cut > 0 ? line(cut - 1) : curve_.closed && line(pieces - 1);
+    const bool after = cut < pieces ? line(cut) : curve_.closed && line(0);
+    return before || after;
+  }
+
+  void add_cell(Cell& cell, int i) const {
+    const CellPlace end = place_in_cell(curve_, shapes_[i], i, 1);
+    const core::Vector2 arm = end.at - curve_.joints[i].position;
+    cell.step << 1, 0, -arm.y, end.by_start.x, end.by_end.x, arm.x / curve_.length,  //
+        0, 1, arm.x, end.by_start.y, end.by_end.y, arm.y / curve_.length,            //
+        0, 0, 1, end.angle_by_start, end.angle_by_end, 0;
+    cell.gap = gaps_.cell[i];
+    const CellShape& shape = shapes_[i];
+    const double h = curve_.at[i + 1] - curve_.at[i];
+    const double w = 2 * piece_price(curve_, piece_[i]) / (h * energy_unit_);
+    Vector6 d = Vector6::Zero();
+    d(3) = shape.by_start[2] - shape.by_start[0];
+    d(4) = shape.by_end[2] - shape.by_end[0];
+    add(cell, d, w, w * (shape.curvature[2] - shape.curvature[0]));
+  }
+
+  static void add(Cell& cell, const Vector6& d, double weight, double slope) {
+    cell.hessian.noalias() += weight * d * d.transpose();
+    cell.gradient += slope * d;
+  }
+
+  void add_point(std::vector<Cell>& cells, std::size_t j) const {
+    const Foot& foot = curve_.feet[j];
+    const CellPlace s = place_in_cell(curve_, shapes_[foot.piece], foot.piece, foot.fraction);
+    const core::Vector2 tangent{std::cos(s.angle), std::sin(s.angle)};
+    const double share = points_[j].share;
+    // The point's offset is what it lies left of the curve: the curve's own move, reversed.
+    const Vector6 d = -share * derivative(s, foot.piece, core::perpendicular_left(tangent));
+    const Pull pull = limits_->pull(j);
+    add(cells[foot.piece], d, pull.weight, pull.slope);
+    if (!pinned(j)) return;
+    const double w = kReach / (unit_ * unit_);
+    const double off = core::dot(s.at - points_[j].position, tangent);
+    add(cells[foot.piece], derivative(s, foot.piece, tangent), w, w * off);
+  }
+
+  DenseBoundary boundary() const {
+    DenseBoundary b;
+    b.closed = curve_.closed;
+    const int start = static_cast<int>(curve_.hold_start);
+    for (int k = 0; k < 4; ++k) b.fixed_start[k] = start > 0 && k <= start;
+    b.fixed_start[3] = b.fixed_start[3] || end_of_line(0);
+    b.fixed_start[4] = flat(curve_, 0) || end_of_line(1);
+    const int end = static_cast<int>(curve_.hold_end);
+    const double w = kHeld / (unit_ * unit_);
+    for (int k = 0; k < 4; ++k)
+      if (curve_.closed || (end > 0 && k <= end)) b.end_hessian(k, k) = k == 3 ? 1e-2 * w : w;
+    b.end_gradient = b.end_hessian * gaps_.seam + multiplier_;
+    return b;
+  }
+
+  static DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share) {
+    DenseCurve next = curve;
+    for (std::size_t i = 0; i < next.joints.size(); ++i) {
+      next.joints[i].position.x += share * step.state[i](0);
+      next.joints[i].position.y += share * step.state[i](1);
+      next.joints[i].direction += share * step.state[i](2);
+    }
+    for (std::size_t p = 0; p + 1 < next.cut.size(); ++p) {
+      const Vector6& state = step.state[next.cut[p]];
+      next.value[p] += share * state(3);
+      if (p + 2 == next.cut.size()) next.value[p + 1] += share * state(4);
+    }
+    next.length += share * step.state[0](5);
+    return next;
+  }
+
+  std::vector<double> meant(const DenseStep& step) const {
+    std::vector<double> change(points_.size());
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      const Foot& foot = curve_.feet[j];
+      const CellPlace s = place_in_cell(curve_, shapes_[foot.piece], foot.piece, foot.fraction);
+      const core::Vector2 n =
+          core::perpendicular_left(core::Vector2{std::cos(s.angle), std::sin(s.angle)});
+      const Vector6 d = -points_[j].share * derivative(s, foot.piece, n);
+      change[j] = d.dot(step.state[foot.piece]);
+    }
+    return change;
+  }
+
+  void iterate() {
+    std::vector<Cell> cells = model();
+    damp(cells);
+    const DenseStep step = solve_cells(cells, boundary());
+    if (!step.sound) {
+      refuse();
+      return;
+    }
+    gap_price_ = std::max(2 * step.largest_costate, 0.5 * gap_price_);
+    const std::vector<double> planned = meant(step);
+    const double before = merit(curve_, shapes_, offsets_, gaps_.sum, 0);
+    double share = std::min(limits_->longest(planned), keeps_side(step));
+    for (int h = 0; h <= kHalvings; ++h, share *= 0.5)
+      if (take(step, planned, share, before)) {
+        damping_ = h == 0 ? 0.1 * damping_ : damping_;
+        if (damping_ < kLeastDamping) damping_ = 0;
+        return;
+      }
+    refuse();
+  }
+
+  /// Largest share of the step that keeps curvature on its side where the slope allows no
+  /// inflection.
+  double keeps_side(const DenseStep& step) const {
+    double share = 1;
+    for (std::size_t p = 0; p < curve_.alpha.size(); ++p) {
+      if (curve_.alpha[p] <= kInflectionSlope) continue;
+      const Vector6& by = step.state[curve_.cut[p]];
+      for (const int end : {0, 1}) {
+        const double now = curve_.value[p + end];
+        const double change = by(3 + end);
+        if (now * change < 0 && std::abs(change) > kSide * std::abs(now))
+          share = std::min(share, kSide * std::abs(now / change));
+      }
+    }
+    return share;
+  }
+
+  /// Steps that turn the curve far are not what the linear model is good for.
+  void damp(std::vector<Cell>& cells) const {
+    if (damping_ == 0) return;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const double h = curve_.at[i + 1] - curve_.at[i];
+      cells[i].hessian(2, 2) += damping_ * h;
+      cells[i].hessian(0, 0) += damping_ * h;
+      cells[i].hessian(1, 1) += damping_ * h;
+    }
+  }
+
+  void refuse() {
+    damping_ = std::max(10 * damping_, 1.0);
+    if (damping_ < kMostDamping) return;
+    finished_ = true;
+    converged_ = band_ && band_->extra() <= kExtra * unit_ && closed_enough() && last();
+  }
+
+  /// Goes that share of the step where this keeps inside the band and lowers the merit.
+  bool take(const DenseStep& step, const std::vector<double>& planned, double share,
+            double before) {
+    DenseCurve trial = moved(curve_, step, share);
+    if (!(trial.length > 0.3 * curve_.length)) return false;
+    Shapes shapes = shapes_of(trial);
+    settle_feet(trial, shapes, 2);
+    std::vector<double> off = offsets_of(trial, shapes);
+    if (!limits_->allows(off, share)) return false;
+    Gaps gaps = gaps_of(trial, shapes);
+    const double after = merit(trial, shapes, off, gaps.sum, share);
+    if (!(after < before + 1e-10 * std::abs(before))) return false;
+    limits_->move(off, planned, share);
+    curve_ = std::move(trial);
+    shapes_ = std::move(shapes);
+    offsets_ = std::move(off);
+    gaps_ = std::move(gaps);
+    if (curve_.closed || curve_.hold_end != Hold::free)
+      multiplier_ += boundary().end_hessian * gaps_.seam;
+    advance(share, before - after);
+    return true;
+  }
+
+  void advance(double share, double gain) {
+    if (!band_) {
+      if (gain < kFollowGain) finished_ = true;
+      return;
+    }
+    const bool inside = band_->extra() <= kExtra * unit_ && closed_enough();
+    if (last() && inside && gain < 1e-2 * options_.gap) converged_ = finished_ = true;
+    if (share > 0.3 && !last()) drop_barrier();
+  }
+
+  bool last() const {
+    return band_->barrier() * 2.0 * static_cast<double>(points_.size()) <= options_.gap;
+  }
+
+  void drop_barrier() {
+    const double unit = energy_scale();
+    const double rescale = energy_unit_ / unit;
+    energy_unit_ = unit;
+    band_->set_barrier(kBarrierDrop * band_->barrier());
+    band_->rescale(rescale);
+    gap_price_ *= rescale;
+    multiplier_ *= rescale;
+  }
+
+  DenseCurve& curve_;
+  const std::vector<FitPoint>& points_;
+  const BandOptions& options_;
+  Limits* limits_ = nullptr;
+  Band* band_ = nullptr;
+  double unit_;
+  Shapes shapes_;
+  std::vector<int> piece_;
+  std::vector<double> offsets_;
+  Gaps gaps_;
+  Vector6 multiplier_;
+  double energy_unit_ = 1;
+  double gap_price_ = 0;
+  double damping_ = 0;
+  bool finished_ = false;
+  bool converged_ = false;
+};
+
+}  // namespace
+
+BandReport least_variation(DenseCurve& curve, const std::vector<FitPoint>& points,
+                           const BandOptions& options) {
+  Search search(curve, points, options);
+  if (!options.warm) search.follow();
+  return search.run();
+}
+
+}  // namespace keyline::fairing::detail

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "keyline/core/progress.h"
+#include "keyline/fairing/dense_curve.h"
+
+namespace keyline::fairing::detail {
+
+struct BandOptions {
+  double tolerance = 1e-4;  ///< no point farther off, in the points' unit
+  int iterations = 150;
+  double gap = 0.01;  ///< of the energy: how far from the least it may stop
+  bool warm = false;  ///< the curve given follows the points already
+  core::Progress progress;
+};
+
+struct BandReport {
+  bool converged = false;
+  bool within = false;  ///< every point within the tolerance
+  int iterations = 0;
+  double energy = 0;      ///< L^3 * integral of (d curvature / ds)^2
+  double max_offset = 0;  ///< largest distance of a point, spread included
+};
+
+/// The curve of least variation of curvature within the tolerance of the points, from the one
+/// given: sequential quadratic programming with a primal-dual interior point, each step one sweep
+/// over the cells. The band starts as wide as the first curve needs and is drawn in.
+///
+/// Source: H. Moreton and C. Sequin, Functional optimization for fair surface design, SIGGRAPH
+///         1992 (minimum variation curves); docs/design/fairness.md.
+BandReport least_variation(DenseCurve& curve, const std::vector<FitPoint>& points,
+                           const BandOptions& options);
+
+}  // namespace keyline::fairing::detail

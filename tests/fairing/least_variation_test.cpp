@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/fairing/calm_run.h"
+#include "keyline/fairing/fair.h"
+#include "keyline/lac/chain.h"
+
+#include "truth.h"
+
+/// The curve of least variation of curvature in the band of the points' tolerance.
+namespace keyline::fairing {
+namespace {
+
+using detail::BandOptions;
+using detail::BandReport;
+using detail::DenseCurve;
+
+std::vector<FitPoint> fit_points(const std::vector<core::Point2>& points) {
+  std::vector<FitPoint> all;
+  for (const core::Point2 p : points) all.push_back({.position = p});
+  return all;
+}
+
+/// L^3 * integral of (d curvature / ds)^2 by differences over many places of each piece.
+double sampled_variation(const lac::Chain& chain) {
+  double sum = 0;
+  for (const lac::Segment& s : lac::segments(chain)) {
+    constexpr int kSteps = 4000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double change =
+          lac::curvature(s, (i + 1.0) / kSteps) - lac::curvature(s, double(i) / kSteps);
+      sum += change * change / (s.length / kSteps);
+    }
+  }
+  return sum * std::pow(lac::arc_length(chain), 3);
+}
+
+const lac::Chain kClothoid{{{0, 0}, 0.3}, {{-1, 1, 0.5, 4.5}}, false};
+
+TEST(LeastVariation, IsNoMoreThanThatOfAClothoidThroughThePoints) {
+  const auto points = fit_points(lac::sample(kClothoid, 60));
+  double before = 16 * (1 + 1e-2);  // the clothoid's own: (change of curvature)^2, length 1
+  for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    DenseCurve curve = detail::dense_curve(points, false, 200);
+    const BandReport report =
+        detail::least_variation(curve, points, {.tolerance = tolerance, .progress = {}});
+    EXPECT_TRUE(report.converged) << tolerance;
+    EXPECT_TRUE(report.within) << tolerance;
+    EXPECT_LE(report.max_offset, tolerance);
+    EXPECT_LE(report.energy, before) << tolerance;
+    before = report.energy;
+  }
+  EXPECT_LT(before, 8);
+}
+
+TEST(LeastVariation, OfACircleIsNone) {
+  std::vector<core::Point2> circle;
+  for (int i = 0; i < 90; ++i) {
+    const double t = 2 * core::kPi * i / 90;
+    circle.push_back({std::cos(t) / 6, std::sin(t) / 6});
+  }
+  const auto points = fit_points(circle);
+  DenseCurve curve = detail::dense_curve(points, true, 200);
+  const BandReport report =
+      detail::least_variation(curve, points, {.tolerance = 1e-4, .progress = {}});
+  EXPECT_TRUE(report.within);
+  EXPECT_LE(report.energy, 1e-2);
+}
+
+/// A ripple on a clothoid that is lost in the tolerance: no wave is left. One that is not stays.
+TEST(LeastVariation, WavesGoWhereThePointsDoNotAskForThem) {
+  const auto rippled = [](double height) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i <= 80; ++i) {
+      const double u = i / 80.0;
+      const core::Point2 p = lac::sample(kClothoid, 81)[i];
+      const double direction = 0.3 + 0.5 * u + 2 * u * u;
+      const double off = height * std::sin(6 * core::kPi * u);
+      points.push_back({p.x - off * std::sin(direction), p.y + off * std::cos(direction)});
+    }
+    return fit_points(points);
+  };
+  const auto turns = [&](double height) {
+    const auto points = rippled(height);
+    DenseCurve curve = detail::dense_curve(points, false, 200);
+    const detail::CalmReport report =
+        detail::calm(curve, points, {.band = {.tolerance = 1e-3, .progress = {}}});
+    EXPECT_TRUE(report.band.within);
+    return detail::extrema_of(curve, 1e-2).size();
+  };
+  EXPECT_EQ(turns(5e-4), 0U);
+  EXPECT_GE(turns(5e-3), 4U);
+}
+
+TEST(LeastVariation, FairGivesACalmerChainInTheSameTolerance) {
+  FairOptions options;
+  for (const std::uint64_t seed : {3, 5}) {
+    const acquire::KeyLine line =
+        testing::line_through(testing::measure(testing::random_chain(seed), 160, 2e-4, seed));
+    options.criterion = Criterion::fewest_pieces;
+    const FairResult few = fair(line, options).value();
+    options.criterion = Criterion::least_variation;
+    const FairResult calm = fair(line, options).value();
+    EXPECT_TRUE(calm.within_tolerance);
+    EXPECT_LE(calm.max_deviation, calm.tolerance);
+    const auto& chain = std::get<lac::Chain>(calm.curves.at(0));
+    EXPECT_TRUE(lac::validate(chain));
+    for (const auto& joint : calm.joints) {
+      EXPECT_LE(joint.gap, 1e-9 * calm.length);
+      EXPECT_LE(joint.relative_curvature_jump, 1e-9);
+    }
+    EXPECT_LE(sampled_variation(chain), sampled_variation(std::get<lac::Chain>(few.curves.at(0))));
+  }
+}
+
+TEST(LeastVariation, HeldEndsAndPointsToPassAreKept) {
+  const acquire::KeyLine line =
+      testing::line_through(testing::measure(testing::random_chain(4), 120, 2e-4, 9));
+  FairOptions options;
+  options.criterion = Criterion::least_variation;
+  options.clamp = {Clamp::g1, Clamp::g2};
+  options.must_pass = {40, 80};
+  const FairResult result = fair(line, options).value();
+  const auto& chain = std::get<lac::Chain>(result.curves.at(0));
+  const curve::BSpline2& spline = result.splines.at(0);
+  for (const double t : {0.0, 1.0})
+    EXPECT_LE(core::distance(evaluate(chain, t), evaluate(spline, t)), 1e-9 * result.length);
+  EXPECT_NEAR(lac::curvature(chain, 1) * result.length, curve::curvature(spline, 1) * result.length,
+              1e-6);
+  for (const std::size_t j : options.must_pass)
+    EXPECT_LE(std::abs(result.offsets[j]), 0.05 * result.tolerance);
+}
+
+}  // namespace
+}  // namespace keyline::fairing
