@@ -19,8 +19,10 @@ using core::Vector2;
 
 /// Two lines that cross at 10 degrees share about 23 half widths, 1 / tan 5 degrees twice; only
 /// nearly straight ones are believed where it is that long.
+constexpr double kShortShared = 8;  // half widths: up to it directions beside the stretch tell
 constexpr double kLongestShared = 24;
 constexpr double kBendOfLong = 0.3;
+constexpr double kOffOfLong = 0.5;  // half widths: as far as ends lie off their common parabola
 
 class Joiner {
  public:
@@ -157,8 +159,20 @@ class Joiner {
         std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
     const double crossed =
         std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
-    const double most = length > 8 * wide ? kBendOfLong : length > 4 * wide ? 0.6 : 0.9;
-    return std::min(straight, crossed) < most;
+    const double most = length > kShortShared * wide ? kBendOfLong : length > 4 * wide ? 0.6 : 0.9;
+    if (std::min(straight, crossed) >= most) return false;
+    return length <= kShortShared * wide ||
+           both_far_out(left, right, 2 * length, kOffOfLong * wide);
+  }
+
+  /// Whether the ends on either side lie on two parabolas far out, one way or the other: then two
+  /// lines run through the stretch between, else it is a line of its own.
+  bool both_far_out(const std::vector<Branch>& left, const std::vector<Branch>& right, double reach,
+                    double most) const {
+    const auto off = [&](std::size_t a, std::size_t b) {
+      return off_parabola(graph_, left[a], right[b], reach);
+    };
+    return std::max(off(0, 0), off(1, 1)) <= most || std::max(off(0, 1), off(1, 0)) <= most;
   }
 
   /// Two branches out of a node that soon meet again at their other ends: the sides of a hole.
@@ -175,7 +189,10 @@ class Joiner {
     std::vector<double> radius(graph_.nodes.size(), 0);
     shared_.assign(graph_.nodes.size(), 0);
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
-      if (!bridge_[e]) continue;
+      if (!bridge_[e]) continue;  // a ring has no nodes
+      const double wide =
+          std::max(node(graph_.edges[e].from).radius, node(graph_.edges[e].to).radius);
+      if (length_of(graph_.edges[e]) <= kShortShared * wide) continue;
       double& longest = shared_[static_cast<std::size_t>(root(graph_.edges[e].from))];
       longest = std::max(longest, length_of(graph_.edges[e]));
     }
@@ -365,7 +382,7 @@ class Joiner {
   std::vector<int> parent_;
   std::vector<bool> bridge_;
   std::vector<std::vector<int>> members_;
-  std::vector<double> shared_;  ///< longest edge that disappeared, by cluster
+  std::vector<double> shared_;  ///< longest stretch two lines share, by cluster; 0: short
   std::vector<Branch> branches_;
 };
 
