@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kMostFitPoints = 1200;
 // What an end is off along the curve, and cells and means tell only nearly, has to fit in as well.
 constexpr double kInside = 0.995;
+constexpr int kTightenings = 3;
+constexpr double kFar = 1.1;     // of the tolerance: farther off is no matter of rounding
 constexpr double kPassed = 1e3;  // a point to be passed is off by so much less than others may
 
 /// A number cut to seven digits, see cut_digits.
@@ -211,10 +213,27 @@ double largest_offset(const RunResult& result, const Run& run) {
   return most;
 }
 
+/// Where points lie a hair outside after pieces have met, the run again with that much less room.
+void draw_in(RunResult& result, const Run& run, const curve::BSpline2& spline,
+             const RunOptions& options) {
+  RunOptions tighter = options;
+  for (int round = 0; round < kTightenings && !options.progress.stop_requested(); ++round) {
+    const double most = largest_offset(result, run);
+    if (most <= options.tolerance || most > kFar * options.tolerance) return;
+    tighter.tolerance *= 0.998 * options.tolerance / most;
+    RunResult again = solved_run(run, spline, tighter);
+    if (largest_offset(again, run) < most) result = std::move(again);
+  }
+}
+
 }  // namespace
 
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   RunResult result = solved_run(run, spline, options);
+  if (options.criterion == Criterion::least_variation && options.pieces == 0) {
+    draw_in(result, run, spline, options);
+    return result;
+  }
   if (run.points.size() <= kMostFitPoints || !result.within_tolerance || options.pieces > 0)
     return result;
   // Means of points tell their spread about the curve only nearly.
