@@ -164,13 +164,4 @@ double Band::extra() const {
   return most;
 }
 
-double Band::largest() const {
-  double most = 0;
-  for (std::size_t j = 0; j < offset_.size(); ++j) {
-    most = std::max(most, offset_[j] + points_[j].share * points_[j].high);
-    most = std::max(most, -offset_[j] - points_[j].share * points_[j].low);
-  }
-  return most;
-}
-
 }  // namespace keyline::fairing::detail

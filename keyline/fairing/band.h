@@ -77,8 +77,6 @@ class Band : public Limits {
   double barrier() const { return barrier_; }
   /// Largest extra width left.
   double extra() const;
-  /// Largest of |offset + spread|.
-  double largest() const;
 
  private:
   void set_price();

@@ -147,6 +147,10 @@ std::vector<int> extrema_of(const DenseCurve& curve, double least) {
   return found;
 }
 
+std::vector<int> turns_of(const DenseCurve& curve) {
+  return extrema_of(curve, kTurn * range_of(curve));
+}
+
 namespace {
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
@@ -173,10 +177,9 @@ class Calming {
   Calming(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options)
       : curve_(curve), points_(points), options_(options) {}
 
-  CalmReport run() {
-    report_.band = least_variation(curve_, points_, options_.band);
-    report_.least_energy = report_.band.energy;
-    if (!report_.band.within) return report_;
+  BandReport run() {
+    report_ = least_variation(curve_, points_, options_.band);
+    if (!report_.within) return report_;
     take(extrema_of(curve_, kSeen * range_of(curve_)), true);
     while (!options_.band.progress.stop_requested() && (together() || single()));
     return report_;
@@ -187,26 +190,22 @@ class Calming {
   bool take(const std::vector<int>& extrema, bool any_count = false) {
     DenseCurve trial = curve_;
     const BandReport found = solve_without(trial, points_, extrema, options_);
-    if (!found.within || found.energy > options_.worth * report_.band.energy) return false;
-    if (!any_count && turns(trial) >= turns(curve_)) return false;
+    if (!found.within || found.energy > options_.worth * report_.energy) return false;
+    if (!any_count && turns_of(trial).size() >= turns_of(curve_).size()) return false;
     curve_ = std::move(trial);
-    report_.band = found;
+    report_ = found;
     return true;
-  }
-
-  static std::size_t turns(const DenseCurve& curve) {
-    return extrema_of(curve, kTurn * range_of(curve)).size();
   }
 
   /// All waves at once that are lost in the tolerance.
   bool together() {
-    const std::vector<int> extrema = extrema_of(curve_, kTurn * range_of(curve_));
+    const std::vector<int> extrema = turns_of(curve_);
     std::vector<char> gone(extrema.size(), 0);
     std::size_t count = 0;
     for (const Removal& r : removals(curve_, extrema)) {
       if (r.sideways > options_.band.tolerance) break;
       const std::size_t next = (r.first + r.count - 1) % extrema.size();
-      if (gone[r.first] || gone[next] || refused(extrema, r)) continue;
+      if (gone[r.first] || gone[next] || refused(r)) continue;
       gone[r.first] = gone[next] = 1;
       ++count;
     }
@@ -220,10 +219,10 @@ class Calming {
   }
 
   bool single() {
-    const std::vector<int> extrema = extrema_of(curve_, kTurn * range_of(curve_));
+    const std::vector<int> extrema = turns_of(curve_);
     for (const Removal& r : removals(curve_, extrema)) {
       if (r.sideways > kHopeless * options_.band.tolerance) break;
-      if (refused(extrema, r)) continue;
+      if (refused(r)) continue;
       if (take(without(extrema, r))) return true;
       refusals_.push_back(r.sideways);
     }
@@ -231,7 +230,7 @@ class Calming {
   }
 
   /// The same swing again: it was tried and is not worth it.
-  bool refused(const std::vector<int>&, const Removal& r) const {
+  bool refused(const Removal& r) const {
     return std::any_of(refusals_.begin(), refusals_.end(),
                        [&](double s) { return std::abs(s - r.sideways) < 1e-3 * s; });
   }
@@ -239,14 +238,14 @@ class Calming {
   DenseCurve& curve_;
   const std::vector<FitPoint>& points_;
   const CalmOptions& options_;
-  CalmReport report_;
+  BandReport report_;
   std::vector<double> refusals_;
   bool tried_together_ = false;
 };
 
 }  // namespace
 
-CalmReport calm(DenseCurve& curve, const std::vector<FitPoint>& points,
+BandReport calm(DenseCurve& curve, const std::vector<FitPoint>& points,
                 const CalmOptions& options) {
   return Calming(curve, points, options).run();
 }

@@ -14,7 +14,6 @@ constexpr double kForPieces = 0.1;  // of the energy, given for having few piece
 constexpr double kWorth = 1.5;      // a wave less, a line or an arc are worth so much energy
 constexpr double kBandWidth = 2;    // in tolerances: what a piece may give up within the band
 constexpr double kUnseen = 0.1;     // of the tolerance: a departure from an arc that is not seen
-constexpr double kTurn = 1e-3;      // of the curvature's range: what counts as a turn
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
 constexpr int kPieceSteps = 40;
 constexpr int kRefinements = 40;
@@ -49,11 +48,6 @@ std::vector<double> outside(DenseCurve& curve, const std::vector<FitPoint>& poin
   return at;
 }
 
-double curvature_range(const DenseCurve& curve) {
-  const auto [low, high] = std::minmax_element(curve.value.begin(), curve.value.end());
-  return *high - *low;
-}
-
 /// Energy below which nothing is to be seen: of curvature that changes so little that the curve
 /// departs from an arc by a tenth of the tolerance.
 double unseen_energy(const DenseCurve& curve, double tolerance) {
@@ -64,8 +58,7 @@ double unseen_energy(const DenseCurve& curve, double tolerance) {
 /// Pieces for a calm curve, solved for.
 void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
                    const CalmRunOptions& options) {
-  const GraphPieces graph(run.curve, extrema_of(run.curve, kTurn * curvature_range(run.curve)),
-                          options.slopes);
+  const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes);
   std::vector<int> count =
       options.pieces > 0 ? graph.of_count(options.pieces)
                          : graph.within(std::max(kForPieces * run.calm_energy,
@@ -158,10 +151,6 @@ class Flattening {
     return which;
   }
 
-  static std::size_t turns(const DenseCurve& curve) {
-    return extrema_of(curve, kTurn * curvature_range(curve)).size();
-  }
-
   static void set_value(DenseCurve& curve, std::size_t cut, double value) {
     curve.value[cut] = value;
     const std::size_t last = curve.alpha.size();
@@ -200,7 +189,9 @@ class Flattening {
       }
     }
     const BandReport found = least_variation(trial, points_, band_);
-    if (!found.within || found.energy > most_ || turns(trial) > turns(run_.curve)) return false;
+    if (!found.within || found.energy > most_ ||
+        turns_of(trial).size() > turns_of(run_.curve).size())
+      return false;
     run_.curve = std::move(trial);
     run_.band = found;
     return true;
@@ -224,11 +215,8 @@ CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed,
   calm_options.band.tolerance = options.tolerance;
   calm_options.worth = kWorth;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
-  const CalmReport report = calm(run.curve, points, calm_options);
-  run.band = report.band;
-  run.free_energy = report.least_energy;
-  run.calm_energy = report.band.energy;
-  run.waves_removed = report.removed;
+  run.band = calm(run.curve, points, calm_options);
+  run.calm_energy = run.band.energy;
   run.curve.sense.clear();
   choose_pieces(run, points, options);
   if (run.band.within && options.pieces == 0) Flattening(run, points, options).run();

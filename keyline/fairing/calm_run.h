@@ -18,9 +18,7 @@ struct CalmRunOptions {
 struct CalmRun {
   DenseCurve curve;  ///< of log-aesthetic pieces
   BandReport band;
-  double free_energy = 0;  ///< least there is in the band, waves and pieces apart
   double calm_energy = 0;  ///< the same without waves that the points do not ask for
-  int waves_removed = 0;
 };
 
 /// The whole way of a run: the curve of least variation of curvature in the tolerance, its waves

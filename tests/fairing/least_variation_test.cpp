@@ -86,9 +86,9 @@ TEST(LeastVariation, WavesGoWhereThePointsDoNotAskForThem) {
   const auto turns = [&](double height) {
     const auto points = rippled(height);
     DenseCurve curve = detail::dense_curve(points, false, 200);
-    const detail::CalmReport report =
+    const BandReport report =
         detail::calm(curve, points, {.band = {.tolerance = 1e-3, .progress = {}}});
-    EXPECT_TRUE(report.band.within);
+    EXPECT_TRUE(report.within);
     return detail::extrema_of(curve, 1e-2).size();
   };
   EXPECT_EQ(turns(5e-4), 0U);
