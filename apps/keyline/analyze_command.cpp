@@ -164,7 +164,7 @@ Result<std::vector<Subject>> analyze_all(const AnalyzeCommand& command,
   const core::Progress progress = interactive_progress(command.common.quiet);
   std::vector<Subject> subjects;
   for (const operations::NamedCurve& curve : read.curves) {
-    if (!curve.line && !std::holds_alternative<document::Path>(*curve.curve)) continue;
+    if (!curve.line && !operations::planar_path(*curve.curve)) continue;
     auto subject = analyzed(curve, command, progress);
     if (!subject) return std::unexpected(subject.error());
     subjects.push_back(std::move(*subject));

@@ -59,7 +59,7 @@ NearestShown nearest_shown(const classa::NearestCurve& nearest,
   near.rms = nearest.rms;
   near.alpha = std::abs(nearest.matrix.alpha);
   near.s = nearest.matrix.s;
-  near.curve = path_of({nearest.curve});
+  near.curve = document::PlanarCurve{nearest.curve};
   if (!value) return near;
   near.cav = value->cav;
   near.type = value->type;
@@ -87,7 +87,7 @@ classa::CavOptions cav_options(const CavRequest& request) {
 Result<ClassASubject> class_a_subject(const ClassARequest& request) {
   if (request.matrix) return farin_subject(request);
   if (!request.curve) return matrix_subject(request);
-  const auto* path = std::get_if<document::Path>(&*request.curve);
+  const auto path = planar_path(*request.curve);
   if (!path) return space_subject(*request.curve);
   auto bezier = class_a_bezier(*path, request.fit_tolerance);
   if (!bezier) return std::unexpected(std::move(bezier.error()));
@@ -136,7 +136,7 @@ EvaluationShown shown(const classa::Evaluation& e) {
     all.approximation = ApproximationShown{curve::degree(e.approximation.curve),
                                            e.approximation.deviation,
                                            e.approximation.tolerance,
-                                           path_of({e.approximation.curve}),
+                                           document::PlanarCurve{e.approximation.curve},
                                            {}};
   all.evaluation = e;
   return all;

@@ -22,7 +22,7 @@ std::string on_ribbon(const std::string& more) {
 
 MadeCurve made_path(document::Path path) {
   MadeCurve curve;
-  curve.curve = std::move(path);
+  curve.curve = simplest(std::move(path));
   return curve;
 }
 

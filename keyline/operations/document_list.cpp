@@ -121,7 +121,7 @@ Thing thing_of(const NamedCurve& named) {
   thing.layer = named.layer;
   if (named.line) {
     describe_line(*named.line, thing);
-  } else if (const auto* path = std::get_if<document::Path>(&*named.curve)) {
+  } else if (const auto path = planar_path(*named.curve)) {
     describe_path(*path, thing);
   } else if (const auto* space = std::get_if<document::SpaceCurve>(&*named.curve)) {
     describe_space(*space, thing);

@@ -200,7 +200,7 @@ ReadAnswer answer_of(document::Document document) {
   ReadAnswer answer;
   answer.unit = document.unit;
   for (const auto& p : document.paths)
-    answer.curves.push_back(named(p.label, p.path, p.stroke_width));
+    answer.curves.push_back(named(p.label, simplest(p.path), p.stroke_width));
   for (const auto& c : document.space_curves) answer.curves.push_back(named(c.label, c.curve, 0));
   for (const auto& s : document.surfaces)
     answer.surfaces.push_back({s.label.name, s.label.layer, s.label.color, s.surface, s.trims});

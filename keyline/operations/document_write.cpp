@@ -70,7 +70,7 @@ document::Document document_of(const WriteRequest& request) {
     const document::Label label{c.name, c.layer, c.color};
     if (c.line) document.paths.push_back({label, path_of(*c.line), c.stroke_width});
     if (!c.curve) continue;
-    if (const auto* path = std::get_if<document::Path>(&*c.curve))
+    if (const auto path = planar_path(*c.curve))
       document.paths.push_back({label, *path, c.stroke_width});
     else if (const auto* space = std::get_if<document::SpaceCurve>(&*c.curve))
       document.space_curves.push_back({label, *space});

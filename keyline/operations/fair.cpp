@@ -74,7 +74,7 @@ document::Path fair_curve(const fairing::FairResult& result) {
 
 FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   FairAnswer answer;
-  answer.curve.curve = fair_curve(result);
+  answer.curve.curve = simplest(fair_curve(result));
   answer.spline = splines_of(result);
   answer.spline_bic = result.spline_bic;
   answer.monotone_pieces = monotone_pieces(result);

@@ -62,7 +62,7 @@ document::Document document_of(const MeasureRequest& request) {
   for (const NamedCurve& c : request.curves) {
     const document::Label label{c.name, c.layer, c.color};
     if (!c.curve) continue;
-    if (const auto* path = std::get_if<document::Path>(&*c.curve))
+    if (const auto path = planar_path(*c.curve))
       document.paths.push_back({label, *path, c.stroke_width});
     else if (const auto* space = std::get_if<document::SpaceCurve>(&*c.curve))
       document.space_curves.push_back({label, *space});

@@ -28,7 +28,7 @@ LibraryEntry entry_shown(const library::Entry& e) {
   shown.color = label.color;
   shown.unit = e.thing.unit;
   shown.source = e.source;
-  if (!e.thing.paths.empty()) shown.curve = e.thing.paths.front().path;
+  if (!e.thing.paths.empty()) shown.curve = simplest(e.thing.paths.front().path);
   if (!e.thing.space_curves.empty()) shown.curve = e.thing.space_curves.front().curve;
   if (!e.thing.surfaces.empty()) shown.surface = e.thing.surfaces.front().surface;
   shown.size = e.size;
@@ -53,8 +53,8 @@ core::Result<library::Entry> entry_of(const LibraryEntry& shown) {
   e.thing.unit = shown.unit;
   if (shown.surface) {
     e.thing.surfaces.push_back({label, *shown.surface, 0, {}});
-  } else if (shown.curve && std::holds_alternative<document::Path>(*shown.curve)) {
-    e.thing.paths.push_back({label, std::get<document::Path>(*shown.curve), 0});
+  } else if (shown.curve && planar_path(*shown.curve)) {
+    e.thing.paths.push_back({label, *planar_path(*shown.curve), 0});
   } else if (shown.curve && std::holds_alternative<document::SpaceCurve>(*shown.curve)) {
     e.thing.space_curves.push_back({label, std::get<document::SpaceCurve>(*shown.curve)});
   } else {

@@ -41,7 +41,7 @@ Result<document::Path> path_in_file(const std::string& file, const Context& cont
   if (!read) return std::unexpected(read.error());
   for (const NamedCurve& c : read->curves) {
     if (c.line) return document::Path{{{curve::Polyline2{c.line->points}}}, false};
-    if (const auto* path = std::get_if<document::Path>(&*c.curve)) return *path;
+    if (auto path = planar_path(*c.curve)) return std::move(*path);
   }
   return fail(ErrorCode::bad_input, "holds no planar curve", "give a file that holds one", file);
 }

@@ -87,7 +87,7 @@ curve::Polyline2 polyline_of(const document::Path& path, int count) {
 }
 
 Result<void> add_plane_forms(const document::Path& path, const Forms& forms, MadeCurve& to) {
-  if (forms.samples) to.polyline = path_of({polyline_of(path, *forms.samples)});
+  if (forms.samples) to.polyline = document::PlanarCurve{polyline_of(path, *forms.samples)};
   if (forms.bezier) {
     const auto pieces = pieces_for(*forms.bezier, "bezier", path);
     if (!pieces) return std::unexpected(pieces.error());
@@ -100,7 +100,7 @@ Result<void> add_plane_forms(const document::Path& path, const Forms& forms, Mad
     if (!pieces) return std::unexpected(pieces.error());
     auto spline = curve::to_bspline(pieces->pieces, forms.nurbs->tolerance);
     if (!spline) return std::unexpected(spline.error());
-    to.nurbs = BoundedCurve{path_of({std::move(*spline)}), pieces->deviation};
+    to.nurbs = BoundedCurve{document::PlanarCurve{std::move(*spline)}, pieces->deviation};
   }
   return {};
 }
@@ -132,8 +132,7 @@ Result<void> add_space_forms(const lac::SpaceChain& chain, const Forms& forms, M
 }
 
 Result<void> add_to(MadeCurve& to, const Forms& forms) {
-  if (const auto* path = std::get_if<document::Path>(&to.curve))
-    return add_plane_forms(*path, forms, to);
+  if (const auto path = planar_path(to.curve)) return add_plane_forms(*path, forms, to);
   if (const auto* space = std::get_if<document::SpaceCurve>(&to.curve))
     if (const auto* chain = std::get_if<lac::SpaceChain>(&space->value))
       return add_space_forms(*chain, forms, to);
@@ -159,7 +158,7 @@ Result<curve::PiecewiseBezier> bounded_pieces(const document::Path& path, double
 }
 
 MadeCurve made(document::PlanarCurve curve) {
-  return {path_of(std::move(curve)), std::nullopt, std::nullopt, std::nullopt};
+  return {std::move(curve), std::nullopt, std::nullopt, std::nullopt};
 }
 
 bool holds_made_curve(const Type& type) {

@@ -127,8 +127,7 @@ struct Measure {
 }  // namespace
 
 Result<SplineInput> spline_of(const AnyCurve& curve, double tolerance) {
-  if (const auto* path = std::get_if<document::Path>(&curve))
-    return of_members(path->curves, tolerance);
+  if (const auto path = planar_path(curve)) return of_members(path->curves, tolerance);
   if (const auto* path = std::get_if<SpacePath>(&curve)) return of_members(path->curves, tolerance);
   return std::visit(AsSpline{tolerance}, std::get<document::SpaceCurve>(curve).value);
 }
@@ -138,7 +137,7 @@ double size_of(const AnyCurve& curve) {
   const auto visit = [&](const auto& c) {
     std::visit([&](const auto& v) { measure(v); }, c.value);
   };
-  if (const auto* path = std::get_if<document::Path>(&curve))
+  if (const auto path = planar_path(curve))
     for (const auto& member : path->curves) visit(member);
   else if (const auto* space = std::get_if<SpacePath>(&curve))
     for (const auto& member : space->curves) visit(member);

@@ -21,11 +21,14 @@ Result<void> keep(Result<T> read, void* value) {
   return {};
 }
 
-json path_json(const document::Path& path) {
-  const bool alone = path.curves.size() == 1 &&
-                     (!path.closed || std::holds_alternative<lac::Chain>(path.curves[0].value));
-  return alone ? exchange::to_json(path.curves.front()) : exchange::to_json(path);
+/// Whether the member says all that the path does.
+bool is_alone(const document::Path& path) {
+  return path.curves.size() == 1 &&
+         (!path.closed || std::holds_alternative<lac::Chain>(path.curves[0].value));
 }
+
+json path_json(const document::PlanarCurve& c) { return exchange::to_json(c); }
+json path_json(const document::Path& path) { return exchange::to_json(path); }
 
 json path_json(const SpacePath& path) {
   json members = json::array();
@@ -67,15 +70,22 @@ Result<AnyCurve> any_curve_from_json(const json& j, const std::string& where) {
   if (is_space_path(j)) return any(space_path_from_json(j, where));
   if (j.is_object() && exchange::is_space_curve(j))
     return any(exchange::space_curve_from_json(j, where));
-  return any(exchange::path_from_json(j, where));
+  if (j.is_object() && j.value("type", json()) == "path")
+    return any(exchange::path_from_json(j, where));
+  auto read = exchange::path_from_json(j, where);
+  if (!read) return std::unexpected(std::move(read.error()));
+  return simplest(std::move(*read));
 }
 
-constexpr ValueForm kPathForm{
-    [](const json& j, const std::string& where, void* value) {
-      return keep(exchange::path_from_json(j, where), value);
-    },
-    [](const void* value) { return path_json(*static_cast<const document::Path*>(value)); },
-    R"({"$ref":"#/$defs/Curve"})"};
+constexpr ValueForm kPathForm{[](const json& j, const std::string& where, void* value) {
+                                return keep(exchange::path_from_json(j, where), value);
+                              },
+                              [](const void* value) {
+                                const auto& path = *static_cast<const document::Path*>(value);
+                                return is_alone(path) ? path_json(path.curves.front())
+                                                      : path_json(path);
+                              },
+                              R"({"$ref":"#/$defs/Curve"})"};
 
 constexpr ValueForm kAnyCurveForm{
     [](const json& j, const std::string& where, void* value) {
@@ -94,10 +104,7 @@ constexpr ValueForm kBoundedForm{
     },
     [](const void* value) {
       const auto& bounded = *static_cast<const BoundedCurve*>(value);
-      const auto* path = std::get_if<document::Path>(&bounded.curve);
-      const bool beziers =
-          path && std::holds_alternative<curve::Bezier2>(path->curves.front().value);
-      json j = beziers ? exchange::to_json(*path) : curve_json(bounded.curve);
+      json j = curve_json(bounded.curve);
       j["deviation"] = bounded.deviation;
       return j;
     },
@@ -131,6 +138,17 @@ document::Path path_of(document::PlanarCurve curve) {
   document::Path path;
   if (const auto* chain = std::get_if<lac::Chain>(&curve.value)) path.closed = chain->closed;
   path.curves.push_back(std::move(curve));
+  return path;
+}
+
+std::optional<document::Path> planar_path(const AnyCurve& curve) {
+  if (const auto* path = std::get_if<document::Path>(&curve)) return *path;
+  if (const auto* alone = std::get_if<document::PlanarCurve>(&curve)) return path_of(*alone);
+  return {};
+}
+
+AnyCurve simplest(document::Path path) {
+  if (is_alone(path)) return std::move(path.curves.front());
   return path;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -19,8 +20,15 @@ struct SpacePath {
 };
 
 /// Any curve value, in the plane or in space: one with a third coordinate other than 0, or of a
-/// type that only space has, is a curve in space.
-using AnyCurve = std::variant<document::Path, document::SpaceCurve, SpacePath>;
+/// type that only space has, is a curve in space. A path is written as a path, also of one member.
+using AnyCurve =
+    std::variant<document::PlanarCurve, document::Path, document::SpaceCurve, SpacePath>;
+
+/// The curve as a path where it lies in the plane; of a single curve, a path of one member.
+std::optional<document::Path> planar_path(const AnyCurve& curve);
+
+/// A path's only member, or the path where it has several.
+AnyCurve simplest(document::Path path);
 
 /// A curve that stands for another within a distance, written as the curve with "deviation".
 struct BoundedCurve {
@@ -28,7 +36,7 @@ struct BoundedCurve {
   double deviation = 0;
 };
 
-/// A path of one member is written as that member alone.
+/// A path of one member; as a field of type Path it is written as that member alone.
 document::Path path_of(document::PlanarCurve curve);
 
 }  // namespace keyline::operations

@@ -105,6 +105,26 @@ TEST(Vocabulary, WrongKindsAreRefusedWithTheirPlace) {
   EXPECT_EQ(path_of("bezier", {{"tolerance", 1}, {"grade", 3}}), "bezier.grade");
 }
 
+/// The types CONTRACT names for results, also where there is one member alone.
+TEST(Vocabulary, CurvesOfResultsHaveTheTypeOfThePublicInterface) {
+  const json quintic{{"type", "bezier"},
+                     {"points", {{0, 0}, {1, 0.1}, {2, 0.4}, {3, 0.9}, {4, 1.6}, {5, 2.5}}}};
+  const auto type_of = [](const char* operation, const json& request, const char* field) {
+    const auto result = perform(operation, request, {});
+    return result ? (*result)[field]["type"].get<std::string>() : result.error().message;
+  };
+  for (const json& curve : {quintic, json{{"type", "path"}, {"curves", {quintic}}}})
+    EXPECT_EQ(type_of("fit.curvature", {{"curve", curve}, {"target", "smooth"}}, "curve"), "path");
+  const json handles{{0, 0}, {2, 0}, {3, 1.5}};
+  const json form{{"degree", 5}, {"tolerance", 0.1}};
+  const json segment{{"points", handles}, {"alpha", -1}, {"bezier", form}, {"nurbs", form}};
+  EXPECT_EQ(type_of("lac.segment", segment, "curve"), "log-aesthetic");
+  EXPECT_EQ(type_of("lac.segment", segment, "bezier"), "path");
+  EXPECT_EQ(type_of("lac.segment", segment, "nurbs"), "bspline");
+  EXPECT_EQ(type_of("lac.quasi", {{"points", handles}, {"alpha", -1}}, "curve"), "bezier");
+  EXPECT_EQ(type_of("fair", example_of(*find_operation("fair")), "curve"), "log-aesthetic");
+}
+
 TEST(Vocabulary, AMisspeltNameIsToldTheRightOne) {
   const auto result = perform("fair", {{"points", {{0, 0}, {1, 0}}}, {"tolerence", 1}}, {});
   ASSERT_FALSE(result);
