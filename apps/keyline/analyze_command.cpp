@@ -1,24 +1,10 @@
-#include <cmath>
-#include <optional>
-#include <utility>
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_curve.h"
-#include "keyline/figure/drawing.h"
-#include "keyline/operations/analyze_report.h"
-#include "keyline/operations/class_a.h"
-#include "keyline/operations/class_a_figure.h"
-#include "keyline/operations/fair_report.h"
-#include "keyline/operations/perform.h"
-#include "keyline/operations/pictures.h"
-#include "keyline/report/html_report.h"
+#include "keyline/core/text.h"
+#include "keyline/operations/surface_value.h"
 
-#include "commands.h"
-#include "output.h"
-#include "reading.h"
-#include "surface_commands.h"
+#include "session.h"
+#include "surface_text.h"
 #include "terminal.h"
 #include "words.h"
 
@@ -27,36 +13,41 @@ namespace {
 
 using core::Result;
 using nlohmann::json;
+using presentation::ShownAnalysis;
+using presentation::ShownSurface;
 
-struct Subject {
-  std::string name;
-  operations::AnalyzeAnswer answer;
-  std::optional<classa::Evaluation> class_a = {};
-  json shown = {};
-  const document::Path& path() const { return answer.path; }
-  const analysis::CurveAnalysis& analysis() const { return answer.analysis; }
-};
+constexpr std::size_t kCurves = 0;  // records of the command line
+constexpr std::size_t kReading = 1;
+constexpr std::size_t kView = 2;
 
-/// The value of a curve that one Bezier curve stands for; in "class_a" of the result, or why not.
-void add_class_a(Subject& subject, std::optional<double> tolerance) {
-  json request{{"curve", exchange::to_json(subject.path())}};
-  if (tolerance) request["fit_tolerance"] = *tolerance;
-  const auto value = operations::carry_out("curve.cav", request, {});
-  if (value) {
-    subject.class_a = value->result_as<operations::EvaluationShown>()->evaluation;
-    subject.shown["class_a"] = operations::result_json(*value).value();
-  } else {
-    subject.shown["class_a"] = {{"reason", value.error().message}};
-  }
+Session new_session() {
+  return Session({"analyze", "FILE... ",
+                  "Curvature and rhythm of curves, SAV, curvature and zebra of surfaces.",
+                  "Example: keyline analyze examples/clothoid.csv -o report.html\n"
+                  "         keyline analyze examples/panel-c.json -o panel.html"},
+                 {group_of(*operations::find_operation("curve.analyze"), "Curves"),
+                  reading_group(),
+                  {"Surfaces", &core::type_of<presentation::SurfaceView>()},
+                  door_group()});
 }
 
-void print_class_a(const json& value) {
-  if (value.contains("reason")) {
-    fmt::print("class A: none; {}\n", value["reason"].get<std::string>());
-    return;
-  }
+/// The value of a curve that one Bezier curve stands for; "class_a" of the result, or why not.
+json class_a_of(const Session& session, const json& curve, ShownAnalysis& shown) {
+  json request{{"curve", curve}};
+  if (session.door().tolerance) request["fit_tolerance"] = *session.door().tolerance;
+  auto value = session.perform("curve.cav", request, {});
+  if (!value) return {{"reason", value.error().message}};
+  auto text = shown_of(*value);
+  if (!text) return {{"reason", text.error().message}};
+  shown.class_a = std::move(*value);
+  return *text;
+}
+
+std::string class_a_text(const json& value) {
+  if (value.contains("reason"))
+    return fmt::format("class A: none; {}\n", value["reason"].get<std::string>());
   std::string line =
-      fmt::format("class A: {}  CAV {:.6g}", operations::type_in_words(value["type"].get<int>()),
+      fmt::format("class A: {}  CAV {:.6g}", presentation::type_in_words(value["type"].get<int>()),
                   value["cav"].get<double>());
   if (value.contains("approximation"))
     line += fmt::format("  (degree {} within {:.3g})", value["degree"].get<int>(),
@@ -66,147 +57,173 @@ void print_class_a(const json& value) {
     if (value["nearest"]["cav"].is_number())
       line += fmt::format(", CAV {:.4g}", value["nearest"]["cav"].get<double>());
   }
-  fmt::print("{}\n", line);
+  return line + "\n";
 }
 
-Result<Subject> analyzed(const operations::NamedCurve& curve, const AnalyzeCommand& command,
-                         const core::Progress& progress) {
-  json request = subject_of(curve, command.input);
-  request["seed"] = command.common.seed;
-  const auto outcome =
-      operations::carry_out("curve.analyze", request, {command.common.threads, progress});
-  if (!outcome) return std::unexpected(as_options(outcome.error()));
-  auto shown = operations::result_json(*outcome);
-  if (!shown) return std::unexpected(shown.error());
-  Subject subject{curve.name, *outcome->result_as<operations::AnalyzeAnswer>()};
-  subject.shown = std::move(*shown);
-  add_class_a(subject, command.common.tolerance);
-  return subject;
-}
-
-void print_summary(const std::string& name, const json& result) {
-  if (!name.empty()) fmt::print("{}\n", name);
-  fmt::print("length {:.8g}  curvature {:.6g} to {:.6g}  inflections {}  extrema {}  monotone {}\n",
-             result["length"].get<double>(), result["curvature"]["min"].get<double>(),
-             result["curvature"]["max"].get<double>(), result["inflections"].size(),
-             result["extrema"].size(), result["monotone"].get<std::string>());
-  fmt::print("{:>5} {:>11} {:>11} {:>14} {:>11} {:>11}  {}\n", "piece", "from", "length", "rhythm",
-             "slope", "volume", "impression");
+std::string text_of(const std::string& name, const json& result) {
+  std::string text = name.empty() ? "" : name + "\n";
+  text += fmt::format(
+      "length {:.8g}  curvature {:.6g} to {:.6g}  inflections {}  extrema {}  monotone {}\n",
+      result["length"].get<double>(), result["curvature"]["min"].get<double>(),
+      result["curvature"]["max"].get<double>(), result["inflections"].size(),
+      result["extrema"].size(), result["monotone"].get<std::string>());
+  text += fmt::format("{:>5} {:>11} {:>11} {:>14} {:>11} {:>11}  {}\n", "piece", "from", "length",
+                      "rhythm", "slope", "volume", "impression");
   int index = 0;
   for (const json& piece : result["pieces"]) {
     std::string slopes;
     for (const json& slope : piece["slopes"])
       slopes += fmt::format("{}{:.3g}", slopes.empty() ? "" : " ", slope.get<double>());
-    fmt::print("{:>5} {:>11.5g} {:>11.5g} {:>14} {:>11} {:>11.4g}  {}\n", index++,
-               piece["arc_length"][0].get<double>(), piece["length"].get<double>(),
-               piece["rhythm"].get<std::string>(), slopes, piece["volume"].get<double>(),
-               piece["impression"].get<std::string>());
+    text += fmt::format("{:>5} {:>11.5g} {:>11.5g} {:>14} {:>11} {:>11.4g}  {}\n", index++,
+                        piece["arc_length"][0].get<double>(), piece["length"].get<double>(),
+                        piece["rhythm"].get<std::string>(), slopes, piece["volume"].get<double>(),
+                        piece["impression"].get<std::string>());
   }
-  print_class_a(result["class_a"]);
+  return text + class_a_text(result["class_a"]);
 }
 
-operations::ReportOptions report_options(const AnalyzeCommand& command, const Subject& subject) {
-  operations::ReportOptions options;
-  options.title = subject.name.empty() ? "Curve analysis" : "Curve analysis: " + subject.name;
-  options.subtitle = command.input.files.front();
-  options.unit = command.input.unit;
-  options.command = command.common.command_line;
-  options.generator = "Keyline " KEYLINE_VERSION;
-  options.options = {
-      {"noise",
-       fmt::format("{:.4g}", subject.answer.noise.value_or(command.input.noise.value_or(0)))},
-      {"seed", std::to_string(command.common.seed)}};
-  return options;
+/// What was analysed, shown and written.
+struct Analysed {
+  std::vector<ShownAnalysis> pages;
+  std::vector<json> shown;
+  json curves = json::array();
+  std::string text;
+};
+
+Result<void> analyze_one(Session& session, const json& thing, Analysed& all) {
+  json request = session.of(kCurves);
+  request.update(subject_of(thing));
+  const std::string name = thing["name"].get<std::string>();
+  auto outcome = session.perform("curve.analyze", request, session.progress());
+  if (!outcome) return std::unexpected(outcome.error());
+  auto shown = shown_of(*outcome);
+  if (!shown) return std::unexpected(shown.error());
+  const json curve = shown->contains("spline") ? (*shown)["spline"] : thing["curve"];
+  ShownAnalysis page{{name, std::move(*outcome)}, {}};
+  (*shown)["class_a"] = class_a_of(session, curve, page);
+  all.text += text_of(name, *shown);
+  if (!name.empty()) (*shown)["name"] = name;
+  all.curves.push_back({{"name", name}, {"curve", curve}});
+  all.shown.push_back(std::move(*shown));
+  all.pages.push_back(std::move(page));
+  return {};
 }
 
-void add_pictures(Writers& writers, const AnalyzeCommand& command,
-                  const std::vector<Subject>& subjects) {
-  writers[".html"] = [&]() -> Result<std::string> {
-    std::vector<report::Report> reports;
-    std::vector<operations::PlaneEntry> places;
-    for (const Subject& subject : subjects)
-      if (subject.class_a)
-        places.push_back({subject.name.empty() ? "the curve" : subject.name, &*subject.class_a});
-    std::size_t place = 0;
-    for (const Subject& subject : subjects) {
-      reports.push_back(operations::analyze_report(subject.analysis(), subject.path(),
-                                                   report_options(command, subject)));
-      if (subject.class_a)
-        reports.back().sections.push_back(operations::class_a_section(places, place++, {}));
-    }
-    return report::html_report(operations::joined_report(reports, "Curve analysis"));
-  };
-  const auto picture = [&] {
-    std::vector<figure::Drawing> drawings;
-    for (const Subject& subject : subjects) {
-      drawings.push_back(operations::analyze_picture(subject.analysis(), subject.path(),
-                                                     report_options(command, subject)));
-      if (subject.class_a)
-        drawings.back() = figure::stack(
-            {drawings.back(),
-             operations::plane_chart(
-                 {{subject.name.empty() ? "the curve" : subject.name, &*subject.class_a}}, {})});
-    }
-    return figure::tile(drawings, 1);
-  };
-  writers[".pdf"] = [picture] { return figure::write_pdf(picture()); };
-  writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
+/// The result in .json; pictures and drawings in the other formats.
+void add_json(presentation::Pages& pages, const json& shown) {
+  pages[".json"] = [text = shown.dump(1) + "\n"]() -> Result<std::string> { return text; };
 }
 
-Result<void> check_curve_outputs(const AnalyzeCommand& command) {
-  return check_outputs(command.common, curve_extensions({".html", ".pdf", ".png"}),
-                       command.input.files);
+int analyze_curves(Session& session, const ReadFiles& read) {
+  Analysed all;
+  for (const json& thing : planar_things(read))
+    if (auto done = analyze_one(session, thing, all); !done)
+      return report_failure(done.error(), session.files().front());
+  end_progress();
+  const json shown = one_or_all(all.shown, "curves");
+  presentation::ReportOptions options = session.report_options();
+  options.unit = read.shown["unit"].get<std::string>();
+  presentation::Pages pages = presentation::analysis_pages(all.pages, options);
+  add_json(pages, shown);
+  auto written = session.write(pages, json{{"unit", read.shown["unit"]}, {"curves", all.curves}});
+  if (!written) return report_failure(written.error());
+  session.print(shown, all.text);
+  return kDone;
 }
 
-/// Every curve of the input.
-Result<std::vector<Subject>> analyze_all(const AnalyzeCommand& command,
-                                         const operations::ReadAnswer& read) {
-  const core::Progress progress = interactive_progress(command.common.quiet);
-  std::vector<Subject> subjects;
-  for (const operations::NamedCurve& curve : read.curves) {
-    if (!curve.line && !operations::planar_path(*curve.curve)) continue;
-    auto subject = analyzed(curve, command, progress);
-    if (!subject) return std::unexpected(subject.error());
-    subjects.push_back(std::move(*subject));
+/// SAV, or why there is none, and the ranges of curvature.
+Result<json> value_of(Session& session, const json& surface, const core::Progress& progress,
+                      ShownSurface& shown) {
+  auto value = session.perform("surface.sav", {{"surface", surface}}, progress);
+  if (!value && value.error().code == core::ErrorCode::cancelled)
+    return std::unexpected(value.error());
+  json result{{"sav", nullptr}};
+  if (value) {
+    auto text = shown_of(*value);
+    if (!text) return text;
+    result = std::move(*text);
+    shown.value = std::move(*value);
+  } else {
+    shown.no_value = value.error().message;
+    result["no_value"] = shown.no_value;
+  }
+  for (const char* kind : {"gaussian", "mean"}) {
+    const auto field =
+        session.perform("surface.interrogate", {{"surface", surface}, {"kind", kind}}, {});
+    if (!field) return std::unexpected(field.error());
+    const auto text = shown_of(*field);
+    if (!text) return text;
+    result["curvature"][kind] = {{"min", (*text)["range"][0]}, {"max", (*text)["range"][1]}};
+  }
+  return result;
+}
+
+Result<presentation::SurfaceView> view_of(Session& session) {
+  presentation::SurfaceView view;
+  const operations::Part part{&core::type_of<presentation::SurfaceView>(), &view};
+  if (auto read = operations::read_json(session.of(kView), {&part, 1}, {}, "analyze"); !read)
+    return std::unexpected(as_options(read.error()));
+  return view;
+}
+
+int analyze_surfaces(Session& session, const ReadFiles& read) {
+  if (auto done = session.check_outputs({".json", ".html", ".png", ".pdf", ".svg"}); !done)
+    return report_failure(done.error());
+  const auto view = view_of(session);
+  if (!view) return report_failure(view.error());
+  say_curves_left_out(read.shown, session.door().quiet);
+  const core::Progress progress = session.progress();
+  std::vector<ShownSurface> pages;
+  std::vector<json> shown;
+  std::string text;
+  const auto& surfaces = read.answer().surfaces;
+  const auto count = static_cast<double>(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto at = static_cast<double>(i);
+    ShownSurface page{
+        surfaces[i].name.empty() ? fmt::format("surface {}", i + 1) : surfaces[i].name,
+        surfaces[i],
+        {},
+        {}};
+    auto result = value_of(session, read.shown["surfaces"][i]["surface"],
+                           core::part_of(progress, at / count, (at + 1) / count), page);
+    if (!result) return report_failure(result.error(), session.files().front());
+    (*result)["name"] = page.name;
+    if (surfaces[i].trims > 0) (*result)["trims"] = surfaces[i].trims;
+    text += surface_text(*result);
+    shown.push_back(std::move(*result));
+    pages.push_back(std::move(page));
   }
   end_progress();
-  return subjects;
-}
-
-int analyze_curves(const AnalyzeCommand& command, const operations::ReadAnswer& read) {
-  const CommonOptions& common = command.common;
-  const auto subjects = analyze_all(command, read);
-  if (!subjects) return report_failure(subjects.error(), command.input.files.front());
-  json all = json::array();
-  document::Document curves;
-  curves.unit = command.input.unit;
-  double size = HUGE_VAL;
-  for (const Subject& subject : *subjects) {
-    size = std::min(size, subject.analysis().length);
-    curves.paths.push_back({{subject.name, {}, {}}, subject.path(), 0});
-    if (!common.json && !common.quiet) print_summary(subject.name, subject.shown);
-    all.push_back(subject.shown);
-    if (!subject.name.empty()) all.back()["name"] = subject.name;
-  }
-  const json shown = all.size() == 1 ? all[0] : json{{"curves", all}};
-  Writers writers = curve_writers(curves, common.tolerance.value_or(1e-5 * size), common);
-  writers[".json"] = [&]() -> Result<std::string> { return shown.dump(1) + "\n"; };
-  add_pictures(writers, command, *subjects);
-  if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
-  if (common.json) fmt::print("{}\n", shown.dump());
+  const json all = one_or_all(shown, "surfaces");
+  presentation::ReportOptions options = session.report_options();
+  options.unit = read.shown["unit"].get<std::string>();
+  presentation::Pages files = presentation::surface_pages(pages, *view, options);
+  add_json(files, all);
+  if (auto written = session.write(files, json::object()); !written)
+    return report_failure(written.error());
+  session.print(all, text);
   return kDone;
 }
 
 }  // namespace
 
-int run_analyze(const AnalyzeCommand& command) {
-  const auto read = read_files(command.input, interactive_progress(command.common.quiet));
+int run_analyze(const Words& words) {
+  Session session = new_session();
+  if (const auto status = session.begin(words)) return *status;
+  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  const auto read = read_files(session, session.of(kReading), true);
   if (!read) return report_failure(read.error());
-  end_progress();
-  if (!read->surfaces.empty()) return analyze_surfaces(command, read->document);
-  for (const std::string& skipped : read->skipped) say(command.common.quiet, skipped);
-  if (auto known = check_curve_outputs(command); !known) return report_failure(known.error());
-  return analyze_curves(command, *read);
+  const bool surfaces = !read->answer().surfaces.empty();
+  if (auto sound = surfaces ? check_unused(session.of(kReading), session.of(kCurves), "for curves")
+                            : check_unused({}, session.of(kView), "for surfaces");
+      !sound)
+    return report_failure(sound.error());
+  if (surfaces) return analyze_surfaces(session, *read);
+  for (const std::string& skipped : read->answer().skipped) say(session.door().quiet, skipped);
+  return analyze_curves(session, *read);
 }
+
+std::vector<std::string> analyze_options() { return new_session().arguments().names(); }
 
 }  // namespace keyline::app

@@ -1,5 +1,7 @@
 #include "arguments.h"
 
+#include <algorithm>
+
 #include "words.h"
 
 namespace keyline::app {
@@ -17,81 +19,161 @@ const core::Type& kind_of(const Field& field) {
   return type.kind == Kind::optional ? type.item() : type;
 }
 
+bool is_flag(const Field& field) { return kind_of(field).kind == Kind::boolean; }
+
+/// Changes of one letter (added, dropped, another) that lead from one word to the other.
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t other = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({other, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string long_name(const std::string& word) {
+  if (word == "-o") return "--output";
+  if (word == "-h") return "--help";
+  return word;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
+  return all;
+}
+
 }  // namespace
 
-Arguments::Arguments(const std::vector<const core::Type*>& records) {
-  for (const core::Type* record : records) {
-    owners_.push_back(record->make());
-    core::visit_fields(*record, owners_.back().get(), [&](const Field& field, void* member) {
-      fields_.push_back({field, member, owners_.size() - 1});
+Arguments::Arguments(const std::vector<OptionGroup>& groups, bool takes_files)
+    : takes_files_(takes_files) {
+  for (const OptionGroup& group : groups) {
+    titles_.push_back(group.title);
+    owners_.push_back(group.record->make());
+    core::visit_fields(*group.record, owners_.back().get(), [&](const Field& field, void* member) {
+      if (std::ranges::find(group.without, field.name) != group.without.end()) return;
+      const bool stands = std::ranges::any_of(
+          fields_, [&](const Known& other) { return other.field.name == field.name; });
+      fields_.push_back({field, member, owners_.size() - 1, !stands});
     });
   }
-  given_.assign(records.size(), json::object());
+  given_.assign(groups.size(), json::object());
 }
 
 Result<void> Arguments::parse(std::span<const std::string> words) {
+  bool ended = false;
   for (std::size_t i = 0; i < words.size();) {
-    std::string word = words[i] == "-o" ? "--output" : words[i];
-    if (!word.starts_with("--")) {
+    const std::string& word = words[i];
+    if (!ended && word == "--") {
+      ended = true;
+      ++i;
+    } else if (ended || word == "-" || !word.starts_with('-')) {
       files.push_back(words[i++]);
-      continue;
+    } else {
+      const auto next = read_option(words, i);
+      if (!next) return std::unexpected(next.error());
+      i = *next;
     }
-    std::vector<std::string> values;
-    const std::size_t equals = word.find('=');
-    if (equals != std::string::npos) {
-      values.push_back(word.substr(equals + 1));
-      word.resize(equals);
-    }
-    const Known* known = known_as(word);
-    if (!known) return fail(ErrorCode::bad_input, "there is no such option", nearest(word), word);
-    ++i;
-    if (equals == std::string::npos)
-      while (i < words.size() && takes(*known, values.size(), words[i]))
-        values.push_back(words[i++]);
-    if (auto done = put(*known, values); !done) return done;
   }
   return {};
 }
 
-std::string Arguments::help(std::size_t record) const {
-  std::string text;
-  for (const Known& known : fields_)
-    if (known.record == record) text += help_line(known.field, known.member);
-  return text;
+/// Returns where the words after the option and its values begin.
+Result<std::size_t> Arguments::read_option(std::span<const std::string> words, std::size_t at) {
+  std::string option = long_name(words[at++]);
+  std::vector<std::string> values;
+  const std::size_t equals = option.find('=');
+  const bool bound = equals != std::string::npos;
+  if (bound) {
+    values.push_back(option.substr(equals + 1));
+    option.resize(equals);
+  }
+  auto known = known_as(option);
+  if (!known && option.starts_with("--no-") && !bound) {
+    const auto flag = known_as("--" + option.substr(5));
+    if (flag && is_flag((*flag)->field)) {
+      if (auto done = put(**flag, {"no"}); !done) return std::unexpected(done.error());
+      return at;
+    }
+  }
+  if (!known) return std::unexpected(known.error());
+  if (!bound)
+    while (at < words.size() && takes((*known)->field, values.size(), words[at]))
+      values.push_back(words[at++]);
+  if (auto done = put(**known, values); !done) return std::unexpected(done.error());
+  return at;
 }
 
-const Arguments::Known* Arguments::known_as(const std::string& option) const {
-  for (const Known& known : fields_)
-    if (option_name(known.field.name) == option) return &known;
-  return nullptr;
+Result<const Arguments::Known*> Arguments::known_as(const std::string& option) const {
+  std::vector<const Known*> begun;
+  for (const Known& known : fields_) {
+    if (!known.shown) continue;
+    const std::string name = option_name(known.field.name);
+    if (name == option) return &known;
+    if (option.size() > 3 && name.starts_with(option)) begun.push_back(&known);
+  }
+  if (begun.size() == 1) return begun.front();
+  return fail(ErrorCode::bad_input, "there is no such option", nearest(option), option);
 }
 
-/// Lists take words up to the next option, flags a word only where it says yes or no.
-bool Arguments::takes(const Known& known, std::size_t have, const std::string& word) {
-  if (word.starts_with("--") || word == "-o") return false;
-  const core::Type& type = kind_of(known.field);
+/// Lists of numbers, points and the like take words as long as they are such; other lists, where
+/// files stand among the options, one word. Flags take a word only where it says yes or no.
+bool Arguments::takes(const Field& field, std::size_t have, const std::string& word) const {
+  if (word.starts_with("--") || word == "-o" || word == "-h") return false;
+  const core::Type& type = kind_of(field);
   if (type.kind == Kind::boolean) return have == 0 && (word == "yes" || word == "no");
-  if (known.field.name == "output") return have == 0;
-  return have == 0 || type.kind == Kind::list;
+  if (have == 0) return true;
+  if (type.kind != Kind::list || field.name == "output" || have >= field.most) return false;
+  return !takes_files_ || field.most < 100 || is_number_like(type.item(), word);
 }
 
 Result<void> Arguments::put(const Known& known, const std::vector<std::string>& values) {
-  auto value = value_of(known.field, values);
-  if (!value) return std::unexpected(value.error());
-  json& to = given_[known.record][std::string(known.field.name)];
-  if (to.is_array() && value->is_array())
-    to.insert(to.end(), value->begin(), value->end());
-  else
-    to = std::move(*value);
+  typed_.emplace_back(known.field.name, joined(values));
+  for (const Known& same : fields_) {
+    if (same.field.name != known.field.name) continue;
+    auto value = value_of(same.field, values);
+    if (!value) return std::unexpected(value.error());
+    json& to = given_[same.record][std::string(same.field.name)];
+    if (to.is_array() && value->is_array() && kind_of(same.field).kind == Kind::list)
+      to.insert(to.end(), value->begin(), value->end());
+    else
+      to = std::move(*value);
+  }
   return {};
 }
 
 std::string Arguments::nearest(const std::string& option) const {
   for (const Known& known : fields_) {
     const std::string name = option_name(known.field.name);
-    if (name.starts_with(option) || option.starts_with(name)) return "did you mean " + name + "?";
+    if (name.starts_with(option) || option.starts_with(name) ||
+        (option.size() < 40 && letters_apart(option, name) <= 2))
+      return "did you mean " + name + "?";
   }
-  return "--help lists them";
+  return "";
+}
+
+std::string Arguments::help() const {
+  std::string text;
+  for (std::size_t i = 0; i < titles_.size(); ++i) {
+    std::string lines;
+    for (const Known& known : fields_)
+      if (known.record == i && known.shown) lines += help_line(known.field, known.member);
+    if (!lines.empty()) text += "\n" + titles_[i] + ":\n" + lines;
+  }
+  return text;
+}
+
+std::vector<std::string> Arguments::names() const {
+  std::vector<std::string> all;
+  for (const Known& known : fields_)
+    if (known.shown) all.push_back(option_name(known.field.name));
+  return all;
 }
 
 }  // namespace keyline::app

@@ -12,12 +12,11 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/operations/perform.h"
-#include "keyline/operations/references.h"
-#include "keyline/operations/schema.h"
 
 #include "batch.h"
-#include "commands.h"
+#include "session.h"
 #include "terminal.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
@@ -26,6 +25,30 @@ using core::ErrorCode;
 using core::Result;
 
 constexpr std::size_t kAtOnce = 1u << 16;
+
+/// What batch takes beside the options every command has.
+struct BatchWords {
+  std::string resume;
+  std::optional<double> time_limit;
+  static constexpr auto describe() {
+    return core::fields(core::field<&BatchWords::resume>(
+                            "file the answers go to; those in it already are not asked for again"),
+                        core::field<&BatchWords::time_limit>("a line may take; else any")
+                            .in("second")
+                            .within(core::kPositive));
+  }
+};
+
+/// Seed, tolerance and threads mean here what they mean in every request, output has no place.
+Session new_session() {
+  OptionGroup door = door_group();
+  door.without = {"output", "json"};
+  return Session(
+      {"batch", "", "Requests as lines of JSON on standard input, answers in the same order.",
+       "--seed and --tolerance stand for what a request leaves out; --threads are processes.\n"
+       "Example: echo '{\"op\":\"lac.region\",\"theta\":1,\"alpha\":-1}' | keyline batch"},
+      {{"Answers", &core::type_of<BatchWords>(), {}}, door}, false);
+}
 
 bool write_all(int out, std::string& text) {
   std::size_t done = 0;
@@ -118,99 +141,60 @@ Result<Sink> resumed(const std::string& name) {
   return sink;
 }
 
-int workers_of(const BatchCommand& command) {
-  if (command.common.threads > 0) return command.common.threads;
+int workers_of(const DoorOptions& door) {
+  if (door.threads > 0) return door.threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-nlohmann::json defaults_of(const BatchCommand& command) {
+nlohmann::json defaults_of(const DoorOptions& door) {
   nlohmann::json defaults = nlohmann::json::object();
-  if (command.seed) defaults["seed"] = *command.seed;
-  if (command.common.tolerance) defaults["tolerance"] = *command.common.tolerance;
+  if (door.seed) defaults["seed"] = *door.seed;
+  if (door.tolerance) defaults["tolerance"] = *door.tolerance;
   return defaults;
 }
 
-void tell(const BatchCommand& command, const BatchReport& report, const Sink& sink) {
+void tell(const DoorOptions& door, const BatchReport& report, const Sink& sink) {
   std::string text;
   if (sink.answers > 0) text = fmt::format("{} lines were answered before; ", sink.answers);
+  const int workers = workers_of(door);
   text +=
       fmt::format("{} lines in {:.3g} s, {:.0f} per second, {} {}", report.lines, report.seconds,
-                  static_cast<double>(report.lines) / std::max(report.seconds, 1e-9),
-                  workers_of(command), workers_of(command) == 1 ? "worker" : "workers");
+                  static_cast<double>(report.lines) / std::max(report.seconds, 1e-9), workers,
+                  workers == 1 ? "worker" : "workers");
   if (report.crashed > 0) text += fmt::format(", {} brought a worker down", report.crashed);
   if (report.expired > 0) text += fmt::format(", {} over the time limit", report.expired);
-  say(command.common.quiet, text);
+  say(door.quiet, text);
 }
 
-}  // namespace
-
-int run_batch(const BatchCommand& command) {
+int answer_lines(const DoorOptions& door, const BatchWords& batch) {
   std::signal(SIGPIPE, SIG_IGN);
-  auto sink = command.resume.empty() ? Result<Sink>(Sink{}) : resumed(command.resume);
+  auto sink = batch.resume.empty() ? Result<Sink>(Sink{}) : resumed(batch.resume);
   if (!sink) return report_failure(sink.error());
   BatchOptions options;
-  options.workers = workers_of(command);
-  options.time_limit = command.time_limit.value_or(0);
+  options.workers = workers_of(door);
+  options.time_limit = batch.time_limit.value_or(0);
   options.skip = sink->answers;
   options.progress = interactive_progress(true);
-  const nlohmann::json defaults = defaults_of(command);
+  const nlohmann::json defaults = defaults_of(door);
   const WorkerMain main = [&](int in, int out) { serve(in, out, defaults); };
   const auto report = run_lines(STDIN_FILENO, sink->file, main, kAnswers, options);
   if (!report) return report_failure(report.error());
-  tell(command, *report, *sink);
+  tell(door, *report, *sink);
   return report->cancelled ? kCancelled : kDone;
-}
-
-namespace {
-
-/// Everything about every operation in one go.
-int print_all(const std::string& format) {
-  if (format == "typescript") {
-    fmt::print("{}", operations::typescript_types());
-  } else if (format == "python") {
-    fmt::print("{}", operations::python_stubs());
-  } else if (format == "openapi") {
-    fmt::print("{}\n", operations::openapi_document().dump(1));
-  } else if (format == "markdown") {
-    for (const auto& operation : operations::operations())
-      fmt::print("{}\n", operations::reference_page(operation));
-  } else {
-    nlohmann::json all = nlohmann::json::object();
-    for (const auto& operation : operations::operations())
-      all[operation.name] = {{"request", operations::request_schema(operation)},
-                             {"result", operations::result_schema(operation)}};
-    fmt::print("{}\n", all.dump(1));
-  }
-  return kDone;
 }
 
 }  // namespace
 
-int run_operations(const OperationsCommand& command) {
-  if (command.name.empty() && !command.format.empty()) return print_all(command.format);
-  if (command.name.empty()) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const auto& operation : operations::operations()) {
-      if (command.common.json)
-        list.push_back({{"name", operation.name}, {"summary", operation.summary}});
-      else
-        fmt::print("{:<18} {}\n", operation.name, operation.summary);
-    }
-    if (command.common.json) fmt::print("{}\n", list.dump());
-    return kDone;
-  }
-  const operations::Operation* operation = operations::find_operation(command.name);
-  if (!operation)
-    return report_failure({core::ErrorCode::bad_input,
-                           "there is no operation \"" + command.name + "\"",
-                           "keyline operations lists them", ""});
-  if (command.format == "markdown")
-    fmt::print("{}", operations::reference_page(*operation));
-  else if (command.format == "result")
-    fmt::print("{}\n", operations::result_schema(*operation).dump(2));
-  else
-    fmt::print("{}\n", operations::request_schema(*operation).dump(2));
-  return kDone;
+int run_batch(const Words& words) {
+  Session session = new_session();
+  if (const auto status = session.begin(words)) return *status;
+  BatchWords batch;
+  const operations::Part part{&core::type_of<BatchWords>(), &batch};
+  if (auto read = operations::read_json(session.of(0), {&part, 1}, {}, "batch"); !read)
+    return report_failure(as_options(read.error()));
+  return answer_lines(session.door(), batch);
 }
+
+std::vector<std::string> batch_options() { return new_session().arguments().names(); }
 
 }  // namespace keyline::app

@@ -1,118 +1,65 @@
-#include <algorithm>
-#include <cstdio>
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "keyline/core/text.h"
-#include "keyline/exchange/atomic_file.h"
-#include "keyline/exchange/document_file.h"
-#include "keyline/exchange/json_document.h"
-#include "keyline/exchange/planar_form.h"
-
-#include "commands.h"
-#include "output.h"
-#include "reading.h"
+#include "session.h"
 #include "terminal.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
 
 using core::Result;
+using nlohmann::json;
 
-/// What was read as a document; points as acquired: sorted, without strays.
-document::Document document_of(const operations::ReadAnswer& read) {
-  document::Document document = read.document;
-  document.unit = read.unit;
-  for (const operations::NamedCurve& named : read.curves) {
-    if (!named.line) continue;
-    curve::Polyline2 polyline{named.line->points};
-    if (named.line->closed) polyline.points.push_back(polyline.points.front());
-    document.paths.push_back(
-        {{named.name, {}, {}}, {{{std::move(polyline)}}, named.line->closed}, 0});
-  }
-  return document;
+constexpr std::size_t kReading = 0;  // records of the command line
+constexpr std::size_t kFormat = 1;
+
+Session new_session() {
+  return Session(
+      {"convert", "FILE... ", "Curves and surfaces from one format to another.",
+       "Example: keyline convert faired.json -o faired.dxf --tolerance 0.001"},
+      {reading_group(), {"Formats", &core::type_of<operations::FormatOptions>()}, door_group()});
 }
 
-std::string contents(const document::Document& document) {
-  std::string text;
-  for (const auto& [count, thing] : {std::pair{document.paths.size(), "planar curve"},
-                                     std::pair{document.space_curves.size(), "space curve"},
-                                     std::pair{document.surfaces.size(), "surface"}})
-    if (count > 0) text += (text.empty() ? "" : ", ") + core::counted(count, thing);
-  return text + (document.unit.empty() ? "" : " in " + document.unit);
-}
-
-/// What formats of the plane can hold: where there is no planar curve, space curves in the
-/// coordinates of their own planes.
-document::Document planar_of(const document::Document& document, bool quiet) {
-  document::Document planar = document;
-  if (!planar.paths.empty() || planar.space_curves.empty()) return planar;
-  std::vector<std::string> notes;
-  exchange::flatten(planar, notes);
-  if (!planar.paths.empty())
-    say(quiet, core::counted(planar.paths.size(), "curve") +
-                   " in space: pictures, SVG and glyphs show them in the coordinates of their "
-                   "planes");
-  return planar;
-}
-
-bool is_planar_format(const std::string& extension) {
-  return extension == ".svg" || extension == ".glif" || extension == ".pdf";
+Result<presentation::Output> output_of(Session& session, const operations::ReadAnswer& read) {
+  presentation::Output output = presentation::output_of(read);
+  const operations::Part part{&core::type_of<operations::FormatOptions>(), &output.format};
+  if (auto done = operations::read_json(session.of(kFormat), {&part, 1}, {}, "convert"); !done)
+    return std::unexpected(as_options(done.error()));
+  return output;
 }
 
 }  // namespace
 
-int run_convert(const ConvertCommand& command) {
-  const CommonOptions& common = command.common;
-  if (common.outputs.empty() && !common.json)
+int run_convert(const Words& words) {
+  Session session = new_session();
+  if (const auto status = session.begin(words)) return *status;
+  const bool quiet = session.door().quiet;
+  if (session.door().output.empty() && !session.door().json)
     return report_failure({core::ErrorCode::bad_input, "no output is named", "add -o FILE", ""});
-  if (auto known =
-          check_outputs(common, curve_extensions({".pdf", ".png", ".html"}), command.input.files);
-      !known)
-    return report_failure(known.error());
-  const auto read = read_files(command.input, interactive_progress(common.quiet), false);
-  if (!read) return report_failure(read.error());
-  end_progress();
-  document::Document made = document_of(*read);
-  document::Document* const document = &made;
-  if (command.trims) document::add_trim_curves(*document);
-  say(common.quiet, fmt::format("{}: {}", command.input.files.front(), contents(*document)));
-  for (const std::string& skipped : document->skipped) say(common.quiet, "skipped: " + skipped);
-  exchange::WriteOptions options;
-  options.tolerance = common.tolerance.value_or(0);
-  options.polylines = command.polylines;
-  options.grid = command.grid;
-  Writers pictures;
-  const bool planar_wanted =
-      std::any_of(common.outputs.begin(), common.outputs.end(), [&](const std::string& file) {
-        const std::string extension = exchange::extension_of(file);
-        return is_planar_format(extension) || extension == ".png" || extension == ".html";
-      });
-  const document::Document planar =
-      planar_wanted ? planar_of(*document, common.quiet) : document::Document{};
-  add_picture_writers(pictures, planar, "Curves", command.input.files.front(), common);
-  if (!planar.paths.empty()) pictures.erase(".pdf");  // the drawing itself, in real size
-  exchange::OutputFiles files;
-  for (const std::string& file : common.outputs) {
-    if (const auto picture = pictures.find(exchange::extension_of(file));
-        picture != pictures.end()) {
-      if (auto done = add_output(files, file, picture->second); !done)
-        return report_failure(done.error());
-      continue;
-    }
-    const bool flat = is_planar_format(exchange::extension_of(file));
-    const auto written =
-        exchange::format_document(flat ? planar : *document, exchange::extension_of(file), options);
-    if (!written) return report_failure(exchange::in_file(written.error(), file));
-    if (auto done = files.add(file, written->content); !done) return report_failure(done.error());
-    for (const std::string& note : written->notes)
-      say(common.quiet, fmt::format("{}: {}", file, note));
-    say(common.quiet, fmt::format("{}: deviation {:.3g}", file, written->deviation));
-  }
-  if (auto done = files.commit(); !done) return report_failure(done.error());
-  if (common.json) fmt::print("{}\n", exchange::to_json(*document).dump());
+  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  auto outcome = read_outcome(session, session.of(kReading), false);
+  if (!outcome) return report_failure(outcome.error());
+  const auto& read = *outcome->result_as<operations::ReadAnswer>();
+  const auto output = output_of(session, read);
+  if (!output) return report_failure(output.error());
+  say(quiet, session.files().front() + ": " + presentation::contents_of(read));
+  for (const std::string& skipped : read.skipped) say(quiet, "skipped: " + skipped);
+  presentation::ReportOptions options = session.report_options();
+  options.title = "Curves";
+  const auto written =
+      session.write(presentation::document_pages(output->document, options), *output);
+  if (!written) return report_failure(written.error());
+  for (const json& one : (*written)["written"])
+    say(quiet, fmt::format("{}: deviation {:.3g}", one["file"].get<std::string>(),
+                           one["deviation"].get<double>()));
+  if (!session.door().json) return kDone;
+  auto shown = shown_of(*outcome);
+  if (!shown) return report_failure(shown.error());
+  (*shown)["written"] = (*written)["written"];
+  session.print(*shown, "");
   return kDone;
 }
+
+std::vector<std::string> convert_options() { return new_session().arguments().names(); }
 
 }  // namespace keyline::app

@@ -1,20 +1,10 @@
-#include <optional>
+#include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "keyline/analysis/profile.h"
-#include "keyline/exchange/json_curve.h"
-#include "keyline/exchange/json_space.h"
-#include "keyline/operations/draw_figure.h"
-#include "keyline/operations/perform.h"
-#include "keyline/operations/space_figure.h"
-#include "keyline/report/html_report.h"
-
-#include "commands.h"
-#include "draw_request.h"
-#include "output.h"
+#include "session.h"
 #include "terminal.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
@@ -22,143 +12,230 @@ namespace {
 using core::ErrorCode;
 using core::Result;
 using nlohmann::json;
+using operations::Operation;
+
+/// What draw itself reads: the points, which stand for other fields with some operations.
+struct DrawWords {
+  std::vector<std::variant<core::Point2, core::Point3>> points;
+  bool spline = false;
+  bool space = false;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&DrawWords::points>(
+            "handles P0 P1 P2 as x,y; two ends with --directions, or with --direction and "
+            "--volume; any number with "
+            "--spline; P0 T0 T2 P2, ends and points along their tangents, as x,y,z with --space")
+            .needed(),
+        core::field<&DrawWords::spline>("a G2 spline through all points"),
+        core::field<&DrawWords::space>("a space curve"));
+  }
+};
+
+/// An operation and the option that asks for it.
+struct Kind {
+  const char* operation;
+  const char* sign;
+};
+constexpr Kind kKinds[] = {{"lac.spline", "--spline"}, {"lac.space", "--space"},
+                           {"lac.volume", "--volume"}, {"lac.hermite", "--directions"},
+                           {"lac.quasi", "--form"},    {"lac.compound", "--ratio"},
+                           {"lac.segment", ""}};
+
+bool is_given(const Words& words, const std::string& option) {
+  return std::ranges::any_of(words, [&](const std::string& word) {
+    return word == option || word.starts_with(option + "=");
+  });
+}
+
+/// Two slopes ask for a compound rhythm too.
+bool has_two_slopes(const Words& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].starts_with("--alpha=")) return words[i].find(',') != std::string::npos;
+    if (words[i] == "--alpha" && i + 1 < words.size())
+      return words[i + 1].find(',') != std::string::npos;
+  }
+  return false;
+}
+
+const Operation& operation_for(const Words& words) {
+  std::string name = kKinds[std::size(kKinds) - 1].operation;
+  if (has_two_slopes(words)) name = "lac.compound";
+  for (const Kind& kind : kKinds)
+    if (*kind.sign != '\0' && is_given(words, kind.sign)) {
+      name = kind.operation;
+      break;
+    }
+  return *operations::find_operation(name);
+}
+
+constexpr std::size_t kOwn = 0;  // records of the command line
+constexpr std::size_t kCurve = 1;
+constexpr std::size_t kView = 2;
+
+OptionGroup group_for(const Operation& operation) {
+  OptionGroup group = group_of(operation, "For " + operation.name);
+  for (const char* other : {"start", "end", "tangents"}) group.without.emplace_back(other);
+  return group;
+}
+
+/// Options of the operation asked for; in the help those of all.
+Session new_session(const Operation& asked, bool all) {
+  std::vector<OptionGroup> groups{{"Drawing", &core::type_of<DrawWords>()},
+                                  group_for(asked),
+                                  {"Figures", &core::type_of<presentation::HandleView>()}};
+  if (all)
+    for (const Kind& kind : kKinds)
+      if (asked.name != kind.operation)
+        groups.push_back(group_for(*operations::find_operation(kind.operation)));
+  groups.push_back(door_group());
+  return Session(
+      {"draw", "--points P0 P1 P2 ", "A log-aesthetic curve from handles or through points.",
+       "Example: keyline draw --points 0,0 2,0 3,1.5 --alpha -1,1.5 --ratio 0.4 -o curve.svg\n"
+       "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report)."},
+      groups, false);
+}
+
+std::unexpected<core::Failure> wrong(const std::string& message, const std::string& hint) {
+  return core::fail(ErrorCode::bad_input, message, hint, "--points");
+}
+
+Result<json> points_of(const json& given, bool space) {
+  const std::size_t coordinates = space ? 3 : 2;
+  const std::string form = space ? "give points as x,y,z" : "give points as x,y";
+  for (const json& point : given) {
+    if (!point.is_array()) return wrong("\"" + point.get<std::string>() + "\" is no point", form);
+    if (point.size() != coordinates)
+      return wrong(fmt::format("{} has {} coordinates", point.dump(), point.size()), form);
+  }
+  return given;
+}
+
+Result<void> want(const json& points, std::size_t count, const std::string& what) {
+  if (points.size() == count) return {};
+  return wrong(fmt::format("{} points are given", points.size()), "give " + what);
+}
+
+json less(const json& a, const json& b) {
+  json difference = json::array();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    difference.push_back(a[i].get<double>() - b[i].get<double>());
+  return difference;
+}
+
+/// The points as the fields that the operation has for them.
+Result<void> put_points(const Operation& operation, const json& points, json& request) {
+  const bool space = operation.name == "lac.space";
+  if (space || operation.name == "lac.hermite") {
+    if (auto right = space ? want(points, 4, "P0 T0 T2 P2: ends and points along their tangents")
+                           : want(points, 2, "the two ends");
+        !right)
+      return right;
+    request["start"] = points.front();
+    request["end"] = points.back();
+    if (space) request["tangents"] = {less(points[1], points[0]), less(points[3], points[2])};
+    return {};
+  }
+  if (operation.name == "lac.volume")
+    if (auto right = want(points, 2, "P0 and P2"); !right) return right;
+  if (operation.name != "lac.volume" && operation.name != "lac.spline")
+    if (auto right = want(points, 3, "the handles P0 P1 P2"); !right) return right;
+  request["points"] = points;
+  return {};
+}
+
+/// Slopes and the like that were not given are what a fresh request holds.
+void complete(const Operation& operation, json& request) {
+  const auto fresh = operations::write_json(*operation.request, operation.request->make().get());
+  for (const char* name : {"alpha", "beta", "omega"})
+    if (fresh && !request.contains(name) && fresh->value(name, json()).is_number())
+      request[name] = (*fresh)[name];
+}
 
 /// One line per piece, and what the operation tells beside the curve.
-void print_summary(const json& result) {
+std::string text_of(const json& result) {
   const json& curve = result["curve"];
+  std::string text;
   if (curve.contains("pieces")) {
-    fmt::print("{:>5} {:>8} {:>14} {:>14} {:>14}\n", "piece", "slope", "length", "curvature from",
-               "to");
+    text += fmt::format("{:>5} {:>8} {:>14} {:>14} {:>14}\n", "piece", "slope", "length",
+                        "curvature from", "to");
     int index = 0;
     for (const json& piece : curve["pieces"]) {
       const bool cusp = piece.contains("radius");
       const json& ends = cusp ? piece["radius"] : piece["curvature"];
-      fmt::print("{:>5} {:>8.5g} {:>14.9g} {:>14.9g} {:>14.9g}{}\n", index++,
-                 piece["alpha"].get<double>(), piece["length"].get<double>(), ends[0].get<double>(),
-                 ends[1].get<double>(), cusp ? "  (radii)" : "");
+      text += fmt::format("{:>5} {:>8.5g} {:>14.9g} {:>14.9g} {:>14.9g}{}\n", index++,
+                          piece["alpha"].get<double>(), piece["length"].get<double>(),
+                          ends[0].get<double>(), ends[1].get<double>(), cusp ? "  (radii)" : "");
     }
   }
   std::string line;
-  for (const char* name : {"lambda", "nu", "theta", "volume", "deviation", "monotone", "lcg",
-                           "joint", "about", "slopes", "reversed"})
-    if (result.contains(name) && !result[name].is_null())
-      line += fmt::format("{}{} {}", line.empty() ? "" : "  ", name, result[name].dump());
+  for (const auto& [name, value] : result.items())
+    if (name != "curve" && name != "report" && name != "target" && !value.is_null())
+      line += fmt::format("{}{} {}", line.empty() ? "" : "  ", name, value.dump());
   if (result.contains("report"))
     for (const json& span : result["report"]["overridden"])
       line += fmt::format("{}span {} got slope -1", line.empty() ? "" : "  ", span["span"].dump());
-  if (!line.empty()) fmt::print("{}\n", line);
+  return text + (line.empty() ? "" : line + "\n");
 }
 
-Result<std::optional<operations::RegionQuestion>> region_of(const DrawCommand& command,
-                                                            const json& request) {
-  const bool three = request.contains("points") && request["points"].size() == 3;
-  if (!three || command.spline || command.alpha.size() > 2) return std::nullopt;
-  const auto points = exchange::points_from_json(request["points"], "points", 3);
+Result<presentation::HandleView> view_of(Session& session) {
+  presentation::HandleView view;
+  const operations::Part part{&core::type_of<presentation::HandleView>(), &view};
+  if (auto read = operations::read_json(session.of(kView), {&part, 1}, {}, "draw"); !read)
+    return std::unexpected(as_options(read.error()));
+  return view;
+}
+
+Result<operations::Outcome> drawn(Session& session, const Operation& operation) {
+  const json own = session.of(kOwn);
+  const auto points = points_of(own.value("points", json::array()), operation.name == "lac.space");
   if (!points) return std::unexpected(points.error());
-  auto alpha = command.alpha;
-  if (alpha.empty()) alpha = {-1};
-  auto question = operations::region_question(*points, alpha, command.ratio.value_or(0.5));
-  if (!question) return std::unexpected(question.error());
-  return *question;
+  json request = session.of(kCurve);
+  if (auto done = put_points(operation, *points, request); !done)
+    return std::unexpected(done.error());
+  complete(operation, request);
+  return session.perform(operation.name, request, session.progress());
 }
 
-operations::ReportOptions report_options(const DrawCommand& command, const char* title) {
-  operations::ReportOptions options;
-  options.title = title;
-  options.command = command.common.command_line;
-  options.generator = "Keyline " KEYLINE_VERSION;
-  return options;
-}
-
-/// Figures in place of the bare curve where the format or --show asks for them.
-void add_figures(const DrawCommand& command, const document::Path& path,
-                 const operations::DrawShow& show,
-                 const std::optional<operations::RegionQuestion>& region, Writers& writers) {
-  const auto options = report_options(command, "Curve from handles");
-  const auto picture = [=](auto write) -> Writer {
-    return [=]() -> Result<std::string> {
-      const auto drawing = operations::draw_picture(path, show, region, options);
-      if (!drawing) return std::unexpected(drawing.error());
-      return write(*drawing);
-    };
-  };
-  if (!command.show.empty())
-    writers[".svg"] = picture(
-        [](const figure::Drawing& d) -> Result<std::string> { return figure::write_svg(d); });
-  writers[".pdf"] = picture([](const figure::Drawing& d) { return figure::write_pdf(d); });
-  writers[".png"] = picture([](const figure::Drawing& d) { return figure::write_png(d); });
-  writers[".html"] = [=]() -> Result<std::string> {
-    const auto report = operations::draw_report(path, show, region, options);
-    if (!report) return std::unexpected(report.error());
-    return report::html_report(*report);
-  };
-}
-
-Result<Writers> space_writers(const DrawCommand& command, const json& curve) {
-  const auto chain = exchange::space_chain_from_json(curve, "curve");
-  if (!chain) return std::unexpected(chain.error());
-  if (!command.show.empty())
-    return core::fail(ErrorCode::bad_input, "--show has no figures of space curves",
-                      "leave it out: pictures show three views, curvature and torsion", "--show");
-  const auto options = report_options(command, "Space curve from handles");
-  const auto picture = [=, chain = *chain](auto write) -> Writer {
-    return
-        [=]() -> Result<std::string> { return write(operations::space_picture(chain, options)); };
-  };
-  document::Document document;
-  document.space_curves.push_back({{}, {*chain}});
-  const double tolerance = command.common.tolerance.value_or(1e-5 * arc_length(*chain));
-  Writers writers = curve_writers(document, tolerance, command.common);
-  writers[".json"] = [curve]() -> Result<std::string> { return curve.dump(1) + "\n"; };
-  writers[".svg"] =
-      picture([](const figure::Drawing& d) -> Result<std::string> { return figure::write_svg(d); });
-  writers[".pdf"] = picture([](const figure::Drawing& d) { return figure::write_pdf(d); });
-  writers[".png"] = picture([](const figure::Drawing& d) { return figure::write_png(d); });
-  writers[".html"] = [=, chain = *chain]() -> Result<std::string> {
-    return report::html_report(operations::space_report(chain, options));
-  };
-  return writers;
-}
-
-Result<Writers> writers_of(const DrawCommand& command, const json& request, const json& result) {
-  if (result["curve"]["type"] == "log-aesthetic-space")
-    return space_writers(command, result["curve"]);
-  auto path = exchange::path_from_json(result["curve"], "curve");
-  if (!path) return std::unexpected(path.error());
-  const auto show = operations::parse_show(command.show);
-  if (!show) return std::unexpected(show.error());
-  const auto region = region_of(command, request);
-  if (!region) return std::unexpected(region.error());
-  if (show->region && !*region)
-    return core::fail(ErrorCode::bad_input, "a drawable region belongs to three handles",
-                      "give --points P0 P1 P2, or leave out region", "--show");
-  const double length = analysis::ArcLengthTable(analysis::view(*path)).length();
-  Writers writers = curve_writers(document_of("", *path),
-                                  command.common.tolerance.value_or(1e-5 * length), command.common);
-  add_figures(command, *path, *show, *region, writers);
-  return writers;
+/// Which option asks for the operation that has the option refused.
+std::string asked_by(const std::string& option) {
+  for (const Kind& kind : kKinds) {
+    const auto options = plain_options(kind.operation);
+    if (*kind.sign != '\0' && std::ranges::find(options, option) != options.end())
+      return std::string(kind.sign);
+  }
+  return "";
 }
 
 }  // namespace
 
-int run_draw(const DrawCommand& command) {
-  const std::vector<std::string> known = curve_extensions({".pdf", ".png", ".html"});
-  if (auto can = check_outputs(command.common, known, {}); !can) return report_failure(can.error());
-  const auto asked = draw_request(command);
-  if (!asked) return report_failure(asked.error());
-  const auto result =
-      operations::perform(asked->operation, asked->request, {command.common.threads, {}});
+int run_draw(const Words& words) {
+  const Operation& operation = operation_for(words);
+  const bool help = is_given(words, "--help") || is_given(words, "-h");
+  Session session = new_session(operation, help);
+  session.explain_refused([](const std::string& option) {
+    const std::string sign = asked_by(option);
+    return sign.empty() ? "" : "it goes with " + sign + ";";
+  });
+  if (const auto status = session.begin(words)) return *status;
+  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  const auto outcome = drawn(session, operation);
+  end_progress();
+  if (!outcome) return report_failure(outcome.error());
+  const auto result = shown_of(*outcome);
   if (!result) return report_failure(result.error());
-  const auto writers = writers_of(command, asked->request, *result);
-  if (!writers) return report_failure(writers.error());
-  if (auto done = write_outputs(command.common, *writers); !done)
-    return report_failure(done.error());
-  if (command.common.json) {
-    fmt::print("{}\n", result->dump());
-  } else if (!command.common.quiet) {
-    print_summary(*result);
-  }
+  const auto view = view_of(session);
+  if (!view) return report_failure(view.error());
+  const auto pages = presentation::handle_pages(*outcome, *view, session.report_options());
+  if (!pages) return report_failure(as_options(pages.error()));
+  const json curves = json::array({{{"curve", (*result)["curve"]}}});
+  auto written = session.write(*pages, json{{"curves", curves}});
+  if (!written) return report_failure(written.error());
+  session.print(*result, text_of(*result));
   return kDone;
+}
+
+std::vector<std::string> draw_options() {
+  return new_session(operation_for({}), true).arguments().names();
 }
 
 }  // namespace keyline::app

@@ -1,166 +1,178 @@
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <utility>
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_curve.h"
-#include "keyline/figure/drawing.h"
-#include "keyline/operations/class_a_figure.h"
+#include "keyline/core/text.h"
 #include "keyline/operations/curve_edit.h"
-#include "keyline/operations/fair_report.h"
-#include "keyline/operations/perform.h"
-#include "keyline/report/html_report.h"
+#include "keyline/operations/surface_edit.h"
 
-#include "commands.h"
-#include "output.h"
-#include "reading.h"
-#include "surface_commands.h"
+#include "session.h"
+#include "surface_text.h"
 #include "terminal.h"
-#include "typed.h"
 
 namespace keyline::app {
 namespace {
 
 using core::Result;
 using nlohmann::json;
+using presentation::Shown;
 
-/// One curve of the file and what became of it.
-struct Edited {
-  std::string name;
-  classa::Approximation given;
-  classa::EditResult result;
-  json shown;
-};
+constexpr std::size_t kCurves = 0;  // records of the command line
+constexpr std::size_t kSurfaces = 1;
+constexpr std::size_t kReading = 2;
 
-/// The options in the words of operation curve.edit.
-json request_of(const EditCommand& command) {
-  json request = json::object();
-  if (command.common.tolerance) request["fit_tolerance"] = *command.common.tolerance;
-  request["amount"] = command.amount;
-  request["direction"] = command.direction;
-  request["branch"] = command.branch;
-  request["hold"] = command.hold;
-  if (command.alpha_max) request["alpha_max"] = *command.alpha_max;
-  if (command.end_tolerance) request["end_tolerance"] = *command.end_tolerance;
-  if (!command.alpha_range.empty()) request["alpha_range"] = command.alpha_range;
-  if (!command.s_range.empty()) request["s_range"] = command.s_range;
-  if (command.to.size() == 2) request["target"] = {{"alpha", command.to[0]}, {"s", command.to[1]}};
-  return request;
+/// A curve given by its matrix is no file's.
+OptionGroup curve_group() {
+  OptionGroup group = group_of(*operations::find_operation("curve.edit"), "Curves");
+  for (const char* other : {"alpha", "s", "degree", "tangent", "beta", "start", "matrix"})
+    group.without.emplace_back(other);
+  return group;
 }
 
-Result<Edited> edit_path(const document::NamedPath& named, json request) {
-  request["curve"] = exchange::to_json(named.path);
-  const auto outcome = operations::carry_out("curve.edit", request, {});
-  if (!outcome) return std::unexpected(outcome.error());
-  auto shown = operations::result_json(*outcome);
-  if (!shown) return std::unexpected(shown.error());
-  const auto& answer = *outcome->result_as<operations::CurveEditAnswer>();
-  return Edited{named.label.name, *answer.given, *answer.edited, std::move(*shown)};
+Session new_session() {
+  return Session(
+      {"edit", "FILE... ", "A curve or patch towards Class A and least energy.",
+       "Example: keyline edit examples/cubic.json --end-tolerance 0.01 -o report.html\n"
+       "         keyline edit examples/panel-c.json --keep corners --limit 5 -o panel.json\n"
+       "Formats: svg, json (the exact Bezier), csv (samples), html (report), pdf, png."},
+      {curve_group(), group_of(*operations::find_operation("surface.edit_together"), "Surfaces"),
+       reading_group(), door_group()});
 }
 
-std::string place_text(const classa::CurveValue& v) {
-  return v.matrix ? fmt::format("{:.6g} {:.6g}", v.matrix->alpha, v.matrix->s) : "-";
+std::string number_text(const json& number, int digits) {
+  return number.is_number() ? core::number_text(number.get<double>(), digits) : "-";
 }
 
-void print_summary(const Edited& e) {
-  if (!e.name.empty()) fmt::print("{}\n", e.name);
-  if (!e.given.exact)
-    fmt::print("approximated by degree {} within {:.4g}\n", curve::degree(e.given.curve),
-               e.given.deviation);
-  fmt::print("{:>8} {:>5} {:>11} {:>21} {:>11} {:>10}\n", "", "type", "CAV", "alpha, s", "energy",
-             "monotone");
-  for (const auto& [word, value] :
-       {std::pair{"before", &e.result.before}, std::pair{"after", &e.result.after}})
-    fmt::print("{:>8} {:>5} {:>11.6g} {:>21} {:>11.6g} {:>10}\n", word, value->type, value->cav,
-               place_text(*value), value->energy,
-               core::word_of(operations::verdict_of(value->monotone.answer)));
+std::string text_of(const std::string& name, const json& result) {
+  std::string text = name.empty() ? "" : name + "\n";
+  const json& before = result["before"];
+  if (before.contains("approximation"))
+    text += fmt::format("approximated by degree {} within {:.4g}\n",
+                        before["approximation"]["degree"].get<int>(),
+                        before["approximation"]["deviation"].get<double>());
+  text += fmt::format("{:>8} {:>5} {:>11} {:>21} {:>11} {:>10}\n", "", "type", "CAV", "alpha, s",
+                      "energy", "monotone");
+  for (const char* word : {"before", "after"}) {
+    const json& v = result[word];
+    const std::string place =
+        v["alpha"].is_number() ? number_text(v["alpha"], 6) + " " + number_text(v["s"], 6) : "-";
+    text += fmt::format("{:>8} {:>5} {:>11} {:>21} {:>11} {:>10}\n", word, v["type"].get<int>(),
+                        number_text(v["cav"], 6), place, number_text(v["energy"], 6),
+                        v["monotone"].get<std::string>());
+  }
+  return text;
 }
 
-operations::ReportOptions report_options(const EditCommand& command, const std::string& name) {
-  operations::ReportOptions options;
-  options.title = name.empty() ? "Edited curve" : "Edited curve: " + name;
-  options.subtitle = command.input.files.front();
-  options.unit = command.input.unit;
-  options.command = command.common.command_line;
-  options.generator = "Keyline " KEYLINE_VERSION;
-  return options;
+int edit_curves(Session& session, const ReadFiles& read) {
+  json request = session.of(kCurves);
+  if (session.door().tolerance && !request.contains("fit_tolerance"))
+    request["fit_tolerance"] = *session.door().tolerance;
+  std::vector<Shown> all;
+  std::vector<json> shown;
+  json curves = json::array();
+  std::string text;
+  for (const json& thing : planar_things(read)) {
+    request["curve"] = curve_of(thing);
+    auto outcome = session.perform("curve.edit", request, {});
+    if (!outcome) return report_failure(outcome.error(), session.files().front());
+    auto one = shown_of(*outcome);
+    if (!one) return report_failure(one.error());
+    const std::string name = thing["name"].get<std::string>();
+    text += text_of(name, *one);
+    json written = thing;
+    written["curve"] = (*one)["curve"];
+    written.erase("line");
+    curves.push_back(std::move(written));
+    if (!name.empty()) (*one)["name"] = name;
+    shown.push_back(std::move(*one));
+    all.push_back({name, std::move(*outcome)});
+  }
+  if (all.empty())
+    return report_failure({core::ErrorCode::bad_input, "there is no planar curve or patch to edit",
+                           "give a file that holds one", ""},
+                          session.files().front());
+  presentation::ReportOptions options = session.report_options();
+  options.unit = read.shown["unit"].get<std::string>();
+  auto written = session.write(presentation::edit_pages(all, options),
+                               {{"unit", read.shown["unit"]}, {"curves", curves}});
+  if (!written) return report_failure(written.error());
+  session.print(one_or_all(shown, "curves"), text);
+  return kDone;
 }
 
-void add_pictures(Writers& writers, const EditCommand& command, const std::vector<Edited>& all,
-                  const classa::EditOptions& options) {
-  writers[".html"] = [&]() -> Result<std::string> {
-    std::vector<report::Report> reports;
-    for (const Edited& e : all)
-      reports.push_back(
-          operations::edit_report(e.result, e.given, options, report_options(command, e.name)));
-    return report::html_report(operations::joined_report(reports, "Edited curves"));
-  };
-  const auto picture = [&] {
-    std::vector<figure::Drawing> drawings;
-    for (const Edited& e : all)
-      drawings.push_back(
-          operations::edit_picture(e.result, e.given, options, report_options(command, e.name)));
-    return figure::tile(drawings, 1);
-  };
-  writers[".pdf"] = [picture] { return figure::write_pdf(picture()); };
-  writers[".png"] = [picture] { return figure::write_png(picture(), 2); };
+/// The surface as edited, in the kind it was, or as its patches where they no longer meet.
+void add_edited(const json& given, const json& edit, json& written) {
+  json label = given;
+  if (edit["surface"].is_object()) {
+    label["surface"] = edit["surface"];
+    label["trims"] = 0;
+    written.push_back(std::move(label));
+    return;
+  }
+  const std::string name = given["name"].get<std::string>();
+  for (std::size_t i = 0; i < edit["surfaces"].size(); ++i) {
+    const json& place = edit["patch_edits"][i]["patch"];
+    label["name"] = fmt::format("{}/patch-{}-{}", name.empty() ? "surface" : name,
+                                place[0].get<int>(), place[1].get<int>());
+    label["surface"] = edit["surfaces"][i];
+    label["trims"] = 0;
+    written.push_back(label);
+  }
 }
 
-double size_of(const curve::Bezier2& c) {
-  double size = 0;
-  for (const core::Point2& p : c.control) size = std::max(size, distance(p, c.control.front()));
-  return size;
+int edit_surfaces(Session& session, const ReadFiles& read) {
+  say_curves_left_out(read.shown, session.door().quiet);
+  json request = session.of(kSurfaces);
+  const json& given = read.shown["surfaces"];
+  for (const json& one : given) request["surfaces"].push_back(one["surface"]);
+  const auto outcome = session.perform("surface.edit_together", request, session.progress());
+  end_progress();
+  if (!outcome) return report_failure(outcome.error(), session.files().front());
+  const auto result = shown_of(*outcome);
+  if (!result) return report_failure(result.error());
+  json written = json::array();
+  std::vector<json> shown;
+  std::string text;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const std::string name = given[i]["name"].get<std::string>();
+    const json& one = (*result)["surfaces"][i];
+    if (!one.contains("edit")) {
+      say(session.door().quiet,
+          (name.empty() ? "a surface" : name) + " left as given: " + one["why"].get<std::string>());
+      written.push_back(given[i]);
+      continue;
+    }
+    add_edited(given[i], one["edit"], written);
+    text += surface_edit_text(name, one["edit"]);
+    shown.push_back(one["edit"]);
+    if (!name.empty()) shown.back()["name"] = name;
+  }
+  presentation::ReportOptions options = session.report_options();
+  options.unit = read.shown["unit"].get<std::string>();
+  const auto pages = presentation::surface_edit_pages(read.answer().surfaces, *outcome, options);
+  auto done = session.write(pages, json{{"unit", read.shown["unit"]}, {"surfaces", written}});
+  if (!done) return report_failure(done.error());
+  json all = one_or_all(shown, "surfaces");
+  if (shown.size() > 1) all["joints"] = (*result)["joints"];
+  session.print(all, text + joints_text((*result)["joints"]));
+  return kDone;
 }
 
 }  // namespace
 
-int run_edit(const EditCommand& command) {
-  const CommonOptions& common = command.common;
-  if (auto known =
-          check_outputs(common, curve_extensions({".html", ".pdf", ".png"}), command.input.files);
-      !known)
-    return report_failure(known.error());
-  const json request = request_of(command);
-  const auto asked = from_json<operations::CurveEditRequest>(request, "curve.edit");
-  if (!asked) return report_failure(asked.error());
-  const classa::EditOptions options = operations::edit_options(*asked);
-  const std::string& file = command.input.files.front();
-  const auto read = read_files(command.input, interactive_progress(common.quiet));
+int run_edit(const Words& words) {
+  Session session = new_session();
+  if (const auto status = session.begin(words)) return *status;
+  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  const auto read = read_files(session, session.of(kReading), true);
   if (!read) return report_failure(read.error());
-  end_progress();
-  const document::Document* document = &read->document;
-  if (!document->surfaces.empty()) return edit_surfaces(command, *document);
-  if (document->paths.empty())
-    return report_failure({core::ErrorCode::bad_input, "there is no planar curve or patch to edit",
-                           "give a file that holds one", ""},
-                          file);
-  std::vector<Edited> all;
-  document::Document curves;
-  curves.unit = document->unit;
-  json shown = json::array();
-  double size = HUGE_VAL;
-  for (const document::NamedPath& named : document->paths) {
-    auto edited = edit_path(named, request);
-    if (!edited) return report_failure(edited.error(), file);
-    if (!common.json && !common.quiet) print_summary(*edited);
-    size = std::min(size, size_of(edited->result.curve));
-    curves.paths.push_back({named.label, {{{edited->result.curve}}, false}, named.stroke_width});
-    if (!edited->name.empty()) edited->shown["name"] = edited->name;
-    shown.push_back(edited->shown);
-    all.push_back(std::move(*edited));
-  }
-  if (shown.size() == 1)
-    shown = json(shown[0]);
-  else
-    shown = json{{"curves", shown}};
-  Writers writers = curve_writers(curves, 1e-5 * size, common);
-  add_pictures(writers, command, all, options);
-  if (auto done = write_outputs(common, writers); !done) return report_failure(done.error());
-  if (common.json) fmt::print("{}\n", shown.dump());
-  return kDone;
+  const bool surfaces = !read->answer().surfaces.empty();
+  if (auto sound = surfaces
+                       ? check_unused(session.of(kSurfaces), session.of(kCurves), "for curves")
+                       : check_unused(session.of(kCurves), session.of(kSurfaces), "for surfaces");
+      !sound)
+    return report_failure(sound.error());
+  return surfaces ? edit_surfaces(session, *read) : edit_curves(session, *read);
 }
+
+std::vector<std::string> edit_options() { return new_session().arguments().names(); }
 
 }  // namespace keyline::app

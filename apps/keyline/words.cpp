@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -216,6 +217,26 @@ std::string range_text(const core::Bounds& b) {
   return "";
 }
 
+/// The option on the left, its text beside it in lines that fit on a page.
+std::string in_columns(const std::string& left, const std::string& right) {
+  constexpr std::size_t kLeft = 30;
+  constexpr std::size_t kRight = 68;
+  std::string text = "  " + left;
+  std::size_t column = text.size();
+  text.append(column < kLeft ? kLeft - column : 0, ' ');
+  if (column >= kLeft) text += "\n" + std::string(kLeft, ' ');
+  column = 0;
+  std::istringstream words(right);
+  for (std::string word; words >> word; column += word.size() + 1) {
+    if (column > 0 && column + word.size() > kRight) {
+      text += "\n" + std::string(kLeft, ' ');
+      column = 0;
+    }
+    text += (column > 0 ? " " : "") + word;
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string option_name(std::string_view field) {
@@ -238,13 +259,32 @@ std::string help_line(const Field& field, const void* member) {
   add(range_text(field.bounds));
   if (field.required) add("needed");
   const json value = operations::default_of(field, member);
-  if (!value.is_null() && !value.is_structured()) {
-    const std::string shown = value.is_string() ? value.get<std::string>() : value.dump();
-    if (shown != "false") add("default " + shown);
+  if (!value.is_null() && !value.is_structured() && !value.is_boolean() && value != "")
+    add("default " + (value.is_string() ? value.get<std::string>() : value.dump()));
+  const std::string name = option_name(field.name);
+  return in_columns((value == json(true) ? "--[no-]" + name.substr(2) : name) +
+                        (holder.empty() ? "" : " " + holder),
+                    std::string(field.text) + (more.empty() ? "" : " (" + more + ")"));
+}
+
+bool is_number_like(const Type& item, const std::string& word) {
+  switch (item.kind) {
+    case Kind::optional:
+      return word == "auto" || word == "null" || is_number_like(item.item(), word);
+    case Kind::one_of:
+      for (std::size_t i = 0; i < item.alternative_count; ++i)
+        if (is_number_like(item.alternatives[i](), word)) return true;
+      return false;
+    case Kind::number:
+    case Kind::integer:
+    case Kind::point:
+    case Kind::point3:
+    case Kind::interval:
+    case Kind::list:
+      return !word.empty() && word.find_first_not_of("0123456789+-.,:eE") == std::string::npos;
+    default:
+      return false;
   }
-  return fmt::format("  {:<34} {}{}\n",
-                     option_name(field.name) + (holder.empty() ? "" : " " + holder), field.text,
-                     more.empty() ? "" : " (" + more + ")");
 }
 
 core::Failure as_options(core::Failure failure) {

@@ -24,6 +24,9 @@ core::Result<nlohmann::json> value_of(const core::Field& field,
 /// One line of help: "--alpha NUMBER  slope of … (radian; 0 to 1; default 0.5)".
 std::string help_line(const core::Field& field, const void* member);
 
+/// Whether a word can be an item of a list of numbers, points and the like.
+bool is_number_like(const core::Type& item, const std::string& word);
+
 /// A failure of the library, its field as the option that was typed.
 core::Failure as_options(core::Failure failure);
 

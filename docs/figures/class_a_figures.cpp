@@ -14,7 +14,7 @@
 #include "keyline/figure/class_a_charts.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/lac/clamped.h"
-#include "keyline/operations/class_a_figure.h"
+#include "keyline/presentation/class_a_figure.h"
 
 namespace {
 
@@ -73,7 +73,7 @@ void minimum_with(const Output& out, const std::string& name, const std::string&
   const classa::Evaluation after{{edited.curve, true}, edited.after, {}, {}};
   const std::vector<Drawing> both{
       pair_chart(title, given, edited.curve),
-      operations::plane_chart({{"given", &before}, {"found", &after}}, options.cav, edited.path)};
+      presentation::plane_chart({{"given", &before}, {"found", &after}}, options.cav, edited.path)};
   out.save(name, figure::tile(both, 2));
   std::printf("| %s | %.4f | %.4f | %.4f | %.4f |\n", title.c_str(), edited.target.alpha,
               edited.target.s, edited.before.energy, edited.after.energy);
@@ -103,7 +103,7 @@ void figures_7_and_8(const Output& out) {
   const classa::Evaluation before{{given, true}, edited.before, {}, {}};
   const classa::Evaluation after{{edited.curve, true}, edited.after, {}, {}};
   out.save("class-a-7-plane",
-           operations::plane_chart({{"given (π/4, 1.05)", &before}, {"edited", &after}},
+           presentation::plane_chart({{"given (π/4, 1.05)", &before}, {"edited", &after}},
                                    options.cav, edited.path));
   out.save("class-a-8-curves", pair_chart("Given and edited", given, edited.curve));
 }
@@ -152,9 +152,9 @@ void compare(const Output& out) {
                 e.value.degree, e.value.type, e.value.cav, e.nearest ? e.nearest->distance : 0.0,
                 place.matrix->alpha, place.matrix->s, place.cav);
   }
-  std::vector<operations::PlaneEntry> entries;
+  std::vector<presentation::PlaneEntry> entries;
   for (std::size_t i = 0; i < all.size(); ++i) entries.push_back({all[i].name, &evaluations[i]});
-  out.save("class-a-compare", operations::plane_chart(entries, exact.cav));
+  out.save("class-a-compare", presentation::plane_chart(entries, exact.cav));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "keyline/exchange/json_surface.h"
 #include "keyline/figure/plot.h"
 #include "keyline/lac/quasi.h"
-#include "keyline/operations/surface_pictures.h"
+#include "keyline/presentation/surface_pictures.h"
 #include "keyline/surface/continuity.h"
 #include "keyline/surface/edit.h"
 #include "keyline/surface/sweep.h"
@@ -24,7 +24,7 @@ using namespace keyline;
 using core::Point2;
 using core::Point3;
 using figure::Drawing;
-using operations::SurfacePicture;
+using presentation::SurfacePicture;
 using surface::BezierSurface;
 using surface::FieldKind;
 using surface::Surface;
@@ -60,7 +60,7 @@ Drawing picture(const std::vector<Surface>& s, std::optional<FieldKind> field,
   p.field = field;
   p.unit = "mm";
   p.width = width;
-  return value(operations::surface_picture(s, p));
+  return value(presentation::surface_picture(s, p));
 }
 
 /// [Oya] Figs. 9 and 10: surfaces (a) and (b).
@@ -74,7 +74,7 @@ void panels() {
                 found.curves[found.worst].name.c_str());
     const std::string title = std::string("Surface (") + name[6] + ")";
     lit.push_back(picture({s}, std::nullopt, title, 470));
-    profiles.push_back(operations::network_profiles(s, title, "mm"));
+    profiles.push_back(presentation::network_profiles(s, title, "mm"));
   }
   write_picture("surface-panels.png",
                 figure::stack({figure::tile(lit, 2), profiles[0], profiles[1]}));
@@ -84,7 +84,7 @@ void panels() {
 void edit_panel() {
   const BezierSurface given = panel("panel-c");
   const auto edited = value(surface::edit(given));
-  write_picture("surface-edit.png", value(operations::surface_edit_page(given, edited, {})));
+  write_picture("surface-edit.png", value(presentation::surface_edit_page(given, edited, {})));
 }
 
 /// What lower values cost.
@@ -155,7 +155,7 @@ void quasi_sweep() {
     p.stripe_count = 40;
     p.lighting.stripes = core::Vector3{1, 0.5, 0};
     p.width = 430;
-    cells.push_back(value(operations::surface_picture({swept}, p)));
+    cells.push_back(value(presentation::surface_picture({swept}, p)));
   }
   write_picture("surface-quasi-sweep.png", figure::tile(cells, 2));
 }
@@ -195,7 +195,7 @@ void joints() {
     p.stripe_count = 60;
     p.lighting.stripes = core::Vector3{1, 2.2, 0};
     p.width = 300;
-    cells.push_back(value(operations::surface_picture({first, spoilt}, p)));
+    cells.push_back(value(presentation::surface_picture({first, spoilt}, p)));
   }
   write_picture("surface-joints.png", figure::tile(cells, 3));
 }

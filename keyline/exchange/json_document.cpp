@@ -164,13 +164,23 @@ bool is_one_surface(const Document& document) {
          document.surfaces[0].label.layer.empty() && document.surfaces[0].trims == 0;
 }
 
+bool is_one_space_curve(const Document& document) {
+  return document.space_curves.size() == 1 && size(document) == 1 && document.skipped.empty() &&
+         document.space_curves[0].label.layer.empty();
+}
+
+json value_of(const Document& document) {
+  if (!document.paths.empty()) return path_json(document.paths[0].path);
+  if (!document.space_curves.empty()) return to_json(document.space_curves[0].curve);
+  return to_json(document.surfaces[0].surface);
+}
+
 }  // namespace
 
 json to_json(const Document& document) {
-  if (is_one_path(document) || is_one_surface(document)) {
-    const bool path = !document.paths.empty();
-    json one = path ? path_json(document.paths[0].path) : to_json(document.surfaces[0].surface);
-    add_label(one, path ? document.paths[0].label : document.surfaces[0].label);
+  if (is_one_path(document) || is_one_surface(document) || is_one_space_curve(document)) {
+    json one = value_of(document);
+    add_label(one, labels(document).front());
     if (!document.unit.empty()) one["unit"] = document.unit;
     return one;
   }

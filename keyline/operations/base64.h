@@ -10,4 +10,7 @@ namespace keyline::operations {
 /// is none. A leading "data:…;base64," is let pass.
 std::optional<std::string> decode_base64(std::string_view text);
 
+/// The bytes as base 64 text, padded.
+std::string encode_base64(std::string_view bytes);
+
 }  // namespace keyline::operations

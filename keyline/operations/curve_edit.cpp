@@ -1,5 +1,8 @@
 #include "keyline/operations/curve_edit.h"
 
+#include <algorithm>
+
+#include "keyline/core/text.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -44,6 +47,16 @@ Result<CurveEditAnswer> run(const CurveEditRequest& request, const Context&) {
 }
 
 }  // namespace
+
+Result<PlaneTarget> PlaneTarget::from_text(std::string_view text) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto alpha = core::parse_number(text.substr(0, comma));
+  const auto s = comma < text.size() ? core::parse_number(text.substr(comma + 1)) : std::nullopt;
+  if (alpha && s) return PlaneTarget{*alpha, *s};
+  return core::fail(core::ErrorCode::bad_input,
+                    "\"" + std::string(text) + "\" is no place of the plane",
+                    "give alpha,s: two numbers");
+}
 
 classa::EditOptions edit_options(const CurveEditRequest& request) {
   classa::EditOptions options{.cav = cav_options(request.curve.options)};

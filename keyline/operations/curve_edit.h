@@ -10,6 +10,8 @@ namespace keyline::operations {
 struct PlaneTarget {
   double alpha = 0;
   double s = 1;
+  static constexpr std::string_view kTextForm = "alpha,s";
+  static core::Result<PlaneTarget> from_text(std::string_view text);
   static constexpr auto describe() {
     return core::fields(core::field<&PlaneTarget::alpha>("rotation").in("radian").needed(),
                         core::field<&PlaneTarget::s>("scale").needed());

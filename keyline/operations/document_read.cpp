@@ -219,6 +219,7 @@ Result<ReadAnswer> read_curves(const InputRequest& input) {
   if (auto done = in_file(document::select(*document, input.select), file); !done)
     return std::unexpected(done.error());
   if (!input.unit.empty()) document->unit = input.unit;
+  if (input.trims) document::add_trim_curves(*document);
   if (input.planar && document->surfaces.empty()) {
     exchange::flatten(*document, document->skipped);
     if (document->paths.empty())

@@ -26,6 +26,7 @@ struct InputRequest {
   Acquiring acquiring;
   std::string unit;
   bool planar = false;
+  bool trims = false;
   static constexpr auto describe() {
     using Request = InputRequest;
     return core::fields(
@@ -36,7 +37,8 @@ struct InputRequest {
             .count(1)
             .or_bare_item()
             .needed(),
-        core::field<&Request::columns>("of points: names or numbers of x, y and maybe z"),
+        core::field<&Request::columns>("of points: names or numbers of x, y and maybe z")
+            .count(0, 3),
         core::field<&Request::weight_column>("of points: column of weights"),
         core::field<&Request::id_column>("of points: column that tells curves apart"),
         core::field<&Request::select>(
@@ -53,7 +55,8 @@ struct InputRequest {
         core::flattened<&Request::acquiring>(),
         core::field<&Request::unit>("of the coordinates; else the file's own"),
         core::field<&Request::planar>(
-            "curves in space that lie in a plane as planar ones, others left out and told"));
+            "curves in space that lie in a plane as planar ones, others left out and told"),
+        core::field<&Request::trims>("also the curves that trim surfaces, as curves"));
   }
 };
 

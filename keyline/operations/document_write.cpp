@@ -1,6 +1,10 @@
-#include "keyline/acquire/plane.h"
-#include "keyline/exchange/document_file.h"
-#include "keyline/operations/document_read.h"
+#include "keyline/operations/document_write.h"
+
+#include <algorithm>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/atomic_file.h"
+#include "keyline/exchange/planar_form.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -8,60 +12,72 @@ namespace {
 
 using core::Result;
 
-struct WriteRequest {
-  std::vector<std::string> file;
-  std::string unit;
-  std::vector<NamedCurve> curves;
-  std::vector<NamedSurfaceValue> surfaces;
-  std::optional<Page> page;
-  double tolerance = 0;
-  bool polylines = false;
-  bool grid = false;
-  static constexpr auto describe() {
-    using Request = WriteRequest;
-    return core::fields(
-        core::field<&Request::file>("to write; the extension chooses the format: svg, json, csv, "
-                                    "dxf, step, iges, glif")
-            .count(1)
-            .or_bare_item()
-            .needed(),
-        core::field<&Request::unit>("of all lengths; empty: none"),
-        core::field<&Request::curves>("in the plane or in space"),
-        core::field<&Request::surfaces>("Bezier or B-spline"),
-        core::field<&Request::page>("what a drawing shows; else tight around the curves"),
-        core::field<&Request::tolerance>(
-            "largest deviation where a format cannot hold a curve as it is; 1e-5 of the longest "
-            "unless given")
-            .in("length")
-            .within(core::kPositive),
-        core::field<&Request::polylines>("dxf: polylines in place of splines"),
-        core::field<&Request::grid>("glif: nodes and handles on whole numbers"));
-  }
-};
-
-struct Written {
-  std::string file;
-  double deviation = 0;
-  std::vector<std::string> notes;
-  static constexpr auto describe() {
-    return core::fields(core::field<&Written::file>("as asked for"),
-                        core::field<&Written::deviation>("of what is not exact in it").in("length"),
-                        core::field<&Written::notes>("what the format could not hold, in words"));
-  }
-};
-
-struct WriteAnswer {
-  std::vector<Written> written;
-  static constexpr auto describe() {
-    return core::fields(core::field<&WriteAnswer::written>("one for each file"));
-  }
-};
-
 document::Path path_of(const acquire::KeyLine& line) {
   curve::Polyline2 polyline{line.points};
   if (line.closed) polyline.points.push_back(line.points.front());
   return {{{std::move(polyline)}}, line.closed};
 }
+
+bool is_planar_format(const std::string& extension) {
+  return extension == ".svg" || extension == ".svgz" || extension == ".glif" || extension == ".pdf";
+}
+
+/// Whether the curves were traced in a picture.
+bool is_picture(const ReadAnswer& read) { return read.page && read.document.paths.empty(); }
+
+/// Moved so that the page's upper left corner is the origin.
+document::Document from_corner(document::Document document) {
+  const core::Point2 corner{document.page->low.x, document.page->high.y};
+  const core::Similarity2 map{1, 0, core::Point2{} - corner};
+  for (document::NamedPath& named : document.paths)
+    named.path = document::transform(named.path, map);
+  const core::Vector2 size = document.page->high - document.page->low;
+  document.page = curve::Box2{{0, -size.y}, {size.x, 0}};
+  return document;
+}
+
+Result<WriteAnswer> write(const document::Document& document, const std::vector<std::string>& names,
+                          const FormatOptions& options, bool on_page) {
+  exchange::OutputFiles files;
+  WriteAnswer answer;
+  for (const std::string& name : names) {
+    auto written = formatted(document, exchange::extension_of(name), options, on_page);
+    if (!written) return std::unexpected(exchange::in_file(written.error(), name));
+    if (auto done = files.add(name, written->content); !done) return std::unexpected(done.error());
+    answer.written.push_back({name, written->deviation, std::move(written->notes)});
+  }
+  if (auto done = files.commit(); !done) return std::unexpected(done.error());
+  return answer;
+}
+
+Result<WriteAnswer> run(const WriteRequest& request, const Context&) {
+  return write(document_of(request), request.file, request.format, request.on_page);
+}
+
+struct ConvertRequest {
+  InputRequest input;
+  std::vector<std::string> to;
+  FormatOptions format;
+  static constexpr auto describe() {
+    using Request = ConvertRequest;
+    return core::fields(core::flattened<&Request::input>(),
+                        core::field<&Request::to>("files to write; the extension chooses the "
+                                                  "format: svg, json, csv, dxf, step, iges, glif, "
+                                                  "pdf")
+                            .count(1)
+                            .or_bare_item()
+                            .needed(),
+                        core::flattened<&Request::format>());
+  }
+};
+
+Result<WriteAnswer> run_convert(const ConvertRequest& request, const Context& context) {
+  const auto read = read_input(request.input, context.progress);
+  if (!read) return std::unexpected(read.error());
+  return write(document_of(*read), request.to, request.format, is_picture(*read));
+}
+
+}  // namespace
 
 document::Document document_of(const WriteRequest& request) {
   document::Document document;
@@ -84,22 +100,46 @@ document::Document document_of(const WriteRequest& request) {
   return document;
 }
 
-Result<WriteAnswer> run(const WriteRequest& request, const Context&) {
-  const document::Document document = document_of(request);
-  exchange::WriteOptions options;
-  options.tolerance = request.tolerance;
-  options.polylines = request.polylines;
-  options.grid = request.grid;
-  WriteAnswer answer;
-  for (const std::string& file : request.file) {
-    auto written = exchange::write_document(document, file, options);
-    if (!written) return std::unexpected(exchange::in_file(written.error(), file));
-    answer.written.push_back({file, written->deviation, written->notes});
-  }
-  return answer;
+document::Document document_of(const ReadAnswer& read) {
+  document::Document document = read.document;
+  document.unit = read.unit;
+  for (const NamedCurve& named : read.curves)
+    if (named.line) document.paths.push_back({{named.name, {}, {}}, path_of(*named.line), 0});
+  if (!document.page && read.page) document.page = curve::Box2{read.page->low, read.page->high};
+  return document;
 }
 
-}  // namespace
+Result<exchange::Written> formatted(const document::Document& document,
+                                    const std::string& extension, const FormatOptions& options,
+                                    bool on_page) {
+  const exchange::WriteOptions how{
+      .tolerance = options.tolerance, .polylines = options.polylines, .grid = options.grid};
+  if (!is_planar_format(extension)) return exchange::format_document(document, extension, how);
+  document::Document planar;
+  const document::Document* shown = &document;
+  std::vector<std::string> notes;
+  if (document.paths.empty()) {
+    planar = document;
+    exchange::flatten(planar, notes);
+    shown = &planar;
+  }
+  const std::size_t flattened = planar.paths.size();
+  if (on_page && shown->page) {
+    planar = from_corner(*shown);
+    shown = &planar;
+  }
+  auto written = exchange::format_document(*shown, extension, how);
+  if (written && flattened > 0)
+    written->notes.push_back(core::counted(flattened, "curve") +
+                             " in space: in the coordinates of their planes");
+  return written;
+}
+
+std::vector<std::string> document_extensions() {
+  std::vector<std::string> known = exchange::written_extensions();
+  known.push_back(".pdf");
+  return known;
+}
 
 Operation document_write_operation() {
   return declare<run>({.name = "document.write",
@@ -107,6 +147,16 @@ Operation document_write_operation() {
                        .examples = {R"({"file":"/tmp/keyline-example.json","curves":[
            {"name":"a","curve":{"type":"polyline","points":[[0,0],[1,1]]}}]})"},
                        .writes_files = true});
+}
+
+Operation document_convert_operation() {
+  return declare<run_convert>(
+      {.name = "document.convert",
+       .summary = "A file's curves and surfaces into files of other formats, all of them or none.",
+       .examples = {R"({"file":"examples/cubic.json","to":"/tmp/keyline-example.svg"})"},
+       .long_running = true,
+       .reads_files = true,
+       .writes_files = true});
 }
 
 }  // namespace keyline::operations

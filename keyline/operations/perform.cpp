@@ -89,6 +89,10 @@ std::unexpected<Failure> unknown(const std::string& name) {
 
 }  // namespace
 
+const core::Type* further_options(const Operation& operation) {
+  return holds_made_curve(*operation.result) ? &core::type_of<Forms>() : nullptr;
+}
+
 Result<Outcome> carry_out(const std::string& name, const json& request, const Context& context) {
   const Operation* operation = find_operation(name);
   if (!operation) return unknown(name);

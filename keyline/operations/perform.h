@@ -37,6 +37,10 @@ core::Result<Outcome> carry_out(const std::string& name, const nlohmann::json& r
 
 core::Result<nlohmann::json> result_json(const Outcome& outcome);
 
+/// What a request may hold beside the operation's own fields: the further forms of a result's
+/// curves; null where there are none.
+const core::Type* further_options(const Operation& operation);
+
 /// Both in one.
 core::Result<nlohmann::json> perform(const std::string& name, const nlohmann::json& request,
                                      const Context& context);

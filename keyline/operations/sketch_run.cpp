@@ -41,16 +41,6 @@ Result<sketch::TraceResult> trace_drawn(
 #endif
 }
 
-document::Document sketch_document(const sketch::TraceResult& trace, double scale, double lift) {
-  document::Document document;
-  const core::Similarity2 map{scale, 0, {0, lift}};
-  for (std::size_t i = 0; i < trace.strokes.size(); ++i)
-    document.paths.push_back({{"stroke" + std::to_string(i + 1), {}, {}},
-                              path_of(trace.strokes[i], map),
-                              scale * trace.strokes[i].width});
-  return document;
-}
-
 Result<std::vector<acquire::KeyLine>> key_lines_of(const sketch::TraceResult& trace,
                                                    std::size_t& skipped) {
   constexpr double kPositionError = 0.2;  ///< pixels, of a hand-drawn line's centre

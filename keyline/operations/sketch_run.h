@@ -20,10 +20,6 @@ core::Result<sketch::TraceResult> trace_drawn(const std::vector<sketch::DrawnStr
 /// A stroke's quintics, mapped.
 document::Path path_of(const sketch::Stroke& stroke, const core::Similarity2& map);
 
-/// The strokes "stroke1", "stroke2", … with their widths: coordinates times `scale`, moved up by
-/// `lift`.
-document::Document sketch_document(const sketch::TraceResult& trace, double scale, double lift);
-
 /// Strokes as key-lines to fair, in pixels; short ones (under eight widths) are left out and
 /// counted in `skipped`.
 core::Result<std::vector<acquire::KeyLine>> key_lines_of(const sketch::TraceResult& trace,

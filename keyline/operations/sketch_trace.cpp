@@ -51,26 +51,25 @@ std::vector<sketch::DrawnStroke> strokes_of(const document::Document& document, 
   return strokes;
 }
 
-Result<sketch::TraceResult> trace_vectors(const std::string& file,
-                                          const sketch::TraceOptions& options) {
+/// The strokes of a file of vectors and the width of their pen.
+Result<std::vector<sketch::DrawnStroke>> drawn_strokes(const std::string& file, double& pen) {
   if (exchange::extension_of(file) != ".scap") {
     const auto document = exchange::read_document(file);
     if (!document) return std::unexpected(document.error());
-    double pen = 0;
-    const auto strokes = strokes_of(*document, pen);
-    return trace_drawn(strokes, pen, options);
+    return strokes_of(*document, pen);
   }
   const auto text = exchange::read_file(file);
   if (!text) return std::unexpected(text.error());
   const auto drawing = exchange::read_scap(*text);
   if (!drawing) return std::unexpected(exchange::in_file(drawing.error(), file));
+  pen = drawing->pen;
   std::vector<sketch::DrawnStroke> strokes;
   for (const exchange::ScapStroke& s : drawing->strokes) {
     sketch::DrawnStroke stroke;
     for (const core::Point2 p : s.points) stroke.points.push_back({p.x, drawing->height - p.y});
     if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
   }
-  return trace_drawn(strokes, drawing->pen, options);
+  return strokes;
 }
 
 std::vector<core::Point2> scaled(std::vector<core::Point2> points, double scale) {
@@ -93,54 +92,82 @@ StrokeShown shown(const sketch::Stroke& stroke, double scale) {
   return all;
 }
 
-Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
-  auto trace = trace_drawing(request, context.progress, {});
-  if (!trace) return std::unexpected(trace.error());
-  return sketch_answer(request, std::move(*trace));
-}
-
-}  // namespace
-
+/// Millimetres per pixel; 1 where lengths are pixels.
 double scale_of(const SketchRequest& request) {
   constexpr double kInch = 25.4;  // mm
   if (request.dpi) return kInch / *request.dpi;
   return request.scale.value_or(1);
 }
 
-Result<sketch::TraceResult> trace_drawing(const SketchRequest& request,
-                                          const core::Progress& progress,
-                                          std::function<void(const sketch::Stage&)> stage) {
+/// The curves' tolerance counts in pixels, or in widths of the pen (`one`), there.
+void set_tolerance(const SketchRequest& request, double one, sketch::TraceOptions& options) {
+  if (request.tolerance) options.curve.tolerance = *request.tolerance / (scale_of(request) * one);
+  if (request.per_segment) options.curve.tolerance = 0;
+}
+
+Result<sketch::TraceResult> trace_vectors(const SketchRequest& request,
+                                          sketch::TraceOptions options) {
+  double pen = 0;
+  const auto strokes = drawn_strokes(request.file, pen);
+  if (!strokes) return std::unexpected(strokes.error());
+  set_tolerance(request, pen, options);
+  return trace_drawn(*strokes, pen, options);
+}
+
+/// The drawing traced: a picture, or pen strokes of a file of vectors.
+Result<sketch::TraceResult> trace_drawing(const SketchRequest& request, const Context& context,
+                                          std::vector<sketch::Stage>& stages) {
+  sketch::TraceOptions options = request.options;
+  if (request.thresholds)
+    options.binarize.regions = {request.thresholds->begin(), request.thresholds->end()};
+  options.progress = context.progress;
+  if (request.stages)
+    options.stage = [&stages](const sketch::Stage& stage) { stages.push_back(stage); };
+  const std::string extension = exchange::extension_of(request.file);
+  if (extension == ".scap" || extension == ".svg" || extension == ".json" || extension == ".dxf")
+    return trace_vectors(request, options);
+  auto image = image_of(request);
+  if (!image) return std::unexpected(image.error());
+  set_tolerance(request, 1, options);
+  return trace_picture(std::move(*image), options);
+}
+
+std::vector<StageShown> shown(const std::vector<sketch::Stage>& stages) {
+  std::vector<StageShown> all;
+  for (const sketch::Stage& s : stages) {
+    const auto* bytes = reinterpret_cast<const char*>(s.picture.data.data());
+    all.push_back(
+        {s.name, s.picture.width, s.picture.height, encode_base64({bytes, s.picture.data.size()})});
+  }
+  return all;
+}
+
+Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
   if (request.file.empty() == request.image.empty())
     return core::fail(ErrorCode::bad_input, "a drawing is wanted, once",
                       "give either \"image\" (base64) or \"file\"", "image");
   if (request.scale && request.dpi)
     return core::fail(ErrorCode::bad_input, "the scale is given twice",
                       "give either \"scale\" or \"dpi\"", "dpi");
-  sketch::TraceOptions options = request.options;
-  if (request.thresholds)
-    options.binarize.regions = {request.thresholds->begin(), request.thresholds->end()};
-  options.progress = progress;
-  options.stage = std::move(stage);
-  const std::string extension = exchange::extension_of(request.file);
-  if (extension == ".scap" || extension == ".svg" || extension == ".json" || extension == ".dxf")
-    return trace_vectors(request.file, options);
-  auto image = image_of(request);
-  if (!image) return std::unexpected(image.error());
-  return trace_picture(std::move(*image), options);
-}
-
-SketchAnswer sketch_answer(const SketchRequest& request, sketch::TraceResult trace) {
-  const double scale = scale_of(request);
+  std::vector<sketch::Stage> stages;
+  auto trace = trace_drawing(request, context, stages);
+  if (!trace) return std::unexpected(trace.error());
   SketchAnswer answer;
-  for (const sketch::Stroke& stroke : trace.strokes) answer.strokes.push_back(shown(stroke, scale));
-  answer.size = {scale * trace.width, scale * trace.height};
+  answer.scale = scale_of(request);
+  for (const sketch::Stroke& stroke : trace->strokes)
+    answer.strokes.push_back(shown(stroke, answer.scale));
+  answer.size = {answer.scale * trace->width, answer.scale * trace->height};
   answer.unit = request.scale || request.dpi ? "mm" : "px";
-  answer.explained = trace.explained;
-  answer.left_over = trace.left_over;
-  answer.report = trace.notes;
-  answer.trace = std::move(trace);
+  answer.explained = trace->explained;
+  answer.left_over = trace->left_over;
+  answer.report = trace->notes;
+  if (request.stages) answer.stages = shown(stages);
+  answer.pictures = std::move(stages);
+  answer.trace = std::move(*trace);
   return answer;
 }
+
+}  // namespace
 
 Operation sketch_trace_operation() {
   return declare<run>(

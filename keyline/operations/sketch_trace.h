@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +17,9 @@ struct SketchRequest {
   std::optional<std::array<std::optional<double>, sketch::kRegionCount>> thresholds;
   std::optional<double> scale;
   std::optional<double> dpi;
+  std::optional<double> tolerance;
+  bool per_segment = false;
+  bool stages = false;
   static constexpr auto describe() {
     using Request = SketchRequest;
     using Trace = sketch::TraceOptions;
@@ -52,16 +54,35 @@ struct SketchRequest {
         core::field<&Request::options, &Trace::curve, &Curve::aim>(
             "what the curves' curvature is driven to")
             .named("curvature"),
-        core::field<&Request::options, &Trace::curve, &Curve::tolerance>(
-            "largest distance of the curve from the line; 0: a quintic per line segment")
-            .in("pixel")
-            .within(core::at_least(0)),
+        core::field<&Request::tolerance>(
+            "largest distance of the curve from the line; half a pixel, or half the pen's width of "
+            "drawn strokes, unless given")
+            .in("length")
+            .within(core::kPositive),
+        core::field<&Request::per_segment>(
+            "a quintic per line segment, as [Sketch] has it; else as few as follow the lines"),
         core::field<&Request::options, &Trace::gap>("longest gap bridged; else by the stroke width")
             .in("pixel")
             .within(core::at_least(0)),
         core::field<&Request::options, &Trace::specks>(
             "pieces of ink of fewer pixels are dirt; else by the stroke width")
-            .within(core::from_to(0, 1 << 20)));
+            .within(core::from_to(0, 1 << 20)),
+        core::field<&Request::stages>("also the picture after each stage"));
+  }
+};
+
+/// A picture of grey levels on the way from the drawing to its lines.
+struct StageShown {
+  std::string name;
+  int width = 0;
+  int height = 0;
+  std::string gray;
+  static constexpr auto describe() {
+    return core::fields(core::field<&StageShown::name>("log, binary, smoothed, edges, lines"),
+                        core::field<&StageShown::width>("in pixels"),
+                        core::field<&StageShown::height>("in pixels"),
+                        core::field<&StageShown::gray>(
+                            "in base64, a byte a pixel, row by row from the top left, 0 black"));
   }
 };
 
@@ -104,8 +125,11 @@ struct SketchAnswer {
   double explained = 1;
   std::vector<std::size_t> left_over;
   std::vector<std::string> report;
+  std::optional<std::vector<StageShown>> stages;
 
-  sketch::TraceResult trace;  ///< not part of the public form: for pictures
+  sketch::TraceResult trace;  ///< not part of the public form: for pictures, like what follows
+  std::vector<sketch::Stage> pictures;
+  double scale = 1;
 
   static constexpr auto describe() {
     return core::fields(
@@ -115,18 +139,9 @@ struct SketchAnswer {
         core::field<&SketchAnswer::explained>(
             "share of the ink, or of the strokes' length, that lies beside a curve"),
         core::field<&SketchAnswer::left_over>("drawn strokes that no line stands for, from 0"),
-        core::field<&SketchAnswer::report>("what was decided, left out or looks doubtful"));
+        core::field<&SketchAnswer::report>("what was decided, left out or looks doubtful"),
+        core::field<&SketchAnswer::stages>("where asked for"));
   }
 };
-
-/// Millimetres per pixel; 1 where lengths are pixels.
-double scale_of(const SketchRequest& request);
-
-/// The drawing traced: a picture, or pen strokes of a file of vectors.
-core::Result<sketch::TraceResult> trace_drawing(const SketchRequest& request,
-                                                const core::Progress& progress,
-                                                std::function<void(const sketch::Stage&)> stage);
-
-SketchAnswer sketch_answer(const SketchRequest& request, sketch::TraceResult trace);
 
 }  // namespace keyline::operations

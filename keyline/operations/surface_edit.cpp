@@ -50,7 +50,7 @@ SurfaceEditAnswer answer_of_one(const surface::EditResult& edited) {
 
 Result<SurfaceEditAnswer> run(const SurfaceEditRequest& request, const Context& context) {
   const bool several = surface::patches_of(request.surface).patches.size() > 1;
-  surface::EditOptions options = surface_edit_options(request, several);
+  surface::EditOptions options = surface_edit_options(request.options, several);
   options.progress = context.progress;
   const auto edit = surface::edit_surface(request.surface, options, context.threads);
   if (!edit) return std::unexpected(edit.error());
@@ -59,19 +59,23 @@ Result<SurfaceEditAnswer> run(const SurfaceEditRequest& request, const Context& 
 
 }  // namespace
 
-surface::EditOptions surface_edit_options(const SurfaceEditRequest& request, bool several) {
+surface::EditOptions surface_edit_options(const SurfaceEditOptions& given, bool several) {
   surface::EditOptions options;
-  options.keep = request.keep.value_or(several ? surface::Keep::joints : surface::Keep::start);
-  options.amount = request.amount;
-  options.limit = request.limit;
-  options.alpha_max = request.alpha_max;
-  options.end_tolerance = request.end_tolerance;
-  options.conditions = request.conditions;
+  options.keep = given.keep.value_or(several ? surface::Keep::joints : surface::Keep::start);
+  options.amount = given.amount;
+  options.limit = given.limit;
+  options.alpha_max = given.alpha_max;
+  options.end_tolerance = given.end_tolerance;
+  options.conditions = given.conditions;
   return options;
 }
 
 JointsShown shown(const surface::JointSummary& joints) {
-  return {joints.joints, joints.order_at_least[0], joints.order_at_least[1], joints.gap,
+  return {joints.joints,
+          joints.order_at_least[0],
+          joints.order_at_least[1],
+          joints.order_at_least[2],
+          joints.gap,
           joints.angle};
 }
 
@@ -91,7 +95,8 @@ SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit) {
   answer.patch_edits.emplace();
   for (std::size_t i = 0; i < all.patches.size(); ++i)
     answer.patch_edits->push_back(patch_shown(edit, i));
-  answer.joints = JointsChange{shown(all.before), shown(all.after)};
+  answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost};
+  if (all.sav_apart < answer.after.sav) answer.sav_apart = all.sav_apart;
   answer.edit = edit;
   return answer;
 }

@@ -6,8 +6,8 @@
 /// Class A editing of a surface: the operation surface.edit.
 namespace keyline::operations {
 
-struct SurfaceEditRequest {
-  surface::Surface surface;
+/// How surfaces are edited.
+struct SurfaceEditOptions {
   std::optional<surface::Keep> keep;
   double amount = 1;
   std::optional<double> limit;
@@ -15,12 +15,8 @@ struct SurfaceEditRequest {
   double end_tolerance = 0;
   std::vector<surface::CurveCondition> conditions;
   static constexpr auto describe() {
-    using Request = SurfaceEditRequest;
+    using Request = SurfaceEditOptions;
     return core::fields(
-        core::field<&Request::surface>(
-            "a polynomial Bezier patch; or a B-spline surface, which is edited patch by patch, its "
-            "joints measured before and after")
-            .needed(),
         core::field<&Request::keep>(
             "start (the first corner and the tangents of its row and column; the default of one "
             "patch), corners, joints (corners, boundary curves moving so that neighbours stay "
@@ -40,16 +36,32 @@ struct SurfaceEditRequest {
   }
 };
 
+struct SurfaceEditRequest {
+  surface::Surface surface;
+  SurfaceEditOptions options;
+  static constexpr auto describe() {
+    using Request = SurfaceEditRequest;
+    return core::fields(
+        core::field<&Request::surface>(
+            "a polynomial Bezier patch; or a B-spline surface, which is edited patch by patch, its "
+            "joints measured before and after")
+            .needed(),
+        core::flattened<&Request::options>());
+  }
+};
+
 struct JointsShown {
   std::size_t joints = 0;
   std::size_t g0 = 0;
   std::size_t g1 = 0;
+  std::size_t g2 = 0;
   double gap = 0;
   double angle = 0;
   static constexpr auto describe() {
     return core::fields(core::field<&JointsShown::joints>("in all"),
                         core::field<&JointsShown::g0>("at least G0").named("G0"),
                         core::field<&JointsShown::g1>("at least G1").named("G1"),
+                        core::field<&JointsShown::g2>("at least G2").named("G2"),
                         core::field<&JointsShown::gap>("largest").in("length"),
                         core::field<&JointsShown::angle>("largest fold").in("radian"));
   }
@@ -59,9 +71,11 @@ JointsShown shown(const surface::JointSummary& joints);
 struct JointsChange {
   JointsShown before;
   JointsShown after;
+  std::size_t lost = 0;
   static constexpr auto describe() {
     return core::fields(core::field<&JointsChange::before>("as given"),
-                        core::field<&JointsChange::after>("as edited"));
+                        core::field<&JointsChange::after>("as edited"),
+                        core::field<&JointsChange::lost>("of lower order than before"));
   }
 };
 
@@ -122,6 +136,7 @@ struct SurfaceEditAnswer {
   std::optional<std::vector<MissedShown>> unmet;
   std::optional<std::vector<PatchEditShown>> patch_edits;
   std::optional<JointsChange> joints;
+  std::optional<double> sav_apart;
 
   std::optional<surface::SurfaceEdit> edit;  ///< not part of the public form: for pictures
 
@@ -140,12 +155,35 @@ struct SurfaceEditAnswer {
         core::field<&Answer::missed>("others, of one patch"),
         core::field<&Answer::unmet>("conditions not met part of the way, of one patch"),
         core::field<&Answer::patch_edits>("of several patches, one by one"),
-        core::field<&Answer::joints>("between several patches"));
+        core::field<&Answer::joints>("between several patches"),
+        core::field<&Answer::sav_apart>(
+            "with joints held at a price: what each patch for itself would come to"));
   }
 };
 SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit);
 
-/// The options of a request; `several`: the surface is one of several patches.
-surface::EditOptions surface_edit_options(const SurfaceEditRequest& request, bool several);
+/// The options of room surface; `several`: there are several patches.
+surface::EditOptions surface_edit_options(const SurfaceEditOptions& given, bool several);
+
+/// One of several surfaces: edited, or why it stays as it is.
+struct OneOfSurfaces {
+  std::optional<SurfaceEditAnswer> edit;
+  std::optional<std::string> why;
+  static constexpr auto describe() {
+    return core::fields(core::field<&OneOfSurfaces::edit>("as of surface.edit"),
+                        core::field<&OneOfSurfaces::why>("it stays as given"));
+  }
+};
+
+struct SurfacesEditAnswer {
+  std::vector<OneOfSurfaces> surfaces;
+  JointsChange joints;
+  static constexpr auto describe() {
+    using Answer = SurfacesEditAnswer;
+    return core::fields(
+        core::field<&Answer::surfaces>("in their order"),
+        core::field<&Answer::joints>("between all patches, also of different surfaces"));
+  }
+};
 
 }  // namespace keyline::operations

@@ -24,7 +24,7 @@ TEST(Draw, EveryKindOfCurve) {
   EXPECT_TRUE(
       drawn("--points 0,0 3,1 --directions 0.9,-0.2 --curvatures=-0.2,-0.5")["curve"].contains(
           "pieces"));
-  EXPECT_NEAR(drawn("--points 0,0 2,0 --directions 0.6 --volume 0.4")["volume"].get<double>(), 0.4,
+  EXPECT_NEAR(drawn("--points 0,0 2,0 --direction 0.6 --volume 0.4")["volume"].get<double>(), 0.4,
               1e-9);
   EXPECT_EQ(drawn("--spline --closed --points 1,0 0,1 -1,0 0,-1")["curve"]["closed"], true);
   EXPECT_EQ(drawn("--space --points 0,0,0 1,0,0 2,0.4,0.2 3,1,0.5")["curve"]["type"],
@@ -69,7 +69,7 @@ TEST(Draw, SaysWhatDoesNotGoTogether) {
   expect_failure(run_keyline("draw --points 0,0 1,x 2,0"), 2, "1,x");
   expect_failure(run_keyline("draw --points 0,0,0 1,0 2,0"), 2, "coordinates");
   expect_failure(run_keyline("draw --points 0,0 1,0 2,1 --alpha 1,2"), 2, "--ratio");
-  expect_failure(run_keyline("draw --points 0,0 1,0 2,1 --ratio 0.5"), 2, "--ratio");
+  expect_failure(run_keyline("draw --points 0,0 1,0 2,1 --ratio 0.5"), 2, "--alpha");
   expect_failure(run_keyline("draw --points 0,0 1,0 2,1 --alpha 1,2 --ratio 1"), 2, "ratio");
   expect_failure(run_keyline("draw --points 0,0 1,0 2,1 --closed"), 2, "--spline");
   expect_failure(run_keyline("draw --points 0,0 1,0 2,1 --form spiral"), 2, "spiral");

@@ -45,5 +45,10 @@ fresh
 echo '#include <opencv2/core.hpp>' >"$tree/keyline/high/c.cpp"
 expect 1 "OpenCV belongs to: sketch"
 fresh
+mkdir -p "$tree/apps/keyline"
+printf '#include "keyline/operations/b.h"\n#include "keyline/low/a.h"\n' >"$tree/apps/keyline/a.cpp"
+expect 1 "apps/keyline/a.cpp:2: a door includes low"
+rm -r "$tree/apps"
+fresh
 echo '#include <opencv2/core.hpp>' >"$tree/keyline/sketch/c.h"
 expect 1 ".cpp files only"

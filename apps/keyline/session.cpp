@@ -1,0 +1,195 @@
+#include "session.h"
+
+#include <fmt/format.h>
+
+#include "keyline/operations/schema.h"
+
+#include "terminal.h"
+#include "words.h"
+
+namespace keyline::app {
+
+using core::ErrorCode;
+using core::Result;
+using nlohmann::json;
+using operations::Operation;
+
+namespace {
+
+/// A word as a shell has to be given it: in quotes where it holds more than plain characters.
+std::string as_typed(const std::string& word) {
+  constexpr const char* kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::vector<std::string_view> filled_by_files() {
+  return {"file", "curve", "curves", "points", "line", "weights", "surface", "surfaces"};
+}
+
+OptionGroup group_of(const Operation& operation, const std::string& title) {
+  return {title, operation.request, filled_by_files()};
+}
+
+OptionGroup reading_group() {
+  return {"Reading the files",
+          operations::find_operation("document.read")->request,
+          {"file", "planar"}};
+}
+
+OptionGroup door_group() { return {"Everywhere", &core::type_of<DoorOptions>()}; }
+
+Session::Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes_files)
+    : usage_(std::move(usage)),
+      arguments_(groups, takes_files),
+      takes_files_(takes_files),
+      door_record_(groups.size() - 1) {}
+
+std::string Session::help() const {
+  return usage_.text + "\n\nkeyline " + usage_.command + " " + usage_.words + "[options]\n" +
+         arguments_.help() + (usage_.more.empty() ? "" : "\n" + usage_.more + "\n");
+}
+
+std::optional<int> Session::begin(const Words& words) {
+  typed_ = "keyline " + usage_.command;
+  for (const std::string& word : words) typed_ += " " + as_typed(word);
+  if (auto done = arguments_.parse(words); !done) {
+    core::Failure failure = done.error();
+    if (const std::string why = explain_ ? explain_(failure.path) : ""; !why.empty())
+      failure.hint = why;
+    if (failure.hint.empty() || failure.hint.ends_with('?') || failure.hint.ends_with(';'))
+      failure.hint += (failure.hint.empty() ? "" : " ") + usage_hint();
+    return report_failure(failure);
+  }
+  const operations::Part part{&core::type_of<DoorOptions>(), &door_};
+  if (auto read = operations::read_json(of(door_record_), {&part, 1}, {}, usage_.command); !read)
+    return report_failure(as_options(read.error()));
+  if (door_.version) {
+    fmt::print("keyline {}\n", KEYLINE_VERSION);
+    return kDone;
+  }
+  if (door_.help) {
+    fmt::print("{}", help());
+    return kDone;
+  }
+  if (!takes_files_ && !files().empty())
+    return report_failure(
+        {ErrorCode::bad_input, "this word belongs to no option", usage_hint(), files().front()});
+  return {};
+}
+
+presentation::ReportOptions Session::report_options() const {
+  presentation::ReportOptions options;
+  for (const std::string& file : files())
+    options.subtitle += (options.subtitle.empty() ? "" : ", ") + file;
+  options.command = typed_;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  for (const auto& [name, value] : arguments_.typed())
+    if (name != "output" && name != "json" && name != "quiet" && name != "tolerance" &&
+        name != "seed")
+      options.options.emplace_back(name, value.empty() ? "yes" : value);
+  return options;
+}
+
+core::Progress Session::progress() const { return interactive_progress(door_.quiet); }
+
+Result<void> Session::check_outputs(const std::vector<std::string>& known) const {
+  return presentation::check_outputs(door_.output, known, files());
+}
+
+Result<void> Session::check_outputs() const {
+  return check_outputs(presentation::known_extensions());
+}
+
+Result<operations::Outcome> Session::perform(const std::string& operation, const json& request,
+                                             const core::Progress& progress) const {
+  auto outcome = operations::carry_out(operation, request, {door_.threads, progress});
+  if (!outcome) return std::unexpected(as_options(outcome.error()));
+  return outcome;
+}
+
+Result<json> Session::write(const presentation::Pages& pages,
+                            const presentation::Output& output) const {
+  end_progress();
+  const auto written = presentation::write_files(door_.output, pages, output);
+  if (!written) return std::unexpected(as_options(written.error()));
+  for (const operations::Written& one : written->written)
+    for (const std::string& note : one.notes) say(door_.quiet, one.file + ": " + note);
+  return operations::write_json(core::type_of<operations::WriteAnswer>(), &*written);
+}
+
+Result<json> Session::write(const presentation::Pages& pages, json document) const {
+  if (door_.tolerance && !document.contains("tolerance")) document["tolerance"] = *door_.tolerance;
+  const auto output = presentation::output_of(std::move(document));
+  if (!output) return std::unexpected(output.error());
+  return write(pages, *output);
+}
+
+void Session::print(const json& shown, const std::string& text) const {
+  if (door_.json)
+    fmt::print("{}\n", shown.dump());
+  else if (!door_.quiet)
+    fmt::print("{}", text);
+}
+
+Result<operations::Outcome> read_outcome(Session& session, json request, bool planar) {
+  if (session.files().empty())
+    return core::fail(ErrorCode::bad_input, "no file is named", session.usage_hint());
+  request["file"] = session.files();
+  if (planar) request["planar"] = true;
+  auto outcome = session.perform("document.read", request, session.progress());
+  end_progress();
+  return outcome;
+}
+
+std::vector<json> planar_things(const ReadFiles& read) {
+  std::vector<json> things;
+  const auto& curves = read.answer().curves;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (curves[i].line || operations::planar_path(*curves[i].curve))
+      things.push_back(read.shown["curves"][i]);
+  return things;
+}
+
+Result<ReadFiles> read_files(Session& session, json request, bool planar) {
+  auto outcome = read_outcome(session, std::move(request), planar);
+  if (!outcome) return std::unexpected(outcome.error());
+  auto shown = shown_of(*outcome);
+  if (!shown) return std::unexpected(shown.error());
+  return ReadFiles{std::move(*outcome), std::move(*shown)};
+}
+
+json curve_of(const json& thing) {
+  if (thing.contains("curve")) return thing["curve"];
+  json points = thing["line"]["points"];
+  if (thing["line"].value("closed", false)) points.push_back(points.front());
+  return {{"type", "polyline"}, {"points", std::move(points)}};
+}
+
+json subject_of(const json& thing) {
+  if (thing.contains("line")) return {{"line", thing["line"]}};
+  return {{"curve", thing["curve"]}};
+}
+
+json one_or_all(const std::vector<json>& shown, const char* what) {
+  if (shown.size() == 1) return shown.front();
+  return {{what, shown}};
+}
+
+Result<json> shown_of(const operations::Outcome& outcome) {
+  return operations::result_json(outcome);
+}
+
+Result<void> check_unused(const json& used, const json& unused, const std::string& what) {
+  for (const auto& [name, value] : unused.items())
+    if (!used.contains(name))
+      return core::fail(ErrorCode::bad_input, "this is " + what, "leave it out", option_name(name));
+  return {};
+}
+
+}  // namespace keyline::app

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "keyline/operations/json_form.h"
+#include "keyline/operations/perform.h"
+#include "keyline/presentation/output.h"
+
+#include "arguments.h"
+#include "commands.h"
+
+/// What the commands share: their options beside an operation's own, files in, results out.
+namespace keyline::app {
+
+/// What every command takes.
+struct DoorOptions {
+  std::vector<std::string> output;
+  bool json = false;
+  std::optional<double> tolerance;
+  std::optional<long> seed;
+  int threads = 0;
+  bool quiet = false;
+  bool help = false;
+  bool version = false;
+  static constexpr auto describe() {
+    using Door = DoorOptions;
+    return core::fields(
+        core::field<&Door::output>("file to write (-o); may be repeated; the extension chooses the "
+                                   "format"),
+        core::field<&Door::json>("print the result object on standard output"),
+        core::field<&Door::tolerance>("largest deviation, in the input's unit")
+            .in("length")
+            .within(core::kPositive),
+        core::field<&Door::seed>("of everything random; the same seed, the same result"),
+        core::field<&Door::threads>("0: all; the result does not depend on it")
+            .within(core::from_to(0, 1024)),
+        core::field<&Door::quiet>("no messages but errors"),
+        core::field<&Door::help>("this text (-h)"),
+        core::field<&Door::version>("print the version"));
+  }
+};
+
+/// Fields of a request that a file's contents fill: no options.
+std::vector<std::string_view> filled_by_files();
+
+OptionGroup group_of(const operations::Operation& operation, const std::string& title);
+OptionGroup reading_group();
+OptionGroup door_group();
+
+/// How a command is called and told of.
+struct Usage {
+  std::string command;  ///< "fair"
+  std::string words;    ///< "FILE... "
+  std::string text;
+  std::string more;  ///< example and formats
+};
+
+/// A command line that was read.
+class Session {
+ public:
+  /// Precondition: the last group is door_group().
+  Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes_files = true);
+
+  /// Reads the words. Returns the exit status where that is all: help, version, a failure.
+  std::optional<int> begin(const Words& words);
+
+  const DoorOptions& door() const { return door_; }
+  Arguments& arguments() { return arguments_; }
+  const std::vector<std::string>& files() const { return arguments_.files; }
+  nlohmann::json& of(std::size_t record) { return arguments_.of(record); }
+
+  /// What is said beside an option that the command does not have.
+  void explain_refused(std::function<std::string(const std::string&)> explain) {
+    explain_ = std::move(explain);
+  }
+
+  /// The command's name and its words, as a shell takes them.
+  const std::string& typed() const { return typed_; }
+  presentation::ReportOptions report_options() const;
+
+  /// Progress with a bar; ended by the next message.
+  core::Progress progress() const;
+
+  /// bad_input, io: what stands against the files of -o. Writes none of them.
+  core::Result<void> check_outputs(const std::vector<std::string>& known) const;
+  core::Result<void> check_outputs() const;
+
+  /// Performs one operation; failures name options.
+  core::Result<operations::Outcome> perform(const std::string& operation,
+                                            const nlohmann::json& request,
+                                            const core::Progress& progress) const;
+
+  /// Writes the files of -o; says what a format could not hold.
+  core::Result<nlohmann::json> write(const presentation::Pages& pages,
+                                     const presentation::Output& output) const;
+  /// The same of a request of document.write; "tolerance" of the door where it has none.
+  core::Result<nlohmann::json> write(const presentation::Pages& pages,
+                                     nlohmann::json document) const;
+
+  /// With --json the object, else the text unless quiet.
+  void print(const nlohmann::json& shown, const std::string& text) const;
+
+  std::string help() const;
+  std::string usage_hint() const { return "see keyline " + usage_.command + " --help"; }
+
+ private:
+  Usage usage_;
+  Arguments arguments_;
+  bool takes_files_;
+  std::size_t door_record_;
+  DoorOptions door_;
+  std::string typed_;
+  std::function<std::string(const std::string&)> explain_;
+};
+
+/// Files of a session through document.read.
+struct ReadFiles {
+  operations::Outcome outcome;
+  nlohmann::json shown;  ///< its result
+  const operations::ReadAnswer& answer() const {
+    return *outcome.result_as<operations::ReadAnswer>();
+  }
+};
+
+/// `request`: what was given of reading_group(). Failures name the file.
+core::Result<operations::Outcome> read_outcome(Session& session, nlohmann::json request,
+                                               bool planar);
+core::Result<ReadFiles> read_files(Session& session, nlohmann::json request, bool planar);
+
+/// Points and curves in the plane among what was read.
+std::vector<nlohmann::json> planar_things(const ReadFiles& read);
+
+/// A curve of document.read as a request for one curve has it, and as one for measured points has.
+nlohmann::json curve_of(const nlohmann::json& thing);
+nlohmann::json subject_of(const nlohmann::json& thing);
+
+/// {"curves": […]} of several, each with its name; the one alone.
+nlohmann::json one_or_all(const std::vector<nlohmann::json>& shown, const char* what);
+
+/// The result of an outcome; internal failures are told as such.
+core::Result<nlohmann::json> shown_of(const operations::Outcome& outcome);
+
+/// bad_input where an option was given that has a meaning for other input alone: fields of
+/// `unused` that are not in `used`.
+core::Result<void> check_unused(const nlohmann::json& used, const nlohmann::json& unused,
+                                const std::string& what);
+
+}  // namespace keyline::app

@@ -1,0 +1,156 @@
+#include "surface_text.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "keyline/core/text.h"
+
+#include "terminal.h"
+
+namespace keyline::app {
+namespace {
+
+using nlohmann::json;
+
+std::string number_of(const json& number) {
+  return number.is_number() ? fmt::format("{:.5g}", number.get<double>()) : "-";
+}
+
+std::string place_of(const json& patch) {
+  return fmt::format("{},{}", patch[0].get<int>(), patch[1].get<int>());
+}
+
+std::string curves_text(const json& curves) {
+  const bool nearest =
+      std::ranges::any_of(curves, [](const json& c) { return c.contains("nearest"); });
+  std::string text =
+      fmt::format("{:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}{}\n", "curve", "type", "CAV",
+                  "alpha", "s", "least a", "least s", "energy",
+                  nearest ? fmt::format(" {:>12} {:>9}", "nearest away", "its CAV") : "");
+  for (const json& c : curves) {
+    const json least = c["minimum"].is_object() ? c["minimum"] : json::object();
+    const std::string beside =
+        c.contains("nearest") ? fmt::format(" {:>12} {:>9}", number_of(c["nearest"]["distance"]),
+                                            number_of(c["nearest"]["cav"]))
+                              : "";
+    text += fmt::format("{:>6} {:>5} {:>10} {:>9} {:>9} {:>9} {:>9} {:>11}{}\n",
+                        c["name"].get<std::string>(), c["type"].get<int>(), number_of(c["cav"]),
+                        number_of(c["alpha"]), number_of(c["s"]),
+                        number_of(least.value("alpha", json())),
+                        number_of(least.value("s", json())), number_of(c["energy"]), beside);
+  }
+  return text;
+}
+
+std::string patches_text(const json& patches) {
+  std::string text =
+      fmt::format("{:>8} {:>10} {:>6} {:>11}\n", "patch", "SAV", "worst", "of nearest");
+  for (const json& p : patches)
+    text += fmt::format("{:>8} {:>10} {:>6} {:>11}\n", place_of(p["patch"]), number_of(p["sav"]),
+                        p["worst"].get<std::string>(), number_of(p.value("nearest_sav", json())));
+  return text;
+}
+
+std::string one_patch_text(const json& r) {
+  std::string text = fmt::format("SAV {:.5g} to {:.5g}  departure {:.4g}  target {} ({:.3g} %)\n",
+                                 r["before"]["sav"].get<double>(), r["after"]["sav"].get<double>(),
+                                 r["departure"].get<double>(), r["target"].get<std::string>(),
+                                 100 * r["amount"].get<double>());
+  text += fmt::format("{:>31} {:>11} {:>11}\n", "target", "departure", "SAV");
+  for (const json& t : r["tradeoff"])
+    text += fmt::format("{:>31} {:>11.5g} {:>11.5g}\n", t["target"].get<std::string>(),
+                        t["departure"].get<double>(), t["sav"].get<double>());
+  for (const json& m : r["missed"])
+    text += fmt::format("{:>31} not found: {}, {}\n", m["target"].get<std::string>(),
+                        m["curve"].get<std::string>(), m["why"].get<std::string>());
+  for (const json& m : r.value("unmet", json::array()))
+    text += fmt::format("short of the target {} is outside its condition: {}\n",
+                        m["curve"].get<std::string>(), m["why"].get<std::string>());
+  return text;
+}
+
+std::string many_patches_text(const json& r) {
+  const json& patches = r["patch_edits"];
+  std::string text = fmt::format("{} patches  SAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
+                                 patches.size(), r["before"]["sav"].get<double>(),
+                                 r["after"]["sav"].get<double>(), r["departure"].get<double>());
+  if (const int lost = r["joints"]["lost"].get<int>(); lost > 0)
+    text += fmt::format("{} of {} joints lost their order\n", lost,
+                        r["joints"]["before"]["joints"].get<int>());
+  if (r.contains("sav_apart"))
+    text += fmt::format("joints are held; each patch for itself would come to SAV {:.5g}\n",
+                        r["sav_apart"].get<double>());
+  text += fmt::format("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure",
+                      "target");
+  for (const json& p : patches) {
+    if (p.contains("why"))
+      text +=
+          fmt::format("{:>8} as given: {}\n", place_of(p["patch"]), p["why"].get<std::string>());
+    else
+      text += fmt::format("{:>8} {:>11.5g} {:>11.5g} {:>11.4g}  {}\n", place_of(p["patch"]),
+                          p["sav"][0].get<double>(), p["sav"][1].get<double>(),
+                          p["departure"].get<double>(), p["target"].get<std::string>());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string surface_text(const json& result) {
+  const json& k = result["curvature"];
+  std::string text = result["name"].get<std::string>() + "\n";
+  if (result.contains("trims"))
+    text += fmt::format("whole surface; {} edges cut a face out of it in the file\n",
+                        result["trims"].get<int>());
+  text += fmt::format("Gaussian curvature {} to {}  mean curvature {} to {}\n",
+                      number_of(k["gaussian"]["min"]), number_of(k["gaussian"]["max"]),
+                      number_of(k["mean"]["min"]), number_of(k["mean"]["max"]));
+  if (!result["sav"].is_number())
+    return text + fmt::format("no SAV: {}\n", result["no_value"].get<std::string>());
+  text += fmt::format(
+      "SAV {}{}  worst curve {}{}\n", number_of(result["sav"]),
+      result.contains("nearest_sav") ? "  of the nearest curves " + number_of(result["nearest_sav"])
+                                     : "",
+      result["worst"].get<std::string>(),
+      result.contains("worst_patch") ? " of patch " + place_of(result["worst_patch"]) : "");
+  return text + (result.contains("patches") ? patches_text(result["patches"])
+                                            : curves_text(result["curves"]));
+}
+
+std::string surface_edit_text(const std::string& name, const json& edit) {
+  return (name.empty() ? "" : name + "\n") +
+         (edit.contains("patch_edits") ? many_patches_text(edit) : one_patch_text(edit));
+}
+
+std::string joints_text(const json& joints) {
+  const json& before = joints["before"];
+  const json& after = joints["after"];
+  if (before["joints"] == 0) return "";
+  const auto told = [](const json& x) {  // rounding is no gap
+    return x.get<double>() < 1e-9 ? 0 : x.get<double>();
+  };
+  const auto degrees = [&](const json& x) { return told(x) * 180 / std::numbers::pi; };
+  const auto count = [](const json& j, const char* order) { return j[order].get<int>(); };
+  std::string text = fmt::format(
+      "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
+      "G0 {} to {}  G1 {} to {}  G2 {} to {}\n",
+      before["joints"].get<int>(), told(before["gap"]), told(after["gap"]),
+      degrees(before["angle"]), degrees(after["angle"]), count(before, "G0"), count(after, "G0"),
+      count(before, "G1"), count(after, "G1"), count(before, "G2"), count(after, "G2"));
+  if (count(after, "G1") < count(before, "G1"))
+    text += fmt::format("warning: {} of {} tangent joints are lost\n",
+                        count(before, "G1") - count(after, "G1"), count(before, "G1"));
+  return text;
+}
+
+void say_curves_left_out(const json& read, bool quiet) {
+  const std::size_t curves = read["curves"].size();
+  if (curves == 0) return;
+  say(quiet, fmt::format("{} of the file left out beside its surfaces; --select takes one",
+                         core::counted(curves, "curve")));
+}
+
+}  // namespace keyline::app

@@ -1,0 +1,253 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "keyline/core/text.h"
+
+#include "result_table.h"
+#include "session.h"
+#include "terminal.h"
+
+namespace keyline::app {
+namespace {
+
+using core::Field;
+using core::Result;
+using nlohmann::json;
+using operations::Operation;
+using Kind = core::Type::Kind;
+
+constexpr Tool kTools[] = {{"blend", "lac.blend"},     {"compare", "curve.compare"},
+                           {"join", "curve.join"},     {"mirror", "curve.mirror"},
+                           {"offset", "curve.offset"}, {"reverse", "curve.reverse"},
+                           {"split", "curve.split"},   {"trim", "curve.trim"}};
+
+const Operation& named(const std::string& operation) {
+  return *operations::find_operation(operation);
+}
+
+/// Single values of a result, one line each, and lists of records as tables; the rest is left to
+/// --json.
+std::string summary(const core::Type& type, const void* value) {
+  std::string text;
+  core::visit_fields(type, value, [&](const Field& field, const void* member) {
+    const core::Type* its = &field.type();
+    if (its->kind == Kind::optional) {
+      member = its->held(member);
+      its = &its->item();
+    }
+    if (member && its->kind == Kind::list) text += table_of(*its, member);
+    if (!member || its->kind > Kind::choice) return;
+    const auto shown = operations::write_json(*its, member);
+    if (!shown) return;
+    const std::string said = shown->is_number_float() ? core::number_text(shown->get<double>(), 8)
+                             : shown->is_string()     ? shown->get<std::string>()
+                                                      : shown->dump();
+    text += fmt::format(
+        "{:<20} {}{}\n", field.name, said,
+        field.unit.empty() || field.unit == "length" ? "" : " " + std::string(field.unit));
+  });
+  return text;
+}
+
+/// Everything of a result that is a "curve", also in its lists.
+void gather_curves(const json& result, std::vector<json>& curves) {
+  if (result.is_object() && result.contains("curve") && result["curve"].is_object()) {
+    curves.push_back(result["curve"]);
+    return;
+  }
+  if (!result.is_object()) return;
+  for (const auto& [name, value] : result.items())
+    if (value.is_array())
+      for (const json& item : value)
+        if (item.is_object()) gather_curves(item, curves);
+}
+
+/// What was made, to be written and told.
+struct Made {
+  std::vector<json> shown;
+  json document{{"curves", json::array()}, {"surfaces", json::array()}};
+  std::string text;
+};
+
+Result<void> run_one(Session& session, const Operation& operation, const json& request,
+                     const std::string& name, Made& made) {
+  const auto outcome = session.perform(operation.name, request, session.progress());
+  end_progress();
+  if (!outcome) return std::unexpected(outcome.error());
+  auto result = shown_of(*outcome);
+  if (!result) return std::unexpected(result.error());
+  std::vector<json> curves;
+  gather_curves(*result, curves);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    made.document["curves"].push_back(
+        {{"name", curves.size() > 1 ? fmt::format("{}/{}", name, i + 1) : name},
+         {"curve", curves[i]}});
+  if (result->contains("surface") && (*result)["surface"].is_object())
+    made.document["surfaces"].push_back({{"name", name}, {"surface", (*result)["surface"]}});
+  made.text +=
+      (name.empty() ? "" : name + "\n") + summary(*operation.result, outcome->result.get());
+  made.shown.push_back(std::move(*result));
+  return {};
+}
+
+int finish(Session& session, const Made& made) {
+  if (!session.door().output.empty()) {
+    const auto output = presentation::output_of(made.document);
+    if (!output) return report_failure(output.error());
+    presentation::ReportOptions options = session.report_options();
+    options.title = "Curves";
+    const auto pages = presentation::document_pages(output->document, options);
+    if (auto done = session.write(pages, made.document); !done) return report_failure(done.error());
+  }
+  session.print(one_or_all(made.shown, "results"), made.text);
+  return kDone;
+}
+
+bool has_field(const Operation& operation, std::string_view name) {
+  bool found = false;
+  core::visit_fields(*operation.request, operation.request->make().get(),
+                     [&](const Field& field, void*) { found = found || field.name == name; });
+  return found;
+}
+
+Result<void> run_on_curves(Session& session, const Operation& operation,
+                           const std::vector<json>& things, Made& made) {
+  json request = session.of(0);
+  if (has_field(operation, "curves")) {
+    for (const json& thing : things) request["curves"].push_back(curve_of(thing));
+    return run_one(session, operation, request, "", made);
+  }
+  for (const json& thing : things) {
+    request["curve"] = curve_of(thing);
+    if (auto done = run_one(session, operation, request, thing["name"].get<std::string>(), made);
+        !done)
+      return done;
+  }
+  return {};
+}
+
+/// Curves of all files; every file is one of its own here.
+Result<std::vector<json>> read_all(Session& session, Made& made) {
+  std::vector<json> all;
+  for (const std::string& file : session.files()) {
+    json request = session.of(1);
+    request["file"] = file;
+    const auto read = session.perform("document.read", request, session.progress());
+    end_progress();
+    if (!read) return std::unexpected(read.error());
+    auto shown = shown_of(*read);
+    if (!shown) return std::unexpected(shown.error());
+    if ((*shown)["curves"].empty())
+      return core::fail(core::ErrorCode::bad_input, "there is no curve in it",
+                        "give a file that holds one", file);
+    for (const json& thing : (*shown)["curves"]) all.push_back(thing);
+    made.document["unit"] = (*shown)["unit"];
+  }
+  return all;
+}
+
+Session tool_session(const Tool& tool) {
+  const Operation& operation = named(tool.operation);
+  return Session({tool.name, "FILE... ", operation.summary, ""},
+                 {group_of(operation, "Options"), reading_group(), door_group()});
+}
+
+std::string text_of(const json& listed) {
+  const auto text = [](const json& j) { return j.is_string() ? j.get<std::string>() : ""; };
+  std::string all =
+      fmt::format("{:>4} {:<12} {:<24} {:<26} {:>12}  {}\n", "", "kind", "name", "type", "length",
+                  "bounding box" + (listed["unit"] == "" ? "" : " in " + text(listed["unit"])));
+  int number = 0;
+  for (const json& thing : listed["things"]) {
+    const json& low = thing["box"]["low"];
+    const json& high = thing["box"]["high"];
+    all += fmt::format(
+        "{:>4} {:<12} {:<24} {:<26} {:>12}  {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n",
+        ++number, text(thing["kind"]),
+        text(thing["name"]) + (thing["layer"] == "" ? "" : " [" + text(thing["layer"]) + "]"),
+        text(thing["type"]),
+        thing.contains("length") ? core::number_text(thing["length"].get<double>(), 6) : "",
+        low[0].get<double>(), low[1].get<double>(), low[2].get<double>(), high[0].get<double>(),
+        high[1].get<double>(), high[2].get<double>());
+  }
+  for (const json& skipped : listed["skipped"]) all += "skipped: " + text(skipped) + "\n";
+  return all;
+}
+
+Session list_session() {
+  const Operation& operation = named("document.list");
+  return Session({"list", "FILE ", operation.summary, "Example: keyline list examples/skin.json"},
+                 {{"Reading the files", operation.request, {"file"}}, door_group()});
+}
+
+Session plain_session(const Operation& operation) {
+  std::vector<OptionGroup> groups{{"Options", operation.request, {}}};
+  if (const core::Type* forms = operations::further_options(operation))
+    groups.push_back({"Further forms of the curve", forms, {}});
+  groups.push_back(door_group());
+  return Session({operation.name, operation.reads_files ? "[FILE...] " : "", operation.summary, ""},
+                 groups, operation.reads_files);
+}
+
+}  // namespace
+
+std::span<const Tool> tools() { return kTools; }
+
+int run_tool(const Tool& tool, const Words& words) {
+  Session session = tool_session(tool);
+  if (const auto status = session.begin(words)) return *status;
+  if (session.files().empty())
+    return report_failure(
+        {core::ErrorCode::bad_input, "no file is named", session.usage_hint(), ""});
+  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  Made made;
+  const auto things = read_all(session, made);
+  if (!things) return report_failure(things.error());
+  if (auto done = run_on_curves(session, named(tool.operation), *things, made); !done)
+    return report_failure(done.error());
+  return finish(session, made);
+}
+
+std::vector<std::string> tool_options(const Tool& tool) {
+  return tool_session(tool).arguments().names();
+}
+
+int run_list(const Words& words) {
+  Session session = list_session();
+  if (const auto status = session.begin(words)) return *status;
+  if (session.files().empty())
+    return report_failure(
+        {core::ErrorCode::bad_input, "no file is named", session.usage_hint(), ""});
+  session.of(0)["file"] = session.files();
+  const auto outcome = session.perform("document.list", session.of(0), session.progress());
+  end_progress();
+  if (!outcome) return report_failure(outcome.error());
+  const auto listed = shown_of(*outcome);
+  if (!listed) return report_failure(listed.error());
+  session.print(*listed, text_of(*listed));
+  return kDone;
+}
+
+std::vector<std::string> list_options() { return list_session().arguments().names(); }
+
+int run_plain(const std::string& name, const Words& words) {
+  const Operation& operation = named(name);
+  Session session = plain_session(operation);
+  if (const auto status = session.begin(words)) return *status;
+  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  json request = session.of(0);
+  if (operations::further_options(operation)) request.update(session.of(1));
+  const auto& files = session.files();
+  if (!files.empty()) request["file"] = files.size() == 1 ? json(files.front()) : json(files);
+  Made made;
+  if (auto done = run_one(session, operation, request, "", made); !done)
+    return report_failure(done.error());
+  return finish(session, made);
+}
+
+std::vector<std::string> plain_options(const std::string& operation) {
+  return plain_session(named(operation)).arguments().names();
+}
+
+}  // namespace keyline::app

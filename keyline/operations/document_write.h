@@ -1,0 +1,89 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "keyline/exchange/document_file.h"
+#include "keyline/operations/document_read.h"
+
+/// Documents into files: document.write, document.convert.
+namespace keyline::operations {
+
+/// How a format takes what it cannot hold as it is.
+struct FormatOptions {
+  double tolerance = 0;
+  bool polylines = false;
+  bool grid = false;
+  static constexpr auto describe() {
+    using Options = FormatOptions;
+    return core::fields(
+        core::field<&Options::tolerance>(
+            "largest deviation where a format cannot hold a curve as it is; 1e-5 of the longest "
+            "unless given")
+            .in("length")
+            .within(core::kPositive),
+        core::field<&Options::polylines>("dxf: polylines in place of splines"),
+        core::field<&Options::grid>("glif: nodes and handles on whole numbers"));
+  }
+};
+
+struct WriteRequest {
+  std::vector<std::string> file;
+  std::string unit;
+  std::vector<NamedCurve> curves;
+  std::vector<NamedSurfaceValue> surfaces;
+  std::optional<Page> page;
+  bool on_page = false;
+  FormatOptions format;
+  static constexpr auto describe() {
+    using Request = WriteRequest;
+    return core::fields(
+        core::field<&Request::file>("to write; the extension chooses the format: svg, json, csv, "
+                                    "dxf, step, iges, glif, pdf")
+            .count(1)
+            .or_bare_item()
+            .needed(),
+        core::field<&Request::unit>("of all lengths; empty: none"),
+        core::field<&Request::curves>("in the plane or in space"),
+        core::field<&Request::surfaces>("Bezier or B-spline"),
+        core::field<&Request::page>("what a drawing shows; else tight around the curves"),
+        core::field<&Request::on_page>(
+            "svg: coordinates count from the page's upper left corner, as pixels of a picture do"),
+        core::flattened<&Request::format>());
+  }
+};
+
+struct Written {
+  std::string file;
+  double deviation = 0;
+  std::vector<std::string> notes;
+  static constexpr auto describe() {
+    return core::fields(core::field<&Written::file>("as asked for"),
+                        core::field<&Written::deviation>("of what is not exact in it").in("length"),
+                        core::field<&Written::notes>("what the format could not hold, in words"));
+  }
+};
+
+struct WriteAnswer {
+  std::vector<Written> written;
+  static constexpr auto describe() {
+    return core::fields(core::field<&WriteAnswer::written>("one for each file"));
+  }
+};
+
+/// What a request writes, as a document.
+document::Document document_of(const WriteRequest& request);
+
+/// What was read as a document; measured points as polylines.
+document::Document document_of(const ReadAnswer& read);
+
+/// The document in the format of `extension`. Formats of the plane (svg, glif, pdf) show, where
+/// there is no planar curve, space curves in the coordinates of their own planes, and say so.
+core::Result<exchange::Written> formatted(const document::Document& document,
+                                          const std::string& extension,
+                                          const FormatOptions& options, bool on_page = false);
+
+/// The formats there are, as extensions with their dot.
+std::vector<std::string> document_extensions();
+
+}  // namespace keyline::operations
