@@ -37,8 +37,8 @@ class KnotProblem {
     smart_ = options.smart_start;
   }
 
-  Genome create(Random& random) {
-    if (smart_) return varied_start(random);
+  Genome create(Random& random, std::size_t individual) const {
+    if (smart_) return individual == 0 ? start_ : varied_start(random);
     Genome knots(std::min(most_knots_, 1 + random.index(most_initial_)));
     for (double& t : knots) t = inner(random);
     std::sort(knots.begin(), knots.end());
@@ -93,11 +93,7 @@ class KnotProblem {
   }
 
   /// The refined knots, each moved within its neighbourhood, dropped or doubled now and then.
-  Genome varied_start(Random& random) {
-    if (first_) {
-      first_ = false;
-      return start_;
-    }
+  Genome varied_start(Random& random) const {
     Genome knots;
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const double before = i > 0 ? start_[i - 1] : domain_.low;
@@ -119,7 +115,6 @@ class KnotProblem {
   std::size_t most_initial_ = 1;
   std::vector<double> start_;
   bool smart_ = false;
-  bool first_ = true;
 };
 
 /// Progress of all trials together: share done and the best criterion so far.

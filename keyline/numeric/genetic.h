@@ -24,11 +24,12 @@
 namespace keyline::numeric {
 
 /// What the engine needs from a problem. Costs may be infinite (no such individual) but not NaN.
+/// create(random, i) makes the i-th individual of a trial's first generation; trials may run at once.
 /// cost(genome, worker) is called in parallel, never twice at once with the same worker.
 template <class P>
 concept GeneticProblem =
     requires(P& problem, typename P::Genome& genome, Random& random, int worker) {
-      { problem.create(random) } -> std::same_as<typename P::Genome>;
+      { problem.create(random, std::size_t{}) } -> std::same_as<typename P::Genome>;
       problem.crossover(genome, genome, random);
       problem.mutate(genome, random);
       { problem.cost(genome, worker) } -> std::convertible_to<double>;
@@ -98,7 +99,7 @@ class Evolution {
         worker_(worker) {
     const auto size =
         static_cast<std::size_t>(std::max(2, options.population + options.population % 2));
-    for (std::size_t i = 0; i < size; ++i) population_.push_back({problem.create(random_)});
+    for (std::size_t i = 0; i < size; ++i) population_.push_back({problem.create(random_, i)});
     changed_.assign(size, 1);
     evaluate();
   }

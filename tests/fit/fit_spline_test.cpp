@@ -126,6 +126,26 @@ TEST(FitSpline, SameBytesWhateverTheThreads) {
   }
 }
 
+/// Trials at once: the one that starts first is not always the same. Few generations, so that where
+/// a trial starts from is seen in what it ends with.
+TEST(FitSpline, SameKnotsHoweverManyTrialsRunAtOnce) {
+  SplineFitOptions options = SplineFitOptions::for_fairing();
+  options.trials = 6;
+  options.generations = 1;
+  options.population = 8;
+  std::vector<Point2> points;
+  for (int i = 0; i <= 20; ++i) points.push_back({0.1 * i, 0.4 * 0.01 * i * i});
+  options.threads = 1;
+  const auto one = fit_spline(points, {}, options);
+  ASSERT_TRUE(one);
+  for (int again = 0; again < 10; ++again) {
+    options.threads = 2 + again % 2;
+    const auto more = fit_spline(points, {}, options);
+    ASSERT_TRUE(more);
+    EXPECT_EQ(one->curve.knots, more->curve.knots) << options.threads;
+  }
+}
+
 TEST(FitSpline, SeedsDifferButAgreeOnQuality) {
   const auto points = wavy(120, 0.003);
   SplineFitOptions options = small_budget();

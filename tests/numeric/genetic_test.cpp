@@ -14,7 +14,7 @@ namespace {
 /// 24 switches; the cost counts those that are off.
 struct Switches {
   using Genome = std::array<bool, 24>;
-  static Genome create(Random& random) {
+  static Genome create(Random& random, std::size_t) {
     Genome g{};
     for (bool& on : g) on = random.chance(0.5);
     return g;
