@@ -155,6 +155,7 @@ Result<void> ask_jets(const Curve& curve, const curve::ArcLengthMap& map, Along 
 
 struct HeldCurve::Body {
   std::variant<document::Path, document::SpaceCurve> curve;
+  bool is_path = false;  ///< given as one, also of a single member
   std::optional<lac::ChainSampler> chain = {};
   curve::ArcLengthMap map = {};
 };
@@ -175,6 +176,7 @@ Result<HeldCurve> HeldCurve::from_json(const json& value) {
   } else {
     body->map = curve::arc_length_map(*path);
   }
+  body->is_path = value.at("type") == "path";
   body->curve = std::move(*path);
   return HeldCurve(body);
 }
@@ -183,8 +185,7 @@ json HeldCurve::to_json() const {
   if (const auto* space = std::get_if<document::SpaceCurve>(&body_->curve))
     return exchange::to_json(*space);
   const auto& path = std::get<document::Path>(body_->curve);
-  const bool alone = path.curves.size() == 1 && (!path.closed || chain_of(path));
-  return alone ? exchange::to_json(path.curves.front()) : exchange::to_json(path);
+  return !body_->is_path ? exchange::to_json(path.curves.front()) : exchange::to_json(path);
 }
 
 double HeldCurve::length() const {

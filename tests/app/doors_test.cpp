@@ -101,26 +101,40 @@ std::vector<Case> cases() {
   return all;
 }
 
-TEST(Doors, CommandLineAndBatchAnswerAlikeToTheLastBit) {
-  const Scratch s;
-  const std::vector<Case> all = cases();
+/// All requests, a line each.
+std::string lines_of(const std::vector<Case>& all) {
   std::string lines;
   for (const Case& c : all) {
     json request = c.request;
     request["op"] = c.operation->name;
     lines += request.dump() + "\n";
   }
-  const std::string there = "cd " KEYLINE_SOURCE_DIR " && ";
-  const Outcome batch = run_keyline("batch --quiet <" + s.write("requests", lines), there);
+  return lines;
+}
+
+/// An answer for each, in their order.
+std::vector<json> answers_of(const std::string& out, std::size_t count) {
+  std::istringstream lines(out);
+  std::vector<json> answers;
+  for (std::string line; std::getline(lines, line);) answers.push_back(json::parse(line));
+  EXPECT_EQ(answers.size(), count);
+  answers.resize(count);
+  return answers;
+}
+
+const std::string kThere = "cd " KEYLINE_SOURCE_DIR " && ";
+
+TEST(Doors, CommandLineAndBatchAnswerAlikeToTheLastBit) {
+  const Scratch s;
+  const std::vector<Case> all = cases();
+  const Outcome batch = run_keyline("batch --quiet <" + s.write("requests", lines_of(all)), kThere);
   ASSERT_EQ(batch.status, 0) << batch.err;
-  std::istringstream answers(batch.out);
+  const std::vector<json> answers = answers_of(batch.out, all.size());
   std::size_t good = 0;
-  for (const Case& c : all) {
-    std::string line;
-    ASSERT_TRUE(std::getline(answers, line));
-    const json answer = json::parse(line);
-    const std::string command = typed(*c.operation, c.request);
-    const Outcome o = run_keyline(command, there);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const json& answer = answers[i];
+    const std::string command = typed(*all[i].operation, all[i].request);
+    const Outcome o = run_keyline(command, kThere);
     if (answer["ok"] == true) {
       EXPECT_EQ(o.out, answer["result"].dump() + "\n") << command;
       ++good;
@@ -129,10 +143,39 @@ TEST(Doors, CommandLineAndBatchAnswerAlikeToTheLastBit) {
       EXPECT_NE(o.err.find(answer["error"]["message"].get<std::string>()), std::string::npos)
           << command << '\n'
           << o.err << '\n'
-          << line;
+          << answer;
     }
   }
   EXPECT_GT(good, all.size() / 2);  // most are answered, not refused
+}
+
+/// The functions of the package, called by name; their objects turned back into values.
+TEST(Doors, PythonAndBatchAnswerAlikeToTheLastBit) {
+  if (std::string(KEYLINE_PYTHON).empty()) GTEST_SKIP() << "there is no Python package here";
+  const Scratch s;
+  const std::vector<Case> all = cases();
+  const std::string requests = s.write("requests", lines_of(all));
+  const Outcome batch = run_keyline("batch --quiet <" + requests, kThere);
+  ASSERT_EQ(batch.status, 0) << batch.err;
+  const std::string python = s.path("python");
+  const std::string command = kThere +
+                              "PYTHONPATH=" KEYLINE_PYTHON_PATH " " KEYLINE_PYTHON
+                              " -B tests/app/python_door.py <" +
+                              requests + " >" + python;
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::vector<json> answers = answers_of(batch.out, all.size());
+  const std::vector<json> others = answers_of(slurp(python), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string asked = all[i].operation->name + " " + all[i].request.dump();
+    ASSERT_EQ(others[i]["ok"], answers[i]["ok"]) << asked << others[i] << answers[i];
+    if (answers[i]["ok"] == true) {
+      EXPECT_EQ(others[i]["result"], answers[i]["result"]) << asked;
+    } else {
+      const std::string said = others[i]["message"].get<std::string>();
+      EXPECT_NE(said.find(answers[i]["error"]["message"].get<std::string>()), std::string::npos)
+          << said << answers[i];
+    }
+  }
 }
 
 /// One polyline as points, as a curve value, in a table and in a drawing: one curve through all.
