@@ -25,6 +25,12 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     return fail(ErrorCode::bad_input, "the tolerance is not a length",
                 "give a number greater than 0", "tolerance");
+  if (options.sigmas && options.tolerance > 0)
+    return fail(ErrorCode::bad_input, "the tolerance is given twice",
+                "give either \"tolerance\" or \"sigmas\"", "sigmas");
+  if (options.sigmas && !(line.noise > 0))
+    return fail(ErrorCode::bad_input, "these points have no noise to count the tolerance in",
+                "give \"tolerance\", or the \"noise\"", "sigmas");
   if (options.spline.order < 4 || options.spline.order > 6)
     return fail(ErrorCode::bad_input, "the order of the spline is out of range", "give 4, 5 or 6",
                 "order");
@@ -63,8 +69,9 @@ class Job {
     result_.length = core::polygon_length(line.points, line.closed);
     if (line.length > 0) result_.length = std::min(result_.length, line.length);
     result_.noise = line.noise;
-    result_.tolerance = options.tolerance > 0
-                            ? options.tolerance
+    result_.tolerance = options.tolerance > 0 ? options.tolerance
+                        : options.sigmas
+                            ? *options.sigmas * line.noise
                             : default_tolerance(line.noise, result_.length, line.points.size());
     result_.closed = line.closed || line.ends_meet;
     result_.notes = line.report.notes;

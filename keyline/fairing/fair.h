@@ -71,8 +71,9 @@ struct InterpretationOverride {
 
 struct FairOptions {
   double tolerance =
-      0;           ///< largest distance of a point, in the points' unit; 0: by the default rule
-  int pieces = 0;  ///< wanted number of pieces; 0: as few as the tolerance allows
+      0;  ///< largest distance of a point, in the points' unit; 0: by the default rule
+  std::optional<double> sigmas;  ///< the tolerance in standard deviations of the points
+  int pieces = 0;                ///< wanted number of pieces; 0: as few as the tolerance allows
   Criterion criterion = Criterion::fewest_pieces;
   bool keep_corners = true;
   EndClamps clamp;
@@ -90,6 +91,9 @@ struct FairOptions {
         core::field<&FairOptions::tolerance>(
             "largest distance of a point; by default three times the noise or 0.05 % of the length")
             .in("length")
+            .within(core::kPositive),
+        core::field<&FairOptions::sigmas>(
+            "the tolerance as so many standard deviations of the points, in place of a length")
             .within(core::kPositive),
         core::field<&FairOptions::pieces>("wanted number of pieces; 0: as few as possible")
             .within(core::from_to(0, 400)),

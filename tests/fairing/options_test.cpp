@@ -42,6 +42,19 @@ TEST(FairOptions, ClampsHold) {
   EXPECT_NEAR(lac::curvature(chain, 1), curve::curvature(spline, 1), 1e-9);
 }
 
+TEST(FairOptions, SigmasAreTheToleranceInNoise) {
+  acquire::KeyLine line = bow();
+  FairOptions options;
+  options.sigmas = 4;
+  const FairResult result = fair(line, options).value();
+  EXPECT_DOUBLE_EQ(result.tolerance, 4 * line.noise);
+  options.tolerance = 0.1;
+  EXPECT_EQ(fair(line, options).error().path, "sigmas");
+  options.tolerance = 0;
+  line.noise = 0;
+  EXPECT_EQ(fair(line, options).error().path, "sigmas");
+}
+
 TEST(FairOptions, RegionKeepsTheRest) {
   FairOptions options;
   options.region = core::Interval{0.25, 0.7};
