@@ -10,6 +10,7 @@
 #include "keyline/acquire/order.h"
 #include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
 namespace {
@@ -98,9 +99,9 @@ BandWidth measure_band(std::span<const core::Point2> points) {
       widths.push_back(s.across);
       radii.push_back(core::distance(points[i], points[near.back()]));
     }
-    if (detail::quantile(ratios) > kLong) continue;
-    const double radius = detail::quantile(radii);
-    return {count == 6 ? 0 : detail::quantile(widths), radius};
+    if (core::quantile(ratios) > kLong) continue;
+    const double radius = core::quantile(radii);
+    return {count == 6 ? 0 : core::quantile(widths), radius};
   }
   return {};
 }

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
 namespace {
@@ -92,7 +92,7 @@ double usual_turn(const Ring& ring) {
     if (!ring.has(i - 1) || !ring.has(i + 1)) continue;
     turns.push_back(std::abs(core::angle_between(ring[i] - ring[i - 1], ring[i + 1] - ring[i])));
   }
-  return detail::quantile(std::move(turns), 4, 5);
+  return core::quantile(std::move(turns), 4, 5);
 }
 
 struct Thresholds {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "keyline/acquire/local_fit.h"
-#include "keyline/acquire/statistics.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
 namespace {
@@ -102,7 +102,7 @@ double variance_in(std::span<const core::Point2> points, bool closed, Window w,
   if (variances.empty()) return std::numeric_limits<double>::infinity();
   const Usual chance = usual(freedom);
   const double mean = kept_mean(variances) / chance.kept_mean;
-  const double median = detail::quantile(std::move(variances)) / chance.median;
+  const double median = core::quantile(std::move(variances)) / chance.median;
   // The mean is the surer of the two where chance is all there is; bends spoil it first.
   return mean <= kAskew * median ? mean : median;
 }
@@ -130,7 +130,7 @@ DecimalForm decimal_form(double value) {
 double step_of(std::vector<int> places, int usual_digits) {
   if (usual_digits >= 13) return 0;
   // The place that is fine enough for four fifths of the values.
-  return std::pow(10.0, std::min(detail::quantile(std::move(places), 1, 5), 0));
+  return std::pow(10.0, std::min(core::quantile(std::move(places), 1, 5), 0));
 }
 
 /// Empty where the coordinate is 0 throughout and tells nothing.
@@ -146,7 +146,7 @@ std::optional<double> step_of_coordinate(const RawCurve& raw, double core::Point
     digits.push_back(form.digits);
   }
   if (places.empty()) return std::nullopt;
-  return step_of(std::move(places), detail::quantile(std::move(digits)));
+  return step_of(std::move(places), core::quantile(std::move(digits)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "keyline/acquire/places.h"
 #include "keyline/acquire/spanning_tree.h"
 #include "keyline/acquire/statistics.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
 namespace {
@@ -234,7 +235,7 @@ bool insert_best(std::span<const core::Point2> points, const std::vector<std::si
 bool is_ordered(std::span<const core::Point2> points) {
   if (points.size() < 6) return true;
   if (follows_tree(points)) return true;
-  if (detail::quantile(steps_of(points)) > 0.02 * detail::extent_of(points)) return false;
+  if (core::quantile(steps_of(points)) > 0.02 * detail::extent_of(points)) return false;
   for (std::size_t group = 4; points.size() / group >= 16; group *= 2) {
     if (follows_tree(group_means(points, group))) return true;
   }
@@ -253,7 +254,7 @@ Ordering order_points(std::span<const core::Point2> points) {
   const Order path = detail::longest_path(points.size(), tree);
   std::vector<double> lengths;
   for (const auto& edge : tree) lengths.push_back(edge.length);
-  const double most = 12 * detail::quantile(std::move(lengths));
+  const double most = 12 * core::quantile(std::move(lengths));
 
   Chainlet list(points.size(), path);
   Order left;

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "keyline/acquire/local_fit.h"
-#include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
 namespace {
@@ -96,7 +96,7 @@ double usual_residual(std::span<const core::Point2> points, bool closed, double 
     const auto expected = expected_at(points, closed, i, 1, noise, stride);
     if (expected) residuals.push_back(std::abs(expected->fit.residual(points[i])));
   }
-  return detail::quantile(std::move(residuals), 3, 4);
+  return core::quantile(std::move(residuals), 3, 4);
 }
 
 /// Single end points of an open curve that lie many steps away from the rest.

@@ -11,7 +11,9 @@
 #include "keyline/acquire/order.h"
 #include "keyline/acquire/spanning_tree.h"
 #include "keyline/acquire/statistics.h"
+#include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
 namespace {
@@ -73,25 +75,12 @@ std::vector<bool> fills_area(const std::vector<core::Point2>& points) {
   return area;
 }
 
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 /// Groups of points linked by steps of at most `gap`, in the order of their first point.
 std::vector<Indices> groups_of(const std::vector<core::Point2>& points, const Indices& which,
                                double gap) {
   const auto some = picked(points, which);
   if (some.size() < 2) return {which};
-  Sets sets(some.size());
+  core::DisjointSets sets(some.size());
   for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
     if (edge.length <= gap) sets.join(edge.a, edge.b);
   std::vector<Indices> groups;
@@ -188,7 +177,7 @@ class Sorter {
     const auto some = picked(points_, lines);
     for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
       steps.push_back(edge.length);
-    usual_ = detail::quantile(steps);
+    usual_ = core::quantile(steps);
     gap_ = std::max(kGap * usual_, kGapOfExtent * detail::extent_of(some));
     sort(lines);
     std::stable_sort(curves_.begin(), curves_.end(),

@@ -12,6 +12,7 @@
 #include "keyline/acquire/places.h"
 #include "keyline/acquire/statistics.h"
 #include "keyline/acquire/turnbacks.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -46,7 +47,7 @@ void drop_isolated(Working& work, KeyLine& line) {
     const auto near = tree.nearest(work.points[i], 2, i);
     reach[i] = core::distance(work.points[i], work.points[near.back()]);
   }
-  const double most = std::max(5 * quantile(reach, 9, 10), 0.02 * extent_of(work.points));
+  const double most = std::max(5 * core::quantile(reach, 9, 10), 0.02 * extent_of(work.points));
   std::vector<std::size_t> isolated;
   for (std::size_t i = 0; i < n; ++i) {
     if (reach[i] > most) isolated.push_back(i);
@@ -123,7 +124,7 @@ std::vector<Run> runs_of(const Working& work) {
   for (std::size_t i = 1; i < work.points.size(); ++i) {
     steps.push_back(core::distance(work.points[i - 1], work.points[i]));
   }
-  const double jump = std::max(20 * quantile(steps), 0.1 * extent_of(work.points));
+  const double jump = std::max(20 * core::quantile(steps), 0.1 * extent_of(work.points));
   std::vector<Run> runs{{0, 0, false}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i] > jump) runs.push_back({i + 1, i + 1, false});

@@ -2,43 +2,23 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "keyline/acquire/kd_tree.h"
+#include "keyline/core/disjoint_sets.h"
 
 namespace keyline::acquire::detail {
 namespace {
 
 constexpr std::size_t kNeighbours = 8;
 
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  bool join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 bool shorter(const Edge& p, const Edge& q) {
   return std::tie(p.length, p.a, p.b) < std::tie(q.length, q.a, q.b);
 }
 
 /// The shortest edge from the tree of point 0 to any other.
-Edge bridge(std::span<const core::Point2> points, Sets& sets) {
+Edge bridge(std::span<const core::Point2> points, core::DisjointSets& sets) {
   std::vector<core::Point2> inside;
   std::vector<std::size_t> index;
   const std::size_t home = sets.find(0);
@@ -109,7 +89,7 @@ std::vector<Edge> spanning_tree(std::span<const core::Point2> points,
     }
   }
   std::sort(edges.begin(), edges.end(), shorter);
-  Sets sets(points.size());
+  core::DisjointSets sets(points.size());
   std::vector<Edge> tree;
   for (const Edge& edge : edges) {
     if (sets.join(edge.a, edge.b)) tree.push_back(edge);

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <span>
-#include <vector>
 
 #include "keyline/core/point.h"
 
@@ -18,16 +16,6 @@ inline double extent_of(std::span<const core::Point2> points) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   return core::distance(low, high);
-}
-
-/// The value that the share part / of of the values stays below (the middle one unless told); a
-/// value-initialised one for none.
-template <class Value>
-Value quantile(std::vector<Value> values, std::size_t part = 1, std::size_t of = 2) {
-  if (values.empty()) return {};
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * part / of);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 }  // namespace keyline::acquire::detail

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -47,7 +47,7 @@ std::size_t average_turnbacks(Working& work) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < work.points.size(); ++i)
     steps.push_back(core::distance(work.points[i - 1], work.points[i]));
-  const double usual = quantile(steps);
+  const double usual = core::quantile(steps);
   std::size_t gone = 0;
   for (std::size_t i = shortest_turnback(work.points, usual); i != kNone && 4 * gone < steps.size();
        i = shortest_turnback(work.points, usual)) {

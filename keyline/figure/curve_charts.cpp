@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
 #include "keyline/figure/model_figure.h"
 #include "keyline/figure/plot.h"
 
@@ -69,9 +70,8 @@ bool needs_root_scale(const SampledCurve& curve) {
   for (const double k : curve.curvature)
     if (std::isfinite(k)) sizes.push_back(std::abs(k));
   if (sizes.empty()) return false;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return largest_curvature(curve) > 25 * *middle && *middle > 0;
+  const double middle = core::quantile(std::move(sizes));
+  return largest_curvature(curve) > 25 * middle && middle > 0;
 }
 
 std::vector<Band> piece_bands(const SampledCurve& curve) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/error.h"
 
 namespace keyline::fit {
@@ -48,8 +49,7 @@ ChainData prepare_chain_data(const std::vector<Point2>& points, bool closed) {
     const Vector2 after = at(i + 2 * reach) - at(i);
     const double span = 0.5 * (core::norm(before) + core::norm(after));
     if (closed || (i >= 2 * reach && i + 2 * reach < n))
-      data.curvature[static_cast<std::size_t>(i)] =
-          std::atan2(cross(before, after), dot(before, after)) / span;
+      data.curvature[static_cast<std::size_t>(i)] = core::angle_between(before, after) / span;
   }
   return data;
 }

@@ -4,17 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "keyline/core/quantile.h"
+
 namespace keyline::fit {
 namespace {
 
 using core::Point2;
 using core::Vector2;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Standard deviation of the points across the curve, from fourth differences.
 double noise_across(std::span<const Point2> p) {
@@ -27,7 +23,7 @@ double noise_across(std::span<const Point2> p) {
     if (length > 0) sizes.push_back(std::abs(cross(along, d)) / length);
   }
   // sqrt(70): the root of the summed squares of 1, -4, 6, -4, 1.
-  return sizes.empty() ? 0 : median(std::move(sizes)) / (0.6745 * std::sqrt(70.0));
+  return sizes.empty() ? 0 : core::quantile(std::move(sizes)) / (0.6745 * std::sqrt(70.0));
 }
 
 /// Half the number of neighbours to average over; 0: none.
@@ -39,7 +35,7 @@ std::size_t half_window(std::span<const Point2> p) {
   for (std::size_t i = 0; i + reach < p.size(); ++i) {
     steps.push_back(distance(p[i], p[i + reach]) / static_cast<double>(reach));
   }
-  const double step = median(std::move(steps));
+  const double step = core::quantile(std::move(steps));
   if (!(step > 0)) return 0;
   const double wanted = 50 * noise_across(p) / step;
   if (!(wanted > 3)) return 0;

@@ -40,7 +40,7 @@ ChordSample sample_at(const Decays& d, double theta, double q, Vector2 axis, dou
   const double square = dot(v.chord, v.chord);
   ChordSample s;
   s.q = q;
-  s.miss = sign * std::atan2(cross(axis, v.chord), dot(axis, v.chord));
+  s.miss = sign * core::angle_between(axis, v.chord);
   s.slope = sign * cross(v.chord, v.slope) / square;
   s.length = std::sqrt(square);
   s.length_slope = dot(v.chord, v.slope) / s.length;

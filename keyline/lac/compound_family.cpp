@@ -182,7 +182,7 @@ ChordSample CompoundFamily::sample(double q, Vector2 axis) const {
   s.q = q;
   const Chord c = chord(q);
   const double square = dot(c.chord, c.chord);
-  s.miss = std::atan2(cross(axis, c.chord), dot(axis, c.chord));
+  s.miss = core::angle_between(axis, c.chord);
   s.slope = cross(c.chord, c.slope) / square;
   if (std::abs(s.slope) < 1e-15) s.slope = 0;  // rounding: halve the bracket instead
   s.length = std::sqrt(square) / c.arc;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-
 namespace keyline::numeric {
 
 /// Nodes and weights of a quadrature rule with N nodes on [0, 1]; nodes increase.
@@ -76,23 +74,6 @@ auto integrate_gauss(F&& f, double low, double high) {
     sum = sum + (width * rule.weights[i]) * f(low + width * rule.nodes[i]);
   }
   return sum;
-}
-
-/// Integral and the estimate of its absolute error.
-struct Integral {
-  double value = 0;
-  double error = 0;
-};
-
-/// Adaptive Gauss-Kronrod (7, 15) integral of f over [low, high], to the given relative tolerance
-/// where f allows it (15 halvings at most). The estimate is usually pessimistic by several orders
-/// of magnitude. Limits may be infinite. For a singular end use a substitution instead.
-template <class F>
-Integral integrate_adaptive(F&& f, double low, double high, double tolerance) {
-  Integral result;
-  result.value = boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-      f, low, high, 15, tolerance, &result.error);
-  return result;
 }
 
 }  // namespace keyline::numeric

@@ -6,6 +6,9 @@
 
 #include <Eigen/Dense>
 
+#include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -16,11 +19,7 @@ using core::Vector2;
 constexpr std::size_t kMostBranches = 10;
 
 /// Half the usual width of an edge.
-double half_width(const GraphEdge& e) {
-  std::vector<float> r = e.radii;
-  std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
-  return r[r.size() / 2];
-}
+double half_width(const GraphEdge& e) { return core::quantile(e.radii); }
 
 /// Direction of the line at point i, from the parabola through points i … j.
 template <class PointAt>
@@ -115,12 +114,9 @@ Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip)
 
 double bend_between(const Branch& a, const Branch& b) {
   const Vector2 chord = b.place - a.place;
-  const auto turn = [](Vector2 u, Vector2 v) {
-    return std::atan2(core::cross(u, v), core::dot(u, v));
-  };
-  if (core::norm(chord) < 1.0) return std::abs(turn(-a.outward, b.outward));
-  const double first = turn(-a.outward, chord);
-  const double second = turn(chord, b.outward);
+  if (core::norm(chord) < 1.0) return std::abs(core::angle_between(-a.outward, b.outward));
+  const double first = core::angle_between(-a.outward, chord);
+  const double second = core::angle_between(chord, b.outward);
   return 0.5 * std::abs(first + second) + std::abs(first - second);
 }
 

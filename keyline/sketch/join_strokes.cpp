@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/branch.h"
 
@@ -62,17 +62,16 @@ class Joiner {
   Branch& at(int i) { return branches_[static_cast<std::size_t>(i)]; }
   int branch_of(int e, bool at_end) const { return 2 * e + (at_end ? 1 : 0); }
 
-  int root(int n) {
-    while (parent_[static_cast<std::size_t>(n)] != n) n = parent_[static_cast<std::size_t>(n)];
-    return n;
+  int root(int n) { return static_cast<int>(clusters_.find(static_cast<std::size_t>(n))); }
+  void merge(int a, int b) {
+    clusters_.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
 
   bool is_junction(int n) const { return n >= 0 && node(n).edges.size() >= 3; }
 
   /// Short edges between junctions disappear into one cluster.
   void make_clusters() {
-    parent_.resize(graph_.nodes.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
+    clusters_ = core::DisjointSets(graph_.nodes.size());
     bridge_.assign(graph_.edges.size(), false);
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       const GraphEdge& line = graph_.edges[e];
@@ -82,7 +81,7 @@ class Joiner {
       const bool inside = length < 1.3 * radius + 1;
       if (line.from == line.to ? inside : inside || is_shared_stretch(static_cast<int>(e))) {
         bridge_[e] = true;
-        parent_[static_cast<std::size_t>(root(line.from))] = root(line.to);
+        merge(line.from, line.to);
       }
     }
     join_knots();
@@ -92,12 +91,7 @@ class Joiner {
   /// Where several lines cross in nearly one place the edges between the crossings are too short
   /// to tell a direction: such a knot is one cluster if all lines that come out of it pair up.
   void join_knots() {
-    std::vector<int> knot(graph_.nodes.size());
-    std::iota(knot.begin(), knot.end(), 0);
-    const auto top = [&](int n) {
-      while (knot[static_cast<std::size_t>(n)] != n) n = knot[static_cast<std::size_t>(n)];
-      return n;
-    };
+    core::DisjointSets knots(graph_.nodes.size());
     std::vector<int> shorts;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       const GraphEdge& line = graph_.edges[e];
@@ -105,15 +99,16 @@ class Joiner {
       const double radius = std::max(node(line.from).radius, node(line.to).radius);
       if (length_of(line) > 4 * radius + 5) continue;
       shorts.push_back(static_cast<int>(e));
-      knot[static_cast<std::size_t>(top(line.from))] = top(line.to);
+      knots.join(static_cast<std::size_t>(line.from), static_cast<std::size_t>(line.to));
     }
-    std::map<int, std::vector<int>> inner;
-    for (const int e : shorts) inner[top(edge(e).from)].push_back(e);
+    std::map<std::size_t, std::vector<int>> inner;
+    for (const int e : shorts)
+      inner[knots.find(static_cast<std::size_t>(edge(e).from))].push_back(e);
     for (const auto& [name, edges] : inner)
       if (edges.size() >= 2 && all_pair_up(edges))
         for (const int e : edges) {
           bridge_[static_cast<std::size_t>(e)] = true;
-          parent_[static_cast<std::size_t>(root(edge(e).from))] = root(edge(e).to);
+          merge(edge(e).from, edge(e).to);
         }
   }
 
@@ -379,7 +374,7 @@ class Joiner {
 
   const StrokeGraph& graph_;
   JoinOptions options_;
-  std::vector<int> parent_;
+  core::DisjointSets clusters_;
   std::vector<bool> bridge_;
   std::vector<std::vector<int>> members_;
   std::vector<double> shared_;  ///< longest stretch two lines share, by cluster; 0: short

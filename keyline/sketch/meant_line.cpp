@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/align_strokes.h"
 #include "keyline/sketch/hold_line.h"
@@ -119,9 +120,7 @@ class Line {
     double away = 0;
     for (; i < n; ++i) {
       away = std::max(away, core::distance(p[i], p[0]));
-      if (i > 0)
-        turned += std::atan2(core::cross(line_.tangents[i - 1], line_.tangents[i]),
-                             dot(line_.tangents[i - 1], line_.tangents[i]));
+      if (i > 0) turned += core::angle_between(line_.tangents[i - 1], line_.tangents[i]);
       if (i < n / 3 || away < std::min(4 * near_, 0.2 * line_.length)) continue;
       const double laps = turned / (2 * M_PI);
       if (std::abs(laps - std::round(laps)) > 0.2 || std::abs(laps) > 1.3) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/core/polygon.h"
+#include "keyline/core/quantile.h"
 #include "keyline/sketch/polyline_tools.h"
 #include "keyline/sketch/whittaker.h"
 
@@ -17,11 +18,6 @@ using core::Vector2;
 
 constexpr double kStep = 0.25;        ///< of a profile, pixels
 constexpr double kGuessWeight = 0.1;  ///< of a guessed place, where a measured one has 1
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
 
 /// Index clamped, or wrapped round.
 std::size_t neighbour(std::size_t i, long step, std::size_t n, bool closed) {
@@ -49,7 +45,7 @@ std::vector<double> usual_radii(const RawStroke& raw) {
     const std::size_t high = std::min(n, start + kBlock + 16);
     scratch.assign(raw.radii.begin() + static_cast<long>(low),
                    raw.radii.begin() + static_cast<long>(high));
-    const double m = median(scratch);
+    const double m = core::quantile(scratch);
     for (std::size_t i = start; i < std::min(n, start + kBlock); ++i) usual[i] = m;
   }
   return usual;
@@ -192,7 +188,7 @@ void Refiner::trim_end(std::vector<Point2>& points, std::vector<double>& widths,
 FineStroke Refiner::refine(const RawStroke& raw) const {
   const std::size_t n = raw.points.size();
   const std::vector<double> usual = usual_radii(raw);
-  const double half = median(usual);
+  const double half = core::quantile(usual);
   std::vector<double> weights(n, 1);
   std::vector<Point2> centres = raw.points;
   std::vector<double> widths(usual);
@@ -228,7 +224,7 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
   fine.closed = raw.closed;
   fine.free_start = raw.free_start;
   fine.free_end = raw.free_end;
-  fine.width = median(widths);
+  fine.width = core::quantile(widths);
   if (raw.free_end) trim_end(line, widths, 0.5 * fine.width);
   if (raw.free_start) {
     std::reverse(line.begin(), line.end());

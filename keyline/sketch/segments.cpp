@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "keyline/core/angle.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -28,8 +30,6 @@ Vector2 direction(const Line& line, long from, long to) {
   return principal_axis(part, 0, part.size() - 1).direction;
 }
 
-double signed_turn(Vector2 a, Vector2 b) { return std::atan2(cross(a, b), core::dot(a, b)); }
-
 struct Arms {
   long gap;
   long arm;
@@ -44,15 +44,15 @@ Arms arms_of(const SegmentOptions& options) {
 double sharpness(const Line& line, long i, const Arms& a) {
   const Vector2 before = direction(line, i - a.arm, i - a.gap);
   const Vector2 after = direction(line, i + a.gap, i + a.arm);
-  const double turn = signed_turn(before, after);
+  const double turn = core::angle_between(before, after);
   const long middle = (a.arm + a.gap) / 2;
   const double half = 0.5 * static_cast<double>(a.arm - a.gap);
-  const double bend_before =
-      signed_turn(direction(line, i - a.arm, i - middle), direction(line, i - middle, i - a.gap)) /
-      half;
-  const double bend_after =
-      signed_turn(direction(line, i + a.gap, i + middle), direction(line, i + middle, i + a.arm)) /
-      half;
+  const double bend_before = core::angle_between(direction(line, i - a.arm, i - middle),
+                                                 direction(line, i - middle, i - a.gap)) /
+                             half;
+  const double bend_after = core::angle_between(direction(line, i + a.gap, i + middle),
+                                                direction(line, i + middle, i + a.arm)) /
+                            half;
   const double smooth = 0.5 * (bend_before + bend_after) * static_cast<double>(a.arm + a.gap);
   if (turn * smooth <= 0) return std::abs(turn);
   return std::max(0.0, std::abs(turn) - std::abs(smooth));
@@ -156,7 +156,7 @@ std::vector<std::size_t> find_corners(const std::vector<Point2>& points, bool cl
     // a quick look first: most places are nearly straight
     const Vector2 u = line.at(i) - line.at(i - arms.arm);
     const Vector2 v = line.at(i + arms.arm) - line.at(i);
-    if (std::abs(signed_turn(u, v)) < 0.6 * options.corner_angle) continue;
+    if (std::abs(core::angle_between(u, v)) < 0.6 * options.corner_angle) continue;
     sharp[static_cast<std::size_t>(i)] = sharpness(line, i, arms);
   }
   for (long i = 0; i < n; ++i) {

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include "keyline/core/quantile.h"
 #include "keyline/sketch/align_strokes.h"
 
 namespace keyline::sketch {
@@ -129,9 +130,7 @@ class Layer {
         starts.push_back(from -
                          sense(fresh) * step_of(fresh) * static_cast<double>(forward ? l.j : l.i));
       }
-      const auto middle = starts.begin() + static_cast<long>(starts.size() / 2);
-      std::nth_element(starts.begin(), middle, starts.end());
-      place(fresh, 0, *middle);
+      place(fresh, 0, core::quantile(std::move(starts)));
     }
   }
 
@@ -327,13 +326,8 @@ void cut_ends(Strip& strip, double near) {
     if (low <= strip.first + near) starts.push_back(low);
     if (high >= strip.last - near) ends.push_back(high);
   }
-  const auto middle = [](std::vector<double>& v) {
-    const auto at = v.begin() + static_cast<long>(v.size() / 2);
-    std::nth_element(v.begin(), at, v.end());
-    return *at;
-  };
-  const double first = middle(starts);
-  const double last = middle(ends);
+  const double first = core::quantile(std::move(starts));
+  const double last = core::quantile(std::move(ends));
   if (last - first < 0.5 * (strip.last - strip.first)) return;
   strip.first = first;
   strip.last = last;

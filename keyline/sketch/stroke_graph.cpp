@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::sketch {
 namespace {
@@ -238,9 +239,7 @@ double half_width_beside(StrokeGraph& g, const GraphNode& node, int edge) {
   double widest = 0;
   for (const int i : node.edges) {
     if (i == edge) continue;
-    std::vector<float> r = edge_at(g, i).radii;
-    std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
-    widest = std::max<double>(widest, r[r.size() / 2]);
+    widest = std::max<double>(widest, core::quantile(edge_at(g, i).radii));
   }
   return widest;
 }

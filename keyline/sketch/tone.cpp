@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "keyline/core/quantile.h"
 #include "keyline/sketch/background.h"
 
 namespace keyline::sketch {
@@ -85,9 +86,7 @@ double noise_at_lag(const Gray& level, int lag) {
   const std::size_t step = std::max<std::size_t>(1, level.data.size() / 100000);
   for (std::size_t i = 0; i + static_cast<std::size_t>(lag) < level.data.size(); i += step)
     sample.push_back(std::abs(level.data[i] - level.data[i + static_cast<std::size_t>(lag)]));
-  const auto middle = sample.begin() + static_cast<long>(sample.size() / 2);
-  std::nth_element(sample.begin(), middle, sample.end());
-  return *middle / (0.6745 * std::sqrt(2.0)) / Tone::kWhite;
+  return core::quantile(std::move(sample)) / (0.6745 * std::sqrt(2.0)) / Tone::kWhite;
 }
 
 double noise_of(const Gray& level) {

@@ -5,13 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/disjoint_sets.h"
 #include "keyline/core/error.h"
 #include "keyline/core/polygon.h"
 #include "keyline/core/pose.h"
 #include "keyline/core/progress.h"
+#include "keyline/core/quantile.h"
 #include "keyline/core/similarity.h"
 #include "keyline/core/text.h"
-#include "keyline/core/tolerance.h"
 
 namespace keyline::core {
 namespace {
@@ -87,9 +88,21 @@ TEST(Text, NumbersAreShort) {
   EXPECT_EQ(number_text(-std::numeric_limits<double>::max(), 99), "-1.7976931348623157e+308");
 }
 
-TEST(Tolerance, LargerOfAbsoluteAndRelative) {
-  EXPECT_TRUE(is_close(100, 101, {0, 0.02}));
-  EXPECT_FALSE(is_close(100, 101, {0.5, 0}));
+TEST(DisjointSets, JoinedThingsShareAMember) {
+  DisjointSets sets(5);
+  EXPECT_TRUE(sets.join(0, 1));
+  EXPECT_TRUE(sets.join(1, 2));
+  EXPECT_FALSE(sets.join(0, 2));
+  EXPECT_EQ(sets.find(0), 2U);  // the set joined into gives the member
+  EXPECT_EQ(sets.find(1), 2U);
+  EXPECT_EQ(sets.find(3), 3U);
+}
+
+TEST(Quantile, IsTheValueSoManyStayBelow) {
+  EXPECT_EQ(quantile(std::vector<int>{5, 1, 4, 2, 3}), 3);
+  EXPECT_EQ(quantile(std::vector<double>{4, 1, 3, 2}), 3);  // the upper of the two in the middle
+  EXPECT_EQ(quantile(std::vector<double>{4, 1, 3, 2}, 1, 4), 2);
+  EXPECT_EQ(quantile(std::vector<double>{}), 0);
 }
 
 }  // namespace

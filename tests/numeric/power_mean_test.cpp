@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <gtest/gtest.h>
 
 #include "keyline/numeric/quadrature.h"
@@ -60,7 +61,8 @@ TEST(PowerMeanIntegral, AgreesWithQuadrature) {
     for (const double b : {0.6, 0.9999999, 1.0000001, 2.0}) {
       for (const double u : {0.1, 0.5, 1.0}) {
         const auto f = [&](double v) { return power_mean(1, b, p, v); };
-        const double expected = integrate_adaptive(f, 0, u, 1e-13).value;
+        const double expected =
+            boost::math::quadrature::gauss_kronrod<double, 15>::integrate(f, 0.0, u, 15, 1e-13);
         EXPECT_NEAR(power_mean_integral(1, b, p, u), expected, 2e-14 * expected) << p << ' ' << b;
       }
     }
