@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <set>
 #include <sstream>
 
 #include <sys/wait.h>
 
 #include <nlohmann/json.hpp>
+
+#include "keyline/operations/operation.h"
 
 #include "run_keyline.h"
 
@@ -22,6 +26,56 @@ TEST(Commands, HelpAndVersion) {
     EXPECT_NE(o.out.find("Example: "), std::string::npos) << name;
     EXPECT_EQ(run_keyline(std::string(name) + " --version").out, "keyline 0.1.0\n") << name;
   }
+}
+
+/// What a field of an operation is called, in the help, in completion, and as an option.
+TEST(Commands, EveryFieldOfWhatTheyPerformIsAnOption) {
+  const std::set<std::string_view> from_files{"curve", "points",  "line",     "weights",
+                                              "file",  "surface", "surfaces", "curves"};
+  const std::string completion = run_keyline("completion bash").out;
+  const auto line_of = [&](const std::string& name) {
+    const std::size_t at = completion.find("    " + name + ") ");
+    return at == std::string::npos ? "" : completion.substr(at, completion.find('\n', at) - at);
+  };
+  for (const auto& [command, operation] : {std::pair{"fair", "fair"},
+                                           {"analyze", "curve.analyze"},
+                                           {"edit", "surface.edit_together"},
+                                           {"offset", "curve.offset"},
+                                           {"trim", "curve.trim"},
+                                           {"lac.spline", "lac.spline"}}) {
+    const std::string help = run_keyline(std::string(command) + " --help").out;
+    const std::string words = line_of(command) + " ";
+    const auto& declared = *operations::find_operation(operation);
+    int fields = 0;
+    core::visit_fields(*declared.request, declared.request->make().get(),
+                       [&](const core::Field& field, const void*) {
+                         if (from_files.contains(field.name)) return;
+                         std::string name(field.name);
+                         std::ranges::replace(name, '_', '-');
+                         const bool flag = help.find("--[no-]" + name) != std::string::npos;
+                         EXPECT_TRUE(flag || help.find("--" + name) != std::string::npos)
+                             << command << ' ' << name;
+                         EXPECT_NE(words.find("--" + name), std::string::npos) << words;
+                         ++fields;
+                       });
+    EXPECT_GT(fields, 0) << command;
+  }
+}
+
+TEST(Commands, OptionsAreReadAsPeopleTypeThem) {
+  const std::string fair = "fair --quiet --json ";
+  const std::string scan = example("clothoid.csv");
+  const std::string plain = run_keyline(fair + scan).out;
+  EXPECT_EQ(run_keyline(fair + "--no-keep-corners --keep-corners " + scan).out, plain);
+  EXPECT_EQ(run_keyline("fair " + scan + " --keep-cor yes --quiet --json").out, plain);
+  EXPECT_EQ(run_keyline("fair -- " + scan).status, 0);
+  // numbers are taken up to the file, which is none
+  EXPECT_EQ(run_keyline(fair + "--must-pass 0 5,9 " + scan).status, 0);
+  expect_failure(run_keyline(fair + "--keep yes " + scan), 2, "--keep");  // corners, order, strays
+  expect_failure(run_keyline(fair + "--pieces"), 2, "a value is missing");
+  expect_failure(run_keyline("edit --quiet --keep corners " + example("cubic.json")), 2,
+                 "--keep: this is for surfaces");
+  expect_failure(run_keyline("lac.region word"), 2, "word: this word belongs to no option");
 }
 
 TEST(Convert, DrawsCurvesAndSaysWhereThereAreNone) {
