@@ -53,4 +53,7 @@ std::vector<std::string> tool_options(const Tool& tool);
 int run_plain(const std::string& operation, const Words& words);
 std::vector<std::string> plain_options(const std::string& operation);
 
+/// Becomes the program keyline-studio, which stands beside this one.
+int run_studio(const std::vector<std::string>& arguments);
+
 }  // namespace keyline::app

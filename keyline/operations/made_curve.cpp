@@ -102,6 +102,11 @@ Result<void> add_plane_forms(const document::Path& path, const Forms& forms, Mad
     if (!spline) return std::unexpected(spline.error());
     to.nurbs = BoundedCurve{document::PlanarCurve{std::move(*spline)}, pieces->deviation};
   }
+  if (forms.comb) {
+    auto comb = sampled_comb(path, *forms.comb);
+    if (!comb) return std::unexpected(comb.error());
+    to.comb = std::move(*comb);
+  }
   return {};
 }
 
@@ -133,6 +138,9 @@ Result<void> add_space_forms(const lac::SpaceChain& chain, const Forms& forms, M
 
 Result<void> add_to(MadeCurve& to, const Forms& forms) {
   if (const auto path = planar_path(to.curve)) return add_plane_forms(*path, forms, to);
+  if (forms.comb)
+    return core::fail(ErrorCode::unsupported, "a comb is drawn of planar curves", "leave out comb",
+                      "comb");
   if (const auto* space = std::get_if<document::SpaceCurve>(&to.curve))
     if (const auto* chain = std::get_if<lac::SpaceChain>(&space->value))
       return add_space_forms(*chain, forms, to);
@@ -157,9 +165,7 @@ Result<curve::PiecewiseBezier> bounded_pieces(const document::Path& path, double
   return joined_pieces(path, curve::kMaxBezierDegree, tolerance);
 }
 
-MadeCurve made(document::PlanarCurve curve) {
-  return {std::move(curve), std::nullopt, std::nullopt, std::nullopt};
-}
+MadeCurve made(document::PlanarCurve curve) { return {std::move(curve), {}, {}, {}, {}}; }
 
 bool holds_made_curve(const Type& type) {
   std::vector<const Type*> seen;
@@ -167,7 +173,7 @@ bool holds_made_curve(const Type& type) {
 }
 
 Result<void> add_forms(const Type& type, void* value, const Forms& forms) {
-  if (!forms.samples && !forms.bezier && !forms.nurbs) return {};
+  if (!forms.samples && !forms.bezier && !forms.nurbs && !forms.comb) return {};
   if (&type == &core::type_of<MadeCurve>()) return add_to(*static_cast<MadeCurve*>(value), forms);
   if (!holds_made_curve(type)) return {};
   if (type.kind == Kind::optional) {

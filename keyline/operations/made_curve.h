@@ -4,6 +4,7 @@
 
 #include "keyline/core/describe.h"
 #include "keyline/curve/piecewise_bezier.h"
+#include "keyline/operations/sampled_comb.h"
 #include "keyline/operations/values.h"
 
 /// Curves in results, and the further forms of them a request may ask for.
@@ -27,12 +28,14 @@ struct Forms {
   std::optional<int> samples;
   std::optional<Form> bezier;
   std::optional<Form> nurbs;
+  std::optional<CombForm> comb;
   static constexpr auto describe() {
     return core::fields(
         core::field<&Forms::samples>("adds the curve as a polyline of so many points")
             .within(core::from_to(2, 10'000'000)),
         core::field<&Forms::bezier>("adds the curve as Beziers, with the deviation they meet"),
-        core::field<&Forms::nurbs>("adds the curve as a B-spline, with the deviation it meets"));
+        core::field<&Forms::nurbs>("adds the curve as a B-spline, with the deviation it meets"),
+        core::field<&Forms::comb>("adds what a comb and the graphs of curvature are drawn from"));
   }
 };
 
@@ -43,12 +46,14 @@ struct MadeCurve {
   std::optional<AnyCurve> polyline;
   std::optional<BoundedCurve> bezier;
   std::optional<BoundedCurve> nurbs;
+  std::optional<SampledComb> comb;
   static constexpr auto describe() {
     return core::fields(
         core::field<&MadeCurve::curve>("the curve, exact").needed(),
         core::field<&MadeCurve::polyline>("points evenly spaced along it, where asked for"),
         core::field<&MadeCurve::bezier>("Beziers within the tolerance, where asked for"),
-        core::field<&MadeCurve::nurbs>("a B-spline within the tolerance, where asked for"));
+        core::field<&MadeCurve::nurbs>("a B-spline within the tolerance, where asked for"),
+        core::field<&MadeCurve::comb>("places along it with their curvature, where asked for"));
   }
 };
 

@@ -133,12 +133,14 @@ json answer(const json& request, const Context& context) {
   return {{"id", id}, {"ok", true}, {"result", std::move(*result)}};
 }
 
+Result<json> parse_request(std::string_view text) { return exchange::parse_json(text); }
+
 std::string answer_line(const std::string& line, const Context& context) {
   return answer_line(line, context, json::object());
 }
 
 std::string answer_line(const std::string& line, const Context& context, const json& defaults) {
-  auto request = exchange::parse_json(line);
+  auto request = parse_request(line);
   if (!request)
     return text_of(failed(nullptr, {ErrorCode::bad_input, request.error().message,
                                     "give one JSON object per line", ""}));

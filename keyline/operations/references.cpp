@@ -44,7 +44,21 @@ std::string quoted_words(const Type& type, const char* separator) {
 /// The records reachable from a type, each once, inner ones first.
 class Records {
  public:
+  /// An operation's own request or result goes by the operation's name.
+  void add_own(const Type& type) {
+    own_.insert(&type);
+    walk(type);
+  }
   void add(const Type& type) {
+    held_.insert(&type);
+    walk(type);
+  }
+  /// Whether it needs a name of its own: nothing else is called after it, or others hold it too.
+  bool needs_name(const Type& type) const { return !own_.contains(&type) || held_.contains(&type); }
+  std::vector<const Type*> all;
+
+ private:
+  void walk(const Type& type) {
     if (!seen_.insert(&type).second) return;
     if (type.item) add(type.item());
     for (std::size_t i = 0; i < type.alternative_count; ++i) add(type.alternatives[i]());
@@ -53,10 +67,10 @@ class Records {
                        [this](const Field& field, void*) { add(field.type()); });
     all.push_back(&type);
   }
-  std::vector<const Type*> all;
 
- private:
   std::set<const Type*> seen_;
+  std::set<const Type*> own_;
+  std::set<const Type*> held_;
 };
 
 /// One language: how it writes types and records.
@@ -175,16 +189,14 @@ std::string all_records(const Language& language) {
   Records records;
   std::string text;
   for (const Operation& operation : operations()) {
-    records.add(*operation.request);
-    records.add(*operation.result);
+    records.add_own(*operation.request);
+    records.add_own(*operation.result);
     records.add(core::type_of<Forms>());
   }
   for (const Type* type : records.all) {
     const auto owner = type->make();
-    const bool own = std::any_of(operations().begin(), operations().end(), [&](const Operation& o) {
-      return o.request == type || o.result == type;
-    });
-    if (!own) text += language.record(std::string(type->name), {{type, owner.get()}});
+    if (records.needs_name(*type))
+      text += language.record(std::string(type->name), {{type, owner.get()}});
   }
   for (const Operation& operation : operations()) {
     const std::string name = upper_words(operation.name);
@@ -278,7 +290,7 @@ json openapi_document() {
     const auto content = [](json schema) {
       return json{{"application/json", {{"schema", std::move(schema)}}}};
     };
-    paths["/api/" + operation.name]["post"] = {
+    paths["/api/v1/" + operation.name]["post"] = {
         {"operationId", operation.name},
         {"summary", operation.summary},
         {"requestBody",

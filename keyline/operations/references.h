@@ -15,7 +15,7 @@ std::string typescript_types();
 /// A module of TypedDicts and one function per operation: the signatures of the Python package.
 std::string python_stubs();
 
-/// OpenAPI 3.1: POST /api/NAME takes a request without "op" and gives the answer with "ok".
+/// OpenAPI 3.1: POST /api/v1/NAME takes a request without "op" and gives the answer with "ok".
 nlohmann::json openapi_document();
 
 /// The reference page of an operation: fields with kinds, units, ranges and defaults, examples.

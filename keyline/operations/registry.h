@@ -16,6 +16,7 @@ Operation curve_join_operation();
 Operation curve_mirror_operation();
 Operation curve_offset_operation();
 Operation curve_reverse_operation();
+Operation curve_show_operation();
 Operation curve_split_operation();
 Operation curve_trim_operation();
 Operation document_convert_operation();

@@ -1,0 +1,25 @@
+#include <filesystem>
+#include <vector>
+
+#include <unistd.h>
+
+#include "commands.h"
+#include "terminal.h"
+
+namespace keyline::app {
+
+int run_studio(const std::vector<std::string>& arguments) {
+  std::error_code failed;
+  const auto here = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+  const std::string program = here / "keyline-studio";
+  std::vector<std::string> words{program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::execv(program.c_str(), pointers.data());
+  return report_failure({core::ErrorCode::unsupported, "Keyline Studio is not installed",
+                         "build it with KEYLINE_STUDIO=ON, beside keyline", program});
+}
+
+}  // namespace keyline::app

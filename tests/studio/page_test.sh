@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# page_test.sh types|units|browser KEYLINE WEB: one part of the page's tests.
+# 77, with the reason, where what it needs cannot be had: npm's packages, a browser.
+set -euo pipefail
+part=$1 keyline=$2 web=$3
+
+skip() {
+  printf 'skipped: %s\n' "$1"
+  exit 77
+}
+
+command -v node >/dev/null || skip "node is not installed; ./dev test installs it"
+[ -d "$web/node_modules/esbuild" ] || skip "web/node_modules is not there; ./dev test installs it"
+cd "$web"
+mkdir -p generated
+# The same text again must not look new to whoever reads it at the same time.
+"$keyline" operations --format typescript >"generated/operations.ts.$$"
+cmp -s "generated/operations.ts.$$" generated/operations.ts && rm "generated/operations.ts.$$" ||
+  mv "generated/operations.ts.$$" generated/operations.ts
+case $part in
+  types) exec node node_modules/typescript/bin/tsc --noEmit ;;
+  units) exec node node_modules/vitest/vitest.mjs run --dir test/unit ;;
+  browser)
+    browser=${KEYLINE_CHROMIUM:-$(command -v chromium || true)}
+    [ -n "$browser" ] || skip "chromium is not installed; ./dev test installs it"
+    KEYLINE=$keyline KEYLINE_CHROMIUM=$browser \
+      exec node node_modules/vitest/vitest.mjs run --dir test/browser
+    ;;
+esac

@@ -1,0 +1,362 @@
+"""server_test.py KEYLINE SOURCE: Keyline Studio's server as seen from outside."""
+import concurrent.futures
+import http.client
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+KEYLINE, SOURCE = sys.argv[1], sys.argv[2]
+TOKEN = "0123456789abcdef"
+SEGMENT = {"points": [[0, 0], [2, 0], [3, 1.5]], "alpha": -1}
+
+
+class Server:
+    def __init__(self, *arguments, folder=SOURCE):
+        self.state = tempfile.TemporaryDirectory()
+        page = os.path.join(self.state.name, "page")
+        os.mkdir(page)
+        with open(os.path.join(page, "index.html"), "w") as f:
+            f.write("<!doctype html><title>page</title>")
+        environment = dict(os.environ, XDG_STATE_HOME=self.state.name, KEYLINE_STUDIO_PAGE=page)
+        self.log = open(os.path.join(self.state.name, "log"), "w+")
+        self.process = subprocess.Popen(
+            [KEYLINE, "studio", "--no-browser", "--token", TOKEN, *arguments], cwd=folder,
+            stdout=subprocess.PIPE, stderr=self.log, text=True, env=environment)
+        self.url = self.process.stdout.readline().split()[-1]
+        self.port = int(self.url.split(":")[2].split("/")[0])
+
+    def connection(self):
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+
+    def ask(self, method, path, body=None, connection=None, **headers):
+        c = connection or self.connection()
+        headers = {"Authorization": "Bearer " + TOKEN, "Content-Type": "application/json",
+                   **{k.replace("_", "-"): v for k, v in headers.items()}}
+        c.request(method, path, body if body is None or isinstance(body, (bytes, str))
+                  else json.dumps(body), {k: v for k, v in headers.items() if v is not None})
+        reply = c.getresponse()
+        body = reply.read()
+        if connection is None:
+            c.close()
+        return reply.status, body, reply
+
+    def raw(self, data, wait=5.0):
+        with socket.create_connection(("127.0.0.1", self.port), timeout=wait) as s:
+            s.sendall(data)
+            s.shutdown(socket.SHUT_WR)
+            received = b""
+            try:
+                while chunk := s.recv(65536):
+                    received += chunk
+            except (ConnectionResetError, socket.timeout):
+                pass
+            return received
+
+    def memory(self):
+        with open(f"/proc/{self.process.pid}/status") as f:
+            return next(int(line.split()[1]) for line in f if line.startswith("VmRSS"))
+
+    def busy(self):
+        with open(f"/proc/{self.process.pid}/stat") as f:
+            fields = f.read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def logged(self):
+        self.log.flush()
+        with open(self.log.name) as f:
+            return f.read()
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+        status = self.process.wait(timeout=20)
+        self.process.stdout.close()
+        self.log.close()
+        self.state.cleanup()
+        return status
+
+
+class StudioServer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server()
+
+    @classmethod
+    def tearDownClass(cls):
+        assert cls.server.stop() == 0
+
+    def ask(self, *arguments, **headers):
+        return self.server.ask(*arguments, **headers)
+
+    def well(self):
+        status, body, _ = self.ask("POST", "/api/v1/lac.segment", SEGMENT)
+        self.assertEqual(status, 200)
+        self.assertTrue(json.loads(body)["ok"])
+
+    def test_answers_as_the_command_line_does(self):
+        lines = [{"op": "lac.segment", **SEGMENT},
+                 {"op": "lac.region", "theta": 1, "alpha": -1},
+                 {"op": "lac.segment", "points": [[0, 0], [1, 0], [-5, 0.1]], "alpha": 1},
+                 {"op": "lac.segment", "points": [[0, 0]], "alpha": 1}]
+        batch = subprocess.run([KEYLINE, "batch", "--quiet"], capture_output=True, text=True,
+                               input="".join(json.dumps(line) + "\n" for line in lines))
+        for line, answer in zip(lines, batch.stdout.splitlines()):
+            request = {k: v for k, v in line.items() if k != "op"}
+            _, body, _ = self.ask("POST", "/api/v1/" + line["op"], request)
+            want = json.loads(answer)
+            del want["id"]
+            self.assertEqual(json.dumps(json.loads(body), sort_keys=True),
+                             json.dumps(want, sort_keys=True))
+
+    def test_lists_what_can_be_asked(self):
+        status, body, _ = self.ask("GET", "/api/v1/operations")
+        names = [o["name"] for o in json.loads(body)["operations"]]
+        self.assertEqual(status, 200)
+        self.assertIn("fair", names)
+        status, body, _ = self.ask("GET", "/api/v1/openapi.json")
+        self.assertIn("/api/v1/fair", json.loads(body)["paths"])
+
+    def test_tells_how_far_long_work_is(self):
+        points = [[i / 10, (i / 10) ** 2 / 5] for i in range(30)]
+        _, body, reply = self.ask("POST", "/api/v1/fair", {"points": points},
+                                  Accept="text/event-stream")
+        self.assertEqual(reply.getheader("Content-Type"), "text/event-stream")
+        events = [e.split("\n") for e in body.decode().strip().split("\n\n")]
+        names = [e[0] for e in events]
+        self.assertGreater(names.count("event: progress"), 1)
+        self.assertEqual(names[-1], "event: answer")
+        self.assertTrue(json.loads(events[-1][1].removeprefix("data: "))["ok"])
+
+    def long_work(self):
+        import random
+        dice = random.Random(3)
+        return {"points": [[i, 8 * ((i * 7919) % 13) / 13 + dice.random()] for i in range(900)],
+                "tolerance": 0.01, "trials": 1000, "keep_order": True}
+
+    def test_ends_work_that_is_cancelled_and_drags_meanwhile(self):
+        answer = {}
+
+        def work():
+            began = time.time()
+            answer["status"], answer["body"], _ = self.ask(
+                "POST", "/api/v1/fair", self.long_work(), Keyline_Job="mine")
+            answer["seconds"] = time.time() - began
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        self.addCleanup(lambda: self.ask("POST", "/api/v1/cancel", {"job": "mine"}))
+        time.sleep(1)
+        connection = self.server.connection()
+        waits = []
+        for _ in range(100):
+            began = time.time()
+            self.server.ask("POST", "/api/v1/lac.segment", SEGMENT, connection=connection)
+            waits.append(time.time() - began)
+        connection.close()
+        _, body, _ = self.ask("POST", "/api/v1/cancel", {"job": "mine"})
+        self.assertTrue(json.loads(body)["found"])
+        thread.join(20)
+        self.assertFalse(thread.is_alive())
+        self.assertLess(sorted(waits)[94], 0.05)
+        answered = json.loads(answer["body"])
+        self.assertTrue(answered.get("result", {}).get("cancelled")
+                        or answered["error"]["code"] == "cancelled", answer["body"][:300])
+
+    def test_ends_work_nobody_waits_for(self):
+        with socket.create_connection(("127.0.0.1", self.server.port)) as s:
+            body = json.dumps(self.long_work())
+            s.sendall((f"POST /api/v1/fair HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n"
+                       f"Authorization: Bearer {TOKEN}\r\nContent-Type: application/json\r\n"
+                       f"Content-Length: {len(body)}\r\nKeyline-Job: left\r\n\r\n{body}").encode())
+            time.sleep(0.5)
+        for _ in range(100):  # until it uses no more time
+            before = self.server.busy()
+            time.sleep(0.2)
+            if self.server.busy() - before < 0.02:
+                return
+        self.fail("the work goes on")
+
+    def test_reads_files_of_its_folder_alone(self):
+        status, body, _ = self.ask("POST", "/api/v1/document.read", {"file": "examples/cubic.json"})
+        self.assertEqual(status, 200, body)
+        for name in ("/etc/passwd", "../../etc/passwd", "examples/../../x", "/proc/self/environ"):
+            status, body, _ = self.ask("POST", "/api/v1/document.read", {"file": name})
+            self.assertEqual(status, 400, name)
+            self.assertIn("outside", json.loads(body)["error"]["message"])
+        for path in ("/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/..%2f..%2fetc/passwd",
+                     "//etc/passwd", "/index.html/../../etc/passwd", "/\\..\\etc"):
+            status, body, _ = self.ask("GET", path)
+            self.assertEqual(status, 404, path)
+            self.assertNotIn(b"root:", body)
+
+    def test_takes_a_file_that_is_dropped(self):
+        with open(os.path.join(SOURCE, "examples/cubic.json"), "rb") as f:
+            content = f.read()
+        _, body, _ = self.ask("POST", "/api/v1/studio/upload?name=..%2Fa%20b.json", content)
+        file = json.loads(body)["file"]
+        self.assertTrue(file.endswith("/a b.json"))
+        status, body, _ = self.ask("POST", "/api/v1/document.read", {"file": file})
+        self.assertEqual(len(json.loads(body)["result"]["curves"]), 1)
+
+    def test_exports_what_reads_back(self):
+        _, body, _ = self.ask("POST", "/api/v1/lac.segment", SEGMENT)
+        curve = json.loads(body)["result"]["curve"]
+        for form in ("json", "svg", "dxf", "step", "iges", "csv"):
+            status, body, reply = self.ask("POST", "/api/v1/studio/export", {
+                "file": "x." + form, "unit": "mm", "curves": [{"name": "a", "curve": curve}]})
+            if status == 400 and form in ("step", "iges"):
+                continue  # built without
+            self.assertEqual(status, 200, body)
+            self.assertGreaterEqual(float(reply.getheader("Keyline-Deviation")), 0)
+            _, kept, _ = self.ask("POST", f"/api/v1/studio/upload?name=x.{form}", body)
+            status, body, _ = self.ask("POST", "/api/v1/document.read",
+                                       {"file": json.loads(kept)["file"]})
+            self.assertEqual(status, 200, body)
+            self.assertEqual(len(json.loads(body)["result"]["curves"]), 1, form)
+
+    def test_refuses_who_may_not_ask(self):
+        refused = [
+            ({"Host": "evil.example"}, 421), ({"Origin": "http://evil.example"}, 403),
+            ({"Sec_Fetch_Site": "cross-site"}, 403), ({"Authorization": None}, 401),
+            ({"Authorization": "Bearer 0123456789abcdee"}, 401)]
+        for headers, want in refused:
+            status, _, _ = self.ask("POST", "/api/v1/lac.segment", SEGMENT, **headers)
+            self.assertEqual(status, want, headers)
+        status, _, _ = self.ask("OPTIONS", "/api/v1/lac.segment", Origin="http://evil.example")
+        self.assertEqual(status, 403)
+        status, _, _ = self.ask("POST", "/api/v1/lac.segment", SEGMENT, Content_Type="text/plain")
+        self.assertEqual(status, 400)
+        log = self.server.logged()
+        for reason in ("evil.example", "another site", "token"):
+            self.assertIn(reason, log)
+        self.well()
+
+    def test_survives_what_is_no_request(self):
+        host = f"Host: 127.0.0.1:{self.server.port}\r\nAuthorization: Bearer {TOKEN}\r\n"
+        head = "POST /api/v1/lac.segment HTTP/1.1\r\n" + host
+        for data in (b"\x00\x01\x02\x03\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n",
+                     (head + "Content-Length: -5\r\n\r\n").encode(),
+                     (head + "Content-Length: 99999999999999999999\r\n\r\n").encode(),
+                     (head + "Transfer-Encoding: chunked\r\n\r\nZZ\r\n").encode(),
+                     (head + "X: " + "a" * 100000 + "\r\n\r\n").encode(),
+                     b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n"):
+            reply = self.server.raw(data)
+            self.assertRegex(reply[:13], rb"^(HTTP/1.1 4..|)", data[:60])
+        status, _, _ = self.ask("POST", "/api/v1/lac.segment", b"[" * 100000)
+        self.assertEqual(status, 400)
+        status, _, _ = self.ask("POST", "/api/v1/lac.segment", b'{"points":')
+        self.assertEqual(status, 400)
+        self.well()
+
+    def test_refuses_bodies_that_are_too_large(self):
+        head = (f"POST /api/v1/lac.segment HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n"
+                f"Authorization: Bearer {TOKEN}\r\nContent-Type: application/json\r\n"
+                f"Content-Length: {80 << 20}\r\n\r\n").encode()
+        self.assertIn(b" 413 ", self.server.raw(head + b"x" * 1000)[:40])
+        self.well()
+
+    def test_is_unharmed_by_slow_clients(self):
+        slow = [socket.create_connection(("127.0.0.1", self.server.port)) for _ in range(300)]
+        for s in slow:
+            s.sendall(b"POST /api/v1/lac.segment HTTP/1.1\r\nHost: 127")
+        began = time.time()
+        for _ in range(20):
+            self.well()
+        self.assertLess(time.time() - began, 5)
+        for s in slow:
+            s.close()
+
+    def test_keeps_the_work(self):
+        text = json.dumps({"format": "keyline-studio", "x": "\u00e4"})
+        self.assertEqual(self.ask("POST", "/api/v1/studio/recovery", text)[0], 200)
+        self.assertEqual(self.ask("GET", "/api/v1/studio/recovery")[1].decode(), text)
+
+    def test_page_has_a_strict_policy(self):
+        status, body, reply = self.ask("GET", "/", Authorization=None)
+        self.assertEqual(status, 200)
+        self.assertIn(b"page", body)
+        policy = reply.getheader("Content-Security-Policy")
+        self.assertIn("default-src 'none'", policy)
+        self.assertNotIn("unsafe", policy)
+
+    def test_zz_bears_a_crowd(self):
+        """100 clients of many requests each: none lost, memory flat."""
+        clients, requests = 100, 1000 if os.environ.get("KEYLINE_FULL") else 60
+
+        def client(number):
+            connection, waits = self.server.connection(), []
+            for i in range(requests):
+                asked = dict(SEGMENT, alpha=-1 + (number + i) % 5 / 10)
+                began = time.time()
+                status, body, _ = self.server.ask("POST", "/api/v1/lac.segment", asked,
+                                                  connection=connection)
+                waits.append(time.time() - began)
+                if status != 200 or not json.loads(body)["ok"]:
+                    return None
+            connection.close()
+            return waits
+
+        def crowd():
+            with concurrent.futures.ThreadPoolExecutor(clients) as pool:
+                return list(pool.map(client, range(clients)))
+
+        crowd()
+        before = self.server.memory()
+        answered = crowd()
+        self.assertNotIn(None, answered)
+        waits = sorted(w for list_ in answered for w in list_)
+        after = self.server.memory()
+        print(f"{len(waits)} requests of {clients} clients: p50 {1e3 * waits[len(waits) // 2]:.1f} "
+              f"ms, p99 {1e3 * waits[len(waits) * 99 // 100]:.1f} ms, memory {before} -> {after} kB",
+              file=sys.stderr)
+        self.assertLess(after, before + 20000)
+
+
+class StudioStart(unittest.TestCase):
+    def refused(self, *arguments):
+        r = subprocess.run([KEYLINE, "studio", "--no-browser", *arguments], capture_output=True,
+                           text=True, timeout=20)
+        self.assertTrue(r.stderr.startswith("keyline: "), r.stderr)
+        self.assertEqual(r.stderr.count("\n"), 1)
+        return r.returncode
+
+    def test_refuses_what_cannot_be(self):
+        self.assertEqual(self.refused("no-such-file.csv"), 3)
+        self.assertEqual(self.refused("--listen", "0.0.0.0"), 2)
+        self.assertEqual(self.refused("--token", "short"), 2)
+        self.assertEqual(self.refused("--no-such-option"), 2)
+
+    def test_a_team_reaches_it_by_its_name(self):
+        server = Server("--listen", "127.0.0.1", "--host", "keyline.example")
+        try:
+            status, _, _ = server.ask("GET", "/api/v1/operations", Host="keyline.example")
+            self.assertEqual(status, 200)
+        finally:
+            self.assertEqual(server.stop(), 0)
+
+    def test_ends_when_told_even_at_work(self):
+        server = Server()
+        body = json.dumps({"points": [[i, (i * 7919) % 13] for i in range(600)], "trials": 1000})
+        threading.Thread(target=lambda: self.try_ask(server, body), daemon=True).start()
+        time.sleep(0.7)
+        began = time.time()
+        self.assertEqual(server.stop(), 0)
+        self.assertLess(time.time() - began, 10)
+
+    @staticmethod
+    def try_ask(server, body):
+        try:
+            server.ask("POST", "/api/v1/fair", body)
+        except (ConnectionError, http.client.HTTPException):
+            pass
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)

@@ -1,0 +1,205 @@
+/** The canvas: what the pointer does goes to the gesture, what it shows comes from the scene. */
+import type { Gesture, Pointer, Table } from "../gestures/gesture.ts";
+import { gestureFor } from "../gestures/draw.ts";
+import { handleAt } from "../gestures/pick.ts";
+import { type Comb, type Point } from "../model/document.ts";
+import type { ToolName } from "../model/state.ts";
+import { h } from "../ui/dom.ts";
+import { gridStep } from "./grid.ts";
+import { Latency } from "./latency.ts";
+import { paintScene } from "./scene.ts";
+
+export class Canvas {
+  readonly element: HTMLCanvasElement;
+  readonly latency = new Latency();
+  private readonly pen: CanvasRenderingContext2D;
+  private gesture: Gesture;
+  private tool: ToolName = "select";
+  private cursor: Pointer | null = null;
+  private readonly touches = new Map<number, Point>();
+  private scheduled = false;
+  private readonly images = new Map<string, HTMLImageElement>();
+  onStatus: () => void = () => {};
+  onPaint: () => void = () => {};
+  /** before the first size is known nothing can be fitted */
+  onReady: () => void = () => {};
+
+  constructor(private readonly table: Table, private readonly before: (id: number) => Comb | undefined) {
+    this.element = h("canvas", {
+      class: "board", tabindex: 0, role: "application",
+      "aria-label": "Drawing board. Arrow keys pan, plus and minus zoom, F fits; Tab from here reaches the panels.",
+    });
+    this.pen = this.element.getContext("2d", { alpha: false, desynchronized: true }) as CanvasRenderingContext2D;
+    this.gesture = gestureFor(table, "select");
+    this.listen();
+    new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  get hint(): string {
+    return this.gesture.hint ?? "";
+  }
+
+  get place(): Point | null {
+    return this.cursor?.place ?? null;
+  }
+
+  useTool(tool: ToolName): void {
+    if (tool === this.tool) return;
+    this.tool = tool;
+    this.gesture = gestureFor(this.table, tool);
+    this.after();
+  }
+
+  paint(): void {
+    this.scheduled = false;
+    const { store, live, view } = this.table;
+    const { underlay } = store.state;
+    paintScene(this.pen, {
+      state: store.state, live, view, before: this.before,
+      hot: this.cursor ? handleAt(this.table, this.cursor.at) : null,
+      cursor: this.cursor?.place ?? null,
+      started: this.gesture.started ?? [],
+      underlay: underlay ? this.image(underlay.url) : null,
+    });
+    this.onPaint();
+  }
+
+  schedule(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => this.scheduled && this.paint());
+  }
+
+  /** A key the gesture may know. */
+  key(name: string): boolean {
+    if (name === "Escape") {
+      this.follow(this.gesture.cancel?.() ?? this.gesture);
+      return true;
+    }
+    const next = this.gesture.key?.(name);
+    if (!next) return false;
+    this.follow(next);
+    return true;
+  }
+
+  private image(url: string): HTMLImageElement {
+    let image = this.images.get(url);
+    if (!image) {
+      image = new Image();
+      image.onload = () => this.schedule();
+      image.src = url;
+      this.images.set(url, image);
+    }
+    return image;
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.element;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    const ratio = devicePixelRatio;
+    this.element.width = Math.round(clientWidth * ratio);
+    this.element.height = Math.round(clientHeight * ratio);
+    this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.table.view.width = clientWidth;
+    this.table.view.height = clientHeight;
+    this.onReady();
+    this.paint();
+  }
+
+  private pointer(event: PointerEvent | MouseEvent): Pointer {
+    const box = this.element.getBoundingClientRect();
+    const at: Point = [event.clientX - box.left, event.clientY - box.top];
+    let place = this.table.view.toModel(at);
+    if (this.table.store.state.looks.snap !== event.ctrlKey) {
+      const step = gridStep(this.table.view);
+      place = [Math.round(place[0] / step) * step, Math.round(place[1] / step) * step];
+    }
+    return { at, place, shift: event.shiftKey, alt: event.altKey, button: event.button, time: event.timeStamp };
+  }
+
+  private follow(next: Gesture): void {
+    this.gesture = next;
+    if (this.table.store.state.tool !== this.tool) this.useTool(this.table.store.state.tool);
+    this.after();
+  }
+
+  private after(): void {
+    this.element.style.cursor = this.gesture.cursor ?? "default";
+    this.onStatus();
+    this.schedule();
+  }
+
+  private listen(): void {
+    const on = <K extends keyof HTMLElementEventMap>(name: K, act: (e: HTMLElementEventMap[K]) => void) =>
+      this.element.addEventListener(name, act, { passive: false });
+    on("pointerdown", (e) => this.down(e));
+    on("pointermove", (e) => this.move(e));
+    on("pointerup", (e) => this.up(e));
+    on("pointercancel", (e) => {
+      this.touches.delete(e.pointerId);
+      this.follow(this.gesture.cancel?.() ?? this.gesture);
+    });
+    on("pointerleave", () => {
+      this.cursor = null;
+      this.table.store.set({ hover: null });
+      this.after();
+    });
+    on("dblclick", (e) => this.follow(this.gesture.doubled?.(this.pointer(e)) ?? this.gesture));
+    on("contextmenu", (e) => e.preventDefault());
+    on("wheel", (e) => this.wheel(e));
+  }
+
+  private down(e: PointerEvent): void {
+    this.element.focus({ preventScroll: true });
+    this.element.setPointerCapture(e.pointerId);
+    if (e.pointerType === "touch") {
+      this.touches.set(e.pointerId, [e.clientX, e.clientY]);
+      if (this.touches.size === 2) return this.follow(this.gesture.cancel?.() ?? this.gesture);
+    }
+    this.cursor = this.pointer(e);
+    this.follow(this.gesture.down?.(this.cursor) ?? this.gesture);
+  }
+
+  private move(e: PointerEvent): void {
+    if (e.pointerType === "touch" && this.touches.size === 2) return this.pinch(e);
+    this.cursor = this.pointer(e);
+    this.latency.began(e.timeStamp);
+    this.follow(this.gesture.move?.(this.cursor) ?? this.gesture);
+  }
+
+  private up(e: PointerEvent): void {
+    this.touches.delete(e.pointerId);
+    this.cursor = this.pointer(e);
+    this.follow(this.gesture.up?.(this.cursor) ?? this.gesture);
+    if (e.pointerType === "touch") this.cursor = null;
+  }
+
+  /** Two fingers move, turn nothing and zoom what lies between them. */
+  private pinch(e: PointerEvent): void {
+    const other = [...this.touches].find(([id]) => id !== e.pointerId)?.[1];
+    const last = this.touches.get(e.pointerId);
+    if (!other || !last) return;
+    const now: Point = [e.clientX, e.clientY];
+    const box = this.element.getBoundingClientRect();
+    const middle: Point = [(now[0] + other[0]) / 2 - box.left, (now[1] + other[1]) / 2 - box.top];
+    const apart = (p: Point) => Math.max(10, Math.hypot(p[0] - other[0], p[1] - other[1]));
+    this.table.view.panBy((now[0] - last[0]) / 2, (now[1] - last[1]) / 2);
+    this.table.view.zoomAt(middle, apart(now) / apart(last));
+    this.touches.set(e.pointerId, now);
+    this.schedule();
+  }
+
+  /** Wheel zooms to the cursor, with Shift it scales the comb; a trackpad's two fingers pan. */
+  private wheel(e: WheelEvent): void {
+    e.preventDefault();
+    const { store, view } = this.table;
+    const pixels = e.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
+    const turned = (e.deltaY || e.deltaX) * (pixels ? 1 : 30);
+    if (e.shiftKey) return store.look({ combScale: store.state.looks.combScale * Math.exp(-turned / 500) });
+    const trackpad = pixels && !e.ctrlKey && (e.deltaX !== 0 || Math.abs(e.deltaY) < 40);
+    if (trackpad) view.panBy(-e.deltaX, -e.deltaY);
+    else view.zoomAt(this.pointer(e).at, Math.exp(-turned / (e.ctrlKey ? 100 : 400)));
+    this.schedule();
+    this.onStatus();
+  }
+}

@@ -1,0 +1,156 @@
+/** All that stands on the canvas, back to front. */
+import { type Comb, type Entity, entityOf, isHeld, isShown, type Point } from "../model/document.ts";
+import type { Live } from "../model/live.ts";
+import { docOf, type State } from "../model/state.ts";
+import type { Viewport } from "../view/viewport.ts";
+import {
+  paintComb, paintCurve, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints,
+} from "./curves.ts";
+import { kRuler, paintGrid, paintRulers } from "./grid.ts";
+import { paintHandles } from "./handles.ts";
+import { dark, light, type Palette } from "./palette.ts";
+
+export interface Scene {
+  state: State;
+  live: Live;
+  view: Viewport;
+  /** the spline through the points, before fairing */
+  before: (id: number) => Comb | undefined;
+  /** a handle under the pointer */
+  hot: { entity: number; handle: number } | null;
+  cursor: Point | null;
+  /** points clicked so far by a drawing tool, and where the next one would be */
+  started: readonly Point[];
+  underlay: HTMLImageElement | null;
+}
+
+export const paletteOf = (state: State): Palette => (state.looks.theme === "dark" ? dark : light);
+
+function paintUnderlay(g: CanvasRenderingContext2D, scene: Scene): void {
+  const under = scene.state.underlay;
+  if (!under || !scene.underlay?.complete) return;
+  const [x, y] = scene.view.toScreen([under.at[0], under.at[1] + under.height * under.scale]);
+  const size = under.scale * scene.view.scale;
+  g.globalAlpha = under.opacity;
+  g.drawImage(scene.underlay, x, y, under.width * size, under.height * size);
+  g.globalAlpha = 1;
+}
+
+function paintEntity(g: CanvasRenderingContext2D, scene: Scene, e: Entity, colors: Palette): void {
+  const { state, view, live } = scene;
+  const selected = state.selection.includes(e.id);
+  if (e.kind === "scan") {
+    paintPoints(g, view, e.line.points as Point[], selected ? colors.text : colors.point);
+    return;
+  }
+  const shown = live.of(e.id);
+  if (!shown) return;
+  const { looks } = state;
+  if (looks.comb && looks.combScale > 0 && (selected || looks.combOfAll))
+    paintComb(g, view, shown.comb, {
+      scale: looks.combScale, density: looks.combDensity, line: colors.comb, fill: colors.combFill,
+      faint: !selected,
+    });
+  if (looks.evolute && selected) paintEvolute(g, view, shown.comb, colors.evolute);
+  g.globalAlpha = live.failureOf(e.id) ? 0.35 : 1;
+  paintCurve(g, view, shown.comb, e.color || (selected ? colors.selected : colors.curve), selected ? 2.25 : 1.75);
+  g.globalAlpha = 1;
+  if (selected) paintJoints(g, view, shown.comb, colors.curve);
+  if (looks.events && selected) paintEvents(g, view, shown.comb, colors);
+}
+
+function paintBefore(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
+  const { state, view } = scene;
+  if (!state.looks.before) return;
+  for (const id of state.selection) {
+    const comb = scene.before(id);
+    if (!comb) continue;
+    if (state.looks.comb)
+      paintComb(g, view, comb, {
+        scale: state.looks.combScale, density: state.looks.combDensity, line: colors.before,
+        fill: colors.beforeFill, faint: true,
+      });
+    paintCurve(g, view, comb, colors.before, 1);
+  }
+}
+
+/** With a wipe, what is left of it shows before and what is right of it after. */
+function clipped(g: CanvasRenderingContext2D, scene: Scene, left: boolean, paint: () => void): void {
+  const { wipe } = scene.state.looks;
+  if (wipe === null) return paint();
+  const at = wipe * scene.view.width;
+  g.save();
+  g.beginPath();
+  if (left) g.rect(0, 0, at, scene.view.height);
+  else g.rect(at, 0, scene.view.width - at, scene.view.height);
+  g.clip();
+  paint();
+  g.restore();
+}
+
+function paintWipe(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
+  const { wipe } = scene.state.looks;
+  if (wipe === null) return;
+  const at = Math.round(wipe * scene.view.width) + 0.5;
+  g.strokeStyle = colors.handle;
+  g.lineWidth = 1;
+  g.beginPath();
+  g.moveTo(at, kRuler);
+  g.lineTo(at, scene.view.height);
+  g.stroke();
+  g.fillStyle = colors.faint;
+  g.font = "11px system-ui, sans-serif";
+  g.textBaseline = "top";
+  g.textAlign = "right";
+  g.fillText("before", at - 8, kRuler + 8);
+  g.textAlign = "left";
+  g.fillText("after", at + 8, kRuler + 8);
+}
+
+function paintStarted(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
+  if (scene.started.length === 0) return;
+  g.strokeStyle = colors.handleLine;
+  g.lineWidth = 1;
+  g.setLineDash([4, 4]);
+  g.beginPath();
+  [...scene.started, ...(scene.cursor ? [scene.cursor] : [])].forEach((p, i) => {
+    const at = scene.view.toScreen(p);
+    if (i === 0) g.moveTo(...at);
+    else g.lineTo(...at);
+  });
+  g.stroke();
+  g.setLineDash([]);
+  g.fillStyle = colors.handle;
+  for (const p of scene.started) {
+    const [x, y] = scene.view.toScreen(p);
+    g.fillRect(x - 3.5, y - 3.5, 7, 7);
+  }
+}
+
+export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
+  const { state, view } = scene;
+  const doc = docOf(state);
+  const colors = paletteOf(state);
+  g.fillStyle = colors.ground;
+  g.fillRect(0, 0, view.width, view.height);
+  paintUnderlay(g, scene);
+  if (state.looks.grid) paintGrid(g, view, colors);
+  const visible = doc.entities.filter((e) => isShown(doc, e));
+  for (const e of visible) if (e.kind === "scan") paintEntity(g, scene, e, colors);
+  clipped(g, scene, true, () => paintBefore(g, scene, colors));
+  clipped(g, scene, false, () => {
+    for (const e of visible) if (e.kind !== "scan") paintEntity(g, scene, e, colors);
+  });
+  for (const id of state.selection) {
+    const e = entityOf(doc, id);
+    if (!e || !isShown(doc, e) || isHeld(doc, e)) continue;
+    paintHandles(g, view, e, colors, scene.hot?.entity === id ? scene.hot.handle : null);
+  }
+  if (state.hover) {
+    const comb = scene.live.of(state.hover.entity)?.comb;
+    if (comb) paintMark(g, view, comb, state.hover.sample, state.looks.comb ? state.looks.combScale : 0, colors);
+  }
+  paintStarted(g, scene, colors);
+  paintWipe(g, scene, colors);
+  paintRulers(g, view, colors, doc.unit, scene.cursor ? view.toScreen(scene.cursor) : null);
+}

@@ -1,0 +1,107 @@
+/** Drawing tools: so many clicks make a thing. */
+import { added, type Fresh, type Point } from "../model/document.ts";
+import type { ToolName } from "../model/state.ts";
+import type { Gesture, Pointer, Table } from "./gesture.ts";
+import { Idle, Panning } from "./select.ts";
+
+interface Recipe {
+  /** clicks that complete it; Infinity: until it is ended */
+  clicks: number;
+  hints: readonly string[];
+  make: (points: Point[], number: number) => Fresh;
+}
+
+const three = ["Click where the curve starts", "Click where both tangents meet", "Click where the curve ends"];
+
+export const recipes: Partial<Record<ToolName, Recipe>> = {
+  segment: {
+    clicks: 3,
+    hints: three,
+    make: (p, n) => ({ kind: "segment", name: `Segment ${n}`, points: p as [Point, Point, Point], alpha: -1 }),
+  },
+  compound: {
+    clicks: 3,
+    hints: three,
+    make: (p, n) => ({
+      kind: "compound", name: `Compound ${n}`, points: p as [Point, Point, Point], alpha: [-1, 1], ratio: 0.5,
+    }),
+  },
+  quasi: {
+    clicks: 3,
+    hints: three,
+    make: (p, n) => ({
+      kind: "quasi", name: `Quasi ${n}`, points: p as [Point, Point, Point], alpha: -1, form: "best", degree: 6,
+    }),
+  },
+  "s-shape": {
+    clicks: 4,
+    hints: ["Click where the curve starts", "Click where it heads at the start",
+      "Click where it comes from at the end", "Click where the curve ends"],
+    make: (p, n) => ({ kind: "s-shape", name: `S-shape ${n}`, points: p as [Point, Point, Point, Point], alpha: -1 }),
+  },
+  spline: {
+    clicks: Infinity,
+    hints: ["Click points for the curve to pass; Enter or double click ends it"],
+    make: (p, n) => ({ kind: "spline", name: `Spline ${n}`, points: p, alpha: -1, closed: false }),
+  },
+};
+
+export class Drawing implements Gesture {
+  readonly cursor = "crosshair";
+  readonly hint: string;
+
+  constructor(private readonly table: Table, private readonly tool: ToolName, private readonly recipe: Recipe,
+              readonly started: readonly Point[] = []) {
+    this.hint = recipe.hints[Math.min(started.length, recipe.hints.length - 1)] ?? "";
+  }
+
+  down(p: Pointer): Gesture {
+    if (p.button === 1 || p.button === 2) return new PanningWithin(this.table, p.at, this);
+    const last = this.started.at(-1);
+    if (last && last[0] === p.place[0] && last[1] === p.place[1]) return this;
+    const points = [...this.started, p.place];
+    if (points.length < this.recipe.clicks) return new Drawing(this.table, this.tool, this.recipe, points);
+    return this.complete(points);
+  }
+
+  doubled(): Gesture {
+    return this.recipe.clicks === Infinity && this.started.length >= 2 ? this.complete([...this.started]) : this;
+  }
+
+  key(name: string): Gesture | null {
+    if (name === "Enter") return this.doubled();
+    if (name === "Backspace" && this.started.length > 0)
+      return new Drawing(this.table, this.tool, this.recipe, this.started.slice(0, -1));
+    return null;
+  }
+
+  cancel(): Gesture {
+    if (this.started.length > 0) return new Drawing(this.table, this.tool, this.recipe);
+    this.table.store.set({ tool: "select" });
+    return new Idle(this.table);
+  }
+
+  private complete(points: Point[]): Gesture {
+    const { store } = this.table;
+    const { doc, id } = added(store.state.history.now, this.recipe.make(points, store.state.history.now.next));
+    store.commit(`Draw ${this.tool}`, doc, { selection: [id], tool: "select" });
+    return new Idle(this.table);
+  }
+}
+
+class PanningWithin extends Panning {
+  constructor(table: Table, at: Point, private readonly back: Gesture) {
+    super(table, at);
+  }
+  override up(): Gesture {
+    return this.back;
+  }
+  override cancel(): Gesture {
+    return this.back;
+  }
+}
+
+export function gestureFor(table: Table, tool: ToolName): Gesture {
+  const recipe = recipes[tool];
+  return recipe ? new Drawing(table, tool, recipe) : new Idle(table);
+}

@@ -1,0 +1,68 @@
+/** What lies under the pointer. */
+import { type Comb, type Entity, handlesOf, isHeld, isShown, type Point } from "../model/document.ts";
+import { nearestSample } from "../view/nearest.ts";
+import type { Table } from "./gesture.ts";
+
+const kHandle = 11; // pixels
+const kCurve = 8;
+const kHover = 26;
+
+export interface HandleHit {
+  entity: number;
+  handle: number;
+}
+
+export function handleAt(table: Table, at: Point): HandleHit | null {
+  const { store, view } = table;
+  const doc = store.doc;
+  let best: (HandleHit & { distance: number }) | null = null;
+  for (const e of doc.entities) {
+    if (!store.state.selection.includes(e.id) || isHeld(doc, e) || !isShown(doc, e)) continue;
+    handlesOf(e).forEach((p, handle) => {
+      const [x, y] = view.toScreen(p);
+      const distance = Math.hypot(x - at[0], y - at[1]);
+      if (distance <= kHandle && (!best || distance < best.distance)) best = { entity: e.id, handle, distance };
+    });
+  }
+  return best;
+}
+
+export interface CurveHit {
+  entity: number;
+  sample: number;
+  distance: number;
+}
+
+function nearestOf(table: Table, entities: readonly Entity[], at: Point, within: number): CurveHit | null {
+  let best: CurveHit | null = null;
+  for (const e of entities) {
+    const comb: Comb | undefined = table.live.of(e.id)?.comb;
+    const near = comb && nearestSample(table.view, comb, at);
+    if (near && near.distance <= within && (!best || near.distance < best.distance))
+      best = { entity: e.id, ...near };
+  }
+  return best;
+}
+
+export function entityAt(table: Table, at: Point): number | null {
+  const doc = table.store.doc;
+  const visible = doc.entities.filter((e) => isShown(doc, e));
+  const curve = nearestOf(table, visible, at, kCurve);
+  if (curve) return curve.entity;
+  for (const e of visible) {
+    if (e.kind !== "scan") continue;
+    for (const p of e.line.points as Point[]) {
+      const [x, y] = table.view.toScreen(p);
+      if (Math.hypot(x - at[0], y - at[1]) <= kCurve) return e.id;
+    }
+  }
+  return null;
+}
+
+/** The place on a selected curve (else on any) that is near enough to be read. */
+export function hoverAt(table: Table, at: Point): CurveHit | null {
+  const doc = table.store.doc;
+  const visible = doc.entities.filter((e) => isShown(doc, e));
+  const chosen = visible.filter((e) => table.store.state.selection.includes(e.id));
+  return nearestOf(table, chosen, at, kHover) ?? nearestOf(table, visible, at, kCurve);
+}

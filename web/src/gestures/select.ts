@@ -1,0 +1,148 @@
+/** Select: hover, take hold of a handle, pick, move, pan. */
+import { type Doc, entityOf, isHeld, moved, type Point, withEntity, withHandle } from "../model/document.ts";
+import type { Gesture, Pointer, Table } from "./gesture.ts";
+import { entityAt, handleAt, hoverAt } from "./pick.ts";
+
+const kStill = 4; // pixels a press may wander and still be a click
+
+export class Idle implements Gesture {
+  readonly cursor: string;
+  readonly hint = "Drag a handle, click a curve, drag the ground to pan, wheel to zoom";
+
+  constructor(private readonly table: Table, over: "handle" | "curve" | "nothing" = "nothing") {
+    this.cursor = over === "handle" ? "grab" : over === "curve" ? "pointer" : "default";
+  }
+
+  move(p: Pointer): Gesture {
+    const { store } = this.table;
+    const handle = handleAt(this.table, p.at);
+    const over = handle ? null : hoverAt(this.table, p.at);
+    const hover = over && { entity: over.entity, sample: over.sample };
+    const same = hover?.entity === store.state.hover?.entity && hover?.sample === store.state.hover?.sample;
+    if (!same) store.set({ hover });
+    return new Idle(this.table, handle ? "handle" : over && over.distance < kStill * 2 ? "curve" : "nothing");
+  }
+
+  down(p: Pointer): Gesture {
+    if (p.button !== 0) return new Panning(this.table, p.at);
+    const handle = handleAt(this.table, p.at);
+    if (handle) return new DraggingHandle(this.table, handle.entity, handle.handle);
+    const entity = entityAt(this.table, p.at);
+    if (entity !== null) return new Pressed(this.table, entity, p);
+    return new PressedGround(this.table, p);
+  }
+
+  doubled(p: Pointer): Gesture {
+    const entity = entityAt(this.table, p.at);
+    if (entity !== null) this.table.store.set({ selection: [entity] });
+    return this;
+  }
+}
+
+export class Panning implements Gesture {
+  readonly cursor = "grabbing";
+  constructor(private readonly table: Table, private last: Point) {}
+
+  move(p: Pointer): Gesture {
+    this.table.view.panBy(p.at[0] - this.last[0], p.at[1] - this.last[1]);
+    this.last = p.at;
+    this.table.paint();
+    return this;
+  }
+  up(): Gesture {
+    return new Idle(this.table);
+  }
+  cancel(): Gesture {
+    return new Idle(this.table);
+  }
+}
+
+class PressedGround implements Gesture {
+  constructor(private readonly table: Table, private readonly from: Pointer) {}
+
+  move(p: Pointer): Gesture {
+    const far = Math.hypot(p.at[0] - this.from.at[0], p.at[1] - this.from.at[1]) > kStill;
+    return far ? new Panning(this.table, this.from.at).move(p) : this;
+  }
+  up(): Gesture {
+    if (!this.from.shift) this.table.store.set({ selection: [], hover: null });
+    return new Idle(this.table);
+  }
+  cancel(): Gesture {
+    return new Idle(this.table);
+  }
+}
+
+class Pressed implements Gesture {
+  constructor(private readonly table: Table, private readonly entity: number, private readonly from: Pointer) {}
+
+  move(p: Pointer): Gesture {
+    const far = Math.hypot(p.at[0] - this.from.at[0], p.at[1] - this.from.at[1]) > kStill;
+    if (!far) return this;
+    const { store } = this.table;
+    const e = entityOf(store.doc, this.entity);
+    if (!e || isHeld(store.doc, e) || !store.state.selection.includes(this.entity))
+      return new Panning(this.table, this.from.at).move(p);
+    return new Moving(this.table, store.state.history.now, this.from.place).move(p);
+  }
+  up(): Gesture {
+    const { store } = this.table;
+    const { selection } = store.state;
+    const others = selection.filter((id) => id !== this.entity);
+    const next = !this.from.shift ? [this.entity]
+      : others.length < selection.length ? others : [...selection, this.entity];
+    store.set({ selection: next });
+    return new Idle(this.table, "curve");
+  }
+  cancel(): Gesture {
+    return new Idle(this.table);
+  }
+}
+
+/** All that is selected moves with the hand. */
+class Moving implements Gesture {
+  readonly cursor = "move";
+  constructor(private readonly table: Table, private readonly doc: Doc, private readonly from: Point) {}
+
+  move(p: Pointer): Gesture {
+    const by: Point = [p.place[0] - this.from[0], p.place[1] - this.from[1]];
+    const { store } = this.table;
+    store.draft({
+      ...this.doc,
+      entities: this.doc.entities.map((e) =>
+        store.state.selection.includes(e.id) && !isHeld(this.doc, e) ? moved(e, by) : e),
+    });
+    return this;
+  }
+  up(): Gesture {
+    const { store } = this.table;
+    store.commit("Move", store.doc);
+    return new Idle(this.table);
+  }
+  cancel(): Gesture {
+    this.table.store.set({ draft: null });
+    return new Idle(this.table);
+  }
+}
+
+export class DraggingHandle implements Gesture {
+  readonly cursor = "grabbing";
+  readonly hint = "The curve follows; Escape puts the handle back";
+  constructor(private readonly table: Table, readonly entity: number, readonly handle: number) {}
+
+  move(p: Pointer): Gesture {
+    const { store } = this.table;
+    const e = entityOf(store.doc, this.entity);
+    if (e) store.draft(withEntity(store.doc, withHandle(e, this.handle, p.place)));
+    return this;
+  }
+  up(): Gesture {
+    const { store } = this.table;
+    if (store.state.draft) store.commit("Move handle", store.state.draft);
+    return new Idle(this.table, "handle");
+  }
+  cancel(): Gesture {
+    this.table.store.set({ draft: null });
+    return new Idle(this.table);
+  }
+}

@@ -1,0 +1,67 @@
+/** The graphs below the canvas: of the chosen curve, all linked by the sample that is hovered. */
+import type { Palette } from "../canvas/palette.ts";
+import type { Shown } from "../model/live.ts";
+import type { Store } from "../model/state.ts";
+import { slopesOf } from "../panels/measures.ts";
+import { h } from "../ui/dom.ts";
+import { CurvaturePlot, type Graphed } from "./curvature.ts";
+import { LcgPlot, LddcPlot } from "./logarithmic.ts";
+
+export interface Subject {
+  entity: number;
+  shown: Shown;
+  before: Shown | undefined;
+}
+
+export class Dock {
+  readonly element: HTMLElement;
+  private readonly curvature = new CurvaturePlot();
+  private readonly lcg = new LcgPlot();
+  private readonly lddc = new LddcPlot();
+
+  constructor(private readonly store: Store, private readonly subject: () => Subject | null,
+              private readonly colors: () => Palette) {
+    this.element = h("div", { class: "dock" }, this.curvature.element, this.lcg.element, this.lddc.element);
+    for (const plot of [this.curvature, this.lcg, this.lddc]) {
+      plot.onResize = () => this.paint();
+      plot.canvas.addEventListener("pointermove", (e) => this.hover(plot.hit(e.offsetX, e.offsetY)));
+      plot.canvas.addEventListener("pointerleave", () => this.store.set({ hover: null }));
+      plot.canvas.addEventListener("keydown", (e) => this.key(e));
+    }
+  }
+
+  private hover(sample: number | null): void {
+    const subject = this.subject();
+    const now = this.store.state.hover;
+    if (now?.sample === sample && now?.entity === subject?.entity) return;
+    this.store.set({ hover: subject && sample !== null ? { entity: subject.entity, sample } : null });
+  }
+
+  /** Arrows walk along the curve. */
+  private key(e: KeyboardEvent): void {
+    const step = { ArrowLeft: -1, ArrowRight: 1, PageDown: 10, PageUp: -10 }[e.key];
+    const subject = this.subject();
+    if (!step || !subject) return;
+    const last = subject.shown.comb.points.length - 1;
+    const now = this.store.state.hover?.sample ?? (step > 0 ? -1 : last + 1);
+    this.hover(Math.min(last, Math.max(0, now + step)));
+    e.preventDefault();
+    e.stopPropagation();
+  }
+
+  paint(): void {
+    const subject = this.subject();
+    const { hover, looks } = this.store.state;
+    const graphed: Graphed | null = subject && {
+      comb: subject.shown.comb,
+      before: looks.before ? subject.before?.comb : undefined,
+      slopes: slopesOf(subject.shown),
+      hover: hover?.entity === subject.entity ? hover.sample : null,
+      unit: this.store.doc.unit,
+    };
+    const colors = this.colors();
+    this.curvature.paint(graphed, colors);
+    this.lcg.paint(graphed, colors);
+    this.lddc.paint(graphed, colors);
+  }
+}

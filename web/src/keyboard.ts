@@ -1,0 +1,118 @@
+/** Every command by keyboard. */
+import type { Table } from "./gestures/gesture.ts";
+import { entityOf, handlesOf, isHeld, moved, type Point, withEntity, withHandle } from "./model/document.ts";
+import { tools } from "./panels/toolbar.ts";
+import type { Studio } from "./studio.ts";
+
+const kPan = 40; // pixels
+const arrows: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+export class Keyboard {
+  /** the handle that arrows move; null: the whole thing */
+  private handle: number | null = null;
+
+  constructor(private readonly studio: Studio, private readonly table: Table) {
+    addEventListener("keydown", (e) => {
+      if (this.typing(e)) return;
+      if (this.command(e) || (!e.ctrlKey && !e.metaKey && this.single(e))) e.preventDefault();
+    });
+  }
+
+  private typing(e: KeyboardEvent): boolean {
+    const at = e.target as HTMLElement;
+    if (at.tagName === "INPUT" && (at as HTMLInputElement).type !== "text") return arrows[e.key] !== undefined;
+    return ["INPUT", "SELECT", "TEXTAREA"].includes(at.tagName) && !e.ctrlKey && !e.metaKey;
+  }
+
+  private command(e: KeyboardEvent): boolean {
+    if (!e.ctrlKey && !e.metaKey) return false;
+    const { store } = this.studio;
+    switch (e.key.toLowerCase()) {
+      case "z":
+        if (e.shiftKey) store.redo();
+        else store.undo();
+        return true;
+      case "y":
+        store.redo();
+        return true;
+      case "o":
+        this.studio.chooseFile();
+        return true;
+      case "s":
+        this.studio.export("json");
+        return true;
+      case "a":
+        store.set({ selection: store.doc.entities.map((x) => x.id) });
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  private single(e: KeyboardEvent): boolean {
+    const { store, canvas } = this.studio;
+    const { looks } = store.state;
+    if (["Escape", "Enter", "Backspace"].includes(e.key) && canvas.key(e.key)) return true;
+    const onBoard = document.activeElement === canvas.element || document.activeElement === document.body;
+    if (onBoard && arrows[e.key]) return this.arrow(arrows[e.key] as Point, e.shiftKey, e.altKey);
+    const tool = tools.find((t) => t.key.toLowerCase() === e.key.toLowerCase());
+    if (tool) {
+      store.set({ tool: tool.name });
+      return true;
+    }
+    const act: Record<string, () => void> = {
+      f: () => this.studio.fit(),
+      k: () => store.look({ comb: !looks.comb }),
+      e: () => store.look({ evolute: !looks.evolute }),
+      g: () => store.look({ grid: !looks.grid }),
+      n: () => store.look({ snap: !looks.snap }),
+      w: () => store.look({ wipe: looks.wipe === null ? 0.5 : null }),
+      h: () => this.nextHandle(),
+      delete: () => this.studio.removeSelected(),
+      backspace: () => this.studio.removeSelected(),
+      "+": () => this.zoom(1.25),
+      "=": () => this.zoom(1.25),
+      "-": () => this.zoom(0.8),
+      "[": () => store.look({ combScale: looks.combScale / 1.2 }),
+      "]": () => store.look({ combScale: looks.combScale * 1.2 }),
+    };
+    const done = act[e.key.toLowerCase()];
+    done?.();
+    return done !== undefined;
+  }
+
+  private zoom(factor: number): void {
+    const { view } = this.table;
+    view.zoomAt([view.width / 2, view.height / 2], factor);
+    this.table.paint();
+  }
+
+  /** H goes through the handles of what is chosen; arrows then move that handle. */
+  private nextHandle(): void {
+    const { store } = this.studio;
+    const e = entityOf(store.doc, store.state.selection.at(-1) ?? null);
+    const count = e ? handlesOf(e).length : 0;
+    const next = this.handle === null ? 0 : this.handle + 1;
+    this.handle = next < count ? next : null;
+    store.say(this.handle === null ? "Arrows move the view" : `Arrows move handle ${this.handle + 1} of ${count}`);
+  }
+
+  private arrow(by: Point, wide: boolean, whole: boolean): boolean {
+    const { store } = this.studio;
+    const { view } = this.table;
+    const e = entityOf(store.doc, store.state.selection.at(-1) ?? null);
+    const step = (wide ? 10 : 1) / view.scale;
+    const move: Point = [by[0] * step, by[1] * step];
+    const handle = this.handle === null ? undefined : e && handlesOf(e)[this.handle];
+    if (e && !isHeld(store.doc, e) && (handle || whole)) {
+      const next = handle && !whole
+        ? withHandle(e, this.handle as number, [handle[0] + move[0], handle[1] + move[1]])
+        : moved(e, move);
+      store.commit("Nudge", withEntity(store.doc, next));
+      return true;
+    }
+    view.panBy(-by[0] * kPan, by[1] * kPan);
+    this.table.paint();
+    return true;
+  }
+}

@@ -1,0 +1,13 @@
+import { Client, takeToken } from "./api/client.ts";
+import { Studio } from "./studio.ts";
+
+declare global {
+  interface Window {
+    keyline: Studio;
+  }
+}
+
+const client = new Client(takeToken(location, sessionStorage));
+if (location.hash) history.replaceState(null, "", location.pathname);
+window.keyline = new Studio(client, document.getElementById("studio") as HTMLElement);
+void window.keyline.start();

@@ -1,0 +1,206 @@
+/** What is being worked on: plain values, never changed in place. */
+import type { Curve, KeyLine, SampledComb, Surface } from "../../generated/operations.ts";
+
+export type Point = [number, number];
+
+interface Common {
+  id: number;
+  name: string;
+  layer: string;
+  visible: boolean;
+  locked: boolean;
+  color: string; // "" : by the theme
+}
+
+export interface Segment extends Common {
+  kind: "segment";
+  points: [Point, Point, Point];
+  alpha: number;
+}
+export interface Compound extends Common {
+  kind: "compound";
+  points: [Point, Point, Point];
+  alpha: [number, number];
+  ratio: number;
+}
+export interface SShape extends Common {
+  kind: "s-shape";
+  /** start, a point its tangent leads to, one the end's tangent comes from, end */
+  points: [Point, Point, Point, Point];
+  alpha: number;
+}
+export interface Quasi extends Common {
+  kind: "quasi";
+  points: [Point, Point, Point];
+  alpha: number;
+  form: string;
+  degree: number;
+}
+export interface Spline extends Common {
+  kind: "spline";
+  points: Point[];
+  alpha: number;
+  closed: boolean;
+}
+export interface Blend extends Common {
+  kind: "blend";
+  of: [number, number];
+  ends: [End, End];
+  order: "G1" | "G2" | "G3";
+  alpha: number;
+}
+export interface Mirror extends Common {
+  kind: "mirror";
+  of: number;
+  axis: [Point, Point];
+}
+/** A curve as a file or an operation gave it. */
+export interface Fixed extends Common {
+  kind: "fixed";
+  curve: Curve;
+}
+/** Measured points. */
+export interface Scan extends Common {
+  kind: "scan";
+  line: KeyLine;
+}
+/** What fairing made of measured points or of a curve. */
+export interface Faired extends Common {
+  kind: "faired";
+  curve: Curve;
+  of: number;
+  told: FairTold;
+}
+export interface SurfaceEntity extends Common {
+  kind: "surface";
+  surface: Surface;
+}
+
+export type End = "start" | "end";
+
+export interface FairPiece {
+  start: number;
+  length: number;
+  rhythm: string;
+  slopes: number[];
+  deviation: number;
+  impression: string;
+  interpretations: { rhythm: string; slopes: number[]; plausibility: number; impression: string }[];
+}
+
+/** Of the answer of `fair`, what the page shows. */
+export interface FairTold {
+  request: Record<string, unknown>;
+  spline: Curve;
+  pieces: FairPiece[];
+  length: number;
+  noise: number;
+  tolerance: number;
+  max: number;
+  rms: number;
+  within: boolean;
+  cancelled: boolean;
+  notes: string[];
+}
+
+export type Entity =
+  | Segment | Compound | SShape | Quasi | Spline | Blend | Mirror | Fixed | Scan | Faired | SurfaceEntity;
+export type Kind = Entity["kind"];
+
+export interface Layer {
+  name: string;
+  visible: boolean;
+  locked: boolean;
+}
+
+export interface Doc {
+  unit: string;
+  next: number;
+  layers: Layer[];
+  entities: Entity[];
+}
+
+export type Comb = Required<Omit<SampledComb, "graphs">> & Pick<SampledComb, "graphs">;
+
+export const emptyDoc = (): Doc => ({
+  unit: "mm",
+  next: 1,
+  layers: [{ name: "Curves", visible: true, locked: false }],
+  entities: [],
+});
+
+export const entityOf = (doc: Doc, id: number | null): Entity | undefined =>
+  id === null ? undefined : doc.entities.find((e) => e.id === id);
+
+export function withEntity(doc: Doc, entity: Entity): Doc {
+  return { ...doc, entities: doc.entities.map((e) => (e.id === entity.id ? entity : e)) };
+}
+
+/** A thing without its number and standing, as tools and files make it. */
+export type Fresh<E extends Entity = Entity> = E extends Entity
+  ? Omit<E, "id" | "layer" | "visible" | "locked" | "color"> & Partial<Common>
+  : never;
+
+export function added(doc: Doc, fresh: Fresh): { doc: Doc; id: number } {
+  const id = doc.next;
+  const layer = fresh.layer || doc.layers[0]?.name || "Curves";
+  const entity = { visible: true, locked: false, color: "", ...fresh, layer, id } as Entity;
+  const layers = doc.layers.some((l) => l.name === layer)
+    ? doc.layers
+    : [...doc.layers, { name: layer, visible: true, locked: false }];
+  return { doc: { ...doc, layers, next: id + 1, entities: [...doc.entities, entity] }, id };
+}
+
+/** Without the things, and without what was made of them. */
+export function without(doc: Doc, ids: readonly number[]): Doc {
+  const gone = new Set(ids);
+  const needs = (e: Entity): number[] =>
+    e.kind === "blend" ? e.of : e.kind === "mirror" ? [e.of] : [];
+  for (let before = -1; before !== gone.size;) {
+    before = gone.size;
+    for (const e of doc.entities) if (needs(e).some((id) => gone.has(id))) gone.add(e.id);
+  }
+  return { ...doc, entities: doc.entities.filter((e) => !gone.has(e.id)) };
+}
+
+const layerOf = (doc: Doc, e: Entity) => doc.layers.find((l) => l.name === e.layer);
+export const isShown = (doc: Doc, e: Entity): boolean => e.visible && layerOf(doc, e)?.visible !== false;
+export const isHeld = (doc: Doc, e: Entity): boolean => e.locked || layerOf(doc, e)?.locked === true;
+
+/** The points a hand can take hold of. */
+export function handlesOf(e: Entity): readonly Point[] {
+  switch (e.kind) {
+    case "segment":
+    case "compound":
+    case "quasi":
+    case "s-shape":
+    case "spline":
+      return e.points;
+    case "mirror":
+      return e.axis;
+    default:
+      return [];
+  }
+}
+
+export function withHandle(e: Entity, index: number, at: Point): Entity {
+  const put = <T extends Point[]>(points: T): T => points.map((p, i) => (i === index ? at : p)) as T;
+  switch (e.kind) {
+    case "segment":
+    case "compound":
+    case "quasi":
+    case "s-shape":
+    case "spline":
+      return { ...e, points: put(e.points) } as Entity;
+    case "mirror":
+      return { ...e, axis: put(e.axis) };
+    default:
+      return e;
+  }
+}
+
+/** All of it moved; things made of others move with them. */
+export function moved(e: Entity, by: Point): Entity {
+  return handlesOf(e).reduce<Entity>(
+    (to, p, i) => withHandle(to, i, [p[0] + by[0], p[1] + by[1]]), e);
+}

@@ -1,0 +1,77 @@
+/** Files into the document and out of it. */
+import type { Curve, DocumentReadResult, KeyLine, NamedCurve, Surface } from "../../generated/operations.ts";
+import type { Client } from "../api/client.ts";
+import { added, type Doc, type Fresh, isShown } from "./document.ts";
+import type { Live } from "./live.ts";
+import type { Store } from "./state.ts";
+
+const baseOf = (file: string): string => file.replace(/^.*\//, "");
+
+function freshCurve(c: NamedCurve, otherwise: string): Fresh | null {
+  const common = { name: c.name || otherwise, ...(c.layer ? { layer: c.layer } : {}), ...(c.color ? { color: c.color } : {}) };
+  if (c.line) return { kind: "scan", ...common, line: c.line as KeyLine };
+  return c.curve ? { kind: "fixed", ...common, curve: c.curve as Curve } : null;
+}
+
+/** All that a file holds, as one step. Numbers of the things that came. */
+export function withFile(doc: Doc, file: string, read: DocumentReadResult): { doc: Doc; ids: number[] } {
+  const ids: number[] = [];
+  const name = baseOf(file);
+  const things: (Fresh | null)[] = [
+    ...(read.curves ?? []).map((c, i) => freshCurve(c as NamedCurve, (read.curves?.length ?? 0) > 1 ? `${name} ${i + 1}` : name)),
+    ...(read.surfaces ?? []).map((s, i): Fresh => ({
+      kind: "surface", name: s.name || `${name} ${i + 1}`, surface: s.surface as Surface,
+    })),
+  ];
+  let now: Doc = doc.entities.length === 0 && read.unit ? { ...doc, unit: read.unit } : doc;
+  for (const fresh of things) {
+    if (!fresh) continue;
+    const step = added(now, fresh);
+    now = step.doc;
+    ids.push(step.id);
+  }
+  return { doc: now, ids };
+}
+
+export const isImage = (name: string): boolean => /\.(png|jpe?g|tiff?|webp)$/i.test(name);
+
+/** Reads the file the server knows by that name. */
+export async function openNamed(client: Client, store: Store, file: string): Promise<number[]> {
+  const work = client.long<DocumentReadResult>("document.read", { file, planar: true }, () => {});
+  store.set({ work: { doing: `reading ${baseOf(file)}`, fraction: 0, cancel: work.cancel } });
+  const answer = await work.answer;
+  store.set({ work: null });
+  if (!answer.ok) {
+    store.say(`${baseOf(file)}: ${answer.error.message}`, answer.error.hint ?? "", true);
+    return [];
+  }
+  const { doc, ids } = withFile(store.state.history.now, file, answer.result);
+  store.commit(`Open ${baseOf(file)}`, doc, { selection: ids.slice(0, 1) });
+  const skipped = answer.result.skipped ?? [];
+  if (skipped.length > 0) store.say(skipped.join("; "));
+  return ids;
+}
+
+export const formats = ["json", "svg", "dxf", "step", "iges", "csv", "pdf", "png", "html"] as const;
+export type Format = (typeof formats)[number];
+
+/** What is shown, as a file of that format; says what could not be held and how far it is off. */
+export async function exportAs(client: Client, store: Store, live: Live, format: Format,
+                               save: (name: string, content: Blob) => void): Promise<void> {
+  const doc = store.doc;
+  const curves = doc.entities.filter((e) => isShown(doc, e)).flatMap((e): object[] => {
+    const label = { name: e.name, layer: e.layer, ...(e.color ? { color: e.color } : {}) };
+    if (e.kind === "scan") return [{ ...label, line: e.line }];
+    const curve = live.of(e.id)?.curve;
+    return curve ? [{ ...label, curve }] : [];
+  });
+  const surfaces = doc.entities.flatMap((e) =>
+    e.kind === "surface" && isShown(doc, e) ? [{ name: e.name, layer: e.layer, surface: e.surface }] : []);
+  const file = `keyline.${format}`;
+  const answer = await client.export({ file, unit: doc.unit, curves, surfaces });
+  if (!answer.ok) return store.say(`${format}: ${answer.error.message}`, answer.error.hint ?? "", true);
+  save(file, answer.result.content);
+  const { deviation, notes } = answer.result;
+  const met = deviation > 0 ? `within ${deviation.toPrecision(2)}${doc.unit ? ` ${doc.unit}` : ""}` : "exact";
+  store.say(`${file}, ${met}${notes.length > 0 ? `; ${notes.join("; ")}` : ""}`);
+}

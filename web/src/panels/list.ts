@@ -1,0 +1,97 @@
+/** The document: what is there, on which layer, shown, held. */
+import { type Doc, type Entity, type Layer, without } from "../model/document.ts";
+import type { Store } from "../model/state.ts";
+import { iconButton, section } from "../ui/controls.ts";
+import { h, svg } from "../ui/dom.ts";
+import { icons } from "../ui/icons.ts";
+
+const iconOf: Record<Entity["kind"], string> = {
+  segment: icons.segment, compound: icons.compound, "s-shape": icons["s-shape"], spline: icons.spline,
+  quasi: icons.quasi, blend: icons.blend, mirror: icons.mirror, fixed: icons.segment,
+  scan: "M4 15h.01M6 11h.01M9 8h.01M13 6h.01M17 5h.01", faired: icons.comb, surface: icons.grid,
+};
+
+function change(store: Store, label: string, doc: Doc): void {
+  store.commit(label, doc);
+}
+
+function row(store: Store, e: Entity): HTMLElement {
+  const { doc, state } = store;
+  const put = (label: string, part: Partial<Entity>) =>
+    change(store, label, { ...doc, entities: doc.entities.map((x) => (x.id === e.id ? ({ ...x, ...part } as Entity) : x)) });
+  const name = h("button", {
+    type: "button", class: "name", id: `entity-${e.id}`, "aria-pressed": String(state.selection.includes(e.id)),
+    title: "Click to choose, Shift adds, double click renames",
+    click: (event: MouseEvent) => {
+      const others = state.selection.filter((id) => id !== e.id);
+      const added = others.length < state.selection.length ? others : [...others, e.id];
+      store.set({ selection: event.shiftKey ? added : [e.id] });
+    },
+    dblclick: () => rename(name, e.name, (to) => put("Rename", { name: to })),
+  }, svg(iconOf[e.kind], 16), h("span", {}, e.name));
+  return h("li", { class: state.selection.includes(e.id) ? "chosen" : "" },
+    name,
+    iconButton({
+      icon: e.visible ? icons.eye : icons.hidden, label: e.visible ? `Hide ${e.name}` : `Show ${e.name}`,
+      onClick: () => put(e.visible ? "Hide" : "Show", { visible: !e.visible }),
+    }),
+    iconButton({
+      icon: e.locked ? icons.lock : icons.free, label: e.locked ? `Free ${e.name}` : `Lock ${e.name}`,
+      onClick: () => put(e.locked ? "Free" : "Lock", { locked: !e.locked }),
+    }),
+    iconButton({
+      icon: icons.remove, label: `Remove ${e.name}`,
+      onClick: () => store.commit("Remove", without(doc, [e.id]), {
+        selection: state.selection.filter((id) => id !== e.id), hover: null,
+      }),
+    }));
+}
+
+function rename(at: HTMLElement, old: string, done: (name: string) => void): void {
+  const input = h("input", { type: "text", value: old, "aria-label": "Name" });
+  const finish = () => {
+    if (input.value.trim() && input.value !== old) done(input.value.trim());
+    else input.replaceWith(at);
+  };
+  input.addEventListener("blur", finish, { once: true });
+  input.addEventListener("keydown", (e) => {
+    if (e.key === "Enter") input.blur();
+    if (e.key === "Escape") {
+      input.value = old;
+      input.blur();
+    }
+    e.stopPropagation();
+  });
+  at.replaceWith(input);
+  input.select();
+}
+
+function layerRow(store: Store, layer: Layer): HTMLElement {
+  const put = (label: string, part: Partial<Layer>) =>
+    change(store, label, {
+      ...store.doc, layers: store.doc.layers.map((l) => (l.name === layer.name ? { ...l, ...part } : l)),
+    });
+  return h("div", { class: "layer" },
+    h("h3", {}, layer.name),
+    iconButton({
+      icon: layer.visible ? icons.eye : icons.hidden,
+      label: `${layer.visible ? "Hide" : "Show"} layer ${layer.name}`,
+      onClick: () => put("Layer", { visible: !layer.visible }),
+    }),
+    iconButton({
+      icon: layer.locked ? icons.lock : icons.free,
+      label: `${layer.locked ? "Free" : "Lock"} layer ${layer.name}`,
+      onClick: () => put("Layer", { locked: !layer.locked }),
+    }));
+}
+
+export function listPanel(store: Store): HTMLElement {
+  const { doc } = store;
+  const used = doc.layers.filter((l) => doc.entities.some((e) => e.layer === l.name));
+  return section("Document",
+    ...used.flatMap((layer) => [
+      used.length > 1 || !layer.visible || layer.locked ? layerRow(store, layer) : null,
+      h("ul", { class: "things" }, ...doc.entities.filter((e) => e.layer === layer.name).map((e) => row(store, e))),
+    ]),
+    doc.entities.length === 0 && h("p", { class: "quiet" }, "Nothing drawn yet. Choose a tool on the left, or drop a file here."));
+}

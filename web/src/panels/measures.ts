@@ -1,0 +1,63 @@
+/** What is measured of the chosen curve, and of the place under the pointer. */
+import type { Entity } from "../model/document.ts";
+import type { Shown } from "../model/live.ts";
+import { fact, section } from "../ui/controls.ts";
+import { h } from "../ui/dom.ts";
+import { measure } from "../view/ticks.ts";
+
+interface Piece {
+  alpha: number;
+  length: number;
+}
+
+/** Slopes of a curve's pieces as its value tells them, path members one after the other. */
+export function slopesOf(shown: Shown): (number | null)[] {
+  const members = (shown.curve.curves ?? [shown.curve]) as { pieces?: Piece[] }[];
+  return members.flatMap((m) => m.pieces?.map((p) => p.alpha) ?? [null]);
+}
+
+export function pieceAt(shown: Shown, sample: number): number {
+  return shown.comb.joints.filter((joint) => joint <= sample).length;
+}
+
+/** "s 45.20 mm · ρ 124.3 mm · κ 0.008 · α −1" of a sample. */
+export function reading(shown: Shown, sample: number, unit: string): string {
+  const { comb } = shown;
+  const k = comb.curvature[sample] ?? 0;
+  const slope = slopesOf(shown)[pieceAt(shown, sample)];
+  const behind = unit ? ` ${unit}` : "";
+  const parts = [
+    `s ${measure(comb.arc_length[sample] ?? 0)}${behind}`,
+    `\u03c1 ${k === 0 ? "\u221e" : measure(1 / Math.abs(k)) + behind}`,
+    `\u03ba ${measure(k, 3)}`,
+  ];
+  if (typeof slope === "number") parts.push(`\u03b1 ${measure(slope, 3)}`);
+  return parts.join("  \u00b7  ");
+}
+
+export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined, unit: string): HTMLElement {
+  const { comb } = shown;
+  const graphs = comb.graphs;
+  const behind = unit ? ` ${unit}` : "";
+  const waves = (s: Shown) =>
+    s.comb.graphs?.events?.filter((x) => x.kind === "maximum" || x.kind === "minimum").length ?? 0;
+  const inflections = graphs?.events?.filter((x) => x.kind === "inflection").length ?? 0;
+  const pair = (name: string, of: (s: Shown) => string) =>
+    before
+      ? h("div", { class: "fact" }, h("dt", {}, name), h("dd", { class: "was" }, of(before)), h("dd", {}, of(shown)))
+      : fact(name, of(shown));
+  const range = (s: Shown) => {
+    const radii = s.comb.curvature.map((k) => 1 / Math.abs(k));
+    return `${measure(Math.min(...radii), 3)}\u2009\u2026\u2009${measure(Math.max(...radii), 3)}`;
+  };
+  return section(before ? "Before \u2192 after" : "Measures",
+    h("dl", { class: before ? "facts pairs" : "facts", id: "measures", "data-entity": e.id },
+      pair("Length", (s) => measure(s.comb.length, 5) + (before ? "" : behind)),
+      pair("Radius", range),
+      pair("Pieces", (s) => String(s.comb.joints.length + 1)),
+      pair("Waves", (s) => String(waves(s))),
+      fact("Inflections", String(inflections)),
+      pair("Energy", (s) => measure(s.comb.graphs?.energy ?? 0, 3)),
+      pair("Bending", (s) => measure(s.comb.graphs?.bending ?? 0, 3)),
+      pair("Jolt", (s) => measure(s.comb.graphs?.jolt ?? 0, 3))));
+}

@@ -1,0 +1,40 @@
+/** Elements, as short as they can be written. */
+
+type Props = Record<string, string | number | boolean | null | undefined | ((event: never) => void)>;
+type Child = Node | string | null | undefined | false;
+
+function apply(element: Element, props: Props): void {
+  for (const [name, value] of Object.entries(props)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (typeof value === "function") element.addEventListener(name, value as unknown as EventListener);
+    else element.setAttribute(name, value === true ? "" : String(value));
+  }
+}
+
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K, props: Props = {}, ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  apply(element, props);
+  element.append(...children.filter((c): c is Node | string => !!c || c === ""));
+  return element;
+}
+
+export function svg(path: string, size = 20): SVGSVGElement {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  apply(element, { viewBox: "0 0 20 20", width: size, height: size, "aria-hidden": "true" });
+  for (const part of path.split("|")) {
+    const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    apply(line, { d: part });
+    element.append(line);
+  }
+  return element;
+}
+
+/** The element's content replaced; what has the focus keeps it where something of the same id is there. */
+export function fill(element: Element, ...children: Child[]): void {
+  const focused = document.activeElement?.id;
+  const within = element.contains(document.activeElement);
+  element.replaceChildren(...children.filter((c): c is Node | string => !!c || c === ""));
+  if (within && focused) document.getElementById(focused)?.focus();
+}

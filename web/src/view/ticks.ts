@@ -1,0 +1,33 @@
+/** Round numbers for rulers, grids and axes. */
+
+/** The step of 1, 2 or 5 times a power of ten that is at least `least`. */
+export function roundStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least));
+  for (const factor of [1, 2, 5, 10]) if (factor * power >= least * (1 - 1e-12)) return factor * power;
+  return 10 * power;
+}
+
+/** Multiples of the step in [low, high]. */
+export function ticks(low: number, high: number, step: number): number[] {
+  const list: number[] = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) list.push(i * step);
+  return list;
+}
+
+/** A tick's number with no more digits than its step has. */
+export function label(value: number, step: number): string {
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  if (Math.abs(value) >= 1e6 || digits > 6) return value === 0 ? "0" : value.toExponential(1);
+  return value.toFixed(digits).replace("-", "\u2212");
+}
+
+/** A measured number as a person reads it: four digits that count. */
+export function measure(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return "\u221e";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text = size >= 1e6 || size < 1e-4
+    ? value.toExponential(digits - 1)
+    : value.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(size))));
+  return text.replace("-", "\u2212");
+}

@@ -1,0 +1,103 @@
+/** A server of its own and a page in a browser, for one file of tests. */
+import { type ChildProcess, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { availableParallelism, loadavg, tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { type Browser, type BrowserContext, chromium, type Page } from "playwright-core";
+
+export const source = join(dirname(fileURLToPath(import.meta.url)), "../../..");
+export const token = "0123456789abcdef";
+
+/** Whether the machine has time for us alone: only then a measured time says something of us. */
+export const isQuiet = (): boolean => (loadavg()[0] ?? 0) < 0.75 * availableParallelism();
+
+export class Server {
+  readonly state = mkdtempSync(join(tmpdir(), "keyline-state-"));
+  private process: ChildProcess | null = null;
+  url = "";
+
+  async start(files: readonly string[] = [], port = 0): Promise<void> {
+    const started = spawn(process.env.KEYLINE as string,
+      ["studio", ...files, "--no-browser", "--token", token, "--port", String(port)],
+      { cwd: source, env: { ...process.env, XDG_STATE_HOME: this.state }, stdio: ["ignore", "pipe", "inherit"] });
+    this.process = started;
+    this.url = await new Promise((resolve, reject) => {
+      let said = "";
+      started.stdout?.on("data", (text: Buffer) => {
+        said += text.toString();
+        const found = /(http:\S+)\n/.exec(said);
+        if (found) resolve(found[1] as string);
+      });
+      started.on("exit", (code) => reject(new Error(`keyline studio ended with ${code}`)));
+    });
+  }
+
+  get port(): number {
+    return Number(new URL(this.url).port);
+  }
+
+  async end(signal: NodeJS.Signals = "SIGTERM"): Promise<number | null> {
+    const process = this.process;
+    this.process = null;
+    if (!process || process.exitCode !== null) return null;
+    return new Promise((resolve) => {
+      process.on("exit", resolve);
+      process.kill(signal);
+    });
+  }
+
+  /** What the operation itself answers. */
+  async ask<T>(op: string, request: object): Promise<T> {
+    const reply = await fetch(new URL(`/api/v1/${op}`, this.url), {
+      method: "POST", body: JSON.stringify(request),
+      headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json" },
+    });
+    return ((await reply.json()) as { result: T }).result;
+  }
+
+  async remove(): Promise<void> {
+    await this.end();
+    rmSync(this.state, { recursive: true, force: true });
+  }
+}
+
+export async function openBrowser(): Promise<Browser> {
+  return chromium.launch({
+    executablePath: process.env.KEYLINE_CHROMIUM as string,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+}
+
+export interface Visit {
+  page: Page;
+  context: BrowserContext;
+  /** what the page complained of */
+  errors: string[];
+}
+
+export async function visit(browser: Browser, url: string, size = { width: 1280, height: 800 }): Promise<Visit> {
+  const context = await browser.newContext({ viewport: size, colorScheme: "dark", acceptDownloads: true });
+  const page = await context.newPage();
+  const errors: string[] = [];
+  page.on("pageerror", (e) => errors.push(e.message));
+  page.on("console", (m) => {
+    if (m.type() === "error") errors.push(m.text());
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => window.keyline?.live.settled && window.keyline.store.doc.entities.length > 0);
+  return { page, context, errors };
+}
+
+/** Where a point of the model is on the page. */
+export async function onPage(page: Page, point: readonly [number, number]): Promise<{ x: number; y: number }> {
+  return page.evaluate(([x, y]) => {
+    const box = (document.querySelector(".board") as HTMLElement).getBoundingClientRect();
+    const at = window.keyline.view.toScreen([x, y] as [number, number]);
+    return { x: box.left + at[0], y: box.top + at[1] };
+  }, point);
+}
+
+export async function settled(page: Page): Promise<void> {
+  await page.waitForFunction(() => window.keyline.live.settled && window.keyline.store.state.work === null);
+}

@@ -1,0 +1,49 @@
+import { describe, expect, it } from "vitest";
+import { added, emptyDoc, handlesOf, moved, type Point, withHandle, without } from "../../src/model/document.ts";
+import { recipeOf } from "../../src/model/recipe.ts";
+import { isKept } from "../../src/model/autosave.ts";
+
+const points: [Point, Point, Point] = [[0, 0], [2, 0], [3, 1]];
+
+function two() {
+  const one = added(emptyDoc(), { kind: "segment", name: "a", points, alpha: -1 });
+  return added(one.doc, { kind: "mirror", name: "b", of: one.id, axis: [[0, 0], [0, 1]] });
+}
+
+describe("document", () => {
+  it("numbers things and never twice", () => {
+    const { doc, id } = two();
+    expect(doc.entities.map((e) => e.id)).toEqual([1, 2]);
+    expect(added(without(doc, [id]), { kind: "segment", name: "c", points, alpha: 0 }).id).toBe(3);
+  });
+
+  it("takes along what was made of a thing that goes", () => {
+    expect(without(two().doc, [1]).entities).toEqual([]);
+    expect(without(two().doc, [2]).entities.length).toBe(1);
+  });
+
+  it("moves one handle, or all of them", () => {
+    const [segment] = two().doc.entities;
+    if (!segment) throw new Error();
+    expect(handlesOf(withHandle(segment, 1, [5, 5]))).toEqual([[0, 0], [5, 5], [3, 1]]);
+    expect(handlesOf(moved(segment, [1, -1]))).toEqual([[1, -1], [3, -1], [4, 0]]);
+    expect(handlesOf(segment)).toEqual(points);
+  });
+
+  it("asks the operation that makes a thing", () => {
+    const [segment, mirror] = two().doc.entities;
+    if (!segment || !mirror) throw new Error();
+    expect(recipeOf(segment, () => undefined)).toEqual({ op: "lac.segment", request: { points, alpha: -1 } });
+    expect(recipeOf(mirror, () => undefined)).toBeNull();
+    const curve = { type: "bezier", points: [] };
+    expect(recipeOf(mirror, () => curve)).toEqual({
+      op: "curve.mirror", request: { curve, point: [0, 0], direction: Math.PI / 2 },
+    });
+  });
+
+  it("takes back only what it kept itself", () => {
+    expect(isKept({ format: "keyline-studio", version: 1, saved: 0, files: [], doc: emptyDoc() })).toBe(true);
+    for (const other of [null, 3, {}, { format: "keyline-studio", version: 2 }, { format: "x", doc: emptyDoc() }])
+      expect(isKept(other)).toBe(false);
+  });
+});
