@@ -16,6 +16,7 @@ constexpr Command kCommands[] = {
     {"list", "what a file holds", run_list, list_options},
     {"batch", "requests as lines of JSON in, answers out in the same order", run_batch,
      batch_options},
+    {"studio", "the browser studio on this machine", run_studio, studio_options},
     {"operations", "what can be requested; with a name, its schema", run_operations,
      operations_options}};
 

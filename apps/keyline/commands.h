@@ -28,6 +28,8 @@ int run_sketch(const Words& words);
 int run_convert(const Words& words);
 int run_list(const Words& words);
 int run_batch(const Words& words);
+/// Becomes the program keyline-studio, which stands beside this one.
+int run_studio(const Words& words);
 int run_operations(const Words& words);
 
 std::vector<std::string> fair_options();
@@ -38,6 +40,7 @@ std::vector<std::string> sketch_options();
 std::vector<std::string> convert_options();
 std::vector<std::string> list_options();
 std::vector<std::string> batch_options();
+std::vector<std::string> studio_options();
 std::vector<std::string> operations_options();
 
 /// A command on curves of files: its operation takes them as "curve", one by one, or as "curves".
@@ -52,8 +55,5 @@ std::vector<std::string> tool_options(const Tool& tool);
 /// An operation by its own name: every field an option.
 int run_plain(const std::string& operation, const Words& words);
 std::vector<std::string> plain_options(const std::string& operation);
-
-/// Becomes the program keyline-studio, which stands beside this one.
-int run_studio(const std::vector<std::string>& arguments);
 
 }  // namespace keyline::app

@@ -8,7 +8,7 @@
 
 namespace keyline::app {
 
-int run_studio(const std::vector<std::string>& arguments) {
+int run_studio(const Words& arguments) {
   std::error_code failed;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
   const std::string program = here / "keyline-studio";
@@ -20,6 +20,10 @@ int run_studio(const std::vector<std::string>& arguments) {
   ::execv(program.c_str(), pointers.data());
   return report_failure({core::ErrorCode::unsupported, "Keyline Studio is not installed",
                          "build it with KEYLINE_STUDIO=ON, beside keyline", program});
+}
+
+std::vector<std::string> studio_options() {
+  return {"--port", "--listen", "--token", "--host", "--no-browser", "--quiet", "--help"};
 }
 
 }  // namespace keyline::app

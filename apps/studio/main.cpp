@@ -9,9 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-
 #include "guard.h"
+#include "options.h"
 #include "server.h"
 #include "studio.h"
 
@@ -22,16 +21,6 @@ constexpr int kDone = 0;
 constexpr int kBadInput = 2;
 constexpr int kFileTrouble = 3;
 constexpr auto kLastWorks = std::chrono::seconds(5);  // to end in, after they were told to
-
-struct Options {
-  std::vector<std::string> files;
-  std::string address = "127.0.0.1";
-  unsigned short port = 0;
-  std::string token;
-  std::vector<std::string> hosts;
-  bool no_browser = false;
-  bool quiet = false;
-};
 
 int report(const std::string& message, const std::string& remedy, int status) {
   std::fprintf(stderr, "keyline: %s; %s\n", message.c_str(), remedy.c_str());
@@ -63,43 +52,6 @@ void open_browser(const std::string& url) {
   for (int stream = 0; stream < 3; ++stream) ::dup2(nowhere, stream);
   ::execlp("xdg-open", "xdg-open", url.c_str(), static_cast<char*>(nullptr));
   ::_exit(1);
-}
-
-int parse(int argc, char** argv, Options& options) {
-  CLI::App app{"Keyline Studio: draw, see the curvature, fair it, take it home.", "keyline studio"};
-  app.set_version_flag("--version", "keyline " KEYLINE_VERSION);
-  app.add_option("FILE", options.files, "to open: points, curves, drawings, surfaces")
-      ->type_name("FILE");
-  app.add_option("--port", options.port, "0: any that is free")->capture_default_str();
-  app.add_option("--listen", options.address, "address for others to reach; needs --token")
-      ->capture_default_str();
-  app.add_option("--token", options.token, "what a browser must know; else one is made")
-      ->check([](const std::string& token) {
-        const bool plain = token.find_first_not_of(
-                               "0123456789abcdefghijklmnopqrstuvwxyz"
-                               "ABCDEFGHIJKLMNOPQRSTUVWXYZ-_") == std::string::npos;
-        return token.size() >= 16 && plain ? std::string()
-                                           : "a token has 16 or more letters, digits, - or _";
-      });
-  app.add_option("--host", options.hosts, "name the server goes by, with --listen; may be repeated")
-      ->allow_extra_args(false);
-  app.add_flag("--no-browser", options.no_browser, "print the address, open nothing");
-  app.add_flag("--quiet", options.quiet, "no messages but errors");
-  app.footer(
-      "Example: keyline studio examples/bonnet-scan.csv\n"
-      "Files are read and written in the folder it is started in, and nowhere else.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& e) {
-    app.exit(e);
-    return kDone;
-  } catch (const CLI::CallForVersion& e) {
-    app.exit(e);
-    return kDone;
-  } catch (const CLI::ParseError& e) {
-    return report(e.what(), "see keyline studio --help", kBadInput);
-  }
-  return -1;
 }
 
 bool is_loopback(const std::string& address) {
@@ -170,9 +122,14 @@ int serve(const Options& options, const std::filesystem::path& page) {
   return kDone;
 }
 
-int run(int argc, char** argv) {
-  Options options;
-  if (const int status = parse(argc, argv, options); status >= 0) return status;
+int run(const std::vector<std::string>& words) {
+  const auto read = read_options(words);
+  if (!read) return report(read.error().message, read.error().hint, kBadInput);
+  const Options& options = *read;
+  if (options.help || options.version) {
+    std::fputs(options.help ? help().c_str() : "keyline " KEYLINE_VERSION "\n", stdout);
+    return kDone;
+  }
   if (!is_loopback(options.address) && options.token.empty())
     return report("--listen " + options.address + " lets others in", "give a --token as well",
                   kBadInput);
@@ -191,7 +148,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return keyline::studio::run(argc, argv);
+    return keyline::studio::run({argv + 1, argv + argc});
   } catch (const std::exception& e) {
     return keyline::studio::report(e.what(), "please report this", 1);
   }
