@@ -32,10 +32,11 @@ Session new_session() {
 }
 
 /// The value of a curve that one Bezier curve stands for; "class_a" of the result, or why not.
-json class_a_of(const Session& session, const json& curve, ShownAnalysis& shown) {
+json class_a_of(const Session& session, const json& curve, const core::Progress& progress,
+                ShownAnalysis& shown) {
   json request{{"curve", curve}};
   if (session.door().tolerance) request["fit_tolerance"] = *session.door().tolerance;
-  auto value = session.perform("curve.cav", request, {});
+  auto value = session.perform("curve.cav", request, progress);
   if (!value) return {{"reason", value.error().message}};
   auto text = shown_of(*value);
   if (!text) return {{"reason", text.error().message}};
@@ -90,17 +91,18 @@ struct Analysed {
   std::string text;
 };
 
-Result<void> analyze_one(Session& session, const json& thing, Analysed& all) {
+Result<void> analyze_one(Session& session, const json& thing, const core::Progress& progress,
+                         Analysed& all) {
   json request = session.of(kCurves);
   request.update(subject_of(thing));
   const std::string name = thing["name"].get<std::string>();
-  auto outcome = session.perform("curve.analyze", request, session.progress());
+  auto outcome = session.perform("curve.analyze", request, progress);
   if (!outcome) return std::unexpected(outcome.error());
   auto shown = shown_of(*outcome);
   if (!shown) return std::unexpected(shown.error());
   const json curve = shown->contains("spline") ? (*shown)["spline"] : thing["curve"];
   ShownAnalysis page{{name, std::move(*outcome)}, {}};
-  (*shown)["class_a"] = class_a_of(session, curve, page);
+  (*shown)["class_a"] = class_a_of(session, curve, progress, page);
   all.text += text_of(name, *shown);
   if (!name.empty()) (*shown)["name"] = name;
   all.curves.push_back({{"name", name}, {"curve", curve}});
@@ -116,9 +118,14 @@ void add_json(presentation::Pages& pages, const json& shown) {
 
 int analyze_curves(Session& session, const ReadFiles& read) {
   Analysed all;
-  for (const json& thing : planar_things(read))
-    if (auto done = analyze_one(session, thing, all); !done)
-      return report_failure(done.error(), session.files().front());
+  const core::Progress progress = session.progress();
+  const std::vector<json> things = planar_things(read);
+  for (const json& thing : things) {
+    const std::size_t at = all.shown.size();
+    if (auto done = analyze_one(session, thing, one_of_many(progress, at, things.size()), all);
+        !done)
+      return report_failure(told_how_far(done.error(), at, things.size()), session.files().front());
+  }
   end_progress();
   const json shown = one_or_all(all.shown, "curves");
   presentation::ReportOptions options = session.report_options();
@@ -220,7 +227,7 @@ int run_analyze(const Words& words) {
       !sound)
     return report_failure(sound.error());
   if (surfaces) return analyze_surfaces(session, *read);
-  for (const std::string& skipped : read->answer().skipped) say(session.door().quiet, skipped);
+  say_skipped(session.door().quiet, read->answer().skipped);
   return analyze_curves(session, *read);
 }
 

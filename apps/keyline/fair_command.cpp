@@ -81,13 +81,13 @@ int report_missed(const std::vector<const Shown*>& missed, const std::string& fi
 }
 
 /// Where the tolerance is missed, or that the work was cut short: after everything is written.
-int verdict_of(const std::vector<Shown>& all, const std::string& file) {
+int verdict_of(const std::vector<Shown>& all, std::size_t wanted, const std::string& file) {
   std::vector<const Shown*> missed;
   for (const Shown& faired : all) {
     if (answer_of(faired).cancelled) {
-      report_failure({core::ErrorCode::cancelled,
-                      "cancelled" + name_of(faired) + "; the best found was kept", "", ""});
-      return kCancelled;
+      const core::Failure failure{core::ErrorCode::cancelled, "cancelled" + name_of(faired),
+                                  "the best found was kept", ""};
+      return report_failure(told_how_far(failure, all.size() - 1, wanted));
     }
     if (!answer_of(faired).within_tolerance) missed.push_back(&faired);
   }
@@ -98,14 +98,12 @@ int verdict_of(const std::vector<Shown>& all, const std::string& file) {
 Result<std::vector<Shown>> fair_all(Session& session, const std::vector<json>& things) {
   const core::Progress progress = session.progress();
   std::vector<Shown> all;
-  const auto count = static_cast<double>(things.size());
   for (const json& thing : things) {
     json request = session.of(0);
     request.update(subject_of(thing));
-    const auto i = static_cast<double>(all.size());
     auto outcome =
-        session.perform("fair", request, core::part_of(progress, i / count, (i + 1) / count));
-    if (!outcome) return std::unexpected(outcome.error());
+        session.perform("fair", request, one_of_many(progress, all.size(), things.size()));
+    if (!outcome) return std::unexpected(told_how_far(outcome.error(), all.size(), things.size()));
     all.push_back({thing["name"].get<std::string>(), std::move(*outcome)});
     if (answer_of(all.back()).cancelled) break;
   }
@@ -130,7 +128,8 @@ json document_of(const std::vector<Shown>& all, const std::vector<json>& shown, 
 }
 
 /// What was read, shown and written; then the verdict.
-int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& all) {
+int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& all,
+           std::size_t wanted) {
   std::vector<json> shown;
   std::string text;
   for (const Shown& faired : all) {
@@ -148,7 +147,7 @@ int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& al
     for (std::size_t i = 0; i < all.size(); ++i) shown[i]["id"] = all[i].name;
   session.print(one_or_all(shown, "curves"), text);
   for (const Shown& faired : all) tell(session, faired);
-  return verdict_of(all, session.files().front());
+  return verdict_of(all, wanted, session.files().front());
 }
 
 }  // namespace
@@ -159,12 +158,11 @@ int run_fair(const Words& words) {
   if (auto done = session.check_outputs(); !done) return report_failure(done.error());
   const auto read = read_files(session, session.of(1), true);
   if (!read) return report_failure(read.error());
-  if (!read->answer().skipped.empty())
-    say(session.door().quiet, fmt::format("{} in the file were skipped; keyline list names them",
-                                          core::counted(read->answer().skipped.size(), "thing")));
-  const auto all = fair_all(session, planar_things(*read));
+  say_skipped(session.door().quiet, read->answer().skipped);
+  const std::vector<json> things = planar_things(*read);
+  const auto all = fair_all(session, things);
   if (!all) return report_failure(all.error());
-  return finish(session, *read, *all);
+  return finish(session, *read, *all, things.size());
 }
 
 std::vector<std::string> fair_options() { return new_session().arguments().names(); }

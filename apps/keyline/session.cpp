@@ -1,5 +1,7 @@
 #include "session.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "keyline/operations/schema.h"
@@ -99,7 +101,14 @@ presentation::ReportOptions Session::report_options() const {
 core::Progress Session::progress() const { return interactive_progress(door_.quiet); }
 
 Result<void> Session::check_outputs(const std::vector<std::string>& known) const {
-  return presentation::check_outputs(door_.output, known, files());
+  if (auto done = presentation::check_outputs(door_.output, known, files()); !done) return done;
+  const auto streamed = std::ranges::find_if(door_.output, presentation::is_standard_output);
+  if (streamed == door_.output.end()) return {};
+  if (door_.json)
+    return core::fail(ErrorCode::bad_input, "two things go to standard output",
+                      "leave out --json, or name a file", *streamed);
+  leave_standard_output();
+  return {};
 }
 
 Result<void> Session::check_outputs() const {
@@ -108,7 +117,7 @@ Result<void> Session::check_outputs() const {
 
 Result<operations::Outcome> Session::perform(const std::string& operation, const json& request,
                                              const core::Progress& progress) const {
-  auto outcome = operations::carry_out(operation, request, {door_.threads, progress});
+  auto outcome = operations::carry_out(operation, request, {door_.threads, progress, true});
   if (!outcome) return std::unexpected(as_options(outcome.error()));
   return outcome;
 }

@@ -1,12 +1,18 @@
 #include "terminal.h"
 
-#include <atomic>
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <mutex>
+#include <stop_token>
+#include <thread>
 
 #include <unistd.h>
+
+#include <fmt/format.h>
 
 namespace keyline::app {
 namespace {
@@ -21,20 +27,80 @@ extern "C" void on_interrupt(int) {
   interrupt_token().request_stop();
 }
 
-std::atomic<bool> bar_shown{false};
-std::mutex bar_mutex;
+/// A line on a terminal that tells what goes on. Reports only leave a note; a thread draws it, from
+/// a third of a second on, so that many short pieces of work look like one and a long silent one is
+/// seen to live.
+class Bar {
+ public:
+  void note(double fraction, std::string_view doing) {
+    const std::scoped_lock lock(mutex_);
+    fraction_ = fraction;
+    doing_ = doing;
+    if (!drawer_.joinable()) {
+      began_ = Clock::now();
+      drawer_ = std::jthread([this](const std::stop_token& stop) { draw_until(stop); });
+    }
+  }
 
-void draw_bar(double fraction, std::string_view doing) {
-  constexpr int kWidth = 28;
-  const int full = static_cast<int>(std::lround(fraction * kWidth));
-  std::string bar;
-  for (int i = 0; i < kWidth; ++i) bar += i < full ? '#' : '.';
-  const std::scoped_lock lock(bar_mutex);
-  std::fprintf(stderr, "\r[%s] %3d %%  %.*s\x1b[K", bar.c_str(), static_cast<int>(100 * fraction),
-               static_cast<int>(std::min<std::size_t>(doing.size(), 40)),
-               std::string(doing).c_str());
-  std::fflush(stderr);
-  bar_shown = true;
+  void clear() {
+    std::jthread drawer;
+    {
+      const std::scoped_lock lock(mutex_);
+      drawer = std::move(drawer_);
+    }
+    drawer.request_stop();
+    if (drawer.joinable()) drawer.join();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw_until(const std::stop_token& stop) {
+    constexpr auto kFirst = std::chrono::milliseconds(300);
+    constexpr auto kNext = std::chrono::milliseconds(150);
+    bool drawn = false;
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, stop, drawn ? kNext : kFirst, [] { return false; }) &&
+           !stop.stop_requested()) {
+      std::fputs(line().c_str(), stderr);
+      std::fflush(stderr);
+      drawn = true;
+    }
+    if (drawn) std::fputs("\r\x1b[K", stderr);
+    std::fflush(stderr);
+  }
+
+  std::string line() const {
+    constexpr int kWidth = 28;
+    constexpr std::size_t kWords = 48;
+    const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+    std::string text = "\r[";
+    for (int i = 0; i < kWidth; ++i) text += i < std::lround(fraction_ * kWidth) ? '#' : '.';
+    text += fmt::format("] {:3d} %  {}", static_cast<int>(100 * fraction_),
+                        doing_.substr(0, std::min(doing_.size(), kWords)));
+    constexpr double kTelling = 0.02;  // of the work: before, what is left is anybody's guess
+    const double left = fraction_ > kTelling ? seconds * (1 - fraction_) / fraction_ : 0;
+    text += fraction_ > kTelling && left >= 1 ? fmt::format(", {} left", duration(left))
+                                              : fmt::format(", {}", duration(seconds));
+    return text + "\x1b[K";
+  }
+
+  static std::string duration(double seconds) {
+    const auto whole = static_cast<long>(std::lround(seconds));
+    return whole < 120 ? fmt::format("{} s", whole) : fmt::format("{} min", (whole + 30) / 60);
+  }
+
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread drawer_;
+  Clock::time_point began_;
+  double fraction_ = 0;
+  std::string doing_;
+};
+
+Bar& bar() {
+  static Bar one;
+  return one;
 }
 
 /// Line breaks and control characters of a message would break the one-line rule.
@@ -80,20 +146,44 @@ void say(bool quiet, const std::string& text) {
   std::fprintf(stderr, "keyline: %s\n", one_line(text).c_str());
 }
 
+void say_skipped(bool quiet, const std::vector<std::string>& skipped) {
+  constexpr std::size_t kMost = 10;
+  for (std::size_t i = 0; i < std::min(kMost, skipped.size()); ++i)
+    say(quiet, "skipped: " + skipped[i]);
+  if (skipped.size() > kMost)
+    say(quiet, fmt::format("skipped: {} more; keyline list names them", skipped.size() - kMost));
+}
+
 core::Progress interactive_progress(bool quiet) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   core::Progress progress;
   progress.cancellation = interrupt_token();
-  if (!quiet && isatty(STDERR_FILENO)) progress.sink = draw_bar;
+  if (!quiet && isatty(STDERR_FILENO))
+    progress.sink = [](double fraction, std::string_view doing) { bar().note(fraction, doing); };
   return progress;
 }
 
-void end_progress() {
-  if (!bar_shown.exchange(false)) return;
-  const std::scoped_lock lock(bar_mutex);
-  std::fprintf(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+void leave_standard_output() { stdout = stderr; }
+
+void end_progress() { bar().clear(); }
+
+core::Progress one_of_many(const core::Progress& whole, std::size_t index, std::size_t count) {
+  const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
+  core::Progress part =
+      core::part_of(whole, static_cast<double>(index) / n, static_cast<double>(index + 1) / n);
+  if (!part.sink || count < 2) return part;
+  part.sink = [sink = part.sink, index, count](double fraction, std::string_view doing) {
+    sink(fraction, fmt::format("{} of {}: {}", index + 1, count, doing));
+  };
+  part.report(0, "");
+  return part;
+}
+
+core::Failure told_how_far(core::Failure failure, std::size_t done, std::size_t wanted) {
+  if (failure.code == core::ErrorCode::cancelled && wanted > 1)
+    failure.message = fmt::format("cancelled, {} of {} done", done, wanted);
+  return failure;
 }
 
 }  // namespace keyline::app

@@ -71,9 +71,8 @@ struct Made {
 };
 
 Result<void> run_one(Session& session, const Operation& operation, const json& request,
-                     const std::string& name, Made& made) {
-  const auto outcome = session.perform(operation.name, request, session.progress());
-  end_progress();
+                     const std::string& name, const core::Progress& progress, Made& made) {
+  const auto outcome = session.perform(operation.name, request, progress);
   if (!outcome) return std::unexpected(outcome.error());
   auto result = shown_of(*outcome);
   if (!result) return std::unexpected(result.error());
@@ -92,6 +91,7 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
 }
 
 int finish(Session& session, const Made& made) {
+  end_progress();
   if (!session.door().output.empty()) {
     const auto output = presentation::output_of(made.document);
     if (!output) return report_failure(output.error());
@@ -116,13 +116,14 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
   json request = session.of(0);
   if (has_field(operation, "curves")) {
     for (const json& thing : things) request["curves"].push_back(curve_of(thing));
-    return run_one(session, operation, request, "", made);
+    return run_one(session, operation, request, "", session.progress(), made);
   }
-  for (const json& thing : things) {
-    request["curve"] = curve_of(thing);
-    if (auto done = run_one(session, operation, request, thing["name"].get<std::string>(), made);
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    request["curve"] = curve_of(things[i]);
+    if (auto done = run_one(session, operation, request, things[i]["name"].get<std::string>(),
+                            one_of_many(session.progress(), i, things.size()), made);
         !done)
-      return done;
+      return std::unexpected(told_how_far(done.error(), i, things.size()));
   }
   return {};
 }
@@ -241,7 +242,7 @@ int run_plain(const std::string& name, const Words& words) {
   const auto& files = session.files();
   if (!files.empty()) request["file"] = files.size() == 1 ? json(files.front()) : json(files);
   Made made;
-  if (auto done = run_one(session, operation, request, "", made); !done)
+  if (auto done = run_one(session, operation, request, "", session.progress(), made); !done)
     return report_failure(done.error());
   return finish(session, made);
 }

@@ -12,6 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "keyline/exchange/format.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -35,7 +37,7 @@ fs::path folder_of(const fs::path& target) {
 }
 
 /// A name of 128 bits of chance, short enough wherever the target's own name fits.
-fs::path name_beside(const fs::path& target) {
+std::string name_by_chance() {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::random_device chance;
   std::string name(kStart);
@@ -43,8 +45,10 @@ fs::path name_beside(const fs::path& target) {
     const std::uint32_t bits = chance();
     for (int shift = 28; shift >= 0; shift -= 4) name += kDigits[bits >> shift & 15];
   }
-  return folder_of(target) / name.append(kEnd);
+  return name.append(kEnd);
 }
+
+fs::path name_beside(const fs::path& target) { return folder_of(target) / name_by_chance(); }
 
 /// Takes away what killed runs left in a folder: files named like ours that are ours and that
 /// nobody holds locked.
@@ -52,7 +56,10 @@ void sweep(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    if (!name.starts_with(kStart.substr(0, 8)) || !name.ends_with(kEnd)) continue;
+    const fs::path stem = at->path().filename().stem();
+    if (!name.starts_with(kStart.substr(0, 8)) ||
+        !(name.ends_with(kEnd) || stem.extension() == kEnd))
+      continue;
     const int file = ::open(at->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) continue;
     struct stat status{};
@@ -78,16 +85,6 @@ int create_locked(const fs::path& path) {
   return -1;
 }
 
-bool write_all(int file, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t done = ::write(file, content.data(), content.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done < 0) return false;
-    content.remove_prefix(static_cast<std::size_t>(done));
-  }
-  return true;
-}
-
 /// The rights of a new file, or those of the one it replaces.
 mode_t rights_of(const fs::path& target) {
   struct stat status{};
@@ -95,6 +92,11 @@ mode_t rights_of(const fs::path& target) {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
+}
+
+Result<void> write_to_standard_output(std::string_view content) {
+  return write_all(STDOUT_FILENO, content) ? Result<void>()
+                                           : unwritable("standard output", reason_of(errno));
 }
 
 Result<void> write_directly(const fs::path& path, std::string_view content) {
@@ -116,7 +118,29 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
+bool write_all(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t done = ::write(file, content.data(), content.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(done));
+  }
+  return true;
+}
+
+Result<TemporaryFile> temporary_file(const std::string& extension) {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (error) return unwritable("the folder of temporary files", error.message());
+  sweep(folder);
+  TemporaryFile file{folder / (name_by_chance() + extension)};
+  file.lock = create_locked(file.path);
+  if (file.lock < 0) return unwritable(file.path, reason_of(errno));
+  return file;
+}
+
 Result<void> check_writable(const fs::path& path) {
+  if (is_standard_stream(path)) return {};
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) return unwritable(path, "it is a folder");
@@ -143,7 +167,8 @@ Result<void> OutputFiles::add(const fs::path& path, std::string_view content) {
   File file;
   file.named = file.target = path;
   file.fresh = !fs::exists(status);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
+  file.standard = is_standard_stream(path);
+  if (file.standard || (fs::exists(status) && !fs::is_regular_file(status))) {
     file.content = content;
     files_.push_back(std::move(file));
     return {};
@@ -192,7 +217,9 @@ Result<void> OutputFiles::commit() {
   for (File& file : files_)
     if (done && !file.beside.empty()) done = place(file);
   for (File& file : files_)
-    if (done && file.beside.empty()) done = write_directly(file.target, file.content);
+    if (done && file.beside.empty())
+      done = file.standard ? write_to_standard_output(file.content)
+                           : write_directly(file.target, file.content);
   if (!done) return done;  // the destructor puts back what was
   for (File& file : files_) {
     if (!file.backup.empty()) ::unlink(file.backup.c_str());

@@ -17,7 +17,8 @@ namespace keyline::exchange {
 /// renaming when all are there: a target holds what it held before or the whole new content,
 /// whatever ends the program. What a killed run left beside a target is swept by the next one that
 /// writes there; a lock tells what belongs to a run that still lives. A target that is no regular
-/// file (a pipe, /dev/stdout) is written directly, behind the others.
+/// file (a pipe, a terminal) is written directly, behind the others; so is standard output ("-",
+/// or "svg:-").
 class OutputFiles {
  public:
   OutputFiles() = default;
@@ -40,7 +41,8 @@ class OutputFiles {
     std::string content;           ///< of what is written directly
     int lock = -1;
     int backup_lock = -1;
-    bool fresh = false;  ///< there was no target
+    bool standard = false;  ///< goes to standard output
+    bool fresh = false;     ///< there was no target
     bool placed = false;
   };
   core::Result<void> place(File& file);
@@ -52,6 +54,17 @@ class OutputFiles {
 /// io where `path` cannot be written: a folder, no folder around it, no right to. Nothing is
 /// written.
 core::Result<void> check_writable(const std::filesystem::path& path);
+
+/// A new file of ours beside the system's temporary ones, locked while `lock` is open and swept by
+/// the next run where this one is killed. Fails: io.
+struct TemporaryFile {
+  std::filesystem::path path;
+  int lock = -1;
+};
+core::Result<TemporaryFile> temporary_file(const std::string& extension);
+
+/// The whole content to an open file; false with errno.
+bool write_all(int file, std::string_view content);
 
 /// One file, in place at once.
 core::Result<void> write_atomically(const std::filesystem::path& path, std::string_view content);

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -43,10 +47,102 @@ std::string_view start_of(std::string_view head) {
   return at == std::string_view::npos ? std::string_view{} : head.substr(at);
 }
 
+/// Lines of "v 1 2 3", "f 1 2 3" or what else an OBJ file begins with.
+bool looks_like_obj(std::string_view head) {
+  for (; !head.empty(); head.remove_prefix(std::min(head.size(), head.find('\n') + 1))) {
+    const std::string_view line = start_of(head.substr(0, head.find('\n')));
+    if (line.find('\n') != std::string_view::npos || line.empty() || line.starts_with('#')) {
+      if (head.find('\n') == std::string_view::npos) return false;
+      continue;
+    }
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    static constexpr std::array<std::string_view, 7> kWords = {"v", "vn", "vt",    "o",
+                                                               "g", "f",  "mtllib"};
+    return word.size() < line.size() && std::ranges::find(kWords, word) != kWords.end();
+  }
+  return false;
+}
+
+/// A header of 80 bytes, a number of triangles, and the first one's normal: of length 1, or 0.
+bool looks_like_binary_stl(std::string_view head) {
+  constexpr std::size_t kHeader = 84;
+  if (head.size() < kHeader + 50 || head.find('\0') == std::string_view::npos) return false;
+  float normal[3];
+  std::memcpy(normal, head.data() + kHeader, sizeof normal);
+  if constexpr (std::endian::native == std::endian::big)
+    for (float& x : normal)
+      x = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(x)));
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  return length == 0 || std::abs(length - 1) < 0.01;
+}
+
+bool looks_like_iges(std::string_view head) {
+  return head.size() > 80 && head.substr(72, 8) == "S0000001";
+}
+
+/// "#width height", "@pen".
+bool looks_like_scap(std::string_view head) {
+  if (!head.starts_with('#')) return false;
+  const std::size_t second = head.find('\n');
+  return second != std::string_view::npos && head.substr(second + 1).starts_with('@') &&
+         head.substr(1, second - 1).find_first_not_of("0123456789. \t\r") == std::string_view::npos;
+}
+
+std::string_view xml_extension(std::string_view start) {
+  return start.find("<glyph") != std::string_view::npos &&
+                 start.find("<svg") == std::string_view::npos
+             ? ".glif"
+             : ".svg";
+}
+
+std::string_view extension_by_content(std::string_view head) {
+  using namespace std::string_view_literals;
+  if (const std::string_view picture = picture_extension(head); !picture.empty()) return picture;
+  if (detail::looks_like_dxf(head)) return ".dxf";
+  if (head.starts_with("\x1f\x8b")) return ".svgz";
+  if (head.starts_with("\0\1\0\0"sv) || head.starts_with("true")) return ".ttf";
+  if (head.starts_with("OTTO")) return ".otf";
+  if (head.starts_with("ttcf")) return ".ttc";
+  if (head.starts_with("ply\n") || head.starts_with("ply\r")) return ".ply";
+  if (looks_like_iges(head)) return ".iges";
+  if (looks_like_scap(head)) return ".scap";
+  const std::string_view start = start_of(head);
+  if (start.starts_with("ISO-10303-21")) return ".step";
+  if (start.starts_with('{') || start.starts_with('[')) return ".json";
+  if (start.starts_with('<')) return xml_extension(start);
+  if (start.starts_with("solid ") || looks_like_binary_stl(head)) return ".stl";
+  return looks_like_obj(head) ? ".obj" : "";
+}
+
 }  // namespace
 
+std::string_view picture_extension(std::string_view head) {
+  using namespace std::string_view_literals;
+  if (head.starts_with("\x89PNG\r\n\x1a\n")) return ".png";
+  if (head.starts_with("\xff\xd8\xff")) return ".jpg";
+  if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv)) return ".tif";
+  if (head.starts_with("RIFF") && head.size() > 12 && head.substr(8, 4) == "WEBP") return ".webp";
+  return "";
+}
+
+std::string telling_extension(const std::filesystem::path& file, std::string_view head) {
+  static constexpr std::array<std::string_view, 7> kOthers = {".png",  ".jpg",  ".jpeg", ".tif",
+                                                              ".tiff", ".webp", ".scap"};
+  std::string own = file == "-" ? "" : extension_of(file);
+  if (known(own) || std::ranges::find(kOthers, own) != kOthers.end()) return own;
+  return std::string(extension_by_content(head));
+}
+
+bool is_standard_stream(const std::filesystem::path& file) {
+  const std::string& name = file.native();
+  return name == "-" || (name.ends_with(":-") && name.find('/') == std::string::npos);
+}
+
 std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
+  const std::string& name = file.native();
+  if (name == "-") return ".json";
+  std::string extension =
+      is_standard_stream(file) ? "." + name.substr(0, name.size() - 2) : file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return c < 0x80 ? std::tolower(c) : c; });
   return extension;
@@ -54,13 +150,7 @@ std::string extension_of(const std::filesystem::path& file) {
 
 Format format_of(const std::filesystem::path& file, std::string_view head) {
   if (is_hull_csv(head)) return Format::offsets;
-  if (const auto format = known(extension_of(file))) return *format;
-  if (detail::looks_like_dxf(head)) return Format::dxf;
-  const std::string_view start = start_of(head);
-  if (start.starts_with("ISO-10303-21")) return Format::step;
-  if (start.starts_with('{') || start.starts_with('[')) return Format::json;
-  if (start.starts_with('<')) return Format::svg;
-  return Format::points;
+  return known(telling_extension(file, head)).value_or(Format::points);
 }
 
 std::vector<std::string> written_extensions() {

@@ -10,8 +10,19 @@ namespace keyline::exchange {
 /// What room exchange reads or writes. points: tables of coordinates as text.
 enum class Format { points, json, svg, dxf, step, iges, mesh, font, glif, offsets };
 
-/// ".svg" and the like, in lower case; empty where the name has none.
+/// Whether a name means standard input or output: "-", or "svg:-" where the format is to be told.
+bool is_standard_stream(const std::filesystem::path& file);
+
+/// ".svg" and the like, in lower case; empty where the name has none. Of "svg:-" it is ".svg", of
+/// "-", which is written as JSON, ".json".
 std::string extension_of(const std::filesystem::path& file);
+
+/// The extension that tells what a file is: its own where it is one of ours or a picture's, else
+/// that of what its first bytes look like; empty for tables of points and what nobody knows.
+std::string telling_extension(const std::filesystem::path& file, std::string_view head);
+
+/// ".png", ".jpg", ".tif" or ".webp" by the first bytes; empty for what is no such picture.
+std::string_view picture_extension(std::string_view head);
 
 /// By the extension; where that says nothing, by the first bytes of the content; points otherwise.
 Format format_of(const std::filesystem::path& file, std::string_view head = {});

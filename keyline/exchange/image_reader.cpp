@@ -9,6 +9,8 @@
 #include <fstream>
 #include <string>
 
+#include "keyline/exchange/format.h"
+
 namespace keyline::exchange {
 
 using core::ErrorCode;
@@ -140,13 +142,11 @@ bool has_image_name(const std::filesystem::path& path) {
 }
 
 Result<Image> read_image(std::string_view bytes) {
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return detail::read_png(bytes);
-  if (starts_with(bytes, "\xff\xd8\xff")) return detail::read_jpeg(bytes);
-  if (starts_with(bytes, std::string_view("II*\0", 4)) ||
-      starts_with(bytes, std::string_view("MM\0*", 4)))
-    return detail::read_tiff(bytes);
-  if (starts_with(bytes, "RIFF") && bytes.size() > 12 && bytes.substr(8, 4) == "WEBP")
-    return detail::read_webp(bytes);
+  const std::string_view kind = picture_extension(bytes);
+  if (kind == ".png") return detail::read_png(bytes);
+  if (kind == ".jpg") return detail::read_jpeg(bytes);
+  if (kind == ".tif") return detail::read_tiff(bytes);
+  if (kind == ".webp") return detail::read_webp(bytes);
   return core::fail(ErrorCode::bad_input, "is no PNG, JPEG, TIFF or WebP picture",
                     "save the drawing in one of these formats");
 }

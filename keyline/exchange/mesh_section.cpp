@@ -143,15 +143,14 @@ std::vector<SectionLine> section(const Mesh& mesh, const acquire::Plane& plane) 
 }
 
 bool is_mesh_file(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
-  return extension == ".obj" || extension == ".stl" || extension == ".ply";
+  return format_of(file, head_of(file).value_or("")) == Format::mesh;
 }
 
 core::Result<Mesh> read_mesh(const std::filesystem::path& file) {
   constexpr std::uintmax_t kLargest = std::uintmax_t{4} << 30;
   const auto content = read_file(file, kLargest);
   if (!content) return std::unexpected(content.error());
-  const std::string extension = extension_of(file);
+  const std::string extension = telling_extension(file, std::string_view(*content).substr(0, 1024));
   auto mesh = extension == ".obj"   ? read_obj(*content)
               : extension == ".stl" ? read_stl(*content)
                                     : read_ply(*content);

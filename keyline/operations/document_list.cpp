@@ -1,14 +1,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/analysis/profile.h"
 #include "keyline/core/polygon.h"
+#include "keyline/curve/bounding_box.h"
+#include "keyline/curve/length.h"
 #include "keyline/operations/document_read.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
 namespace {
 
+using core::ErrorCode;
+using core::fail;
 using core::Point3;
 using core::Result;
 
@@ -66,8 +69,6 @@ struct ListAnswer {
   }
 };
 
-constexpr int kPlaces = 257;  // of every curve, for its box
-
 struct TypeName {
   std::string operator()(const curve::Polyline2& c) const { return polyline(c.points.size()); }
   std::string operator()(const curve::Polyline3& c) const { return polyline(c.points.size()); }
@@ -89,21 +90,78 @@ struct TypeName {
   static std::string polyline(std::size_t n) { return "polyline of " + std::to_string(n); }
 };
 
+/// The box around a curve and its length, added to those of others.
+struct Measure {
+  Box& box;
+  double& length;
+
+  template <class C>
+  void operator()(const C& c) const {
+    const curve::Box2 around = curve::bounding_box(c);
+    box.take(around.low);
+    box.take(around.high);
+    length += curve::arc_length(c, 0, 1, kLengthTolerance);
+  }
+  void operator()(const lac::Chain& c) const {
+    const curve::Box2 around = curve::bounding_box(c);
+    box.take(around.low);
+    box.take(around.high);
+    length += lac::arc_length(c);
+  }
+
+ private:
+  /// Of the length: what is printed, and more; curves by the ten thousand are measured.
+  static constexpr double kLengthTolerance = 1e-9;
+};
+
 void describe_path(const document::Path& path, Thing& thing) {
   thing.type = path.curves.size() == 1 ? std::visit(TypeName{}, path.curves[0].value)
                                        : "path of " + std::to_string(path.curves.size());
   thing.closed = path.closed;
-  thing.length = analysis::ArcLengthTable(analysis::view(path)).length();
-  for (int i = 0; i < kPlaces; ++i)
-    thing.box.take(evaluate(path, static_cast<double>(i) / (kPlaces - 1)));
-  for (const double t : breakpoints(path)) thing.box.take(evaluate(path, t));
+  double length = 0;
+  for (const document::PlanarCurve& c : path.curves)
+    std::visit(Measure{thing.box, length}, c.value);
+  thing.length = length;
 }
+
+curve::Polyline2 shadow(const curve::Polyline3& c, auto along) {
+  curve::Polyline2 flat;
+  for (const Point3 p : c.points) flat.points.push_back(along(p));
+  return flat;
+}
+curve::Bezier2 shadow(const curve::Bezier3& c, auto along) {
+  curve::Bezier2 flat{{}, c.weights};
+  for (const Point3 p : c.control) flat.control.push_back(along(p));
+  return flat;
+}
+curve::BSpline2 shadow(const curve::BSpline3& c, auto along) {
+  curve::BSpline2 flat{c.degree, c.knots, {}, c.weights};
+  for (const Point3 p : c.control) flat.control.push_back(along(p));
+  return flat;
+}
+
+/// The box of a space curve by those of its shadows in the plane.
+struct SpaceBox {
+  Box& box;
+  template <class C>
+  void operator()(const C& c) const {
+    const auto plan =
+        curve::bounding_box(shadow(c, [](Point3 p) { return core::Point2{p.x, p.y}; }));
+    const auto side =
+        curve::bounding_box(shadow(c, [](Point3 p) { return core::Point2{p.x, p.z}; }));
+    box.take(Point3{plan.low.x, plan.low.y, side.low.y});
+    box.take(Point3{plan.high.x, plan.high.y, side.high.y});
+  }
+  void operator()(const lac::SpaceChain& c) const {
+    constexpr int kPlaces = 257;
+    for (int i = 0; i < kPlaces; ++i) box.take(evaluate(c, static_cast<double>(i) / (kPlaces - 1)));
+  }
+};
 
 void describe_space(const document::SpaceCurve& c, Thing& thing) {
   thing.kind = ThingKind::space_curve;
   thing.type = std::visit(TypeName{}, c.value);
-  for (int i = 0; i < kPlaces; ++i)
-    thing.box.take(evaluate(c, static_cast<double>(i) / (kPlaces - 1)));
+  std::visit(SpaceBox{thing.box}, c.value);
 }
 
 void describe_line(const acquire::KeyLine& line, Thing& thing) {
@@ -149,7 +207,12 @@ Result<ListAnswer> run(const InputRequest& request, const Context& context) {
   const auto read = read_input(request, context.progress);
   if (!read) return std::unexpected(read.error());
   ListAnswer answer{read->unit, {}, read->skipped};
-  for (const NamedCurve& c : read->curves) answer.things.push_back(thing_of(c));
+  for (std::size_t i = 0; i < read->curves.size(); ++i) {
+    if (context.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
+    context.progress.report(static_cast<double>(i) / static_cast<double>(read->curves.size()),
+                            "measuring curves");
+    answer.things.push_back(thing_of(read->curves[i]));
+  }
   for (const NamedSurfaceValue& s : read->surfaces) answer.things.push_back(thing_of(s));
   return answer;
 }

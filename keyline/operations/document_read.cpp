@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "keyline/acquire/join.h"
 #include "keyline/acquire/lattice.h"
@@ -11,6 +10,7 @@
 #include "keyline/acquire/symmetry.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/input_file.h"
 #include "keyline/exchange/lattice_reader.h"
 #include "keyline/exchange/mesh.h"
 #include "keyline/exchange/planar_form.h"
@@ -80,7 +80,7 @@ Result<std::vector<RawCurve>> read_raw(const InputRequest& input, const std::str
   if (input.row || input.column) return read_lattice_input(input, file);
   const bool told =
       !input.columns.empty() || !input.weight_column.empty() || !input.id_column.empty();
-  if (!input.section.empty() && !told && file != "-") {
+  if (!input.section.empty() && !told) {
     auto cut = cut_file(input, file);
     if (!cut) return std::unexpected(cut.error());
     return std::move(cut->curves);
@@ -89,8 +89,7 @@ Result<std::vector<RawCurve>> read_raw(const InputRequest& input, const std::str
   options.columns = input.columns;
   options.weight_column = input.weight_column;
   options.id_column = input.id_column;
-  auto raw = file == "-" ? exchange::read_points(std::cin, "standard input", options)
-                         : exchange::read_points(std::filesystem::path(file), options);
+  auto raw = exchange::read_points(std::filesystem::path(file), options);
   if (!raw || input.section.empty()) return raw;
   return cut_table(input, *raw);
 }
@@ -230,19 +229,11 @@ Result<ReadAnswer> read_curves(const InputRequest& input) {
 }
 
 bool holds_points(const std::string& file) {
-  if (file == "-") return true;
-  if (exchange::is_mesh_file(file)) return false;
   return exchange::format_of(file, exchange::head_of(file).value_or("")) ==
          exchange::Format::points;
 }
 
-Result<ReadAnswer> run(const InputRequest& request, const Context& context) {
-  return read_input(request, context.progress);
-}
-
-}  // namespace
-
-Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress& progress) {
+Result<ReadAnswer> read_files(const InputRequest& request, const core::Progress& progress) {
   const std::string& file = request.file.front();
   const bool points = !exchange::has_image_name(file) && holds_points(file);
   if (!points && request.file.size() > 1)
@@ -256,6 +247,28 @@ Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress&
   answer.unit = request.unit;
   for (KeyLine& line : *lines) answer.curves.push_back(named(std::move(line)));
   return answer;
+}
+
+Result<ReadAnswer> run(const InputRequest& request, const Context& context) {
+  return read_input(request, context.progress);
+}
+
+}  // namespace
+
+Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress& progress) {
+  InputRequest readable = request;
+  std::vector<exchange::InputFile> files;
+  for (std::string& file : readable.file) {
+    auto opened = exchange::InputFile::open(file, progress);
+    if (!opened) return std::unexpected(opened.error());
+    file = opened->path().string();
+    files.push_back(std::move(*opened));
+  }
+  auto read = read_files(readable, progress);
+  if (!read)
+    for (const exchange::InputFile& file : files)
+      read = std::unexpected(file.as_named(read.error()));
+  return read;
 }
 
 Operation document_read_operation() {

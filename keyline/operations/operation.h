@@ -17,6 +17,8 @@ namespace keyline::operations {
 struct Context {
   int threads = 0;  ///< 0: all of the machine's
   core::Progress progress;
+  /// Whether the file "-" means the door's own input and output; elsewhere they carry requests.
+  bool standard_streams = false;
 };
 
 struct Operation {

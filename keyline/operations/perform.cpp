@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/format.h"
 #include "keyline/exchange/json_text.h"
 #include "keyline/operations/common.h"
 
@@ -19,11 +20,31 @@ json failed(const json& id, const Failure& failure) {
   return {{"id", id}, {"ok", false}, {"error", failure_json(failure)}};
 }
 
+/// Fails where a request names the door's own input or output that is not its to use.
+Result<void> check_streams(const Operation& operation, const json& request,
+                           const Context& context) {
+  if (context.standard_streams || !(operation.reads_files || operation.writes_files)) return {};
+  for (const char* field : {"file", "to"}) {
+    const auto at = request.find(field);
+    if (at == request.end()) continue;
+    for (const json& name : at->is_array() ? *at : json::array({*at}))
+      if (name.is_string() && exchange::is_standard_stream(name.get<std::string>()))
+        return core::fail(ErrorCode::bad_input, "\"-\" carries the requests here, it holds no file",
+                          "name a file", field);
+  }
+  return {};
+}
+
 Result<Outcome> run_typed(const Operation& operation, const json& request, Context context) {
   detail::Whole whole(operation);
   const std::vector<Part> parts = whole.parts(operation);
   if (auto read = read_json(request, parts, detail::kEnvelope, operation.name); !read)
     return std::unexpected(std::move(read.error()));
+  if (auto own = check_streams(operation, request, context); !own)
+    return std::unexpected(std::move(own.error()));
+  if (context.progress.stop_requested())
+    return core::fail(ErrorCode::cancelled, "cancelled before it began");
+  if (operation.long_running) context.progress.report(0, operation.name);
   if (whole.common.threads > 0) context.threads = whole.common.threads;
   auto result = operation.run(whole.own.get(), context);
   if (!result) return std::unexpected(std::move(result.error()));
@@ -57,7 +78,7 @@ Result<Answer> guarded(const Operation& operation, const Work& work) {
       return core::fail(ErrorCode::internal, e.what(), "please report this request");
     }
   }();
-  if (!result && result.error().hint.empty())
+  if (!result && result.error().hint.empty() && result.error().code != ErrorCode::cancelled)
     result.error().hint = usual_hint(operation, result.error().path);
   return result;
 }

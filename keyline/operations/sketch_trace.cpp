@@ -4,6 +4,7 @@
 
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/input_file.h"
 #include "keyline/exchange/scap_reader.h"
 #include "keyline/operations/base64.h"
 #include "keyline/operations/registry.h"
@@ -114,22 +115,36 @@ Result<sketch::TraceResult> trace_vectors(const SketchRequest& request,
   return trace_drawn(*strokes, pen, options);
 }
 
-/// The drawing traced: a picture, or pen strokes of a file of vectors.
-Result<sketch::TraceResult> trace_drawing(const SketchRequest& request, const Context& context,
-                                          std::vector<sketch::Stage>& stages) {
+/// The drawing traced: a picture, or pen strokes of a file of vectors, which can be opened again.
+Result<sketch::TraceResult> trace_readable(const SketchRequest& request, const Context& context,
+                                           std::vector<sketch::Stage>& stages) {
   sketch::TraceOptions options = request.options;
   if (request.thresholds)
     options.binarize.regions = {request.thresholds->begin(), request.thresholds->end()};
   options.progress = context.progress;
   if (request.stages)
     options.stage = [&stages](const sketch::Stage& stage) { stages.push_back(stage); };
-  const std::string extension = exchange::extension_of(request.file);
+  const std::string extension =
+      exchange::telling_extension(request.file, exchange::head_of(request.file).value_or(""));
   if (extension == ".scap" || extension == ".svg" || extension == ".json" || extension == ".dxf")
     return trace_vectors(request, options);
   auto image = image_of(request);
   if (!image) return std::unexpected(image.error());
   set_tolerance(request, 1, options);
   return trace_picture(std::move(*image), options);
+}
+
+/// The same of whatever is named: "-" and pipes too.
+Result<sketch::TraceResult> trace_drawing(const SketchRequest& request, const Context& context,
+                                          std::vector<sketch::Stage>& stages) {
+  if (request.file.empty()) return trace_readable(request, context, stages);
+  const auto file = exchange::InputFile::open(request.file, context.progress);
+  if (!file) return std::unexpected(file.error());
+  SketchRequest readable = request;
+  readable.file = file->path().string();
+  auto traced = trace_readable(readable, context, stages);
+  if (!traced) return std::unexpected(file->as_named(traced.error()));
+  return traced;
 }
 
 std::vector<StageShown> shown(const std::vector<sketch::Stage>& stages) {

@@ -21,11 +21,15 @@ std::vector<std::string> known_extensions() {
   return known;
 }
 
+bool is_standard_output(const std::string& file) { return exchange::is_standard_stream(file); }
+
 namespace {
 
 /// Whether both names lead to one file, there already or not.
 bool are_one(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
+  if (is_standard_output(a) || is_standard_output(b))
+    return is_standard_output(a) && is_standard_output(b);
   std::error_code none;
   if (fs::equivalent(a, b, none)) return fs::is_regular_file(a, none);
   return fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
@@ -49,8 +53,8 @@ Result<void> check_outputs(const std::vector<std::string>& files,
     const std::string& file = files[i];
     if (auto done = check_extension(file, known); !done) return done;
     if (auto can = exchange::check_writable(file); !can) return can;
-    for (const std::string& input : inputs)
-      if (are_one(file, input))
+    for (const std::string& input : inputs)  // a stream in and one out are two
+      if (!is_standard_output(file) && are_one(file, input))
         return core::fail(core::ErrorCode::bad_input, "this is the input, which is not overwritten",
                           "give -o another name", file);
     for (std::size_t k = 0; k < i; ++k)

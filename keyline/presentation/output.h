@@ -13,6 +13,9 @@ namespace keyline::presentation {
 /// What document.write writes and pages show.
 std::vector<std::string> known_extensions();
 
+/// Whether -o names standard output: "-" (JSON), "svg:-".
+bool is_standard_output(const std::string& file);
+
 /// bad_input, before anything is computed, for an extension of none of `known`, a file named twice
 /// or a file that is one of the inputs, which nothing may overwrite; io for one that cannot be
 /// written.
