@@ -40,7 +40,11 @@ void Lane::serve() {
     const std::function<void()> work = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    work();
+    try {
+      work();
+    } catch (...) {
+      // Its responder goes with it, which closes the connection; others are served on.
+    }
   }
 }
 

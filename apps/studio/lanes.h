@@ -20,7 +20,8 @@ class Lane {
   Lane(const Lane&) = delete;
   Lane& operator=(const Lane&) = delete;
 
-  /// False where too much waits already. The work must not throw.
+  /// False where too much waits already. Work that throws
+  /// ends there; whoever waits for it sees the connection close.
   bool take(std::function<void()> work);
 
  private:

@@ -4,7 +4,7 @@
 
 #include "keyline/operations/perform.h"
 #include "keyline/operations/references.h"
-#include "keyline/operations/schema.h"
+#include "keyline/presentation/output.h"
 
 #include "guard.h"
 
@@ -114,6 +114,21 @@ std::string query_value(const std::string& query, const std::string& name) {
     }
   }
   return value;
+}
+
+/// Curves and surfaces as one file; pictures and pages where the extension means one.
+Result<operations::Written> written_as(const std::string& file, json request) {
+  request["file"] = file;
+  auto output = presentation::output_of(std::move(request));
+  if (!output) return std::unexpected(std::move(output.error()));
+  presentation::ReportOptions options;
+  options.title = "Keyline Studio";
+  options.unit = output->document.unit;
+  options.generator = "Keyline " KEYLINE_VERSION;
+  const auto pages = presentation::document_pages(output->document, options);
+  auto answer = presentation::write_files({file}, pages, *output);
+  if (!answer) return std::unexpected(std::move(answer.error()));
+  return answer->written.at(0);
 }
 
 constexpr const char* kPolicy =
@@ -287,18 +302,21 @@ void Studio::export_document(std::string body, const std::shared_ptr<Responder>&
   const auto work = [body = std::move(body), back] {
     auto request = request_in(body);
     if (!request) return back->reply(failed(request.error()));
+    const auto named = request->find("file");
+    if (named == request->end() || !named->is_string())
+      return back->reply(failed({ErrorCode::bad_input, "\"file\" is missing",
+                                 "name the file; its extension chooses the format", "file"}));
     const Scratch scratch;
-    const fs::path file = scratch.file(plain_name(request->value("file", "keyline.json")));
-    (*request)["file"] = file.string();
-    auto written = operations::perform("document.write", *request, {1, {}});
+    const fs::path file = scratch.file(plain_name(named->get<std::string>()));
+    const auto written = written_as(file.string(), std::move(*request));
     if (!written) return back->reply(failed(written.error()));
+    const json deviation = written->deviation;
+    const json notes = written->notes;
     Reply reply = data(200, contents(file));
     reply.type = "application/octet-stream";
-    const json& first = written->at("written").at(0);
-    reply.headers.emplace_back("Keyline-Deviation", text_of(first.value("deviation", json(0))));
-    reply.headers.emplace_back(
-        "Keyline-Notes",
-        first.value("notes", json::array()).dump(-1, ' ', true, json::error_handler_t::replace));
+    reply.headers.emplace_back("Keyline-Deviation", text_of(deviation));
+    reply.headers.emplace_back("Keyline-Notes",
+                               notes.dump(-1, ' ', true, json::error_handler_t::replace));
     back->reply(std::move(reply));
   };
   if (!hand_.take(work)) back->reply(too_busy());

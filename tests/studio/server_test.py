@@ -221,6 +221,20 @@ class StudioServer(unittest.TestCase):
             self.assertEqual(status, 200, body)
             self.assertEqual(len(json.loads(body)["result"]["curves"]), 1, form)
 
+    def test_exports_pictures_and_pages(self):
+        _, body, _ = self.ask("POST", "/api/v1/lac.segment", SEGMENT)
+        curves = [{"name": "a", "curve": json.loads(body)["result"]["curve"]}]
+        for form, head in (("pdf", b"%PDF"), ("png", b"\x89PNG"), ("html", b"<!doctype html>")):
+            status, body, _ = self.ask("POST", "/api/v1/studio/export",
+                                       {"file": "x." + form, "unit": "mm", "curves": curves})
+            self.assertEqual(status, 200, body[:300])
+            self.assertEqual(body[:len(head)].lower(), head.lower())
+        for wrong in ({}, {"file": 3}, {"file": "x.nothing"}, {"file": "x.svg", "curves": 3},
+                      {"file": "x.svg", "curves": [{"curve": {}}]}, []):
+            status, body, _ = self.ask("POST", "/api/v1/studio/export", wrong)
+            self.assertEqual(status, 400, (wrong, body[:300]))
+        self.well()
+
     def test_refuses_who_may_not_ask(self):
         refused = [
             ({"Host": "evil.example"}, 421), ({"Origin": "http://evil.example"}, 403),
