@@ -9,21 +9,27 @@ import { Autosave } from "./model/autosave.ts";
 import { Before } from "./model/before.ts";
 import { added, emptyDoc, entityOf, isShown, type Point, without } from "./model/document.ts";
 import { Live, type Shown } from "./model/live.ts";
-import { exportAs, type Format, formats, openNamed } from "./model/open.ts";
+import { exportAs, type Format, formats, isImage, openNamed } from "./model/open.ts";
 import { startState, Store } from "./model/state.ts";
+import { actionsPanel } from "./panels/actions.ts";
 import { FairPanel } from "./panels/fair.ts";
 import { listPanel } from "./panels/list.ts";
 import { LooksBar } from "./panels/looks.ts";
 import { measuresPanel, reading } from "./panels/measures.ts";
 import { shapePanel } from "./panels/shape.ts";
 import { ToolRail } from "./panels/toolbar.ts";
+import { layUnder, underlayPanel } from "./panels/underlay.ts";
 import { iconButton } from "./ui/controls.ts";
 import { fill, h } from "./ui/dom.ts";
 import { icons } from "./ui/icons.ts";
 import { boxOf, Viewport } from "./view/viewport.ts";
 import { measure } from "./view/ticks.ts";
 
-const kToothShare = 0.16; // of the canvas' smaller side: the longest tooth of a comb that fits
+// A comb that fits: nine teeth of ten within this share of the canvas' smaller side, so that one tight
+// corner does not press the rest flat; none longer than the second.
+const kMostTeeth = 0.9;
+const kToothShare = 0.16;
+const kLongestTooth = 0.55;
 
 export class Studio {
   readonly store: Store;
@@ -81,7 +87,7 @@ export class Studio {
     this.store.onChange((now, before) => {
       if (now.looks.theme !== before.looks.theme) localStorage.setItem("keyline-theme", now.looks.theme);
       if (now.tool !== before.tool) this.canvas.useTool(now.tool);
-      const panel = now.history !== before.history || now.selection !== before.selection;
+      const panel = now.history !== before.history || now.selection !== before.selection || now.underlay?.file !== before.underlay?.file;
       if (panel) this.renderPanel();
       if (panel || now.history !== before.history) this.renderBar();
       if (now.work !== before.work) this.renderWork();
@@ -122,11 +128,12 @@ export class Studio {
 
   private drawn(): Point[] {
     const doc = this.store.doc;
+    const under = this.store.state.underlay;
     return doc.entities.filter((e) => isShown(doc, e)).flatMap((e): Point[] => {
       if (e.kind === "scan") return e.line.points as Point[];
       const own = "points" in e ? (e.points as Point[]) : [];
       return [...own, ...((this.live.of(e.id)?.comb.points ?? []) as Point[])];
-    });
+    }).concat(under ? [under.at, [under.at[0] + under.width * under.scale, under.at[1] + under.height * under.scale]] : []);
   }
 
   fit(): void {
@@ -147,16 +154,19 @@ export class Studio {
     const subject = this.subject();
     const shown: Shown[] = subject ? [subject.shown]
       : this.store.doc.entities.flatMap((e) => this.live.of(e.id) ?? []);
-    const largest = Math.max(0, ...shown.flatMap((s) => s.comb.curvature.map(Math.abs)));
+    const sizes = shown.flatMap((s) => s.comb.curvature.map(Math.abs)).sort((a, b) => a - b);
+    const largest = sizes.at(-1) ?? 0;
     if (!(largest > 0)) return;
-    const length = (kToothShare * Math.min(this.view.width, this.view.height)) / this.view.scale;
-    this.store.look({ combScale: length / largest });
+    const most = sizes[Math.floor(kMostTeeth * (sizes.length - 1))] ?? largest;
+    const side = Math.min(this.view.width, this.view.height) / this.view.scale;
+    this.store.look({ combScale: Math.min((kToothShare * side) / Math.max(most, 1e-12), (kLongestTooth * side) / largest) });
   }
 
   async openFiles(files: FileList | readonly File[]): Promise<void> {
     for (const file of files) {
       const kept = await this.client.upload(file.name, file);
       if (!kept.ok) this.store.say(kept.error.message, kept.error.hint ?? "", true);
+      else if (isImage(file.name)) await layUnder(this.store, file, kept.result);
       else await openNamed(this.client, this.store, kept.result);
     }
     this.fit();
@@ -230,9 +240,11 @@ export class Studio {
     const fairable = e && (e.kind === "scan" || e.kind === "faired" || e.kind === "fixed");
     fill(this.panel,
       listPanel(this.store),
+      actionsPanel(this.store, this.live),
       e && shapePanel(this.store, e),
-      fairable && this.fair.element(e),
       h("div", { id: "measures-slot" }),
+      fairable && this.fair.element(e),
+      underlayPanel(this.client, this.store),
       subject && h("section", {}, h("h2", {}, "Comb"), this.looks.combControls()));
     this.renderMeasures();
   }

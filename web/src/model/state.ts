@@ -38,6 +38,8 @@ export interface Work {
 export interface Underlay {
   url: string;
   name: string;
+  /** the name the server knows it by */
+  file: string;
   width: number;
   height: number;
   /** lower left corner, and model length of a pixel */
