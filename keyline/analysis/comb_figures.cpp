@@ -1,0 +1,78 @@
+#include "keyline/analysis/comb_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace keyline::analysis {
+namespace {
+
+constexpr int kGrid = 4000;
+constexpr int kWithin = 20;  // steps of the grid: 0.5 % of the length
+constexpr double kSeen = 0.02;
+constexpr double kTail = 0.005;
+
+/// Curvature at even steps of the length.
+std::vector<double> resampled(const curve::CurvatureGraph& graph) {
+  const double from = graph.arc_length.front();
+  const double length = graph.arc_length.back() - from;
+  std::vector<double> grid;
+  std::size_t i = 1;
+  for (int step = 0; step <= kGrid; ++step) {
+    const double s = from + length * step / kGrid;
+    while (i + 1 < graph.arc_length.size() && graph.arc_length[i] < s) ++i;
+    const double width = graph.arc_length[i] - graph.arc_length[i - 1];
+    const double t = width > 0 ? (s - graph.arc_length[i - 1]) / width : 1;
+    grid.push_back(std::lerp(graph.curvature[i - 1], graph.curvature[i], std::clamp(t, 0.0, 1.0)));
+  }
+  return grid;
+}
+
+double range_of(std::vector<double> grid) {
+  std::sort(grid.begin(), grid.end());
+  const auto at = [&](double share) { return grid[std::lround(share * (grid.size() - 1))]; };
+  return at(1 - kTail) - at(kTail);
+}
+
+/// Extrema, each followed by a swing of at least so much.
+int extrema(const std::vector<double>& grid, double swing) {
+  int found = 0;
+  int way = 0;
+  double low = grid.front();
+  double high = grid.front();
+  for (const double k : grid) {
+    low = std::min(low, k);
+    high = std::max(high, k);
+    if (way >= 0 && k < high - swing) {
+      found += way > 0 ? 1 : 0;
+      way = -1;
+      low = high = k;
+    } else if (way <= 0 && k > low + swing) {
+      found += way < 0 ? 1 : 0;
+      way = 1;
+      low = high = k;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+CombFigures comb_figures(const curve::CurvatureGraph& graph) {
+  const std::vector<double> grid = resampled(graph);
+  const double range = range_of(grid);
+  CombFigures figures;
+  if (!(range > 0)) return figures;
+  figures.waves = extrema(grid, kSeen * range);
+  for (std::size_t i = kWithin; i < grid.size(); ++i)
+    figures.jolt = std::max(figures.jolt, std::abs(grid[i] - grid[i - kWithin]) / range);
+  for (std::size_t i = 1; i < graph.arc_length.size(); ++i) {
+    const double step = graph.arc_length[i] - graph.arc_length[i - 1];
+    if (!(step > 0)) continue;
+    figures.energy += std::pow(graph.curvature[i] - graph.curvature[i - 1], 2) / step;
+  }
+  figures.energy *= std::pow(graph.arc_length.back() - graph.arc_length.front(), 3);
+  return figures;
+}
+
+}  // namespace keyline::analysis

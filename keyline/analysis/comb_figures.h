@@ -1,0 +1,31 @@
+#pragma once
+
+#include "keyline/core/describe.h"
+#include "keyline/curve/curvature_graph.h"
+
+namespace keyline::analysis {
+
+/// A comb in three figures, the same for a curve of any size.
+struct CombFigures {
+  int waves = 0;      ///< extrema of curvature whose swing is above 2 % of its range
+  double energy = 0;  ///< L^3 * integral of (d curvature / ds)^2 ds
+  double jolt = 0;    ///< largest change of curvature within 0.5 % of the length, over its range
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&CombFigures::waves>("extrema of curvature that rise above 2 % of its range"),
+        core::field<&CombFigures::energy>("L^3 times the integral of (d curvature / ds)^2"),
+        core::field<&CombFigures::jolt>(
+            "largest change of curvature within 0.5 % of the length, as a share of its range"));
+  }
+};
+
+/// Range: from the 0.5th to the 99.5th percentile along the length, so that a needle does not hide
+/// waves. Without any curvature's range all figures are 0. The energy is that of the straight lines
+/// between the samples: of a curve whose rate is not finite somewhere it grows with their number.
+///
+/// Precondition: as many curvatures as arc lengths, at least two, arc lengths never falling.
+/// Source: energy by H. Moreton and C. Sequin, Functional optimization for fair surface design,
+///         SIGGRAPH 1992.
+CombFigures comb_figures(const curve::CurvatureGraph& graph);
+
+}  // namespace keyline::analysis

@@ -1,0 +1,172 @@
+#include "keyline/fit/smoothing_spline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+
+namespace keyline::fit {
+namespace {
+
+constexpr int kMostSpans = 400;
+constexpr int kBisections = 18;
+constexpr double kStiffest = 12;  // decimal logarithms of the penalty that are searched
+constexpr double kSoftest = -12;
+constexpr int kSamplesPerSpan = 16;
+
+using Basis = std::array<double, 6>;
+
+/// The six quintic B-splines of even knots that are not 0 at a place u in [0, 1] of their span, or
+/// their derivatives, by de Boor's recurrence.
+Basis basis(double u, int derivative) {
+  Basis b{1, 0, 0, 0, 0, 0};
+  const int degree = 5 - derivative;
+  for (int d = 1; d <= degree; ++d)
+    for (int j = d; j >= 0; --j) {
+      const double rising = j > 0 ? (u + d - j) / d * b[j - 1] : 0;
+      const double falling = j < d ? (j + 1 - u) / d * b[j] : 0;
+      b[j] = rising + falling;
+    }
+  // Here b[j] belongs to the j-th spline from the left; derivatives are differences of lower ones.
+  for (int k = 0; k < derivative; ++k)
+    for (int j = degree + k + 1; j >= 0; --j) {
+      const double left = j > 0 ? b[j - 1] : 0;
+      const double right = j <= degree + k ? b[j] : 0;
+      b[j] = left - right;
+    }
+  return b;
+}
+
+class Smoother {
+ public:
+  Smoother(std::span<const core::Point2> points, bool closed) : points_(points), closed_(closed) {
+    at_.push_back(0);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      at_.push_back(at_.back() + core::distance(points[i - 1], points[i]));
+    total_ = at_.back() + (closed ? core::distance(points.back(), points.front()) : 0);
+    spans_ = std::clamp(static_cast<int>(points.size() / 2), 6, kMostSpans);
+    count_ = closed ? spans_ : spans_ + 5;
+  }
+
+  bool sound() const { return total_ > 0; }
+
+  bool within(double penalty, double tolerance) {
+    if (!solve(penalty)) return false;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (distance(i) > tolerance) return false;
+    return true;
+  }
+
+  curve::CurvatureGraph graph() const {
+    curve::CurvatureGraph graph;
+    core::Point2 last = at(0, 0);
+    double s = 0;
+    for (int i = 0; i <= spans_ * kSamplesPerSpan; ++i) {
+      const double t = static_cast<double>(i) / kSamplesPerSpan;
+      const core::Point2 p = at(t, 0);
+      const auto [dx, dy] = at(t, 1);
+      const auto [ddx, ddy] = at(t, 2);
+      s += core::distance(last, p);
+      last = p;
+      const double speed = std::hypot(dx, dy);
+      graph.arc_length.push_back(s);
+      graph.curvature.push_back((dx * ddy - dy * ddx) / (speed * speed * speed));
+    }
+    return graph;
+  }
+
+ private:
+  int span(double t) const { return std::clamp(static_cast<int>(t), 0, spans_ - 1); }
+  int index(int i) const { return closed_ ? i % count_ : i; }
+
+  core::Point2 at(double t, int derivative) const {
+    const int k = span(t);
+    const Basis b = basis(t - k, derivative);
+    core::Point2 sum{0, 0};
+    for (int j = 0; j < 6; ++j) {
+      sum.x += b[j] * x_(index(k + j));
+      sum.y += b[j] * y_(index(k + j));
+    }
+    return sum;
+  }
+
+  double place(std::size_t i) const { return at_[i] / total_ * spans_; }
+
+  /// Of a point from the curve near its parameter.
+  double distance(std::size_t i) const {
+    double t = place(i);
+    double least = core::distance(at(t, 0), points_[i]);
+    for (int step = 0; step < 4; ++step) {
+      const core::Point2 p = at(t, 0);
+      const auto [dx, dy] = at(t, 1);
+      const double along = (points_[i].x - p.x) * dx + (points_[i].y - p.y) * dy;
+      t += along / (dx * dx + dy * dy);
+      if (closed_) t -= spans_ * std::floor(t / spans_);
+      t = std::clamp(t, 0.0, static_cast<double>(spans_));
+      least = std::min(least, core::distance(at(t, 0), points_[i]));
+    }
+    return least;
+  }
+
+  bool solve(double penalty) {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](int first, std::span<const double> row, double weight) {
+      for (std::size_t a = 0; a < row.size(); ++a)
+        for (std::size_t b = 0; b < row.size(); ++b)
+          entries.emplace_back(index(first + static_cast<int>(a)),
+                               index(first + static_cast<int>(b)), weight * row[a] * row[b]);
+    };
+    Eigen::VectorXd right_x = Eigen::VectorXd::Zero(count_);
+    Eigen::VectorXd right_y = Eigen::VectorXd::Zero(count_);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int k = span(place(i));
+      const Basis b = basis(place(i) - k, 0);
+      add(k, b, 1);
+      for (int j = 0; j < 6; ++j) {
+        right_x(index(k + j)) += b[j] * points_[i].x;
+        right_y(index(k + j)) += b[j] * points_[i].y;
+      }
+    }
+    constexpr std::array<double, 4> kThird{-1, 3, -3, 1};
+    for (int i = 0; i + (closed_ ? 0 : 3) < count_; ++i) add(i, kThird, penalty);
+    Eigen::SparseMatrix<double> normal(count_, count_);
+    normal.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+    if (factor.info() != Eigen::Success) return false;
+    x_ = factor.solve(right_x);
+    y_ = factor.solve(right_y);
+    return x_.allFinite() && y_.allFinite();
+  }
+
+  std::span<const core::Point2> points_;
+  bool closed_;
+  std::vector<double> at_;
+  double total_ = 0;
+  int spans_ = 0;
+  int count_ = 0;
+  Eigen::VectorXd x_;
+  Eigen::VectorXd y_;
+};
+
+}  // namespace
+
+std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
+    std::span<const core::Point2> points, bool closed, double tolerance) {
+  if (points.size() < 8) return std::nullopt;
+  Smoother smoother(points, closed);
+  if (!smoother.sound()) return std::nullopt;
+  std::optional<curve::CurvatureGraph> best;
+  double low = kSoftest;
+  double high = kStiffest;
+  for (int step = 0; step < kBisections; ++step) {
+    const double middle = 0.5 * (low + high);
+    const bool kept = smoother.within(std::pow(10, middle), tolerance);
+    if (kept) best = smoother.graph();
+    (kept ? low : high) = middle;
+  }
+  return best;
+}
+
+}  // namespace keyline::fit

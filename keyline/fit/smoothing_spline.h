@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "keyline/core/point.h"
+#include "keyline/curve/curvature_graph.h"
+
+namespace keyline::fit {
+
+/// The graph of curvature of the smoothest quintic spline whose distance from every point is within
+/// the tolerance: what any program has to offer, to compare with.
+///
+/// Method: a spline on even knots over the points' chord length, a knot to every two points up to
+/// 400, least squares plus a penalty on third differences of its coefficients (a P-spline), the
+/// largest penalty that keeps the tolerance found by bisection of its logarithm.
+/// Returns: nothing for fewer than eight points, points of no extent, or where no penalty keeps the
+///          tolerance.
+/// Source: P. Eilers and B. Marx, Flexible smoothing with B-splines and penalties, Statistical
+///         Science 11 (1996).
+std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
+    std::span<const core::Point2> points, bool closed, double tolerance);
+
+}  // namespace keyline::fit

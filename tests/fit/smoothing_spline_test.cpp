@@ -1,0 +1,64 @@
+#include "keyline/fit/smoothing_spline.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace keyline::fit {
+namespace {
+
+std::vector<core::Point2> ellipse(int n, double share, double noise) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> error(0, noise);
+  std::vector<core::Point2> points;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * share * i / (share < 1 ? n - 1 : n);
+    points.push_back({3 * std::cos(t) + error(random), 2 * std::sin(t) + error(random)});
+  }
+  return points;
+}
+
+double largest(const curve::CurvatureGraph& graph) {
+  double most = 0;
+  for (const double k : graph.curvature) most = std::max(most, std::abs(k));
+  return most;
+}
+
+double variation(const curve::CurvatureGraph& g) {
+  double sum = 0;
+  for (std::size_t i = 1; i < g.arc_length.size(); ++i)
+    sum +=
+        std::pow(g.curvature[i] - g.curvature[i - 1], 2) / (g.arc_length[i] - g.arc_length[i - 1]);
+  return sum;
+}
+
+TEST(SmoothingSpline, HasTheCurvatureOfAnEllipse) {
+  const auto graph = smoothing_spline_curvature(ellipse(400, 1, 0), true, 1e-5);
+  ASSERT_TRUE(graph);
+  EXPECT_NEAR(graph->arc_length.back(), 15.8654396, 1e-3);  // perimeter, Ramanujan's series
+  EXPECT_NEAR(largest(*graph), 0.75, 1e-2);                 // a / b^2
+}
+
+TEST(SmoothingSpline, IsSmootherTheWiderTheTolerance) {
+  const auto points = ellipse(300, 0.6, 1e-3);
+  double last = HUGE_VAL;
+  for (const double tolerance : {3e-3, 2e-2}) {
+    const auto graph = smoothing_spline_curvature(points, false, tolerance);
+    ASSERT_TRUE(graph) << tolerance;
+    const double energy = variation(*graph);
+    EXPECT_LT(energy, last) << tolerance;
+    last = energy;
+  }
+}
+
+TEST(SmoothingSpline, RefusesWhatHasNone) {
+  const std::vector<core::Point2> one(20, {1, 2});
+  EXPECT_FALSE(smoothing_spline_curvature(one, false, 1e-3));
+  EXPECT_FALSE(smoothing_spline_curvature(ellipse(5, 1, 0), false, 1e-3));
+}
+
+}  // namespace
+}  // namespace keyline::fit
