@@ -14,26 +14,53 @@ constexpr double kCentred = 1e4;     // products of slack and multiplier stay th
 }  // namespace
 
 Springs::Springs(const std::vector<FitPoint>& points, std::vector<double> offsets, double weight)
-    : points_(points), offset_(std::move(offsets)), weight_(weight) {}
-
-Pull Springs::pull(std::size_t j) const {
-  const double w = weight_ * points_[j].weight;
-  return {w, w * offset_[j]};
+    : weight_(points.size()), offset_(std::move(offsets)) {
+  double sum = 0;
+  double count = 0;
+  for (const FitPoint& p : points) {
+    if (p.count == 0) continue;
+    sum += p.weight;
+    ++count;
+  }
+  for (std::size_t j = 0; j < points.size(); ++j)
+    weight_[j] = weight * (points[j].count > 0 ? points[j].weight / sum : 1 / count);
 }
+
+Pull Springs::pull(std::size_t j) const { return {weight_[j], weight_[j] * offset_[j]}; }
 
 double Springs::merit(const std::vector<double>& offsets, double) const {
   double sum = 0;
-  for (std::size_t j = 0; j < offsets.size(); ++j)
-    sum += points_[j].weight * offsets[j] * offsets[j];
-  return 0.5 * weight_ * sum;
+  for (std::size_t j = 0; j < offsets.size(); ++j) sum += weight_[j] * offsets[j] * offsets[j];
+  return 0.5 * sum;
 }
 
 void Springs::move(const std::vector<double>& offsets, const std::vector<double>&, double) {
   offset_ = offsets;
 }
 
-Band::Band(const std::vector<FitPoint>& points, double tolerance)
-    : points_(points), tolerance_(tolerance), pair_(points.size()) {}
+std::vector<double> mean_weights(const std::vector<FitPoint>& points) {
+  std::vector<double> weight;
+  double sum = 0;
+  for (const FitPoint& p : points) {
+    const double own = p.count > 0 ? p.weight : 0;
+    sum += own;
+    weight.push_back(own / (p.share * p.share));
+  }
+  for (double& w : weight) w /= sum;
+  return weight;
+}
+
+double root_mean_square(const std::vector<double>& mean_weights,
+                        const std::vector<double>& offsets) {
+  double sum = 0;
+  for (std::size_t j = 0; j < offsets.size(); ++j) sum += mean_weights[j] * offsets[j] * offsets[j];
+  return std::sqrt(sum);
+}
+
+Band::Band(const std::vector<FitPoint>& points, double tolerance, double spring)
+    : points_(points), tolerance_(tolerance), spring_(mean_weights(points)), pair_(points.size()) {
+  for (double& w : spring_) w *= spring;
+}
 
 double Band::room_high(std::size_t j, double offset) const {
   return tolerance_ - offset - points_[j].share * points_[j].high;
@@ -47,9 +74,9 @@ Pull Band::pull(std::size_t j) const {
   const auto& [high, low] = pair_[j];
   const double up = room_high(j, offset_[j]) + high.extra;
   const double down = room_low(j, offset_[j]) + low.extra;
-  return {high.multiplier / up + low.multiplier / down,
+  return {high.multiplier / up + low.multiplier / down + spring_[j],
           (barrier_ + high.multiplier * high.extra) / up -
-              (barrier_ + low.multiplier * low.extra) / down};
+              (barrier_ + low.multiplier * low.extra) / down + spring_[j] * offset_[j]};
 }
 
 void Band::start(const std::vector<double>& offsets, double barrier) {
@@ -97,14 +124,16 @@ double Band::longest(const std::vector<double>& meant) const {
 double Band::merit(const std::vector<double>& offsets, double share) const {
   double logs = 0;
   double extra = 0;
+  double springs = 0;
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     const auto& [high, low] = pair_[j];
     const double up = room_high(j, offsets[j]) + (1 - share) * high.extra;
     const double down = room_low(j, offsets[j]) + (1 - share) * low.extra;
+    springs += spring_[j] * offsets[j] * offsets[j];
     logs += std::log(up / tolerance_ * down / tolerance_);
     extra += high.extra + low.extra;
   }
-  return price_ * (1 - share) * extra - barrier_ * logs;
+  return price_ * (1 - share) * extra - barrier_ * logs + 0.5 * springs;
 }
 
 void Band::move(const std::vector<double>& offsets, const std::vector<double>& meant,
@@ -146,6 +175,7 @@ void Band::recentre() {
 
 void Band::rescale(double by) {
   price_ *= by;
+  for (double& w : spring_) w *= by;
   for (auto& [high, low] : pair_) {
     high.multiplier *= by;
     low.multiplier *= by;

@@ -32,7 +32,15 @@ class Limits {
   virtual void rescale(double by) = 0;
 };
 
-/// Springs: half the weight times the square of every offset.
+/// What share of the mean square of all offsets each point's square is: none of a guide's, and the
+/// offset itself where a point's share makes it count for more.
+std::vector<double> mean_weights(const std::vector<FitPoint>& points);
+
+/// Root of the mean square of the measured points' offsets.
+double root_mean_square(const std::vector<double>& mean_weights,
+                        const std::vector<double>& offsets);
+
+/// Springs: half the weight times the mean square of the offsets, guides beside the points.
 class Springs : public Limits {
  public:
   Springs(const std::vector<FitPoint>& points, std::vector<double> offsets, double weight);
@@ -44,9 +52,8 @@ class Springs : public Limits {
   void rescale(double) override {}
 
  private:
-  const std::vector<FitPoint>& points_;
+  std::vector<double> weight_;
   std::vector<double> offset_;
-  double weight_;
 };
 
 /// Slacks and multipliers of offset + high <= tolerance and -offset - low <= tolerance, a pair a
@@ -56,7 +63,8 @@ class Springs : public Limits {
 /// Source: S. Wright, Primal-Dual Interior-Point Methods (SIAM, 1997), chapters 1 and 6.
 class Band : public Limits {
  public:
-  Band(const std::vector<FitPoint>& points, double tolerance);
+  /// spring: also half that weight times the mean square of all offsets, in the merit's unit.
+  Band(const std::vector<FitPoint>& points, double tolerance, double spring);
 
   Pull pull(std::size_t j) const override;
 
@@ -64,7 +72,7 @@ class Band : public Limits {
 
   double longest(const std::vector<double>& meant) const override;
   bool allows(const std::vector<double>& offsets, double share) const override;
-  /// -barrier * sum of the slacks' logarithms + price * extra width.
+  /// -barrier * sum of the slacks' logarithms + price * extra width, and the springs.
   double merit(const std::vector<double>& offsets, double share) const override;
   /// Multipliers go as far as none loses its sign.
   void move(const std::vector<double>& offsets, const std::vector<double>& meant,
@@ -93,6 +101,7 @@ class Band : public Limits {
 
   const std::vector<FitPoint>& points_;
   double tolerance_;
+  std::vector<double> spring_;
   double barrier_ = 1;
   double price_ = 0;
   std::vector<double> offset_;

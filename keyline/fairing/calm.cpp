@@ -29,6 +29,7 @@ double range_of(const DenseCurve& curve) {
 /// A swing of curvature that may go: which extrema bound it.
 struct Removal {
   double sideways = HUGE_VAL;  ///< how far a wave of this swing and width departs from its middle
+  double share = 0;            ///< of the length
   std::size_t first = 0;
   std::size_t count = 0;  ///< 1 at an end, else 2
 };
@@ -45,7 +46,7 @@ std::vector<Removal> removals(const DenseCurve& curve, const std::vector<int>& e
   const auto add = [&](int a, int b, double lap, std::size_t first, std::size_t count) {
     const double swing = (curve.joints[b].curvature - curve.joints[a].curvature) / curve.length;
     const double half = std::abs(curve.at[b] - curve.at[a] + lap) * curve.length;
-    all.push_back({sideways(swing, half), first, count});
+    all.push_back({sideways(swing, half), half / curve.length, first, count});
   };
   for (std::size_t i = 0; i + 1 < n; ++i) add(extrema[i], extrema[i + 1], 0, i, 2);
   if (curve.closed) {
@@ -59,12 +60,13 @@ std::vector<Removal> removals(const DenseCurve& curve, const std::vector<int>& e
   return all;
 }
 
-std::vector<int> without(const std::vector<int>& extrema, const Removal& gone) {
+std::vector<int> without(const std::vector<int>& extrema, const std::vector<Removal>& gone) {
+  std::vector<char> stays(extrema.size(), 1);
+  for (const Removal& r : gone)
+    for (std::size_t i = 0; i < r.count; ++i) stays[(r.first + i) % extrema.size()] = 0;
   std::vector<int> left;
-  for (std::size_t i = 0; i < extrema.size(); ++i) {
-    const std::size_t after = (i + extrema.size() - gone.first) % extrema.size();
-    if (after >= gone.count) left.push_back(extrema[i]);
-  }
+  for (std::size_t i = 0; i < extrema.size(); ++i)
+    if (stays[i]) left.push_back(extrema[i]);
   return left;
 }
 
@@ -154,9 +156,10 @@ std::vector<int> turns_of(const DenseCurve& curve) {
 namespace {
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
-                         std::vector<int> extrema, const CalmOptions& options) {
+                         std::vector<int> extrema, double spring, const CalmOptions& options) {
   BandOptions band = options.band;
   band.warm = true;
+  band.spring = spring;
   band.iterations = kTrialSteps;
   band.gap = kTrialGap;
   BandReport report;
@@ -189,33 +192,45 @@ class Calming {
   /// Solves with these extrema alone; takes what is found where it is worth it.
   bool take(const std::vector<int>& extrema, bool any_count = false) {
     DenseCurve trial = curve_;
-    const BandReport found = solve_without(trial, points_, extrema, options_);
-    if (!found.within || found.energy > options_.worth * report_.energy) return false;
+    const BandReport found = solve_without(trial, points_, extrema, report_.spring, options_);
+    if (!found.within || found.rms > options_.most_rms ||
+        found.energy > options_.worth * report_.energy)
+      return false;
     if (!any_count && turns_of(trial).size() >= turns_of(curve_).size()) return false;
     curve_ = std::move(trial);
     report_ = found;
     return true;
   }
 
-  /// All waves at once that are lost in the tolerance.
+  /// As many waves at once as should fit into the band and the mean square; where that fails, half
+  /// as many.
   bool together() {
     const std::vector<int> extrema = turns_of(curve_);
+    std::vector<Removal> small = hopeful(extrema);
+    small.resize(std::min(small.size(), most_at_once_));
+    while (small.size() > 1) {
+      if (take(without(extrema, small))) return true;
+      small.resize(small.size() / 2);
+      most_at_once_ = small.size();
+    }
+    return false;
+  }
+
+  /// Waves that share no extremum, least first, until their departures fill what is left.
+  std::vector<Removal> hopeful(const std::vector<int>& extrema) const {
     std::vector<char> gone(extrema.size(), 0);
-    std::size_t count = 0;
+    std::vector<Removal> small;
+    const double spare = std::pow(options_.most_rms, 2) - std::pow(report_.rms, 2);
+    double sum = 0;
     for (const Removal& r : removals(curve_, extrema)) {
-      if (r.sideways > options_.band.tolerance) break;
+      sum += 0.5 * r.sideways * r.sideways * r.share;
+      if (r.sideways > options_.band.tolerance || sum > spare) break;
       const std::size_t next = (r.first + r.count - 1) % extrema.size();
       if (gone[r.first] || gone[next] || refused(r)) continue;
       gone[r.first] = gone[next] = 1;
-      ++count;
+      small.push_back(r);
     }
-    if (count < 2) return false;
-    std::vector<int> left;
-    for (std::size_t i = 0; i < extrema.size(); ++i)
-      if (!gone[i]) left.push_back(extrema[i]);
-    if (tried_together_) return false;
-    tried_together_ = !take(left);
-    return !tried_together_;
+    return small;
   }
 
   bool single() {
@@ -223,7 +238,7 @@ class Calming {
     for (const Removal& r : removals(curve_, extrema)) {
       if (r.sideways > kHopeless * options_.band.tolerance) break;
       if (refused(r)) continue;
-      if (take(without(extrema, r))) return true;
+      if (take(without(extrema, {r}))) return true;
       refusals_.push_back(r.sideways);
     }
     return false;
@@ -240,7 +255,7 @@ class Calming {
   const CalmOptions& options_;
   BandReport report_;
   std::vector<double> refusals_;
-  bool tried_together_ = false;
+  std::size_t most_at_once_ = 1'000'000;
 };
 
 }  // namespace

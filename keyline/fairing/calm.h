@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "keyline/fairing/least_variation.h"
 
 namespace keyline::fairing::detail {
@@ -13,6 +15,7 @@ std::vector<int> turns_of(const DenseCurve& curve);
 
 struct CalmOptions {
   BandOptions band;
+  double most_rms = HUGE_VAL;  ///< a wave stays where the offsets without it are larger
   double worth = 1.5;  ///< a wave stays where the energy without it is more than so many times
 };
 

@@ -4,19 +4,27 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/graph_pieces.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
 constexpr int kLeastCells = 240;    // a hundredth of the energy is lost to half as many
-constexpr double kForPieces = 0.1;  // of the energy, given for having few pieces
+constexpr double kForPieces = 0.2;  // of the energy, given for having few pieces
 constexpr double kWorth = 1.5;      // a wave less, a line or an arc are worth so much energy
-constexpr double kBandWidth = 2;    // in tolerances: what a piece may give up within the band
-constexpr double kUnseen = 0.1;     // of the tolerance: a departure from an arc that is not seen
+// Standard errors of the offsets' mean square that having fewer waves, and fewer pieces, may cost:
+// curves that the points cannot tell from the truth.
+constexpr double kErrorsOfWaves = 1.5;
+constexpr double kErrorsOfPieces = 2.5;
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
+constexpr double kRoom = 0.9;
+constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken to err by at least
 constexpr int kPieceSteps = 40;
-constexpr int kRefinements = 40;
+constexpr int kStiffenings = 3;
+constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
+constexpr int kRefinements = 7;
+constexpr double kFirstLoss = 1.6;
 
 void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
   FitJoint& joint = at_start ? curve.joints.front() : curve.joints.back();
@@ -33,175 +41,54 @@ void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
   joint.curvature = value;
 }
 
-/// Where along the curve points lie outside the tolerance.
-std::vector<double> outside(DenseCurve& curve, const std::vector<FitPoint>& points,
-                            double tolerance) {
-  const std::vector<CellShape> shapes = shapes_of(curve);
-  std::vector<double> at;
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    const double off = offset_of(curve, shapes, points[j], curve.feet[j]);
-    const double share = points[j].share;
-    if (std::max(off + share * points[j].high, -off - share * points[j].low) <= tolerance) continue;
-    const Foot& foot = curve.feet[j];
-    at.push_back(std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction));
+/// Pieces that leave the mean square too large hang on stiffer springs.
+BandReport solve_pieces(DenseCurve& curve, const std::vector<FitPoint>& points, BandOptions band,
+                        double most_rms) {
+  BandReport found = least_variation(curve, points, band);
+  for (int i = 0; i < kStiffenings && found.within && found.rms > most_rms; ++i) {
+    band.spring *= std::pow(found.rms / most_rms, 1 / kSpringPower);
+    found = least_variation(curve, points, band);
   }
-  return at;
+  return found;
 }
 
-/// Energy below which nothing is to be seen: of curvature that changes so little that the curve
-/// departs from an arc by a tenth of the tolerance.
-double unseen_energy(const DenseCurve& curve, double tolerance) {
-  const double change = 32 * kUnseen * tolerance / curve.length;
-  return change * change;
+BandOptions piece_band(const CalmRun& run, const CalmRunOptions& options) {
+  return {.tolerance = options.tolerance,
+          .iterations = kPieceSteps,
+          .gap = kPieceGap,
+          .warm = true,
+          .spring = run.band.spring,
+          .progress = options.progress};
 }
 
-/// Pieces for a calm curve, solved for.
+/// Pieces for a calm curve, solved for: as few as lose little of its energy and its place, fewer
+/// and nearer until the points stay in the tolerance and the whole is as calm.
 void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
                    const CalmRunOptions& options) {
-  const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes);
-  std::vector<int> count =
-      options.pieces > 0 ? graph.of_count(options.pieces)
-                         : graph.within(std::max(kForPieces * run.calm_energy,
-                                                 unseen_energy(run.curve, options.tolerance)));
-  BandOptions band{.tolerance = options.tolerance,
-                   .iterations = kPieceSteps,
-                   .gap = kPieceGap,
-                   .warm = true,
-                   .progress = options.progress};
-  for (int round = 0; round <= kRefinements; ++round) {
+  const double energy = std::max(run.calm_energy, unseen_energy(run.curve, options.tolerance));
+  const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes, energy,
+                          options.tolerance);
+  const BandOptions band = piece_band(run, options);
+  const double most_rms = options.residuals.most(kErrorsOfPieces);
+  double loss = kFirstLoss;
+  std::vector<int> last;
+  int most = static_cast<int>(run.curve.joints.size());
+  for (int round = 0; round <= kRefinements; ++round, loss *= 0.5) {
+    std::vector<int> count =
+        options.pieces > 0 ? graph.of_count(options.pieces) : graph.within(loss, most);
+    if (count == last) continue;
     DenseCurve trial = graph.cut_by(count);
-    const BandReport found = least_variation(trial, points, band);
+    last = std::move(count);
+    most = 2 * static_cast<int>(trial.alpha.size());
+    const BandReport found = solve_pieces(trial, points, band, most_rms);
     if (round == 0 || found.max_offset < run.band.max_offset || found.within) {
       run.curve = trial;
       run.band = found;
     }
-    if (found.within || options.pieces > 0 || options.progress.stop_requested()) return;
-    if (!graph.refine(count, outside(trial, points, options.tolerance)) &&
-        !graph.refine(count, trial.at))
-      return;
+    if (options.pieces > 0 || options.progress.stop_requested()) return;
+    if (found.within && found.energy <= (1 + kForPieces) * energy && found.rms <= most_rms) return;
   }
 }
-
-}  // namespace
-
-namespace {
-
-/// How far a piece departs from an arc of its length and turning, or from its chord.
-double departure(const DenseCurve& curve, std::size_t p, PieceKind kind) {
-  const double share = curve.at[curve.cut[p + 1]] - curve.at[curve.cut[p]];
-  const double length = share * curve.length;
-  const double a = curve.value[p] / curve.length;
-  const double b = curve.value[p + 1] / curve.length;
-  if (kind == PieceKind::arc) return std::abs(b - a) / 32 * length * length;
-  return std::max(std::abs(a), std::abs(b)) / 8 * length * length;
-}
-
-/// Pieces that the points cannot tell from lines or arcs become one, where the whole stays as fair:
-/// all that may, at once, else one after another.
-class Flattening {
- public:
-  Flattening(CalmRun& run, const std::vector<FitPoint>& points, const CalmRunOptions& options)
-      : run_(run),
-        points_(points),
-        band_{.tolerance = options.tolerance,
-              .iterations = kPieceSteps,
-              .gap = kPieceGap,
-              .warm = true,
-              .progress = options.progress} {
-    most_ = kWorth * std::max({run.band.energy, run.calm_energy,
-                               unseen_energy(run.curve, options.tolerance)});
-  }
-
-  void run() {
-    for (const PieceKind kind : {PieceKind::line, PieceKind::arc}) {
-      const std::vector<std::size_t> which = candidates(kind);
-      if (which.empty() || become(which, kind)) continue;
-      if (which.size() == 1) continue;
-      for (const std::size_t p : which) become({p}, kind);
-    }
-    join_lines();
-  }
-
- private:
-  /// Lines that follow one another are one.
-  void join_lines() {
-    DenseCurve& curve = run_.curve;
-    for (std::size_t p = 1; p < curve.kind.size();) {
-      if (curve.kind[p] != PieceKind::line || curve.kind[p - 1] != PieceKind::line) {
-        ++p;
-        continue;
-      }
-      const auto at = static_cast<std::ptrdiff_t>(p);
-      curve.kind.erase(curve.kind.begin() + at);
-      curve.alpha.erase(curve.alpha.begin() + at);
-      curve.cut.erase(curve.cut.begin() + at);
-      curve.value.erase(curve.value.begin() + at);
-      if (!curve.sense.empty()) curve.sense.erase(curve.sense.begin() + at);
-    }
-  }
-
-  std::vector<std::size_t> candidates(PieceKind kind) const {
-    std::vector<std::size_t> which;
-    const std::size_t n = run_.curve.alpha.size();
-    for (std::size_t p = 0; p < n; ++p) {
-      const bool curve = run_.curve.kind.empty() || run_.curve.kind[p] == PieceKind::curve;
-      if (curve && departure(run_.curve, p, kind) < kBandWidth * band_.tolerance)
-        which.push_back(p);
-    }
-    return which;
-  }
-
-  static void set_value(DenseCurve& curve, std::size_t cut, double value) {
-    curve.value[cut] = value;
-    const std::size_t last = curve.alpha.size();
-    if (curve.closed && cut == 0) curve.value[last] = value;
-    if (curve.closed && cut == last) curve.value[0] = value;
-  }
-
-  /// Beside a line no arc, beside an arc no line nor arc: their curvatures would have to be one.
-  bool alone(const DenseCurve& curve, std::size_t p, PieceKind kind) const {
-    const std::size_t n = curve.alpha.size();
-    for (const std::size_t side : {(p + n - 1) % n, (p + 1) % n}) {
-      const bool across = (p == 0 && side == n - 1) || (p == n - 1 && side == 0);
-      if (side == p || (across && !curve.closed) || curve.kind.empty()) continue;
-      if (curve.kind[side] != PieceKind::curve &&
-          !(kind == PieceKind::line && curve.kind[side] == PieceKind::line))
-        return false;
-    }
-    return true;
-  }
-
-  bool become(const std::vector<std::size_t>& which, PieceKind kind) {
-    if (band_.progress.stop_requested()) return false;
-    DenseCurve trial = run_.curve;
-    if (trial.kind.empty()) trial.kind.assign(trial.alpha.size(), PieceKind::curve);
-    for (const std::size_t p : which) {
-      if (!alone(trial, p, kind)) continue;
-      trial.kind[p] = kind;
-      trial.alpha[p] = -1;
-      const double mean = 0.5 * (trial.value[p] + trial.value[p + 1]);
-      set_value(trial, p, kind == PieceKind::line ? 0 : mean);
-      set_value(trial, p + 1, kind == PieceKind::line ? 0 : mean);
-      for (const std::size_t side : {p - 1, p + 1}) {
-        // A piece that meets a line ends in an inflection.
-        const bool there = side < trial.alpha.size();
-        if (there && kind == PieceKind::line) trial.alpha[side] = -1;
-      }
-    }
-    const BandReport found = least_variation(trial, points_, band_);
-    if (!found.within || found.energy > most_ ||
-        turns_of(trial).size() > turns_of(run_.curve).size())
-      return false;
-    run_.curve = std::move(trial);
-    run_.band = found;
-    return true;
-  }
-
-  CalmRun& run_;
-  const std::vector<FitPoint>& points_;
-  BandOptions band_;
-  double most_ = 0;
-};
 
 }  // namespace
 
@@ -212,23 +99,33 @@ CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed,
   put_end(run.curve, options.start, true);
   put_end(run.curve, options.end, false);
   CalmOptions calm_options;
-  calm_options.band.tolerance = options.tolerance;
+  calm_options.band.tolerance = kRoom * options.tolerance;
+  calm_options.band.rms = options.residuals.rms;
+  calm_options.most_rms = options.residuals.most(kErrorsOfWaves);
   calm_options.worth = kWorth;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
   run.band = calm(run.curve, points, calm_options);
+  FlatOptions flat;
+  flat.band = piece_band(run, options);
+  flat.most_rms = options.residuals.most(kErrorsOfPieces);
+  flat.noise = std::max(options.residuals.noise, kLeastNoise * options.tolerance);
+  if (run.band.within) lay_lines(run.curve, run.band, points, flat);
   run.calm_energy = run.band.energy;
   run.curve.sense.clear();
   choose_pieces(run, points, options);
-  if (run.band.within && options.pieces == 0) Flattening(run, points, options).run();
+  flat.band.spring = run.band.spring;
+  flat.worth = 1 + kForPieces;
+  if (run.band.within && options.pieces == 0) make_arcs(run.curve, run.band, points, flat);
   return run;
 }
 
 BandReport hold_ends(DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance,
-                     const HeldEnd& start, const HeldEnd& end) {
+                     double spring, const HeldEnd& start, const HeldEnd& end) {
   put_end(curve, start, true);
   put_end(curve, end, false);
-  return least_variation(curve, points,
-                         {.tolerance = tolerance, .gap = kPieceGap, .warm = true, .progress = {}});
+  return least_variation(
+      curve, points,
+      {.tolerance = tolerance, .gap = kPieceGap, .warm = true, .spring = spring, .progress = {}});
 }
 
 namespace {

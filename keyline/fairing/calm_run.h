@@ -3,11 +3,13 @@
 #include "keyline/core/interval.h"
 #include "keyline/fairing/calm.h"
 #include "keyline/fairing/chain_search.h"
+#include "keyline/fairing/residuals.h"
 
 namespace keyline::fairing::detail {
 
 struct CalmRunOptions {
   double tolerance = 0;  ///< of the points' offsets, in their unit
+  Residuals residuals;   ///< of the same
   int pieces = 0;        ///< wanted; 0: they follow
   core::Interval slopes{-3, 3};
   HeldEnd start;
@@ -30,7 +32,7 @@ CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed, const CalmR
 
 /// The same pieces once more with their ends held elsewhere.
 BandReport hold_ends(DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance,
-                     const HeldEnd& start, const HeldEnd& end);
+                     double spring, const HeldEnd& start, const HeldEnd& end);
 
 /// As a chain under construction, feet and holds included.
 FitChain chain_of(const DenseCurve& curve);

@@ -5,14 +5,22 @@
 #include "keyline/numeric/normal.h"
 
 namespace keyline::fairing {
+namespace {
 
-double default_tolerance(double noise, double length, std::size_t n) {
+constexpr double kLeastShare = 1e-4;
+
+}  // namespace
+
+double noise_factor(std::size_t n) {
   // Three standard deviations are passed by one normal error in 370: of n errors, all stay below
   // the factor taken here in nineteen runs of twenty.
   const double count = std::max<double>(1, static_cast<double>(n));
   const double each = 0.05 / count;
-  const double factor = numeric::normal_two_sided(std::min(1.0, each));
-  return std::max(noise * std::max(3.0, factor), 5e-4 * length);
+  return std::max(3.0, numeric::normal_two_sided(std::min(1.0, each)));
+}
+
+double default_tolerance(double noise, double length, std::size_t n) {
+  return std::max(noise * noise_factor(n), kLeastShare * length);
 }
 
 }  // namespace keyline::fairing

@@ -17,7 +17,11 @@ constexpr std::array<double, 4> kNode = {0.06943184420297371, 0.3300094782075718
 constexpr std::array<double, 4> kWeight = {0.17392742256872693, 0.32607257743127307,
                                            0.32607257743127307, 0.17392742256872693};
 
-constexpr double kAgainst = 1e4;  // price of variation against its sense: what is left is unseen
+constexpr double kReach = 0.01;     // of the length: what a first pose is fitted to, either way
+constexpr double kTurn = 0.1;       // that a cell may make, for its sums to hold ten digits…
+constexpr double kMostTurn = 6.3;   // …of what a gap may be taken to make
+constexpr double kSmallTurn = 0.3;  // whose series of five terms hold to the last digits
+constexpr double kAgainst = 1e4;    // price of variation against its sense: what is left is unseen
 
 }  // namespace
 
@@ -41,30 +45,40 @@ bool flat(const DenseCurve& curve, std::size_t piece) {
   return !curve.kind.empty() && curve.kind[piece] != PieceKind::curve;
 }
 
+namespace {
+
+/// Curvature along one piece, by its shares of the whole length.
+lac::CurvatureValue curvature_at(const DenseCurve& curve, std::size_t p, double t) {
+  if (flat(curve, p)) return {curve.value[p], 1, 0, 0};
+  const double from = curve.at[curve.cut[p]];
+  const double v = std::clamp((t - from) / (curve.at[curve.cut[p + 1]] - from), 0.0, 1.0);
+  const double a = curve.value[p];
+  const double b = curve.value[p + 1];
+  if (curve.alpha[p] == -1) return {(1 - v) * a + v * b, 1 - v, v, 0};
+  return lac::curvature_with_derivatives(a, b, curve.alpha[p], v);
+}
+
+}  // namespace
+
 std::vector<CellShape> shapes_of(DenseCurve& curve) {
   std::vector<CellShape> shapes(curve.joints.size() - 1);
   for (std::size_t p = 0; p + 1 < curve.cut.size(); ++p) {
-    const double from = curve.at[curve.cut[p]];
-    const double length = curve.at[curve.cut[p + 1]] - from;
     if (flat(curve, p)) curve.value[p + 1] = curve.value[p];
-    const auto curvature = [&](double t) {
-      if (flat(curve, p)) return lac::CurvatureValue{curve.value[p], 1, 0, 0};
-      const double v = std::clamp((t - from) / length, 0.0, 1.0);
-      if (curve.alpha[p] == -1)
-        return lac::CurvatureValue{(1 - v) * curve.value[p] + v * curve.value[p + 1], 1 - v, v, 0};
-      return lac::curvature_with_derivatives(curve.value[p], curve.value[p + 1], curve.alpha[p], v);
+    const auto set = [](CellShape& shape, std::size_t q, const lac::CurvatureValue& k) {
+      shape.curvature[q] = k.curvature;
+      shape.by_start[q] = k.by_start;
+      shape.by_end[q] = k.by_end;
     };
+    lac::CurvatureValue at = curvature_at(curve, p, curve.at[curve.cut[p]]);
     for (int c = curve.cut[p]; c < curve.cut[p + 1]; ++c) {
-      const std::array<double, 3> t{curve.at[c], 0.5 * (curve.at[c] + curve.at[c + 1]),
-                                    curve.at[c + 1]};
-      for (int q = 0; q < 3; ++q) {
-        const lac::CurvatureValue k = curvature(t[q]);
-        shapes[c].curvature[q] = k.curvature;
-        shapes[c].by_start[q] = k.by_start;
-        shapes[c].by_end[q] = k.by_end;
-      }
+      set(shapes[c], 0, at);
+      set(shapes[c], 1, curvature_at(curve, p, 0.5 * (curve.at[c] + curve.at[c + 1])));
+      at = curvature_at(curve, p, curve.at[c + 1]);
+      set(shapes[c], 2, at);
       curve.joints[c].curvature = shapes[c].curvature[0];
       curve.joints[c + 1].curvature = shapes[c].curvature[2];
+      const double direction = curve.joints[c].direction;
+      shapes[c].tangent = {std::cos(direction), std::sin(direction)};
     }
   }
   return shapes;
@@ -101,6 +115,20 @@ std::array<double, 3> parabolas(double u) {
           u * u * (-0.5 + u * (2.0 / 3))};
 }
 
+/// Cosine and sine, by their series where the angle is small.
+core::Vector2 turned_by(double angle) {
+  if (std::abs(angle) > kSmallTurn) return {std::cos(angle), std::sin(angle)};
+  const double x = angle * angle;
+  const double c = 1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90))));
+  const double s = angle * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72))));
+  return {c, s};
+}
+
+core::Vector2 turned(core::Vector2 tangent, double angle) {
+  const core::Vector2 by = turned_by(angle);
+  return {tangent.x * by.x - tangent.y * by.y, tangent.x * by.y + tangent.y * by.x};
+}
+
 double sum_of(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -110,33 +138,36 @@ double sum_of(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 CellPlace place_in_cell(const DenseCurve& curve, const CellShape& shape, int cell, double v) {
   const FitJoint& from = curve.joints[cell];
   const double h = curve.at[cell + 1] - curve.at[cell];
-  CellPlace place{from.position, 0, {}, {}, 0, 0};
+  CellPlace place{from.position, 0, {}, {}, {}, 0, 0};
   const double step = curve.length * h * v;
   core::Vector2 along;
   for (std::size_t q = 0; q < kNode.size(); ++q) {
-    const std::array<double, 3> turned = parabolas(v * kNode[q]);
-    const double direction = from.direction + h * sum_of(turned, shape.curvature);
-    const core::Vector2 t{kWeight[q] * std::cos(direction), kWeight[q] * std::sin(direction)};
+    const std::array<double, 3> share = parabolas(v * kNode[q]);
+    const core::Vector2 t = kWeight[q] * turned(shape.tangent, h * sum_of(share, shape.curvature));
     const core::Vector2 n = core::perpendicular_left(t);
     along = along + t;
-    place.by_start = place.by_start + sum_of(turned, shape.by_start) * n;
-    place.by_end = place.by_end + sum_of(turned, shape.by_end) * n;
+    place.by_start = place.by_start + sum_of(share, shape.by_start) * n;
+    place.by_end = place.by_end + sum_of(share, shape.by_end) * n;
   }
-  const std::array<double, 3> turned = parabolas(v);
-  place.angle = from.direction + h * sum_of(turned, shape.curvature);
-  place.angle_by_start = h * sum_of(turned, shape.by_start);
-  place.angle_by_end = h * sum_of(turned, shape.by_end);
+  const std::array<double, 3> share = parabolas(v);
+  const double turn = h * sum_of(share, shape.curvature);
+  place.angle = from.direction + turn;
+  place.tangent = turned(shape.tangent, turn);
+  place.angle_by_start = h * sum_of(share, shape.by_start);
+  place.angle_by_end = h * sum_of(share, shape.by_end);
   place.at = from.position + step * along;
   place.by_start = (step * h) * place.by_start;
   place.by_end = (step * h) * place.by_end;
   return place;
 }
 
-double offset_of(const DenseCurve& curve, const std::vector<CellShape>& shapes,
-                 const FitPoint& point, const Foot& foot) {
-  const CellPlace s = place_in_cell(curve, shapes[foot.piece], foot.piece, foot.fraction);
-  const core::Vector2 tangent{std::cos(s.angle), std::sin(s.angle)};
-  return point.share * core::cross(tangent, point.position - s.at);
+CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes,
+                   const Foot& foot) {
+  return place_in_cell(curve, shapes[foot.piece], foot.piece, foot.fraction);
+}
+
+double offset_of(const FitPoint& point, const CellPlace& place) {
+  return point.share * core::cross(place.tangent, point.position - place.at);
 }
 
 void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, const FitPoint& point,
@@ -145,7 +176,7 @@ void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, co
   for (int hop = 0; hop < 6; ++hop) {
     const CellShape& shape = shapes[foot.piece];
     const CellPlace s = place_in_cell(curve, shape, foot.piece, foot.fraction);
-    const core::Vector2 tangent{std::cos(s.angle), std::sin(s.angle)};
+    const core::Vector2 tangent = s.tangent;
     const core::Vector2 miss = point.position - s.at;
     const double k =
         std::lerp(shape.curvature[0], shape.curvature[2], foot.fraction) / curve.length;
@@ -163,15 +194,19 @@ void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, co
   }
 }
 
-double variation(const DenseCurve& curve, const std::vector<CellShape>& shapes, bool priced) {
+PieceEnergy energy_of(const DenseCurve& curve, std::size_t piece) {
+  if (flat(curve, piece)) return {};
+  PieceEnergy energy = piece_energy(curve.value[piece], curve.value[piece + 1], curve.alpha[piece]);
+  const double share = curve.at[curve.cut[piece + 1]] - curve.at[curve.cut[piece]];
+  const double by = 1 / std::sqrt(share);
+  return {by * energy.root, by * energy.by_start, by * energy.by_end};
+}
+
+double variation(const DenseCurve& curve, bool priced) {
   double sum = 0;
   for (std::size_t p = 0; p + 1 < curve.cut.size(); ++p) {
-    double piece = 0;
-    for (int c = curve.cut[p]; c < curve.cut[p + 1]; ++c) {
-      const double change = shapes[c].curvature[2] - shapes[c].curvature[0];
-      piece += change * change / (curve.at[c + 1] - curve.at[c]);
-    }
-    sum += piece * (priced ? piece_price(curve, static_cast<int>(p)) : 1);
+    const double root = energy_of(curve, p).root;
+    sum += root * root * (priced ? piece_price(curve, static_cast<int>(p)) : 1);
   }
   return sum;
 }
@@ -183,20 +218,26 @@ DenseCurve dense_curve(const std::vector<FitPoint>& points, bool closed, int lea
   DenseCurve curve;
   curve.closed = closed;
   curve.length = track.total;
+  const double reach = kReach * track.total;
+  FitJoint before = local_pose(track, 0, reach);
   for (std::size_t j = 0; j < gaps; ++j) {
     const double from = track.at(static_cast<long>(j));
     const double gap = track.at(static_cast<long>(j) + 1) - from;
-    const int cells = std::max(1, static_cast<int>(std::ceil(gap / widest - 1e-9)));
+    const FitJoint after = local_pose(track, from + gap, reach);
+    const double turn = gap * std::max(std::abs(before.curvature), std::abs(after.curvature));
+    const double parts = std::max(gap / widest, std::min(turn, kMostTurn) / kTurn);
+    const int cells = std::max(1, static_cast<int>(std::ceil(parts - 1e-9)));
+    before = after;
     curve.feet.push_back({static_cast<int>(curve.at.size()), 0});
     for (int c = 0; c < cells; ++c) curve.at.push_back((from + gap * c / cells) / track.total);
   }
   curve.at.push_back(1);
   if (!closed) curve.feet.push_back({static_cast<int>(curve.at.size()) - 2, 1});
   for (const double t : curve.at) {
-    FitJoint joint = local_pose(track, t * track.total, 0.01 * track.total);
+    FitJoint joint = local_pose(track, t * track.total, reach);
     if (!curve.joints.empty()) {
-      const double before = curve.joints.back().direction;
-      joint.direction = before + core::wrap_angle(joint.direction - before);
+      const double last = curve.joints.back().direction;
+      joint.direction = last + core::wrap_angle(joint.direction - last);
     }
     joint.curvature *= track.total;
     curve.joints.push_back(joint);

@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "keyline/fairing/chain_fit.h"
+#include "keyline/fairing/piece_energy.h"
 
 /// A curve of log-aesthetic pieces, followed in many cells.
 namespace keyline::fairing::detail {
 
 /// Nodes stand at fixed shares `at` of the length, pieces between some of them; curvature is times
-/// the length, so that the scale-free energy L^3 * integral of (d curvature / ds)^2 is the sum over
-/// the cells of (change of curvature)^2 / (share of the length), whatever the length. A curve that
-/// is free has a piece of slope -1 (curvature linear in arc length) for each cell.
+/// the length, so that the scale-free energy L^3 * integral of (d curvature / ds)^2 is the sum of
+/// the pieces' (see piece_energy) over their shares of the length, whatever the length. A curve
+/// that is free has a piece of slope -1 (curvature linear in arc length) for each cell.
 struct DenseCurve {
   std::vector<double> at;        ///< 0 … 1, increasing
   std::vector<FitJoint> joints;  ///< as many; a closed curve repeats its first
@@ -37,6 +38,7 @@ struct CellShape {
   std::array<double, 3> curvature{};
   std::array<double, 3> by_start{};
   std::array<double, 3> by_end{};
+  core::Vector2 tangent;  ///< at its start
 };
 
 /// Of all cells; also sets the joints' curvatures.
@@ -60,6 +62,7 @@ bool flat(const DenseCurve& curve, std::size_t piece);
 struct CellPlace {
   core::Point2 at;
   double angle = 0;
+  core::Vector2 tangent;
   core::Vector2 by_start;
   core::Vector2 by_end;
   double angle_by_start = 0;
@@ -67,17 +70,20 @@ struct CellPlace {
 };
 CellPlace place_in_cell(const DenseCurve& curve, const CellShape& shape, int cell, double fraction);
 
-/// Signed distance of the point left of its foot.
-double offset_of(const DenseCurve& curve, const std::vector<CellShape>& shapes,
-                 const FitPoint& point, const Foot& foot);
+CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes, const Foot& foot);
+
+/// Signed distance of the point left of the place of its foot, times its share.
+double offset_of(const FitPoint& point, const CellPlace& place);
 
 /// One Newton step of the foot along the curve.
 void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, const FitPoint& point,
                Foot& foot);
 
-/// Sum over the cells, see above; each times its piece's price where `priced`.
-double variation(const DenseCurve& curve, const std::vector<CellShape>& shapes,
-                 bool priced = false);
+/// Share of the variation that a piece has (see piece_energy), none where it is flat.
+PieceEnergy energy_of(const DenseCurve& curve, std::size_t piece);
+
+/// Sum over the pieces; each times its price where `priced`.
+double variation(const DenseCurve& curve, bool priced = false);
 
 /// A first curve along the points: nodes at the points and evenly between them so that there are
 /// at least `least` cells; poses and curvatures from local parabolas over `reach` of the length

@@ -30,6 +30,7 @@ class Sweep {
   using VectorS = Eigen::Matrix<double, S, 1>;
   static constexpr int kStart = 3;
   static constexpr int kEnd = 4;
+  static constexpr int kLength = 5;
   struct Gain {
     VectorS by_state;
     double offset = 0;
@@ -54,35 +55,40 @@ class Sweep {
     }
   }
 
+  /// Rows over the state after a cell, over the one before it: times the identity but for the pose
+  /// and for what becomes of the curvatures.
+  template <int R>
+  static Eigen::Matrix<double, R, S> after(const Cell& cell, bool chosen,
+                                           const Eigen::Matrix<double, R, S>& rows) {
+    Eigen::Matrix<double, R, S> out = rows;
+    out.template leftCols<6>() = rows.template leftCols<3>().lazyProduct(cell.step);
+    const bool passes = cell.passage.ends_piece && !cell.passage.arc;
+    out.col(passes ? kEnd : kStart) += rows.col(kStart);
+    if (!chosen) out.col(kEnd) += rows.col(kEnd);
+    out.col(kLength) += rows.col(kLength);
+    return out;
+  }
+
   void backward(std::size_t i) {
     const Cell& cell = cells_[i];
     values_[i] = {value_.template topRows<3>(), slope_.template head<3>()};
-    MatrixS a = MatrixS::Identity();
-    a.template topLeftCorner<3, 6>() = cell.step;
     const Passage& passage = cell.passage;
-    if (passage.ends_piece && !passage.arc) {
-      a(kStart, kStart) = 0;
-      a(kStart, kEnd) = 1;
-    }
     const bool chosen = passage.ends_piece && !passage.ends_curve;
-    if (chosen) a(kEnd, kEnd) = 0;
-    VectorS c = VectorS::Zero();
-    c.template head<3>() = cell.gap;
-    const MatrixS va = value_ * a;
-    const VectorS v = slope_ + value_ * c;
+    const VectorS v = slope_ + value_.template leftCols<3>().lazyProduct(cell.gap);
+    const MatrixS va = after<S>(cell, chosen, value_);
     gains_[i] = {VectorS::Zero(), 0};
     const VectorS qux = va.row(kEnd).transpose();
     const double quu = value_(kEnd, kEnd);
     const double qu = v(kEnd);
-    value_.noalias() = a.transpose() * va;
-    slope_ = a.transpose() * v;
+    value_ = after<S>(cell, chosen, va.transpose());
+    slope_ = after<1>(cell, chosen, v.transpose()).transpose();
     if (chosen && !passage.fixed) {
       if (!(quu > 0) || !std::isfinite(quu)) {
         sound_ = false;
         return;
       }
       gains_[i] = {-qux / quu, -qu / quu};
-      value_.noalias() += qux * gains_[i].by_state.transpose();
+      value_ += qux.lazyProduct(gains_[i].by_state.transpose());
       slope_ += gains_[i].offset * qux;
     }
     value_.template topLeftCorner<6, 6>() += cell.hessian;

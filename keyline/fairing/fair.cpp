@@ -19,6 +19,9 @@ using core::ErrorCode;
 using core::fail;
 using core::Result;
 
+constexpr double kCornerRoom =
+    0.9;  // of the tolerance: how far chains may meet from a corner's point
+
 Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (line.points.size() < 2)
     return fail(ErrorCode::bad_input, "a key-line needs at least two points", "give more points");
@@ -49,13 +52,20 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
 
 void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
   const std::string where = fmt::format("run {}", index);
-  result.notes.push_back(fmt::format("{}: {}, merged from {}", where,
-                                     core::counted(run.chain.pieces.size(), "piece"),
-                                     run.start_pieces));
+  const std::string pieces = core::counted(run.chain.pieces.size(), "piece");
+  if (!run.dense.joints.empty())
+    result.notes.push_back(fmt::format("{}: {}, read off the graph of curvature", where, pieces));
+  else
+    result.notes.push_back(fmt::format("{}: {}, merged from {}", where, pieces, run.start_pieces));
   if (run.exact)
     result.notes.push_back(where +
                            ": the points are reproduced to rounding, so the chain that "
                            "does so is given rather than a shorter one");
+  if (run.calm_missed)
+    result.notes.push_back(
+        where +
+        ": the calmest chain did not come out within the tolerance, or wandered off "
+        "between points, so the shortest one is given");
   if (run.straightened > 0)
     result.notes.push_back(where + ": " +
                            core::counted(run.straightened, "piece is an exact line or arc",
@@ -103,8 +113,17 @@ class Job {
             .noise = line_.noise,
             .pieces = pieces,
             .criterion = options_.criterion,
+            .smoothness = options_.smoothness,
+            .slopes = options_.slopes,
             .threads = options_.threads,
             .progress = core::part_of(whole, 0.4, 1)};
+  }
+
+  /// The place, or the nearest to it that leaves the corner's own point inside the tolerance.
+  core::Point2 near_corner(core::Point2 place, core::Point2 corner) const {
+    const double most = kCornerRoom * result_.tolerance;
+    const double far = core::distance(place, corner);
+    return far <= most ? place : corner + (most / far) * (place - corner);
   }
 
   /// Neighbouring chains end in one place at a corner: half way between their ends.
@@ -117,7 +136,8 @@ class Job {
       if (runs_[k].clamp_end != Clamp::none || runs_[next].clamp_start != Clamp::none) continue;
       const core::Point2 from = lac::end_pose(solved_[k].chain).position;
       const core::Point2 to = solved_[next].chain.start.position;
-      runs_[k].tie_end = runs_[next].tie_start = from + 0.5 * (to - from);
+      runs_[k].tie_end = runs_[next].tie_start =
+          near_corner(from + 0.5 * (to - from), runs_[k].points.back());
     }
     for (std::size_t k = 0; k < n; ++k)
       if (runs_[k].tie_start || runs_[k].tie_end)

@@ -31,7 +31,7 @@ constexpr auto choices(const Clamp*) {
 
 /// What the chain is to be, within the tolerance: as short as possible, or of least variation of
 /// curvature (L^3 * integral of (d curvature / ds)^2 ds, Moreton and Sequin), with no wave of
-/// curvature that the points do not ask for.
+/// curvature that the points do not ask for. A wanted number of pieces asks for the first.
 enum class Criterion { fewest_pieces, least_variation };
 constexpr auto choices(const Criterion*) {
   return core::words<Criterion>({{Criterion::fewest_pieces, "fewest-pieces"},
@@ -73,8 +73,12 @@ struct FairOptions {
   double tolerance =
       0;  ///< largest distance of a point, in the points' unit; 0: by the default rule
   std::optional<double> sigmas;  ///< the tolerance in standard deviations of the points
-  int pieces = 0;                ///< wanted number of pieces; 0: as few as the tolerance allows
-  Criterion criterion = Criterion::fewest_pieces;
+  /// From 0, as near as the noise of the points, to 1, as calm as the tolerance allows; between
+  /// them what the tolerance holds beyond the noise is the curve's to depart by.
+  double smoothness = 0.5;
+  core::Interval slopes{-3, 3};  ///< of the pieces' logarithmic curvature graphs
+  int pieces = 0;                ///< wanted number of pieces; 0: as the criterion has it
+  Criterion criterion = Criterion::least_variation;
   bool keep_corners = true;
   EndClamps clamp;
   std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
@@ -89,13 +93,18 @@ struct FairOptions {
   static constexpr auto describe() {
     return core::fields(
         core::field<&FairOptions::tolerance>(
-            "largest distance of a point; by default three times the noise or 0.05 % of the length")
+            "largest distance of a point; by default three times the noise or 0.01 % of the length")
             .in("length")
             .within(core::kPositive),
         core::field<&FairOptions::sigmas>(
             "the tolerance as so many standard deviations of the points, in place of a length")
             .within(core::kPositive),
-        core::field<&FairOptions::pieces>("wanted number of pieces; 0: as few as possible")
+        core::field<&FairOptions::smoothness>(
+            "from 0, as near as the noise of the points, to 1, as calm as the tolerance allows")
+            .within(core::from_to(0, 1)),
+        core::field<&FairOptions::slopes>("slopes that pieces may have")
+            .within(core::from_to(-12, 12)),
+        core::field<&FairOptions::pieces>("wanted number of pieces; 0: as the criterion has it")
             .within(core::from_to(0, 400)),
         core::field<&FairOptions::criterion>(
             "what the chain is to be within the tolerance: as short as possible, or as calm"),
@@ -163,16 +172,21 @@ struct FairResult {
 };
 
 /// Fairs a key-line: corners become ends of chains; each run gets its spline (genetic knots), its
-/// split and its G2 chain of log-aesthetic pieces, as few as the tolerance allows.
+/// split and its G2 chain of log-aesthetic pieces, the calmest within the tolerance (or the
+/// shortest).
 ///
 /// Default tolerance: the larger of three times the noise (more for many points, so that one
-/// normal error in twenty runs exceeds it) and 0.05 % of the length.
+/// normal error in twenty runs exceeds it) and 0.01 % of the length.
 /// Returns: bad_input for fewer than two points or options out of range. A chain that misses the
 ///          tolerance is returned with within_tolerance false. Cancelled work returns the best
 ///          found with cancelled true, or a `cancelled` failure where there is nothing yet.
 /// Invariance: moving, turning, scaling or reversing the points changes the answer by rounding.
-/// Source:  [Fairing]; docs/design/chain-fit.md for step 5.
+/// Source:  [Fairing]; docs/design/fairness.md and chain-fit.md for step 5.
 core::Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options = {});
+
+/// Standard deviations that all of n normal errors stay below in nineteen runs of twenty; three at
+/// least.
+double noise_factor(std::size_t n);
 
 /// The default tolerance for n points of a curve of that length.
 double default_tolerance(double noise, double length, std::size_t n);

@@ -11,11 +11,15 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kPlaces = 20;               // of a run between which it may be cut, besides its ends
+constexpr int kPlaces = 40;               // of a run between which it may be cut, besides its ends
 constexpr double kBendPower = 2.0 / 3;    // density of places for least squares of the rate
 constexpr double kInflectionLow = -1;     // slopes of pieces through or into an inflection, whose
 constexpr double kInflectionHigh = -0.3;  // variation is finite and whose rate is
 
+constexpr int kTurnSteps = 6;
+constexpr double kBowPrice = 0.1;  // energies: a piece that departs sideways by the tolerance
+constexpr double kDrift = 0.25;    // of a piece's end beside the curve, as part of a bow as large:
+                                   // neighbours can make up for it
 constexpr double kNearInflection = 1e-2;
 
 double power_mean(double a, double b, double p, double v) {
@@ -33,19 +37,40 @@ double power_mean(double a, double b, double p, double v) {
 }  // namespace
 
 GraphPieces::GraphPieces(const DenseCurve& curve, const std::vector<int>& turns,
-                         core::Interval slopes)
-    : curve_(curve.closed && !turns.empty() ? begun_at(curve, turns.front()) : curve),
-      slopes_(slopes) {
+                         core::Interval slopes, double energy, double tolerance)
+    : slopes_(slopes), energy_(energy), tolerance_(tolerance / curve.length) {
   const int cells = static_cast<int>(curve.joints.size()) - 1;
-  const int start = curve.closed && !turns.empty() ? turns.front() : 0;
-  std::vector<int> ends{0};
-  for (const int turn : turns)
-    if (turn > start) ends.push_back(turn - start);
-  if (ends.back() != cells) ends.push_back(cells);
-  for (std::size_t r = 0; r + 1 < ends.size(); ++r) {
-    runs_.push_back(make_run(ends[r], ends[r + 1]));
-    tabulate(runs_.back());
+  // What the ends of runs are by node: 1 a turn or an end, 2 where a line begins.
+  std::vector<char> mark(cells + 1, 0);
+  for (const int turn : turns) mark[turn] = 1;
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
+    if (curve.kind.empty() || curve.kind[p] != PieceKind::line) continue;
+    for (int node = curve.cut[p]; node <= curve.cut[p + 1]; ++node) mark[node] = 0;
+    mark[curve.cut[p]] = 2;
+    if (mark[curve.cut[p + 1] % cells] == 0) mark[curve.cut[p + 1]] = 1;
   }
+  int start = 0;
+  if (curve.closed)
+    while (start < cells && mark[start] == 0) ++start;
+  start %= cells;
+  curve_ = begun_at(curve, start);
+  curve_.kind.clear();
+  set_free(curve_);
+  std::vector<int> ends{0};
+  for (int i = 1; i < cells; ++i)
+    if (mark[(start + i) % cells] != 0) ends.push_back(i);
+  ends.push_back(cells);
+  for (std::size_t r = 0; r + 1 < ends.size(); ++r)
+    add_run(ends[r], ends[r + 1], mark[(start + ends[r]) % cells] == 2);
+}
+
+void GraphPieces::add_run(int from, int to, bool line) {
+  if (line) {
+    runs_.push_back({{from, to}, {2, std::vector<Fit>(2)}, {0}, {{0, 0}}, true});
+    return;
+  }
+  runs_.push_back(make_run(from, to));
+  tabulate(runs_.back());
 }
 
 GraphPieces::Run GraphPieces::make_run(int from, int to) const {
@@ -61,12 +86,13 @@ GraphPieces::Run GraphPieces::make_run(int from, int to) const {
     bend.push_back(width * std::pow(std::abs(after - before) / width, kBendPower));
     mean += bend.back();
   }
+  if (mean == 0) mean = 1;  // nothing bends: places spread evenly
   const double length = curve_.at[to] - curve_.at[from];
   for (int i = from + 1; i < to; ++i) {
     const double width = 0.5 * (curve_.at[i + 1] - curve_.at[i - 1]);
     weight.push_back(weight.back() + bend[i - from - 1] + 0.25 * mean * width / length);
   }
-  Run run{{from}, {}, {}, {}};
+  Run run{{from}, {}, {}, {}, false};
   double next = weight.back() / (kPlaces + 1);
   for (int i = from + 1; i < to; ++i) {
     if (to - from - 1 > kPlaces && weight[i - from] < next) continue;
@@ -77,19 +103,29 @@ GraphPieces::Run GraphPieces::make_run(int from, int to) const {
   return run;
 }
 
-double GraphPieces::excess_of(int from, int to, double alpha) const {
+GraphPieces::Fit GraphPieces::fit_of(int from, int to, double alpha) const {
   const double a = curve_.value[from];
   const double b = curve_.value[to];
-  double sum = 0;
-  double last = a;
+  const double length = curve_.at[to] - curve_.at[from];
+  Fit fit{alpha, 0, 0};
+  double last = 0;
+  std::vector<double> sideways{0};
   for (int i = from + 1; i <= to; ++i) {
-    const double v = (curve_.at[i] - curve_.at[from]) / (curve_.at[to] - curve_.at[from]);
-    const double k = power_mean(a, b, -alpha, v);
-    const double off = (k - last) - (curve_.value[i] - curve_.value[i - 1]);
-    sum += off * off / (curve_.at[i] - curve_.at[i - 1]);
-    last = k;
+    const double v = (curve_.at[i] - curve_.at[from]) / length;
+    const double off = power_mean(a, b, -alpha, v) - curve_.value[i];
+    const double step = curve_.at[i] - curve_.at[i - 1];
+    fit.loss += (off - last) * (off - last) / step;
+    sideways.push_back(sideways.back() + step * (fit.turn + 0.25 * step * (off + last)));
+    fit.turn += 0.5 * step * (off + last);
+    last = off;
   }
-  return sum;
+  double most = kDrift * std::abs(sideways.back());
+  for (int i = from; i <= to; ++i) {
+    const double v = (curve_.at[i] - curve_.at[from]) / length;
+    most = std::max(most, std::abs(sideways[i - from] - v * sideways.back()));
+  }
+  fit.loss = fit.loss / energy_ + kBowPrice * std::pow(most / tolerance_, 2);
+  return fit;
 }
 
 core::Interval GraphPieces::slopes_of(int from, int to) const {
@@ -98,39 +134,28 @@ core::Interval GraphPieces::slopes_of(int from, int to) const {
   const bool inflected = a * b <= 0 || std::min(std::abs(a), std::abs(b)) <
                                            kNearInflection * std::max(std::abs(a), std::abs(b));
   if (!inflected) return slopes_;
-  return {std::max(slopes_.low, kInflectionLow), std::min(slopes_.high, kInflectionHigh)};
+  const double low = std::max(slopes_.low, kInflectionLow);
+  const double high = std::min(slopes_.high, kInflectionHigh);
+  if (low > high) return {kInflectionLow, kInflectionHigh};  // no others pass an inflection
+  return {low, high};
 }
 
+/// The slope whose piece turns as far as the curve, or comes nearest to it: the flatter the slope,
+/// the longer curvature stays near its lesser end.
 GraphPieces::Fit GraphPieces::best_fit(int from, int to) const {
   const core::Interval range = slopes_of(from, to);
-  Fit best{std::clamp(-1.0, range.low, range.high), 0};
-  best.excess = excess_of(from, to, best.alpha);
-  if (to - from < 2 || range.high <= range.low) return best;
-  // Golden section; the excess has one least value in the slopes of interest.
-  constexpr double kGolden = 0.6180339887498949;
-  double low = range.low;
-  double high = range.high;
-  double x1 = high - kGolden * (high - low);
-  double x2 = low + kGolden * (high - low);
-  double f1 = excess_of(from, to, x1);
-  double f2 = excess_of(from, to, x2);
-  for (int step = 0; step < 9; ++step) {
-    if (f1 < f2) {
-      high = x2;
-      x2 = x1;
-      f2 = f1;
-      x1 = high - kGolden * (high - low);
-      f1 = excess_of(from, to, x1);
-    } else {
-      low = x1;
-      x1 = x2;
-      f1 = f2;
-      x2 = low + kGolden * (high - low);
-      f2 = excess_of(from, to, x2);
-    }
+  Fit middle = fit_of(from, to, std::clamp(-1.0, range.low, range.high));
+  if (to - from < 2 || range.high <= range.low || middle.turn == 0) return middle;
+  Fit low = fit_of(from, to, range.low);
+  Fit high = fit_of(from, to, range.high);
+  if (low.turn * high.turn >= 0) return std::abs(low.turn) < std::abs(high.turn) ? low : high;
+  for (int step = 0; step < kTurnSteps; ++step) {
+    (middle.turn * low.turn > 0 ? low : high) = middle;
+    const bool near = std::abs(low.turn - high.turn) < 1e-12;
+    const double share = near ? 0.5 : low.turn / (low.turn - high.turn);
+    middle = fit_of(from, to, std::lerp(low.alpha, high.alpha, std::clamp(share, 0.1, 0.9)));
   }
-  if (std::min(f1, f2) < best.excess) best = f1 < f2 ? Fit{x1, f1} : Fit{x2, f2};
-  return best;
+  return middle;
 }
 
 void GraphPieces::tabulate(Run& run) const {
@@ -145,20 +170,20 @@ void GraphPieces::tabulate(Run& run) const {
     std::vector<int> from(n, 0);
     for (int j = 1; j < n; ++j)
       for (int i = 0; i < j; ++i) {
-        const double sum = least[i] + run.fit[i][j].excess;
+        const double sum = least[i] + run.fit[i][j].loss;
         if (sum >= next[j]) continue;
         next[j] = sum;
         from[j] = i;
       }
     least = next;
-    run.excess.push_back(least[n - 1]);
+    run.loss.push_back(least[n - 1]);
     run.from.push_back(std::move(from));
   }
 }
 
 double GraphPieces::total(const std::vector<int>& count) const {
   double sum = 0;
-  for (std::size_t r = 0; r < runs_.size(); ++r) sum += runs_[r].excess[count[r] - 1];
+  for (std::size_t r = 0; r < runs_.size(); ++r) sum += runs_[r].loss[count[r] - 1];
   return sum;
 }
 
@@ -168,9 +193,9 @@ bool GraphPieces::add_piece(std::vector<int>& count) const {
   std::size_t best = runs_.size();
   int by = 0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const auto& excess = runs_[r].excess;
-    for (int more = 1; more <= 2 && count[r] + more <= static_cast<int>(excess.size()); ++more) {
-      const double gain = (excess[count[r] - 1] - excess[count[r] + more - 1]) / more;
+    const auto& loss = runs_[r].loss;
+    for (int more = 1; more <= 2 && count[r] + more <= static_cast<int>(loss.size()); ++more) {
+      const double gain = (loss[count[r] - 1] - loss[count[r] + more - 1]) / more;
       if (gain <= most) continue;
       most = gain;
       best = r;
@@ -182,9 +207,10 @@ bool GraphPieces::add_piece(std::vector<int>& count) const {
   return true;
 }
 
-std::vector<int> GraphPieces::within(double excess) const {
+std::vector<int> GraphPieces::within(double loss, int most) const {
   std::vector<int> count(runs_.size(), 1);
-  while (total(count) > excess && add_piece(count));
+  int pieces = static_cast<int>(runs_.size());
+  for (; pieces < most && total(count) > loss && add_piece(count); ++pieces);
   return count;
 }
 
@@ -194,25 +220,12 @@ std::vector<int> GraphPieces::of_count(int pieces) const {
   return count;
 }
 
-bool GraphPieces::refine(std::vector<int>& count, const std::vector<double>& at) const {
-  bool more = false;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const double from = curve_.at[runs_[r].place.front()];
-    const double to = curve_.at[runs_[r].place.back()];
-    const bool asked =
-        std::any_of(at.begin(), at.end(), [&](double t) { return from <= t && t <= to; });
-    if (!asked || count[r] >= static_cast<int>(runs_[r].excess.size())) continue;
-    ++count[r];
-    more = true;
-  }
-  return more;
-}
-
 DenseCurve GraphPieces::cut_by(const std::vector<int>& count) const {
   DenseCurve out = curve_;
   out.cut = {0};
   out.alpha.clear();
   out.sense.clear();
+  out.kind.clear();
   out.value = {curve_.value.front()};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Run& run = runs_[r];
@@ -226,6 +239,7 @@ DenseCurve GraphPieces::cut_by(const std::vector<int>& count) const {
       out.value.push_back(curve_.value[to]);
       const double rise = curve_.value[run.place.back()] - curve_.value[run.place.front()];
       out.sense.push_back(rise < 0 ? -1 : 1);
+      out.kind.push_back(run.line ? PieceKind::line : PieceKind::curve);
     }
   }
   return out;

@@ -15,17 +15,17 @@ namespace keyline::fairing::detail {
 /// of least variation, for there its own first derivative vanishes.
 class GraphPieces {
  public:
-  /// curve: free, of least variation. turns: nodes where curvature turns (see extrema_of), none
-  /// inside a piece.
-  GraphPieces(const DenseCurve& curve, const std::vector<int>& turns, core::Interval slopes);
+  /// curve: of least variation, free but for its lines, which stay. turns: nodes where curvature
+  /// turns (see extrema_of), none inside a piece. energy and tolerance: what the loss of a piece is
+  /// counted in, of variation and sideways.
+  GraphPieces(const DenseCurve& curve, const std::vector<int>& turns, core::Interval slopes,
+              double energy, double tolerance);
 
-  /// Numbers of pieces for every run: as few as keep the excess within this.
-  std::vector<int> within(double excess) const;
+  /// Numbers of pieces for every run: as few as keep the loss within this, and about
+  /// so many at most.
+  std::vector<int> within(double loss, int most) const;
   /// So many pieces in all, or as many as there are runs if that is more.
   std::vector<int> of_count(int pieces) const;
-  /// One piece more in every run that holds one of these places (shares of the length); false where
-  /// none of them can have more.
-  bool refine(std::vector<int>& count, const std::vector<double>& at) const;
 
   DenseCurve cut_by(const std::vector<int>& count) const;
 
@@ -33,26 +33,31 @@ class GraphPieces {
   /// A piece between two places: its slope and excess.
   struct Fit {
     double alpha = -1;
-    double excess = 0;
+    double loss = 0;
+    double turn = 0;  ///< how much farther than the curve it turns
   };
   /// A run's places and, for each number of pieces, the least excess and where it is cut.
   struct Run {
     std::vector<int> place;
     std::vector<std::vector<Fit>> fit;  ///< by first and last place
-    std::vector<double> excess;         ///< by the number of pieces less one
+    std::vector<double> loss;           ///< by the number of pieces less one
     std::vector<std::vector<int>> from;
+    bool line = false;
   };
+  void add_run(int from, int to, bool line);
   void tabulate(Run& run) const;
   /// Slopes that a piece between two places may have: fewer where an inflection is near.
   core::Interval slopes_of(int from, int to) const;
   Fit best_fit(int from, int to) const;
-  double excess_of(int from, int to, double alpha) const;
+  Fit fit_of(int from, int to, double alpha) const;
   Run make_run(int from, int to) const;
   bool add_piece(std::vector<int>& count) const;
   double total(const std::vector<int>& count) const;
 
   DenseCurve curve_;  ///< begun at a turn where it is closed
   core::Interval slopes_;
+  double energy_;
+  double tolerance_;  ///< of the length
   std::vector<Run> runs_;
 };
 

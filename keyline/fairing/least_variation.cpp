@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "keyline/fairing/band.h"
+#include "keyline/fairing/dense_places.h"
 #include "keyline/fairing/dense_riccati.h"
 
 namespace keyline::fairing::detail {
@@ -22,51 +24,42 @@ constexpr int kStiffenings = 6;
 constexpr int kFollowSteps = 12;
 constexpr double kFollowed = 0.5;  // of the tolerance: a first curve so near is near enough
 constexpr double kFollowGain = 1e-2;
-
-struct Gaps {
-  std::vector<Eigen::Vector3d> cell;
-  Vector6 seam = Vector6::Zero();
-  double sum = 0;
-};
-
-using Shapes = std::vector<CellShape>;
+constexpr int kLoosenings = 12;
+constexpr double kMeanSquareGap = 0.02;  // of the rms asked for
+constexpr double kFirstPower = -0.25;    // of the weight that the rms goes with, as a first guess
+constexpr double kMostLoosening = 4.6;   // a hundredfold at once
 
 class Search {
  public:
   Search(DenseCurve& curve, const std::vector<FitPoint>& points, const BandOptions& options)
       : curve_(curve), points_(points), options_(options), unit_(options.tolerance) {
-    shapes_ = shapes_of(curve_);
-    piece_ = pieces_of(curve_);
-    settle_feet(curve_, shapes_, 3);
-    offsets_ = offsets_of(curve_, shapes_);
-    gaps_ = gaps_of(curve_, shapes_);
-    energy_unit_ = energy_scale();
+    mean_weight_ = mean_weights(points);
+    spring_ = options.spring;
     multiplier_ = Vector6::Zero();
+    look();
+    energy_unit_ = energy_scale();
   }
 
   /// Follows the points closely: springs, stiffened until all lie well inside the tolerance or the
-  /// curve follows them no closer.
+  /// curve follows them no closer. Then the spring whose curve has the offsets' mean square that
+  /// is asked for.
   void follow() {
-    double weight = 1 / (unit_ * unit_ * static_cast<double>(points_.size()));
+    double weight = 1 / (unit_ * unit_);
     for (int round = 0; round < kStiffenings; ++round, weight *= 10) {
-      Springs springs(points_, offsets_, weight);
-      limits_ = &springs;
-      damping_ = 0;
-      finished_ = false;
-      for (int i = 0; i < kFollowSteps && !finished_; ++i) iterate();
-      energy_unit_ = energy_scale();
-      if (largest() < kFollowed * unit_ && closed_enough()) return;
+      hang(weight);
+      if (largest() < kFollowed * unit_ && closed_enough()) break;
     }
+    if (options_.rms > 0) loosen(hung_);
   }
 
   BandReport run() {
-    Band band(points_, unit_);
-    band.start(offsets_, 0.5 / static_cast<double>(points_.size()));
+    energy_unit_ = energy_scale();
+    Band band(points_, unit_, spring_ / energy_unit_);
+    band.start(spots_.offset, 0.5 / static_cast<double>(points_.size()));
     limits_ = &band;
     band_ = &band;
     damping_ = 0;
     finished_ = false;
-    energy_unit_ = energy_scale();
     BandReport report;
     while (report.iterations < options_.iterations && !finished_ &&
            !options_.progress.stop_requested()) {
@@ -74,8 +67,10 @@ class Search {
       iterate();
     }
     report.converged = converged_;
-    report.energy = variation(curve_, shapes_);
+    report.energy = variation(curve_);
     report.max_offset = largest();
+    report.rms = root_mean_square(mean_weight_, spots_.offset);
+    report.spring = spring_;
     report.within = report.max_offset <= options_.tolerance && closed_enough();
     return report;
   }
@@ -85,13 +80,61 @@ class Search {
     double most = 0;
     for (std::size_t j = 0; j < points_.size(); ++j) {
       const double share = points_[j].share;
-      most = std::max(most, offsets_[j] + share * points_[j].high);
-      most = std::max(most, -offsets_[j] - share * points_[j].low);
+      most = std::max(most, spots_.offset[j] + share * points_[j].high);
+      most = std::max(most, -spots_.offset[j] - share * points_[j].low);
     }
     return most;
   }
 
-  double energy_scale() const { return std::max(variation(curve_, shapes_), unit_ * unit_); }
+  /// The curve that hangs on springs of this weight of the mean square beside the energy's unit.
+  void hang(double weight) {
+    limits_ = &springs_.emplace(points_, spots_.offset, weight);
+    damping_ = 0;
+    finished_ = false;
+    for (int i = 0; i < kFollowSteps && !finished_; ++i) iterate();
+    hung_ = weight * energy_unit_;
+    energy_unit_ = energy_scale();
+  }
+
+  double rms() const { return root_mean_square(mean_weight_, spots_.offset); }
+
+  /// The softest springs that keep the mean square, by the secant of logarithms: it grows with a
+  /// power of the weight. The curve stays the softest that lies inside the tolerance.
+  void loosen(double weight) {
+    double power = kFirstPower;
+    double before = rms();
+    for (int round = 0; round < kLoosenings; ++round) {
+      const double miss = std::log(options_.rms / before);
+      if (std::abs(miss) < kMeanSquareGap) break;
+      const double by = std::clamp(miss / power, -kMostLoosening, kMostLoosening);
+      weight *= std::exp(by);
+      const double now = hang_on(weight);
+      if (std::log(now / before) / by < 0) power = std::log(now / before) / by;
+      before = now;
+    }
+    spring_ = weight;
+  }
+
+  /// Root of the mean square on springs of that weight; a curve outside the tolerance is not kept.
+  double hang_on(double weight) {
+    const DenseCurve before = curve_;
+    hang(weight / energy_unit_);
+    const double now = rms();
+    if (largest() <= unit_) return now;
+    curve_ = before;
+    look();
+    return now;
+  }
+
+  /// What depends on the curve, anew.
+  void look() {
+    shapes_ = shapes_of(curve_);
+    settle_feet(curve_, shapes_, 3);
+    spots_ = spots_of(curve_, shapes_, points_);
+    gaps_ = gaps_of(curve_, shapes_);
+  }
+
+  double energy_scale() const { return std::max(variation(curve_), unit_ * unit_); }
 
   bool closed_enough() const { return gaps_.sum <= 1e-2 * unit_; }
 
@@ -104,60 +147,14 @@ class Search {
 
   bool pinned(std::size_t j) const { return !curve_.closed && (j == 0 || j + 1 == points_.size()); }
 
-  std::vector<double> offsets_of(const DenseCurve& curve, const Shapes& shapes) const {
-    std::vector<double> off(points_.size());
-    for (std::size_t j = 0; j < off.size(); ++j)
-      off[j] = offset_of(curve, shapes, points_[j], curve.feet[j]);
-    return off;
-  }
-
-  Gaps gaps_of(const DenseCurve& curve, const Shapes& shapes) const {
-    Gaps gaps;
-    for (std::size_t i = 0; i + 1 < curve.joints.size(); ++i) {
-      const CellPlace end = place_in_cell(curve, shapes[i], static_cast<int>(i), 1);
-      const FitJoint& to = curve.joints[i + 1];
-      gaps.cell.push_back(
-          {end.at.x - to.position.x, end.at.y - to.position.y, end.angle - to.direction});
-      gaps.sum += gaps.cell.back().lpNorm<1>();
-    }
-    const int held = static_cast<int>(curve.hold_end);
-    if (!curve.closed && held == 0) return gaps;
-    const FitJoint& first = curve.closed ? curve.joints.front() : curve.held_end;
-    const FitJoint& last = curve.joints.back();
-    gaps.seam << last.position.x - first.position.x, last.position.y - first.position.y,
-        last.direction - first.direction - (curve.closed ? curve.turning : 0),
-        last.curvature - first.curvature * (curve.closed ? 1 : curve.length), 0, 0;
-    for (int k = 0; k < 4; ++k)
-      if (!curve.closed && k > held) gaps.seam(k) = 0;
-    gaps.sum += gaps.seam.head<3>().lpNorm<1>() + 0.1 * std::abs(gaps.seam(3));
-    return gaps;
-  }
-
-  /// How far the end lies before or beyond the last point (or the start, the first), along it.
-  double along(const DenseCurve& curve, const Shapes& shapes, std::size_t j) const {
-    const Foot& foot = curve.feet[j];
-    const CellPlace s = place_in_cell(curve, shapes[foot.piece], foot.piece, foot.fraction);
-    return core::dot(s.at - points_[j].position, {std::cos(s.angle), std::sin(s.angle)});
-  }
-
-  double merit(const DenseCurve& curve, const Shapes& shapes, const std::vector<double>& offsets,
-               double gaps, double share) const {
-    double sum = variation(curve, shapes, true) / energy_unit_ + limits_->merit(offsets, share);
+  double merit(const DenseCurve& curve, const Spots& spots, double gaps, double share) const {
+    double sum = variation(curve, true) / energy_unit_ + limits_->merit(spots.offset, share);
     if (!curve.closed)
       for (const std::size_t j : {std::size_t{0}, points_.size() - 1}) {
-        const double a = along(curve, shapes, j) / unit_;
+        const double a = along(spots, points_, j) / unit_;
         sum += 0.5 * kReach * a * a;
       }
     return sum + gap_price_ * gaps;
-  }
-
-  Vector6 derivative(const CellPlace& s, int cell, core::Vector2 n) const {
-    const FitJoint& from = curve_.joints[cell];
-    const core::Vector2 arm = s.at - from.position;
-    Vector6 d;
-    d << n.x, n.y, core::cross(arm, n), core::dot(s.by_start, n), core::dot(s.by_end, n),
-        core::dot(arm, n) / curve_.length;
-    return d;
   }
 
   std::vector<Cell> model() const {
@@ -166,6 +163,7 @@ class Search {
     for (std::size_t j = 0; j < points_.size(); ++j) add_point(cells, j);
     const std::size_t pieces = curve_.alpha.size();
     for (std::size_t p = 0; p < pieces; ++p) {
+      add_piece(cells[curve_.cut[p]], p);
       Passage& passage = cells[curve_.cut[p + 1] - 1].passage;
       passage.ends_piece = true;
       passage.arc = flat(curve_, p);
@@ -188,19 +186,22 @@ class Search {
   }
 
   void add_cell(Cell& cell, int i) const {
-    const CellPlace end = place_in_cell(curve_, shapes_[i], i, 1);
+    const CellPlace& end = gaps_.end[i];
     const core::Vector2 arm = end.at - curve_.joints[i].position;
     cell.step << 1, 0, -arm.y, end.by_start.x, end.by_end.x, arm.x / curve_.length,  //
         0, 1, arm.x, end.by_start.y, end.by_end.y, arm.y / curve_.length,            //
         0, 0, 1, end.angle_by_start, end.angle_by_end, 0;
     cell.gap = gaps_.cell[i];
-    const CellShape& shape = shapes_[i];
-    const double h = curve_.at[i + 1] - curve_.at[i];
-    const double w = 2 * piece_price(curve_, piece_[i]) / (h * energy_unit_);
+  }
+
+  /// The piece's variation, told where it begins: both its curvatures are known there.
+  void add_piece(Cell& cell, std::size_t p) const {
+    const PieceEnergy energy = energy_of(curve_, p);
+    const double w = 2 * piece_price(curve_, static_cast<int>(p)) / energy_unit_;
     Vector6 d = Vector6::Zero();
-    d(3) = shape.by_start[2] - shape.by_start[0];
-    d(4) = shape.by_end[2] - shape.by_end[0];
-    add(cell, d, w, w * (shape.curvature[2] - shape.curvature[0]));
+    d(3) = energy.by_start;
+    d(4) = energy.by_end;
+    add(cell, d, w, w * energy.root);
   }
 
   static void add(Cell& cell, const Vector6& d, double weight, double slope) {
@@ -209,18 +210,20 @@ class Search {
   }
 
   void add_point(std::vector<Cell>& cells, std::size_t j) const {
-    const Foot& foot = curve_.feet[j];
-    const CellPlace s = place_in_cell(curve_, shapes_[foot.piece], foot.piece, foot.fraction);
-    const core::Vector2 tangent{std::cos(s.angle), std::sin(s.angle)};
-    const double share = points_[j].share;
-    // The point's offset is what it lies left of the curve: the curve's own move, reversed.
-    const Vector6 d = -share * derivative(s, foot.piece, core::perpendicular_left(tangent));
+    const int cell = curve_.feet[j].piece;
+    const CellPlace& s = spots_.place[j];
     const Pull pull = limits_->pull(j);
-    add(cells[foot.piece], d, pull.weight, pull.slope);
+    add(cells[cell], by_offset(j), pull.weight, pull.slope);
     if (!pinned(j)) return;
     const double w = kReach / (unit_ * unit_);
-    const double off = core::dot(s.at - points_[j].position, tangent);
-    add(cells[foot.piece], derivative(s, foot.piece, tangent), w, w * off);
+    add(cells[cell], derivative(curve_, s, cell, s.tangent), w, w * along(spots_, points_, j));
+  }
+
+  /// The point's offset is what it lies left of the curve: the curve's own move, reversed.
+  Vector6 by_offset(std::size_t j) const {
+    const CellPlace& s = spots_.place[j];
+    return -points_[j].share *
+           derivative(curve_, s, curve_.feet[j].piece, core::perpendicular_left(s.tangent));
   }
 
   DenseBoundary boundary() const {
@@ -256,14 +259,8 @@ class Search {
 
   std::vector<double> meant(const DenseStep& step) const {
     std::vector<double> change(points_.size());
-    for (std::size_t j = 0; j < points_.size(); ++j) {
-      const Foot& foot = curve_.feet[j];
-      const CellPlace s = place_in_cell(curve_, shapes_[foot.piece], foot.piece, foot.fraction);
-      const core::Vector2 n =
-          core::perpendicular_left(core::Vector2{std::cos(s.angle), std::sin(s.angle)});
-      const Vector6 d = -points_[j].share * derivative(s, foot.piece, n);
-      change[j] = d.dot(step.state[foot.piece]);
-    }
+    for (std::size_t j = 0; j < points_.size(); ++j)
+      change[j] = by_offset(j).dot(step.state[curve_.feet[j].piece]);
     return change;
   }
 
@@ -277,7 +274,7 @@ class Search {
     }
     gap_price_ = std::max(2 * step.largest_costate, 0.5 * gap_price_);
     const std::vector<double> planned = meant(step);
-    const double before = merit(curve_, shapes_, offsets_, gaps_.sum, 0);
+    const double before = merit(curve_, spots_, gaps_.sum, 0);
     double share = std::min(limits_->longest(planned), keeps_side(step));
     for (int h = 0; h <= kHalvings; ++h, share *= 0.5)
       if (take(step, planned, share, before)) {
@@ -330,15 +327,15 @@ class Search {
     if (!(trial.length > 0.3 * curve_.length)) return false;
     Shapes shapes = shapes_of(trial);
     settle_feet(trial, shapes, 2);
-    std::vector<double> off = offsets_of(trial, shapes);
-    if (!limits_->allows(off, share)) return false;
+    Spots spots = spots_of(trial, shapes, points_);
+    if (!limits_->allows(spots.offset, share)) return false;
     Gaps gaps = gaps_of(trial, shapes);
-    const double after = merit(trial, shapes, off, gaps.sum, share);
+    const double after = merit(trial, spots, gaps.sum, share);
     if (!(after < before + 1e-10 * std::abs(before))) return false;
-    limits_->move(off, planned, share);
+    limits_->move(spots.offset, planned, share);
     curve_ = std::move(trial);
     shapes_ = std::move(shapes);
-    offsets_ = std::move(off);
+    spots_ = std::move(spots);
     gaps_ = std::move(gaps);
     if (curve_.closed || curve_.hold_end != Hold::free)
       multiplier_ += boundary().end_hessian * gaps_.seam;
@@ -374,13 +371,16 @@ class Search {
   const std::vector<FitPoint>& points_;
   const BandOptions& options_;
   Limits* limits_ = nullptr;
+  std::optional<Springs> springs_;
   Band* band_ = nullptr;
   double unit_;
   Shapes shapes_;
-  std::vector<int> piece_;
-  std::vector<double> offsets_;
+  Spots spots_;
   Gaps gaps_;
+  std::vector<double> mean_weight_;
   Vector6 multiplier_;
+  double spring_ = 0;
+  double hung_ = 0;  ///< weight of the springs that the curve hung on last
   double energy_unit_ = 1;
   double gap_price_ = 0;
   double damping_ = 0;

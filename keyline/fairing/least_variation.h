@@ -10,6 +10,10 @@ struct BandOptions {
   int iterations = 150;
   double gap = 0.01;  ///< of the energy: how far from the least it may stop
   bool warm = false;  ///< the curve given follows the points already
+  /// Root of the mean square of the offsets that the curve is to keep before the tolerance is
+  /// looked at, by springs beside the energy; 0: none. Not where `warm`: then `spring` counts.
+  double rms = 0;
+  double spring = 0;  ///< weight of half the mean square of the offsets beside the energy
   core::Progress progress;
 };
 
@@ -19,6 +23,8 @@ struct BandReport {
   int iterations = 0;
   double energy = 0;      ///< L^3 * integral of (d curvature / ds)^2
   double max_offset = 0;  ///< largest distance of a point, spread included
+  double rms = 0;         ///< root of the mean square of the offsets
+  double spring = 0;      ///< weight of its square's half that was taken
 };
 
 /// The curve of least variation of curvature within the tolerance of the points, from the one

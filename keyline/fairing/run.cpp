@@ -9,6 +9,7 @@
 #include "keyline/fairing/condense.h"
 #include "keyline/fairing/exact_chain.h"
 #include "keyline/fairing/guides.h"
+#include "keyline/fairing/residuals.h"
 #include "keyline/fairing/run_frame.h"
 #include "keyline/fairing/settle.h"
 #include "keyline/fairing/straight_run.h"
@@ -19,9 +20,13 @@ namespace {
 constexpr std::size_t kMostFitPoints = 1200;
 // What an end is off along the curve, and cells and means tell only nearly, has to fit in as well.
 constexpr double kInside = 0.995;
-constexpr int kTightenings = 3;
-constexpr double kFar = 1.1;     // of the tolerance: farther off is no matter of rounding
-constexpr double kPassed = 1e3;  // a point to be passed is off by so much less than others may
+constexpr int kTightenings = 5;
+constexpr double kWander = 2;      // a half circle is 1.6 times as long as its chord
+constexpr double kWanderRoom = 4;  // tolerances
+constexpr double kLoose = 5e-4;    // of the length
+constexpr double kExactRoom = 5;   // a tolerance within which rounding is no matter, in its units
+constexpr double kFar = 1.3;       // of the tolerance: farther off is no matter of rounding
+constexpr double kPassed = 1e3;    // a point to be passed is off by so much less than others may
 
 /// A number cut to seven digits, see cut_digits.
 double rounded(double x) {
@@ -157,15 +162,35 @@ FitChain closed_chain(const DenseCurve& curve, const std::vector<FitPoint>& poin
   return chain;
 }
 
+/// Points that a chain reproduces to rounding get that chain, whatever the tolerance allows.
+/// The search begins with few pieces, as a loose tolerance gives them.
+bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
+                 const curve::BSpline2& spline, RunOptions options) {
+  const bool noisy = kExactRoom * exactness(result.accept) > result.accept.tolerance;
+  if (noisy || options.pieces > 0) return false;
+  options.tolerance = std::max(options.tolerance, kLoose * run.length);
+  const std::vector<FitPoint> points =
+      with_guides(cut_digits(result.points), run.closed, rounded(options.tolerance / run.length));
+  ChainSearchOptions searching = search_options(run, options);
+  searching.start = held_end(run, frame, spline, true);
+  searching.end = held_end(run, frame, spline, false);
+  return finish_exact(result, search_chain(points, run.closed, searching), result.points, run,
+                      searching);
+}
+
 /// The curve of least variation in the tolerance, in log-aesthetic pieces.
 void solve_least_variation(RunResult& result, const Run& run, const RunFrame& frame,
                            const curve::BSpline2& spline, const RunOptions& options) {
   const double tolerance = kInside * result.accept.tolerance;
+  const Residuals residuals = allowed_residuals(result.points, run.closed, run.points.size(),
+                                                result.accept.noise, tolerance, options.smoothness);
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
   for (FitPoint& p : result.points)
     if (p.must_pass) p.share = kPassed;
   CalmRunOptions calm;
   calm.tolerance = tolerance;
+  calm.residuals = residuals;
+  calm.slopes = options.slopes;
   calm.pieces = options.pieces;
   calm.start = held_end(run, frame, spline, true);
   calm.end = held_end(run, frame, spline, false);
@@ -174,7 +199,48 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   result.fit = closed_chain(found.curve, result.points, tolerance);
   result.start_pieces = static_cast<int>(result.fit.pieces.size());
   result.dense = std::move(found.curve);
+  result.spring = found.band.spring;
   result.within_tolerance = found.band.within;
+}
+
+/// Whether the curve wanders off between points: its way from one to the next is far longer than
+/// theirs, longer than a half circle.
+bool wanders(const DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance) {
+  const auto at = [&](std::size_t j) {
+    const Foot& foot = curve.feet[j];
+    return std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction);
+  };
+  const std::size_t n = points.size();
+  for (std::size_t j = 0; j + (curve.closed ? 0 : 1) < n; ++j) {
+    const std::size_t next = (j + 1) % n;
+    double way = at(next) - at(j);
+    if (curve.closed) way -= std::floor(way);
+    const double gap = core::distance(points[j].position, points[next].position);
+    if (way < 0.5 && way * curve.length > kWander * gap + kWanderRoom * tolerance) return true;
+  }
+  return false;
+}
+
+/// By what the points are and what is asked for: a line, the chain that reproduces them, the
+/// calmest one. The shortest where that or a number of pieces is asked for, or where the calmest
+/// did not come out within the tolerance, which is told.
+void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
+                   const curve::BSpline2& spline, const RunOptions& options) {
+  if (solve_straight(result, run, options)) return;
+  if (options.criterion == Criterion::least_variation && options.pieces == 0) {
+    if (solve_exact(result, run, frame, spline, options)) return;
+    const RunResult before = result;
+    solve_least_variation(result, run, frame, spline, options);
+    const bool stays = !wanders(result.dense, result.points, result.accept.tolerance);
+    if ((result.within_tolerance && stays) || options.progress.stop_requested()) return;
+    RunResult shortest = before;
+    solve(shortest, run, frame, spline, options);
+    if (!shortest.within_tolerance) return;
+    result = std::move(shortest);
+    result.calm_missed = true;
+    return;
+  }
+  solve(result, run, frame, spline, options);
 }
 
 /// The run solved for a tolerance, whether or not every single point passes in the end.
@@ -189,12 +255,7 @@ RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOpt
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
   result.accept = search_options(run, options).accept;
-  if (!solve_straight(result, run, options)) {
-    if (options.criterion == Criterion::least_variation)
-      solve_least_variation(result, run, frame, spline, options);
-    else
-      solve(result, run, frame, spline, options);
-  }
+  solve_one_way(result, run, frame, spline, options);
   std::vector<std::size_t> measured;
   for (std::size_t j = 0; j < result.points.size(); ++j)
     if (result.points[j].count > 0) measured.push_back(j);
@@ -213,25 +274,57 @@ double largest_offset(const RunResult& result, const Run& run) {
   return most;
 }
 
-/// Where points lie a hair outside after pieces have met, the run again with that much less room.
+/// The solved curve anew within that share of the tolerance, its ends held; false where the points
+/// leave it.
+bool solve_again(RunResult& result, const Run& run, const RunFrame& frame,
+                 const curve::BSpline2& spline, double share) {
+  const double tolerance = share * kInside * result.accept.tolerance;
+  const bool within =
+      hold_ends(result.dense, result.points, tolerance, result.spring,
+                held_end(run, frame, spline, true), held_end(run, frame, spline, false))
+          .within;
+  result.fit = closed_chain(result.dense, result.points, tolerance);
+  result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
+  return within;
+}
+
+/// Where points lie a hair outside after pieces have met, the same pieces with that much less room.
 void draw_in(RunResult& result, const Run& run, const curve::BSpline2& spline,
              const RunOptions& options) {
-  RunOptions tighter = options;
+  const RunFrame frame = make_frame(run);
+  double share = 1;
   for (int round = 0; round < kTightenings && !options.progress.stop_requested(); ++round) {
     const double most = largest_offset(result, run);
     if (most <= options.tolerance || most > kFar * options.tolerance) return;
-    tighter.tolerance *= 0.998 * options.tolerance / most;
-    RunResult again = solved_run(run, spline, tighter);
+    share *= 0.998 * options.tolerance / most;
+    RunResult again = result;
+    if (!solve_again(again, run, frame, spline, share) || largest_offset(again, run) >= most) {
+      RunOptions tighter = options;
+      tighter.tolerance *= share;
+      again = solved_run(run, spline, tighter);
+    }
     if (largest_offset(again, run) < most) result = std::move(again);
   }
+}
+
+/// The shortest chain, where the calmest leaves a point outside in the end.
+void keep_tolerance(RunResult& result, const Run& run, const curve::BSpline2& spline,
+                    RunOptions options) {
+  if (options.progress.stop_requested() || largest_offset(result, run) <= options.tolerance) return;
+  options.criterion = Criterion::fewest_pieces;
+  RunResult shortest = fair_run(run, spline, options);
+  if (largest_offset(shortest, run) > options.tolerance) return;
+  result = std::move(shortest);
+  result.calm_missed = true;
 }
 
 }  // namespace
 
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   RunResult result = solved_run(run, spline, options);
-  if (options.criterion == Criterion::least_variation && options.pieces == 0) {
+  if (!result.dense.joints.empty()) {
     draw_in(result, run, spline, options);
+    keep_tolerance(result, run, spline, options);
     return result;
   }
   if (run.points.size() <= kMostFitPoints || !result.within_tolerance || options.pieces > 0)
@@ -255,13 +348,13 @@ void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
     hold = std::max(hold, end.hold);
   };
   if (!result.dense.joints.empty()) {
-    const double tolerance = kInside * result.accept.tolerance;
-    result.within_tolerance =
-        hold_ends(result.dense, result.points, tolerance, held_end(run, frame, spline, true),
-                  held_end(run, frame, spline, false))
-            .within;
-    result.fit = closed_chain(result.dense, result.points, tolerance);
-    result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
+    result.within_tolerance = solve_again(result, run, frame, spline, 1);
+    if (!result.within_tolerance) {
+      result = fair_run(run, spline, options);
+      return;
+    }
+    draw_in(result, run, spline, options);
+    keep_tolerance(result, run, spline, options);
     return;
   }
   FitChain& chain = result.fit;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "keyline/core/interval.h"
 #include "keyline/core/similarity.h"
 #include "keyline/fairing/chain_search.h"
 #include "keyline/fairing/dense_curve.h"
@@ -29,7 +30,9 @@ struct RunOptions {
   double tolerance = 0;  ///< in the points' unit
   double noise = 0;
   int pieces = 0;
-  Criterion criterion = Criterion::fewest_pieces;
+  Criterion criterion = Criterion::least_variation;
+  double smoothness = 0.5;       ///< see FairOptions
+  core::Interval slopes{-3, 3};  ///< of the calmest chain's pieces
   int threads = 0;
   core::Progress progress;
 };
@@ -54,9 +57,11 @@ struct RunResult {
   std::vector<std::size_t> point_of;  ///< of each point of the run: which of `points` holds it
   Acceptance accept;
   bool within_tolerance = false;
-  bool exact = false;  ///< reproduces the points to rounding
+  bool exact = false;        ///< reproduces the points to rounding
+  bool calm_missed = false;  ///< no calmest chain was found within the tolerance: the shortest one
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
+  double spring = 0;     ///< of the mean square of the offsets, see BandOptions
   DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
 };
 

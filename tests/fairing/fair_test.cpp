@@ -83,7 +83,7 @@ TEST(Fair, OptionsOutOfRangeAreBadInput) {
 }
 
 TEST(Fair, DefaultToleranceIsThreeSigmaOrMore) {
-  EXPECT_DOUBLE_EQ(default_tolerance(0, 2, 100), 1e-3);
+  EXPECT_DOUBLE_EQ(default_tolerance(0, 2, 100), 2e-4);
   EXPECT_GE(default_tolerance(1, 2, 10), 3);
   EXPECT_GT(default_tolerance(1, 2, 100000), 4.5);
   EXPECT_LT(default_tolerance(1, 2, 100000), 6);

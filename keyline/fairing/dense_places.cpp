@@ -1,0 +1,61 @@
+#include "keyline/fairing/dense_places.h"
+
+#include <cmath>
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kCurvatureShare = 0.1;  // of the seam's gap of curvature in the sum
+
+void add_seam(Gaps& gaps, const DenseCurve& curve) {
+  const int held = static_cast<int>(curve.hold_end);
+  if (!curve.closed && held == 0) return;
+  const FitJoint& first = curve.closed ? curve.joints.front() : curve.held_end;
+  const FitJoint& last = curve.joints.back();
+  gaps.seam << last.position.x - first.position.x, last.position.y - first.position.y,
+      last.direction - first.direction - (curve.closed ? curve.turning : 0),
+      last.curvature - first.curvature * (curve.closed ? 1 : curve.length), 0, 0;
+  for (int k = 0; k < 4; ++k)
+    if (!curve.closed && k > held) gaps.seam(k) = 0;
+  gaps.sum += gaps.seam.head<3>().lpNorm<1>() + kCurvatureShare * std::abs(gaps.seam(3));
+}
+
+}  // namespace
+
+Gaps gaps_of(const DenseCurve& curve, const Shapes& shapes) {
+  Gaps gaps;
+  for (std::size_t i = 0; i + 1 < curve.joints.size(); ++i) {
+    gaps.end.push_back(place_in_cell(curve, shapes[i], static_cast<int>(i), 1));
+    const CellPlace& end = gaps.end.back();
+    const FitJoint& to = curve.joints[i + 1];
+    gaps.cell.push_back(
+        {end.at.x - to.position.x, end.at.y - to.position.y, end.angle - to.direction});
+    gaps.sum += gaps.cell.back().lpNorm<1>();
+  }
+  add_seam(gaps, curve);
+  return gaps;
+}
+
+Spots spots_of(const DenseCurve& curve, const Shapes& shapes, const std::vector<FitPoint>& points) {
+  Spots spots;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    spots.place.push_back(place_of(curve, shapes, curve.feet[j]));
+    spots.offset.push_back(offset_of(points[j], spots.place.back()));
+  }
+  return spots;
+}
+
+double along(const Spots& spots, const std::vector<FitPoint>& points, std::size_t j) {
+  return core::dot(spots.place[j].at - points[j].position, spots.place[j].tangent);
+}
+
+Vector6 derivative(const DenseCurve& curve, const CellPlace& place, int cell,
+                   core::Vector2 direction) {
+  const core::Vector2 arm = place.at - curve.joints[cell].position;
+  Vector6 d;
+  d << direction.x, direction.y, core::cross(arm, direction), core::dot(place.by_start, direction),
+      core::dot(place.by_end, direction), core::dot(arm, direction) / curve.length;
+  return d;
+}
+
+}  // namespace keyline::fairing::detail
