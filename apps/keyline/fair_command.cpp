@@ -42,6 +42,16 @@ std::string table_of(const Shown& faired) {
   return text;
 }
 
+std::string comb_of(const operations::FairFigures& f) {
+  const auto& other = f.smoothing_spline ? *f.smoothing_spline : f.spline;
+  const char* whose = f.smoothing_spline ? "the smoothest spline as near" : "the points' spline";
+  return fmt::format("comb: {}, variation {:.3g}, jolt {:.2g}; {}: {}, {:.3g}, {:.2g}{}",
+                     core::counted(static_cast<std::size_t>(f.answer.waves), "wave"),
+                     f.answer.energy, f.answer.jolt, whose,
+                     core::counted(static_cast<std::size_t>(other.waves), "wave"), other.energy,
+                     other.jolt, f.fair ? "" : " - near enough, but not fair");
+}
+
 void tell(const Session& session, const Shown& faired) {
   const auto& a = answer_of(faired);
   const bool quiet = session.door().quiet;
@@ -53,6 +63,7 @@ void tell(const Session& session, const Shown& faired) {
                          core::counted(a.pieces.size(), "piece"),
                          core::counted(a.faired.curves.size(), "chain"), a.deviation.max,
                          a.deviation.rms, a.tolerance, a.noise));
+  say(quiet, name + comb_of(a.fairness));
 }
 
 std::string name_of(const Shown& faired) {

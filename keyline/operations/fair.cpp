@@ -86,6 +86,7 @@ FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   answer.tolerance = result.tolerance;
   answer.deviation = {result.max_deviation, result.rms_deviation, result.worst_point};
   answer.within_tolerance = result.within_tolerance;
+  answer.fairness = fair_figures(line, result);
   answer.cancelled = result.cancelled;
   for (const auto& joint : result.joints) answer.continuity.push_back(joint_of(joint));
   answer.report = result.notes;
@@ -98,8 +99,8 @@ Operation fair_operation() {
   return declare<run>(
       {.name = "fair",
        .summary = "The main job: a key-line's points (or a curve) in, a faired chain of "
-                  "log-aesthetic pieces out, G2 at its joints, as few pieces as the tolerance "
-                  "allows.",
+                  "log-aesthetic pieces out, G2 at its joints, the calmest within the "
+                  "tolerance.",
        .examples = {R"({"points":[[0,0],[0.1,0.004],[0.2,0.016],[0.3,0.036],[0.4,0.064],[0.5,0.1],
                 [0.6,0.144],[0.7,0.196],[0.8,0.256],[0.9,0.324],[1,0.4],[1.1,0.484],[1.2,0.576],
                 [1.3,0.676],[1.4,0.784],[1.5,0.9],[1.6,1.024],[1.7,1.156],[1.8,1.296],

@@ -6,6 +6,7 @@
 
 #include "keyline/acquire/key_line.h"
 #include "keyline/fairing/fair.h"
+#include "keyline/operations/fair_figures.h"
 #include "keyline/operations/joint.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/operation.h"
@@ -72,6 +73,7 @@ struct FairAnswer {
   double tolerance = 0;
   FairDeviation deviation;
   bool within_tolerance = false;
+  FairFigures fairness;
   bool cancelled = false;
   std::vector<Joint> continuity;
   std::vector<std::string> report;
@@ -91,6 +93,7 @@ struct FairAnswer {
         core::field<&FairAnswer::tolerance>("that was kept").in("length"),
         core::field<&FairAnswer::deviation>("of the points from the curve"),
         core::field<&FairAnswer::within_tolerance>("whether every point is"),
+        core::field<&FairAnswer::fairness>("how calm its comb is, beside others'"),
         core::field<&FairAnswer::cancelled>("stopped: the best found until then"),
         core::field<&FairAnswer::continuity>("at the joints, inside chains and between curves"),
         core::field<&FairAnswer::report>("everything dropped, merged or overridden, in words"));

@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/ticks.h"
+#include "keyline/operations/fair_figures.h"
 #include "keyline/presentation/curve_samples.h"
 #include "keyline/presentation/fair_joints.h"
 #include "keyline/presentation/report_parts.h"
@@ -30,6 +31,7 @@ struct Material {
   const acquire::KeyLine& line;
   const FairResult& result;
   const ReportOptions& options;
+  operations::FairFigures fairness;
   SampledCurve faired;
   SampledCurve spline;
   figure::ChartOptions chart;
@@ -47,15 +49,32 @@ std::size_t count_beyond(const FairResult& result) {
                     [&](double d) { return std::abs(d) > result.tolerance; }));
 }
 
+/// The other spline that the answer's comb is held against.
+const analysis::CombFigures& rival(const Material& m) {
+  return m.fairness.smoothing_spline ? *m.fairness.smoothing_spline : m.fairness.spline;
+}
+
+std::string fairness_line(const Material& m) {
+  const char* whose = m.fairness.smoothing_spline ? "the smoothest spline within the tolerance"
+                                                  : "the spline through the points";
+  if (m.fairness.fair) return fmt::format("Fair: as calm a comb as that of {}, or calmer.", whose);
+  return fmt::format("Not fair: {} has a calmer comb ({}, variation {}, jolt {}).", whose,
+                     core::counted(static_cast<std::size_t>(rival(m).waves), "wave"),
+                     figure::short_number(rival(m).energy, 3),
+                     figure::short_number(rival(m).jolt, 2));
+}
+
 void set_verdict(const Material& m, report::Report& report) {
   const FairResult& r = m.result;
   const std::string& unit = m.options.unit;
   const std::string pieces = core::counted(r.pieces.size(), "piece");
   const std::string cut = r.cancelled ? " The work was cancelled; this is the best found." : "";
   if (r.within_tolerance) {
-    report.verdict = r.cancelled ? report::Verdict::caution : report::Verdict::good;
-    report.verdict_line = fmt::format("{} within {} of every point, curvature monotone in each.{}",
-                                      pieces, length_text(r.tolerance, unit), cut);
+    const bool passed = m.fairness.fair && !r.cancelled;
+    report.verdict = passed ? report::Verdict::good : report::Verdict::caution;
+    report.verdict_line =
+        fmt::format("Near enough: {} within {} of every point, curvature monotone in each. {}{}",
+                    pieces, length_text(r.tolerance, unit), fairness_line(m), cut);
     return;
   }
   report.verdict = report::Verdict::bad;
@@ -86,6 +105,12 @@ void set_numbers(const Material& m, report::Report& report) {
        fmt::format("of {} points", m.line.points.size())},
       {"Noise of the points", length_text(r.noise, unit, 3),
        r.noise > 0 ? "standard deviation, normal to the curve" : "none found"},
+      {"Waves of curvature", fmt::format("{}", m.fairness.answer.waves),
+       fmt::format("{} of a spline as near", rival(m).waves)},
+      {"Variation of curvature", figure::short_number(m.fairness.answer.energy, 3),
+       fmt::format("{} of a spline as near", figure::short_number(rival(m).energy, 3))},
+      {"Jolt", figure::short_number(m.fairness.answer.jolt, 2),
+       fmt::format("{} of a spline as near", figure::short_number(rival(m).jolt, 2))},
       {"Length", length_text(r.length, unit), {}},
       {"Continuity", order < 0 ? "gap" : fmt::format("G{}", std::min(order, 3)),
        "lowest inside a chain"}};
@@ -303,6 +328,7 @@ report::Report fair_report(const acquire::KeyLine& line, const FairResult& resul
   const Material m{line,
                    result,
                    options,
+                   operations::fair_figures(line, result),
                    detail::faired_samples(result),
                    detail::spline_samples(result),
                    {.unit = options.unit, .largest_height = kMostHeight}};

@@ -1,0 +1,76 @@
+#include "keyline/operations/fair_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "keyline/curve/concept.h"
+#include "keyline/fit/smoothing_spline.h"
+#include "keyline/lac/chain.h"
+
+namespace keyline::operations {
+namespace {
+
+constexpr int kPerPiece = 400;
+constexpr int kPerSpline = 6000;
+constexpr double kAsGood = 1.5;  // times another's figure: as calm to the eye
+
+curve::CurvatureGraph graph_of(const lac::Chain& chain) {
+  curve::CurvatureGraph graph;
+  double at = 0;
+  for (const lac::Segment& segment : lac::segments(chain)) {
+    for (int i = 0; i <= kPerPiece; ++i) {
+      // Denser towards both ends, where rates of steep slopes grow.
+      const double share = 0.5 * (1 - std::cos(std::numbers::pi * i / kPerPiece));
+      graph.arc_length.push_back(at + share * segment.length);
+      graph.curvature.push_back(lac::curvature(segment, share));
+    }
+    at += segment.length;
+  }
+  return graph;
+}
+
+curve::CurvatureGraph graph_of(const curve::BSpline2& spline) {
+  curve::CurvatureGraph graph;
+  core::Point2 last = jet(spline, 0).point;
+  double at = 0;
+  for (int i = 0; i <= kPerSpline; ++i) {
+    const curve::Jet2 here = jet(spline, static_cast<double>(i) / kPerSpline);
+    at += core::distance(last, here.point);
+    last = here.point;
+    graph.arc_length.push_back(at);
+    graph.curvature.push_back(curvature(here));
+  }
+  return graph;
+}
+
+void add(analysis::CombFigures& sum, const analysis::CombFigures& one) {
+  sum.waves += one.waves;
+  sum.energy = std::max(sum.energy, one.energy);
+  sum.jolt = std::max(sum.jolt, one.jolt);
+}
+
+bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
+  return a.waves <= b.waves && a.energy <= kAsGood * b.energy && a.jolt <= kAsGood * b.jolt;
+}
+
+}  // namespace
+
+FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult& result) {
+  FairFigures figures;
+  for (const fairing::FairCurve& member : result.curves)
+    add(figures.answer,
+        std::visit([](const auto& c) { return analysis::comb_figures(graph_of(c)); }, member));
+  for (const curve::BSpline2& spline : result.splines)
+    add(figures.spline, analysis::comb_figures(graph_of(spline)));
+  const bool straight = figures.answer.energy == 0;
+  figures.fair = straight || as_fair(figures.answer, figures.spline);
+  if (result.curves.size() != 1) return figures;
+  const auto smooth = fit::smoothing_spline_curvature(line.points, result.closed, result.tolerance);
+  if (!smooth) return figures;
+  figures.smoothing_spline = analysis::comb_figures(*smooth);
+  figures.fair = straight || as_fair(figures.answer, *figures.smoothing_spline);
+  return figures;
+}
+
+}  // namespace keyline::operations

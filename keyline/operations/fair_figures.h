@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "keyline/acquire/key_line.h"
+#include "keyline/analysis/comb_figures.h"
+#include "keyline/fairing/fair.h"
+
+namespace keyline::operations {
+
+/// How fair an answer is: its comb in figures, beside what others make of the same points.
+struct FairFigures {
+  analysis::CombFigures answer;
+  analysis::CombFigures spline;  ///< of step 2
+  /// Of the smoothest quintic spline within the tolerance; not where corners part the answer.
+  std::optional<analysis::CombFigures> smoothing_spline;
+  bool fair = false;
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&FairFigures::answer>("of the answer's comb"),
+        core::field<&FairFigures::spline>("of the spline through the points"),
+        core::field<&FairFigures::smoothing_spline>("of the smoothest quintic spline within the "
+                                                    "tolerance; not where corners part the answer"),
+        core::field<&FairFigures::fair>(
+            "no more waves than that spline (or the one through the points), energy and jolt at "
+            "most half as much again"));
+  }
+};
+
+/// Waves of all members together, energy and jolt of the worst.
+FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult& result);
+
+}  // namespace keyline::operations
