@@ -24,8 +24,8 @@
 namespace keyline::numeric {
 
 /// What the engine needs from a problem. Costs may be infinite (no such individual) but not NaN.
-/// create(random, i) makes the i-th individual of a trial's first generation; trials may run at once.
-/// cost(genome, worker) is called in parallel, never twice at once with the same worker.
+/// create(random, i) makes the i-th individual of a trial's first generation; trials may run at
+/// once. cost(genome, worker) is called in parallel, never twice at once with the same worker.
 template <class P>
 concept GeneticProblem =
     requires(P& problem, typename P::Genome& genome, Random& random, int worker) {

@@ -9,6 +9,7 @@
 #include "keyline/fairing/piece_energy.h"
 #include "keyline/fairing/residuals.h"
 #include "keyline/fairing/straights.h"
+
 #include "truth.h"
 
 /// What the calmest chain is made with, against definitions worked out here.

@@ -15,7 +15,7 @@ export interface FairWishes {
   criterion: "fewest-pieces" | "least-variation";
 }
 
-export const defaultWishes: FairWishes = { tolerance: 0, pieces: 0, criterion: "fewest-pieces" };
+export const defaultWishes: FairWishes = { tolerance: 0, pieces: 0, criterion: "least-variation" };
 
 function requestOf(e: Entity, live: Live, wishes: FairWishes): Record<string, unknown> {
   const subject = e.kind === "scan" ? { line: e.line } : { curve: live.of(e.id)?.curve };
