@@ -12,19 +12,20 @@ namespace {
 
 constexpr int kLeastCells = 240;    // a hundredth of the energy is lost to half as many
 constexpr double kForPieces = 0.2;  // of the energy, given for having few pieces
-constexpr double kWorth = 1.5;      // a wave less, a line or an arc are worth so much energy
+constexpr double kWorth = 1.5;      // a wave less is worth so much energy
 // Standard errors of the offsets' mean square that having fewer waves, and fewer pieces, may cost:
 // curves that the points cannot tell from the truth.
 constexpr double kErrorsOfWaves = 1.5;
 constexpr double kErrorsOfPieces = 2.5;
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
-constexpr double kRoom = 0.9;
+constexpr double kRoom = 0.9;  // of the tolerance for the calm curve: the rest is for its pieces
 constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken to err by at least
 constexpr int kPieceSteps = 40;
 constexpr int kStiffenings = 3;
 constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
-constexpr int kRefinements = 7;
-constexpr double kFirstLoss = 1.6;
+constexpr int kRefinements = 7;        // halvings of…
+constexpr double kFirstLoss = 1.6;     // …what cutting may lose at first, in energies: solved for
+                                       // again, pieces win most of it back
 
 void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
   FitJoint& joint = at_start ? curve.joints.front() : curve.joints.back();
@@ -74,8 +75,7 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
   std::vector<int> last;
   int most = static_cast<int>(run.curve.joints.size());
   for (int round = 0; round <= kRefinements; ++round, loss *= 0.5) {
-    std::vector<int> count =
-        options.pieces > 0 ? graph.of_count(options.pieces) : graph.within(loss, most);
+    std::vector<int> count = graph.within(loss, most);
     if (count == last) continue;
     DenseCurve trial = graph.cut_by(count);
     last = std::move(count);
@@ -85,7 +85,7 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
       run.curve = trial;
       run.band = found;
     }
-    if (options.pieces > 0 || options.progress.stop_requested()) return;
+    if (options.progress.stop_requested()) return;
     if (found.within && found.energy <= (1 + kForPieces) * energy && found.rms <= most_rms) return;
   }
 }
@@ -115,7 +115,7 @@ CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed,
   choose_pieces(run, points, options);
   flat.band.spring = run.band.spring;
   flat.worth = 1 + kForPieces;
-  if (run.band.within && options.pieces == 0) make_arcs(run.curve, run.band, points, flat);
+  if (run.band.within) make_arcs(run.curve, run.band, points, flat);
   return run;
 }
 
@@ -179,7 +179,7 @@ FitChain chain_of(const DenseCurve& curve) {
   settle_end(chain.joints.back(), curve.held_end, curve.hold_end);
   for (const Foot& foot : curve.feet) {
     const int p = piece_of[foot.piece];
-    const double t = std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction);
+    const double t = place_along(curve, foot);
     const double from = curve.at[curve.cut[p]];
     const double to = curve.at[curve.cut[p + 1]];
     chain.feet.push_back({p, std::clamp((t - from) / (to - from), 0.0, 1.0)});

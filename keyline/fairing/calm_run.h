@@ -10,7 +10,6 @@ namespace keyline::fairing::detail {
 struct CalmRunOptions {
   double tolerance = 0;  ///< of the points' offsets, in their unit
   Residuals residuals;   ///< of the same
-  int pieces = 0;        ///< wanted; 0: they follow
   core::Interval slopes{-3, 3};
   HeldEnd start;
   HeldEnd end;
@@ -24,9 +23,11 @@ struct CalmRun {
 };
 
 /// The whole way of a run: the curve of least variation of curvature in the tolerance, its waves
-/// calmed, its graph of curvature cut into as few log-aesthetic pieces as keep the energy within a
-/// tenth of that, the pieces solved for again in the tolerance; where they cannot keep it, the runs
-/// of curvature that leave it get a piece more.
+/// calmed, its straight stretches laid as lines, its graph of curvature cut into as few
+/// log-aesthetic pieces as lose little, the pieces solved for again in the tolerance; where they
+/// cannot keep it, the mean square or a fifth more than the energy, they are cut with half the
+/// loss.
+///
 /// Precondition: points in order along a curve of length about 1, at least 3; guides among them.
 CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options);
 

@@ -166,6 +166,10 @@ CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes
   return place_in_cell(curve, shapes[foot.piece], foot.piece, foot.fraction);
 }
 
+double place_along(const DenseCurve& curve, const Foot& foot) {
+  return std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction);
+}
+
 double offset_of(const FitPoint& point, const CellPlace& place) {
   return point.share * core::cross(place.tangent, point.position - place.at);
 }

@@ -75,6 +75,9 @@ CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes
 /// Signed distance of the point left of the place of its foot, times its share.
 double offset_of(const FitPoint& point, const CellPlace& place);
 
+/// Where a foot stands, as a share of the length.
+double place_along(const DenseCurve& curve, const Foot& foot);
+
 /// One Newton step of the foot along the curve.
 void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, const FitPoint& point,
                Foot& foot);

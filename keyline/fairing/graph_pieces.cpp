@@ -1,12 +1,8 @@
 #include "keyline/fairing/graph_pieces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
-
-#include "keyline/core/angle.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -211,12 +207,6 @@ std::vector<int> GraphPieces::within(double loss, int most) const {
   std::vector<int> count(runs_.size(), 1);
   int pieces = static_cast<int>(runs_.size());
   for (; pieces < most && total(count) > loss && add_piece(count); ++pieces);
-  return count;
-}
-
-std::vector<int> GraphPieces::of_count(int pieces) const {
-  std::vector<int> count(runs_.size(), 1);
-  while (std::accumulate(count.begin(), count.end(), 0) < pieces && add_piece(count));
   return count;
 }
 

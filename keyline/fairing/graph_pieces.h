@@ -21,11 +21,9 @@ class GraphPieces {
   GraphPieces(const DenseCurve& curve, const std::vector<int>& turns, core::Interval slopes,
               double energy, double tolerance);
 
-  /// Numbers of pieces for every run: as few as keep the loss within this, and about
-  /// so many at most.
+  /// Numbers of pieces for every run: as few as keep the loss within this, and about so many at
+  /// most.
   std::vector<int> within(double loss, int most) const;
-  /// So many pieces in all, or as many as there are runs if that is more.
-  std::vector<int> of_count(int pieces) const;
 
   DenseCurve cut_by(const std::vector<int>& count) const;
 

@@ -167,7 +167,7 @@ FitChain closed_chain(const DenseCurve& curve, const std::vector<FitPoint>& poin
 bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
                  const curve::BSpline2& spline, RunOptions options) {
   const bool noisy = kExactRoom * exactness(result.accept) > result.accept.tolerance;
-  if (noisy || options.pieces > 0) return false;
+  if (noisy) return false;
   options.tolerance = std::max(options.tolerance, kLoose * run.length);
   const std::vector<FitPoint> points =
       with_guides(cut_digits(result.points), run.closed, rounded(options.tolerance / run.length));
@@ -191,7 +191,6 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.tolerance = tolerance;
   calm.residuals = residuals;
   calm.slopes = options.slopes;
-  calm.pieces = options.pieces;
   calm.start = held_end(run, frame, spline, true);
   calm.end = held_end(run, frame, spline, false);
   calm.progress = options.progress;
@@ -206,14 +205,10 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
 /// Whether the curve wanders off between points: its way from one to the next is far longer than
 /// theirs, longer than a half circle.
 bool wanders(const DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance) {
-  const auto at = [&](std::size_t j) {
-    const Foot& foot = curve.feet[j];
-    return std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction);
-  };
   const std::size_t n = points.size();
   for (std::size_t j = 0; j + (curve.closed ? 0 : 1) < n; ++j) {
     const std::size_t next = (j + 1) % n;
-    double way = at(next) - at(j);
+    double way = place_along(curve, curve.feet[next]) - place_along(curve, curve.feet[j]);
     if (curve.closed) way -= std::floor(way);
     const double gap = core::distance(points[j].position, points[next].position);
     if (way < 0.5 && way * curve.length > kWander * gap + kWanderRoom * tolerance) return true;

@@ -50,8 +50,7 @@ class Search {
     for (std::size_t j = 0; j < points.size(); ++j) {
       if (points[j].count == 0) continue;
       point_.push_back(points[j].position);
-      const Foot& foot = curve.feet[j];
-      at_.push_back(std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction));
+      at_.push_back(place_along(curve, curve.feet[j]));
     }
   }
 
