@@ -165,18 +165,10 @@ Result<json> value_of(Session& session, const json& surface, const core::Progres
   return result;
 }
 
-Result<presentation::SurfaceView> view_of(Session& session) {
-  presentation::SurfaceView view;
-  const operations::Part part{&core::type_of<presentation::SurfaceView>(), &view};
-  if (auto read = operations::read_json(session.of(kView), {&part, 1}, {}, "analyze"); !read)
-    return std::unexpected(as_options(read.error()));
-  return view;
-}
-
 int analyze_surfaces(Session& session, const ReadFiles& read) {
   if (auto done = session.check_outputs({".json", ".html", ".png", ".pdf", ".svg"}); !done)
     return report_failure(done.error());
-  const auto view = view_of(session);
+  const auto view = session.record<presentation::SurfaceView>(kView);
   if (!view) return report_failure(view.error());
   say_curves_left_out(read.shown, session.door().quiet);
   const core::Progress progress = session.progress();

@@ -33,6 +33,7 @@ class Arguments {
   /// What was given of the i-th record, as JSON for its reader. A field that several records have
   /// goes to all of them.
   nlohmann::json& of(std::size_t record) { return given_[record]; }
+  const nlohmann::json& of(std::size_t record) const { return given_[record]; }
   std::vector<std::string> files;
 
   /// What was typed, option and value, for reports.

@@ -188,11 +188,9 @@ int answer_lines(const DoorOptions& door, const BatchWords& batch) {
 int run_batch(const Words& words) {
   Session session = new_session();
   if (const auto status = session.begin(words)) return *status;
-  BatchWords batch;
-  const operations::Part part{&core::type_of<BatchWords>(), &batch};
-  if (auto read = operations::read_json(session.of(0), {&part, 1}, {}, "batch"); !read)
-    return report_failure(as_options(read.error()));
-  return answer_lines(session.door(), batch);
+  const auto batch = session.record<BatchWords>(0);
+  if (!batch) return report_failure(batch.error());
+  return answer_lines(session.door(), *batch);
 }
 
 std::vector<std::string> batch_options() { return new_session().arguments().names(); }

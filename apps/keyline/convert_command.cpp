@@ -22,9 +22,9 @@ Session new_session() {
 
 Result<presentation::Output> output_of(Session& session, const operations::ReadAnswer& read) {
   presentation::Output output = presentation::output_of(read);
-  const operations::Part part{&core::type_of<operations::FormatOptions>(), &output.format};
-  if (auto done = operations::read_json(session.of(kFormat), {&part, 1}, {}, "convert"); !done)
-    return std::unexpected(as_options(done.error()));
+  auto format = session.record<operations::FormatOptions>(kFormat);
+  if (!format) return std::unexpected(format.error());
+  output.format = *format;
   return output;
 }
 

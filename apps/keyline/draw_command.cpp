@@ -91,7 +91,8 @@ Session new_session(const Operation& asked, bool all) {
   return Session(
       {"draw", "--points P0 P1 P2 ", "A log-aesthetic curve from handles or through points.",
        "Example: keyline draw --points 0,0 2,0 3,1.5 --alpha -1,1.5 --ratio 0.4 -o curve.svg\n"
-       "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report)."},
+       "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report).",
+       operations::further_options(asked)},
       groups, false);
 }
 
@@ -177,14 +178,6 @@ std::string text_of(const json& result) {
   return text + (line.empty() ? "" : line + "\n");
 }
 
-Result<presentation::HandleView> view_of(Session& session) {
-  presentation::HandleView view;
-  const operations::Part part{&core::type_of<presentation::HandleView>(), &view};
-  if (auto read = operations::read_json(session.of(kView), {&part, 1}, {}, "draw"); !read)
-    return std::unexpected(as_options(read.error()));
-  return view;
-}
-
 Result<operations::Outcome> drawn(Session& session, const Operation& operation) {
   const json own = session.of(kOwn);
   const auto points = points_of(own.value("points", json::array()), operation.name == "lac.space");
@@ -223,7 +216,7 @@ int run_draw(const Words& words) {
   if (!outcome) return report_failure(outcome.error());
   const auto result = shown_of(*outcome);
   if (!result) return report_failure(result.error());
-  const auto view = view_of(session);
+  const auto view = session.record<presentation::HandleView>(kView);
   if (!view) return report_failure(view.error());
   const auto pages = presentation::handle_pages(*outcome, *view, session.report_options());
   if (!pages) return report_failure(as_options(pages.error()));

@@ -19,7 +19,8 @@ Session new_session() {
   return Session(
       {"fair", "FILE... ", "The main job: points or a curve in, a faired key-line out.",
        "Example: keyline fair examples/bonnet-scan.csv -o faired.svg -o report.html\n"
-       "Formats: svg, json (the exact chain), csv (samples), html (report), pdf, png."},
+       "Formats: svg, json (the exact chain), csv (samples), html (report), pdf, png.",
+       operations::further_options(*operations::find_operation("fair"))},
       {group_of(*operations::find_operation("fair"), "Fairing"), reading_group(), door_group()});
 }
 

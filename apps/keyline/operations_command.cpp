@@ -98,13 +98,11 @@ int print_one(const std::string& name, Reference format) {
 int run_operations(const Words& words) {
   Session session = new_session();
   if (const auto status = session.begin(words)) return *status;
-  OperationsWords asked;
-  const operations::Part part{&core::type_of<OperationsWords>(), &asked};
-  if (auto read = operations::read_json(session.of(0), {&part, 1}, {}, "operations"); !read)
-    return report_failure(as_options(read.error()));
+  const auto asked = session.record<OperationsWords>(0);
+  if (!asked) return report_failure(asked.error());
   if (session.files().empty())
-    return asked.format ? print_all(*asked.format) : print_list(session.door().json);
-  return print_one(session.files().front(), asked.format.value_or(Reference::schema));
+    return asked->format ? print_all(*asked->format) : print_list(session.door().json);
+  return print_one(session.files().front(), asked->format.value_or(Reference::schema));
 }
 
 std::vector<std::string> operations_options() { return new_session().arguments().names(); }

@@ -46,11 +46,21 @@ OptionGroup reading_group() {
 
 OptionGroup door_group() { return {"Everywhere", &core::type_of<DoorOptions>()}; }
 
+namespace {
+
+/// The forms of curves go before what every command has.
+std::vector<OptionGroup> with_forms(std::vector<OptionGroup> groups, const core::Type* forms) {
+  if (forms) groups.insert(groups.end() - 1, {"Further forms of the curve", forms, {}});
+  return groups;
+}
+
+}  // namespace
+
 Session::Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes_files)
     : usage_(std::move(usage)),
-      arguments_(groups, takes_files),
+      arguments_(with_forms(groups, usage_.forms), takes_files),
       takes_files_(takes_files),
-      door_record_(groups.size() - 1) {}
+      door_record_(groups.size() - (usage_.forms ? 0 : 1)) {}
 
 std::string Session::help() const {
   return usage_.text + "\n\nkeyline " + usage_.command + " " + usage_.words + "[options]\n" +
@@ -68,9 +78,9 @@ std::optional<int> Session::begin(const Words& words) {
       failure.hint += (failure.hint.empty() ? "" : " ") + usage_hint();
     return report_failure(failure);
   }
-  const operations::Part part{&core::type_of<DoorOptions>(), &door_};
-  if (auto read = operations::read_json(of(door_record_), {&part, 1}, {}, usage_.command); !read)
-    return report_failure(as_options(read.error()));
+  auto door = record<DoorOptions>(door_record_);
+  if (!door) return report_failure(door.error());
+  door_ = std::move(*door);
   if (door_.version) {
     fmt::print("keyline {}\n", KEYLINE_VERSION);
     return kDone;
@@ -115,8 +125,11 @@ Result<void> Session::check_outputs() const {
   return check_outputs(presentation::known_extensions());
 }
 
-Result<operations::Outcome> Session::perform(const std::string& operation, const json& request,
+Result<operations::Outcome> Session::perform(const std::string& operation, json request,
                                              const core::Progress& progress) const {
+  const Operation* named = operations::find_operation(operation);
+  if (usage_.forms && operations::further_options(*named))
+    request.update(arguments_.of(door_record_ - 1));
   auto outcome = operations::carry_out(operation, request, {door_.threads, progress, true});
   if (!outcome) return std::unexpected(as_options(outcome.error()));
   return outcome;

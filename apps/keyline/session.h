@@ -13,6 +13,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "words.h"
 
 /// What the commands share: their options beside an operation's own, files in, results out.
 namespace keyline::app {
@@ -58,6 +59,8 @@ struct Usage {
   std::string words;    ///< "FILE... "
   std::string text;
   std::string more;  ///< example and formats
+  /// Further forms of the curves it makes, as operations::further_options() tells them; or null.
+  const core::Type* forms = nullptr;
 };
 
 /// A command line that was read.
@@ -90,10 +93,19 @@ class Session {
   core::Result<void> check_outputs(const std::vector<std::string>& known) const;
   core::Result<void> check_outputs() const;
 
-  /// Performs one operation; failures name options.
-  core::Result<operations::Outcome> perform(const std::string& operation,
-                                            const nlohmann::json& request,
+  /// Performs one operation, its curves also in the forms asked for; failures name options.
+  core::Result<operations::Outcome> perform(const std::string& operation, nlohmann::json request,
                                             const core::Progress& progress) const;
+
+  /// The i-th record as it was given; failures name options.
+  template <class Record>
+  core::Result<Record> record(std::size_t i) {
+    Record record;
+    const operations::Part part{&core::type_of<Record>(), &record};
+    if (auto read = operations::read_json(of(i), {&part, 1}, {}, usage_.command); !read)
+      return std::unexpected(as_options(read.error()));
+    return record;
+  }
 
   /// Writes the files of -o; says what a format could not hold.
   core::Result<nlohmann::json> write(const presentation::Pages& pages,

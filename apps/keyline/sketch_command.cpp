@@ -32,7 +32,8 @@ Session new_session() {
                   "json) in, its lines as curves out.",
                   "Example: keyline sketch examples/sketch.png -o sketch.svg\n"
                   "Formats: svg, json (the exact quintics), csv (samples), dxf and what convert "
-                  "writes."},
+                  "writes.",
+                  operations::further_options(*operations::find_operation("sketch.trace"))},
                  {trace, {"Looking on", &core::type_of<StageFolder>()}, door_group()});
 }
 

@@ -150,8 +150,9 @@ Result<std::vector<json>> read_all(Session& session, Made& made) {
 
 Session tool_session(const Tool& tool) {
   const Operation& operation = named(tool.operation);
-  return Session({tool.name, "FILE... ", operation.summary, ""},
-                 {group_of(operation, "Options"), reading_group(), door_group()});
+  return Session(
+      {tool.name, "FILE... ", operation.summary, "", operations::further_options(operation)},
+      {group_of(operation, "Options"), reading_group(), door_group()});
 }
 
 std::string text_of(const json& listed) {
@@ -183,12 +184,9 @@ Session list_session() {
 }
 
 Session plain_session(const Operation& operation) {
-  std::vector<OptionGroup> groups{{"Options", operation.request, {}}};
-  if (const core::Type* forms = operations::further_options(operation))
-    groups.push_back({"Further forms of the curve", forms, {}});
-  groups.push_back(door_group());
-  return Session({operation.name, operation.reads_files ? "[FILE...] " : "", operation.summary, ""},
-                 groups, operation.reads_files);
+  return Session({operation.name, operation.reads_files ? "[FILE...] " : "", operation.summary, "",
+                  operations::further_options(operation)},
+                 {{"Options", operation.request, {}}, door_group()}, operation.reads_files);
 }
 
 }  // namespace
@@ -238,7 +236,6 @@ int run_plain(const std::string& name, const Words& words) {
   if (const auto status = session.begin(words)) return *status;
   if (auto done = session.check_outputs(); !done) return report_failure(done.error());
   json request = session.of(0);
-  if (operations::further_options(operation)) request.update(session.of(1));
   const auto& files = session.files();
   if (!files.empty()) request["file"] = files.size() == 1 ? json(files.front()) : json(files);
   Made made;

@@ -78,6 +78,20 @@ TEST(Commands, OptionsAreReadAsPeopleTypeThem) {
   expect_failure(run_keyline("lac.region word"), 2, "word: this word belongs to no option");
 }
 
+TEST(Commands, CurvesComeInTheFormsAskedFor) {
+  for (const std::string& command :
+       {"fair " + example("clothoid.csv"), "reverse " + example("cubic.json"),
+        std::string("draw --points 0,0 2,0 3,1.5")}) {
+    const std::string forms =
+        R"( --quiet --json --samples 11 --bezier '{"degree":5,"tolerance":0.01}')";
+    const Outcome o = run_keyline(command + forms);
+    ASSERT_EQ(o.status, 0) << command << o.err;
+    const json result = json::parse(o.out);
+    EXPECT_EQ(result["polyline"]["points"].size(), 11U) << command;
+    EXPECT_LE(result["bezier"]["deviation"].get<double>(), 0.01) << command;
+  }
+}
+
 TEST(Convert, DrawsCurvesAndSaysWhereThereAreNone) {
   const Scratch s;
   const Outcome drawn = run_keyline("convert --quiet " + example("cubic.json") + " -o " +
