@@ -21,9 +21,16 @@ struct Failure {
   std::string path;     ///< where in the input, for example "points[2]"; may be empty
 };
 
-/// An answer or the reason there is none.
+/// An answer or the reason there is none. One that is not looked at is a compiler's warning (an
+/// error in this tree): what failed must not go on in silence.
 template <class T>
-using Result = std::expected<T, Failure>;
+class [[nodiscard]] Result : public std::expected<T, Failure> {
+ public:
+  using std::expected<T, Failure>::expected;
+  // NOLINTNEXTLINE(google-explicit-constructor): what and_then, transform, … of the base return
+  Result(std::expected<T, Failure> answer) : std::expected<T, Failure>(std::move(answer)) {}
+  Result() = default;
+};
 
 /// fail(ErrorCode::bad_input, "…", "…") makes the error side of any Result.
 inline std::unexpected<Failure> fail(ErrorCode code, std::string message, std::string hint = {},
