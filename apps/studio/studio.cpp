@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 2048;  // requests
 constexpr std::size_t kMostLong = 16;       // long works
+constexpr std::size_t kEndedEarly = 64;     // names of cancelled works that have not come yet
 
 std::string text_of(const json& j) {
   return j.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -231,6 +232,7 @@ void Studio::perform_long(const Operation& operation, const RequestHead& head, s
     const std::scoped_lock lock(mutex_);
     if (job.empty()) job = "unnamed " + std::to_string(unnamed_++);
     jobs_.insert_or_assign(job, token);
+    if (std::erase(ended_early_, job) > 0) token.request_stop();
   }
   const auto work = [this, &operation, told, token, job, body = std::move(body), back] {
     core::Progress progress{nullptr, token};
@@ -266,7 +268,11 @@ void Studio::cancel(const std::string& body, Responder& back) {
   const std::string name = job != request->end() && job->is_string() ? job->get<std::string>() : "";
   const std::scoped_lock lock(mutex_);
   const auto at = jobs_.find(name);
-  if (at != jobs_.end()) at->second.request_stop();
+  if (at != jobs_.end())
+    at->second.request_stop();
+  else if (!name.empty())
+    ended_early_.push_back(name);
+  if (ended_early_.size() > kEndedEarly) ended_early_.pop_front();
   back.reply(data(200, text_of({{"ok", true}, {"found", at != jobs_.end()}})));
 }
 

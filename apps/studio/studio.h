@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -57,6 +58,7 @@ class Studio {
   std::map<std::string, Reply> assets_;
   std::mutex mutex_;
   std::map<std::string, core::CancellationToken> jobs_;  ///< by their names
+  std::deque<std::string> ended_early_;                  ///< cancelled before they came
   std::uint64_t unnamed_ = 0;
   std::size_t uploads_ = 0;
   Lane hand_;

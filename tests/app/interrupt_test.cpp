@@ -27,6 +27,20 @@ pid_t started(const std::string& input, const std::string& output, const std::st
   std::_Exit(127);
 }
 
+/// Waits until a process catches SIGINT: from then on it must end by itself.
+void wait_for_handler(pid_t child) {
+  const std::string status = "/proc/" + std::to_string(child) + "/status";
+  for (int i = 0; i < 20000; ++i) {
+    const std::string text = slurp(status);
+    const std::size_t at = text.find("SigCgt:");
+    if (at != std::string::npos &&
+        (std::stoull(text.substr(at + 7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0)
+      return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  FAIL() << "nobody catches the signal";
+}
+
 /// A closed curve no few pieces follow: fairing it takes many seconds.
 std::string long_work() {
   std::string text;
@@ -47,7 +61,8 @@ TEST(Interrupt, AtAnyMomentLeavesOneWholeFile) {
   for (int moment = 1; moment <= 20; ++moment) {
     SCOPED_TRACE(moment);
     const pid_t child = started(input, output, s.path("err"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 25 * moment));
+    wait_for_handler(child);
+    std::this_thread::sleep_for(std::chrono::milliseconds(25 * (moment - 1)));
     ::kill(child, SIGINT);
     int status = 0;
     ::waitpid(child, &status, 0);

@@ -25,14 +25,16 @@ describe("fairing a scan", () => {
   });
 
   it("stops when told to", async () => {
-    // Faster than a hand: on a quiet machine the work ends within half a second.
-    await at.page.evaluate(async () => {
-      document.querySelector<HTMLElement>("#fair")!.click();
-      for (let i = 0; i < 1000 && !document.querySelector("#cancel"); ++i)
-        await new Promise((wait) => setTimeout(wait, 1));
-      document.querySelector<HTMLElement>("#cancel")!.click();
+    // The work is let go only when the word to stop is on its way: how fast either is does not matter.
+    const told = at.page.waitForRequest("**/api/v1/cancel");
+    await at.page.route("**/api/v1/fair", async (route) => {
+      await told;
+      await route.continue();
     });
+    await at.page.click("#fair");
+    await at.page.click("#cancel");
     await settled(at.page);
+    await at.page.unroute("**/api/v1/fair");
     const verdict = at.page.locator("#verdict");
     const said = (await verdict.count()) > 0 ? await verdict.textContent() : await at.page.locator(".toast").textContent();
     expect(said).toMatch(/Stopped early|cancelled/i);
