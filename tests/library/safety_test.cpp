@@ -38,7 +38,7 @@ std::string fault_of(const std::filesystem::path& file) {
   const auto curves = database->integer("SELECT count(*) FROM curve");
   for (const char* part : {"shape", "piece", "profile"}) {
     const auto count = database->integer(std::string("SELECT count(*) FROM ") + part);
-    if (!count || *count != curves) return std::string("curves without their ") + part;
+    if (!count || !curves || *count != *curves) return std::string("curves without their ") + part;
   }
   return {};
 }
