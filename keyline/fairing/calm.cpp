@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSeen = 0.02;   // of the curvature's range: lower waves are not seen
 constexpr double kTurn = 1e-3;   // of the range: what counts as a turn at all
+constexpr double kLevel = 0.01;  // of the range over the length: rates that count as none
 constexpr int kRounds = 4;       // in which an extremum may move on
 constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
 constexpr int kTrialSteps = 40;
@@ -98,18 +99,33 @@ void set_senses(DenseCurve& curve, const std::vector<int>& extrema) {
   mark(extrema.back(), last, -end);
 }
 
-/// Extremum nodes moved to where curvature turns now, within their runs.
+/// Cells beside an extremum along which curvature stays as it is, `way` from it, up to `most`.
+int level_cells(const DenseCurve& curve, int node, int way, int most, double least_rate) {
+  const int cells = static_cast<int>(curve.joints.size()) - 1;
+  int count = 0;
+  for (; count < most; ++count) {
+    const int cell = way > 0 ? node + count : node - count - 1;
+    const int c = curve.closed ? (cell + cells) % cells : cell;
+    if (c < 0 || c >= cells) break;
+    const double rise = curve.joints[c + 1].curvature - curve.joints[c].curvature;
+    if (std::abs(rise) > least_rate * (curve.at[c + 1] - curve.at[c])) break;
+  }
+  return count;
+}
+
+/// Extremum nodes moved on: where curvature is kept from running on beyond one, it is level on that
+/// side alone, and the extremum belongs to the other end of what is level.
 std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extrema) {
   std::vector<int> now = extrema;
+  const double least_rate = kLevel * range_of(curve);
   const int last = static_cast<int>(curve.joints.size()) - 1;
   for (std::size_t i = 0; i < extrema.size(); ++i) {
-    const int from = i == 0 ? 0 : extrema[i - 1];
-    const int to = i + 1 == extrema.size() ? last : extrema[i + 1];
-    const bool top = extrema[i] > 0 && curve.sense[extrema[i] - 1] > 0;
-    for (int node = from; node <= to; ++node) {
-      const double rise = curve.joints[node].curvature - curve.joints[now[i]].curvature;
-      if (top ? rise > 0 : rise < 0) now[i] = node;
-    }
+    const int before = i == 0 ? 0 : extrema[i - 1];
+    const int after = i + 1 == extrema.size() ? last : extrema[i + 1];
+    const int back = level_cells(curve, extrema[i], -1, extrema[i] - before - 1, least_rate);
+    const int on = level_cells(curve, extrema[i], 1, after - extrema[i] - 1, least_rate);
+    if (back == 0 && on > 0) now[i] += on;
+    if (on == 0 && back > 0) now[i] -= back;
   }
   return now;
 }

@@ -12,11 +12,13 @@ namespace {
 
 constexpr int kLeastCells = 240;    // a hundredth of the energy is lost to half as many
 constexpr double kForPieces = 0.2;  // of the energy, given for having few pieces
-constexpr double kWorth = 1.5;      // a wave less is worth so much energy
-// Standard errors of the offsets' mean square that having fewer waves, and fewer pieces, may cost:
-// curves that the points cannot tell from the truth.
-constexpr double kErrorsOfWaves = 1.5;
-constexpr double kErrorsOfPieces = 2.5;
+constexpr double kWorth = 2;        // a wave less is worth so much energy: waves come first
+// Standard errors of the offsets' mean square that having fewer waves, fewer pieces, or a line may
+// cost. Four: by chance a root of a mean square is hardly ever that large, so points that a wave
+// would serve keep it; a line is a claim of its own and has to be as near as the noise.
+constexpr double kErrorsOfWaves = 4;
+constexpr double kErrorsOfPieces = 5;
+constexpr double kErrorsOfLines = 2.5;
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
 constexpr double kRoom = 0.9;  // of the tolerance for the calm curve: the rest is for its pieces
 constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken to err by at least
@@ -78,6 +80,7 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
     std::vector<int> count = graph.within(loss, most);
     if (count == last) continue;
     DenseCurve trial = graph.cut_by(count);
+    refine_cells(trial);
     last = std::move(count);
     most = 2 * static_cast<int>(trial.alpha.size());
     const BandReport found = solve_pieces(trial, points, band, most_rms);
@@ -107,13 +110,14 @@ CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed,
   run.band = calm(run.curve, points, calm_options);
   FlatOptions flat;
   flat.band = piece_band(run, options);
-  flat.most_rms = options.residuals.most(kErrorsOfPieces);
+  flat.most_rms = std::max(options.residuals.most(kErrorsOfLines), run.band.rms);
   flat.noise = std::max(options.residuals.noise, kLeastNoise * options.tolerance);
   if (run.band.within) lay_lines(run.curve, run.band, points, flat);
   run.calm_energy = run.band.energy;
   run.curve.sense.clear();
   choose_pieces(run, points, options);
   flat.band.spring = run.band.spring;
+  flat.most_rms = std::max(options.residuals.most(kErrorsOfLines), run.band.rms);
   flat.worth = 1 + kForPieces;
   if (run.band.within) make_arcs(run.curve, run.band, points, flat);
   return run;

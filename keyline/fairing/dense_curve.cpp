@@ -20,8 +20,9 @@ constexpr std::array<double, 4> kWeight = {0.17392742256872693, 0.32607257743127
 constexpr double kReach = 0.01;     // of the length: what a first pose is fitted to, either way
 constexpr double kTurn = 0.1;       // that a cell may make, for its sums to hold ten digits…
 constexpr double kMostTurn = 6.3;   // …of what a gap may be taken to make
+constexpr double kSameTurn = 1e-8;  // in sums over a cell and over its halves
+constexpr int kMostParts = 16;      // of a cell: an inflection's neighbours never follow a parabola
 constexpr double kSmallTurn = 0.3;  // whose series of five terms hold to the last digits
-constexpr double kAgainst = 1e4;    // price of variation against its sense: what is left is unseen
 
 }  // namespace
 
@@ -100,11 +101,6 @@ DenseCurve begun_at(const DenseCurve& curve, int node) {
   set_free(next);
   next.sense.clear();
   return next;
-}
-
-double piece_price(const DenseCurve& curve, int piece) {
-  if (curve.sense.empty()) return 1;
-  return curve.sense[piece] * (curve.value[piece + 1] - curve.value[piece]) < 0 ? kAgainst : 1;
 }
 
 namespace {
@@ -206,13 +202,75 @@ PieceEnergy energy_of(const DenseCurve& curve, std::size_t piece) {
   return {by * energy.root, by * energy.by_start, by * energy.by_end};
 }
 
-double variation(const DenseCurve& curve, bool priced) {
+double variation(const DenseCurve& curve) {
   double sum = 0;
   for (std::size_t p = 0; p + 1 < curve.cut.size(); ++p) {
     const double root = energy_of(curve, p).root;
-    sum += root * root * (priced ? piece_price(curve, static_cast<int>(p)) : 1);
+    sum += root * root;
   }
   return sum;
+}
+
+namespace {
+
+/// What a piece turns between two places, by Simpson's rule over so many parts.
+double turn_between(const DenseCurve& curve, std::size_t p, double from, double to, int parts) {
+  const auto k = [&](double u) {
+    return curvature_at(curve, p, std::lerp(from, to, u / (2 * parts))).curvature;
+  };
+  double sum = k(0) + k(2 * parts);
+  for (int i = 1; i < 2 * parts; ++i) sum += (i % 2 == 1 ? 4 : 2) * k(i);
+  return sum * (to - from) / (6 * parts);
+}
+
+int parts_of(const DenseCurve& curve, std::size_t p, int cell) {
+  if (flat(curve, p) || curve.alpha[p] == -1) return 1;
+  const double from = curve.at[cell];
+  const double to = curve.at[cell + 1];
+  int parts = 1;
+  double turn = turn_between(curve, p, from, to, 1);
+  for (; parts < kMostParts; parts *= 2) {
+    const double finer = turn_between(curve, p, from, to, 2 * parts);
+    if (std::abs(finer - turn) < kSameTurn) break;
+    turn = finer;
+  }
+  return parts;
+}
+
+}  // namespace
+
+void refine_cells(DenseCurve& curve) {
+  const std::vector<int> piece = pieces_of(curve);
+  const std::vector<CellShape> shapes = shapes_of(curve);
+  std::vector<int> first;  // new node of every old one
+  std::vector<int> parts;
+  DenseCurve next = curve;
+  next.at.clear();
+  next.joints.clear();
+  const int cells = static_cast<int>(shapes.size());
+  for (int c = 0; c < cells; ++c) {
+    first.push_back(static_cast<int>(next.at.size()));
+    parts.push_back(parts_of(curve, piece[c], c));
+    next.at.push_back(curve.at[c]);
+    next.joints.push_back(curve.joints[c]);
+    for (int i = 1; i < parts[c]; ++i) {
+      const double v = static_cast<double>(i) / parts[c];
+      const CellPlace place = place_in_cell(curve, shapes[c], c, v);
+      next.at.push_back(std::lerp(curve.at[c], curve.at[c + 1], v));
+      next.joints.push_back({place.at, place.angle, curve.joints[c].curvature});
+    }
+  }
+  first.push_back(static_cast<int>(next.at.size()));
+  next.at.push_back(curve.at[cells]);
+  next.joints.push_back(curve.joints[cells]);
+  for (int& cut : next.cut) cut = first[cut];
+  for (Foot& foot : next.feet) {
+    const double place = foot.fraction * parts[foot.piece];
+    const int part = std::clamp(static_cast<int>(place), 0, parts[foot.piece] - 1);
+    foot = {first[foot.piece] + part, place - part};
+  }
+  curve = std::move(next);
+  shapes_of(curve);  // sets the new joints' curvatures
 }
 
 DenseCurve dense_curve(const std::vector<FitPoint>& points, bool closed, int least) {

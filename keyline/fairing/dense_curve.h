@@ -53,8 +53,6 @@ void set_free(DenseCurve& curve);
 /// The closed curve begun at another node.
 DenseCurve begun_at(const DenseCurve& curve, int node);
 
-/// What a piece's share of the variation counts: more where curvature runs against its sense.
-double piece_price(const DenseCurve& curve, int piece);
 /// Whether the piece is an arc or a line.
 bool flat(const DenseCurve& curve, std::size_t piece);
 
@@ -85,8 +83,12 @@ void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, co
 /// Share of the variation that a piece has (see piece_energy), none where it is flat.
 PieceEnergy energy_of(const DenseCurve& curve, std::size_t piece);
 
-/// Sum over the pieces; each times its price where `priced`.
-double variation(const DenseCurve& curve, bool priced = false);
+/// Sum over the pieces.
+double variation(const DenseCurve& curve);
+
+/// Cells of pieces whose curvature a parabola does not follow are parted, until what they turn is
+/// right to 1e-8: what is solved for in cells then closes as pieces too.
+void refine_cells(DenseCurve& curve);
 
 /// A first curve along the points: nodes at the points and evenly between them so that there are
 /// at least `least` cells; poses and curvatures from local parabolas over `reach` of the length

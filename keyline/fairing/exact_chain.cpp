@@ -4,12 +4,16 @@
 #include <cmath>
 
 #include "keyline/fairing/condense.h"
+#include "keyline/fairing/local_pose.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostExactPieces = 8;  // longer chains are not drawn exactly by anyone
-constexpr double kExactness = 2e-7;          // of the length
+constexpr std::size_t kStretches = 3 * kMostExactPieces;  // two thirds of them hold no joint
+constexpr std::size_t kStretchPoints = 8;  // two more than a piece has freedoms beside its ends'
+constexpr double kWhole = 0.25;      // of the stretches: where they overlap joints, fewer are whole
+constexpr double kExactness = 2e-7;  // of the length
 constexpr double kRate = 5;     // power of the pieces' length with which approximation gets near
 constexpr double kBetter = 10;  // times nearer than that is no approximation
 
@@ -42,7 +46,44 @@ bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, do
   return true;
 }
 
+/// Points first, first + step, … as one piece's, moved to lie along a length of 1.
+bool follows_one_piece(const std::vector<FitPoint>& points, std::size_t first, std::size_t step,
+                       double exact) {
+  std::vector<FitPoint> stretch;
+  for (std::size_t i = 0; i < kStretchPoints; ++i)
+    stretch.push_back(points[(first + i * step) % points.size()]);
+  const Track own = make_track(stretch, false);
+  const double by = 1 / own.total;
+  for (FitPoint& p : stretch) p.position = {by * p.position.x, by * p.position.y};
+  const Track track = make_track(stretch, false);
+  FitChain chain;
+  chain.first_at_start = chain.last_at_end = true;
+  chain.joints = {local_pose(track, 0, 0.3), local_pose(track, 1, 0.3)};
+  chain.pieces = {{.length = 1}};
+  for (std::size_t j = 0; j < stretch.size(); ++j) chain.feet.push_back({0, track.at(long(j))});
+  ChainFitOptions fit;
+  fit.fine = true;
+  fit.iterations = 60;
+  fit.gradient_tolerance = 1e-6;
+  fit.slope_prior = 0;
+  fit.scale = by * exact;
+  return fit_chain(chain, stretch, fit).max_offset <= by * exact;
+}
+
 }  // namespace
+
+bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact) {
+  const std::size_t n = points.size();
+  if (n < 2 * kStretchPoints) return true;
+  const std::size_t step = std::max<std::size_t>(1, n / (kStretches * kStretchPoints));
+  const std::size_t span = step * (kStretchPoints - 1);
+  const std::size_t places = closed ? n : n - span;
+  const std::size_t tried = std::min(kStretches, places);
+  std::size_t whole = 0;
+  for (std::size_t i = 0; i < tried; ++i)
+    whole += follows_one_piece(points, i * places / tried, step, exact);
+  return static_cast<double>(whole) >= kWhole * static_cast<double>(tried);
+}
 
 double exactness(const Acceptance& accept) { return std::max(kExactness, 6 * accept.noise); }
 

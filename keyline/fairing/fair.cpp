@@ -115,6 +115,7 @@ class Job {
             .criterion = options_.criterion,
             .smoothness = options_.smoothness,
             .slopes = options_.slopes,
+            .asked = asked_.empty() ? std::vector<int>{} : asked_[k],
             .threads = options_.threads,
             .progress = core::part_of(whole, 0.4, 1)};
   }
@@ -253,9 +254,11 @@ class Job {
       if (!wish) return std::unexpected(wish.error());
       wishes[piece.curve].push_back(*wish);
     }
+    asked_.resize(solved_.size());
     for (std::size_t k = 0; k < solved_.size(); ++k)
       if (!wishes[k].empty())
-        detail::apply_wishes(solved_[k], runs_[k], wishes[k], run_options(k), result_.notes);
+        asked_[k] =
+            detail::apply_wishes(solved_[k], runs_[k], wishes[k], run_options(k), result_.notes);
     return read_all();
   }
 
@@ -263,12 +266,17 @@ class Job {
   const FairOptions& options_;
   std::vector<detail::Run> runs_;
   std::vector<detail::RunResult> solved_;
+  std::vector<std::vector<int>> asked_;  ///< pieces of every run that read as asked; empty: none
   std::optional<curve::BSpline2> kept_before_;
   std::optional<curve::BSpline2> kept_after_;
   FairResult result_;
 };
 
 }  // namespace
+
+const char* impression(const FairPiece& piece) {
+  return piece.told && piece.seen ? analysis::impression(piece.rhythm) : "";
+}
 
 Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
   if (auto sound = check(line, options); !sound) return std::unexpected(sound.error());

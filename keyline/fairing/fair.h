@@ -134,6 +134,8 @@ struct FairPiece {
   double deviation = 0;                                   ///< largest distance of its points
   std::vector<analysis::Interpretation> interpretations;  ///< of the points' spline, best first
   bool overridden = false;
+  bool told = true;  ///< whether the points tell the slope
+  bool seen = true;  ///< whether the piece is long enough to be seen as something of its own
   static constexpr auto describe() {
     return core::fields(
         core::field<&FairPiece::curve>("which member of the curve, from 0"),
@@ -143,9 +145,15 @@ struct FairPiece {
         core::field<&FairPiece::rhythm>("what it reads as"),
         core::field<&FairPiece::slopes>("of its logarithmic curvature graph"),
         core::field<&FairPiece::volume>("area over its chord").in("length^2"),
-        core::field<&FairPiece::deviation>("largest distance of its points").in("length"));
+        core::field<&FairPiece::deviation>("largest distance of its points").in("length"),
+        core::field<&FairPiece::told>("whether its points tell the slope"),
+        core::field<&FairPiece::seen>("whether it is long enough to leave an impression"));
   }
 };
+
+/// Impression words of [Fairing]; none where the points do not tell the slope or the piece is too
+/// short to be seen.
+const char* impression(const FairPiece& piece);
 
 /// A member of the answer: a faired chain, or a part of the given curve that was kept.
 using FairCurve = std::variant<lac::Chain, curve::BSpline2>;

@@ -7,6 +7,7 @@
 #include "keyline/fairing/band.h"
 #include "keyline/fairing/dense_places.h"
 #include "keyline/fairing/dense_riccati.h"
+#include "keyline/fairing/sense_barrier.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -53,9 +54,12 @@ class Search {
   }
 
   BandReport run() {
+    keep_senses(curve_);
+    look();
     energy_unit_ = energy_scale();
     Band band(points_, unit_, spring_ / energy_unit_);
     band.start(spots_.offset, 0.5 / static_cast<double>(points_.size()));
+    senses_.emplace(curve_, band.barrier());
     limits_ = &band;
     band_ = &band;
     damping_ = 0;
@@ -148,7 +152,8 @@ class Search {
   bool pinned(std::size_t j) const { return !curve_.closed && (j == 0 || j + 1 == points_.size()); }
 
   double merit(const DenseCurve& curve, const Spots& spots, double gaps, double share) const {
-    double sum = variation(curve, true) / energy_unit_ + limits_->merit(spots.offset, share);
+    double sum = variation(curve) / energy_unit_ + limits_->merit(spots.offset, share);
+    if (senses_) sum += senses_->merit(curve);
     if (!curve.closed)
       for (const std::size_t j : {std::size_t{0}, points_.size() - 1}) {
         const double a = along(spots, points_, j) / unit_;
@@ -197,11 +202,16 @@ class Search {
   /// The piece's variation, told where it begins: both its curvatures are known there.
   void add_piece(Cell& cell, std::size_t p) const {
     const PieceEnergy energy = energy_of(curve_, p);
-    const double w = 2 * piece_price(curve_, static_cast<int>(p)) / energy_unit_;
+    const double w = 2 / energy_unit_;
     Vector6 d = Vector6::Zero();
     d(3) = energy.by_start;
     d(4) = energy.by_end;
     add(cell, d, w, w * energy.root);
+    if (!senses_) return;
+    const Pull pull = senses_->pull(p);
+    d(3) = -1;
+    d(4) = 1;
+    add(cell, d, pull.weight, pull.slope);
   }
 
   static void add(Cell& cell, const Vector6& d, double weight, double slope) {
@@ -264,6 +274,15 @@ class Search {
     return change;
   }
 
+  std::vector<double> meant_rises(const DenseStep& step) const {
+    std::vector<double> change;
+    for (std::size_t p = 0; p < curve_.alpha.size(); ++p) {
+      const Vector6& state = step.state[curve_.cut[p]];
+      change.push_back(state(4) - state(3));
+    }
+    return change;
+  }
+
   void iterate() {
     std::vector<Cell> cells = model();
     damp(cells);
@@ -274,10 +293,13 @@ class Search {
     }
     gap_price_ = std::max(2 * step.largest_costate, 0.5 * gap_price_);
     const std::vector<double> planned = meant(step);
+    const std::vector<double> rises = meant_rises(step);
     const double before = merit(curve_, spots_, gaps_.sum, 0);
     double share = std::min(limits_->longest(planned), keeps_side(step));
+    if (senses_) share = std::min(share, senses_->longest(rises));
     for (int h = 0; h <= kHalvings; ++h, share *= 0.5)
       if (take(step, planned, share, before)) {
+        if (senses_) senses_->move(curve_, rises);
         damping_ = h == 0 ? 0.1 * damping_ : damping_;
         if (damping_ < kLeastDamping) damping_ = 0;
         return;
@@ -354,7 +376,8 @@ class Search {
   }
 
   bool last() const {
-    return band_->barrier() * 2.0 * static_cast<double>(points_.size()) <= options_.gap;
+    const double limits = 2.0 * static_cast<double>(points_.size()) + senses_->count();
+    return band_->barrier() * limits <= options_.gap;
   }
 
   void drop_barrier() {
@@ -363,6 +386,8 @@ class Search {
     energy_unit_ = unit;
     band_->set_barrier(kBarrierDrop * band_->barrier());
     band_->rescale(rescale);
+    senses_->set_barrier(band_->barrier());
+    senses_->rescale(rescale);
     gap_price_ *= rescale;
     multiplier_ *= rescale;
   }
@@ -372,6 +397,7 @@ class Search {
   const BandOptions& options_;
   Limits* limits_ = nullptr;
   std::optional<Springs> springs_;
+  std::optional<SenseBarrier> senses_;
   Band* band_ = nullptr;
   double unit_;
   Shapes shapes_;

@@ -10,17 +10,36 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr double kZeroBand = 0.1;  // slopes of at most this size read as zero
+constexpr int kTelling = 5;        // points: as many as a reading of two lines has parameters
+constexpr double kToldSlope = 1;  // standard deviation: a slope less known might be any of the five
+constexpr double kSeen = 0.02;    // of the whole: a centimetre of a drawing half a metre long
+constexpr int kProfileSamples = 101;
 
 std::vector<analysis::Interpretation> readings_of(const lac::Chain& piece, double noise,
                                                   int points) {
   const auto& p = piece.pieces.front();
   if (p.curvature_start * p.curvature_end < 0) return {};  // an S has one reading
+  if (points < kTelling) return {};
   analysis::RhythmOptions options;
   options.noise = noise;
-  options.observations = std::max(10, points);
-  const auto reading = analysis::classify_rhythm(analysis::curvature_profile(piece, 201), options);
+  options.observations = points;
+  const auto reading =
+      analysis::classify_rhythm(analysis::curvature_profile(piece, kProfileSamples), options);
   if (!reading) return {};
   return reading->interpretations;
+}
+
+/// The most plausible reading is the piece's: its own slope where that is the same rhythm.
+void take_reading(FairPiece& piece, const lac::Piece& shape, int points) {
+  const bool flat = shape.curvature_start == shape.curvature_end;
+  piece.told = flat || points >= kTelling;
+  if (piece.interpretations.empty() || flat) return;
+  const analysis::Interpretation& best = piece.interpretations.front();
+  const auto unsure = [](double error) { return error > kToldSlope; };
+  piece.told = std::none_of(best.slope_errors.begin(), best.slope_errors.end(), unsure);
+  if (best.rhythm == piece.rhythm && best.slopes.size() == 1) return;
+  piece.rhythm = best.rhythm;
+  piece.slopes = best.slopes;
 }
 
 }  // namespace
@@ -54,6 +73,9 @@ std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
   numeric::parallel_for(pieces.size(), options.threads, [&](std::size_t i) {
     if (options.progress.stop_requested()) return;
     pieces[i].interpretations = readings_of(lac::chain_of(segments[i]), noise, points_per_piece[i]);
+    pieces[i].overridden = std::ranges::count(options.asked, static_cast<int>(i)) > 0;
+    if (!pieces[i].overridden) take_reading(pieces[i], chain.pieces[i], points_per_piece[i]);
+    pieces[i].seen = pieces[i].length >= kSeen * start;
   });
   return pieces;
 }

@@ -167,7 +167,7 @@ FitChain closed_chain(const DenseCurve& curve, const std::vector<FitPoint>& poin
 bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
                  const curve::BSpline2& spline, RunOptions options) {
   const bool noisy = kExactRoom * exactness(result.accept) > result.accept.tolerance;
-  if (noisy) return false;
+  if (noisy || !may_be_exact(result.points, run.closed, exactness(result.accept))) return false;
   options.tolerance = std::max(options.tolerance, kLoose * run.length);
   const std::vector<FitPoint> points =
       with_guides(cut_digits(result.points), run.closed, rounded(options.tolerance / run.length));

@@ -33,6 +33,7 @@ struct RunOptions {
   Criterion criterion = Criterion::least_variation;
   double smoothness = 0.5;       ///< see FairOptions
   core::Interval slopes{-3, 3};  ///< of the calmest chain's pieces
+  std::vector<int> asked;        ///< pieces whose reading was asked for
   int threads = 0;
   core::Progress progress;
 };
@@ -75,9 +76,10 @@ void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
               const RunOptions& options);
 
 /// Solves again with some pieces told what to be; indices count along the result's chain.
-/// Wishes that an inflection or a straight neighbour forbids are changed; `notes` says so.
-void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wishes,
-                  const RunOptions& options, std::vector<std::string>& notes);
+/// Wishes that an inflection or a straight neighbour forbids are not followed; `notes` says so.
+/// Returns the pieces that are as asked, counted in the new chain: a compound rhythm is two.
+std::vector<int> apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wishes,
+                              const RunOptions& options, std::vector<std::string>& notes);
 
 /// Where every point of the run stands beside the chain.
 struct PointPlace {

@@ -71,10 +71,11 @@ void make_kind(FitChain& chain, int at, PieceKind kind) {
     chain.joints.front().curvature = value;
 }
 
-void apply(FitChain& chain, const PieceWish& wish, int at, std::vector<std::string>& notes) {
+/// False, and a note, where it cannot be.
+bool apply(FitChain& chain, const PieceWish& wish, int at, std::vector<std::string>& notes) {
   if (wish.kind) {
     make_kind(chain, at, *wish.kind);
-    return;
+    return true;
   }
   FitPiece& piece = chain.pieces[at];
   if (piece.kind != PieceKind::curve) piece.kind = PieceKind::curve;
@@ -82,27 +83,44 @@ void apply(FitChain& chain, const PieceWish& wish, int at, std::vector<std::stri
     notes.push_back(piece_name(wish.piece) +
                     ": it meets an inflection or a straight line, which needs a slope below 0; "
                     "the reading asked for was not used");
-    return;
+    return false;
   }
   if (wish.compound) {
     make_compound(chain, at, wish.plus_first);
-    return;
+    return true;
   }
   limit_slope(piece, wish.alpha_low, wish.alpha_high);
+  return true;
+}
+
+/// The wishes' pieces in the chain that follows them.
+std::vector<int> pieces_after(std::vector<PieceWish> followed) {
+  std::ranges::sort(followed, {}, &PieceWish::piece);
+  std::vector<int> pieces;
+  int more = 0;
+  for (const PieceWish& wish : followed) {
+    pieces.push_back(wish.piece + more);
+    if (!wish.compound) continue;
+    ++more;
+    pieces.push_back(wish.piece + more);
+  }
+  return pieces;
 }
 
 }  // namespace
 
-void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wishes,
-                  const RunOptions& options, std::vector<std::string>& notes) {
+std::vector<int> apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wishes,
+                              const RunOptions& options, std::vector<std::string>& notes) {
   std::sort(wishes.begin(), wishes.end(),
             [](const PieceWish& a, const PieceWish& b) { return a.piece > b.piece; });
   const int n = static_cast<int>(result.fit.pieces.size());
   // Later pieces first, so that a split piece does not move the others' indices; a run laid out
   // backwards counts from the other end.
   if (result.reversed) std::reverse(wishes.begin(), wishes.end());
+  std::vector<PieceWish> followed;
   for (const PieceWish& wish : wishes)
-    apply(result.fit, wish, result.reversed ? n - 1 - wish.piece : wish.piece, notes);
+    if (apply(result.fit, wish, result.reversed ? n - 1 - wish.piece : wish.piece, notes))
+      followed.push_back(wish);
   result.accept = {options.tolerance / run.length, options.noise / run.length};
   const Acceptance& accept = result.accept;
   ChainFitOptions fit;
@@ -112,6 +130,7 @@ void apply_wishes(RunResult& result, const Run& run, std::vector<PieceWish> wish
   fit_chain(result.fit, result.points, fit);
   result.within_tolerance = polish(result.fit, result.points, accept, result.exact);
   result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
+  return pieces_after(std::move(followed));
 }
 
 }  // namespace keyline::fairing::detail

@@ -80,7 +80,7 @@ FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   answer.monotone_pieces = monotone_pieces(result);
   for (const fairing::FairPiece& piece : result.pieces)
     answer.pieces.push_back(
-        {piece, analysis::impression(piece.rhythm), readings_of(piece.interpretations)});
+        {piece, fairing::impression(piece), readings_of(piece.interpretations)});
   answer.length = result.length;
   answer.noise = result.noise;
   answer.tolerance = result.tolerance;

@@ -227,7 +227,7 @@ report::ReportTable piece_table(const Material& m) {
          length_text(piece.length, unit),
          shape ? detail::radii_text(shape->curvature_start, shape->curvature_end, unit) : "",
          detail::area_text(piece.volume, unit), length_text(piece.deviation, unit, 3),
-         analysis::impression(piece.rhythm)});
+         piece.told ? fairing::impression(piece) : "the points do not tell"});
   }
   return table;
 }
@@ -251,9 +251,10 @@ report::Section piece_section(const Material& m) {
   report::ReportTable readings = reading_table(m.result);
   if (!readings.rows.empty())
     section.paragraphs.push_back(
-        "The first table has the slopes the chain was fitted with. The second tells what else the "
-        "points allow: where a simpler reading (zero, arc) is as plausible, they hardly tell the "
-        "slope, and the choice is the designer's.");
+        "The first table has the most plausible reading of every piece, the second what else the "
+        "points allow: where two are nearly as plausible, the choice is the designer's. Pieces of "
+        "fewer than five points, or whose slope may be any, tell nothing; shorter ones than a "
+        "fiftieth of the line leave no impression.");
   section.tables.push_back(piece_table(m));
   if (!readings.rows.empty()) section.tables.push_back(std::move(readings));
   return section;
