@@ -14,6 +14,7 @@ constexpr int kRounds = 4;       // in which an extremum may move on
 constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
 constexpr int kTrialSteps = 40;
 constexpr double kTrialGap = 0.03;
+constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
 
 std::vector<double> curvatures(const DenseCurve& curve) {
   std::vector<double> k;
@@ -178,6 +179,7 @@ BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
   band.spring = spring;
   band.iterations = kTrialSteps;
   band.gap = kTrialGap;
+  band.patience = kPatience;
   BandReport report;
   for (int round = 0; round < kRounds; ++round) {
     set_senses(curve, extrema);
@@ -219,13 +221,16 @@ class Calming {
   }
 
   /// As many waves at once as should fit into the band and the mean square; where that fails, half
-  /// as many.
+  /// as many, and where it succeeds, twice as many the next time.
   bool together() {
     const std::vector<int> extrema = turns_of(curve_);
     std::vector<Removal> small = hopeful(extrema);
     small.resize(std::min(small.size(), most_at_once_));
     while (small.size() > 1) {
-      if (take(without(extrema, small))) return true;
+      if (take(without(extrema, small))) {
+        most_at_once_ = 2 * small.size();
+        return true;
+      }
       small.resize(small.size() / 2);
       most_at_once_ = small.size();
     }
@@ -254,7 +259,10 @@ class Calming {
     for (const Removal& r : removals(curve_, extrema)) {
       if (r.sideways > kHopeless * options_.band.tolerance) break;
       if (refused(r)) continue;
-      if (take(without(extrema, {r}))) return true;
+      if (take(without(extrema, {r}))) {
+        most_at_once_ = std::max<std::size_t>(most_at_once_, 2);
+        return true;
+      }
       refusals_.push_back(r.sideways);
     }
     return false;

@@ -23,6 +23,7 @@ constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are 
 constexpr double kRoom = 0.9;  // of the tolerance for the calm curve: the rest is for its pieces
 constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken to err by at least
 constexpr int kPieceSteps = 40;
+constexpr int kFootSteps = 4;
 constexpr int kStiffenings = 3;
 constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
 constexpr int kRefinements = 7;        // halvings of…
@@ -93,10 +94,32 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
   }
 }
 
+/// How far the points of every mean lie from the curve beside the mean itself: what its limits have
+/// to leave room for. About a line through the neighbours, as means know it at first, a bend counts
+/// as spread.
+void measure_spread(std::vector<FitPoint>& points, DenseCurve curve, const Members& members) {
+  const std::vector<CellShape> shapes = shapes_of(curve);
+  const auto offset = [&](core::Point2 position, Foot foot) {
+    const FitPoint point{.position = position};
+    for (int i = 0; i < kFootSteps; ++i) move_foot(curve, shapes, point, foot);
+    return offset_of(point, place_of(curve, shapes, foot));
+  };
+  for (FitPoint& p : points)
+    if (p.count > 1) p.low = HUGE_VAL, p.high = -HUGE_VAL;
+  for (std::size_t j = 0; j < members.points.size(); ++j) {
+    const std::size_t f = members.fitted[j];
+    FitPoint& mean = points[f];
+    if (!(mean.count > 1)) continue;
+    const double off =
+        offset(members.points[j], curve.feet[f]) - offset(mean.position, curve.feet[f]);
+    mean.low = std::min(mean.low, off);
+    mean.high = std::max(mean.high, off);
+  }
+}
+
 }  // namespace
 
-CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed,
-                   const CalmRunOptions& options) {
+CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options) {
   CalmRun run;
   run.curve = dense_curve(points, closed, kLeastCells);
   put_end(run.curve, options.start, true);
@@ -108,6 +131,12 @@ CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed,
   calm_options.worth = kWorth;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
   run.band = calm(run.curve, points, calm_options);
+  if (!options.members.points.empty() && run.band.within) {
+    measure_spread(points, run.curve, options.members);
+    BandOptions again = piece_band(run, options);
+    again.tolerance = kRoom * options.tolerance;
+    run.band = least_variation(run.curve, points, again);
+  }
   FlatOptions flat;
   flat.band = piece_band(run, options);
   flat.most_rms = std::max(options.residuals.most(kErrorsOfLines), run.band.rms);

@@ -7,12 +7,19 @@
 
 namespace keyline::fairing::detail {
 
+/// The measured points that fitted ones are means of.
+struct Members {
+  std::vector<core::Point2> points;
+  std::vector<std::size_t> fitted;  ///< which of the fitted points each belongs to
+};
+
 struct CalmRunOptions {
   double tolerance = 0;  ///< of the points' offsets, in their unit
   Residuals residuals;   ///< of the same
   core::Interval slopes{-3, 3};
   HeldEnd start;
   HeldEnd end;
+  Members members;  ///< empty: every fitted point is a measured one
   core::Progress progress;
 };
 
@@ -28,8 +35,10 @@ struct CalmRun {
 /// cannot keep it, the mean square or a fifth more than the energy, they are cut with half the
 /// loss.
 ///
+/// Where fitted points are means, their spread is measured again about the calm curve.
+///
 /// Precondition: points in order along a curve of length about 1, at least 3; guides among them.
-CalmRun solve_calm(const std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options);
+CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options);
 
 /// The same pieces once more with their ends held elsewhere.
 BandReport hold_ends(DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance,

@@ -22,6 +22,8 @@ constexpr double kTurn = 0.1;       // that a cell may make, for its sums to hol
 constexpr double kMostTurn = 6.3;   // …of what a gap may be taken to make
 constexpr double kSameTurn = 1e-8;  // in sums over a cell and over its halves
 constexpr int kMostParts = 16;      // of a cell: an inflection's neighbours never follow a parabola
+constexpr double kWander = 2;       // a half circle is 1.6 times as long as its chord
+constexpr double kWanderRoom = 4;   // tolerances
 constexpr double kSmallTurn = 0.3;  // whose series of five terms hold to the last digits
 
 }  // namespace
@@ -164,6 +166,18 @@ CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes
 
 double place_along(const DenseCurve& curve, const Foot& foot) {
   return std::lerp(curve.at[foot.piece], curve.at[foot.piece + 1], foot.fraction);
+}
+
+bool wanders(const DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance) {
+  const std::size_t n = points.size();
+  for (std::size_t j = 0; j + (curve.closed ? 0 : 1) < n; ++j) {
+    const std::size_t next = (j + 1) % n;
+    double way = place_along(curve, curve.feet[next]) - place_along(curve, curve.feet[j]);
+    if (curve.closed) way -= std::floor(way);
+    const double gap = core::distance(points[j].position, points[next].position);
+    if (way < 0.5 && way * curve.length > kWander * gap + kWanderRoom * tolerance) return true;
+  }
+  return false;
 }
 
 double offset_of(const FitPoint& point, const CellPlace& place) {

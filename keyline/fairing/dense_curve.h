@@ -73,6 +73,10 @@ CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes
 /// Signed distance of the point left of the place of its foot, times its share.
 double offset_of(const FitPoint& point, const CellPlace& place);
 
+/// Whether the curve wanders off between points: its way from one to the next is far longer than
+/// theirs, longer than a half circle.
+bool wanders(const DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance);
+
 /// Where a foot stands, as a share of the length.
 double place_along(const DenseCurve& curve, const Foot& foot);
 

@@ -16,6 +16,7 @@ constexpr double kHeld = 1e4;   // weight of held ends and seams, in squared tol
 constexpr double kReach = 1e2;  // the same of where an open curve ends beside its last point
 constexpr double kBarrierDrop = 0.25;
 constexpr double kExtra = 1e-6;             // of the tolerance: extra width that counts as none
+constexpr double kProgress = 0.9;           // of the extra width after a step that is worth it
 constexpr double kInflectionSlope = -0.25;  // steeper slopes alone may meet an inflection
 constexpr double kSide = 0.8;               // of a curvature that may go in a step
 constexpr int kHalvings = 5;
@@ -68,7 +69,11 @@ class Search {
     while (report.iterations < options_.iterations && !finished_ &&
            !options_.progress.stop_requested()) {
       ++report.iterations;
+      const double before = band.extra();
       iterate();
+      const bool idle = before > kExtra * unit_ && band.extra() > kProgress * before;
+      idle_ = idle ? idle_ + 1 : 0;
+      if (options_.patience > 0 && idle_ >= options_.patience) break;
     }
     report.converged = converged_;
     report.energy = variation(curve_);
@@ -410,6 +415,7 @@ class Search {
   double energy_unit_ = 1;
   double gap_price_ = 0;
   double damping_ = 0;
+  int idle_ = 0;  ///< steps in a row that brought the band hardly nearer to its width
   bool finished_ = false;
   bool converged_ = false;
 };

@@ -9,6 +9,9 @@ struct BandOptions {
   double tolerance = 1e-4;  ///< no point farther off, in the points' unit
   int iterations = 150;
   double gap = 0.01;  ///< of the energy: how far from the least it may stop
+  /// Gives up after so many steps in a row that take back less than a tenth of the width by which
+  /// the band is still too wide; 0: never.
+  int patience = 0;
   bool warm = false;  ///< the curve given follows the points already
   /// Root of the mean square of the offsets that the curve is to keep before the tolerance is
   /// looked at, by springs beside the energy; 0: none. Not where `warm`: then `spring` counts.

@@ -18,15 +18,14 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostFitPoints = 1200;
+constexpr std::size_t kFewCalmPoints = 400;  // means of more points tell the calmest curve as much
 // What an end is off along the curve, and cells and means tell only nearly, has to fit in as well.
 constexpr double kInside = 0.995;
 constexpr int kTightenings = 5;
-constexpr double kWander = 2;      // a half circle is 1.6 times as long as its chord
-constexpr double kWanderRoom = 4;  // tolerances
-constexpr double kLoose = 5e-4;    // of the length
-constexpr double kExactRoom = 5;   // a tolerance within which rounding is no matter, in its units
-constexpr double kFar = 1.3;       // of the tolerance: farther off is no matter of rounding
-constexpr double kPassed = 1e3;    // a point to be passed is off by so much less than others may
+constexpr double kLoose = 5e-4;   // of the length
+constexpr double kExactRoom = 5;  // a tolerance within which rounding is no matter, in its units
+constexpr double kFar = 1.3;      // of the tolerance: farther off is no matter of rounding
+constexpr double kPassed = 1e3;   // a point to be passed is off by so much less than others may
 
 /// A number cut to seven digits, see cut_digits.
 double rounded(double x) {
@@ -178,10 +177,50 @@ bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
                       searching);
 }
 
+/// The points as they are fitted: at most so many.
+void take_points(RunResult& result, const Run& run, const RunFrame& frame, std::size_t most) {
+  result.most_points = most;
+  result.points = condense(frame.points, frame.weights, most);
+  for (std::size_t j = 0; j < frame.order.size(); ++j)
+    if (std::ranges::count(run.must_pass, frame.order[j]) > 0)
+      result.points[condensed_index(j, frame.order.size(), most)].must_pass = true;
+}
+
+/// Points for the calmest curve: so few that no three of them bend by more than the tolerance, for
+/// means lie inside bends by an eighth of that.
+void take_calm_points(RunResult& result, const Run& run, const RunFrame& frame, double tolerance) {
+  std::size_t most = kFewCalmPoints;
+  for (; most < kMostFitPoints; most *= 2) {
+    take_points(result, run, frame, most);
+    double bend = 0;
+    for (std::size_t j = 1; j + 1 < result.points.size(); ++j) {
+      const core::Point2 before = result.points[j - 1].position;
+      const core::Vector2 chord = result.points[j + 1].position - before;
+      const double across = core::cross(chord, result.points[j].position - before);
+      if (result.points[j].count > 1)
+        bend = std::max(bend, std::abs(across) / std::max(core::norm(chord), 1e-300));
+    }
+    if (bend <= tolerance) return;
+  }
+  take_points(result, run, frame, std::max(most, kMostFitPoints));
+}
+
+/// Of every measured point in the frame's order: which of the fitted ones holds it.
+std::vector<std::size_t> holders(const RunResult& result, const RunFrame& frame) {
+  std::vector<std::size_t> measured;
+  for (std::size_t j = 0; j < result.points.size(); ++j)
+    if (result.points[j].count > 0) measured.push_back(j);
+  std::vector<std::size_t> held;
+  for (std::size_t j = 0; j < frame.order.size(); ++j)
+    held.push_back(measured[condensed_index(j, frame.order.size(), result.most_points)]);
+  return held;
+}
+
 /// The curve of least variation in the tolerance, in log-aesthetic pieces.
 void solve_least_variation(RunResult& result, const Run& run, const RunFrame& frame,
                            const curve::BSpline2& spline, const RunOptions& options) {
   const double tolerance = kInside * result.accept.tolerance;
+  take_calm_points(result, run, frame, tolerance);
   const Residuals residuals = allowed_residuals(result.points, run.closed, run.points.size(),
                                                 result.accept.noise, tolerance, options.smoothness);
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
@@ -194,26 +233,13 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.start = held_end(run, frame, spline, true);
   calm.end = held_end(run, frame, spline, false);
   calm.progress = options.progress;
+  if (run.points.size() > result.most_points) calm.members = {frame.points, holders(result, frame)};
   CalmRun found = solve_calm(result.points, run.closed, calm);
   result.fit = closed_chain(found.curve, result.points, tolerance);
   result.start_pieces = static_cast<int>(result.fit.pieces.size());
   result.dense = std::move(found.curve);
   result.spring = found.band.spring;
   result.within_tolerance = found.band.within;
-}
-
-/// Whether the curve wanders off between points: its way from one to the next is far longer than
-/// theirs, longer than a half circle.
-bool wanders(const DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance) {
-  const std::size_t n = points.size();
-  for (std::size_t j = 0; j + (curve.closed ? 0 : 1) < n; ++j) {
-    const std::size_t next = (j + 1) % n;
-    double way = place_along(curve, curve.feet[next]) - place_along(curve, curve.feet[j]);
-    if (curve.closed) way -= std::floor(way);
-    const double gap = core::distance(points[j].position, points[next].position);
-    if (way < 0.5 && way * curve.length > kWander * gap + kWanderRoom * tolerance) return true;
-  }
-  return false;
 }
 
 /// By what the points are and what is asked for: a line, the chain that reproduces them, the
@@ -242,22 +268,14 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
 RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
   RunResult result;
-  result.points = condense(frame.points, frame.weights, kMostFitPoints);
-  for (std::size_t j = 0; j < frame.order.size(); ++j)
-    if (std::find(run.must_pass.begin(), run.must_pass.end(), frame.order[j]) !=
-        run.must_pass.end())
-      result.points[condensed_index(j, frame.order.size(), kMostFitPoints)].must_pass = true;
+  take_points(result, run, frame, kMostFitPoints);
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
   result.accept = search_options(run, options).accept;
   solve_one_way(result, run, frame, spline, options);
-  std::vector<std::size_t> measured;
-  for (std::size_t j = 0; j < result.points.size(); ++j)
-    if (result.points[j].count > 0) measured.push_back(j);
   result.point_of.resize(run.points.size());
-  for (std::size_t j = 0; j < frame.order.size(); ++j)
-    result.point_of[frame.order[j]] =
-        measured[condensed_index(j, frame.order.size(), kMostFitPoints)];
+  const std::vector<std::size_t> held = holders(result, frame);
+  for (std::size_t j = 0; j < frame.order.size(); ++j) result.point_of[frame.order[j]] = held[j];
   result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
   return result;
 }

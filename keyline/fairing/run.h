@@ -55,6 +55,7 @@ struct RunResult {
   std::vector<FitPoint> points;  ///< canonical, condensed, weighted as last fitted
   core::Similarity2 to_canonical;
   bool reversed = false;              ///< the canonical frame runs the other way
+  std::size_t most_points = 0;        ///< that were fitted at most: more are taken as means
   std::vector<std::size_t> point_of;  ///< of each point of the run: which of `points` holds it
   Acceptance accept;
   bool within_tolerance = false;
