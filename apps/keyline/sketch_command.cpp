@@ -1,9 +1,11 @@
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "keyline/core/text.h"
 #include "keyline/operations/sketch_trace.h"
+#include "keyline/presentation/sketch_overlay.h"
 
 #include "session.h"
 #include "terminal.h"
@@ -17,10 +19,19 @@ using nlohmann::json;
 constexpr std::size_t kTrace = 0;  // records of the command line
 constexpr std::size_t kStages = 1;
 
-struct StageFolder {
+struct LookingOn {
   std::string debug;
+  std::string overlay;
   static constexpr auto describe() {
-    return core::fields(core::field<&StageFolder::debug>("folder for a picture of every stage"));
+    return core::fields(
+        core::field<&LookingOn::debug>("folder for a picture of every stage"),
+        core::field<&LookingOn::overlay>("PNG of ink, numbered strokes and lines over each other"));
+  }
+  /// Fails: bad_input where the overlay is no .png.
+  static Result<void> check(const LookingOn& look) {
+    if (look.overlay.empty() || look.overlay.ends_with(".png")) return {};
+    return core::fail(core::ErrorCode::bad_input, "overlays are PNG pictures",
+                      "give a name that ends in .png", "overlay");
   }
 };
 
@@ -34,7 +45,7 @@ Session new_session() {
                   "Formats: svg, json (the exact quintics), csv (samples), dxf and what convert "
                   "writes.",
                   operations::further_options(*operations::find_operation("sketch.trace"))},
-                 {trace, {"Looking on", &core::type_of<StageFolder>()}, door_group()});
+                 {trace, {"Looking on", &core::type_of<LookingOn>()}, door_group()});
 }
 
 /// What driving the curvature reached, over all strokes.
@@ -88,20 +99,27 @@ json document_of(const json& result) {
   return document;
 }
 
-Result<void> write_stages(const operations::Outcome& outcome, const std::string& folder) {
-  if (folder.empty()) return {};
-  const auto pictures = presentation::stage_pictures(outcome);
-  if (!pictures) return std::unexpected(pictures.error());
-  return presentation::write_folder(folder, *pictures);
+Result<void> write_pictures(const operations::Outcome& outcome, const LookingOn& look) {
+  if (!look.debug.empty()) {
+    const auto pictures = presentation::stage_pictures(outcome);
+    if (!pictures) return std::unexpected(pictures.error());
+    if (auto done = presentation::write_folder(look.debug, *pictures); !done) return done;
+  }
+  if (look.overlay.empty()) return {};
+  const auto picture = presentation::overlay_picture(outcome);
+  if (!picture) return std::unexpected(picture.error());
+  const std::filesystem::path file = look.overlay;
+  return presentation::write_folder(file.has_parent_path() ? file.parent_path().string() : ".",
+                                    {{file.filename().string(), *picture}});
 }
 
-Result<operations::Outcome> traced(Session& session, const std::string& debug) {
+Result<operations::Outcome> traced(Session& session, const LookingOn& look) {
   if (session.files().size() != 1)
     return core::fail(core::ErrorCode::bad_input, "one drawing is wanted", session.usage_hint());
   json request = session.of(kTrace);
   request["file"] = session.files().front();
   if (session.door().tolerance) request["tolerance"] = *session.door().tolerance;
-  if (!debug.empty()) request["stages"] = true;
+  if (!look.debug.empty() || !look.overlay.empty()) request["stages"] = true;
   auto outcome = session.perform("sketch.trace", request, session.progress());
   end_progress();
   return outcome;
@@ -113,15 +131,16 @@ int run_sketch(const Words& words) {
   Session session = new_session();
   if (const auto status = session.begin(words)) return *status;
   if (auto done = session.check_outputs(); !done) return report_failure(done.error());
-  const std::string debug = session.of(kStages).value("debug", "");
-  const auto outcome = traced(session, debug);
+  const auto look = session.record<LookingOn>(kStages);
+  if (!look) return report_failure(look.error());
+  const auto outcome = traced(session, *look);
   if (!outcome)
     return report_failure(outcome.error(),
                           outcome.error().path.empty() ? session.files().front() : "");
-  if (auto done = write_stages(*outcome, debug); !done) return report_failure(done.error());
+  if (auto done = write_pictures(*outcome, *look); !done) return report_failure(done.error());
   auto result = shown_of(*outcome);
   if (!result) return report_failure(result.error());
-  result->erase("stages");  // they are in the folder
+  result->erase("stages");  // they are in the pictures
   json document = document_of(*result);
   const auto output = presentation::output_of(document);
   if (!output) return report_failure(output.error());

@@ -100,11 +100,12 @@ class Words {
         return one_of(type, word);
       case Kind::value:
         return from_file(type, word);
+      case Kind::list:
+        return list(type, {word});
       case Kind::text:
       case Kind::choice:
       case Kind::record:
       case Kind::optional:
-      case Kind::list:
         break;
     }
     return json(word);
@@ -192,6 +193,7 @@ std::string placeholder(const Type& type) {
       return placeholder(type.item());
     case Kind::list: {
       const std::string item = placeholder(type.item());
+      if (type.item().kind == Kind::list) return item + " ...";
       return item.find(',') != std::string::npos || type.item().kind == Kind::value ? item + "..."
                                                                                     : item + ",...";
     }

@@ -46,7 +46,7 @@ std::vector<sketch::DrawnStroke> strokes_of(const document::Document& document, 
     }
     if (stroke.closed && stroke.points.size() > 1 && stroke.points.front() == stroke.points.back())
       stroke.points.pop_back();
-    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
+    strokes.push_back(std::move(stroke));  // dots too: strokes keep their numbers
   }
   if (pen <= 0) pen = exchange::extent(document) / 400;
   return strokes;
@@ -68,7 +68,7 @@ Result<std::vector<sketch::DrawnStroke>> drawn_strokes(const std::string& file, 
   for (const exchange::ScapStroke& s : drawing->strokes) {
     sketch::DrawnStroke stroke;
     for (const core::Point2 p : s.points) stroke.points.push_back({p.x, drawing->height - p.y});
-    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
+    strokes.push_back(std::move(stroke));  // dots too: strokes keep their numbers
   }
   return strokes;
 }
@@ -164,10 +164,9 @@ Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
   if (request.scale && request.dpi)
     return core::fail(ErrorCode::bad_input, "the scale is given twice",
                       "give either \"scale\" or \"dpi\"", "dpi");
-  std::vector<sketch::Stage> stages;
-  auto trace = trace_drawing(request, context, stages);
-  if (!trace) return std::unexpected(trace.error());
   SketchAnswer answer;
+  auto trace = trace_drawing(request, context, answer.pictures);
+  if (!trace) return std::unexpected(trace.error());
   answer.scale = scale_of(request);
   for (const sketch::Stroke& stroke : trace->strokes)
     answer.strokes.push_back(shown(stroke, answer.scale));
@@ -176,13 +175,19 @@ Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
   answer.explained = trace->explained;
   answer.left_over = trace->left_over;
   answer.report = trace->notes;
-  if (request.stages) answer.stages = shown(stages);
-  answer.pictures = std::move(stages);
+  if (request.stages) answer.stages = shown(answer.pictures);
   answer.trace = std::move(*trace);
   return answer;
 }
 
 }  // namespace
+
+Result<void> SketchRequest::check(const SketchRequest& request) {
+  if (request.options.wishes.empty() || request.options.consolidate) return {};
+  return core::fail(ErrorCode::bad_input, "nothing is consolidated that wishes could be about",
+                    "add --consolidate (\"consolidate\": true), or leave keep, join, split out",
+                    "consolidate");
+}
 
 Operation sketch_trace_operation() {
   return declare<run>(

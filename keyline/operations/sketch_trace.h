@@ -51,6 +51,12 @@ struct SketchRequest {
         core::field<&Request::dpi>("pixels per inch, in place of scale: lengths are mm then")
             .within(core::kPositive),
         core::field<&Request::options, &Trace::consolidate>("lines drawn several times become one"),
+        core::field<&Request::options, &Trace::wishes, &sketch::GroupWishes::keep>(
+            "consolidate: strokes that stay as drawn, by their numbers from 0"),
+        core::field<&Request::options, &Trace::wishes, &sketch::GroupWishes::join>(
+            "consolidate: sets of strokes that are one line, as 3,7"),
+        core::field<&Request::options, &Trace::wishes, &sketch::GroupWishes::split>(
+            "consolidate: sets of strokes no two of which are one line, as 3,7"),
         core::field<&Request::options, &Trace::curve, &Curve::aim>(
             "what the curves' curvature is driven to")
             .named("curvature"),
@@ -69,6 +75,8 @@ struct SketchRequest {
             .within(core::from_to(0, 1 << 20)),
         core::field<&Request::stages>("also the picture after each stage"));
   }
+  /// Fails: bad_input for wishes where nothing is consolidated.
+  static core::Result<void> check(const SketchRequest& request);
 };
 
 /// A picture of grey levels on the way from the drawing to its lines.
@@ -113,7 +121,9 @@ struct StrokeShown {
         core::field<&Stroke::corners>("pieces of the curve that start with a corner"),
         core::field<&Stroke::closed>("whether the line is"),
         core::field<&Stroke::width>("of the ink, median").in("length"),
-        core::field<&Stroke::members>("drawn strokes it stands for, from 0"),
+        core::field<&Stroke::members>(
+            "drawn strokes it stands for, from 0; of a picture, with consolidate, strokes of the "
+            "answer without"),
         core::field<&Stroke::curvature_error>("curvature less its target"));
   }
 };

@@ -75,7 +75,8 @@ std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
     if (s.points.size() < 2) throw core::InvalidInput("consolidate needs two points per stroke");
     sampled.push_back(sample_stroke(s.points, s.closed, std::max(model.width, 1e-12)));
   }
-  const PassEvidence evidence = pass_evidence(sampled, model);
+  PassEvidence evidence = pass_evidence(sampled, model);
+  wish(options.wishes, evidence);
   std::vector<std::vector<std::size_t>> open = group_by_evidence(evidence);
   std::vector<MeantLine> lines;
   std::vector<std::size_t> strays;

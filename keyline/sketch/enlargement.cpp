@@ -31,6 +31,8 @@ void enlarge(TraceResult& trace, int times) {
   const auto grow = [times](core::Point2& p) { p = {times * p.x, times * p.y}; };
   trace.width *= times;
   trace.height *= times;
+  for (DrawnStroke& pass : trace.passes)
+    for (core::Point2& p : pass.points) grow(p);
   for (Stroke& stroke : trace.strokes) {
     for (core::Point2& p : stroke.points) grow(p);
     for (core::Point2& p : stroke.segments) grow(p);

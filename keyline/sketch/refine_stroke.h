@@ -17,7 +17,7 @@ struct FineStroke {
   bool closed = false;
   bool free_start = true;  ///< ends in paper, not at another line
   bool free_end = true;
-  std::vector<std::size_t> members;  ///< drawn strokes it stands for; empty for a picture's ink
+  std::vector<std::size_t> members;  ///< numbers of what it stands for: see Stroke
 };
 
 /// Takes strokes from pixels to where the ink's grey values say they are.

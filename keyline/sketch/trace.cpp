@@ -149,31 +149,51 @@ std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double
   return strokes;
 }
 
-/// Strokes drawn several times become one; the width is that of the members. `explained` gets the
-/// length of strokes beside the line they are members of.
-std::vector<FineStroke> merged(const std::vector<FineStroke>& strokes, double width,
-                               const ConsolidateOptions& passes, double& explained) {
+/// A line of several strokes, as wide as they are on average.
+FineStroke line_of(const MeantLine& line, const std::vector<FineStroke>& strokes, double width) {
+  FineStroke fine;
+  fine.closed = line.closed;
+  for (const std::size_t m : line.members) {
+    fine.width += strokes[m].width / static_cast<double>(line.members.size());
+    fine.members.insert(fine.members.end(), strokes[m].members.begin(), strokes[m].members.end());
+  }
+  resample(line.points, std::vector<double>(line.points.size(), fine.width), 0.7 * width,
+           line.closed, fine.points, fine.widths);
+  return fine;
+}
+
+/// Strokes drawn several times become one. Precondition: every stroke has its number for a member.
+/// Returns the length of strokes beside the line they are members of.
+double merge(std::vector<FineStroke>& strokes, double width, ConsolidateOptions passes,
+             const GroupWishes& wishes, std::vector<std::string>& notes) {
   std::vector<DrawnStroke> drawn;
-  for (const FineStroke& s : strokes) drawn.push_back({s.points, s.closed});
+  std::vector<std::size_t> numbers;
+  for (const FineStroke& s : strokes) {
+    drawn.push_back({s.points, s.closed});
+    numbers.push_back(s.members.front());
+  }
+  passes.wishes = wishes_among(wishes, numbers);
   std::vector<FineStroke> lines;
-  explained = 0;
+  std::vector<std::vector<std::size_t>> members;
+  double explained = 0;
   for (const MeantLine& line : consolidate(drawn, passes)) {
     explained += line.explained;
-    if (line.members.size() == 1) {
-      lines.push_back(strokes[line.members.front()]);
-      continue;
-    }
-    FineStroke fine;
-    fine.closed = line.closed;
-    for (const std::size_t m : line.members) {
-      fine.width += strokes[m].width / static_cast<double>(line.members.size());
-      fine.members.insert(fine.members.end(), strokes[m].members.begin(), strokes[m].members.end());
-    }
-    resample(line.points, std::vector<double>(line.points.size(), fine.width), 0.7 * width,
-             line.closed, fine.points, fine.widths);
-    lines.push_back(std::move(fine));
+    lines.push_back(line.members.size() == 1 ? strokes[line.members.front()]
+                                             : line_of(line, strokes, width));
+    members.push_back(lines.back().members);
   }
-  return lines;
+  for (std::string& note : unmet_joins(wishes, members)) notes.push_back(std::move(note));
+  strokes = std::move(lines);
+  return explained;
+}
+
+/// A picture's lines get the numbers that they have in the answer without merging: longest first.
+void number_lines(std::vector<FineStroke>& lines) {
+  std::erase_if(lines, [](const FineStroke& s) { return s.points.size() < 2; });
+  std::stable_sort(lines.begin(), lines.end(), [](const FineStroke& a, const FineStroke& b) {
+    return core::polygon_length(a.points) > core::polygon_length(b.points);
+  });
+  for (std::size_t i = 0; i < lines.size(); ++i) lines[i].members = {i};
 }
 
 /// What little is explained is told.
@@ -250,10 +270,14 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
-  double unused = 0;  // it is ink that counts
-  if (options.consolidate)
-    lines = merged(lines, width,
-                   {.width = width, .measured = true, .apart = kPictureApart, .hand = 0}, unused);
+  if (options.consolidate) {
+    number_lines(lines);
+    for (const FineStroke& s : lines) result.passes.push_back({s.points, s.closed});
+    if (auto sound = check_wishes(options.wishes, lines.size()); !sound)
+      return std::unexpected(sound.error());
+    merge(lines, width, {.width = width, .measured = true, .apart = kPictureApart, .hand = 0},
+          options.wishes, result.notes);
+  }
   TraceOptions curves = options;
   if (found.grainy) {
     result.notes.push_back("grainy lines: looked at through a blur");
@@ -267,6 +291,8 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
     tell_explained("ink", result);
   }
   for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);
+  for (DrawnStroke& pass : result.passes)
+    for (Point2& p : pass.points) p.y = result.height - p.y;
   return result;
 }
 
@@ -275,8 +301,11 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   const auto bad = [](const std::string& what) {
     return core::fail(core::ErrorCode::bad_input, what, "give strokes of two places and more");
   };
+  if (auto sound = check_wishes(options.wishes, strokes.size()); !sound)
+    return std::unexpected(sound.error());
   std::vector<FineStroke> lines;
   TraceResult result;
+  result.passes = strokes;
   double drawn = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const DrawnStroke& s = strokes[i];
@@ -299,7 +328,8 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   }
   if (lines.empty()) return bad("no stroke has any length");
   double explained = drawn;
-  if (options.consolidate) lines = merged(lines, width, {.width = width}, explained);
+  if (options.consolidate)
+    explained = merge(lines, width, {.width = width}, options.wishes, result.notes);
   result.explained = std::min(1.0, explained / drawn);
   tell_explained("strokes", result);
   TraceOptions scaled = options;

@@ -44,6 +44,7 @@ struct TraceOptions {
   std::optional<int> specks;  ///< pieces of ink of fewer pixels go; empty: by the stroke width
   std::optional<double> gap;  ///< longest gap bridged, pixels; empty: by the stroke width
   bool consolidate = false;   ///< lines drawn several times become one
+  GroupWishes wishes;         ///< of consolidating: see TraceResult
   StrokeCurveOptions curve;
   std::function<void(const Stage&)> stage;  ///< called after each stage where set
   core::Progress progress;
@@ -56,6 +57,8 @@ struct TraceResult {
   /// Share of the ink within half the line's width and a pixel of a curve; of drawn strokes the
   /// share of their length beside the line they are members of. A note warns below 97 %.
   double explained = 1;
+  std::vector<DrawnStroke> passes;     ///< what `members` count: drawn, or of a picture, before
+                                       ///< it was consolidated
   std::vector<std::size_t> left_over;  ///< drawn strokes that no line stands for
   std::vector<std::string> notes;      ///< what was decided, left out or looks doubtful, in words
 };
@@ -63,13 +66,15 @@ struct TraceResult {
 /// Traces a picture's lines. Strokes have pixels for a unit and y up: (0, 0) is the lower left
 /// corner of the picture.
 ///
-/// Fails: undrawable where nothing in the picture looks like a line; cancelled.
+/// Fails: undrawable where nothing in the picture looks like a line; bad_input for wishes about
+/// what is not there; cancelled.
 /// Cost:  linear in the pixels; at most some 12 bytes per pixel, the image included.
 core::Result<TraceResult> trace(Image image, const TraceOptions& options = {});
 
 /// The way from drawn strokes on (vector drawings): consolidated, then curves as from a picture.
 /// Coordinates stay; options.curve counts in widths of the pen (`width`) instead of pixels.
-/// Fails: bad_input for strokes that are not finite or all of one place; cancelled.
+/// Fails: bad_input for strokes that are not finite or all of one place, for wishes about what is
+/// not there; cancelled.
 core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes, double width,
                                         const TraceOptions& options = {});
 
