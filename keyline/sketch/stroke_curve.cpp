@@ -6,6 +6,7 @@
 #include "keyline/curve/piecewise_bezier.h"
 #include "keyline/fit/curvature_target.h"
 #include "keyline/fit/quintic_chain.h"
+#include "keyline/sketch/calm_quintics.h"
 #include "keyline/sketch/quintics.h"
 #include "keyline/sketch/segments.h"
 
@@ -66,8 +67,12 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   return chain.within_tolerance ? chain.pieces : pieces;
 }
 
-constexpr double kDriveShare = 0.3;  ///< of the width: how far driving may take a curve
-constexpr double kDriveGain = 0.9;   ///< of the error is left at most, or the curve stays
+/// How far driving may take a curve: so many tolerances (a hand's wobble of a pixel and what the
+/// tracing errs goes then), or that share of the width.
+constexpr double kDriveTolerances = 3;
+constexpr double kDriveShare = 0.3;
+constexpr std::size_t kFewestDriven = 8;  ///< points: fewer have no waves to take out
+constexpr double kDriveGain = 0.9;        ///< of the error is left at most, or the curve stays
 constexpr int kDriveSteps = 15;
 constexpr std::size_t kDrivePieces = 20;  ///< driven at once: the work grows with their cube
 
@@ -118,19 +123,84 @@ DrivenRun drive_part(const std::vector<curve::Bezier2>& all, std::size_t first, 
   return {pieces.size(), target, off, off};
 }
 
-/// Drives the quintics of a run, long ones part by part: their joints stay as they are.
-void drive(std::vector<curve::Bezier2>& pieces, bool closed, double width,
-           const StrokeCurveOptions& options, std::vector<DrivenRun>& runs) {
+/// Of the circle through three points, positive where they turn left.
+double curvature_through(Point2 a, Point2 b, Point2 c) {
+  const double sides = core::distance(a, b) * core::distance(b, c) * core::distance(c, a);
+  return sides > 0 ? 2 * core::cross(b - a, c - b) / sides : 0;
+}
+
+/// The curvature that a line of points has beside even places of a chain that follows it.
+std::vector<fit::CurvatureTarget> targets_beside(const std::vector<curve::Bezier2>& pieces,
+                                                 const std::vector<Point2>& line, bool closed) {
+  constexpr std::size_t kTargets = 16;  // of a piece
+  constexpr std::size_t kReach = 3;     // points either way that a curvature is read from
   const curve::PiecewiseBezier chain{pieces, 0};
-  const auto target = options.aim == CurvatureAim::smooth ? fit::smooth_target(chain, closed)
-                                                          : fit::rhythm_target(chain, closed);
-  const double most = std::max(2 * options.tolerance, kDriveShare * width);
+  const std::size_t n = line.size();
+  const std::size_t count = kTargets * pieces.size();
+  const auto nearer = [&line](Point2 p) {
+    return [&line, p](Point2 a, Point2 b) { return core::distance(a, p) < core::distance(b, p); };
+  };
+  const Point2 start = evaluate(chain, 0.5 / static_cast<double>(count));
+  auto at = static_cast<std::size_t>(std::ranges::min_element(line, nearer(start)) - line.begin());
+  std::vector<fit::CurvatureTarget> targets;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+    const Point2 p = evaluate(chain, t);
+    while ((closed || at + 1 < n) && nearer(p)(line[(at + 1) % n], line[at])) at = (at + 1) % n;
+    const std::size_t i = closed ? at : std::clamp(at, kReach, n - 1 - kReach);
+    targets.push_back(
+        {t, curvature_through(line[(i + n - kReach) % n], line[i], line[(i + kReach) % n])});
+  }
+  return targets;
+}
+
+/// Drives the quintics to a target, long runs part by part: their joints stay as they are.
+std::vector<DrivenRun> drive_to(const std::vector<fit::CurvatureTarget>& target, bool closed,
+                                double most, std::vector<curve::Bezier2>& pieces) {
+  std::vector<DrivenRun> runs;
   std::vector<curve::Bezier2> driven;
   const std::size_t parts = (pieces.size() + kDrivePieces - 1) / kDrivePieces;
   for (std::size_t k = 0; k < parts; ++k)
     runs.push_back(drive_part(pieces, k * pieces.size() / parts, (k + 1) * pieces.size() / parts,
                               target, most, closed && parts == 1, driven));
   pieces = std::move(driven);
+  return runs;
+}
+
+/// Takes the waves out of a run's curvature; where asked for, gives what is left its rhythm, unless
+/// that brings waves back.
+void drive(const std::vector<Point2>& points, bool closed, double width,
+           const StrokeCurveOptions& options, std::vector<curve::Bezier2>& pieces,
+           std::vector<DrivenRun>& runs) {
+  if (points.size() < kFewestDriven) {
+    runs.push_back({pieces.size(), {}, 0, 0});
+    return;
+  }
+  const bool rhythm = options.aim == CurvatureAim::rhythm;
+  const double most = std::max(kDriveTolerances * options.tolerance, kDriveShare * width);
+  const double calming = rhythm ? 0.5 * most : most;
+  CalmQuintics calm;
+  if (options.tolerance > 0) calm = calm_quintics(points, closed, calming, pieces);
+  const curve::PiecewiseBezier given{pieces, 0};
+  if (!calm.pieces.empty()) pieces = calm.pieces;
+  if (rhythm || options.tolerance <= 0) {
+    const curve::PiecewiseBezier chain{pieces, 0};
+    auto driven = pieces;
+    auto done =
+        drive_to(rhythm ? fit::rhythm_target(chain, closed) : fit::smooth_target(chain, closed),
+                 closed, calming, driven);
+    if (options.tolerance <= 0 || waves_of(driven) <= waves_of(pieces)) {
+      pieces = std::move(driven);
+      runs.insert(runs.end(), done.begin(), done.end());
+      return;
+    }
+  }
+  const std::vector<Point2>& line = calm.pieces.empty() ? points : calm.line;
+  const auto target = targets_beside(pieces, line, closed);
+  const double after = off_target({pieces, 0}, target);
+  const double before =
+      calm.pieces.empty() ? after : off_target(given, targets_beside(given.pieces, line, closed));
+  runs.push_back({pieces.size(), target, before, after});
 }
 
 /// Targets and errors of all parts as those of the whole stroke.
@@ -172,7 +242,8 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
   for (const SegmentRun& run : runs) {
     const std::vector<curve::Bezier2> quadratic = quadratics(run.vertices, run.closed);
     std::vector<curve::Bezier2> pieces = quintics_of(run, fine, quadratic, options);
-    if (options.aim != CurvatureAim::none) drive(pieces, run.closed, fine.width, options, driven);
+    if (options.aim != CurvatureAim::none)
+      drive(points_of(run, fine), run.closed, fine.width, options, pieces, driven);
     if (!stroke.curve.empty()) stroke.corners.push_back(stroke.curve.size());
     if (stroke.curve.empty() && fine.closed && !run.closed) stroke.corners.push_back(0);
     stroke.curve.insert(stroke.curve.end(), pieces.begin(), pieces.end());

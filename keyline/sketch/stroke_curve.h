@@ -30,7 +30,7 @@ struct StrokeCurveOptions {
   /// [Sketch] section 5.
   double tolerance = 0.5;
   double width_share = 0.1;
-  /// Curves keep within twice the tolerance, or 0.3 of the width, of where they were.
+  /// Curves keep within three times the tolerance, or 0.3 of the width, of where they were.
   CurvatureAim aim = CurvatureAim::none;
 };
 
@@ -51,9 +51,11 @@ struct Stroke {
   std::vector<fit::CurvatureTarget> target;       ///< over all of `curve`; empty without an aim
   std::optional<DriveReport> driven;              ///< empty without an aim
   bool closed = false;
-  double width = 0;                  ///< of the ink, median; 0 for outlines
-  std::vector<double> widths;        ///< of the ink at every point
-  std::vector<std::size_t> members;  ///< drawn strokes it stands for; empty for a picture's ink
+  double width = 0;            ///< of the ink, median; 0 for outlines
+  std::vector<double> widths;  ///< of the ink at every point
+  /// Drawn strokes it stands for, from 0; of a picture, where lines were consolidated, the lines
+  /// that it has otherwise, longest first.
+  std::vector<std::size_t> members;
 };
 
 /// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature.

@@ -10,6 +10,7 @@
 
 #include "keyline/core/polygon.h"
 #include "keyline/curve/jet.h"
+#include "keyline/sketch/calm_quintics.h"
 #include "keyline/sketch/enlargement.h"
 
 #include "kinds_generator.h"
@@ -161,6 +162,9 @@ TEST(Trace, DrivenCurvesStayOnTheirLine) {
       const Stroke& stroke = driven->strokes[0];
       ASSERT_TRUE(stroke.driven);
       EXPECT_LE(stroke.driven->after, stroke.driven->before);
+      if (tolerance > 0) {
+        EXPECT_LT(waves_of(stroke.curve), waves_of(plain->strokes[0].curve));
+      }
       EXPECT_LT(sharpest(stroke), 0.5);
       for (const curve::Bezier2& piece : stroke.curve)
         for (const double t : {0.0, 0.25, 0.5, 0.75}) {

@@ -1,0 +1,142 @@
+#include "keyline/sketch/calm_quintics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <tuple>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "keyline/analysis/comb_figures.h"
+#include "keyline/fit/quintic_chain.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::Point2;
+using Matrix = Eigen::SparseMatrix<double>;
+
+constexpr double kSmoothShare = 0.8;            ///< of what may be moved: by smoothing …
+constexpr std::array kFitShares = {0.1, 0.05};  ///< … and by fitting quintics to that
+constexpr double kHeldEnd = 1e6;                ///< weight of ends that stay
+constexpr double kShortest = 4;                 ///< points: wavelength that nothing is lost with
+constexpr int kHalvings = 14;                   ///< of the wavelength's range: within 0.1 %
+constexpr int kSamples = 32;                    ///< of a piece
+constexpr int kMostPieces = 48;
+
+/// Points under a penalty on their third differences.
+class Smoother {
+ public:
+  Smoother(const std::vector<Point2>& points, bool closed) : n_(Index(points.size())) {
+    const std::array<double, 4> row = {-1, 3, -3, 1};
+    std::vector<Eigen::Triplet<double>> entries;
+    const Index rows = closed ? n_ : n_ - 3;
+    for (Index i = 0; i < rows; ++i)
+      for (Index k = 0; k < 4; ++k)
+        entries.emplace_back(i, (i + k) % n_, row[static_cast<std::size_t>(k)]);
+    Matrix difference(rows, n_);
+    difference.setFromTriplets(entries.begin(), entries.end());
+    penalty_ = difference.transpose() * difference;
+    weight_ = Eigen::VectorXd::Ones(n_);
+    if (!closed) weight_[0] = weight_[n_ - 1] = kHeldEnd;
+    given_.resize(n_, 2);
+    for (Index i = 0; i < n_; ++i) {
+      given_(i, 0) = points[static_cast<std::size_t>(i)].x;
+      given_(i, 1) = points[static_cast<std::size_t>(i)].y;
+    }
+    solver_.analyzePattern(system(1));
+  }
+
+  /// Waves of that many points are halved.
+  std::vector<Point2> smooth(double wavelength) {
+    solver_.factorize(system(std::pow(wavelength / (2 * std::numbers::pi), 6)));
+    const Eigen::MatrixX2d z = solver_.solve(weight_.asDiagonal() * given_);
+    std::vector<Point2> points;
+    for (Index i = 0; i < n_; ++i) points.push_back({z(i, 0), z(i, 1)});
+    return points;
+  }
+
+ private:
+  using Index = Eigen::Index;
+  Matrix system(double lambda) const {
+    Matrix all = lambda * penalty_;
+    for (Index i = 0; i < n_; ++i) all.coeffRef(i, i) += weight_[i];
+    return all;
+  }
+
+  Index n_;
+  Matrix penalty_;
+  Eigen::VectorXd weight_;
+  Eigen::MatrixX2d given_;
+  Eigen::SimplicialLDLT<Matrix> solver_;
+};
+
+double largest_move(const std::vector<Point2>& a, const std::vector<Point2>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, core::distance(a[i], b[i]));
+  return most;
+}
+
+/// The smoothest points that lie within `most` of the given ones.
+std::vector<Point2> calmed(const std::vector<Point2>& points, bool closed, double most) {
+  Smoother smoother(points, closed);
+  std::vector<Point2> best = points;
+  double low = std::log(kShortest);
+  double high = std::log(4 * static_cast<double>(points.size()) + kShortest);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    std::vector<Point2> smooth = smoother.smooth(std::exp(middle));
+    if (largest_move(smooth, points) <= most) {
+      low = middle;
+      best = std::move(smooth);
+    } else {
+      high = middle;
+    }
+  }
+  return best;
+}
+
+analysis::CombFigures comb_of(const std::vector<curve::Bezier2>& pieces) {
+  curve::CurvatureGraph graph;
+  double length = 0;
+  for (const curve::Bezier2& piece : pieces)
+    for (int k = 0; k <= kSamples; ++k) {
+      const double t = static_cast<double>(k) / kSamples;
+      if (k > 0) length += core::distance(evaluate(piece, t - 1.0 / kSamples), evaluate(piece, t));
+      graph.arc_length.push_back(length);
+      graph.curvature.push_back(curvature(jet(piece, t)));
+    }
+  return analysis::comb_figures(graph);
+}
+
+/// Less of it is calmer.
+std::tuple<int, double> unrest(const std::vector<curve::Bezier2>& pieces) {
+  const analysis::CombFigures comb = comb_of(pieces);
+  return {comb.waves, comb.energy};
+}
+
+}  // namespace
+
+CalmQuintics calm_quintics(const std::vector<Point2>& points, bool closed, double most,
+                           const std::vector<curve::Bezier2>& given) {
+  if (points.size() < 8) return {};
+  CalmQuintics calm{{}, calmed(points, closed, kSmoothShare * most)};
+  auto least = unrest(given);
+  for (const double share : kFitShares) {
+    auto chain = fit::fit_quintic_chain(calm.line, closed, {share * most, kMostPieces});
+    if (!chain.within_tolerance) continue;
+    const auto is = unrest(chain.pieces);
+    if (is >= least) continue;
+    least = is;
+    calm.pieces = std::move(chain.pieces);
+  }
+  if (calm.pieces.empty()) return {};
+  return calm;
+}
+
+int waves_of(const std::vector<curve::Bezier2>& pieces) { return comb_of(pieces).waves; }
+
+}  // namespace keyline::sketch
