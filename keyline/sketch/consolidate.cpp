@@ -83,14 +83,8 @@ std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
   while (!open.empty()) {  // strays of a line are lines of their own
     const std::vector<std::size_t> group = std::move(open.back());
     open.pop_back();
-    double length = 0;
-    for (const std::size_t i : group) length = std::max(length, sampled[i].length);
     lines.push_back(meant_line(sampled, group,
-                               {.width = pen.held,
-                                .reach = pass_distance(model, length),
-                                .step = model.width,
-                                .angle = options.angle},
-                               strays));
+                               {.width = pen.held, .step = model.width, .passes = model}, strays));
     for (auto& rest : groups_among(strays, evidence)) open.push_back(std::move(rest));
   }
   std::sort(lines.begin(), lines.end(), [](const MeantLine& a, const MeantLine& b) {

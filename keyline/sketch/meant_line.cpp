@@ -19,7 +19,6 @@ using core::Point2;
 using core::Vector2;
 
 constexpr double kMostSamples = 400;    ///< of the longest stroke
-constexpr double kStrayReach = 1;       ///< reaches: samples farther off are not beside the line
 constexpr int kRounds = 2;              ///< of alignment and mean
 constexpr double kFarOnes = 0.9;        ///< rank of the distances to the next stroke …
 constexpr double kReachOfSpacing = 2;   ///< … that strokes are looked for at, so many times
@@ -33,13 +32,14 @@ class Line {
  public:
   Line(const std::vector<SampledStroke>& strokes, const std::vector<std::size_t>& members,
        const LineOptions& options)
-      : width_(options.width), angle_(options.angle) {
+      : width_(options.width), angle_(options.passes.angle), passes_(options.passes) {
     double longest = 0;
     for (const std::size_t m : members) longest = std::max(longest, strokes[m].length);
     step_ = std::max(options.step, longest / kMostSamples);
     for (const std::size_t m : members)
       strokes_.push_back(sample_stroke(strokes[m].points, strokes[m].closed, step_));
-    near_ = std::clamp(kReachOfSpacing * spacing(options.reach), 2 * width_, options.reach);
+    const double most = pass_distance(passes_, longest);
+    near_ = std::clamp(kReachOfSpacing * spacing(most), 2 * width_, most);
   }
 
   void find() {
@@ -68,6 +68,7 @@ class Line {
   /// Length of a stroke, by index, that runs beside the line.
   double beside(std::size_t k) const {
     const SampledStroke& s = strokes_[k];
+    const double reach = std::min(reach_, pass_distance(passes_, s.length));
     const Alignment a = align(s, line_, reach_);
     const std::size_t n = a.at.size();
     std::size_t count = 0;
@@ -75,7 +76,7 @@ class Line {
       if (a.at[i] < 0) continue;
       const Point2 p = s.points[a.reversed ? n - 1 - i : i];
       const Point2 q = line_.points[static_cast<std::size_t>(a.at[i])];
-      count += core::distance(p, q) < kStrayReach * reach_ ? 1 : 0;
+      count += core::distance(p, q) < reach ? 1 : 0;
     }
     return s.length * static_cast<double>(count) / static_cast<double>(n);
   }
@@ -246,6 +247,7 @@ class Line {
   double near_ = 0;   ///< how far apart neighbours lie, twice over
   double reach_ = 0;  ///< how far from the line its strokes run
   double angle_;
+  PassModel passes_;
 };
 
 }  // namespace

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "keyline/sketch/consolidate.h"
+#include "keyline/sketch/pass_evidence.h"
 #include "keyline/sketch/stroke_grid.h"
 
 namespace keyline::sketch {
 
 struct LineOptions {
-  double width = 1;     ///< of the pen
-  double reach = 4;     ///< farthest apart that strokes of the line lie
-  double step = 1;      ///< between samples
-  double angle = 0.45;  ///< radians between strokes side by side
+  double width = 1;  ///< of the pen that the line is held to
+  double step = 1;   ///< between samples
+  PassModel passes;  ///< how far apart strokes of the line lie
 };
 
 /// The one line that a group of strokes stands for.
@@ -25,7 +25,8 @@ struct LineOptions {
 /// is invented: the longest stroke stands for those that run beside it.
 ///
 /// members: indices into strokes; one alone gives that stroke.
-/// strays:  members of which less than half runs beside the line found; they are not its members.
+/// strays:  members of which less than half runs beside the line found, no farther from it than
+///          passes of their own length may lie apart; they are not its members.
 MeantLine meant_line(const std::vector<SampledStroke>& strokes,
                      const std::vector<std::size_t>& members, const LineOptions& options,
                      std::vector<std::size_t>& strays);
