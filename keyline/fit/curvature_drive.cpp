@@ -13,6 +13,7 @@
 #include "keyline/fit/chain_displacement.h"
 #include "keyline/fit/control_edges.h"
 #include "keyline/numeric/levenberg_marquardt.h"
+#include "keyline/numeric/monotone_cubic.h"
 
 namespace keyline::fit {
 namespace {
@@ -270,31 +271,6 @@ bool stays_monotone(const PiecewiseBezier& before, const PiecewiseBezier& after)
   return true;
 }
 
-/// Value at t of the monotone cubic (Fritsch & Carlson) through the targets, level beyond them.
-double interpolated(const std::vector<CurvatureTarget>& p, double t) {
-  if (t <= p.front().t) return p.front().curvature;
-  if (t >= p.back().t) return p.back().curvature;
-  const auto after = std::upper_bound(p.begin(), p.end(), t,
-                                      [](double v, const CurvatureTarget& c) { return v < c.t; });
-  const auto i = static_cast<std::size_t>(after - p.begin()) - 1;
-  const auto secant = [&](std::size_t k) {
-    return (p[k + 1].curvature - p[k].curvature) / (p[k + 1].t - p[k].t);
-  };
-  const auto slope = [&](std::size_t k) {
-    if (k == 0) return secant(0);
-    if (k + 1 == p.size()) return secant(k - 1);
-    const double left = secant(k - 1);
-    const double right = secant(k);
-    return left * right <= 0 ? 0 : 2 * left * right / (left + right);
-  };
-  const double h = p[i + 1].t - p[i].t;
-  const double u = (t - p[i].t) / h;
-  const double m0 = slope(i) * h;
-  const double m1 = slope(i + 1) * h;
-  const double rise = p[i + 1].curvature - p[i].curvature;
-  return p[i].curvature + u * (m0 + u * ((3 * rise - 2 * m0 - m1) + u * (m0 + m1 - 2 * rise)));
-}
-
 Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget> targets,
                                                std::size_t pieces) {
   const auto bad = [](const std::string& what) {
@@ -309,6 +285,12 @@ Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget> targ
   if (std::adjacent_find(targets.begin(), targets.end(), same) != targets.end())
     return bad("two targets lie in one place");
   if (targets.size() < 2) return bad("there are fewer than two targets");
+  std::vector<double> at;
+  std::vector<double> wanted;
+  for (const CurvatureTarget& t : targets) {
+    at.push_back(t.t);
+    wanted.push_back(t.curvature);
+  }
   const double n = static_cast<double>(pieces);
   std::vector<LocalTarget> local;
   std::vector<int> count(pieces, 0);
@@ -322,7 +304,8 @@ Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget> targ
     if (count[k] >= kFewTargets) continue;
     for (int i = 0; i < kAdded; ++i) {
       const double t = (static_cast<double>(k) + (i + 0.5) / kAdded) / n;
-      if (t > targets.front().t && t < targets.back().t) add(t, interpolated(targets, t));
+      if (t > targets.front().t && t < targets.back().t)
+        add(t, numeric::monotone_cubic(at, wanted, t));
     }
   }
   return local;
