@@ -1,5 +1,7 @@
 #include "keyline/operations/registry.h"
 
+#include "keyline/operations/surface_network.h"
+
 namespace keyline::operations {
 std::vector<Operation> all_operations() {
   return {
@@ -25,8 +27,9 @@ std::vector<Operation> all_operations() {
       library_measure_operation(),  library_show_operation(),
       library_stats_operation(),    surface_continuity_operation(),
       surface_edit_operation(),     surface_interrogate_operation(),
-      surface_loft_operation(),     surface_revolve_operation(),
-      surface_sav_operation(),      surface_sweep_operation()};
+      surface_loft_operation(),     surface_network_operation(),
+      surface_revolve_operation(),  surface_sav_operation(),
+      surface_sweep_operation()};
 }
 
 }  // namespace keyline::operations

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "keyline/operations/operation.h"
+
+namespace keyline::operations {
+
+Operation surface_network_operation();
+
+}  // namespace keyline::operations
