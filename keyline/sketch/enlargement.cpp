@@ -1,36 +1,128 @@
 #include "keyline/sketch/enlargement.h"
 
-#include <numeric>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace keyline::sketch {
+namespace {
 
-int enlargement(const Image& image) {
-  const Raster<std::uint16_t>& level = image.luminance;
-  int times = 0;  // gcd(0, n) is n
-  for (int y = 0; y < level.height && times != 1; ++y)
-    for (int x = 0; x < level.width; ++x) {
-      const std::uint16_t v = level.at(x, y);
-      if (x > 0 && v != level.at(x - 1, y)) times = std::gcd(times, x);
-      if (y > 0 && v != level.at(x, y - 1)) times = std::gcd(times, y);
-    }
-  if (times == 0) return 1;
-  return std::gcd(times, std::gcd(level.width, level.height));
+constexpr double kSmallest = 1.5;  ///< times: less is left as it is
+constexpr double kLargest = 16;
+constexpr double kAboveChance = 0.8;
+constexpr double kByChance = 1e-6;  ///< that a drawing's steps all lie so, for any size tried
+/// Of a pixel's middle or its corner; halves are rounded either way.
+constexpr std::array kShifts = {0.5, 0.499, 0.0};
+constexpr int kLooks = 1024;  ///< rows, or columns, that are looked at
+
+/// Sums of squared differences between neighbouring columns, and rows.
+struct Steps {
+  std::vector<double> columns;
+  std::vector<double> rows;
+};
+
+Steps steps_of(const Raster<std::uint16_t>& level) {
+  Steps steps{std::vector<double>(static_cast<std::size_t>(level.width), 0),
+              std::vector<double>(static_cast<std::size_t>(level.height), 0)};
+  const auto square = [](double d) { return d * d; };
+  const int every_row = 1 + level.height / kLooks;
+  const int every_column = 1 + level.width / kLooks;
+  for (int y = 0; y < level.height; y += every_row)
+    for (int x = 1; x < level.width; ++x)
+      steps.columns[static_cast<std::size_t>(x)] +=
+          square(double(level.at(x, y)) - level.at(x - 1, y));
+  for (int y = 1; y < level.height; ++y)
+    for (int x = 0; x < level.width; x += every_column)
+      steps.rows[static_cast<std::size_t>(y)] +=
+          square(double(level.at(x, y)) - level.at(x, y - 1));
+  return steps;
 }
 
-Image reduced(const Image& image, int times) {
+/// Where pixel k of `own` begins among `all`.
+int begin_of(int k, int own, int all, double shift) {
+  const double at = static_cast<double>(k) * all / own - shift;
+  return std::clamp(static_cast<int>(std::ceil(at - 1e-9)), 0, all);
+}
+
+/// The steps of one direction, and what they weigh.
+class Line {
+ public:
+  explicit Line(const std::vector<double>& steps) : steps_(steps) {
+    double squares = 0;
+    for (const double s : steps) {
+      sum_ += s;
+      squares += s * s;
+    }
+    if (squares > 0) places_ = sum_ * sum_ / squares;
+  }
+
+  /// Whether enough of the steps lies where pixels of `own` begin, and no few steps by chance.
+  bool are_of(int own, double shift) const {
+    const int all = static_cast<int>(steps_.size());
+    const double share = (own - 1.0) / (all - 1.0);
+    if (own < 2 || places_ * std::log(share) > std::log(kByChance / all)) return false;
+    double there = 0;
+    for (int k = 1; k < own; ++k)
+      there += steps_[static_cast<std::size_t>(std::min(begin_of(k, own, all, shift), all - 1))];
+    return there / sum_ - share >= kAboveChance * (1 - share);
+  }
+
+ private:
+  const std::vector<double>& steps_;
+  double sum_ = 0;
+  double places_ = 0;  ///< so many equal steps weigh the same
+};
+
+}  // namespace
+
+OwnSize own_size(const Image& image) {
+  const int width = image.width();
+  const int height = image.height();
+  const OwnSize as_it_is{width, height, 0};
+  if (width < 2 * kLargest || height < 2 * kLargest) return as_it_is;
+  const Steps steps = steps_of(image.luminance);
+  const Line columns(steps.columns);
+  const Line rows(steps.rows);
+  const int least = static_cast<int>(std::ceil(width / kLargest));
+  for (int own = least; own <= width / kSmallest; ++own)
+    for (const double shift : kShifts) {
+      if (!columns.are_of(own, shift)) continue;
+      const double other = static_cast<double>(own) * height / width;
+      for (const double n : {std::floor(other), std::ceil(other)})
+        if (rows.are_of(static_cast<int>(n), shift)) return {own, static_cast<int>(n), shift};
+    }
+  return as_it_is;
+}
+
+Image reduced(const Image& image, const OwnSize& size) {
   Image small;
-  small.luminance = Raster<std::uint16_t>(image.width() / times, image.height() / times);
-  small.pixels_per_mm = image.pixels_per_mm / times;
-  for (int y = 0; y < small.height(); ++y)
-    for (int x = 0; x < small.width(); ++x)
-      small.luminance.at(x, y) = image.luminance.at(x * times, y * times);
+  small.luminance = Raster<std::uint16_t>(size.width, size.height);
+  small.pixels_per_mm = image.pixels_per_mm * size.width / image.width();
+  for (int y = 0; y < size.height; ++y) {
+    const int top = begin_of(y, size.height, image.height(), size.shift);
+    const int bottom = begin_of(y + 1, size.height, image.height(), size.shift);
+    for (int x = 0; x < size.width; ++x) {
+      const int left = begin_of(x, size.width, image.width(), size.shift);
+      const int right = begin_of(x + 1, size.width, image.width(), size.shift);
+      std::int64_t sum = 0;
+      for (int v = top; v < bottom; ++v)
+        for (int u = left; u < right; ++u) sum += image.luminance.at(u, v);
+      const std::int64_t count = std::int64_t{bottom - top} * (right - left);
+      small.luminance.at(x, y) = static_cast<std::uint16_t>(sum / std::max<std::int64_t>(1, count));
+    }
+  }
   return small;
 }
 
-void enlarge(TraceResult& trace, int times) {
-  const auto grow = [times](core::Point2& p) { p = {times * p.x, times * p.y}; };
-  trace.width *= times;
-  trace.height *= times;
+void enlarge(TraceResult& trace, int to_width, int to_height) {
+  const double across = static_cast<double>(to_width) / trace.width;
+  const double down = static_cast<double>(to_height) / trace.height;
+  const double times = std::sqrt(across * down);
+  const auto grow = [across, down](core::Point2& p) { p = {across * p.x, down * p.y}; };
+  trace.width = to_width;
+  trace.height = to_height;
   for (DrawnStroke& pass : trace.passes)
     for (core::Point2& p : pass.points) grow(p);
   for (Stroke& stroke : trace.strokes) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
+#include "keyline/core/text.h"
 #include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
 #include "keyline/sketch/join_strokes.h"
@@ -233,17 +234,18 @@ void warn_of_photograph(const Tone& tone, const Binary& ink, double width, Trace
 }
 
 /// A picture whose pixels were repeated is traced at its own size: the steps are not its lines'.
-core::Result<TraceResult> trace_enlarged(const Image& image, int times,
+core::Result<TraceResult> trace_enlarged(const Image& image, const OwnSize& size,
                                          const TraceOptions& options) {
+  const double times = static_cast<double>(image.width()) / size.width;
   TraceOptions own = options;
   if (own.gap) *own.gap /= times;
-  if (own.specks) *own.specks /= times * times;
+  if (own.specks) *own.specks = static_cast<int>(*own.specks / (times * times));
   if (own.curve.tolerance > 0)
     own.curve.tolerance = std::max(own.curve.tolerance / times, StrokeCurveOptions{}.tolerance);
-  auto result = trace(reduced(image, times), own);
+  auto result = trace(reduced(image, size), own);
   if (!result) return result;
-  enlarge(*result, times);
-  result->notes.push_back("the picture was enlarged " + std::to_string(times) +
+  enlarge(*result, image.width(), image.height());
+  result->notes.push_back("the picture was enlarged " + core::number_text(times, 3) +
                           " times by repeating pixels: traced at its own size");
   return result;
 }
@@ -251,7 +253,8 @@ core::Result<TraceResult> trace_enlarged(const Image& image, int times,
 }  // namespace
 
 core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
-  if (const int times = enlargement(image); times > 1) return trace_enlarged(image, times, options);
+  if (const OwnSize size = own_size(image); size.width < image.width())
+    return trace_enlarged(image, size, options);
   TraceResult result;
   result.width = image.width();
   result.height = image.height();
