@@ -139,12 +139,40 @@ double curve_length(const Working& work, bool closed, std::size_t stride) {
 /// Fewer points than these cannot tell noise from bends: what windows leave is mostly shape.
 constexpr std::size_t kTelling = 16;
 
+/// Waves of so many strides are the longest that count as noise.
+constexpr double kStridesPerWave = 10;
+
+/// Noise at the scale asked for, or where its texture shows whole.
+Texture texture_of(const Working& work, bool closed, const AcquireOptions& options) {
+  if (!options.detail) return estimate_texture(work.points, closed);
+  const double length = core::polygon_length(work.points, closed);
+  const double step = length / static_cast<double>(work.points.size());
+  const double stride = std::round(*options.detail / (kStridesPerWave * step));
+  const double most = static_cast<double>(work.points.size()) / kStridesPerWave;
+  const auto apart = static_cast<std::size_t>(std::max(1.0, std::min(stride, most)));
+  return {estimate_noise(work.points, closed, apart), apart};
+}
+
+/// Says where waves that one could see are taken for noise.
+void note_texture(const Working& work, const AcquireOptions& options, KeyLine& line) {
+  if (options.noise) return;
+  const Texture texture = texture_of(work, line.closed, options);
+  if (texture.stride <= 1 || texture.stride <= noise_stride(work.points, line.closed)) return;
+  const double length = core::polygon_length(work.points, line.closed);
+  const double wave = kStridesPerWave * static_cast<double>(texture.stride) * length /
+                      static_cast<double>(work.points.size());
+  line.report.notes.push_back("waves shorter than " + core::number_text(wave, 3) +
+                              " are taken for the surface's texture, of " +
+                              core::number_text(texture.noise, 3) +
+                              "; \"detail\" sets that length");
+}
+
 /// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
 /// one: integers may also be exact coordinates of a small figure.
 double noise_of(const Working& work, bool closed, const AcquireOptions& options, double rounding) {
   if (options.noise) return *options.noise;
   const double most = 3e-4 * core::polygon_length(work.points, closed);
-  const double found = estimate_noise(work.points, closed);
+  const double found = texture_of(work, closed, options).noise;
   const double estimate = work.points.size() < kTelling ? std::min(found, most) : found;
   if (work.points.size() < 8) return estimate;
   return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
@@ -156,6 +184,9 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   if (const auto checked = detail::check_input(raw); !checked) {
     return std::unexpected(checked.error());
   }
+  if (options.detail && !(*options.detail > 0 && std::isfinite(*options.detail)))
+    return core::fail(ErrorCode::bad_input, "the detail is not a length",
+                      "give a number greater than 0", "detail");
   KeyLine line;
   line.id = raw.id;
   line.report.notes = raw.notes;
@@ -178,6 +209,7 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   if (options.remove_outliers) drop_outliers(work, noise, stride, line);
   settle_ends(work, stride, options, line);
   line.noise = noise_of(work, line.closed, options, line.rounding);
+  note_texture(work, options, line);
   if (options.find_corners) {
     line.corners = find_corners(work.points, line.closed, line.noise, options.corner_angle);
   }

@@ -17,7 +17,9 @@ struct AcquireOptions {
   bool find_corners = true;
   double corner_angle = 0.6;    ///< radians: a smaller change of direction is no corner
   std::optional<double> noise;  ///< known standard deviation; empty: estimated
-  std::optional<Plane> plane;   ///< empty: fitted (3D input) or z = 0 (planar input)
+  /// Waves shorter than this are noise, in the points' unit; empty: found where texture shows.
+  std::optional<double> detail;
+  std::optional<Plane> plane;  ///< empty: fitted (3D input) or z = 0 (planar input)
 };
 
 /// From raw points to a key-line: non-finite points and duplicates dropped, the plane fitted,

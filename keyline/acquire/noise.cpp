@@ -28,6 +28,9 @@ constexpr std::array<Window, 7> kWindows{
     {{5, 2}, {5, 3}, {6, 3}, {7, 4}, {8, 5}, {10, 4}, {13, 5}}};
 constexpr std::size_t kMostWindows = 4000;
 constexpr double kAlike = 1.35;  // variances up to this times the least agree with it
+// A window spans about ten strides; what is longer is shape. Ten windows make a curve.
+constexpr std::size_t kScales = 100;
+constexpr double kStays = 1.15;  // a doubling lets a rough line grow by 1.4, a bend by 4 and more
 constexpr double kAskew = 2;     // mean over median beyond which there is more than chance
 
 /// Of chi-squared variables over their degrees of freedom: the median, and the mean of the least
@@ -160,7 +163,23 @@ std::size_t noise_stride(std::span<const core::Point2> points, bool closed) {
 }
 
 double estimate_noise(std::span<const core::Point2> points, bool closed) {
-  const std::size_t stride = noise_stride(points, closed);
+  return estimate_noise(points, closed, noise_stride(points, closed));
+}
+
+Texture estimate_texture(std::span<const core::Point2> points, bool closed) {
+  const std::size_t nearest = noise_stride(points, closed);
+  const double least = estimate_noise(points, closed, nearest);
+  double before = least;
+  for (std::size_t stride = 2 * nearest; kScales * stride <= points.size(); stride *= 2) {
+    const double now = estimate_noise(points, closed, stride);
+    if (now <= kStays * before)
+      return stride == 2 * nearest ? Texture{least, nearest} : Texture{now, stride};
+    before = now;
+  }
+  return {least, nearest};
+}
+
+double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride) {
   std::array<double, kWindows.size()> variance;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < kWindows.size(); ++k) {

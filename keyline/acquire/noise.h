@@ -16,6 +16,20 @@ namespace keyline::acquire {
 /// longer than about ten points are shape to this estimate, not noise.
 double estimate_noise(std::span<const core::Point2> points, bool closed);
 
+/// The same from points that many apart: waves longer than about ten times that are shape.
+double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride);
+
+/// Noise whose neighbours err alike, as a scanned surface's roughness does.
+struct Texture {
+  double noise = 0;
+  std::size_t stride = 1;  ///< points apart at which it shows whole; 1: neighbours err by chance
+};
+
+/// Looks farther and farther apart, by doubling, until the estimate stays as it is: there roughness
+/// shows whole, and what grows on is shape. At most to where windows are a tenth of the
+/// curve; where nothing stays before that, the estimate of neighbours is all there is.
+Texture estimate_texture(std::span<const core::Point2> points, bool closed);
+
 /// Number of points from one window point to the next at which steps along the curve stand clear
 /// of the noise: 1 for ordinary data, larger where points are denser than their noise.
 std::size_t noise_stride(std::span<const core::Point2> points, bool closed);

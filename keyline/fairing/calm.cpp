@@ -203,10 +203,19 @@ class Calming {
     if (!report_.within) return report_;
     take(extrema_of(curve_, kSeen * range_of(curve_)), true);
     while (!options_.band.progress.stop_requested() && (together() || single()));
+    if (options_.most_turns) keep_to(*options_.most_turns);
     return report_;
   }
 
  private:
+  /// Further waves go for the asking, while the tolerance holds.
+  void keep_to(int turns) {
+    options_.most_rms = options_.worth = HUGE_VAL;
+    refusals_.clear();
+    const auto left = [&] { return static_cast<int>(turns_of(curve_).size()); };
+    while (!options_.band.progress.stop_requested() && left() > turns && single());
+  }
+
   /// Solves with these extrema alone; takes what is found where it is worth it.
   bool take(const std::vector<int>& extrema, bool any_count = false) {
     DenseCurve trial = curve_;
@@ -276,7 +285,7 @@ class Calming {
 
   DenseCurve& curve_;
   const std::vector<FitPoint>& points_;
-  const CalmOptions& options_;
+  CalmOptions options_;
   BandReport report_;
   std::vector<double> refusals_;
   std::size_t most_at_once_ = 1'000'000;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "keyline/fairing/least_variation.h"
 
@@ -16,6 +17,8 @@ std::vector<int> turns_of(const DenseCurve& curve);
 struct CalmOptions {
   BandOptions band;
   double most_rms = HUGE_VAL;  ///< a wave stays where the offsets without it are larger
+  /// No more turns than these, whatever the offsets and the energy, as long as the tolerance holds.
+  std::optional<int> most_turns = {};
   double worth = 1.5;  ///< a wave stays where the energy without it is more than so many times
 };
 

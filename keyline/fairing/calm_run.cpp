@@ -18,6 +18,7 @@ constexpr double kWorth = 2;        // a wave less is worth so much energy: wave
 // would serve keep it; a line is a claim of its own and has to be as near as the noise.
 constexpr double kErrorsOfWaves = 4;
 constexpr double kErrorsOfPieces = 5;
+constexpr double kPieceRms = 1.05;  // of the calm curve's, where that was asked to depart farther
 constexpr double kErrorsOfLines = 2.5;
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
 constexpr double kRoom = 0.9;  // of the tolerance for the calm curve: the rest is for its pieces
@@ -73,7 +74,8 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
   const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes, energy,
                           options.tolerance);
   const BandOptions band = piece_band(run, options);
-  const double most_rms = options.residuals.most(kErrorsOfPieces);
+  const double most_rms =
+      std::max(options.residuals.most(kErrorsOfPieces), kPieceRms * run.band.rms);
   double loss = kFirstLoss;
   std::vector<int> last;
   int most = static_cast<int>(run.curve.joints.size());
@@ -129,6 +131,7 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
   calm_options.band.rms = options.residuals.rms;
   calm_options.most_rms = options.residuals.most(kErrorsOfWaves);
   calm_options.worth = kWorth;
+  calm_options.most_turns = options.most_turns;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
   run.band = calm(run.curve, points, calm_options);
   if (!options.members.points.empty() && run.band.within) {
@@ -143,6 +146,7 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
   flat.noise = std::max(options.residuals.noise, kLeastNoise * options.tolerance);
   if (run.band.within) lay_lines(run.curve, run.band, points, flat);
   run.calm_energy = run.band.energy;
+  run.turns = static_cast<int>(turns_of(run.curve).size());
   run.curve.sense.clear();
   choose_pieces(run, points, options);
   flat.band.spring = run.band.spring;

@@ -17,6 +17,7 @@ struct CalmRunOptions {
   double tolerance = 0;  ///< of the points' offsets, in their unit
   Residuals residuals;   ///< of the same
   core::Interval slopes{-3, 3};
+  std::optional<int> most_turns = {};  ///< see CalmOptions
   HeldEnd start;
   HeldEnd end;
   Members members;  ///< empty: every fitted point is a measured one
@@ -26,6 +27,7 @@ struct CalmRunOptions {
 struct CalmRun {
   DenseCurve curve;  ///< of log-aesthetic pieces
   BandReport band;
+  int turns = 0;           ///< of curvature in the calm curve
   double calm_energy = 0;  ///< the same without waves that the points do not ask for
 };
 

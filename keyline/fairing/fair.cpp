@@ -37,6 +37,8 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (options.spline.order < 4 || options.spline.order > 6)
     return fail(ErrorCode::bad_input, "the order of the spline is out of range", "give 4, 5 or 6",
                 "order");
+  if (options.waves && *options.waves < 0)
+    return fail(ErrorCode::bad_input, "the number of waves is negative", "give 0 or more", "waves");
   if (options.pieces < 0)
     return fail(ErrorCode::bad_input, "the number of pieces is negative", "give 1 or more",
                 "pieces");
@@ -114,6 +116,7 @@ class Job {
             .pieces = pieces,
             .criterion = options_.criterion,
             .smoothness = options_.smoothness,
+            .waves = options_.waves,
             .slopes = options_.slopes,
             .asked = asked_.empty() ? std::vector<int>{} : asked_[k],
             .threads = options_.threads,
@@ -173,6 +176,10 @@ class Job {
     split(spline, k);
     solved_.push_back(detail::fair_run(runs_[k], spline, run_options(k)));
     note_run(result_, solved_.back(), k);
+    if (options_.waves && solved_.back().turns > *options_.waves)
+      result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
+                                          k, core::counted(std::size_t(*options_.waves), "wave"),
+                                          solved_.back().turns));
     result_.splines.push_back(std::move(spline));
     return {};
   }

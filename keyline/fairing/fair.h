@@ -76,6 +76,8 @@ struct FairOptions {
   /// From 0, as near as the noise of the points, to 1, as calm as the tolerance allows; between
   /// them what the tolerance holds beyond the noise is the curve's to depart by.
   double smoothness = 0.5;
+  /// Waves of curvature between corners, at most; empty: as many as the points ask for.
+  std::optional<int> waves;
   core::Interval slopes{-3, 3};  ///< of the pieces' logarithmic curvature graphs
   int pieces = 0;                ///< wanted number of pieces; 0: as the criterion has it
   Criterion criterion = Criterion::least_variation;
@@ -102,6 +104,9 @@ struct FairOptions {
         core::field<&FairOptions::smoothness>(
             "from 0, as near as the noise of the points, to 1, as calm as the tolerance allows")
             .within(core::from_to(0, 1)),
+        core::field<&FairOptions::waves>(
+            "waves of curvature between corners, at most; else as many as the points ask for")
+            .within(core::at_least(0)),
         core::field<&FairOptions::slopes>("slopes that pieces may have")
             .within(core::from_to(-12, 12)),
         core::field<&FairOptions::pieces>("wanted number of pieces; 0: as the criterion has it")

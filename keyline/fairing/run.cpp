@@ -230,6 +230,7 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.tolerance = tolerance;
   calm.residuals = residuals;
   calm.slopes = options.slopes;
+  calm.most_turns = options.waves;
   calm.start = held_end(run, frame, spline, true);
   calm.end = held_end(run, frame, spline, false);
   calm.progress = options.progress;
@@ -239,6 +240,7 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   result.start_pieces = static_cast<int>(result.fit.pieces.size());
   result.dense = std::move(found.curve);
   result.spring = found.band.spring;
+  result.turns = found.turns;
   result.within_tolerance = found.band.within;
 }
 

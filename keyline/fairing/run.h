@@ -32,6 +32,7 @@ struct RunOptions {
   int pieces = 0;
   Criterion criterion = Criterion::least_variation;
   double smoothness = 0.5;       ///< see FairOptions
+  std::optional<int> waves;      ///< at most, see FairOptions
   core::Interval slopes{-3, 3};  ///< of the calmest chain's pieces
   std::vector<int> asked;        ///< pieces whose reading was asked for
   int threads = 0;
@@ -63,6 +64,7 @@ struct RunResult {
   bool calm_missed = false;  ///< no calmest chain was found within the tolerance: the shortest one
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
+  int turns = 0;         ///< of the calmest curve's curvature
   double spring = 0;     ///< of the mean square of the offsets, see BandOptions
   DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
 };

@@ -54,6 +54,7 @@ acquire::AcquireOptions acquire_options(const Acquiring& told) {
   if (told.keep_order) options.ordered = true;
   options.remove_outliers = !told.keep_strays;
   options.noise = told.noise;
+  options.detail = told.detail;
   return options;
 }
 

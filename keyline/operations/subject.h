@@ -14,6 +14,7 @@ namespace keyline::operations {
 struct Acquiring {
   std::optional<bool> closed;
   std::optional<double> noise;
+  std::optional<double> detail;
   bool keep_order = false;
   bool keep_strays = false;
   static constexpr auto describe() {
@@ -22,6 +23,9 @@ struct Acquiring {
         core::field<&Acquiring::noise>("standard deviation of the positions; else estimated")
             .in("length")
             .within(core::at_least(0)),
+        core::field<&Acquiring::detail>(
+            "waves shorter than this are taken for noise; else found where texture shows")
+            .in("length"),
         core::field<&Acquiring::keep_order>("never put points in another order"),
         core::field<&Acquiring::keep_strays>("never drop a point as stray"));
   }

@@ -136,6 +136,44 @@ TEST(FairOptions, SlopesThatThePointsDoNotTellStayModerate) {
   }
 }
 
+/// A wave that the points ask for goes where it is not wanted and the tolerance holds it; else the
+/// answer says how many stay.
+TEST(FairOptions, WavesBeyondThoseWantedGoWhileTheToleranceHolds) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 1.5 * i / 200;
+    const double r = 100 + 0.2 * std::sin(12 * t);
+    points.push_back({r * std::cos(t), r * std::sin(t)});
+  }
+  const auto waves = [&](double tolerance, std::optional<int> wanted) {
+    FairOptions options;
+    options.tolerance = tolerance;
+    options.waves = wanted;
+    return fair(line_through(points), options).value();
+  };
+  const auto turns = [](const FairResult& result) {
+    int count = 0;
+    double before = 0;
+    for (const lac::Piece& piece : only_chain(result).pieces) {
+      const double rise = piece.curvature_end - piece.curvature_start;
+      count += rise * before < 0;
+      if (rise != 0) before = rise;
+    }
+    return count;
+  };
+  EXPECT_GE(turns(waves(0.05, {})), 4);
+  const FairResult calm = waves(0.5, 0);
+  EXPECT_EQ(turns(calm), 0);
+  EXPECT_TRUE(calm.within_tolerance);
+  const FairResult held = waves(0.05, 0);
+  EXPECT_TRUE(held.within_tolerance);
+  EXPECT_GE(turns(held), 3);
+  bool told = false;
+  for (const std::string& note : held.notes)
+    told = told || note.find("waves wanted") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
 TEST(FairOptions, InflectionForbidsAPositiveSlopeAndSaysSo) {
   const lac::Chain s{{{0, 0}, 0}, {{-1, 80, 0.02, -0.02}}, false};
   FairOptions options;
