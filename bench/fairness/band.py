@@ -3,8 +3,8 @@
 A curve whose curvature is linear between many nodes (a dense chain of clothoids), its energy
 L^3 * integral of (d curvature / ds)^2 a sum of squares; the offsets of the points, linearised, are
 limits of quadratic programmes solved one after another by a primal-dual interior point. Length is
-held at the spline's. What comes out keeps the band and is a local optimum: an upper bound of the
-limit, near it where the spline it starts from has the shape.
+held at the start's. What comes out keeps the band and is the better of two local optima, from the
+smoothing spline and from the answer: an upper bound of the limit.
 """
 
 import numpy as np
@@ -38,12 +38,12 @@ class Curve:
         return float(np.sum(np.diff(self.curvature) ** 2 / np.diff(self.length)))
 
 
-def nodes_for(spline):
+def nodes_for(length, curvature):
     """Even in half of length and half of turning."""
-    bend = np.abs(spline.curvature) + 1e-12
-    grown = np.concatenate([[0], np.cumsum((bend[1:] + bend[:-1]) / 2 * np.diff(spline.length))])
-    share = grown / grown[-1] + spline.length / spline.length[-1]
-    return np.interp(np.linspace(0, 2, NODES + 1), share, spline.length)
+    bend = np.abs(curvature) + 1e-12
+    grown = np.concatenate([[0], np.cumsum((bend[1:] + bend[:-1]) / 2 * np.diff(length))])
+    share = grown / grown[-1] + length / length[-1]
+    return np.interp(np.linspace(0, 2, NODES + 1), share, length)
 
 
 def nodal(at, length, curvature):
@@ -209,22 +209,22 @@ def beyond(curve, points, tolerance):
     return np.abs(feet(points, places, turn)[3]).max() / tolerance
 
 
-def least_energy(points, closed, tolerance, spline):
-    """The calmest Curve found within the tolerance, from a spline; None where no round stays in."""
-    size = spline.length[-1]
-    points = np.array(points, float) / size
-    tolerance, at = tolerance / size, nodes_for(spline) / size
-    bend = nodal(at, spline.length / size, spline.curvature * size)
-    way = spline.points[1] - spline.points[0]
-    curve = Curve(at, bend, (*(spline.points[0] / size), np.arctan2(way[1], way[0])))
-    trust, best = FIRST_TRUST * np.ptp(bend), None
-    off = beyond(curve, points, tolerance)
+def started(length, curvature, start, direction):
+    """A finer graph of curvature on nodes of its own, of length about 1."""
+    at = nodes_for(length, curvature)
+    return Curve(at, nodal(at, length, curvature), (*start, direction))
+
+
+def calmed(curve, points, closed, tolerance):
+    """From a curve downhill; None where no round stays in the band."""
+    span, best = np.ptp(curve.curvature), None
+    trust, off = FIRST_TRUST * span, beyond(curve, points, tolerance)
     for _ in range(ROUNDS):
         found = next_curve(curve, points, tolerance, closed, trust)
         ahead = beyond(found, points, tolerance) if found else np.inf
         if ahead > max(WITHIN, off * 1.05):  # the linear picture does not reach so far
             trust /= 3
-            if trust < 1e-6 * np.ptp(bend):
+            if trust < 1e-6 * span:
                 break
             continue
         gain = 1 - found.energy() / curve.energy()
@@ -234,3 +234,15 @@ def least_energy(points, closed, tolerance, spline):
         if off < WITHIN and abs(gain) < ENOUGH:
             break
     return best
+
+
+def least_energy(points, closed, tolerance, spline, chain):
+    """The calmest Curve found within the tolerance, from the spline and from the chain's
+    (length, curvature, start, direction)."""
+    size = spline.length[-1]
+    way = spline.points[1] - spline.points[0]
+    begun = (spline.length, spline.curvature, spline.points[0], np.arctan2(way[1], way[0]))
+    found = [calmed(started(length / size, curvature * size, np.array(start) / size, direction),
+                    np.array(points, float) / size, closed, tolerance / size)
+             for length, curvature, start, direction in (begun, chain)]
+    return min((f for f in found if f), key=Curve.energy, default=None)

@@ -149,8 +149,9 @@ def physical_limit(program, wanted):
     over = []
     for row in rows:
         points = dict(wanted)[row.name]
+        chain = (*comb.graph_of_chain(row.chain), row.chain["start"], row.chain["direction"])
         least = row.spline and band.least_energy(points, row.chain["closed"],
-                                                 row.result["tolerance"], row.spline)
+                                                 row.result["tolerance"], row.spline, chain)
         if not least:
             print(f"{row.name:34} no band optimum")
             continue

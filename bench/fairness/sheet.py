@@ -11,7 +11,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-from scipy.interpolate import BSpline
+from scipy.interpolate import splev
 
 import comb
 import profiles
@@ -22,7 +22,7 @@ WANTED = ("naca2412", "e387", "hq17", "su-26m", "fx63145", "bot brahma", "bot si
           "nsfishes FBd", "olea 0001-cAglan_O10VD", "olea 0023", "trilo a1", "trilo c2", "Norisring")
 COLUMNS = 2
 PANEL, GAP, HEAD = 400, 8, 34
-TEETH = 260
+TEETH = 240
 LONGEST = 1 / 6  # of the panel
 CUT = 1.6        # of the longest: others' longer teeth are cut there
 
@@ -45,9 +45,10 @@ def of_chain(chain):
 
 def of_spline(spline):
     """The spline through the points as the program gives it."""
-    curve = BSpline(np.array(spline["knots"]), np.array(spline["points"]), spline["degree"])
-    t = np.linspace(spline["knots"][spline["degree"]], spline["knots"][-spline["degree"] - 1], 6001)
-    points, (dx, dy), (ddx, ddy) = curve(t), curve.derivative(1)(t).T, curve.derivative(2)(t).T
+    degree, knots = spline["degree"], np.array(spline["knots"])
+    curve = (knots, list(np.array(spline["points"]).T), degree)
+    t = np.linspace(knots[degree], knots[-degree - 1], 6001)
+    points, (dx, dy), (ddx, ddy) = np.column_stack(splev(t, curve)), splev(t, curve, 1), splev(t, curve, 2)
     speed = np.hypot(dx, dy)
     length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return length, (dx * ddy - dy * ddx) / speed**3, points, np.arctan2(dy, dx)
@@ -64,9 +65,13 @@ def graphs(result, what):
 
 
 def evenly(graph, total):
-    """Teeth at even steps, and where pieces of steep curvature need more."""
+    """Teeth even in half of the length and half of the turning."""
     length, curvature, points, turn = graph
-    at = np.linspace(0, length[-1], max(20, round(TEETH * length[-1] / total)))
+    bend = np.abs(curvature)
+    turned = np.concatenate([[0], np.cumsum((bend[1:] + bend[:-1]) / 2 * np.diff(length))])
+    share = length / length[-1] + turned / max(turned[-1], 1e-12)
+    count = max(20, round(TEETH * length[-1] / total))
+    at = np.interp(np.linspace(0, share[-1], count), share, length)
     return (np.interp(at, length, curvature), np.column_stack(
         [np.interp(at, length, points[:, i]) for i in (0, 1)]), np.interp(
             at, length, np.unwrap(turn)))
@@ -76,9 +81,11 @@ def number(value):
     return f"{value:.1f}".removesuffix(".0")
 
 
-def path(points, close=False):
-    text = " ".join(f"{number(x)} {number(y)}" for x, y in points)
-    return "M" + text + ("Z" if close else "")
+def path(points):
+    """From the first on by steps, rounded so that errors do not add up."""
+    at = np.round(points, 1)
+    steps = " ".join(f"{number(x)} {number(y)}" for x, y in np.diff(at, axis=0))
+    return f"M{number(at[0][0])} {number(at[0][1])}l{steps}"
 
 
 class Panel:
