@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <map>
 #include <optional>
 #include <system_error>
 
@@ -17,7 +16,7 @@ using core::Result;
 constexpr std::size_t kLongestLine = 256u << 20;
 constexpr std::size_t kMostHeld = 64u << 20;  // bytes of lines and answers
 constexpr std::size_t kMostQueued = 4096;     // lines waiting for a worker
-constexpr std::size_t kReadAtOnce = 1u << 16;
+constexpr std::size_t kReadAtOnce = 1u << 18;
 constexpr int kTick = 200;  // milliseconds between looks at token and clock
 
 bool is_blank(const std::string& line) {
@@ -50,6 +49,13 @@ class Batch {
   }
 
  private:
+  /// A line on its way, in the order of the input.
+  struct Slot {
+    std::size_t line_size = 0;
+    std::string answer;
+    bool answered = false;
+  };
+
   bool finished() const { return ended_ && queue_.empty() && next_written_ == next_number_; }
 
   bool may_read() const { return !ended_ && held_ < kMostHeld && queue_.size() < kMostQueued; }
@@ -132,8 +138,7 @@ class Batch {
     if (n < 0 && (errno == EINTR || errno == EAGAIN)) return;
     const char* at = bytes;
     const char* const end = bytes + std::max<ssize_t>(n, 0);
-    for (const char* line = std::find(at, end, '\n'); line != end;
-         line = std::find(at, end, '\n')) {
+    for (const char* line = line_end(at, end); line != end; line = line_end(at, end)) {
       extend(at, line);
       at = line + 1;
       line_ends();
@@ -159,7 +164,7 @@ class Batch {
       return;
     }
     held_ += line.size();
-    sizes_.push_back(line.size());
+    slots_.push_back({line.size(), {}, false});
     if (cut)
       keep(next_number_++, answers_.too_long());
     else
@@ -168,19 +173,18 @@ class Batch {
 
   void keep(std::uint64_t number, std::string answer) {
     held_ += answer.size();
-    answered_.emplace(number, std::move(answer));
+    Slot& slot = slots_[number - next_written_];
+    slot.answer = std::move(answer);
+    slot.answered = true;
   }
 
   /// Everything that is next in order, in one go.
   void write_ready() {
     std::string text;
-    while (!answered_.empty() && answered_.begin()->first == next_written_) {
-      text += answered_.begin()->second;
+    for (; !slots_.empty() && slots_.front().answered; slots_.pop_front(), ++next_written_) {
+      text += slots_.front().answer;
       text += '\n';
-      held_ -= answered_.begin()->second.size() + sizes_.front();
-      sizes_.pop_front();
-      answered_.erase(answered_.begin());
-      ++next_written_;
+      held_ -= slots_.front().answer.size() + slots_.front().line_size;
     }
     write_all(text);
   }
@@ -214,8 +218,7 @@ class Batch {
   const BatchOptions& options_;
   std::vector<Worker> workers_;
   std::deque<NumberedLine> queue_;
-  std::map<std::uint64_t, std::string> answered_;
-  std::deque<std::size_t> sizes_;  ///< of the lines from next_written_ on
+  std::deque<Slot> slots_;  ///< of the lines from next_written_ on
   std::string partial_;
   bool cut_ = false;
   bool ended_ = false;

@@ -24,7 +24,7 @@ namespace {
 using core::ErrorCode;
 using core::Result;
 
-constexpr std::size_t kAtOnce = 1u << 16;
+constexpr std::size_t kAtOnce = 1u << 18;
 
 /// What batch takes beside the options every command has.
 struct BatchWords {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -19,7 +20,8 @@ constexpr std::size_t kMostLines = 512;       // of a block
 constexpr std::size_t kMostBytes = 1u << 20;  // of a block of several lines
 constexpr double kShort = 0.005;              // seconds: blocks grow until they take longer
 constexpr double kLong = 0.05;                // seconds: and shrink again beyond this
-constexpr std::size_t kReadAtOnce = 1u << 16;
+constexpr std::size_t kReadAtOnce = 1u << 18;
+constexpr int kPipeBytes = 1 << 18;  // a pipe's 64 KB would wake both ends for every other block
 
 struct Pipe {
   int read = -1;
@@ -30,10 +32,16 @@ Pipe make_pipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "no pipe to a worker");
+  ::fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);  // where that is too much, it stays as it is
   return {ends[0], ends[1]};
 }
 
 }  // namespace
+
+const char* line_end(const char* from, const char* to) {
+  const void* const found = std::memchr(from, '\n', static_cast<std::size_t>(to - from));
+  return found ? static_cast<const char*>(found) : to;
+}
 
 double now() {
   using Clock = std::chrono::steady_clock;
@@ -115,11 +123,11 @@ bool Worker::read_some(const std::function<void(std::uint64_t, std::string)>& an
     if (n == 0) return false;
     const char* at = bytes;
     const char* const end = bytes + n;
-    for (const char* line = std::find(at, end, '\n'); line != end && !sent_.empty();
-         line = std::find(at, end, '\n')) {
+    const char* line = line_end(at, end);
+    if (line != end) heard_ = now();
+    for (; line != end && !sent_.empty(); line = line_end(at, end)) {
       incoming_.append(at, line);
       at = line + 1;
-      heard_ = now();
       answered(sent_.front().number, std::exchange(incoming_, {}));
       sent_.pop_front();
     }

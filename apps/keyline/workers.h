@@ -61,6 +61,9 @@ class Worker {
   double heard_ = 0;  ///< when it last answered
 };
 
+/// The first '\n' in [from, to), else `to`.
+const char* line_end(const char* from, const char* to);
+
 /// Seconds on a clock that never goes back.
 double now();
 
