@@ -1,27 +1,49 @@
-"""The papers' figures are drawn anew, and say what the papers say."""
+"""The notebook that draws the papers' figures anew: its cells run, and say what the papers say."""
 
+import json
 import math
-import runpy
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+NOTEBOOK = ROOT / "examples" / "python" / "figures.ipynb"
+
+
+def code_cells(notebook):
+    return ["".join(c["source"]) for c in notebook["cells"] if c["cell_type"] == "code"]
 
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
-    pytest.importorskip("matplotlib")
+    """What stands in the notebook's variables at its end, and the folder of its figures."""
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
     folder = tmp_path_factory.mktemp("figures")
-    script = runpy.run_path(str(ROOT / "examples" / "python" / "figures.py"))
-    return script["main"](folder), folder
+    space = {"__name__": "__main__"}
+    with matplotlib.rc_context():
+        for number, cell in enumerate(code_cells(json.loads(NOTEBOOK.read_text(encoding="utf-8")))):
+            exec(compile(cell, f"{NOTEBOOK.name}, code cell {number + 1}", "exec"), space)
+            for figure in pyplot.get_fignums():
+                pyplot.figure(figure).savefig(folder / f"{number}-{figure}.svg")
+            pyplot.close("all")
+    return space, folder
 
 
 def test_every_figure_is_there(drawn):
     _, folder = drawn
-    assert len(list(folder.glob("*.svg"))) == len(list(folder.glob("*.png"))) == 6
+    assert len(list(folder.glob("*.svg"))) == 6
     for picture in folder.glob("*.svg"):
         assert picture.stat().st_size > 5_000
+
+
+def test_the_notebook_is_kept_without_what_it_printed():
+    notebook = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+    assert notebook["nbformat"] == 4
+    for cell in notebook["cells"]:
+        assert not cell.get("outputs") and cell.get("execution_count") is None
 
 
 def test_turning_in_closed_form(drawn):
