@@ -180,6 +180,24 @@ TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
   }
 }
 
+TEST(Sketch, TakesWishesByNumberAndShowsTheNumbers) {
+  const Scratch s;
+  const std::string scap = s.write(
+      "a.scap",
+      "#100 100\n@1\n{\n#1 1\n10 10 0\n30 12 0\n60 10 0\n}\n{\n#2 1\n20 12 0\n80 11 0\n}\n");
+  const Outcome kept = run_keyline("sketch " + scap + " --consolidate --keep 1 --json --overlay " +
+                                   s.path("look.png"));
+  ASSERT_EQ(kept.status, 0) << kept.err;
+  EXPECT_TRUE(slurp(s.path("look.png")).starts_with("\x89PNG"));
+  const auto strokes = nlohmann::json::parse(kept.out)["strokes"];
+  ASSERT_EQ(strokes.size(), 2U);
+  EXPECT_NE(strokes[0]["members"], strokes[1]["members"]);
+  expect_failure(run_keyline("sketch " + scap + " --consolidate --join 0,7"), 2,
+                 "there is no stroke 7");
+  expect_failure(run_keyline("sketch " + scap + " --keep 1"), 2, "nothing is consolidated");
+  expect_failure(run_keyline("sketch " + scap + " --overlay a.jpg"), 2, "PNG");
+}
+
 TEST(Sketch, SaysWhereThereIsNoLine) {
   const Scratch s;
   const auto flat = [](int level) { return [level](int, int) { return level; }; };
