@@ -7,16 +7,37 @@ namespace {
 using core::Result;
 using surface::SurfaceEdit;
 
+enum class Joints { free, g1, g2 };
+constexpr auto choices(const Joints*) {
+  return core::words<Joints>({{Joints::free, "free"}, {Joints::g1, "G1"}, {Joints::g2, "G2"}});
+}
+
 struct TogetherRequest {
   std::vector<surface::Surface> surfaces;
+  Joints joints = Joints::g1;
   SurfaceEditOptions options;
   static constexpr auto describe() {
     using Request = TogetherRequest;
     return core::fields(
         core::field<&Request::surfaces>("polynomial Bezier or B-spline surfaces").count(1).needed(),
+        core::field<&Request::joints>(
+            "of several patches what stays where it was: tangent planes across joints (G1), their "
+            "curvature too (G2), or neither (free)"),
         core::flattened<&Request::options>());
   }
 };
+
+surface::HoldJoints held(Joints joints) {
+  switch (joints) {
+    case Joints::free:
+      return surface::HoldJoints::free;
+    case Joints::g1:
+      return surface::HoldJoints::G1;
+    case Joints::g2:
+      break;
+  }
+  return surface::HoldJoints::G2;
+}
 
 /// One of them; or why none of its patches could be edited.
 Result<SurfaceEdit> taken(SurfaceEdit& edit) {
@@ -31,7 +52,8 @@ std::vector<SurfaceEdit> as_one_problem(const TogetherRequest& request, const Co
   if (request.surfaces.size() < 2) return {};
   surface::EditOptions options = surface_edit_options(request.options, true);
   options.progress = core::part_of(context.progress, 0, 0.5);
-  auto edits = surface::edit_surfaces(request.surfaces, options, context.threads);
+  auto edits =
+      surface::edit_surfaces(request.surfaces, options, context.threads, {}, held(request.joints));
   return edits ? std::move(*edits) : std::vector<SurfaceEdit>{};
 }
 
@@ -42,7 +64,7 @@ Result<SurfaceEdit> alone(const TogetherRequest& request, std::size_t i, const C
   const bool several = request.surfaces.size() > 1 || surface::patches_of(one).patches.size() > 1;
   surface::EditOptions options = surface_edit_options(request.options, several);
   options.progress = core::part_of(context.progress, at / count, (at + 1) / count);
-  return surface::edit_surface(one, options, context.threads);
+  return surface::edit_surface(one, options, context.threads, {}, held(request.joints));
 }
 
 /// Joints between all patches that were edited.
