@@ -7,6 +7,7 @@
 #include "keyline/exchange/format.h"
 #include "keyline/exchange/json_text.h"
 #include "keyline/operations/common.h"
+#include "keyline/operations/sound_result.h"
 
 namespace keyline::operations {
 namespace {
@@ -51,6 +52,10 @@ Result<Outcome> run_typed(const Operation& operation, const json& request, Conte
   if (whole.with_forms)
     if (auto added = add_forms(*operation.result, result->get(), whole.forms); !added)
       return std::unexpected(std::move(added.error()));
+  // What files hold was looked at when they were read.
+  if (!operation.reads_files)
+    if (auto sound = check_values(*operation.result, result->get()); !sound)
+      return std::unexpected(std::move(sound.error()));
   return Outcome{&operation, std::move(whole.own), std::move(*result)};
 }
 
