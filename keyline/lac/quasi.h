@@ -19,9 +19,9 @@ enum class QuasiForm {
   discrete_angle,  ///< control edges along the tangents at the middle of equal parts of angle
   discrete_arc,    ///< the same for equal parts of arc length, edges of equal length
   rational_cubic,  ///< positions, tangents and end curvatures exact, then least LCG variance
-  /// Positions, tangents and end curvatures exact, then least deviation; the rational cubic raised
-  /// to the degree where that is closer (few degrees, close to an arc): never worse than any other
-  /// form of the degree.
+  /// Positions, tangents and end curvatures exact, then least deviation; the raised rational cubic,
+  /// or over handles any other form, where that is closer (its end curvatures are then as near as
+  /// its deviation lets them be): never worse than any other form of the degree.
   best,
 };
 constexpr auto choices(const QuasiForm*) {

@@ -87,6 +87,25 @@ class Family {
     }
   }
 
+  /// The curve of the family nearest to a polygon of its degree: what that misses the ends by is
+  /// spread over it.
+  VectorXd nearest(const ControlPolygon& polygon) const {
+    const Vector2 from = polygon.front();
+    const Vector2 off = end_ - (polygon.back() - from);
+    const auto moved = [&](int i) { return polygon[i] - from + (i / double(n_)) * off; };
+    VectorXd x(unknowns());
+    x[0] = norm(moved(1));
+    x[1] = moved(2).x;
+    x[2] = norm(end_ - moved(n_ - 1));
+    x[3] = dot(end_ - moved(n_ - 2), end_tangent_);
+    for (int i = 3; i < n_ - 2; ++i) {
+      const Vector2 b = moved(i);
+      x[4 + 2 * (i - 3)] = b.x;
+      x[5 + 2 * (i - 3)] = b.y;
+    }
+    return x;
+  }
+
   /// Handles of the given lengths, all else by least squares against points at given parameters;
   /// `miss` is the root mean square that is left.
   VectorXd start(double first, double last, const std::vector<double>& at,
@@ -185,8 +204,10 @@ class Fit {
     double miss = 0;
     const double handle = 1.0 / degree_;
     descend_from({family_.start(handle, handle, at_, points_, miss), at_, miss});
-    if (thorough && !(least_ < kGood))
+    if (thorough && !(least_ < kGood)) {
       for (const Start& start : starts()) descend_from(start);
+      for (const Start& start : other_forms()) descend_from(start);
+    }
     if (std::isinf(least_)) return {};
     return family_.polygon(best_);
   }
@@ -196,13 +217,44 @@ class Fit {
   static constexpr double kGood = 1e-9;
   static constexpr std::size_t kStarts = 6;
 
+  /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
+  /// radius bends the polygon by about a radian.
+  double handle(double speed, double curvature) const {
+    return std::min(speed / degree_, 1 / std::abs(curvature));
+  }
+
+  /// From the Taylor forms about either end and the middle, and the discretised ones.
+  std::vector<Start> other_forms() const {
+    std::vector<Start> all;
+    const auto add = [&](SeriesVariable variable, const ControlPolygon& polygon) {
+      const bool sound = std::all_of(polygon.begin(), polygon.end(),
+                                     [](Vector2 v) { return std::isfinite(norm(v)); });
+      if (!sound) return;
+      std::vector<double> feet = at_;
+      if (variable == SeriesVariable::tangent_angle)
+        for (double& t : feet) t = std::clamp(turning(unit_.piece, t) / unit_.turning, 0.0, 1.0);
+      all.push_back({family_.nearest(polygon), feet, 0});
+    };
+    const bool turns = unit_.turning > 0 && !(inflection(unit_.piece) > 0) &&
+                       unit_.piece.curvature_start * unit_.piece.curvature_end > 0;
+    for (const auto variable : {SeriesVariable::arc_length, SeriesVariable::tangent_angle}) {
+      if (variable == SeriesVariable::tangent_angle && !turns) continue;
+      for (const double about : {0.0, 0.5, 1.0}) {
+        const TaylorSeries series = taylor_series(unit_, variable, about, degree_);
+        if (series.analytic) add(variable, taylor_polygon(unit_, series));
+      }
+      add(variable, discrete_polygon(unit_, variable, degree_));
+    }
+    return all;
+  }
+
   /// Handles about those of each parameter's own speed; the closest first.
   std::vector<Start> starts() const {
     std::vector<Start> all;
     for (const double gamma : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       const std::vector<double> t = parameters(unit_, at_, gamma);
-      const double first = at_.front() / t.front() / degree_;
-      const double last = (1 - at_.back()) / (1 - t.back()) / degree_;
+      const double first = handle(at_.front() / t.front(), unit_.piece.curvature_start);
+      const double last = handle((1 - at_.back()) / (1 - t.back()), unit_.piece.curvature_end);
       Start best{{}, t, std::numeric_limits<double>::infinity()};
       for (const double a : {0.4, 0.6, 0.8, 1.0, 1.3, 1.7})
         for (const double b : {0.4, 0.6, 0.8, 1.0, 1.3, 1.7}) {
@@ -265,6 +317,7 @@ class Fit {
   }
 
   void keep_better(const VectorXd& x, const VectorXd& r) {
+    if (!(x[0] > 0) || !(x[2] > 0)) return;  // a handle the other way: an end tangent reversed
     const double largest = r.cwiseAbs().maxCoeff();
     round_least_ = std::min(round_least_, largest);
     if (!(largest < least_)) return;

@@ -184,6 +184,35 @@ QuasiResult laid_result(const SegmentSolution& solution, const Unknowns& x, doub
   return r;
 }
 
+/// Of the other forms over the handles, as far as Newton's method finds them at once, the closest.
+std::optional<QuasiResult> closest_other(const SegmentSolution& solution,
+                                         const HandleAngles& angles, double alpha, int degree,
+                                         const std::array<Point2, 3>& handles) {
+  const UnitPiece unit = detail::unit_piece(piece_of(solution.segment));
+  std::optional<QuasiResult> closest;
+  for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc,
+                               QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
+    const auto settled = detail::settled(unit, {form, degree, {}, false});
+    if (!settled) continue;
+    Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
+               unit.turning};
+    if (!Hermite(angles, alpha, *settled).solve(x)) continue;
+    QuasiResult r = laid_result(solution, x, alpha, *settled, handles, unit.mirror);
+    if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+  }
+  return closest;
+}
+
+/// What is left of a fit of free handles that another form beats: that form.
+void take_closer(Result<QuasiResult>& best, std::optional<QuasiResult> other,
+                 const SegmentSolution& solution) {
+  if (!other || !std::isfinite(other->deviation)) return;
+  if (best && !(other->deviation < best->deviation)) return;
+  other->form = QuasiForm::best;
+  other->lambda = lambda_of(piece_of(solution.segment));
+  best = *std::move(other);
+}
+
 bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == QuasiForm::best; }
 
 }  // namespace
@@ -196,6 +225,9 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   if (keeps_ends(options.form) || solution->turning == 0) {
     auto result = quasi_log_aesthetic(solution->segment, options);
     if (result && solution->turning != 0) settle_ends(result->curve, p0, p1, p2);
+    if (options.form == QuasiForm::best && solution->turning != 0)
+      take_closer(result, closest_other(*solution, *angles, alpha, options.degree, {p0, p1, p2}),
+                  *solution);
     return result;
   }
   const UnitPiece unit = detail::unit_piece(piece_of(solution->segment));
