@@ -147,9 +147,11 @@ Result<void> put_points(const Operation& operation, const json& points, json& re
 /// Slopes and the like that were not given are what a fresh request holds.
 void complete(const Operation& operation, json& request) {
   const auto fresh = operations::write_json(*operation.request, operation.request->make().get());
-  for (const char* name : {"alpha", "beta", "omega"})
-    if (fresh && !request.contains(name) && fresh->value(name, json()).is_number())
-      request[name] = (*fresh)[name];
+  for (const char* name : {"alpha", "beta", "omega"}) {
+    if (!fresh || request.contains(name)) continue;
+    const json value = fresh->value(name, json());
+    if (value.is_number() || (value.is_array() && value.size() == 1)) request[name] = value;
+  }
 }
 
 /// One line per piece, and what the operation tells beside the curve.

@@ -29,26 +29,25 @@ std::vector<double> graded_cuts(double low, double high) {
   return cuts;
 }
 
-/// Segments from one end to the other, for a chord of length 1 along x: leaving at `from`, arriving
-/// at an angle to the other side.
+double area_of(const G1Chain& s) { return std::abs(chord_area(s.chain)); }
+double area_of(const CompoundSolution& s) { return std::abs(chord_area(s.chain)); }
+
+/// Curves from one end to the other, for a chord of length 1 along x, leaving at an angle to one
+/// side and arriving at an angle to the other: `solve` makes the curve of an arrival angle.
+template <class Solve>
 class Family {
  public:
-  Family(double from, double alpha) : from_(from), alpha_(alpha) {}
+  Family(double from, const Solve& solve) : from_(std::abs(from)), solve_(solve) {}
 
-  std::optional<SegmentSolution> at(double arrival) const {
-    const double to = from_ > 0 ? -arrival : arrival;
-    auto s = solve_g1_directions({{0, 0}, from_}, {{1, 0}, to}, alpha_);
-    if (!s) return std::nullopt;
-    return *s;
-  }
+  auto at(double arrival) const { return solve_(arrival); }
   /// NaN where there is no curve.
   double area(double arrival) const {
     const auto s = at(arrival);
-    return s ? std::abs(chord_area(s->segment)) : std::nan("");
+    return s ? area_of(*s) : std::nan("");
   }
   /// The last arrival angle with a curve on the way from the symmetric one to `limit`.
   double last_towards(double limit) const {
-    double good = std::abs(from_);
+    double good = from_;
     if (at(limit)) return limit;
     double bad = limit;
     for (int i = 0; i < 60; ++i) {
@@ -60,7 +59,14 @@ class Family {
 
  private:
   double from_;
-  double alpha_;
+  const Solve& solve_;
+};
+
+/// One of those curves, and what areas they have.
+template <class Solution>
+struct Found {
+  Solution solution;
+  VolumeRange range;
 };
 
 std::unexpected<core::Failure> unreachable(const VolumeRange& range, double volume) {
@@ -74,12 +80,9 @@ std::unexpected<core::Failure> unreachable(const VolumeRange& range, double volu
   return core::fail(ErrorCode::undrawable, text, hint, "volume");
 }
 
-core::Result<void> checked(const Pose2& start, core::Point2 end, double alpha, double volume) {
+core::Result<void> checked(const Pose2& start, core::Point2 end, double volume) {
   if (!is_finite(start.position) || !std::isfinite(start.direction) || !is_finite(end)) {
     return core::fail(ErrorCode::bad_input, "a position or direction is not finite");
-  }
-  if (!is_slope(alpha)) {
-    return core::fail(ErrorCode::bad_input, kSlopeRule, {}, "alpha");
   }
   if (!(volume >= 0) || std::isinf(volume)) {
     return core::fail(ErrorCode::bad_input, "the volume must be a number from 0 on", {}, "volume");
@@ -91,20 +94,55 @@ core::Result<void> checked(const Pose2& start, core::Point2 end, double alpha, d
   return {};
 }
 
-void place_at(SegmentSolution& solution, const Pose2& start, double chord) {
-  Segment& s = solution.segment;
-  s.start = start;
-  s.length *= chord;
-  s.curvature_start /= chord;
-  s.curvature_end /= chord;
+/// The curve of a chord of length 1 in its place.
+void place_at(Chain& chain, const Pose2& start, double chord) {
+  chain.start = start;
+  for (Piece& p : chain.pieces)
+    p = {p.alpha, p.length * chord, p.curvature_start / chord, p.curvature_end / chord};
 }
 
-core::Result<VolumeSolution> straight(const Pose2& start, double chord, double alpha,
-                                      double volume) {
+/// How a request stands to its chord.
+struct Across {
+  double chord = 1;
+  double from = 0;  ///< of the start direction, from the chord
+};
+Across across_of(const Pose2& start, core::Point2 end) {
+  const Vector2 way = end - start.position;
+  return {norm(way), core::wrap_angle(start.direction - core::direction_of(way))};
+}
+
+/// The curve of the family with this volume, over a chord of length 1.
+template <class Solve>
+auto with_volume(const Across& across, double widest, double volume, const Solve& solve)
+    -> core::Result<Found<typename decltype(solve(1.0))::value_type>> {
+  const double from = std::abs(across.from);
+  const Family<Solve> family(from, solve);
+  if (!family.at(from)) {
+    return core::fail(ErrorCode::undrawable, "the direction points straight back along the chord",
+                      "turn it to one side");
+  }
+  const double square = across.chord * across.chord;
+  const double unit_volume = volume / square;
+  const double low = family.last_towards(1e-9 * from);
+  const double high = family.last_towards(widest);
+  const VolumeRange range{family.area(low), family.area(high)};
+  const VolumeRange reachable{range.smallest * square, range.largest * square};
+  if (!(unit_volume >= range.smallest) || !(unit_volume <= range.largest)) {
+    return unreachable(reachable, volume);
+  }
+  const auto arrival = numeric::bracketed_root(
+      [&](double b) { return family.area(b) - unit_volume; }, low, high, 1e-15);
+  auto found = arrival ? family.at(*arrival) : std::nullopt;
+  if (!found) {
+    return core::fail(ErrorCode::not_converged, "the search for the end direction broke down");
+  }
+  return Found<typename decltype(solve(1.0))::value_type>{std::move(*found), reachable};
+}
+
+/// The line, where the direction is that of the chord.
+core::Result<void> only_straight(double volume) {
   if (volume > 0) return unreachable({0, 0}, volume);
-  VolumeSolution line;
-  line.solution.segment = {start, alpha, chord, 0, 0};
-  return line;
+  return {};
 }
 
 }  // namespace
@@ -135,36 +173,73 @@ double chord_area(const Segment& segment) {
   return 0.5 * segment.length * sum;
 }
 
+double chord_area(const Chain& chain) {
+  double twice = 0;
+  double own = 0;
+  const auto at = joints(chain);
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    own += chord_area(place(chain.pieces[i], at[i]));
+    twice += cross(at[i].position - at[0].position, at[i + 1].position - at[0].position);
+  }
+  return own + 0.5 * twice;
+}
+
 core::Result<VolumeSolution> solve_volume(const Pose2& start, core::Point2 end, double alpha,
                                           double volume) {
-  if (const auto ok = checked(start, end, alpha, volume); !ok) return std::unexpected(ok.error());
-  const Vector2 across = end - start.position;
-  const double chord = norm(across);
-  const double from = core::wrap_angle(start.direction - core::direction_of(across));
-  if (from == 0) return straight(start, chord, alpha, volume);
-  const Family family(from, alpha);
-  if (!family.at(std::abs(from))) {
-    return core::fail(ErrorCode::undrawable, "the direction points straight back along the chord",
-                      "turn it to one side");
+  if (const auto ok = checked(start, end, volume); !ok) return std::unexpected(ok.error());
+  if (!is_slope(alpha)) return core::fail(ErrorCode::bad_input, kSlopeRule, {}, "alpha");
+  const Across across = across_of(start, end);
+  VolumeSolution answer;
+  if (across.from == 0) {
+    if (auto line = only_straight(volume); !line) return std::unexpected(line.error());
+    answer.solution.chain = lac::chain_of(Segment{start, alpha, across.chord, 0, 0});
+    return answer;
   }
-  const double unit_volume = volume / chord / chord;
-  const double low = family.last_towards(1e-9 * std::abs(from));
-  const double high = family.last_towards(core::kPi - 1e-6);
-  const VolumeRange range{family.area(low), family.area(high)};
-  const VolumeRange reachable{range.smallest * chord * chord, range.largest * chord * chord};
-  if (!(unit_volume >= range.smallest) || !(unit_volume <= range.largest)) {
-    return unreachable(reachable, volume);
+  const auto solve = [&](double arrival) -> std::optional<G1Chain> {
+    const double to = across.from > 0 ? -arrival : arrival;
+    auto s = solve_g1_directions_chain({{0, 0}, across.from}, {{1, 0}, to}, alpha);
+    return s ? std::optional(std::move(*s)) : std::nullopt;
+  };
+  auto found = with_volume(across, core::kPi - 1e-6, volume, solve);
+  if (!found) return std::unexpected(found.error());
+  answer.solution = std::move(found->solution);
+  answer.volume = area_of(answer.solution) * across.chord * across.chord;
+  answer.reachable = found->range;
+  place_at(answer.solution.chain, start, across.chord);
+  return answer;
+}
+
+core::Result<CompoundVolumeSolution> solve_volume(const Pose2& start, core::Point2 end,
+                                                  const CompoundRhythm& rhythm, double volume) {
+  if (const auto ok = checked(start, end, volume); !ok) return std::unexpected(ok.error());
+  const Across across = across_of(start, end);
+  CompoundVolumeSolution answer;
+  // The rhythm is checked by the solver itself, with a triangle that every rhythm meets.
+  if (auto sound = solve_compound({1, 0.5, 1, 0}, rhythm); !sound)
+    return std::unexpected(sound.error());
+  if (across.from == 0) {
+    if (auto line = only_straight(volume); !line) return std::unexpected(line.error());
+    const auto& [a0, a1, share] = rhythm;
+    answer.solution.chain = {
+        start, {{a0, across.chord * share, 0, 0}, {a1, across.chord * (1 - share), 0, 0}}, false};
+    answer.solution.joint = segment_at(answer.solution.chain, 1).start.position;
+    return answer;
   }
-  const auto arrival = numeric::bracketed_root(
-      [&](double b) { return family.area(b) - unit_volume; }, low, high, 1e-15);
-  const auto found = arrival ? family.at(*arrival) : std::nullopt;
-  if (!found) {
-    return core::fail(ErrorCode::not_converged, "the search for the end direction broke down");
-  }
-  VolumeSolution solution{*found, 0, reachable};
-  solution.volume = std::abs(chord_area(found->segment)) * chord * chord;
-  place_at(solution.solution, start, chord);
-  return solution;
+  const double from = std::abs(across.from);
+  const auto solve = [&](double arrival) -> std::optional<CompoundSolution> {
+    const double sign = across.from > 0 ? -1 : 1;
+    auto s = solve_compound({sign * (from + arrival), sign * from, 1, across.from}, rhythm);
+    return s ? std::optional(std::move(*s)) : std::nullopt;
+  };
+  auto found = with_volume(across, core::kPi - from - 1e-6, volume, solve);
+  if (!found) return std::unexpected(found.error());
+  answer.solution = std::move(found->solution);
+  answer.volume = area_of(answer.solution) * across.chord * across.chord;
+  answer.reachable = found->range;
+  Chain& chain = answer.solution.chain;
+  place_at(chain, start, across.chord);
+  answer.solution.joint = segment_at(chain, answer.solution.joint_piece).start.position;
+  return answer;
 }
 
 }  // namespace keyline::lac

@@ -44,12 +44,25 @@ TEST(SolveVolume, GivesBackASegment) {
     const double volume = std::abs(chord_area(s));
     const auto found = solve_volume(s.start, end_pose(s).position, alpha, volume);
     ASSERT_TRUE(found) << alpha << " " << found.error().message;
-    const Segment& f = found->solution.segment;
+    const Segment f = segment_at(found->solution.chain, 0);
     EXPECT_NEAR(found->volume, volume, 1e-11 * volume);
     EXPECT_NEAR(std::abs(chord_area(f)), volume, 1e-10 * volume);
     EXPECT_LT(distance(end_pose(f).position, end_pose(s).position), 1e-12);
     EXPECT_NEAR(f.length, 2, 1e-8) << alpha;
     EXPECT_LE(found->reachable.smallest, volume);
+  }
+}
+
+/// From slope 0 to 1 the least volumes belong to curves whose end curvatures differ by more than
+/// doubles hold: the area goes to 0 with the arrival angle b, being less than that of the triangle
+/// of both tangents, sin(a) sin(b) / (2 sin(a + b)).
+TEST(SolveVolume, ReachesSmallVolumesFromSlopeZeroToOne) {
+  for (const double alpha : {0.9999, 1.0, 0.0, 1e-4, 0.99}) {
+    const auto s = solve_volume({{0, 0}, 0.7}, {1, 0}, alpha, 1e-5);
+    ASSERT_TRUE(s) << alpha << " " << s.error().message;
+    EXPECT_NEAR(std::abs(chord_area(s->solution.chain)), 1e-5, 1e-14);
+    EXPECT_LT(distance(end_pose(s->solution.chain).position, {1, 0}), 1e-12);
+    EXPECT_LT(s->reachable.smallest, 1e-8);
   }
 }
 
