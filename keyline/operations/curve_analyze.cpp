@@ -4,6 +4,7 @@
 
 #include "keyline/curve/monotone.h"
 #include "keyline/fit/fit_spline.h"
+#include "keyline/operations/diagram_shown.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -84,20 +85,6 @@ LcgGraph graph_of(const analysis::Lcg& lcg) {
   return graph;
 }
 
-LddcGraph graph_of(const analysis::Lddc& lddc) {
-  LddcGraph graph;
-  for (const auto& bar : lddc.bars)
-    if (bar.count > 0) graph.bars.push_back({bar.low, bar.count, bar.height});
-  for (const auto& top : lddc.c_curve) graph.c_curve.push_back({top.x, top.y});
-  if (lddc.has_gradient) graph.gradient = lddc.gradient;
-  graph.noise_tops = lddc.tops.size() - lddc.c_curve.size();
-  if (lddc.c_curve.empty()) return graph;
-  graph.a = {lddc.a.x, lddc.a.y};
-  graph.b = {lddc.b.x, lddc.b.y};
-  graph.distance_ab = lddc.distance_ab;
-  return graph;
-}
-
 AnalyzedPiece shown(const analysis::PieceAnalysis& piece) {
   return {piece.extent.t,
           piece.extent.arc_length,
@@ -108,7 +95,7 @@ AnalyzedPiece shown(const analysis::PieceAnalysis& piece) {
           piece.slopes,
           piece.impression,
           graph_of(piece.lcg),
-          graph_of(piece.lddc),
+          operations::shown(piece.lddc),
           readings_of(piece.interpretations)};
 }
 
@@ -154,6 +141,20 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
 }
 
 }  // namespace
+
+LddcGraph shown(const analysis::Lddc& lddc) {
+  LddcGraph graph;
+  for (const auto& bar : lddc.bars)
+    if (bar.count > 0) graph.bars.push_back({bar.low, bar.count, bar.height});
+  for (const auto& top : lddc.c_curve) graph.c_curve.push_back({top.x, top.y});
+  if (lddc.has_gradient) graph.gradient = lddc.gradient;
+  graph.noise_tops = lddc.tops.size() - lddc.c_curve.size();
+  if (lddc.c_curve.empty()) return graph;
+  graph.a = {lddc.a.x, lddc.a.y};
+  graph.b = {lddc.b.x, lddc.b.y};
+  graph.distance_ab = lddc.distance_ab;
+  return graph;
+}
 
 AnalyzeAnswer analyze_answer(analysis::CurveAnalysis analysis) {
   AnalyzeAnswer answer;

@@ -2,6 +2,7 @@
 #include "keyline/operations/handles.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/standard_bounds.h"
 
 namespace keyline::operations {
 namespace {
@@ -28,6 +29,7 @@ struct CompoundResult {
   core::Point2 joint;
   HandlesSolution solution;
   bool clamped = false;
+  std::array<BoundsShown, 2> bounds;
   static constexpr auto describe() {
     return core::fields(
         core::flattened<&CompoundResult::curve>(),
@@ -35,7 +37,8 @@ struct CompoundResult {
         core::field<&CompoundResult::joint>("where the pieces meet"),
         core::flattened<&CompoundResult::solution>(),
         core::field<&CompoundResult::clamped>(
-            "the curvature would leave the doubles and stays constant from e^-100 and e^100 on"));
+            "the curvature would leave the doubles and stays constant from e^-100 and e^100 on"),
+        core::field<&CompoundResult::bounds>(kBounds));
   }
 };
 
@@ -48,7 +51,9 @@ core::Result<CompoundResult> run(const CompoundRequest& request, const Context&)
                         {solved->lambda0, solved->lambda1},
                         solved->joint,
                         {solved->turning, solved->chord_angle, solved->reversed},
-                        solved->clamped};
+                        solved->clamped,
+                        {bounds_shown(request.alpha[0], solved->lambda0),
+                         bounds_shown(request.alpha[1], solved->lambda1)}};
 }
 
 }  // namespace

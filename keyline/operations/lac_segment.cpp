@@ -2,6 +2,7 @@
 #include "keyline/operations/handles.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/standard_bounds.h"
 
 namespace keyline::operations {
 namespace {
@@ -20,13 +21,15 @@ struct SegmentResult {
   double lambda = 0;
   HandlesSolution solution;
   bool clamped = false;
+  BoundsShown bounds;
   static constexpr auto describe() {
     return core::fields(
         core::flattened<&SegmentResult::curve>(),
         core::field<&SegmentResult::lambda>("of the standard form in the paper's configuration"),
         core::flattened<&SegmentResult::solution>(),
         core::field<&SegmentResult::clamped>(
-            "two pieces, because one's curvatures would leave the doubles"));
+            "two pieces, because one's curvatures would leave the doubles"),
+        core::field<&SegmentResult::bounds>(kBounds));
   }
 };
 
@@ -37,7 +40,8 @@ core::Result<SegmentResult> run(const SegmentRequest& request, const Context&) {
   return SegmentResult{made({std::move(solved->chain)}),
                        solved->lambda,
                        {solved->turning, solved->chord_angle, solved->reversed},
-                       solved->clamped};
+                       solved->clamped,
+                       bounds_shown(request.alpha, solved->lambda)};
 }
 
 }  // namespace
