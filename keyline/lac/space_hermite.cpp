@@ -177,30 +177,6 @@ Search find_member(const SpaceStandardForm& form, const Invariants& wanted) {
   return s;
 }
 
-/// The member moved so that it starts and ends where it should, or its mirror image.
-SpaceChain placed(const Member& m, const SpaceHermite& data, bool mirrored) {
-  const Vector3 own = m.end.position - Point3{};
-  const Vector3 wanted = data.end - data.start;
-  const ChordFrame a = chord_frame(own, {1, 0, 0});
-  ChordFrame b = chord_frame(wanted, data.start_tangent);
-  if (mirrored) b.z = -b.z;
-  const auto turn = [&](Vector3 v) { return from(b, into(a, v)); };
-  const double scale = norm(wanted) / norm(own);
-  const double twist = mirrored ? -scale : scale;
-  SpaceChain chain = m.chain;
-  const Vector3 tangent = unit(turn({1, 0, 0}));
-  const Vector3 binormal = unit(cross(tangent, turn({0, 1, 0})));
-  chain.start = {data.start, tangent, cross(binormal, tangent), binormal};
-  for (SpacePiece& p : chain.pieces) {
-    p.length *= scale;
-    p.curvature_start /= scale;
-    p.curvature_end /= scale;
-    p.torsion_start /= twist;
-    p.torsion_end /= twist;
-  }
-  return chain;
-}
-
 /// The plane curve, with positive curvature at its start.
 Result<SpaceSolution> solve_in_plane(const SpaceHermite& data, const Invariants& i, double alpha,
                                      double beta) {
@@ -230,37 +206,14 @@ Result<SpaceSolution> solve_in_plane(const SpaceHermite& data, const Invariants&
   return solution;
 }
 
-Result<void> check(const SpaceHermite& data, double alpha, double beta, double omega) {
-  for (const auto& [value, name] : {std::pair{alpha, "alpha"}, {beta, "beta"}, {omega, "omega"}})
-    if (!std::isfinite(value))
-      return core::fail(ErrorCode::bad_input, std::string(name) + " is not finite", "", name);
-  if (!is_finite(data.start) || !is_finite(data.end))
-    return core::fail(ErrorCode::bad_input, "an end is not finite");
-  if (!(norm(data.end - data.start) > 0))
-    return core::fail(ErrorCode::bad_input, "start and end coincide", "move one of them", "end");
-  for (const Vector3 v : {data.start_tangent, data.end_tangent})
-    if (!is_finite(v) || !(norm(v) > 0))
-      return core::fail(ErrorCode::bad_input, "a tangent has no direction",
-                        "give a vector that is not zero", "tangents");
-  return {};
-}
-
 }  // namespace
 
 Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, double beta,
                                      double omega) {
-  if (auto sound = check(given, alpha, beta, omega); !sound) return std::unexpected(sound.error());
-  SpaceHermite data = given;
-  data.start_tangent = unit(given.start_tangent);
-  data.end_tangent = unit(given.end_tangent);
-  const Vector3 chord = unit(data.end - data.start);
-  const Vector3 end = into(chord_frame(chord, data.start_tangent), data.end_tangent);
-  Invariants wanted{angle_between(chord, data.start_tangent),
-                    angle_between(chord, data.end_tangent), std::atan2(-end.z, -end.y)};
-  if (std::abs(dot(cross(chord, data.start_tangent), data.end_tangent)) < 1e-12)
-    return solve_in_plane(data, wanted, alpha, beta);
-  const bool mirrored = wanted.twist < 0;
-  wanted.twist = std::abs(wanted.twist);
+  const auto setting = detail::space::setting_of(given, alpha, beta, omega);
+  if (!setting) return std::unexpected(setting.error());
+  const auto& [data, wanted, planar, mirrored] = *setting;
+  if (planar) return solve_in_plane(data, wanted, alpha, beta);
   const Search search = find_member({alpha, beta, 0, omega, 0}, wanted);
   if (!search.found) {
     return core::fail(ErrorCode::undrawable, "no space curve of these slopes meets the tangents",
@@ -270,7 +223,7 @@ Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, do
   }
   const Member& m = *search.found;
   SpaceSolution solution;
-  solution.chain = placed(m, data, mirrored);
+  solution.chain = detail::space::placed(m.chain, m.end.position - Point3{}, data, mirrored);
   solution.lambda = m.form.lambda;
   solution.nu = mirrored ? -m.form.nu : m.form.nu;
   solution.length = m.chain.pieces[0].length;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/piece_shape.h"
@@ -10,9 +12,26 @@
 
 namespace keyline::lac::detail::space {
 
+using core::ErrorCode;
+using core::Result;
 using core::Vector3;
 
 namespace {
+
+Result<void> check(const SpaceHermite& data, double alpha, double beta, double omega) {
+  for (const auto& [value, name] : {std::pair{alpha, "alpha"}, {beta, "beta"}, {omega, "omega"}})
+    if (!std::isfinite(value))
+      return core::fail(ErrorCode::bad_input, std::string(name) + " is not finite", "", name);
+  if (!is_finite(data.start) || !is_finite(data.end))
+    return core::fail(ErrorCode::bad_input, "an end is not finite");
+  if (!(norm(data.end - data.start) > 0))
+    return core::fail(ErrorCode::bad_input, "start and end coincide", "move one of them", "end");
+  for (const Vector3 v : {data.start_tangent, data.end_tangent})
+    if (!is_finite(v) || !(norm(v) > 0))
+      return core::fail(ErrorCode::bad_input, "a tangent has no direction",
+                        "give a vector that is not zero", "tangents");
+  return {};
+}
 
 Vector3 end_tangent(const Invariants& i) {
   const double s = std::sin(i.last);
@@ -28,6 +47,44 @@ ChordFrame chord_frame(Vector3 chord, Vector3 side) {
     across = cross(x, std::abs(x.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0});
   const Vector3 y = unit(across);
   return {x, y, cross(x, y)};
+}
+
+Result<Setting> setting_of(const SpaceHermite& given, double alpha, double beta, double omega) {
+  if (auto sound = check(given, alpha, beta, omega); !sound) return std::unexpected(sound.error());
+  Setting s{given, {}, false, false};
+  s.data.start_tangent = unit(given.start_tangent);
+  s.data.end_tangent = unit(given.end_tangent);
+  const Vector3 chord = unit(given.end - given.start);
+  const Vector3 end = into(chord_frame(chord, s.data.start_tangent), s.data.end_tangent);
+  s.wanted = {angle_between(chord, s.data.start_tangent), angle_between(chord, s.data.end_tangent),
+              std::atan2(-end.z, -end.y)};
+  s.planar = std::abs(dot(cross(chord, s.data.start_tangent), s.data.end_tangent)) < 1e-12;
+  s.mirrored = !s.planar && s.wanted.twist < 0;
+  s.wanted.twist = std::abs(s.wanted.twist);
+  return s;
+}
+
+SpaceChain placed(const SpaceChain& own_chain, Vector3 own, const SpaceHermite& data,
+                  bool mirrored) {
+  const Vector3 wanted = data.end - data.start;
+  const ChordFrame a = chord_frame(own, {1, 0, 0});
+  ChordFrame b = chord_frame(wanted, data.start_tangent);
+  if (mirrored) b.z = -b.z;
+  const auto turn = [&](Vector3 v) { return from(b, into(a, v)); };
+  const double scale = norm(wanted) / norm(own);
+  const double twist = mirrored ? -scale : scale;
+  SpaceChain chain = own_chain;
+  const Vector3 tangent = unit(turn({1, 0, 0}));
+  const Vector3 binormal = unit(cross(tangent, turn({0, 1, 0})));
+  chain.start = {data.start, tangent, cross(binormal, tangent), binormal};
+  for (SpacePiece& p : chain.pieces) {
+    p.length *= scale;
+    p.curvature_start /= scale;
+    p.curvature_end /= scale;
+    p.torsion_start /= twist;
+    p.torsion_end /= twist;
+  }
+  return chain;
 }
 
 double angle_between(Vector3 a, Vector3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/core/point.h"
+#include "keyline/lac/space_hermite.h"
 #include "keyline/lac/space_shooting.h"
 
 /// Internals of the space Hermite solver: how far a curve is from the data, Newton's method on
@@ -20,6 +21,22 @@ struct Invariants {
   double last = 0;
   double twist = 0;
 };
+
+/// Data made ready: unit tangents, and what does not depend on place.
+struct Setting {
+  SpaceHermite data;
+  Invariants wanted;      ///< with the twist not negative
+  bool planar = false;    ///< all in one plane, to 1e-12
+  bool mirrored = false;  ///< the end tangent is turned clockwise about the chord
+};
+/// bad_input where a number is not finite, the ends coincide or a tangent has no direction.
+core::Result<Setting> setting_of(const SpaceHermite& given, double alpha, double beta,
+                                 double omega);
+
+/// A curve of the standard frame with the given chord moved so that it starts and ends where it
+/// should, or its mirror image.
+SpaceChain placed(const SpaceChain& own_chain, core::Vector3 own, const SpaceHermite& data,
+                  bool mirrored);
 
 /// Orthonormal, x along the chord.
 struct ChordFrame {
