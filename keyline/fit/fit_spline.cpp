@@ -6,8 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "keyline/core/text.h"
 #include "keyline/fit/canonical.h"
 #include "keyline/fit/final_spline.h"
+#include "keyline/fit/knot_rates.h"
 
 namespace keyline::fit {
 namespace {
@@ -74,7 +76,7 @@ struct Found {
 };
 
 core::Result<Found> find_knots(const detail::CanonicalData& canonical, double rounding,
-                               const SplineFitOptions& options) {
+                               const SplineFitOptions& options, const GeneticRates& rates) {
   Found found;
   found.report.rounding = rounding;
   found.report.seed = options.seed;
@@ -98,7 +100,7 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
     return core::fail(ErrorCode::bad_input, "too few different points for a spline of this order",
                       "give at least as many points as the order");
   }
-  KnotSearchResult searched = search_knots(solver, criterion, search_options(options));
+  KnotSearchResult searched = search_knots(solver, criterion, search_options(options), rates);
   found.knots = detail::given_direction(canonical, std::move(searched.knots));
   found.report.status = searched.cancelled ? SplineFitStatus::cancelled : SplineFitStatus::complete;
   found.report.generations = searched.generations;
@@ -236,6 +238,11 @@ SplineFitOptions SplineFitOptions::for_fairing() {
 
 core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<const double> weights,
                                    const SplineFitOptions& options) {
+  return fit_spline(points, weights, options, GeneticRates{});
+}
+
+core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<const double> weights,
+                                   const SplineFitOptions& options, const GeneticRates& rates) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   if (auto ok = check_points(points, options.order); !ok) return std::unexpected(ok.error());
   const auto w = all_weights(points.size(), weights, options.must_pass);
@@ -254,7 +261,7 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
   const OrderedPoints searched = options.closed ? overlapped(run) : run;
   const auto found =
       find_knots(detail::canonical_curve(searched.points, searched.parameters, searched.weights),
-                 curve_rounding(points, options.rounding), options);
+                 curve_rounding(points, options.rounding), options, rates);
   if (!found) return std::unexpected(found.error());
   const SplineData data = planar_data(run, points.front());
   const auto spline = options.closed
@@ -279,6 +286,13 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
 core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<const double> y,
                                        std::span<const double> weights,
                                        const SplineFitOptions& options) {
+  return fit_function(x, y, weights, options, SplineSettings{});
+}
+
+core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<const double> y,
+                                       std::span<const double> weights,
+                                       const SplineFitOptions& options,
+                                       const SplineSettings& settings) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   if (x.size() != y.size()) {
     return core::fail(ErrorCode::bad_input, "as many y as x are needed");
@@ -295,15 +309,22 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
       !std::isfinite((*most - *least) * static_cast<double>(y.size()))) {
     return core::fail(ErrorCode::bad_input, "x are all equal, or x or y too far apart");
   }
+  if (settings.interval &&
+      !(settings.interval->low <= range.low && range.high <= settings.interval->high))
+    return core::fail(ErrorCode::bad_input, "the interval does not hold all data",
+                      "give one from " + core::number_text(range.low, 9) + " or less to " +
+                          core::number_text(range.high, 9) + " or more",
+                      "interval");
   const double rounding = options.rounding > 0 ? options.rounding : detail::decimal_rounding(y);
   const auto found =
       find_knots(detail::canonical_function(data.parameters, data.columns[0], data.weights),
-                 rounding, options);
+                 rounding, options, settings.rates);
   if (!found) return std::unexpected(found.error());
   std::vector<double> knots;
   for (const double t : found->knots) knots.push_back(core::at(range, t));
   std::erase_if(knots, [&](double t) { return !(t > range.low && t < range.high); });
-  const auto spline = detail::final_fit(data, range, knots, options.order);
+  const auto spline =
+      detail::final_fit(data, settings.interval.value_or(range), knots, options.order);
   if (!spline) {
     return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order");
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "keyline/fit/knot_polish.h"
+#include "keyline/fit/knot_rates.h"
 #include "keyline/numeric/genetic.h"
 
 namespace keyline::fit {
@@ -26,9 +27,10 @@ class KnotProblem {
   using Genome = std::vector<double>;
 
   KnotProblem(const SplineSolver& solver, const BayesCriterion& criterion,
-              const KnotSearchOptions& options)
+              const KnotSearchOptions& options, double insertion)
       : criterion_(criterion),
         domain_(solver.domain()),
+        insertion_(insertion),
         solvers_(static_cast<std::size_t>(numeric::thread_count(options.threads)), solver) {
     const auto order = static_cast<std::size_t>(solver.order());
     most_knots_ = solver.data_count() > order ? (solver.data_count() - order) / 2 : 0;
@@ -66,9 +68,9 @@ class KnotProblem {
     b = std::move(new_b);
   }
 
-  /// Inserts or deletes a knot with equal probability.
+  /// Inserts or deletes a knot.
   void mutate(Genome& knots, Random& random) const {
-    const bool insert = random.chance(0.5);
+    const bool insert = random.chance(insertion_);
     if (insert || knots.empty()) {
       const double t = inner(random);
       knots.insert(std::upper_bound(knots.begin(), knots.end(), t), t);
@@ -110,6 +112,7 @@ class KnotProblem {
 
   BayesCriterion criterion_;
   core::Interval domain_;
+  double insertion_;
   std::vector<SplineSolver> solvers_;
   std::size_t most_knots_ = 0;
   std::size_t most_initial_ = 1;
@@ -144,13 +147,17 @@ class SearchProgress {
   double best_ = kInfinity;
 };
 
-numeric::GeneticOptions genetic_options(const KnotSearchOptions& options) {
+numeric::GeneticOptions genetic_options(const KnotSearchOptions& options,
+                                        const GeneticRates& rates) {
   numeric::GeneticOptions genetic;
   genetic.population = options.population;
   genetic.generations = options.generations;
   genetic.trials = options.trials;
   genetic.seed = options.seed;
   genetic.threads = options.threads;
+  genetic.k1 = genetic.k3 = rates.crossover;
+  genetic.k2 = genetic.k4 = rates.mutation;
+  genetic.minimum_rate = rates.minimum;
   return genetic;
 }
 
@@ -199,11 +206,16 @@ double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_kn
 
 KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& criterion,
                               const KnotSearchOptions& options) {
+  return search_knots(solver, criterion, options, {});
+}
+
+KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& criterion,
+                              const KnotSearchOptions& options, const GeneticRates& rates) {
   if (auto none = without_knots(solver, criterion)) return std::move(*none);
-  KnotProblem problem(solver, criterion, options);
+  KnotProblem problem(solver, criterion, options, rates.insertion);
   SearchProgress progress(options.progress, steps_of(options));
   const auto trials =
-      numeric::evolve_trials(problem, genetic_options(options),
+      numeric::evolve_trials(problem, genetic_options(options, rates),
                              [&](int, int, double best) { return progress.step(best); });
   KnotSearchResult result;
   std::vector<detail::ScoredKnots> ends(trials.size());

@@ -1,5 +1,4 @@
-#include "keyline/fit/fit_spline.h"
-
+#include "keyline/fit/knot_rates.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
@@ -15,6 +14,7 @@ struct SplineFitRequest {
   std::optional<std::vector<double>> y;
   std::vector<double> weights;
   SplineFitOptions options;
+  fit::SplineSettings settings;
   static constexpr auto describe() {
     using Request = SplineFitRequest;
     return core::fields(
@@ -26,6 +26,10 @@ struct SplineFitRequest {
             "indices of points the curve must pass, from 0"),
         core::field<&Request::options, &SplineFitOptions::closed>("the points are a closed loop"),
         core::flattened<&Request::options>(),
+        core::field<&Request::settings, &fit::SplineSettings::rates>(
+            "how often the genetic search crosses and mutates"),
+        core::field<&Request::settings, &fit::SplineSettings::interval>(
+            "of a function: [a, b] the spline is wanted on, which holds all x"),
         core::field<&Request::options, &SplineFitOptions::seed>(
             "of the search; the same seed, the same result"));
   }
@@ -108,11 +112,15 @@ Result<SplineFitAnswer> run(const SplineFitRequest& request, const Context& cont
   options.threads = context.threads;
   options.progress = context.progress;
   if (graph) {
-    auto fit = fit::fit_function(*request.x, *request.y, request.weights, options);
+    auto fit =
+        fit::fit_function(*request.x, *request.y, request.weights, options, request.settings);
     if (!fit) return std::unexpected(fit.error());
     return answer_of(*fit, graph_of(fit->spline));
   }
-  auto fit = fit::fit_spline(*request.points, request.weights, options);
+  if (request.settings.interval)
+    return core::fail(core::ErrorCode::bad_input, "only a function has an interval",
+                      "give x and y, or no interval", "interval");
+  auto fit = fit::fit_spline(*request.points, request.weights, options, request.settings.rates);
   if (!fit) return std::unexpected(fit.error());
   return answer_of(*fit, fit->curve);
 }
