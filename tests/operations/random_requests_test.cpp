@@ -1,0 +1,389 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "own_numerics.h"
+
+/// Requests drawn at random, answers judged by numerics of the tests' own. 2,000 requests in all;
+/// with KEYLINE_FULL set 1e5 of each kind. The seed of each kind is in its test.
+namespace keyline::operations {
+namespace {
+
+using nlohmann::json;
+using own::answered;
+using own::requests;
+using own::uniform;
+using own::wrapped;
+using Random = std::mt19937_64;
+
+constexpr double kPi = std::numbers::pi;
+
+double sign(Random& random) { return random() % 2 == 0 ? 1 : -1; }
+double power_of_ten(Random& random, double low, double high) {
+  return std::pow(10, uniform(random, low, high));
+}
+
+/// Any slope, whole ones and those next to 0 and 1 often.
+double any_slope(Random& random) {
+  switch (random() % 6) {
+    case 0:
+      return static_cast<double>(random() % 5) - 2;
+    case 1:
+      return sign(random) * power_of_ten(random, -8, 0);
+    case 2:
+      return 1 + sign(random) * power_of_ten(random, -8, 0);
+    default:
+      return uniform(random, -4, 4);
+  }
+}
+
+/// Handles turning by theta with the chord at psi from the first tangent, anywhere, of any size.
+struct Handles {
+  json points;
+  double theta = 0, psi = 0, chord = 1;
+  json reversed() const { return {points[2], points[1], points[0]}; }
+  json mirrored() const {
+    json m = points;
+    for (json& p : m) p[1] = -p[1].get<double>();
+    return m;
+  }
+  double direction(std::size_t i) const {
+    return std::atan2(points[i + 1][1].get<double>() - points[i][1].get<double>(),
+                      points[i + 1][0].get<double>() - points[i][0].get<double>());
+  }
+};
+
+Handles any_handles(Random& random) {
+  Handles h;
+  h.theta = std::exp(uniform(random, std::log(0.05), std::log(2.9)));
+  const double edge = power_of_ten(random, -6, -0.3);
+  h.psi = h.theta * (random() % 2 == 0 ? edge : 1 - edge);
+  h.chord = power_of_ten(random, -2, 3);
+  const double side = sign(random), axis = uniform(random, -kPi, kPi);
+  const double x = uniform(random, -3, 3) * h.chord, y = uniform(random, -3, 3) * h.chord;
+  const double s = std::sin(h.theta - h.psi) / std::sin(h.theta);
+  const auto put = [&](double a, double b) {
+    b *= side;
+    return json{x + h.chord * (a * std::cos(axis) - b * std::sin(axis)),
+                y + h.chord * (a * std::sin(axis) + b * std::cos(axis))};
+  };
+  h.points = {put(0, 0), put(s * std::cos(h.psi), -s * std::sin(h.psi)), put(1, 0)};
+  return h;
+}
+
+void expect_sound(const json& answer, const std::vector<std::string>& empty_fields = {}) {
+  EXPECT_EQ(own::holes(answer["result"], empty_fields), std::vector<std::string>{});
+  EXPECT_EQ(own::faults(answer["result"]["curve"]), std::vector<std::string>{});
+}
+
+constexpr double kExact = 3e-13;  // of the chord: coordinates of up to 3 chords, and quadrature
+
+/// The largest error a test has met, told with its result (docs/accuracy.md).
+class Worst {
+ public:
+  explicit Worst(std::string what) : what_(std::move(what)) {}
+  ~Worst() {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1e", largest_);
+    testing::Test::RecordProperty(what_, text);
+  }
+  void expect_below(double error, double allowed) {
+    EXPECT_LT(error, allowed) << what_;
+    largest_ = std::max(largest_, error);
+  }
+
+ private:
+  std::string what_;
+  double largest_ = 0;
+};
+
+/// From P0 to P2 along both tangents, within a share of the chord.
+void expect_meets(const own::Track& track, const Handles& h, Worst& worst) {
+  const own::Place& end = track.end();
+  const double x = h.points[2][0], y = h.points[2][1];
+  worst.expect_below(std::hypot(end.x - x, end.y - y) / h.chord, kExact);
+  worst.expect_below(std::abs(wrapped(track.places[0].direction - h.direction(0))), kExact);
+  worst.expect_below(std::abs(wrapped(end.direction - h.direction(1))), kExact);
+}
+
+/// A request answered the other way round and in a mirror: the same length.
+void expect_same_length(json request, const json& points, double length) {
+  request["points"] = points;
+  const json other = answered(request);
+  ASSERT_EQ(other["ok"], true) << other;
+  double sum = 0;
+  for (const json& p : other["result"]["curve"]["pieces"]) sum += p["length"].get<double>();
+  EXPECT_NEAR(sum / length, 1, 1e-9);
+}
+
+TEST(RandomRequests, SegmentsMeetTheirHandlesOrHaveNone) {
+  Random random(1);
+  Worst worst("end");
+  int refused = 0;
+  const int count = requests(0.13);
+  for (int n = 0; n < count; ++n) {
+    const Handles h = any_handles(random);
+    const double alpha = any_slope(random);
+    const json request{{"op", "lac.segment"}, {"points", h.points}, {"alpha", alpha}};
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    // The proof of a refusal: the chord angle lies beyond that of the last curve there is.
+    const double most = own::greatest_chord_angle(alpha, h.theta);
+    const double beyond = std::max(h.psi, h.theta - h.psi) - most;
+    if (answer["ok"] == false) {
+      EXPECT_GT(beyond, -1e-9) << answer;
+      ++refused;
+      continue;
+    }
+    EXPECT_LT(beyond, 1e-9);
+    expect_sound(answer, {"bounds"});
+    const own::Track track = own::walked(answer["result"]["curve"]);
+    expect_meets(track, h, worst);
+    expect_same_length(request, h.reversed(), track.length);
+    expect_same_length(request, h.mirrored(), track.length);
+  }
+  EXPECT_GT(refused, count / 10);
+  EXPECT_LT(refused, count * 3 / 4);
+}
+
+TEST(RandomRequests, CompoundCurvesMeetTheirHandlesAllOverTheirRegion) {
+  Random random(2);
+  Worst worst("end");
+  for (int n = 0; n < requests(0.08); ++n) {
+    const Handles h = any_handles(random);
+    const json slopes{any_slope(random), any_slope(random)};
+    const double ratio = uniform(random, 0.02, 0.98);
+    const json request{
+        {"op", "lac.compound"}, {"points", h.points}, {"alpha", slopes}, {"ratio", ratio}};
+    SCOPED_TRACE(request.dump());
+    const json region = own::result_of(
+        {{"op", "lac.region"}, {"theta", h.theta}, {"alpha", slopes}, {"ratio", ratio}});
+    EXPECT_EQ(own::holes(region), std::vector<std::string>{});
+    const double low = region["psi"][0], high = region["psi"][1];
+    const json answer = answered(request);
+    if (answer["ok"] == false) {
+      EXPECT_FALSE(h.psi > low + 1e-12 && h.psi < high - 1e-12) << answer;
+      continue;
+    }
+    EXPECT_TRUE(h.psi > low - 1e-9 && h.psi < high + 1e-9);
+    expect_sound(answer, {"bounds"});
+    const own::Track track = own::walked(answer["result"]["curve"]);
+    expect_meets(track, h, worst);
+    expect_same_length(request, h.reversed(), track.length);
+    expect_same_length(request, h.mirrored(), track.length);
+  }
+}
+
+TEST(RandomRequests, HermiteCurvesMeetBothDirections) {
+  Random random(3);
+  Worst worst("end");
+  for (int n = 0; n < requests(0.15); ++n) {
+    const double alpha = any_slope(random);
+    const double spread = n % 2 == 0 ? 0.6 : 3;
+    const double from = uniform(random, -spread, spread), to = uniform(random, -spread, spread);
+    json request{{"op", "lac.hermite"},
+                 {"start", {1, 2}},
+                 {"end", {4, 2}},
+                 {"directions", {from, to}},
+                 {"alpha", alpha}};
+    if (n % 4 > 1) request["curvatures"] = {uniform(random, -1, 1), uniform(random, -1, 1)};
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    if (answer["ok"] == false) {
+      EXPECT_EQ(answer["error"]["code"], "undrawable");
+      // With an inflection there always is one; chains of slopes next to 0 need pieces so uneven
+      // that none of up to three is found.
+      const bool curved = request.contains("curvatures");
+      EXPECT_GE(alpha, curved ? -0.02 : 0) << answer;
+      if (curved) continue;
+      const double theta = std::abs(to - from);
+      const bool c_shaped = from * to < 0;
+      EXPECT_TRUE(!c_shaped || std::max(std::abs(from), std::abs(to)) >
+                                   own::greatest_chord_angle(alpha, theta) - 1e-9)
+          << answer;
+      continue;
+    }
+    expect_sound(answer);
+    const own::Track track = own::walked(answer["result"]["curve"]);
+    worst.expect_below(std::hypot(track.end().x - 4, track.end().y - 2) / 3, kExact);
+    worst.expect_below(std::abs(wrapped(track.places[0].direction - from)), kExact);
+    worst.expect_below(std::abs(wrapped(track.end().direction - to)), kExact);
+    if (!request.contains("curvatures")) continue;
+    const json& pieces = answer["result"]["curve"]["pieces"];
+    EXPECT_NEAR(pieces[0]["curvature"][0].get<double>(), request["curvatures"][0], 1e-12);
+    EXPECT_NEAR(pieces.back()["curvature"][1].get<double>(), request["curvatures"][1], 1e-12);
+  }
+}
+
+TEST(RandomRequests, SplinesPassTheirPoints) {
+  Random random(4);
+  Worst worst("points");
+  for (int n = 0; n < requests(0.04); ++n) {
+    const int count = 3 + static_cast<int>(random() % 6);
+    json request{{"op", "lac.spline"}, {"closed", random() % 3 == 0}};
+    for (int i = 0; i < count; ++i)
+      request["points"].push_back({i + uniform(random, 0, 0.8), uniform(random, 0, 2.5)});
+    const int spans = request["closed"] == true ? count : count - 1;
+    for (int i = 0; i < spans; ++i)
+      request["alpha"].push_back(random() % 3 == 0 ? 0.0 : any_slope(random));
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    ASSERT_EQ(answer["ok"], true) << answer;
+    expect_sound(answer);
+    const own::Track track = own::walked(answer["result"]["curve"]);
+    for (const json& p : request["points"]) {
+      double least = 1e9;
+      for (const std::size_t joint : track.joints)
+        least = std::min(least, std::hypot(track.places[joint].x - p[0].get<double>(),
+                                           track.places[joint].y - p[1].get<double>()));
+      worst.expect_below(least / count, kExact);
+    }
+    if (request["closed"] == true) {
+      EXPECT_LT(std::abs(wrapped(track.end().direction - track.places[0].direction)), 1e-12);
+    }
+  }
+}
+
+TEST(RandomRequests, VolumesAreTheAreasAskedFor) {
+  Random random(5);
+  Worst worst_end("end"), worst_area("area");
+  int drawn = 0;
+  for (int n = 0; n < requests(0.05); ++n) {
+    json request{{"op", "lac.volume"},
+                 {"points", {{0, 0}, {1, 0}}},
+                 {"direction", sign(random) * power_of_ten(random, -2, 0.2)},
+                 {"alpha", any_slope(random)},
+                 {"volume", power_of_ten(random, -2.5, -0.3)}};
+    if (n % 2 == 0) {
+      request["alpha"] = {any_slope(random), any_slope(random)};
+      request["ratio"] = uniform(random, 0.05, 0.95);
+    }
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    if (answer["ok"] == false) {
+      EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
+      continue;
+    }
+    ++drawn;
+    EXPECT_EQ(own::holes(answer["result"]), std::vector<std::string>{});
+    const own::Track track = own::walked(answer["result"]["curve"]);
+    worst_end.expect_below(std::hypot(track.end().x - 1, track.end().y), kExact);
+    worst_area.expect_below(std::abs(std::abs(track.area) / request["volume"].get<double>() - 1),
+                            1e-9);
+    EXPECT_NEAR(track.places[0].direction, request["direction"].get<double>(), 1e-13);
+  }
+  EXPECT_GT(drawn, requests(0.05) / 4);
+}
+
+TEST(RandomRequests, BlendsLeaveAndJoinTheirCurves) {
+  Random random(6);
+  for (int n = 0; n < requests(0.04); ++n) {
+    const auto curve = [&] {
+      return json{{"type", "log-aesthetic"},
+                  {"start", {uniform(random, 0, 2), uniform(random, 0, 2)}},
+                  {"direction", uniform(random, -3, 3)},
+                  {"pieces",
+                   {{{"alpha", -1},
+                     {"length", uniform(random, 0.5, 2)},
+                     {"curvature", {uniform(random, -1, 1), uniform(random, -1, 1)}}}}}};
+    };
+    const char* orders[] = {"G1", "G2", "G3"};
+    const json request{{"op", "lac.blend"},
+                       {"curves", {curve(), curve()}},
+                       {"order", orders[n % 3]},
+                       {"alpha", random() % 2 == 0 ? -1 : any_slope(random)}};
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    if (answer["ok"] == false) {
+      EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
+      continue;
+    }
+    expect_sound(answer);
+    const own::Place from = own::walked(request["curves"][0]).end();
+    const own::Place to = own::walked(request["curves"][1]).places[0];
+    const own::Track track = own::walked(answer["result"]["curve"]);
+    EXPECT_LT(std::hypot(track.places[0].x - from.x, track.places[0].y - from.y), 1e-12);
+    EXPECT_LT(std::hypot(track.end().x - to.x, track.end().y - to.y), 1e-11);
+    EXPECT_LT(std::abs(wrapped(track.places[0].direction - from.direction)), 1e-12);
+    EXPECT_LT(std::abs(wrapped(track.end().direction - to.direction)), 1e-11);
+  }
+}
+
+TEST(RandomRequests, QuasiCurvesMeetHandlesAndBoundAndBestIsBest) {
+  Random random(7);
+  Worst worst("best");
+  const char* forms[] = {"best",           "taylor-angle", "taylor-arc",
+                         "discrete-angle", "discrete-arc", "rational-cubic"};
+  for (int n = 0; n < requests(0.008); ++n) {
+    const Handles h = any_handles(random);
+    const double alpha = uniform(random, -3, 3);
+    const int degree = 5 + static_cast<int>(random() % 6);
+    double best = 0;
+    for (const std::string form : forms) {
+      const json request{{"op", "lac.quasi"},
+                         {"points", h.points},
+                         {"alpha", alpha},
+                         {"form", form},
+                         {"degree", form == "rational-cubic" ? 3 : degree}};
+      SCOPED_TRACE(request.dump());
+      const json answer = answered(request);
+      if (answer["ok"] == false) continue;
+      const json& result = answer["result"];
+      EXPECT_EQ(own::holes(result, {"lcg"}), std::vector<std::string>{});
+      const double told = result["deviation"];
+      if (form == "best") {
+        best = told;
+        worst.expect_below(told / h.chord, 1e-2);
+      }
+      EXPECT_LE(best, told * (1 + 1e-9) + 1e-13 * h.chord);
+      const own::Track target = own::walked(result["target"]);
+      double farthest = 0;
+      const std::size_t step = 1 + target.places.size() / 40;
+      for (std::size_t i = 0; i < target.places.size(); i += step)
+        farthest = std::max(
+            farthest,
+            own::distance_from_bezier(result["curve"], {target.places[i].x, target.places[i].y}));
+      EXPECT_LE(farthest, told + 1e-12 * h.chord);
+      const json& p = result["curve"]["points"];
+      const Handles control{{p[0], p[1], p[1]}, 0, 0, 1};
+      const Handles last{{p[p.size() - 2], p.back(), p.back()}, 0, 0, 1};
+      EXPECT_LT(std::abs(wrapped(control.direction(0) - h.direction(0))), 1e-7);
+      EXPECT_LT(std::abs(wrapped(last.direction(0) - h.direction(1))), 1e-7);
+    }
+  }
+}
+
+TEST(RandomRequests, SpaceCurvesMeetBothTangentsAlsoInAMirror) {
+  Random random(8);
+  constexpr double kJudged = 1e-4;  // Runge and Kutta's over an inflection, where the rate is steep
+  Worst worst("end");
+  for (int n = 0; n < requests(0.008); ++n) {
+    const auto vector = [&] { return json{1.0, uniform(random, -1, 1), uniform(random, -1, 1)}; };
+    const json first = vector(), last = vector();
+    json request{{"op", "lac.space"},
+                 {"start", {0, 0, 0}},
+                 {"end", {2, 0, 0}},
+                 {"tangents", {first, last}},
+                 {"alpha", uniform(random, -2, 0)},
+                 {"beta", uniform(random, -2, 2)},
+                 {"omega", uniform(random, -0.2, 0.2)}};
+    SCOPED_TRACE(request.dump());
+    const json result = own::result_of(request);
+    const own::SpaceEnd end = own::integrated(result["curve"], 400);
+    const double size = std::hypot(1.0, last[1].get<double>(), last[2].get<double>());
+    for (std::size_t i = 0; i < 3; ++i) {
+      worst.expect_below(std::abs(end.place[i] - (i == 0 ? 2 : 0)) / 2, kJudged);
+      worst.expect_below(std::abs(end.tangent[i] - last[i].get<double>() / size), kJudged);
+    }
+    for (json& t : request["tangents"]) t[2] = -t[2].get<double>();
+    EXPECT_NEAR(own::result_of(request)["length"], result["length"].get<double>(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::operations
