@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+
+#include "keyline/core/text.h"
 
 namespace keyline::acquire {
 namespace {
@@ -177,6 +180,26 @@ Plane plane_of(Vector3 normal, double offset) {
   return {origin, cross(unit, normal), unit};
 }
 
+namespace {
+
+/// What there is to cut: the bounding box, and the planes through its middle.
+std::string planes_of(const Box& box) {
+  constexpr int kDigits = 4;
+  const auto side = [](char axis, double low, double high) {
+    return std::string(1, axis) + " from " + core::number_text(low, kDigits) + " to " +
+           core::number_text(high, kDigits);
+  };
+  const auto middle = [](char axis, double low, double high) {
+    return std::string(1, axis) + "=" + core::number_text(0.5 * low + 0.5 * high, kDigits);
+  };
+  return "the points lie in " + side('x', box.low.x, box.high.x) + ", " +
+         side('y', box.low.y, box.high.y) + ", " + side('z', box.low.z, box.high.z) +
+         "; name a plane, as in " + middle('x', box.low.x, box.high.x) + ", " +
+         middle('y', box.low.y, box.high.y) + " or " + middle('z', box.low.z, box.high.z);
+}
+
+}  // namespace
+
 core::Result<SymmetryPlane> symmetry_plane(std::span<const Point3> points) {
   const bool finite =
       std::all_of(points.begin(), points.end(), [](Point3 p) { return core::is_finite(p); });
@@ -208,8 +231,7 @@ core::Result<SymmetryPlane> symmetry_plane(std::span<const Point3> points) {
     best = next;
   }
   if (least > 0.5 * side)
-    return core::fail(core::ErrorCode::undrawable, "there is no plane of symmetry",
-                      "name the plane, as in y=0");
+    return core::fail(core::ErrorCode::undrawable, "there is no plane of symmetry", planes_of(box));
   const Mirror plain = settled(best, least, probes, cubes);
   return SymmetryPlane{plane_of(plain.normal, plain.offset), least};
 }

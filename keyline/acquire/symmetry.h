@@ -20,8 +20,8 @@ struct SymmetryPlane {
 /// midpoints, up to ten rounds). A coordinate direction, and position 0 in it, are taken where they
 /// fit as well (2 %). Uses at most 4,000 points against at most 200,000.
 /// Fails: bad_input for fewer than 20 points, points that are not finite or without extent;
-///        undrawable where mirrored points are further than half a spacing more than unrelated
-///        ones.
+///        undrawable, with the bounding box and the planes through its middle as a hint, where
+///        mirrored points are further than half a spacing more than unrelated ones.
 core::Result<SymmetryPlane> symmetry_plane(std::span<const core::Point3> points);
 
 /// The plane of points p with dot(p, normal) = offset, |normal| = 1; its axes as in fit_plane().

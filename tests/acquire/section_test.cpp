@@ -49,6 +49,20 @@ TEST(Section, FeetGoAlongTheSurface) {
   EXPECT_LE(most, 2e-3);  // straight onto the plane: 0.8 * 0.03
 }
 
+TEST(Symmetry, WithoutAPlaneTheBoxAndPlanesAreOffered) {
+  // Two turns of a coil: half a turn about a line across matches, no mirror does.
+  std::vector<Point3> coil;
+  for (int i = 0; i < 6000; ++i) {
+    const double t = i / 5999.0;
+    coil.push_back({std::cos(4 * core::kPi * t), std::sin(4 * core::kPi * t), 10 * t});
+  }
+  const auto found = symmetry_plane(coil);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, core::ErrorCode::undrawable);
+  EXPECT_NE(found.error().hint.find("z from 0 to 10"), std::string::npos) << found.error().hint;
+  EXPECT_NE(found.error().hint.find("or z=5"), std::string::npos) << found.error().hint;
+}
+
 TEST(Section, PointsThereSeveralTimesCountOnce) {
   Random random(5);
   RawCurve once = empty_cloud();
