@@ -76,8 +76,10 @@ std::vector<std::size_t> KdTree::nearest(core::Point2 p, std::size_t count,
   std::vector<std::size_t> indices;
   if (count == 0) return indices;
   Search search{p, count, except, std::numeric_limits<double>::infinity(), {}};
+  search.found.reserve(std::min(count, points_.size()) + 1);
   visit(0, order_.size(), 0, search);
   std::sort(search.found.begin(), search.found.end());
+  indices.reserve(search.found.size());
   for (const auto& [d, index] : search.found) indices.push_back(index);
   return indices;
 }

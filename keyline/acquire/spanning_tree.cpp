@@ -17,6 +17,30 @@ bool shorter(const Edge& p, const Edge& q) {
   return std::tie(p.length, p.a, p.b) < std::tie(q.length, q.a, q.b);
 }
 
+Edge edge_between(std::span<const core::Point2> points, std::size_t i, std::size_t k) {
+  return {static_cast<std::uint32_t>(std::min(i, k)), static_cast<std::uint32_t>(std::max(i, k)),
+          core::distance(points[i], points[k])};
+}
+
+/// Calls each(i, k) for every pair of neighbours, once where both name each other.
+template <class Each>
+void each_pair(const std::vector<std::vector<std::size_t>>& neighbours, Each&& each) {
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+    for (const std::size_t k : neighbours[i])
+      if (i < k || std::ranges::find(neighbours[k], i) == neighbours[k].end()) each(i, k);
+}
+
+std::vector<Edge> edges_of(std::span<const core::Point2> points,
+                           const std::vector<std::vector<std::size_t>>& neighbours) {
+  std::size_t count = 0;
+  each_pair(neighbours, [&](std::size_t, std::size_t) { ++count; });
+  std::vector<Edge> edges;
+  edges.reserve(count);
+  each_pair(neighbours,
+            [&](std::size_t i, std::size_t k) { edges.push_back(edge_between(points, i, k)); });
+  return edges;
+}
+
 /// The shortest edge from the tree of point 0 to any other.
 Edge bridge(std::span<const core::Point2> points, core::DisjointSets& sets) {
   std::vector<core::Point2> inside;
@@ -33,7 +57,8 @@ Edge bridge(std::span<const core::Point2> points, core::DisjointSets& sets) {
     if (sets.find(i) == home) continue;
     const auto near = tree.nearest(points[i], 1, std::numeric_limits<std::size_t>::max());
     const std::size_t k = near.front();
-    const Edge edge{index[k], i, core::distance(inside[k], points[i])};
+    const Edge edge{static_cast<std::uint32_t>(index[k]), static_cast<std::uint32_t>(i),
+                    core::distance(inside[k], points[i])};
     if (shorter(edge, best)) best = edge;
   }
   return best;
@@ -82,15 +107,11 @@ std::vector<std::vector<std::size_t>> neighbour_lists(std::span<const core::Poin
 std::vector<Edge> spanning_tree(std::span<const core::Point2> points,
                                 const std::vector<std::vector<std::size_t>>& neighbours,
                                 bool connect) {
-  std::vector<Edge> edges;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (const std::size_t k : neighbours[i]) {
-      edges.push_back({std::min(i, k), std::max(i, k), core::distance(points[i], points[k])});
-    }
-  }
+  std::vector<Edge> edges = edges_of(points, neighbours);
   std::sort(edges.begin(), edges.end(), shorter);
   core::DisjointSets sets(points.size());
   std::vector<Edge> tree;
+  tree.reserve(points.empty() ? 0 : points.size() - 1);
   for (const Edge& edge : edges) {
     if (sets.join(edge.a, edge.b)) tree.push_back(edge);
   }
