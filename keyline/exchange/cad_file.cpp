@@ -156,7 +156,7 @@ Result<Written> write_cad(const Document& document, CadFormat format, double tol
   Written written;
   const auto simple = simplified(document, tolerance, written.deviation);
   if (!simple) return std::unexpected(simple.error());
-  const std::string text = to_json(*simple).dump();
+  const std::string text = json_text(*simple, -1);
   auto child = run({"write", name_of(format)}, text, format, cad_limits(text.size()));
   if (!child) return std::unexpected(child.error());
   written.content = std::move(child->output);

@@ -272,7 +272,7 @@ Result<Written> format_in_unit(const Document& document, const std::string& exte
                                const WriteOptions& options) {
   const double size = options.tolerance > 0 ? 0 : extent(document);
   const double tolerance = options.tolerance > 0 ? options.tolerance : size > 0 ? 1e-5 * size : 1;
-  if (extension == ".json") return Written{to_json(document).dump(1) + "\n", 0, {}};
+  if (extension == ".json") return Written{json_text(document, 1) + "\n", 0, {}};
   if (extension == ".csv") return write_csv(document, options.samples);
   if (extension == ".svg") return write_svg_document(document, tolerance);
   if (extension == ".svgz") {

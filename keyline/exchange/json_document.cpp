@@ -1,6 +1,7 @@
 #include "keyline/exchange/json_document.h"
 
 #include "keyline/exchange/hull_table.h"
+#include "keyline/exchange/json_lists.h"
 #include "keyline/exchange/json_parts.h"
 #include "keyline/exchange/json_surface.h"
 #include "keyline/exchange/json_text.h"
@@ -16,12 +17,27 @@ using document::Document;
 using document::Label;
 using nlohmann::json;
 
-json path_json(const document::Path& path) {
+/// Long lists are left to `lists` where there are some to be filled.
+template <class Curve>
+json curve_json(const Curve& curve, detail::PointLists* lists) {
+  using Line = std::conditional_t<std::is_same_v<Curve, document::PlanarCurve>, curve::Polyline2,
+                                  curve::Polyline3>;
+  const auto* line = lists ? std::get_if<Line>(&curve.value) : nullptr;
+  if (!line || line->points.empty()) return to_json(curve);
+  lists->push_back(&line->points);
+  return {{"type", "polyline"}, {"points", json::array()}};
+}
+
+json path_json(const document::Path& path, detail::PointLists* lists) {
   const bool chain =
       path.curves.size() == 1 && std::holds_alternative<lac::Chain>(path.curves[0].value);
   // A closed path of one curve other than a chain says so only as a path.
   const bool plain = path.curves.size() == 1 && (chain || !path.closed);
-  return plain ? to_json(path.curves.front()) : to_json(path);
+  if (plain) return curve_json(path.curves.front(), lists);
+  json whole = to_json(document::Path{{}, path.closed});
+  for (const document::PlanarCurve& c : path.curves)
+    whole["curves"].push_back(curve_json(c, lists));
+  return whole;
 }
 
 void add_label(json& j, const Label& label) {
@@ -169,33 +185,46 @@ bool is_one_space_curve(const Document& document) {
          document.space_curves[0].label.layer.empty();
 }
 
-json value_of(const Document& document) {
-  if (!document.paths.empty()) return path_json(document.paths[0].path);
-  if (!document.space_curves.empty()) return to_json(document.space_curves[0].curve);
+json value_of(const Document& document, detail::PointLists* lists) {
+  if (!document.paths.empty()) return path_json(document.paths[0].path, lists);
+  if (!document.space_curves.empty()) return curve_json(document.space_curves[0].curve, lists);
   return to_json(document.surfaces[0].surface);
 }
 
-}  // namespace
-
-json to_json(const Document& document) {
+json tree_of(const Document& document, detail::PointLists* lists) {
   if (is_one_path(document) || is_one_surface(document) || is_one_space_curve(document)) {
-    json one = value_of(document);
+    json one = value_of(document, lists);
     add_label(one, labels(document).front());
     if (!document.unit.empty()) one["unit"] = document.unit;
     return one;
   }
   json list = json::array();
   for (const auto& named : document.paths) {
-    list.push_back(item_json(named.label, "curve", path_json(named.path)));
+    list.push_back(item_json(named.label, "curve", path_json(named.path, lists)));
     if (named.stroke_width > 0) list.back()["stroke_width"] = named.stroke_width;
   }
   for (const auto& named : document.space_curves)
-    list.push_back(item_json(named.label, "curve", to_json(named.curve)));
+    list.push_back(item_json(named.label, "curve", curve_json(named.curve, lists)));
   json j{{"curves", std::move(list)}};
   if (!document.surfaces.empty()) j["surfaces"] = surfaces_json(document);
   if (!document.unit.empty()) j["unit"] = document.unit;
   if (!document.skipped.empty()) j["skipped"] = document.skipped;
   return j;
+}
+
+}  // namespace
+
+json to_json(const Document& document) { return tree_of(document, nullptr); }
+
+std::string json_text(const Document& document, int indent, const json& further) {
+  detail::PointLists lists;
+  json tree = tree_of(document, &lists);
+  tree.update(further);
+  return detail::filled(tree.dump(indent), lists, indent);
+}
+
+std::string json_text(const Document& document, int indent) {
+  return json_text(document, indent, json::object());
 }
 
 Result<Document> document_from_json(const json& j) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include "keyline/core/error.h"
 #include "keyline/document/document.h"
@@ -21,6 +21,12 @@ namespace keyline::exchange {
 /// A document of one planar curve or surface without layer is its value, with name, colour and
 /// unit as further fields; anything else the form above. Reads back to the same doubles.
 nlohmann::json to_json(const document::Document& document);
+
+/// Its text, dump(indent) of to_json(), without the tree of its long lists of points: ten times
+/// their room. `further`: members added to the whole, if any.
+std::string json_text(const document::Document& document, int indent,
+                      const nlohmann::json& further);
+std::string json_text(const document::Document& document, int indent);
 
 /// Fails: bad_input with the place of the mistake within the value, for example
 /// "curves[2].curve.points[0]".

@@ -124,9 +124,7 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
   if (!plain) return std::unexpected(plain.error());
   const auto read = read_svg(*plain);
   if (!read) return std::unexpected(read.error());
-  json metadata = to_json(document);
-  metadata[kFingerprint] = fingerprint(*read);
-  options.metadata = metadata.dump();
+  options.metadata = json_text(document, -1, {{kFingerprint, fingerprint(*read)}});
   auto text = write_svg(layers, options);
   if (!text) return std::unexpected(text.error());
   written.content = std::move(*text);

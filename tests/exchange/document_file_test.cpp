@@ -1,5 +1,6 @@
 #include "keyline/exchange/document_file.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -50,6 +51,32 @@ Document mixed() {
   surface::BezierSurface patch{{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1.0 / 3}}}, {}};
   d.surfaces.push_back({{"hood", "skin", ""}, patch, 4});
   return d;
+}
+
+/// Polylines alone, on a path and in space, under names that read like the text around them.
+Document polylines() {
+  Document d;
+  const curve::Polyline2 line{{{0, 0}, {1.0 / 3, -1e-7}, {1e20, 5}}};
+  d.paths.push_back({{"\"points\": []", "\"points\":[]", ""}, {{{line}}, false}, 0});
+  d.paths.push_back(
+      {{"", "", ""}, {{{line}, {curve::Bezier2{{{1e20, 5}, {1, 2}}, {}}}, {line}}, true}, 0.5});
+  d.space_curves.push_back({{"rail", "", ""}, {curve::Polyline3{{{0, 0, 1}, {1, 2, 3}}}}});
+  return d;
+}
+
+TEST(JsonDocument, ItsTextIsThatOfItsTree) {
+  Document alone = polylines();
+  alone.paths.resize(1);
+  alone.paths[0].label.layer.clear();
+  alone.space_curves.clear();
+  alone.unit = "mm";
+  Document in_space = polylines();
+  in_space.paths.clear();
+  for (const Document& d : {polylines(), alone, in_space, mixed(), Document{}})
+    for (const int indent : {-1, 0, 1, 4}) EXPECT_EQ(json_text(d, indent), to_json(d).dump(indent));
+  nlohmann::json more = to_json(alone);
+  more["drawing"] = "7";
+  EXPECT_EQ(json_text(alone, -1, {{"drawing", "7"}}), more.dump());
 }
 
 TEST(JsonDocument, ReadsBackTheSame) {
