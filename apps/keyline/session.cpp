@@ -131,8 +131,10 @@ Result<operations::Outcome> Session::perform(const std::string& operation, json 
   if (usage_.forms && operations::further_options(*named))
     request.update(arguments_.of(door_record_ - 1));
   auto outcome = operations::carry_out(operation, request, {door_.threads, progress, true});
-  if (!outcome) return std::unexpected(as_options(outcome.error()));
-  return outcome;
+  if (outcome) return outcome;
+  const std::string& place = outcome.error().path;  // a file "points" is no option
+  if (std::ranges::find(files(), place) != files().end()) return outcome;
+  return std::unexpected(as_options(outcome.error()));
 }
 
 Result<json> Session::write(const presentation::Pages& pages,

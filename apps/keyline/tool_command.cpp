@@ -90,6 +90,27 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
   return {};
 }
 
+/// Whether a result of that type holds a curve or a surface, also in its lists.
+bool makes_shapes(const core::Type& type, int depth = 0) {
+  constexpr int kDeepest = 3;  // lists within lists
+  bool found = false;
+  core::visit_fields(type, type.make().get(), [&](const Field& field, void*) {
+    const core::Type& its = field.type();
+    const bool list = its.kind == Kind::list && its.item().kind == Kind::record;
+    found = found || field.name == "curve" || field.name == "surface" ||
+            (list && depth < kDeepest && makes_shapes(its.item(), depth + 1));
+  });
+  return found;
+}
+
+/// The outputs asked for, before anything is computed.
+Result<void> check_outputs(const Session& session, const Operation& operation) {
+  if (!session.door().output.empty() && !makes_shapes(*operation.result))
+    return core::fail(core::ErrorCode::bad_input, "makes no curve that a file could hold",
+                      "leave out -o; --json prints the result", operation.name);
+  return session.check_outputs();
+}
+
 int finish(Session& session, const Made& made) {
   end_progress();
   if (!session.door().output.empty()) {
@@ -199,11 +220,12 @@ int run_tool(const Tool& tool, const Words& words) {
   if (session.files().empty())
     return report_failure(
         {core::ErrorCode::bad_input, "no file is named", session.usage_hint(), ""});
-  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  const Operation& operation = named(tool.operation);
+  if (auto done = check_outputs(session, operation); !done) return report_failure(done.error());
   Made made;
   const auto things = read_all(session, made);
   if (!things) return report_failure(things.error());
-  if (auto done = run_on_curves(session, named(tool.operation), *things, made); !done)
+  if (auto done = run_on_curves(session, operation, *things, made); !done)
     return report_failure(done.error());
   return finish(session, made);
 }
@@ -218,6 +240,8 @@ int run_list(const Words& words) {
   if (session.files().empty())
     return report_failure(
         {core::ErrorCode::bad_input, "no file is named", session.usage_hint(), ""});
+  if (auto done = check_outputs(session, named("document.list")); !done)
+    return report_failure(done.error());
   session.of(0)["file"] = session.files();
   const auto outcome = session.perform("document.list", session.of(0), session.progress());
   end_progress();
@@ -234,7 +258,7 @@ int run_plain(const std::string& name, const Words& words) {
   const Operation& operation = named(name);
   Session session = plain_session(operation);
   if (const auto status = session.begin(words)) return *status;
-  if (auto done = session.check_outputs(); !done) return report_failure(done.error());
+  if (auto done = check_outputs(session, operation); !done) return report_failure(done.error());
   json request = session.of(0);
   const auto& files = session.files();
   if (!files.empty()) request["file"] = files.size() == 1 ? json(files.front()) : json(files);

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <utility>
 
+#include "keyline/document/select.h"
+
 namespace keyline::document {
 namespace {
 
@@ -34,14 +36,14 @@ std::vector<bool> chosen(const std::vector<Label>& all, const std::string& wante
   return keep;
 }
 
-std::string known_names(const std::vector<Label>& all) {
+std::string known_names(const std::vector<std::string>& all) {
   constexpr std::size_t kMost = 8;
   std::string list;
   std::size_t count = 0;
-  for (const Label& label : all) {
-    if (label.name.empty()) continue;
+  for (const std::string& name : all) {
+    if (name.empty()) continue;
     if (++count > kMost) return list + " and others";
-    list += (list.empty() ? "" : ", ") + label.name;
+    list += (list.empty() ? "" : ", ") + name;
   }
   return list;
 }
@@ -68,18 +70,22 @@ std::vector<Label> labels(const Document& document) {
   return all;
 }
 
+core::Failure nothing_named(const std::string& wanted, const std::vector<std::string>& names) {
+  const std::string known = known_names(names);
+  const std::string numbers = "give a number from 1 to " + std::to_string(names.size());
+  return {core::ErrorCode::bad_input,
+          "nothing and no layer is named \"" + wanted + "\" and none has that number",
+          known.empty() ? numbers : "there are " + known + "; or " + numbers, "--select"};
+}
+
 core::Result<void> select(Document& document, const std::string& wanted) {
   if (wanted.empty()) return {};
   const std::vector<Label> all = labels(document);
   const std::vector<bool> keep = chosen(all, wanted);
   if (keep.empty()) {
-    const std::string names = known_names(all);
-    return core::fail(core::ErrorCode::bad_input,
-                      "nothing and no layer is named \"" + wanted + "\" and none has that number",
-                      names.empty() ? "give a number from 1 to " + std::to_string(all.size())
-                                    : "there are " + names + "; or give a number from 1 to " +
-                                          std::to_string(all.size()),
-                      "--select");
+    std::vector<std::string> names;
+    for (const Label& label : all) names.push_back(label.name);
+    return std::unexpected(nothing_named(wanted, names));
   }
   std::size_t at = 0;
   keep_only(document.paths, keep, at);

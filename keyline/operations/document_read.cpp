@@ -8,6 +8,7 @@
 #include "keyline/acquire/section.h"
 #include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
+#include "keyline/document/select.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image_reader.h"
 #include "keyline/exchange/input_file.h"
@@ -95,16 +96,20 @@ Result<std::vector<RawCurve>> read_raw(const InputRequest& input, const std::str
 }
 
 /// Of those of the name wanted; where there are none, that of the number, counted from 1.
-bool is_wanted(const std::vector<RawCurve>& curves, std::size_t index, const std::string& wanted) {
+template <class Curve>
+bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::string& wanted) {
   if (wanted.empty() || curves[index].id == wanted) return true;
   const bool named = std::any_of(curves.begin(), curves.end(),
-                                 [&](const RawCurve& curve) { return curve.id == wanted; });
+                                 [&](const Curve& curve) { return curve.id == wanted; });
   return !named && wanted == std::to_string(index + 1);
 }
 
-Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::string& file) {
+/// `skipped` tells what of the file was not taken.
+Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::string& file,
+                                         std::vector<std::string>& skipped) {
   const auto raw = in_file(read_raw(input, file), file);
   if (!raw) return std::unexpected(raw.error());
+  if (!raw->empty()) skipped = raw->front().left_out;
   std::vector<KeyLine> lines;
   for (std::size_t i = 0; i < raw->size(); ++i) {
     const RawCurve& curve = (*raw)[i];
@@ -115,9 +120,12 @@ Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::s
     line->id = curve.id;
     lines.push_back(std::move(*line));
   }
-  if (lines.empty())
-    return fail(ErrorCode::bad_input, "no curve is named \"" + input.select + "\"",
-                "leave \"select\" out to take all", file);
+  if (lines.empty()) {
+    std::vector<std::string> names;
+    for (const RawCurve& curve : *raw) names.push_back(curve.id);
+    return in_file<std::vector<KeyLine>>(
+        std::unexpected(document::nothing_named(input.select, names)), file);
+  }
   return lines;
 }
 
@@ -155,12 +163,15 @@ Result<ReadAnswer> read_drawing(const InputRequest& input, const core::Progress&
   ReadAnswer answer;
   answer.unit = input.unit.empty() ? "px" : input.unit;
   answer.page = Page{{0, 0}, {static_cast<double>(trace->width), 1.0 * trace->height}};
-  for (KeyLine& line : *lines)
-    if (input.select.empty() || line.id == input.select)
-      answer.curves.push_back(named(std::move(line)));
+  if (lines->empty())
+    return fail(ErrorCode::bad_input, "holds no line long enough to fair",
+                "give a drawing of longer lines", file);
+  std::vector<std::string> names;
+  for (const KeyLine& line : *lines) names.push_back(line.id);
+  for (std::size_t i = 0; i < lines->size(); ++i)
+    if (is_wanted(*lines, i, input.select)) answer.curves.push_back(named((*lines)[i]));
   if (answer.curves.empty())
-    return fail(ErrorCode::bad_input, "holds no line long enough to fair", "check \"select\"",
-                file);
+    return in_file<ReadAnswer>(std::unexpected(document::nothing_named(input.select, names)), file);
   if (skipped > 0)
     answer.curves.front().line->report.notes.push_back(
         std::to_string(skipped) + " short strokes of the drawing were left out");
@@ -241,9 +252,10 @@ Result<ReadAnswer> read_files(const InputRequest& request, const core::Progress&
                 "give one file of curves, or one drawing, at a time", "file");
   if (exchange::has_image_name(file)) return read_drawing(request, progress);
   if (!points) return read_curves(request);
-  auto lines = request.file.size() > 1 ? join_files(request) : acquire_all(request, file);
-  if (!lines) return std::unexpected(lines.error());
   ReadAnswer answer;
+  auto lines =
+      request.file.size() > 1 ? join_files(request) : acquire_all(request, file, answer.skipped);
+  if (!lines) return std::unexpected(lines.error());
   answer.unit = request.unit;
   for (KeyLine& line : *lines) answer.curves.push_back(named(std::move(line)));
   return answer;

@@ -105,6 +105,49 @@ TEST(Convert, DrawsCurvesAndSaysWhereThereAreNone) {
   EXPECT_FALSE(std::filesystem::exists(s.path("b.png")));
 }
 
+TEST(Commands, WhatAPointFileLeavesOutIsSaidByAll) {
+  const Scratch s;
+  const std::string file =
+      s.write("points", "1 0\n0.75 0.04\n0.5 0.06\n0 0\n0.5 -0.04\n1 0\nProfiltyp: Tropfen\n");
+  for (const std::string command : {"list " + file, "convert " + file + " -o " + s.path("a.svg"),
+                                    "analyze " + file, "fair " + file}) {
+    SCOPED_TRACE(command);
+    const Outcome o = run_keyline(command);
+    EXPECT_EQ(o.status, 0) << o.err;
+    const std::string said = o.out + o.err;
+    const std::size_t first = said.find("line 7: Profiltyp: Tropfen");
+    EXPECT_NE(first, said.npos) << said;
+    EXPECT_EQ(said.find("Tropfen", first + 30), said.npos) << said;
+  }
+}
+
+TEST(Commands, AFailureNamesAFileAsItIs) {
+  const Scratch s;
+  s.write("points", "");
+  expect_failure(run_keyline("list points", "cd " + s.path("") + " &&"), 2, "keyline: points: ");
+}
+
+TEST(Commands, WhatMakesNoCurveWritesNoFile) {
+  const Scratch s;
+  const std::string file = example("cubic.json");
+  for (const std::string command :
+       {"compare " + file + " " + file, "list " + file, "curve.continuity --curves []"}) {
+    SCOPED_TRACE(command);
+    expect_failure(run_keyline(command + " -o " + s.path("a.svg")), 2, "makes no curve");
+    EXPECT_EQ(s.count(), 0U);
+  }
+}
+
+TEST(Commands, SelectingNothingTellsWhatThereIs) {
+  expect_failure(run_keyline("list --select nobody " + example("outlines.csv")), 2,
+                 "there are pebble, ");
+  expect_failure(run_keyline("list --select nobody " + example("sketch.png")), 2,
+                 "there are stroke1, ");
+  expect_failure(run_keyline("list --select nobody " + example("cubic.json")), 2,
+                 "give a number from 1 to 1");
+  EXPECT_EQ(run_keyline("list --quiet --select 1 " + example("sketch.png")).status, 0);
+}
+
 TEST(Convert, DrawsTheLinesOfAHullAndAnalyzeTakesItsOffsetsAsPoints) {
   const Scratch s;
   const std::string hull =
