@@ -213,6 +213,40 @@ TEST(Monotone, CoordinatesThatRoundAreReadAsTheyAre) {
   EXPECT_LT(within, 2500);
 }
 
+/// Cross product of the whole edge and the third difference of a cubic's control points, exactly.
+Exact turning_of_rate(const Bezier2& c) {
+  const auto third = [&](double Point2::* axis) {
+    const auto at = [&](std::size_t i) { return Exact(c.control[i].*axis); };
+    return Exact(at(3) - 3 * at(2) + 3 * at(1) - at(0));
+  };
+  const Exact x = Exact(c.control[3].x) - Exact(c.control[0].x);
+  const Exact y = Exact(c.control[3].y) - Exact(c.control[0].y);
+  return x * third(&Point2::y) - y * third(&Point2::x);
+}
+
+// Four points that are even on a line but for a few roundings. Curvature's rate is the cross
+// product of the first and the third derivative, but for terms smaller by the size of a rounding:
+// rational arithmetic tells which way it goes, and differences of the points taken in doubles do
+// not.
+TEST(Monotone, DifferencesThatRoundAreNotTakenForExact) {
+  int decided = 0;
+  for (unsigned seed = 0; seed < 4000; ++seed) {
+    Draw draw(seed);
+    const Vector2 edge = draw(0.5, 2) * core::unit_vector(draw(-3, 3));
+    Bezier2 c{{{1e-3 * draw(-1, 1), 1e-3 * draw(-1, 1)}}, {}};
+    for (int i = 1; i < 4; ++i) {
+      const Vector2 jitter{1e-15 * draw(-1, 1), 1e-15 * draw(-1, 1)};
+      c.control.push_back(c.control[0] + (i * edge + jitter));
+    }
+    const Exact rate = turning_of_rate(c);
+    const auto v = certify_monotone_curvature(c, 0);
+    if (abs(rate) < 1e-25 || v.answer != Answer::yes) continue;
+    ++decided;
+    EXPECT_EQ(v.direction, rate > 0 ? 1 : -1) << seed;
+  }
+  EXPECT_GT(decided, 3000);
+}
+
 // (5 (2t - 1)^3, (2t - 1)^5): curvature falls to minus infinity, and from infinity on: its rate
 // never changes sign, only the cusp at the middle says that it is not monotone. Integer control
 // points.
