@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -153,6 +156,84 @@ TEST(LacRegion, RefusesWhatHasNoRegion) {
   EXPECT_EQ(path({{"op", "lac.region"}, {"theta", 1}, {"alpha", {1, 2}}}), "ratio");
   EXPECT_EQ(path({{"op", "lac.region"}, {"theta", 1}, {"alpha", json::array()}}), "alpha");
   EXPECT_EQ(path({{"op", "lac.region"}, {"theta", 1}, {"alpha", "x"}}), "alpha");
+}
+
+using Place = std::array<double, 2>;
+
+bool is_inside(const json& outline, const Place& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Place a = outline[i].get<Place>();
+    const Place b = outline[j].get<Place>();
+    if ((a[1] > p[1]) != (b[1] > p[1]) &&
+        p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+      inside = !inside;
+  }
+  return inside;
+}
+
+double distance_to(const json& outline, const Place& p) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Place a = outline[i].get<Place>();
+    const Place b = outline[j].get<Place>();
+    const double x = b[0] - a[0];
+    const double y = b[1] - a[1];
+    const double along = ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / std::max(x * x + y * y, 1e-300);
+    const double t = std::clamp(along, 0.0, 1.0);
+    least = std::min(least, std::hypot(a[0] + t * x - p[0], a[1] + t * y - p[1]));
+  }
+  return least;
+}
+
+/// Whether the curve of the operation that draws it says so.
+bool is_drawn(json points, int handle, const Place& place, const json& alpha) {
+  points[static_cast<std::size_t>(handle)] = place;
+  json request{{"op", "lac.segment"}, {"points", points}, {"alpha", alpha}};
+  if (alpha.is_array()) request.update({{"op", "lac.compound"}, {"ratio", 0.4}});
+  return asked(request)["ok"].get<bool>();
+}
+
+/// Random places: in an outline exactly where the curve is drawn, the nearest as near as any drawn.
+TEST(LacRegion, TellsWhereAHandleMayStand) {
+  std::mt19937 dice(11);
+  std::uniform_real_distribution<double> wide(-3, 4);
+  const json points{{0, 0}, {1, 0}, {1.4, 0.9}};
+  for (const json& alpha : {json(-1.5), json(0.5), json(2), json{2.0, -2.0}})
+    for (const int handle : {0, 1, 2}) {
+      SCOPED_TRACE(alpha.dump() + " handle " + std::to_string(handle));
+      std::vector<Place> drawn;
+      json nearest;
+      Place from{};
+      for (int i = 0; i < 150; ++i) {
+        const Place place{wide(dice), wide(dice)};
+        json request{
+            {"op", "lac.region"}, {"points", points}, {"handle", handle}, {"alpha", alpha}};
+        request["points"][static_cast<std::size_t>(handle)] = place;
+        if (alpha.is_array()) request["ratio"] = 0.4;
+        const json answer = asked(request);
+        ASSERT_EQ(answer["ok"], true) << answer;
+        const json& outlines = answer["result"]["outlines"];
+        ASSERT_EQ(outlines.size(), 2U);
+        const bool can = is_drawn(points, handle, place, alpha);
+        EXPECT_EQ(answer["result"].contains("nearest"), !can) << json(place);
+        if (can) drawn.push_back(place);
+        if (distance_to(outlines[0], place) < 0.02 || distance_to(outlines[1], place) < 0.02)
+          continue;
+        EXPECT_EQ(is_inside(outlines[0], place) || is_inside(outlines[1], place), can)
+            << json(place);
+        if (can) continue;
+        nearest = answer["result"]["nearest"];
+        from = place;
+      }
+      EXPECT_GT(drawn.size(), 5U);
+      if (nearest.is_null()) continue;  // everywhere in sight: slopes from 0 to 1
+      const Place near = nearest.get<Place>();
+      EXPECT_TRUE(is_drawn(points, handle, near, alpha)) << nearest;
+      const double away = std::hypot(near[0] - from[0], near[1] - from[1]);
+      for (const Place& p : drawn)
+        EXPECT_GT(std::hypot(p[0] - from[0], p[1] - from[1]), 0.99 * away - 0.01) << json(p);
+    }
 }
 
 /// Largest distance of the curve's ends from where they should be, and of their directions.
