@@ -29,8 +29,11 @@ std::vector<double> resampled(const curve::CurvatureGraph& graph) {
 }
 
 double range_of(std::vector<double> grid) {
-  std::sort(grid.begin(), grid.end());
-  const auto at = [&](double share) { return grid[std::lround(share * (grid.size() - 1))]; };
+  const auto at = [&](double share) {
+    const auto place = grid.begin() + std::lround(share * static_cast<double>(grid.size() - 1));
+    std::nth_element(grid.begin(), place, grid.end());
+    return *place;
+  };
   return at(1 - kTail) - at(kTail);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/analysis/comb_figures.h"
 #include "keyline/analysis/lddc.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/analysis/split.h"
@@ -14,10 +15,9 @@ namespace {
 using core::Point2;
 using core::Result;
 
-constexpr int kLeastOfPiece = 8;       // samples, so that a short piece still shows how it turns
-constexpr int kDense = 2001;           // samples of the diagram and the measures
-constexpr double kJoltWindow = 0.005;  // of the length
-constexpr double kFlat = 1e-9;  // curvature or its rate below this share of its largest: none
+constexpr int kLeastOfPiece = 8;  // samples, so that a short piece still shows how it turns
+constexpr int kDense = 2001;      // samples of the diagram and the measures
+constexpr double kFlat = 1e-9;    // curvature or its rate below this share of its largest: none
 
 /// Everything there is to say of places in order along the curve.
 struct Places {
@@ -146,19 +146,6 @@ double integral_of_squares(const std::vector<double>& s, const std::vector<doubl
   return sum;
 }
 
-/// Largest change of curvature over a stretch of the window's length, as a share of its range.
-double jolt(const analysis::CurvatureProfile& dense, double length) {
-  const auto [low, high] = std::ranges::minmax(dense.curvature);
-  if (!(high > low)) return 0;
-  double most = 0;
-  for (std::size_t i = 0, j = 0; i < dense.arc_length.size(); ++i) {
-    while (dense.arc_length[i] - dense.arc_length[j] > kJoltWindow * length) ++j;
-    for (std::size_t k = j; k < i; ++k)
-      most = std::max(most, std::abs(dense.curvature[i] - dense.curvature[k]));
-  }
-  return most / (high - low);
-}
-
 /// A chain's pieces are monotone: its extrema lie at joints, its inflections at breakpoints.
 std::vector<CombEvent> events_of(const lac::Chain& chain) {
   std::vector<CombEvent> events;
@@ -244,9 +231,10 @@ CombGraphs graphs_of(const document::Path& path, const Places& shown, double len
   const analysis::CurvatureProfile dense = dense_profile(path, length);
   add_diagram(graphs, shown, dense, length);
   graphs.events = events_of(path);
-  graphs.energy = std::pow(length, 3) * integral_of_squares(dense.arc_length, dense.curvature_rate);
   graphs.bending = length * integral_of_squares(dense.arc_length, dense.curvature);
-  graphs.jolt = jolt(dense, length);
+  const analysis::CombFigures figures = analysis::comb_figures({dense.arc_length, dense.curvature});
+  graphs.energy = figures.energy;
+  graphs.jolt = figures.jolt;
   return graphs;
 }
 
