@@ -1,3 +1,4 @@
+#include "keyline/analysis/profile.h"
 #include "keyline/fit/curvature_drive.h"
 #include "keyline/fit/curvature_target.h"
 #include "keyline/operations/made_curve.h"
@@ -16,15 +17,23 @@ constexpr auto choices(const TargetKind*) {
 
 /// A curvature wanted at a place of the path.
 struct WantedCurvature {
-  double t = 0;
+  std::optional<double> t;
+  std::optional<double> along;
   double curvature = 0;
   static constexpr auto describe() {
-    return core::fields(core::field<&WantedCurvature::t>("over the whole path")
-                            .within(core::from_to(0, 1))
-                            .needed(),
-                        core::field<&WantedCurvature::curvature>("signed, positive turning left")
-                            .in("1/length")
-                            .needed());
+    return core::fields(
+        core::field<&WantedCurvature::t>("parameter over the whole path")
+            .within(core::from_to(0, 1)),
+        core::field<&WantedCurvature::along>("in place of t: fraction of the whole length")
+            .within(core::from_to(0, 1)),
+        core::field<&WantedCurvature::curvature>("signed, positive turning left")
+            .in("1/length")
+            .needed());
+  }
+  static Result<void> check(const WantedCurvature& wanted) {
+    if (wanted.t.has_value() != wanted.along.has_value()) return {};
+    return core::fail(ErrorCode::bad_input, "a place is \"t\" or \"along\"",
+                      "give one of them with every curvature");
   }
 };
 
@@ -99,9 +108,12 @@ std::vector<fit::CurvatureTarget> target_of(const CurvatureRequest& request,
     return *kind == TargetKind::smooth
                ? fit::smooth_target(chain, closed, request.cutoff.value_or(0))
                : fit::rhythm_target(chain, closed);
+  const analysis::CurveView view(request.curve);
+  const analysis::ArcLengthTable table(view);
   std::vector<fit::CurvatureTarget> list;
   for (const WantedCurvature& wanted : std::get<1>(request.target))
-    list.push_back({wanted.t, wanted.curvature});
+    list.push_back({wanted.t ? *wanted.t : table.parameter_at(*wanted.along * table.length()),
+                    wanted.curvature});
   return list;
 }
 

@@ -227,6 +227,18 @@ std::string field_row(const Field& field, const void* member) {
                      field.text);
 }
 
+/// What fields that are left out are, as a constant that costs nothing where it is not used.
+std::string typescript_defaults(const Operation& operation) {
+  json defaults = json::object();
+  detail::Whole whole(operation);
+  each_field(whole.parts(operation), [&](const Field& field, void* member, bool) {
+    if (json value = default_of(field, member); !value.is_null())
+      defaults[std::string(field.name)] = std::move(value);
+  });
+  return fmt::format("export const defaultsOf{} = {} as const;\n", upper_words(operation.name),
+                     defaults.dump());
+}
+
 }  // namespace
 
 std::string typescript_types() {
@@ -243,7 +255,9 @@ std::string typescript_types() {
     text += fmt::format("  /** {} */\n  \"{}\": {{ request: {}Request; result: {}Result }};\n",
                         operation.summary, operation.name, name, name);
   }
-  return text + "}\n";
+  text += "}\n\n";
+  for (const Operation& operation : operations()) text += typescript_defaults(operation);
+  return text;
 }
 
 std::string python_stubs() {

@@ -4,6 +4,10 @@
 #include "keyline/operations/surface_network.h"
 
 namespace keyline::operations {
+
+Operation curve_deviation_operation();
+Operation curve_plane_operation();
+
 std::vector<Operation> all_operations() {
   return {
 #ifdef KEYLINE_HAS_SKETCH
@@ -12,6 +16,7 @@ std::vector<Operation> all_operations() {
       document_convert_operation(),
       surface_edit_together_operation(),
       curve_analyze_operation(),
+      curve_deviation_operation(),
       curve_diagrams_operation(),
       curve_cav_operation(),
       curve_continuity_operation(),
@@ -20,6 +25,7 @@ std::vector<Operation> all_operations() {
       curve_join_operation(),
       curve_mirror_operation(),
       curve_offset_operation(),
+      curve_plane_operation(),
       curve_reverse_operation(),
       curve_split_operation(),
       curve_show_operation(),

@@ -2,6 +2,7 @@
 
 #include "keyline/operations/registry.h"
 #include "keyline/operations/values.h"
+#include "keyline/surface/curvature.h"
 #include "keyline/surface/interrogate.h"
 
 namespace keyline::operations {
@@ -21,6 +22,7 @@ struct InterrogateRequest {
   std::optional<core::Point3> stripes;
   surface::Lighting lighting;
   bool points = false;
+  bool normals = false;
   static constexpr auto describe() {
     using Request = InterrogateRequest;
     using Light = surface::Lighting;
@@ -48,7 +50,8 @@ struct InterrogateRequest {
             "reflection: of the light lines; a twelfth of the extent unless given")
             .in("length")
             .within(core::kPositive),
-        core::field<&Request::points>("also the points of the grid"));
+        core::field<&Request::points>("also the points of the grid"),
+        core::field<&Request::normals>("also the unit normals there"));
   }
 };
 
@@ -63,6 +66,7 @@ struct InterrogateAnswer {
   core::Point3 view;
   core::Point3 stripes;
   std::optional<std::vector<std::vector<core::Point3>>> points;
+  std::optional<std::vector<std::vector<core::Point3>>> normals;
   static constexpr auto describe() {
     using Answer = InterrogateAnswer;
     return core::fields(
@@ -72,7 +76,9 @@ struct InterrogateAnswer {
         core::field<&Answer::range>("of the values"),
         core::field<&Answer::view>("direction to the eye, as used"),
         core::field<&Answer::stripes>("direction the stripes are stacked in, as used"),
-        core::field<&Answer::points>("of the grid, where asked for"));
+        core::field<&Answer::points>("of the grid, where asked for"),
+        core::field<&Answer::normals>(
+            "of the grid, where asked for; [0, 0, 0] where there is none"));
   }
 };
 
@@ -102,6 +108,20 @@ surface::Lighting lighting_of(const InterrogateRequest& request) {
   return lighting;
 }
 
+template <class Of>
+std::vector<std::vector<core::Point3>> on_grid(const surface::JetGrid& grid, const Of& of) {
+  std::vector<std::vector<core::Point3>> rows(static_cast<std::size_t>(grid.rows));
+  for (int i = 0; i < grid.rows; ++i)
+    for (int j = 0; j < grid.columns; ++j)
+      rows[static_cast<std::size_t>(i)].push_back(of(grid.at(i, j)));
+  return rows;
+}
+
+core::Point3 normal_of(const surface::SurfaceJet& jet) {
+  const auto frame = surface::frame_of(jet);
+  return frame ? core::Point3{} + frame->normal : core::Point3{};
+}
+
 Result<InterrogateAnswer> run(const InterrogateRequest& request, const Context& context) {
   const int rows = request.grid.front();
   const int columns = request.grid.back();
@@ -122,10 +142,9 @@ Result<InterrogateAnswer> run(const InterrogateRequest& request, const Context& 
   answer.range = field->range;
   answer.view = core::Point3{} + *used.view;
   answer.stripes = core::Point3{} + *used.stripes;
-  if (!request.points) return answer;
-  answer.points.emplace(static_cast<std::size_t>(grid.rows));
-  for (int i = 0; i < grid.rows; ++i)
-    for (int j = 0; j < grid.columns; ++j) (*answer.points)[i].push_back(grid.at(i, j).point);
+  if (request.points)
+    answer.points = on_grid(grid, [](const surface::SurfaceJet& jet) { return jet.point; });
+  if (request.normals) answer.normals = on_grid(grid, normal_of);
   return answer;
 }
 

@@ -5,10 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "keyline/classa/strain_energy.h"
-#include "keyline/core/angle.h"
 #include "keyline/curve/length.h"
 #include "keyline/figure/curve_charts.h"
+#include "keyline/operations/class_a_plane.h"
 #include "keyline/operations/verdict.h"
 #include "keyline/presentation/pages.h"
 #include "keyline/presentation/report_parts.h"
@@ -20,17 +19,12 @@ using figure::Drawing;
 
 namespace {
 
-/// Strain energy of curves with that chord and degree, wherever they lead.
-figure::Grid energy_grid(int degree, double chord, double alpha_max, core::Interval s) {
-  figure::Grid grid{{0, s.low}, {alpha_max, s.high}, 81, 81, {}};
-  for (int j = 0; j < grid.rows; ++j) {
-    for (int i = 0; i < grid.columns; ++i) {
-      const classa::ControlMatrix m{alpha_max * i / (grid.columns - 1),
-                                    at(s, j / (grid.rows - 1.0))};
-      const double reach = norm(classa::end_in_frame(m, degree));
-      grid.values.push_back(classa::matrix_energy(m, degree).value * reach / chord);
-    }
-  }
+figure::Grid energy_grid(const operations::ClassAPlane& field) {
+  figure::Grid grid{{field.alpha.low, field.s.low}, {field.alpha.high, field.s.high}};
+  grid.rows = static_cast<int>(field.energy.size());
+  grid.columns = static_cast<int>(field.energy.front().size());
+  for (const auto& row : field.energy)
+    grid.values.insert(grid.values.end(), row.begin(), row.end());
   return grid;
 }
 
@@ -43,22 +37,6 @@ ShownPlace shown_place(const classa::Evaluation& e) {
   if (e.value.matrix) return {e.value.matrix};
   if (e.nearest_value && e.nearest_value->matrix) return {e.nearest_value->matrix, true};
   return {};
-}
-
-/// Curves that keep the ends and the start tangent of the curve whose minimum this is.
-std::vector<Point2> reach_line(const classa::CurveReading& reading, double alpha_max,
-                               core::Interval s) {
-  const classa::EnergyConditions& c = reading.conditions;
-  const double side = reading.matrix.left ? 1 : -1;
-  const double angle = side * core::angle_between(c.tangent, c.chord);
-  std::vector<Point2> line;
-  for (int i = 1; i <= 200 && angle > 0; ++i) {
-    const double alpha = alpha_max * i / 200;
-    const double scale = classa::scale_at_end_angle(alpha, angle, c.degree, {1e-3, 1e3});
-    const bool met = std::abs(classa::end_angle({alpha, scale}, c.degree) - angle) < 1e-9;
-    if (met && contains(s, scale)) line.push_back({alpha, scale});
-  }
-  return line;
 }
 
 /// Range of s that shows the Class A boundary and all that is to be seen.
@@ -142,9 +120,9 @@ Drawing plane_chart(const std::vector<PlaneEntry>& curves, const classa::CavOpti
   const classa::Evaluation& first = *curves.front().evaluation;
   const auto reading = classa::read_curve(first.approximation.curve, options);
   if (reading && first.value.degree >= 2 && norm(reading->conditions.chord) > 0) {
-    plane.energy = energy_grid(first.value.degree, norm(reading->conditions.chord),
-                               options.alpha_max, plane.s);
-    plane.reach = reach_line(*reading, options.alpha_max, plane.s);
+    operations::ClassAPlane field = operations::class_a_plane(*reading, options.alpha_max, plane.s);
+    plane.energy = energy_grid(field);
+    plane.reach = std::move(field.reach);
   }
   plane.subtitle =
       fmt::format("degree {}: {}", first.value.degree, type_in_words(first.value.type));

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -32,6 +34,73 @@ TEST(CurveCav, ExampleOfThePaper) {
   EXPECT_NEAR(result["minimum"]["beta"].get<double>(), 0.6435, 5e-5);
   EXPECT_NEAR(result["energy"].get<double>(), 0.3925, 5e-5);
   EXPECT_NEAR(result["minimum"]["energy"].get<double>(), 0.3287, 5e-5);
+}
+
+/// The paper's curve again: what the plane shows agrees with what editing makes of its places.
+TEST(CurvePlane, ShowsWhatEditingMeets) {
+  const json plane = perform_well("curve.plane", kOya);
+  EXPECT_EQ(plane["value"]["type"], 3);
+  EXPECT_NEAR(plane["growing"].back()[1].get<double>(), 1 / std::cos(1.0982), 1e-12);
+  EXPECT_NEAR(plane["falling"].back()[1].get<double>(), std::cos(1.0982), 1e-12);
+  ASSERT_GT(plane["reach"].size(), 20U);
+  for (const std::size_t i : {plane["reach"].size() / 3, plane["reach"].size() / 2}) {
+    json request = kOya;
+    request["target"] = {{"alpha", plane["reach"][i][0]}, {"s", plane["reach"][i][1]}};
+    const json edited = perform_well("curve.edit", request);
+    EXPECT_NEAR(edited["target"]["s"].get<double>(), plane["reach"][i][1].get<double>(), 1e-5);
+    // of a curve with these ends the energy in the plane is its own
+    const json& energy = plane["energy"];
+    const double rows = static_cast<double>(energy.size() - 1);
+    const double s_low = plane["s"][0].get<double>();
+    const double s_high = plane["s"][1].get<double>();
+    const auto column =
+        static_cast<std::size_t>(std::lround(plane["reach"][i][0].get<double>() / 1.0982 * rows));
+    const auto row = static_cast<std::size_t>(
+        std::lround((plane["reach"][i][1].get<double>() - s_low) / (s_high - s_low) * rows));
+    EXPECT_NEAR(energy[row][column].get<double>(), edited["after"]["energy"].get<double>(), 0.03);
+  }
+  EXPECT_EQ(code_of("curve.plane", {{"curve", {{"type", "bezier"}, {"points", {{0, 0}, {1, 0}}}}}}),
+            "undrawable");
+  json narrow = kOya;
+  narrow["show"] = {0, 1};
+  EXPECT_EQ(code_of("curve.plane", narrow), "bad-input");
+}
+
+TEST(CurveDeviation, TellsPlaceAndSideOfPoints) {
+  const json line{{"type", "bezier"}, {"points", {{0, 0}, {5, 0}, {10, 0}}}};
+  const json told =
+      perform_well("curve.deviation", {{"curve", line}, {"points", {{1, 0.5}, {4, -2}, {13, 4}}}});
+  EXPECT_NEAR(told["arc_length"][0].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(told["distance"][0].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(told["distance"][1].get<double>(), -2, 1e-12);
+  EXPECT_NEAR(told["distance"][2].get<double>(), 5, 1e-12);
+  EXPECT_NEAR(told["feet"][2][0].get<double>(), 10, 1e-9);
+  EXPECT_NEAR(told["max"].get<double>(), 5, 1e-12);
+  EXPECT_NEAR(told["rms"].get<double>(), std::sqrt((0.25 + 4 + 25) / 3), 1e-12);
+}
+
+/// An evenly run line: a fraction of its length is its parameter.
+TEST(FitCurvature, TakesPlacesAlongTheLength) {
+  json points = json::array();
+  for (int i = 0; i <= 5; ++i) points.push_back({2 * i, 0.3 * (i % 2)});
+  const json curve{{"type", "path"}, {"curves", {{{"type", "bezier"}, {"points", points}}}}};
+  const auto driven = [&](const char* name, const std::vector<double>& places) {
+    json target = json::array();
+    for (const double p : places) target.push_back({{name, p}, {"curvature", 0.01}});
+    return perform_well("fit.curvature",
+                        {{"curve", curve}, {"target", target}, {"hold_end", true}});
+  };
+  // ends and middle are the same places in both, the middle by symmetry under half a turn
+  const json by_t = driven("t", {0, 0.5, 1})["curve"]["curves"][0]["points"];
+  const json along = driven("along", {0, 0.5, 1})["curve"]["curves"][0]["points"];
+  for (std::size_t k = 0; k < 6; ++k)
+    for (const std::size_t axis : {0, 1})
+      EXPECT_NEAR(by_t[k][axis].get<double>(), along[k][axis].get<double>(), 1e-6);
+  const auto wrong = [&](const json& place) {
+    return code_of("fit.curvature", {{"curve", curve}, {"target", {place}}});
+  };
+  EXPECT_EQ(wrong({{"curvature", 0}}), "bad-input");
+  EXPECT_EQ(wrong({{"curvature", 0}, {"t", 0.5}, {"along", 0.5}}), "bad-input");
 }
 
 TEST(CurveCav, FreeFormCurves) {

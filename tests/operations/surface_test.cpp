@@ -52,6 +52,21 @@ TEST(SurfaceOperations, InterrogateGivesAGridOfValuesAndTheirRange) {
     result_of({{"op", "surface.interrogate"}, {"surface", saddle()}, {"kind", kind}});
 }
 
+TEST(SurfaceOperations, InterrogateGivesNormalsWhereAskedFor) {
+  // z = x y: the normal is along (-y, -x, 1)
+  const json r = result_of({{"op", "surface.interrogate"},
+                            {"surface", saddle()},
+                            {"kind", "mean"},
+                            {"grid", {3, 5}},
+                            {"normals", true}});
+  EXPECT_FALSE(r.contains("points"));
+  const json& normal = r["normals"][2][1];  // at x = 1, y = 1/4
+  const double length = std::sqrt(1 + 1 + 1.0 / 16);
+  EXPECT_NEAR(normal[0].get<double>(), -0.25 / length, 1e-14);
+  EXPECT_NEAR(normal[1].get<double>(), -1 / length, 1e-14);
+  EXPECT_NEAR(normal[2].get<double>(), 1 / length, 1e-14);
+}
+
 TEST(SurfaceOperations, ACollapsedNetHasNullsAndNoNumbersThatAreNone) {
   json point = saddle();
   for (auto& row : point["points"])

@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "keyline/operations/class_a.h"
+#include "keyline/operations/class_a_plane.h"
+#include "keyline/operations/registry.h"
+
+namespace keyline::operations {
+namespace {
+
+using core::Result;
+
+struct PlaneRequest {
+  ClassARequest curve;
+  std::optional<core::Interval> shown;
+  static constexpr auto describe() {
+    return core::fields(
+        core::flattened<&PlaneRequest::curve>(),
+        core::field<&PlaneRequest::shown>(
+            "range of s; else such that the curve, its minimum and the region are in sight")
+            .named("show"));
+  }
+};
+
+struct PlaneAnswer {
+  ClassAPlane plane;
+  EvaluationShown value;
+  static constexpr auto describe() {
+    return core::fields(core::flattened<&PlaneAnswer::plane>(),
+                        core::field<&PlaneAnswer::value>("of the curve, as curve.cav has it"));
+  }
+};
+
+/// Range of s that shows the borders of the region and all there is to be seen.
+core::Interval scales(const EvaluationShown& e) {
+  core::Interval s{0.4, 2.4};
+  const auto add = [&s](double value) {
+    s.low = std::clamp(0.9 * value, 0.05, s.low);
+    s.high = std::clamp(1.1 * value, s.high, 20.0);
+  };
+  if (e.value.s) add(*e.value.s);
+  if (e.value.minimum) add(e.value.minimum->s);
+  if (e.nearest && *e.nearest) add((*e.nearest)->s);
+  return s;
+}
+
+Result<PlaneAnswer> run(const PlaneRequest& request, const Context&) {
+  const classa::CavOptions options = cav_options(request.curve.options);
+  const auto subject = class_a_subject(request.curve);
+  if (!subject) return std::unexpected(subject.error());
+  if (!subject->planar)
+    return core::fail(core::ErrorCode::unsupported, "a curve in space has no such plane",
+                      "give a planar curve", "curve");
+  const auto evaluation = classa::evaluate_curve(*subject->planar, options);
+  if (!evaluation) return std::unexpected(evaluation.error());
+  const auto reading = classa::read_curve(evaluation->approximation.curve, options);
+  if (!reading) return std::unexpected(reading.error());
+  if (evaluation->value.degree < 2 || !(norm(reading->conditions.chord) > 0))
+    return core::fail(core::ErrorCode::undrawable, "the curve has no energy to compare with",
+                      "give a curve of degree 2 or more whose ends are apart", "curve");
+  PlaneAnswer answer;
+  answer.value = shown(*evaluation);
+  const core::Interval s = request.shown.value_or(scales(answer.value));
+  if (!(s.low > 0))
+    return core::fail(core::ErrorCode::bad_input, "s is a scale: it is above 0",
+                      "give a range as [0.4, 2.4]", "show");
+  answer.plane = class_a_plane(*reading, options.alpha_max, s);
+  return answer;
+}
+
+}  // namespace
+
+Operation curve_plane_operation() {
+  return declare<run>(
+      {.name = "curve.plane",
+       .summary = "The alpha-s plane about a curve: where Class A begins, strain energy of curves "
+                  "of its degree, places that keep its ends and start tangent, and its own value.",
+       .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[1,2],[0,4],[-2,5]]}})"}});
+}
+
+}  // namespace keyline::operations
