@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include "../studio/options.h"
 #include "commands.h"
 #include "terminal.h"
 
@@ -22,8 +23,6 @@ int run_studio(const Words& arguments) {
                          "build it with KEYLINE_STUDIO=ON, beside keyline", program});
 }
 
-std::vector<std::string> studio_options() {
-  return {"--port", "--listen", "--token", "--host", "--no-browser", "--quiet", "--help"};
-}
+std::vector<std::string> studio_options() { return studio::option_names(); }
 
 }  // namespace keyline::app

@@ -101,6 +101,12 @@ Result<Options> read_options(const std::vector<std::string>& words) {
   return options;
 }
 
+std::vector<std::string> option_names() {
+  std::vector<std::string> names;
+  for (const Option& option : kOptions) names.emplace_back(option.name);
+  return names;
+}
+
 std::string help() {
   std::string text =
       "Keyline Studio: draw, see the curvature, fair it, take it home.\n\n"

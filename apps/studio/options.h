@@ -25,4 +25,7 @@ core::Result<Options> read_options(const std::vector<std::string>& words);
 
 std::string help();
 
+/// All of them, as they are typed: for completion.
+std::vector<std::string> option_names();
+
 }  // namespace keyline::studio
