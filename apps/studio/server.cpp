@@ -4,49 +4,22 @@
 #include <optional>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "connections.h"
 
 namespace keyline::studio {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using boost::system::error_code;
 using Parser = http::request_parser<http::string_body>;
 
 constexpr auto kLastReplies = std::chrono::seconds(2);
-
-/// What all connections share; of the serving thread alone.
-struct Shared {
-  Service service;
-  Limits limits;
-  std::size_t connections = 0;
-  bool stopping = false;
-  asio::io_context io{1};  // the last, so that it goes first, and all connections with it
-
-  bool crowded() const { return 4 * connections > 3 * limits.connections; }
-};
-
-/// One of `connections` as long as it lives.
-class Counted {
- public:
-  explicit Counted(Shared& shared) : shared_(shared) { ++shared_.connections; }
-  ~Counted() { --shared_.connections; }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-
- private:
-  Shared& shared_;
-};
 
 std::string text(beast::string_view v) { return {v.data(), v.size()}; }
 
@@ -67,55 +40,6 @@ RequestHead head_of(const http::request_header<>& request) {
   head.job = text(request["Keyline-Job"]);
   return head;
 }
-
-// ---- a socket that stays open ----------------------------------------------------------------
-
-class SocketSession : public std::enable_shared_from_this<SocketSession> {
- public:
-  SocketSession(Shared& shared, beast::tcp_stream stream)
-      : shared_(shared), counted_(shared), socket_(std::move(stream)) {}
-
-  void accept(const http::request<http::string_body>& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      response.set(http::field::sec_websocket_protocol, "keyline.v1");
-    }));
-    socket_.read_message_max(shared_.limits.message);
-    socket_.async_accept(request, [self = shared_from_this()](error_code failed) {
-      if (!failed) self->read();
-    });
-  }
-
- private:
-  void read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](error_code failed, std::size_t) {
-      if (failed) return;
-      std::string message = beast::buffers_to_string(self->buffer_.data());
-      self->buffer_.consume(self->buffer_.size());
-      self->shared_.service.message(std::move(message), [self](std::string answer) {
-        asio::post(self->shared_.io, [self, answer = std::move(answer)]() mutable {
-          self->write(std::move(answer));
-        });
-      });
-    });
-  }
-
-  /// One message is answered before the next is read: who drags sends the newest, not a queue.
-  void write(std::string answer) {
-    answer_ = std::move(answer);
-    socket_.text(true);
-    socket_.async_write(asio::buffer(answer_),
-                        [self = shared_from_this()](error_code failed, std::size_t) {
-                          if (!failed && !self->shared_.stopping) self->read();
-                        });
-  }
-
-  Shared& shared_;
-  Counted counted_;
-  websocket::stream<beast::tcp_stream> socket_;
-  beast::flat_buffer buffer_;
-  std::string answer_;
-};
 
 // ---- requests and replies --------------------------------------------------------------------
 
@@ -220,8 +144,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   void upgrade() {
     stream_.expires_never();
-    const auto request = parser_->release();
-    std::make_shared<SocketSession>(shared_, std::move(stream_))->accept(request);
+    serve_socket(shared_, std::move(stream_), parser_->release());
   }
 
   /// While work goes on, an end of the stream means that nobody waits for the answer.
