@@ -14,6 +14,7 @@ import unittest
 
 KEYLINE, SOURCE = sys.argv[1], sys.argv[2]
 TOKEN = "0123456789abcdef"
+PATIENCE = 300  # seconds: how fast the machine is, is not what is asked
 SEGMENT = {"points": [[0, 0], [2, 0], [3, 1.5]], "alpha": -1}
 
 
@@ -33,7 +34,7 @@ class Server:
         self.port = int(self.url.split(":")[2].split("/")[0])
 
     def connection(self):
-        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
 
     def ask(self, method, path, body=None, connection=None, **headers):
         c = connection or self.connection()
@@ -162,7 +163,7 @@ class StudioServer(unittest.TestCase):
         connection.close()
         _, body, _ = self.ask("POST", "/api/v1/cancel", {"job": "mine"})
         self.assertTrue(json.loads(body)["found"])
-        thread.join(90)  # it goes on behind everything else the machine does
+        thread.join(PATIENCE)  # it goes on behind everything else the machine does
         self.assertFalse(thread.is_alive())
         if "KEYLINE_TIMING" in os.environ:
             self.assertLess(sorted(waits)[94], 0.05)
@@ -340,6 +341,54 @@ class StudioServer(unittest.TestCase):
               f"ms, p99 {1e3 * waits[len(waits) * 99 // 100]:.1f} ms, memory {before} -> {after} kB",
               file=sys.stderr)
         self.assertLess(after, before + 20000)
+
+
+    def test_zz_works_for_an_hour(self):
+        """Random operations, right and wrong, one after the other: none ends the server, no leak.
+        An hour's worth (6,000 at a hand's pace) in the full tier, a minute's in the default one."""
+        import random
+        dice = random.Random(5)
+        examples = self.examples()
+        connection = self.server.connection()
+        rounds = 6000 if os.environ.get("KEYLINE_FULL") else 150
+
+        def ask_some(count):
+            for _ in range(count):
+                name, request = dice.choice(examples)
+                request = dict(request)
+                if dice.random() < 0.3 and request:  # spoilt
+                    key = dice.choice(list(request))
+                    request[key] = dice.choice([None, -1, "x", [], {}, 1e308, [[0, 0]]])
+                status, body, _ = self.server.ask("POST", "/api/v1/" + name, request,
+                                                  connection=connection)
+                answered = json.loads(body)
+                self.assertEqual(answered["ok"], status == 200, body[:200])
+                if not answered["ok"]:
+                    self.assertNotEqual(answered["error"]["code"], "internal", (name, request))
+
+        ask_some(rounds // 2)
+        before = self.server.memory()
+        ask_some(rounds // 2)
+        after = self.server.memory()
+        connection.close()
+        print(f"{rounds} random operations: memory {before} -> {after} kB", file=sys.stderr)
+        self.assertLess(after, before + 40000)
+        self.well()
+
+    def examples(self):
+        """Of every operation that reads and writes no files and is quick."""
+        _, body, _ = self.ask("GET", "/api/v1/operations")
+        listed = json.loads(body)["operations"]
+        found = []
+        for operation in listed:
+            if operation["reads_files"] or operation["writes_files"] or operation["name"] == "fit.spline":
+                continue
+            schema = subprocess.run([KEYLINE, "operations", operation["name"]], capture_output=True,
+                                    text=True)
+            for example in json.loads(schema.stdout).get("examples", []):
+                example.pop("op", None)
+                found.append((operation["name"], example))
+        return found
 
 
 class StudioStart(unittest.TestCase):
