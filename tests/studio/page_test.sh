@@ -12,11 +12,7 @@ skip() {
 command -v node >/dev/null || skip "node is not installed; ./dev test installs it"
 [ -d "$web/node_modules/esbuild" ] || skip "web/node_modules is not there; ./dev test installs it"
 cd "$web"
-mkdir -p generated
-# The same text again must not look new to whoever reads it at the same time.
-"$keyline" operations --format typescript >"generated/operations.ts.$$"
-cmp -s "generated/operations.ts.$$" generated/operations.ts && rm "generated/operations.ts.$$" ||
-  mv "generated/operations.ts.$$" generated/operations.ts
+node generate.mjs "$keyline"
 case $part in
   types) exec node node_modules/typescript/bin/tsc --noEmit ;;
   units) exec node node_modules/vitest/vitest.mjs run --dir test/unit ;;

@@ -39,7 +39,7 @@ export class Keyboard {
         this.studio.chooseFile();
         return true;
       case "s":
-        this.studio.export("json");
+        this.studio.saveDocument();
         return true;
       case "a":
         store.set({ selection: store.doc.entities.map((x) => x.id) });
@@ -64,17 +64,20 @@ export class Keyboard {
       f: () => this.studio.fit(),
       k: () => store.look({ comb: !looks.comb }),
       e: () => store.look({ evolute: !looks.evolute }),
+      d: () => store.look({ deviation: !looks.deviation }),
+      j: () => store.look({ combOfAll: !looks.combOfAll }),
       g: () => store.look({ grid: !looks.grid }),
       n: () => store.look({ snap: !looks.snap }),
       w: () => store.look({ wipe: looks.wipe === null ? 0.5 : null }),
+      x: () => this.studio.splitHere(),
       h: () => this.nextHandle(),
       delete: () => this.studio.removeSelected(),
       backspace: () => this.studio.removeSelected(),
       "+": () => this.zoom(1.25),
       "=": () => this.zoom(1.25),
       "-": () => this.zoom(0.8),
-      "[": () => store.look({ combScale: looks.combScale / 1.2 }),
-      "]": () => store.look({ combScale: looks.combScale * 1.2 }),
+      "[": () => store.scaleComb(looks.combScale / 1.2),
+      "]": () => store.scaleComb(looks.combScale * 1.2),
     };
     const done = act[e.key.toLowerCase()];
     done?.();

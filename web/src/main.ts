@@ -8,6 +8,7 @@ declare global {
 }
 
 const client = new Client(takeToken(location, sessionStorage));
+client.warm();
 if (location.hash) history.replaceState(null, "", location.pathname);
 window.keyline = new Studio(client, document.getElementById("studio") as HTMLElement);
 void window.keyline.start();

@@ -5,31 +5,42 @@ import { paletteOf } from "./canvas/scene.ts";
 import type { Table } from "./gestures/gesture.ts";
 import { Dock, type Subject } from "./graphs/dock.ts";
 import { Keyboard } from "./keyboard.ts";
-import { Autosave } from "./model/autosave.ts";
+import { Autosave, ownDocument } from "./model/autosave.ts";
 import { Before } from "./model/before.ts";
+import { Deviation } from "./model/deviation.ts";
 import { added, emptyDoc, entityOf, isShown, type Point, without } from "./model/document.ts";
 import { Live, type Shown } from "./model/live.ts";
-import { exportAs, type Format, formats, isImage, openNamed } from "./model/open.ts";
+import { exportAs, type Format, isImage, openNamed } from "./model/open.ts";
+import { DrawableRegion } from "./model/region.ts";
 import { startState, Store } from "./model/state.ts";
-import { actionsPanel } from "./panels/actions.ts";
+import { actionsPanel, split } from "./panels/actions.ts";
+import { ClassAPanel } from "./panels/classa.ts";
 import { FairPanel } from "./panels/fair.ts";
+import { FileBar } from "./panels/filebar.ts";
 import { listPanel } from "./panels/list.ts";
 import { LooksBar } from "./panels/looks.ts";
 import { measuresPanel, reading } from "./panels/measures.ts";
+import { Notices } from "./panels/notices.ts";
 import { shapePanel } from "./panels/shape.ts";
+import { layUnder, SketchPanel } from "./panels/sketch.ts";
+import { SurfacePanel } from "./panels/surface.ts";
+import { TargetPanel } from "./panels/target.ts";
 import { ToolRail } from "./panels/toolbar.ts";
-import { layUnder, underlayPanel } from "./panels/underlay.ts";
-import { iconButton } from "./ui/controls.ts";
+import { SurfaceStage } from "./surfaces/stage.ts";
+import { section } from "./ui/controls.ts";
 import { fill, h } from "./ui/dom.ts";
-import { icons } from "./ui/icons.ts";
 import { boxOf, Viewport } from "./view/viewport.ts";
-import { measure } from "./view/ticks.ts";
+import { label, roundStep } from "./view/ticks.ts";
 
 // A comb that fits: nine teeth of ten within this share of the canvas' smaller side, so that one tight
 // corner does not press the rest flat; none longer than the second.
 const kMostTeeth = 0.9;
 const kToothShare = 0.16;
 const kLongestTooth = 0.55;
+const kSameComb = Math.log(2.5); // combs whose scales differ by less stay comparable
+
+/** When the first curve stood there, to be touched. */
+export const kFirstCurve = "first-curve";
 
 export class Studio {
   readonly store: Store;
@@ -39,13 +50,18 @@ export class Studio {
   readonly view = new Viewport();
   private readonly dock: Dock;
   private readonly fair: FairPanel;
+  private readonly classA: ClassAPanel;
+  private readonly target: TargetPanel;
+  private readonly sketch: SketchPanel;
+  private readonly surfaces: SurfaceStage;
+  private readonly surfacePanel: SurfacePanel;
+  readonly region: DrawableRegion;
+  private readonly deviation: Deviation;
   private readonly looks: LooksBar;
-  private readonly autosave: Autosave;
+  readonly autosave: Autosave;
   private readonly panel = h("aside", { class: "panel", "aria-label": "Properties" });
   private readonly status = h("div", { class: "status", role: "status" });
-  private readonly toast = h("div", { class: "toast", role: "alert" });
-  private readonly work = h("div", { class: "work" });
-  private readonly bar = h("div", { class: "file-bar", role: "toolbar", "aria-label": "File" });
+  private readonly bar = new FileBar(this);
   private fitted = false;
 
   constructor(readonly client: Client, root: HTMLElement) {
@@ -56,16 +72,26 @@ export class Studio {
     const table: Table = {
       store: this.store, live: this.live, view: this.view, client, paint: () => this.canvas.schedule(),
     };
-    this.canvas = new Canvas(table, (id) => this.before.of(id)?.comb);
+    this.region = new DrawableRegion(client, this.store, this.live);
+    this.deviation = new Deviation(client, this.store);
+    this.canvas = new Canvas(table, {
+      before: (id) => this.before.of(id)?.comb, region: this.region, deviation: (id) => this.deviation.of(id),
+    });
     this.dock = new Dock(this.store, () => this.subject(), () => paletteOf(this.store.state));
     this.fair = new FairPanel(client, this.store, this.live);
+    this.classA = new ClassAPanel(client, this.store, this.live);
+    this.target = new TargetPanel(client, this.store, this.live, this.dock.curvature);
+    this.sketch = new SketchPanel(client, this.store);
+    this.surfaces = new SurfaceStage(client, this.store);
+    this.surfacePanel = new SurfacePanel(client, this.store, this.surfaces);
+    const notices = new Notices(this.store);
     this.looks = new LooksBar(this.store, () => this.fitComb());
     this.autosave = new Autosave(client, this.store, localStorage);
-    root.append(h("div", { class: "studio" },
+    root.replaceChildren(h("div", { class: "studio" },
       h("header", {}, h("h1", {}, h("img", { src: "icon.svg", alt: "", width: 20, height: 20 }), "Keyline Studio"),
-        this.bar, this.looks.element),
+        this.bar.element, this.looks.element),
       new ToolRail(this.store).element,
-      h("main", {}, h("div", { class: "stage" }, this.canvas.element, this.work, this.toast), this.dock.element),
+      h("main", {}, h("div", { class: "stage" }, this.canvas.element, this.surfaces.element, notices.work, notices.toast), this.dock.element),
       this.panel, this.status));
     this.listen();
     new Keyboard(this, table);
@@ -79,6 +105,11 @@ export class Studio {
       this.dock.paint();
       this.renderPanel();
     };
+    this.region.onChange = () => this.canvas.schedule();
+    this.deviation.onCame = () => {
+      this.canvas.schedule();
+      this.dock.paint();
+    };
     this.canvas.onStatus = () => this.renderStatus();
     this.canvas.onReady = () => this.fitOnce();
     this.client.onReach = (reached) => {
@@ -87,17 +118,25 @@ export class Studio {
     this.store.onChange((now, before) => {
       if (now.looks.theme !== before.looks.theme) localStorage.setItem("keyline-theme", now.looks.theme);
       if (now.tool !== before.tool) this.canvas.useTool(now.tool);
-      const panel = now.history !== before.history || now.selection !== before.selection || now.underlay?.file !== before.underlay?.file;
+      const panel = now.history !== before.history || now.selection !== before.selection || now.underlay?.file !== before.underlay?.file
+        || now.underlay?.stages !== before.underlay?.stages || now.underlay?.scale !== before.underlay?.scale || now.measured !== before.measured
+        || now.targeting !== before.targeting;
       if (panel) this.renderPanel();
-      if (panel || now.history !== before.history) this.renderBar();
-      if (now.work !== before.work) this.renderWork();
-      if (now.message !== before.message || now.reached !== before.reached) this.renderToast();
-      if (now.hover !== before.hover || now.selection !== before.selection || now.looks !== before.looks) {
+      if (now.history !== before.history) this.bar.render();
+      const fair = this.panel.querySelector<HTMLButtonElement>("#fair");
+      if (fair && now.work !== before.work) fair.disabled = now.work !== null;
+      if (now.hover !== before.hover || now.stretch !== before.stretch || now.targeting !== before.targeting || now.selection !== before.selection || now.looks !== before.looks) {
         this.dock.paint();
         this.renderStatus();
       }
-      if (now.looks.theme !== before.looks.theme) document.documentElement.dataset.theme = now.looks.theme;
+      if (now.looks.theme !== before.looks.theme) {
+        document.documentElement.dataset.theme = now.looks.theme;
+        this.classA.follow();
+      }
       this.canvas.schedule();
+    });
+    this.store.onChange((now, before) => {
+      if (now.selection !== before.selection) this.refitComb();
     });
     this.listenToDrops();
   }
@@ -106,14 +145,18 @@ export class Studio {
   private curveCame(id: number): void {
     const { state } = this.store;
     if (state.looks.combScale === 0) this.fitComb();
+    else if (!state.draft && state.selection.includes(id)) this.refitComb();
     this.fitOnce();
     this.canvas.paint();
+    void this.region.update();
     if (state.selection.includes(id)) {
       this.dock.paint();
+      this.classA.follow();
       if (this.panel.querySelector("#comb-scale")) this.renderMeasures();
       else this.renderPanel();
     }
     this.canvas.latency.painted(state.draft !== null);
+    if (performance.getEntriesByName(kFirstCurve).length === 0) performance.mark(kFirstCurve);
     this.renderStatus();
   }
 
@@ -121,7 +164,14 @@ export class Studio {
     const { state } = this.store;
     for (const entity of [...state.selection].reverse()) {
       const shown = this.live.of(entity);
-      if (shown) return { entity, shown, before: this.before.of(entity) };
+      if (!shown) continue;
+      // what it was before; else another chosen curve, to be held beside it
+      const other = state.selection.find((id) => id !== entity && this.live.of(id));
+      const own = this.before.of(entity);
+      return {
+        entity, shown, before: own ?? (other === undefined ? undefined : this.live.of(other)), deviation: this.deviation.of(entity),
+        beside: own || other === undefined ? "" : entityOf(this.store.doc, other)?.name ?? "",
+      };
     }
     return null;
   }
@@ -137,6 +187,7 @@ export class Studio {
   }
 
   fit(): void {
+    if (this.surfaces.subject()) return this.surfaces.fit();
     const box = boxOf(this.drawn());
     if (!box) return;
     const margin = Math.min(this.view.width, this.view.height) * 0.16;
@@ -159,17 +210,47 @@ export class Studio {
     if (!(largest > 0)) return;
     const most = sizes[Math.floor(kMostTeeth * (sizes.length - 1))] ?? largest;
     const side = Math.min(this.view.width, this.view.height) / this.view.scale;
-    this.store.look({ combScale: Math.min((kToothShare * side) / Math.max(most, 1e-12), (kLongestTooth * side) / largest) });
+    const fitting = Math.min((kToothShare * side) / Math.max(most, 1e-12), (kLongestTooth * side) / largest);
+    this.store.look({ combScale: fitting, combOwn: false });
+  }
+
+  /** Another curve is looked at: its comb is fitted too, unless it would hardly differ or a hand has scaled it. */
+  private refitComb(): void {
+    const { combScale, combOwn } = this.store.state.looks;
+    if (combOwn || combScale === 0 || !this.subject()) return;
+    this.fitComb();
+    const fitting = this.store.state.looks.combScale;
+    if (Math.abs(Math.log(fitting / combScale)) < kSameComb) this.store.look({ combScale });
   }
 
   async openFiles(files: FileList | readonly File[]): Promise<void> {
     for (const file of files) {
+      const own = await ownDocument(file);
+      if (own) {
+        this.store.commit(`Open ${file.name}`, own.doc, { selection: own.doc.entities.slice(-1).map((e) => e.id) });
+        continue;
+      }
       const kept = await this.client.upload(file.name, file);
       if (!kept.ok) this.store.say(kept.error.message, kept.error.hint ?? "", true);
       else if (isImage(file.name)) await layUnder(this.store, file, kept.result);
       else await openNamed(this.client, this.store, kept.result);
     }
     this.fit();
+  }
+
+  /** All that is shown, as a drawing other programs paste. */
+  async copy(): Promise<void> {
+    await exportAs(this.client, this.store, this.live, "svg", (_name, content) => {
+      const text = content.text();
+      void navigator.clipboard.write([new ClipboardItem({ "text/plain": text.then((t) => new Blob([t], { type: "text/plain" })) })])
+        .then(() => this.store.say("Copied as SVG"), () => this.store.say("The browser does not let us copy", "export it as a file", true));
+    });
+  }
+
+  /** The document itself, with everything that can still be moved. */
+  saveDocument(): void {
+    const name = (this.autosave.files[0] ?? "keyline").replace(/^.*\//, "").replace(/\..*$/, "");
+    this.save(`${name}.keyline.json`, new Blob([this.autosave.text()], { type: "application/json" }));
   }
 
   private listenToDrops(): void {
@@ -187,11 +268,18 @@ export class Studio {
   }
 
   export(format: Format): void {
-    void exportAs(this.client, this.store, this.live, format, (name, content) => {
-      const url = URL.createObjectURL(content);
-      h("a", { href: url, download: name }).click();
-      setTimeout(() => URL.revokeObjectURL(url), 10_000);
-    });
+    void exportAs(this.client, this.store, this.live, format, (name, content) => this.save(name, content));
+  }
+
+  private save(name: string, content: Blob): void {
+    const url = URL.createObjectURL(content);
+    h("a", { href: url, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+  }
+
+  splitHere(): void {
+    const { hover } = this.store.state;
+    if (hover) void split(this.client, this.store, this.live, hover);
   }
 
   removeSelected(): void {
@@ -204,33 +292,9 @@ export class Studio {
 
   private render(): void {
     document.documentElement.dataset.theme = this.store.state.looks.theme;
-    this.renderBar();
+    this.bar.render();
     this.renderPanel();
     this.renderStatus();
-  }
-
-  private renderBar(): void {
-    const { history } = this.store.state;
-    const past = history.past.at(-1);
-    const future = history.future[0];
-    const choose = h("select", { id: "export", "aria-label": "Export" },
-      h("option", { value: "" }, "Export\u2026"), ...formats.map((f) => h("option", { value: f }, f.toUpperCase())));
-    choose.addEventListener("change", () => {
-      if (choose.value) this.export(choose.value as Format);
-      choose.value = "";
-    });
-    fill(this.bar,
-      iconButton({ id: "open", icon: icons.open, label: "Open a file", key: "Ctrl O", onClick: () => this.chooseFile() }),
-      iconButton({
-        id: "undo", icon: icons.undo, label: past ? `Undo ${past.label}` : "Nothing to undo", key: "Ctrl Z", disabled: !past,
-        onClick: () => this.store.undo(),
-      }),
-      iconButton({
-        id: "redo", icon: icons.redo, label: future ? `Redo ${future.label}` : "Nothing to redo", key: "Ctrl Shift Z",
-        disabled: !future, onClick: () => this.store.redo(),
-      }),
-      iconButton({ id: "fit", icon: icons.fit, label: "Fit all", key: "F", onClick: () => this.fit() }),
-      choose);
   }
 
   private renderPanel(): void {
@@ -240,11 +304,14 @@ export class Studio {
     const fairable = e && (e.kind === "scan" || e.kind === "faired" || e.kind === "fixed");
     fill(this.panel,
       listPanel(this.store),
-      actionsPanel(this.store, this.live),
+      actionsPanel(this.client, this.store, this.live),
       e && shapePanel(this.store, e),
+      ...(e?.kind === "surface" ? this.surfacePanel.element(e) : []),
       h("div", { id: "measures-slot" }),
       fairable && this.fair.element(e),
-      underlayPanel(this.client, this.store),
+      e && this.target.element(e),
+      e && subject?.entity === e.id && this.classA.element(e),
+      this.sketch.element(),
       subject && h("section", {}, h("h2", {}, "Comb"), this.looks.combControls()));
     this.renderMeasures();
   }
@@ -256,8 +323,8 @@ export class Studio {
     const failure = e && this.live.failureOf(e.id);
     if (slot)
       fill(slot,
-        failure && h("p", { class: "verdict bad", id: "failure" }, failure.message, h("span", { class: "quiet" }, failure.hint ?? "")),
-        e && measuresPanel(e, subject.shown, subject.before, this.store.doc.unit));
+        failure && section("Cannot be drawn", h("p", { class: "bad", id: "failure" }, failure.message), h("p", { class: "quiet" }, failure.hint ?? "")),
+        e && measuresPanel(e, subject.shown, subject.before, subject.beside, this.store.doc.unit));
   }
 
   private renderStatus(): void {
@@ -266,41 +333,16 @@ export class Studio {
     const place = this.canvas.place;
     const { latency } = this.canvas;
     fill(this.status,
-      h("span", { class: "reading", id: "reading" }, shown ? reading(shown, hover.sample, this.store.doc.unit) : this.canvas.hint),
-      h("span", { class: "place" }, place ? `${measure(place[0], 5)}, ${measure(place[1], 5)}` : ""),
+      h("span", { class: "reading", id: "reading" }, shown ? reading(entityOf(this.store.doc, hover.entity), shown, hover.sample, this.store.doc.unit) : this.canvas.hint),
+      h("span", { class: "place" }, place ? place.map((v) => label(v, roundStep(1 / this.view.scale))).join(", ") : ""),
       h("span", { class: "speed", title: "from the hand's move to the painted curve: half within, 95 % within" },
         latency.count > 10 ? `${latency.within(0.5).toFixed(1)} / ${latency.within(0.95).toFixed(1)} ms` : ""));
-  }
-
-  private renderWork(): void {
-    const { work } = this.store.state;
-    const shown = this.work.firstElementChild;
-    if (!work || !shown) {
-      fill(this.work, work && h("div", { class: "progress" }, h("span"), h("progress", { max: 1, value: 0 }),
-        h("button", { type: "button", id: "cancel", click: () => this.store.state.work?.cancel() }, "Stop")));
-    }
-    if (work) { // the button stays the same while a hand moves towards it
-      const bar = this.work.querySelector("progress") as HTMLProgressElement;
-      bar.value = work.fraction;
-      bar.ariaLabel = work.doing;
-      (this.work.querySelector("span") as HTMLElement).textContent = work.doing;
-    }
-    const fair = this.panel.querySelector<HTMLButtonElement>("#fair");
-    if (fair) fair.disabled = work !== null;
-  }
-
-  private renderToast(): void {
-    const { message, reached } = this.store.state;
-    const lost = !reached && { text: "The server is gone", hint: "your work is kept; start keyline studio again and open the address it prints", bad: true };
-    const said = lost || message;
-    fill(this.toast, said && h("div", { class: said.bad ? "said bad" : "said" },
-      h("strong", {}, said.text), said.hint && h("span", {}, said.hint),
-      iconButton({ icon: icons.remove, label: "Dismiss", onClick: () => this.store.say("") })));
   }
 
   // ---- the start ----------------------------------------------------------------------------
 
   async start(): Promise<void> {
+    const keeping = this.autosave.kept(); // both at once: a first curve waits for them
     const session = await this.client.get<Session>("studio/session");
     if (!session) {
       this.store.say("The server does not know this page", "open the address that keyline studio prints", true);
@@ -308,7 +350,7 @@ export class Studio {
     }
     this.autosave.files = session.files;
     document.title = session.files[0] ? `${session.files[0]} \u2013 Keyline Studio` : "Keyline Studio";
-    const kept = await this.autosave.kept();
+    const kept = await keeping;
     const goesOn = kept && (session.files.length === 0 || JSON.stringify(kept.files) === JSON.stringify(session.files));
     if (kept && goesOn) {
       this.store.commit("Recover", kept.doc, { selection: kept.doc.entities.slice(-1).map((e) => e.id) });
@@ -325,6 +367,6 @@ export class Studio {
 /** Something to touch at once. */
 function example() {
   return added(emptyDoc(), {
-    kind: "segment", name: "Segment 1", points: [[0, 0], [150, 0], [230, 130]], alpha: -1,
+    kind: "segment", name: "Segment 1", points: [[0, 0], [180, 0], [230, 130]], alpha: -1,
   }).doc;
 }

@@ -2,12 +2,12 @@
 import type { Gesture, Pointer, Table } from "../gestures/gesture.ts";
 import { gestureFor } from "../gestures/draw.ts";
 import { handleAt } from "../gestures/pick.ts";
-import { type Comb, type Point } from "../model/document.ts";
+import type { Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
 import { h } from "../ui/dom.ts";
 import { gridStep } from "./grid.ts";
 import { Latency } from "./latency.ts";
-import { paintScene } from "./scene.ts";
+import { paintScene, type Scene } from "./scene.ts";
 
 export class Canvas {
   readonly element: HTMLCanvasElement;
@@ -24,7 +24,7 @@ export class Canvas {
   /** before the first size is known nothing can be fitted */
   onReady: () => void = () => {};
 
-  constructor(private readonly table: Table, private readonly before: (id: number) => Comb | undefined) {
+  constructor(private readonly table: Table, private readonly extras: Pick<Scene, "before" | "region" | "deviation">) {
     this.element = h("canvas", {
       class: "board", tabindex: 0, role: "application",
       "aria-label": "Drawing board. Arrow keys pan, plus and minus zoom, F fits; Tab from here reaches the panels.",
@@ -55,11 +55,11 @@ export class Canvas {
     const { store, live, view } = this.table;
     const { underlay } = store.state;
     paintScene(this.pen, {
-      state: store.state, live, view, before: this.before,
+      state: store.state, live, view, ...this.extras,
       hot: this.cursor ? handleAt(this.table, this.cursor.at) : null,
       cursor: this.cursor?.place ?? null,
       started: this.gesture.started ?? [],
-      underlay: underlay ? this.image(underlay.url) : null,
+      underlay: underlay ? this.image(underlay.stages.find((s) => s.name === underlay.stage)?.url ?? underlay.url) : null,
     });
     this.onPaint();
   }
@@ -189,13 +189,17 @@ export class Canvas {
     this.schedule();
   }
 
-  /** Wheel zooms to the cursor, with Shift it scales the comb; a trackpad's two fingers pan. */
+  /** Wheel zooms to the cursor, with Shift it scales the comb, with Alt thins it out; a trackpad's two fingers pan. */
   private wheel(e: WheelEvent): void {
     e.preventDefault();
     const { store, view } = this.table;
     const pixels = e.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
     const turned = (e.deltaY || e.deltaX) * (pixels ? 1 : 30);
-    if (e.shiftKey) return store.look({ combScale: store.state.looks.combScale * Math.exp(-turned / 500) });
+    if (e.shiftKey) return store.scaleComb(store.state.looks.combScale * Math.exp(-turned / 500));
+    if (e.altKey) {
+      const density = store.state.looks.combDensity + Math.sign(turned);
+      return store.look({ combDensity: Math.min(12, Math.max(1, density)) });
+    }
     const trackpad = pixels && !e.ctrlKey && (e.deltaX !== 0 || Math.abs(e.deltaY) < 40);
     if (trackpad) view.panBy(-e.deltaX, -e.deltaY);
     else view.zoomAt(this.pointer(e).at, Math.exp(-turned / (e.ctrlKey ? 100 : 400)));

@@ -1,4 +1,5 @@
 /** A curve, its comb and what belongs to it: painting of sampled places, nothing more. */
+import type { DeviationTold } from "../model/deviation.ts";
 import type { Comb, Point } from "../model/document.ts";
 import type { Viewport } from "../view/viewport.ts";
 import type { Palette } from "./palette.ts";
@@ -123,6 +124,48 @@ export function paintJoints(g: Pen, view: Viewport, comb: Comb, color: string): 
     g.lineTo(x + 6 * nx, y - 6 * ny);
   }
   g.stroke();
+}
+
+/** A part of the curve that is pointed at, by its lengths. */
+export function paintStretch(g: Pen, view: Viewport, comb: Comb, { from, to }: { from: number; to: number }, color: string): void {
+  path(g, view, (comb.points as Point[]).filter((_, i) => {
+    const s = comb.arc_length[i] ?? 0;
+    return s >= from && s <= to;
+  }));
+  g.strokeStyle = color;
+  g.lineWidth = 5;
+  g.globalAlpha = 0.75;
+  g.lineCap = "round";
+  g.stroke();
+  g.lineCap = "butt";
+  g.globalAlpha = 1;
+}
+
+const kLongestHair = 46; // pixels of a deviation as large as the tolerance
+
+/** Hairs from the curve to where the points lie, as much longer as makes them visible. */
+export function paintDeviation(g: Pen, view: Viewport, { places, tolerance }: DeviationTold, colors: Palette): void {
+  const feet = (places.feet ?? []) as Point[];
+  const distances = places.distance ?? [];
+  const ends = feet.map((foot, i): Point => {
+    const distance = distances[i] ?? 0;
+    const long = (kLongestHair * distance) / Math.max(tolerance, places.max ?? 0, 1e-300) / view.scale;
+    const angle = places.direction?.[i] ?? 0;
+    return [foot[0] - long * Math.sin(angle), foot[1] + long * Math.cos(angle)];
+  });
+  for (const beyond of [false, true]) {
+    g.beginPath();
+    feet.forEach((foot, i) => {
+      if (Math.abs(distances[i] ?? 0) > tolerance !== beyond) return;
+      g.moveTo(...view.toScreen(foot));
+      g.lineTo(...view.toScreen(ends[i] as Point));
+    });
+    g.strokeStyle = beyond ? colors.bad : colors.before;
+    g.lineWidth = 1;
+    g.globalAlpha = beyond ? 1 : 0.75;
+    g.stroke();
+    g.globalAlpha = 1;
+  }
 }
 
 export function paintPoints(g: Pen, view: Viewport, points: readonly Point[], color: string): void {

@@ -26,7 +26,8 @@ function isEnd(e: Entity, i: number): boolean {
   return i === 0 || i === n - 1;
 }
 
-export function paintHandles(g: Pen, view: Viewport, e: Entity, colors: Palette, hot: number | null): void {
+export function paintHandles(g: Pen, view: Viewport, e: Entity, colors: Palette, hot: number | null,
+                             joint: Point | null): void {
   const at = handlesOf(e).map((p) => view.toScreen(p));
   g.strokeStyle = colors.handleLine;
   g.lineWidth = 1;
@@ -49,4 +50,17 @@ export function paintHandles(g: Pen, view: Viewport, e: Entity, colors: Palette,
     g.lineWidth = 2;
     g.stroke();
   });
+  if (joint) paintJoint(g, view.toScreen(joint), colors);
+}
+
+/** A diamond: it slides along the curve instead of standing free. */
+function paintJoint(g: Pen, [x, y]: Point, colors: Palette): void {
+  g.beginPath();
+  for (const [dx, dy] of [[0, -7], [7, 0], [0, 7], [-7, 0]] as const) g.lineTo(x + dx, y + dy);
+  g.closePath();
+  g.fillStyle = colors.ground;
+  g.fill();
+  g.strokeStyle = colors.handle;
+  g.lineWidth = 2;
+  g.stroke();
 }

@@ -1,10 +1,13 @@
 /** All that stands on the canvas, back to front. */
+import { jointOf } from "../gestures/joint.ts";
 import { type Comb, type Entity, entityOf, isHeld, isShown, type Point } from "../model/document.ts";
+import type { DeviationTold } from "../model/deviation.ts";
 import type { Live } from "../model/live.ts";
+import type { DrawableRegion } from "../model/region.ts";
 import { docOf, type State } from "../model/state.ts";
 import type { Viewport } from "../view/viewport.ts";
 import {
-  paintComb, paintCurve, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints,
+  paintComb, paintCurve, paintDeviation, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints, paintStretch,
 } from "./curves.ts";
 import { kRuler, paintGrid, paintRulers } from "./grid.ts";
 import { paintHandles } from "./handles.ts";
@@ -22,6 +25,8 @@ export interface Scene {
   /** points clicked so far by a drawing tool, and where the next one would be */
   started: readonly Point[];
   underlay: HTMLImageElement | null;
+  region: DrawableRegion;
+  deviation: (id: number) => DeviationTold | undefined;
 }
 
 export const paletteOf = (state: State): Palette => (state.looks.theme === "dark" ? dark : light);
@@ -56,7 +61,15 @@ function paintEntity(g: CanvasRenderingContext2D, scene: Scene, e: Entity, color
   paintCurve(g, view, shown.comb, e.color || (selected ? colors.selected : colors.curve), selected ? 2.25 : 1.75);
   g.globalAlpha = 1;
   if (selected) paintJoints(g, view, shown.comb, colors.curve);
+  const deviation = selected && scene.deviation(e.id);
+  if (deviation) paintDeviation(g, view, deviation, colors);
   if (looks.events && selected) paintEvents(g, view, shown.comb, colors);
+}
+
+/** Teeth of both combs stand equally close, however finely each is sampled. */
+function beforeDensity(scene: Scene, id: number, comb: Comb): number {
+  const own = scene.live.of(id)?.comb.points.length ?? comb.points.length;
+  return Math.max(1, Math.round((scene.state.looks.combDensity * comb.points.length) / own));
 }
 
 function paintBefore(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
@@ -67,7 +80,7 @@ function paintBefore(g: CanvasRenderingContext2D, scene: Scene, colors: Palette)
     if (!comb) continue;
     if (state.looks.comb)
       paintComb(g, view, comb, {
-        scale: state.looks.combScale, density: state.looks.combDensity, line: colors.before,
+        scale: state.looks.combScale, density: beforeDensity(scene, id, comb), line: colors.before,
         fill: colors.beforeFill, faint: true,
       });
     paintCurve(g, view, comb, colors.before, 1);
@@ -107,6 +120,23 @@ function paintWipe(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): 
   g.fillText("after", at + 8, kRuler + 8);
 }
 
+/** Where the handle in hand may stand; the nearest curve that can be drawn, where it stands elsewhere. */
+function paintRegion(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
+  const { region, view } = scene;
+  if (!scene.state.dragged) return;
+  g.beginPath();
+  for (const outline of region.outlines) {
+    outline.forEach((p, i) => (i === 0 ? g.moveTo(...view.toScreen(p)) : g.lineTo(...view.toScreen(p))));
+    g.closePath();
+  }
+  g.fillStyle = colors.region;
+  g.fill();
+  if (!region.nearest) return;
+  g.setLineDash([6, 4]);
+  paintCurve(g, view, region.nearest, colors.handle, 1.75);
+  g.setLineDash([]);
+}
+
 function paintStarted(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
   if (scene.started.length === 0) return;
   g.strokeStyle = colors.handleLine;
@@ -136,6 +166,7 @@ export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
   paintUnderlay(g, scene);
   if (state.looks.grid) paintGrid(g, view, colors);
   const visible = doc.entities.filter((e) => isShown(doc, e));
+  paintRegion(g, scene, colors);
   for (const e of visible) if (e.kind === "scan") paintEntity(g, scene, e, colors);
   clipped(g, scene, true, () => paintBefore(g, scene, colors));
   clipped(g, scene, false, () => {
@@ -144,7 +175,11 @@ export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
   for (const id of state.selection) {
     const e = entityOf(doc, id);
     if (!e || !isShown(doc, e) || isHeld(doc, e)) continue;
-    paintHandles(g, view, e, colors, scene.hot?.entity === id ? scene.hot.handle : null);
+    paintHandles(g, view, e, colors, scene.hot?.entity === id ? scene.hot.handle : null, jointOf(scene, e));
+  }
+  if (state.stretch) {
+    const comb = scene.live.of(state.stretch.entity)?.comb;
+    if (comb) paintStretch(g, view, comb, state.stretch, colors.handle);
   }
   if (state.hover) {
     const comb = scene.live.of(state.hover.entity)?.comb;

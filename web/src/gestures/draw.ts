@@ -2,6 +2,7 @@
 import { added, type Fresh, type Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
+import { Measuring } from "./measure.ts";
 import { Idle, Panning } from "./select.ts";
 
 interface Recipe {
@@ -102,6 +103,7 @@ class PanningWithin extends Panning {
 }
 
 export function gestureFor(table: Table, tool: ToolName): Gesture {
+  if (tool === "measure") return new Measuring(table);
   const recipe = recipes[tool];
   return recipe ? new Drawing(table, tool, recipe) : new Idle(table);
 }

@@ -1,8 +1,10 @@
 /** Select: hover, take hold of a handle, pick, move, pan. */
 import { type Doc, entityOf, isHeld, moved, type Point, withEntity, withHandle } from "../model/document.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
+import { DraggingJoint, jointAt } from "./joint.ts";
 import { entityAt, handleAt, hoverAt } from "./pick.ts";
 
+const kWipe = 6; // pixels about the line between before and after
 const kStill = 4; // pixels a press may wander and still be a click
 
 export class Idle implements Gesture {
@@ -15,7 +17,7 @@ export class Idle implements Gesture {
 
   move(p: Pointer): Gesture {
     const { store } = this.table;
-    const handle = handleAt(this.table, p.at);
+    const handle = handleAt(this.table, p.at) ?? jointAt(this.table, p.at);
     const over = handle ? null : hoverAt(this.table, p.at);
     const hover = over && { entity: over.entity, sample: over.sample };
     const same = hover?.entity === store.state.hover?.entity && hover?.sample === store.state.hover?.sample;
@@ -25,8 +27,12 @@ export class Idle implements Gesture {
 
   down(p: Pointer): Gesture {
     if (p.button !== 0) return new Panning(this.table, p.at);
+    const { wipe } = this.table.store.state.looks;
+    if (wipe !== null && Math.abs(p.at[0] - wipe * this.table.view.width) < kWipe) return new Wiping(this.table);
     const handle = handleAt(this.table, p.at);
     if (handle) return new DraggingHandle(this.table, handle.entity, handle.handle);
+    const joined = jointAt(this.table, p.at);
+    if (joined) return new DraggingJoint(this.table, joined.id);
     const entity = entityAt(this.table, p.at);
     if (entity !== null) return new Pressed(this.table, entity, p);
     return new PressedGround(this.table, p);
@@ -125,6 +131,23 @@ class Moving implements Gesture {
   }
 }
 
+/** The line between before and after goes with the hand. */
+class Wiping implements Gesture {
+  readonly cursor = "ew-resize";
+  constructor(private readonly table: Table) {}
+
+  move(p: Pointer): Gesture {
+    this.table.store.look({ wipe: Math.min(1, Math.max(0, p.at[0] / this.table.view.width)) });
+    return this;
+  }
+  up(): Gesture {
+    return new Idle(this.table);
+  }
+  cancel(): Gesture {
+    return new Idle(this.table);
+  }
+}
+
 export class DraggingHandle implements Gesture {
   readonly cursor = "grabbing";
   readonly hint = "The curve follows; Escape puts the handle back";
@@ -133,16 +156,20 @@ export class DraggingHandle implements Gesture {
   move(p: Pointer): Gesture {
     const { store } = this.table;
     const e = entityOf(store.doc, this.entity);
-    if (e) store.draft(withEntity(store.doc, withHandle(e, this.handle, p.place)));
+    if (!e) return this;
+    store.set({
+      draft: withEntity(store.doc, withHandle(e, this.handle, p.place)),
+      dragged: { entity: this.entity, handle: this.handle },
+    });
     return this;
   }
   up(): Gesture {
     const { store } = this.table;
-    if (store.state.draft) store.commit("Move handle", store.state.draft);
+    if (store.state.draft) store.commit("Move handle", store.state.draft, { dragged: null });
     return new Idle(this.table, "handle");
   }
   cancel(): Gesture {
-    this.table.store.set({ draft: null });
+    this.table.store.set({ draft: null, dragged: null });
     return new Idle(this.table);
   }
 }

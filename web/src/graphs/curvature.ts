@@ -1,4 +1,5 @@
 import type { Palette } from "../canvas/palette.ts";
+import type { DeviationTold } from "../model/deviation.ts";
 import type { Comb } from "../model/document.ts";
 import { nearestIndex } from "../view/nearest.ts";
 import { Plot, type Range, rangeOf } from "./plot.ts";
@@ -9,6 +10,10 @@ export interface Graphed {
   /** slope of each piece, where the curve tells */
   slopes: readonly (number | null)[];
   hover: number | null;
+  /** lengths of a part that is pointed at */
+  stretch: { from: number; to: number } | null;
+  /** of measured points, where somebody looks */
+  deviation: DeviationTold | undefined;
   /** what is measured with */
   unit: string;
 }
@@ -18,8 +23,34 @@ export class CurvaturePlot extends Plot {
   private length = 1;
   private steps: readonly number[] = [];
 
+  private target: [number, number][] = [];
+  /** a hand draws a target here instead of reading places */
+  targeting = false;
+  onTarget: (target: readonly (readonly [number, number])[]) => void = () => {};
+
   constructor() {
     super("Curvature", "s", "\u03ba");
+    this.canvas.addEventListener("pointerdown", (e) => {
+      if (!this.targeting) return;
+      this.canvas.setPointerCapture(e.pointerId);
+      this.target = [[this.valueX(e.offsetX), this.valueY(e.offsetY)]];
+    });
+    this.canvas.addEventListener("pointermove", (e) => {
+      if (this.targeting && e.buttons & 1) this.draw(this.valueX(e.offsetX), this.valueY(e.offsetY));
+    });
+    this.canvas.addEventListener("pointerup", () => {
+      if (!this.targeting) return;
+      this.targeting = false;
+      this.onTarget([...this.target].sort((a, b) => a[0] - b[0]));
+      this.target = [];
+    });
+  }
+
+  /** Drawn over again, the newest line counts. */
+  private draw(s: number, curvature: number): void {
+    const last = this.target.at(-1)?.[0] ?? s;
+    this.target = [...this.target.filter(([at]) => at <= Math.min(last, s) || at >= Math.max(last, s)), [s, curvature]];
+    this.onResize();
   }
 
   paint(graphed: Graphed | null, colors: Palette): void {
@@ -35,6 +66,7 @@ export class CurvaturePlot extends Plot {
     const own = this.heights(comb);
     this.axes = { x: { low: 0, high: comb.length * 1.0001 }, y: own };
     this.begin(colors);
+    if (graphed.stretch) this.band(graphed.stretch, colors);
     for (const i of comb.joints) this.upright(comb.arc_length[i] as number, colors.axis, [2, 3]);
     if (before) {
       const along = comb.length / before.length;
@@ -46,6 +78,8 @@ export class CurvaturePlot extends Plot {
       this.dot(event.arc_length as number, event.curvature as number,
         extreme ? colors.maximum : colors.inflection, colors.ground, 3.5);
     }
+    const drawn = [...this.target].sort((a, b) => a[0] - b[0]);
+    this.line(drawn.map((p) => p[0]), drawn.map((p) => p[1]), colors.handle, 2);
     this.nameSlopes(graphed, colors);
     if (graphed.hover !== null) {
       this.upright(comb.arc_length[graphed.hover] as number, colors.faint);
@@ -61,6 +95,11 @@ export class CurvaturePlot extends Plot {
     const own = rangeOf(comb.curvature, 0.12) ?? { low: 0, high: 1 };
     const far = own.low > 0 ? own.low > own.high / 2 : own.high < own.low / 2;
     return far ? own : (rangeOf([...comb.curvature, 0], 0.1) as Range);
+  }
+
+  private band({ from, to }: { from: number; to: number }, colors: Palette): void {
+    this.pen.fillStyle = colors.region;
+    this.pen.fillRect(this.x(from), 0, this.x(to) - this.x(from), this.height);
   }
 
   private nameSlopes({ comb, slopes }: Graphed, colors: Palette): void {

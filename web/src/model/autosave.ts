@@ -19,6 +19,17 @@ export function isKept(value: unknown): value is Kept {
   return kept?.format === "keyline-studio" && kept.version === 1 && Array.isArray(kept.doc?.entities);
 }
 
+/** The file as a document of ours; null: it is something else. */
+export async function ownDocument(file: Blob & { name: string }): Promise<Kept | null> {
+  if (!/\.json$/i.test(file.name)) return null;
+  try {
+    const value: unknown = JSON.parse(await file.text());
+    return isKept(value) ? value : null;
+  } catch {
+    return null;
+  }
+}
+
 export class Autosave {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private saved: Doc | null = null;
@@ -30,16 +41,28 @@ export class Autosave {
     });
   }
 
+  /** Whether the server keeps the document as it is. */
+  get settled(): boolean {
+    return this.store.state.history.now === this.saved;
+  }
+
   private soon(): void {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => void this.now(), kDelay);
   }
 
+  /** The document as it is kept and saved. */
+  text(): string {
+    const kept: Kept = {
+      format: "keyline-studio", version: 1, saved: Date.now(), files: this.files, doc: this.store.state.history.now,
+    };
+    return JSON.stringify(kept);
+  }
+
   async now(): Promise<void> {
     const doc = this.store.state.history.now;
     if (doc === this.saved) return;
-    const kept: Kept = { format: "keyline-studio", version: 1, saved: Date.now(), files: this.files, doc };
-    const text = JSON.stringify(kept);
+    const text = this.text();
     try {
       this.storage.setItem(kHere, text);
     } catch {

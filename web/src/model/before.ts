@@ -1,35 +1,46 @@
-/** The splines through measured points, for looking at beside what fairing made of them. */
+/** What a curve was before: the spline through measured points, the curve that was driven or slid. */
+import type { Curve } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
-import { entityOf, type Faired } from "./document.ts";
+import { type Entity, entityOf } from "./document.ts";
 import { type MadeAnswer, type Shown } from "./live.ts";
 import type { Store } from "./state.ts";
 
 const kSamples = 1001;
 
+function curveBefore(e: Entity | undefined): Curve | undefined {
+  switch (e?.kind) {
+    case "faired":
+      return e.told.spline;
+    case "sliding":
+      return e.given;
+    case "fixed":
+      return e.before;
+    default:
+      return undefined;
+  }
+}
+
 export class Before {
-  private readonly shown = new Map<object, Shown | null>();
+  private readonly shown = new WeakMap<Curve, Shown | null>();
   onCurve: () => void = () => {};
 
   constructor(private readonly client: Client, private readonly store: Store) {}
 
   of(id: number): Shown | undefined {
-    const e = entityOf(this.store.doc, id);
-    if (e?.kind !== "faired") return undefined;
-    const spline = e.told.spline as object;
-    const known = this.shown.get(spline);
+    const curve = curveBefore(entityOf(this.store.doc, id));
+    if (!curve) return undefined;
+    const known = this.shown.get(curve);
     if (known === undefined) {
-      this.shown.set(spline, null);
-      void this.ask(e, spline);
+      this.shown.set(curve, null);
+      void this.ask(curve);
     }
     return known ?? undefined;
   }
 
-  private async ask(e: Faired, spline: object): Promise<void> {
-    const answer = await this.client.call<MadeAnswer>("curve.show", {
-      curve: e.told.spline, comb: { samples: kSamples, graphs: true },
-    });
+  private async ask(curve: Curve): Promise<void> {
+    const answer = await this.client.call<MadeAnswer>("curve.show", { curve, comb: { samples: kSamples, graphs: true } });
     if (!answer.ok) return;
-    this.shown.set(spline, {
+    this.shown.set(curve, {
       curve: answer.result.curve, comb: answer.result.comb, result: answer.result, failure: null,
     });
     this.onCurve();

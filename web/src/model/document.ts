@@ -1,5 +1,8 @@
 /** What is being worked on: plain values, never changed in place. */
-import type { Curve, KeyLine, SampledComb, Surface } from "../../generated/operations.ts";
+import type {
+  Curve, CurveCondition, CurveEditRequest, FairedPiece, FairFigures, FairRequest, KeyLine, SampledComb, Surface,
+  SurfaceEditRequest,
+} from "../../generated/operations.ts";
 
 export type Point = [number, number];
 
@@ -58,6 +61,17 @@ export interface Mirror extends Common {
 export interface Fixed extends Common {
   kind: "fixed";
   curve: Curve;
+  /** what it was made of, to be looked at beside it */
+  before?: Curve;
+}
+/** A curve on its way to Class A: the operation slides it whenever the hand moves its place. */
+export interface Sliding extends Common {
+  kind: "sliding";
+  given: Curve;
+  /** place of the plane; null: the minimum-energy point */
+  target: { alpha: number; s: number } | null;
+  hold: NonNullable<CurveEditRequest["hold"]>;
+  amount: number;
 }
 /** Measured points. */
 export interface Scan extends Common {
@@ -74,25 +88,24 @@ export interface Faired extends Common {
 export interface SurfaceEntity extends Common {
   kind: "surface";
   surface: Surface;
+  /** before editing, and what was asked for */
+  given?: Surface;
+  wishes?: SurfaceWishes;
+}
+
+export interface SurfaceWishes {
+  keep: NonNullable<SurfaceEditRequest["keep"]>;
+  amount: number;
+  conditions: readonly CurveCondition[];
 }
 
 export type End = "start" | "end";
 
-export interface FairPiece {
-  start: number;
-  length: number;
-  rhythm: string;
-  slopes: number[];
-  deviation: number;
-  impression: string;
-  interpretations: { rhythm: string; slopes: number[]; plausibility: number; impression: string }[];
-}
-
 /** Of the answer of `fair`, what the page shows. */
 export interface FairTold {
-  request: Record<string, unknown>;
+  request: FairRequest;
   spline: Curve;
-  pieces: FairPiece[];
+  pieces: FairedPiece[];
   length: number;
   noise: number;
   tolerance: number;
@@ -100,11 +113,12 @@ export interface FairTold {
   rms: number;
   within: boolean;
   cancelled: boolean;
+  fairness: FairFigures | null;
   notes: string[];
 }
 
 export type Entity =
-  | Segment | Compound | SShape | Quasi | Spline | Blend | Mirror | Fixed | Scan | Faired | SurfaceEntity;
+  | Segment | Compound | SShape | Quasi | Spline | Blend | Mirror | Fixed | Sliding | Scan | Faired | SurfaceEntity;
 export type Kind = Entity["kind"];
 
 export interface Layer {

@@ -42,6 +42,11 @@ export function recipeOf(e: Entity, curveOf: (id: number) => Curve | undefined):
       const curve = curveOf(e.of);
       return curve ? { op: "curve.mirror", request: { curve, point: e.axis[0], direction: heading(...e.axis) } } : null;
     }
+    case "sliding":
+      return {
+        op: "curve.edit",
+        request: { curve: e.given, hold: e.hold, amount: e.amount, ...(e.target ? { target: e.target } : {}) },
+      };
     case "fixed":
     case "faired":
       return { op: "curve.show", request: { curve: e.curve } };

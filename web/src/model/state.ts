@@ -1,14 +1,21 @@
 /** Everything the page shows, in one value, and who is told when it changes. */
-import type { Doc, End } from "./document.ts";
+import type { Doc, Point } from "./document.ts";
 import { emptyDoc } from "./document.ts";
 import { committed, type History, redone, started, undone } from "./history.ts";
 
 export type ToolName =
-  | "select" | "segment" | "compound" | "s-shape" | "spline" | "quasi" | "blend" | "mirror" | "underlay";
+  | "select" | "segment" | "compound" | "s-shape" | "spline" | "quasi" | "measure";
 
 export interface Hover {
   entity: number;
   sample: number;
+}
+
+/** A part of a curve, by its lengths. */
+export interface Stretch {
+  entity: number;
+  from: number;
+  to: number;
 }
 
 export interface Looks {
@@ -16,6 +23,8 @@ export interface Looks {
   combOfAll: boolean;
   /** model length of a tooth where curvature is 1; 0: not chosen yet */
   combScale: number;
+  /** the hand has chosen it: it stays with whatever is looked at */
+  combOwn: boolean;
   /** every how many samples a tooth stands */
   combDensity: number;
   evolute: boolean;
@@ -46,6 +55,9 @@ export interface Underlay {
   at: [number, number];
   scale: number;
   opacity: number;
+  /** pictures of what tracing saw, and the name of the one shown; "": the picture itself */
+  stages: readonly { name: string; url: string }[];
+  stage: string;
 }
 
 export interface State {
@@ -55,13 +67,18 @@ export interface State {
   selection: readonly number[];
   tool: ToolName;
   hover: Hover | null;
-  /** an end picked for a blend */
-  picked: { entity: number; end: End } | null;
+  stretch: Stretch | null;
+  /** the handle a hand holds */
+  dragged: { entity: number; handle: number } | null;
   looks: Looks;
   work: Work | null;
   message: { text: string; hint: string; bad: boolean } | null;
   reached: boolean;
   underlay: Underlay | null;
+  /** two points of a picture whose distance is about to be told */
+  measured: readonly [Point, Point] | null;
+  /** a curvature is about to be drawn in the graph */
+  targeting: boolean;
 }
 
 export const startState = (theme: "dark" | "light"): State => ({
@@ -70,15 +87,18 @@ export const startState = (theme: "dark" | "light"): State => ({
   selection: [],
   tool: "select",
   hover: null,
-  picked: null,
+  stretch: null,
+  dragged: null,
   looks: {
-    comb: true, combOfAll: false, combScale: 0, combDensity: 2, evolute: false, events: true, before: true,
+    comb: true, combOfAll: false, combScale: 0, combOwn: false, combDensity: 2, evolute: false, events: true, before: true,
     deviation: false, grid: true, snap: false, theme, wipe: null,
   },
   work: null,
   message: null,
   reached: true,
   underlay: null,
+  measured: null,
+  targeting: false,
 });
 
 export const docOf = (s: State): Doc => s.draft ?? s.history.now;
@@ -105,6 +125,11 @@ export class Store {
 
   look(change: Partial<Looks>): void {
     this.set({ looks: { ...this.current.looks, ...change } });
+  }
+
+  /** A comb as long as the hand wants it. */
+  scaleComb(combScale: number): void {
+    this.look({ combScale, combOwn: true });
   }
 
   /** The document as a gesture would leave it; nothing is remembered yet. */

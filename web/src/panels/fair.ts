@@ -1,38 +1,44 @@
 /** Fairing as steps one can look into. */
-import { added, type Entity, type FairPiece, type Faired, type FairTold, type Fresh, type Scan } from "../model/document.ts";
+import {
+  type Curve, defaultsOfFair, type FairedPiece, type FairRequest, type FairResult,
+} from "../../generated/operations.ts";
+import type { Client, LongWork } from "../api/client.ts";
+import { added, type Entity, type Faired, type FairTold, type Fresh, type Scan } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
-import type { Store } from "../model/state.ts";
+import type { Store, Stretch } from "../model/state.ts";
 import { button, choice, fact, section, slider } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
 import { measure } from "../view/ticks.ts";
-import type { Client, LongWork } from "../api/client.ts";
-import type { Curve, FairResult } from "../../generated/operations.ts";
+import { verdict } from "./verdict.ts";
+
+type Criterion = NonNullable<FairRequest["criterion"]>;
 
 export interface FairWishes {
   /** 0: by the default rule */
   tolerance: number;
-  pieces: number;
-  criterion: "fewest-pieces" | "least-variation";
+  smoothness: number;
+  criterion: Criterion;
 }
 
-export const defaultWishes: FairWishes = { tolerance: 0, pieces: 0, criterion: "least-variation" };
+const kCriteria: Record<Criterion, string> = { "least-variation": "calmest curvature", "fewest-pieces": "fewest pieces" };
 
-function requestOf(e: Entity, live: Live, wishes: FairWishes): Record<string, unknown> {
-  const subject = e.kind === "scan" ? { line: e.line } : { curve: live.of(e.id)?.curve };
+function requestOf(e: Entity, live: Live, wishes: FairWishes): FairRequest {
+  const curve = live.of(e.id)?.curve;
+  const calm = wishes.criterion === "least-variation" ? { smoothness: wishes.smoothness } : {};
   return {
-    ...subject,
+    ...(e.kind === "scan" ? { line: e.line } : curve ? { curve } : {}),
     criterion: wishes.criterion,
+    ...(wishes.smoothness === defaultsOfFair.smoothness ? {} : calm),
     ...(wishes.tolerance > 0 ? { tolerance: wishes.tolerance } : {}),
-    ...(wishes.pieces > 0 ? { pieces: wishes.pieces } : {}),
   };
 }
 
-function toldOf(r: FairResult, request: Record<string, unknown>): FairTold {
+function toldOf(r: FairResult, request: FairRequest): FairTold {
   const { line: _line, curve: _curve, ...wishes } = request;
   return {
     request: wishes,
     spline: r.spline as Curve,
-    pieces: (r.pieces ?? []) as FairPiece[],
+    pieces: r.pieces ?? [],
     length: r.length ?? 0,
     noise: r.noise ?? 0,
     tolerance: r.tolerance ?? 0,
@@ -40,13 +46,14 @@ function toldOf(r: FairResult, request: Record<string, unknown>): FairTold {
     rms: r.deviation?.rms ?? 0,
     within: r.within_tolerance ?? false,
     cancelled: r.cancelled ?? false,
+    fairness: r.fairness ?? null,
     notes: r.report ?? [],
   };
 }
 
 /** The work, its progress told, its answer put into the document as one step. */
 export async function fairIt(client: Client, store: Store, live: Live, e: Entity, wishes: FairWishes,
-                             more: Record<string, unknown> = {}): Promise<void> {
+                             more: FairRequest = {}): Promise<void> {
   const subject = e.kind === "faired" ? store.doc.entities.find((x) => x.id === e.of) ?? e : e;
   const request = { ...requestOf(subject, live, wishes), ...more };
   const work: LongWork<FairResult> = client.long("fair", request, (fraction, doing) => {
@@ -60,7 +67,7 @@ export async function fairIt(client: Client, store: Store, live: Live, e: Entity
     return;
   }
   const told = toldOf(answer.result, request);
-  const curve = answer.result.curve as Curve;
+  const curve = answer.result.curve;
   const doc = store.state.history.now;
   const old = doc.entities.find((x) => x.kind === "faired" && x.of === subject.id);
   if (old) {
@@ -74,12 +81,14 @@ export async function fairIt(client: Client, store: Store, live: Live, e: Entity
 }
 
 export class FairPanel {
-  private wishes: FairWishes = { ...defaultWishes };
+  private wishes: FairWishes = {
+    tolerance: 0, smoothness: defaultsOfFair.smoothness, criterion: defaultsOfFair.criterion,
+  };
 
   constructor(private readonly client: Client, private readonly store: Store, private readonly live: Live) {}
 
-  start(e: Entity): void {
-    void fairIt(this.client, this.store, this.live, e, this.wishes);
+  private start(e: Entity, more: FairRequest = {}): void {
+    if (!this.store.state.work) void fairIt(this.client, this.store, this.live, e, this.wishes, more);
   }
 
   element(e: Entity): HTMLElement {
@@ -96,31 +105,36 @@ export class FairPanel {
     notes(e.line.notes ?? [])];
   }
 
-  private wishing(e: Entity, told: FairTold | null): HTMLElement[] {
+  private wishing(e: Entity, told: FairTold | null): (HTMLElement | false)[] {
     const unit = this.store.doc.unit;
     const size = told?.length ?? (e.kind === "scan" ? e.line.length ?? 1 : this.live.of(e.id)?.comb.length ?? 1);
     const now = this.wishes.tolerance || told?.tolerance || 5e-4 * size;
-    const start = () => this.start(e);
+    const again = () => {
+      if (told) this.start(e);
+    };
     return [
       slider({
         id: "tolerance", label: `Tolerance${unit ? `, ${unit}` : ""}`, value: Math.log10(now / size), min: -5, max: -1.5,
         show: (v) => measure(size * 10 ** v, 3),
         onInput: (v) => { this.wishes.tolerance = size * 10 ** v; },
-        onDone: () => { if (told) start(); },
+        onDone: again,
       }),
       choice({
         id: "criterion", label: "Looks for", value: this.wishes.criterion,
-        options: [
-          { value: "fewest-pieces", name: "fewest pieces" },
-          { value: "least-variation", name: "calmest curvature" },
-        ] as const,
+        options: Object.entries(kCriteria).map(([value, name]) => ({ value: value as Criterion, name })),
         onChoose: (criterion) => {
           this.wishes.criterion = criterion;
-          if (told) start();
+          again();
         },
       }),
+      this.wishes.criterion === "least-variation" && slider({
+        id: "smoothness", label: "Smoothness", value: this.wishes.smoothness, min: 0, max: 1,
+        stops: [{ at: 0, name: "as measured" }, { at: 1, name: "calmest" }], show: (v) => v.toFixed(2),
+        onInput: (smoothness) => { this.wishes.smoothness = smoothness; },
+        onDone: again,
+      }),
       h("div", { class: "row" },
-        button(told ? "Fair again" : "Fair", start, { class: "primary", id: "fair", disabled: this.store.state.work !== null }),
+        button(told ? "Fair again" : "Fair", () => this.start(e), { class: "primary", id: "fair", disabled: this.store.state.work !== null }),
         h("span", { class: "quiet" }, this.wishes.tolerance > 0 ? "" : "tolerance by the noise")),
     ];
   }
@@ -128,8 +142,7 @@ export class FairPanel {
   private steps(e: Faired, told: FairTold): (HTMLElement | null)[] {
     const unit = this.store.doc.unit ? ` ${this.store.doc.unit}` : "";
     return [
-      h("p", { class: told.within ? "verdict good" : "verdict bad", id: "verdict" },
-        told.cancelled ? "Stopped early: the best found" : told.within ? "Within the tolerance" : "Beyond the tolerance"),
+      ...verdict(told),
       h("dl", { class: "facts" },
         fact("Largest deviation", measure(told.max, 3) + unit),
         fact("Root mean square", measure(told.rms, 3) + unit),
@@ -141,23 +154,27 @@ export class FairPanel {
     ];
   }
 
-  private piece(e: Faired, p: FairPiece, index: number): HTMLElement {
-    const readings = p.interpretations.slice(0, 5);
+  private piece(e: Faired, p: FairedPiece, index: number): HTMLElement {
+    const readings = (p.interpretations ?? []).slice(0, 5);
     const select = h("select", { id: `reading-${index}`, "aria-label": `Reading of piece ${index}` },
       h("option", { value: "", selected: true }, `${p.rhythm} ${slopes(p.slopes)}`),
       ...readings.filter((r) => r.rhythm !== p.rhythm).map((r) =>
-        h("option", { value: r.rhythm }, `as ${r.rhythm} ${slopes(r.slopes)} \u2013 ${(100 * r.plausibility).toFixed(0)} %`)));
+        h("option", { value: r.rhythm }, `as ${r.rhythm} ${slopes(r.slopes)} \u2013 ${(100 * (r.plausibility ?? 0)).toFixed(0)} %`)));
     select.addEventListener("change", () => {
-      if (select.value)
-        void fairIt(this.client, this.store, this.live, e, this.wishes,
-          { interpretation: [{ piece: index, rhythm: select.value }] });
+      const rhythm = readings.find((r) => r.rhythm === select.value)?.rhythm;
+      if (rhythm) this.start(e, { interpretation: [{ piece: index, rhythm }] });
     });
-    return h("li", { "data-start": p.start, "data-length": p.length },
-      h("span", {}, `${measure(p.length, 3)}`), select, h("span", { class: "quiet" }, p.impression));
+    const from = p.start ?? 0;
+    const point = (stretch: Stretch | null) => this.store.set({ stretch });
+    const here = { entity: e.id, from, to: from + (p.length ?? 0) };
+    return h("li", {
+      pointerenter: () => point(here), pointerleave: () => point(null), focusin: () => point(here), focusout: () => point(null),
+    },
+      h("span", {}, measure(p.length ?? 0, 3)), select, h("span", { class: "quiet" }, p.impression ?? ""));
   }
 }
 
-const slopes = (list: number[]) => list.map((s) => s.toFixed(2).replace("-", "\u2212")).join(", ");
+const slopes = (list: number[] = []) => list.map((s) => s.toFixed(2).replace("-", "\u2212")).join(", ");
 
 const notes = (list: readonly string[]) =>
   list.length === 0 ? null

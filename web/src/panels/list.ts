@@ -8,7 +8,7 @@ import { icons } from "../ui/icons.ts";
 const iconOf: Record<Entity["kind"], string> = {
   segment: icons.segment, compound: icons.compound, "s-shape": icons["s-shape"], spline: icons.spline,
   quasi: icons.quasi, blend: icons.blend, mirror: icons.mirror, fixed: icons.segment,
-  scan: "M4 15h.01M6 11h.01M9 8h.01M13 6h.01M17 5h.01", faired: icons.comb, surface: icons.grid,
+  scan: "M4 15h.01M6 11h.01M9 8h.01M13 6h.01M17 5h.01", faired: icons.comb, sliding: icons.segment, surface: icons.grid,
 };
 
 function change(store: Store, label: string, doc: Doc): void {

@@ -9,8 +9,8 @@ export class LooksBar {
 
   constructor(private readonly store: Store, private readonly autoScale: () => void) {
     store.onChange((now, before) => {
-      const { combScale: _a, combDensity: _b, ...rest } = now.looks;
-      const { combScale: _c, combDensity: _d, ...old } = before.looks;
+      const { combScale: _a, combDensity: _b, combOwn: _e, ...rest } = now.looks;
+      const { combScale: _c, combDensity: _d, combOwn: _f, ...old } = before.looks;
       if (JSON.stringify(rest) !== JSON.stringify(old)) this.render();
     });
     this.render();
@@ -19,14 +19,16 @@ export class LooksBar {
   private render(): void {
     const { store } = this;
     const { looks } = store.state;
-    const flip = (id: string, icon: string, label: string, name: "comb" | "evolute" | "grid" | "snap", key?: string) =>
+    const flip = (id: string, icon: string, label: string, name: "comb" | "combOfAll" | "evolute" | "deviation" | "grid" | "snap", key?: string) =>
       iconButton({
         id: `look-${id}`, icon, label, pressed: looks[name], ...(key ? { key } : {}),
         onClick: () => store.look({ [name]: !looks[name] }),
       });
     fill(this.element,
       flip("comb", icons.comb, "Comb", "comb", "K"),
+      flip("combs", icons.combs, "Combs of all curves", "combOfAll", "J"),
       flip("evolute", icons.evolute, "Evolute", "evolute", "E"),
+      flip("deviation", icons.deviation, "Deviation of measured points", "deviation", "D"),
       iconButton({
         id: "look-wipe", icon: icons.wipe, label: "Wipe between before and after", key: "W", pressed: looks.wipe !== null,
         onClick: () => store.look({ wipe: looks.wipe === null ? 0.5 : null }),
@@ -46,7 +48,7 @@ export class LooksBar {
     return h("div", { class: "comb-controls" },
       slider({
         id: "comb-scale", label: "Comb length", value: 0, min: -2, max: 2, show: (v) => `\u00d7${(10 ** v).toFixed(2)}`,
-        onInput: (v) => store.look({ combScale: first * 10 ** v }), onDone: () => {},
+        onInput: (v) => store.scaleComb(first * 10 ** v), onDone: () => {},
       }),
       slider({
         id: "comb-density", label: "A tooth every", value: store.state.looks.combDensity, min: 1, max: 12, step: 1,

@@ -21,8 +21,9 @@ export function pieceAt(shown: Shown, sample: number): number {
 }
 
 /** "s 45.20 mm · ρ 124.3 mm · κ 0.008 · α −1" of a sample. */
-export function reading(shown: Shown, sample: number, unit: string): string {
+export function reading(e: Entity | undefined, shown: Shown, sample: number, unit: string): string {
   const { comb } = shown;
+  const piece = e?.kind === "faired" ? e.told.pieces[pieceAt(shown, sample)] : undefined;
   const k = comb.curvature[sample] ?? 0;
   const slope = slopesOf(shown)[pieceAt(shown, sample)];
   const behind = unit ? ` ${unit}` : "";
@@ -32,15 +33,14 @@ export function reading(shown: Shown, sample: number, unit: string): string {
     `\u03ba ${measure(k, 3)}`,
   ];
   if (typeof slope === "number") parts.push(`\u03b1 ${measure(slope, 3)}`);
+  if (piece) parts.push(`${piece.rhythm}: ${piece.impression}`);
   return parts.join("  \u00b7  ");
 }
 
-export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined, unit: string): HTMLElement {
+export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined, beside: string, unit: string): HTMLElement {
   const { comb } = shown;
   const graphs = comb.graphs;
   const behind = unit ? ` ${unit}` : "";
-  const waves = (s: Shown) =>
-    s.comb.graphs?.events?.filter((x) => x.kind === "maximum" || x.kind === "minimum").length ?? 0;
   const inflections = graphs?.events?.filter((x) => x.kind === "inflection").length ?? 0;
   const pair = (name: string, of: (s: Shown) => string) =>
     before
@@ -50,12 +50,12 @@ export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined
     const radii = s.comb.curvature.map((k) => 1 / Math.abs(k));
     return `${measure(Math.min(...radii), 3)}\u2009\u2026\u2009${measure(Math.max(...radii), 3)}`;
   };
-  return section(before ? "Before \u2192 after" : "Measures",
+  return section(!before ? "Measures" : beside ? `${beside} \u2192 ${e.name}` : "Before \u2192 after",
     h("dl", { class: before ? "facts pairs" : "facts", id: "measures", "data-entity": e.id },
       pair("Length", (s) => measure(s.comb.length, 5) + (before ? "" : behind)),
       pair("Radius", range),
       pair("Pieces", (s) => String(s.comb.joints.length + 1)),
-      pair("Waves", (s) => String(waves(s))),
+      pair("Extrema", (s) => String(s.comb.graphs?.events?.filter((x) => x.kind === "maximum" || x.kind === "minimum").length ?? 0)),
       fact("Inflections", String(inflections)),
       pair("Energy", (s) => measure(s.comb.graphs?.energy ?? 0, 3)),
       pair("Bending", (s) => measure(s.comb.graphs?.bending ?? 0, 3)),

@@ -3,7 +3,9 @@ import { iconButton } from "../ui/controls.ts";
 import { fill, h } from "../ui/dom.ts";
 import { icons } from "../ui/icons.ts";
 
-export const tools: readonly { name: ToolName; label: string; key: string }[] = [
+type Railed = Exclude<ToolName, "measure">;
+
+export const tools: readonly { name: Railed; label: string; key: string }[] = [
   { name: "select", label: "Select and drag", key: "V" },
   { name: "segment", label: "Log-aesthetic segment from three handles", key: "L" },
   { name: "compound", label: "Compound rhythm: two slopes, one joint", key: "C" },

@@ -55,7 +55,9 @@ export function slider(o: SliderOptions): HTMLElement {
         o.onDone();
       },
     }, s.name);
-    stop.style.setProperty("--at", String((s.at - o.min) / (o.max - o.min)));
+    const at = (s.at - o.min) / (o.max - o.min);
+    stop.style.setProperty("--at", String(at));
+    stop.style.setProperty("--shift", `${at < 0.1 ? 0 : at > 0.9 ? -100 : -50}%`); // names at the ends stay inside
     return stop;
   });
   return h("div", { class: "slider" },

@@ -1,143 +1,162 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { isQuiet, onPage, openBrowser, Server, settled, visit, type Visit } from "./studio.ts";
+import { expect, it } from "vitest";
+import { isQuiet, onPage, onStage, settled } from "./studio.ts";
 
 interface Made {
   curve: { pieces: { length: number; curvature: [number, number] }[] };
 }
 
-describe("drawing", () => {
-  const server = new Server();
-  let browser: Browser;
-  let at: Visit;
-
-  beforeAll(async () => {
-    await server.start();
-    browser = await openBrowser();
-    at = await visit(browser, server.url);
-  });
-  afterAll(async () => {
-    await browser.close();
-    await server.remove();
-  });
-
-  const points = () => at.page.evaluate(() =>
+onStage("drawing", [], (stage) => {
+  const points = () => stage.at.page.evaluate(() =>
     (window.keyline.store.doc.entities[0] as { points: [number, number][] }).points);
-  const fact = (name: string) => at.page.locator("#measures .fact", { has: at.page.locator("dt", { hasText: name }) })
+  const fact = (name: string) => stage.at.page.locator("#measures .fact", { has: stage.at.page.locator("dt", { hasText: name }) })
     .locator("dd").last().textContent();
 
   it("shows a first curve at once, its comb and graphs", async () => {
-    const entry = await at.page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
-    const paint = await entry.jsonValue() as number;
-    console.log(`first contentful paint after ${paint.toFixed(0)} ms`);
-    if (isQuiet()) expect(paint).toBeLessThan(1000);
-    expect(await at.page.evaluate(() => window.keyline.store.state.looks.combScale)).toBeGreaterThan(0);
+    const { shell, curve } = await stage.at.page.evaluate(() => ({
+      shell: performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? 0,
+      curve: performance.getEntriesByName("first-curve")[0]?.startTime ?? 0,
+    }));
+    console.log(`page after ${shell.toFixed(0)} ms, a curve with its comb after ${curve.toFixed(0)} ms`);
+    expect(curve).toBeGreaterThan(0);
+    if (isQuiet()) expect(curve).toBeLessThan(1000);
+    expect(await stage.at.page.evaluate(() => window.keyline.store.state.looks.combScale)).toBeGreaterThan(0);
   });
 
   it("follows a dragged handle, with the numbers of the operation", async () => {
     const before = await points();
-    const from = await onPage(at.page, before[2] as [number, number]);
-    await at.page.mouse.move(from.x, from.y);
-    await at.page.mouse.down();
-    await at.page.mouse.move(from.x - 60, from.y - 30, { steps: 12 });
-    await at.page.mouse.up();
-    await settled(at.page);
+    const from = await onPage(stage.at.page, before[2] as [number, number]);
+    await stage.at.page.mouse.move(from.x, from.y);
+    await stage.at.page.mouse.down();
+    await stage.at.page.mouse.move(from.x - 60, from.y - 30, { steps: 12 });
+    await stage.at.page.mouse.up();
+    await settled(stage.at.page);
     const now = await points();
     expect(now[2]).not.toEqual(before[2]);
     expect(now.slice(0, 2)).toEqual(before.slice(0, 2));
-    const made = await server.ask<Made>("lac.segment", { points: now, alpha: -1 });
+    const made = await stage.server.ask<Made>("lac.segment", { points: now, alpha: -1 });
     const piece = made.curve.pieces[0];
     expect(await fact("Length")).toBe(`${piece?.length.toFixed(2)} mm`);
-    const shown = await at.page.evaluate(() => window.keyline.live.of(1)?.curve);
+    const shown = await stage.at.page.evaluate(() => window.keyline.live.of(1)?.curve);
     expect(shown).toEqual(made.curve);
   });
 
   it("takes a slope from the slider's stops and undoes every step", async () => {
-    await at.page.click("text=involute");
-    await settled(at.page);
-    expect(await at.page.inputValue("#alpha-number")).toBe("2.000");
-    const alpha = await at.page.evaluate(() => (window.keyline.live.of(1)?.curve.pieces as { alpha: number }[])[0]?.alpha);
+    await stage.at.page.click("text=involute");
+    await settled(stage.at.page);
+    expect(await stage.at.page.inputValue("#alpha-number")).toBe("2.000");
+    const alpha = await stage.at.page.evaluate(() => (window.keyline.live.of(1)?.curve.pieces as { alpha: number }[])[0]?.alpha);
     expect(alpha).toBe(2);
     const moved = await points();
-    await at.page.keyboard.press("Control+z");
-    await at.page.keyboard.press("Control+z");
-    await settled(at.page);
-    expect(await points()).toEqual([[0, 0], [150, 0], [230, 130]]);
-    await at.page.keyboard.press("Control+Shift+z");
+    await stage.at.page.keyboard.press("Control+z");
+    await stage.at.page.keyboard.press("Control+z");
+    await settled(stage.at.page);
+    expect(await points()).toEqual([[0, 0], [180, 0], [230, 130]]);
+    await stage.at.page.keyboard.press("Control+Shift+z");
     expect(await points()).toEqual(moved);
   });
 
   it("marks a hovered place in curve and graphs alike", async () => {
-    const graph = await at.page.locator(".graph canvas").first().boundingBox();
+    const graph = await stage.at.page.locator(".graph canvas").first().boundingBox();
     if (!graph) throw new Error("no graph");
-    await at.page.mouse.move(graph.x + graph.width / 2, graph.y + graph.height / 2);
-    const hover = await at.page.evaluate(() => window.keyline.store.state.hover);
+    await stage.at.page.mouse.move(graph.x + graph.width / 2, graph.y + graph.height / 2);
+    const hover = await stage.at.page.evaluate(() => window.keyline.store.state.hover);
     expect(hover?.entity).toBe(1);
-    expect(await at.page.locator("#reading").textContent()).toMatch(/s .*ρ .*κ .*α/);
-    const comb = await at.page.evaluate(() => window.keyline.live.of(1)?.comb.points.length);
+    expect(await stage.at.page.locator("#reading").textContent()).toMatch(/s .*ρ .*κ .*α/);
+    const comb = await stage.at.page.evaluate(() => window.keyline.live.of(1)?.comb.points.length);
     expect(Math.abs((hover?.sample ?? 0) - (comb ?? 0) / 2)).toBeLessThan((comb ?? 0) / 8);
   });
 
   it("draws by clicks, and says why where nothing can be drawn", async () => {
-    await at.page.locator(".board").focus();
-    await at.page.evaluate(() => window.keyline.view.fit({ low: [0, -100], high: [240, 260] }, { left: 30, top: 30, right: 30, bottom: 30 }));
+    await stage.at.page.locator(".board").focus();
+    await stage.at.page.evaluate(() => window.keyline.view.fit({ low: [0, -100], high: [240, 260] }, { left: 30, top: 30, right: 30, bottom: 30 }));
     for (const [key, clicks] of [["l", 3], ["c", 3], ["s", 4], ["q", 3]] as const) {
-      await at.page.keyboard.press(key);
+      await stage.at.page.keyboard.press(key);
       const corners = [[20, 160], [60, 230], [150, 200], [190, 240]] as const;
       for (const corner of corners.slice(0, clicks)) {
-        const { x, y } = await onPage(at.page, corner);
-        await at.page.mouse.click(x, y);
+        const { x, y } = await onPage(stage.at.page, corner);
+        await stage.at.page.mouse.click(x, y);
       }
-      await settled(at.page);
+      await settled(stage.at.page);
     }
-    await at.page.keyboard.press("p");
+    await stage.at.page.keyboard.press("p");
     for (const corner of [[20, -60], [60, -20], [120, -70], [160, -30]] as const) {
-      const { x, y } = await onPage(at.page, corner);
-      await at.page.mouse.click(x, y);
+      const { x, y } = await onPage(stage.at.page, corner);
+      await stage.at.page.mouse.click(x, y);
     }
-    await at.page.keyboard.press("Enter");
-    await settled(at.page);
-    const kinds = await at.page.evaluate(() => window.keyline.store.doc.entities.map((e) => e.kind));
+    await stage.at.page.keyboard.press("Enter");
+    await settled(stage.at.page);
+    const kinds = await stage.at.page.evaluate(() => window.keyline.store.doc.entities.map((e) => e.kind));
     expect(kinds).toEqual(["segment", "segment", "compound", "s-shape", "quasi", "spline"]);
-    const made = await at.page.evaluate(() =>
+    const made = await stage.at.page.evaluate(() =>
       window.keyline.store.doc.entities.map((e) => window.keyline.live.of(e.id) !== undefined));
     expect(made).toEqual(kinds.map(() => true));
     // beyond the drawable region: alpha 2 and a triangle no such curve fits
-    await at.page.evaluate(() => {
+    await stage.at.page.evaluate(() => {
       const { store } = window.keyline;
       store.commit("Test", { ...store.doc, entities: store.doc.entities.map((e) =>
         e.id === 1 ? ({ ...e, alpha: 2, points: [[0, 0], [200, 0], [200.5, 30]] } as typeof e) : e) }, { selection: [1] });
     });
-    await settled(at.page);
-    await at.page.waitForSelector("#failure");
-    expect((await at.page.locator("#failure").textContent())?.length).toBeGreaterThan(20);
-    await at.page.keyboard.press("Control+z");
+    await settled(stage.at.page);
+    await stage.at.page.waitForSelector("#failure");
+    expect((await stage.at.page.locator("#failure").textContent())?.length).toBeGreaterThan(20);
+    await stage.at.page.keyboard.press("Control+z");
+  });
+
+  it("slides a compound's joint along the curve", async () => {
+    const { page } = stage.at;
+    const id = await page.evaluate(() => {
+      const { store } = window.keyline;
+      const e = store.doc.entities.find((x) => x.kind === "compound");
+      if (e) store.set({ selection: [e.id] });
+      return e?.id ?? 0;
+    });
+    const joint = () => page.evaluate((i) => window.keyline.live.of(i)?.result["joint"] as [number, number], id);
+    const before = await joint();
+    // a fifth of the curve further on: the hand stays on it, as the joint does
+    const to = await page.evaluate(({ i, at }) => {
+      const comb = window.keyline.live.of(i)?.comb;
+      const points = (comb?.points ?? []) as [number, number][];
+      const near = points.reduce((best, p, k) => (Math.hypot(p[0] - at[0], p[1] - at[1]) < best.d ? { k, d: Math.hypot(p[0] - at[0], p[1] - at[1]) } : best), { k: 0, d: Infinity });
+      return points[Math.min(points.length - 1, near.k + Math.floor(points.length / 5))] as [number, number];
+    }, { i: id, at: before });
+    const a = await onPage(page, before);
+    const b = await onPage(page, to);
+    await page.mouse.move(a.x, a.y);
+    await page.mouse.down();
+    await page.mouse.move(b.x, b.y, { steps: 3 });
+    await page.mouse.up();
+    await settled(page);
+    const ratio = await page.evaluate((i) => (window.keyline.store.doc.entities.find((e) => e.id === i) as { ratio: number }).ratio, id);
+    expect(ratio).not.toBe(0.5);
+    const now = await joint();
+    expect(Math.hypot(now[0] - to[0], now[1] - to[1])).toBeLessThan(0.5 * Math.hypot(before[0] - to[0], before[1] - to[1]));
+    await page.keyboard.press("Control+z");
   });
 
   it("keeps up with the hand", async () => {
-    await at.page.evaluate(() => {
+    await stage.at.page.evaluate(() => {
       const { store } = window.keyline;
       store.commit("Test", { ...store.doc, entities: store.doc.entities.slice(0, 1) }, { selection: [1] });
       window.keyline.fit();
     });
-    await settled(at.page);
-    const from = await onPage(at.page, (await points())[1] as [number, number]);
-    await at.page.mouse.move(from.x, from.y);
-    await at.page.mouse.down();
-    await at.page.evaluate(() => window.keyline.canvas.latency.forget());
-    for (let i = 0; i < 240; ++i) {
-      await at.page.mouse.move(from.x + 50 * Math.sin(i / 12), from.y + 35 * Math.cos(i / 9) - 35);
+    await settled(stage.at.page);
+    const from = await onPage(stage.at.page, (await points())[1] as [number, number]);
+    await stage.at.page.mouse.move(from.x, from.y);
+    await stage.at.page.mouse.down();
+    await stage.at.page.evaluate(() => window.keyline.canvas.latency.forget());
+    // where the time is judged, long enough for a percentile; else just long enough to see it follow
+    const moves = isQuiet() ? 240 : 12;
+    for (let i = 0; i < moves; ++i) {
+      await stage.at.page.mouse.move(from.x + 50 * Math.sin(i / 12), from.y + 35 * Math.cos(i / 9) - 35);
     }
-    await at.page.mouse.up();
-    await settled(at.page);
-    const { count, half, most } = await at.page.evaluate(() => {
+    await stage.at.page.mouse.up();
+    await settled(stage.at.page);
+    const { count, half, most } = await stage.at.page.evaluate(() => {
       const { latency } = window.keyline.canvas;
       return { count: latency.count, half: latency.within(0.5), most: latency.within(0.95) };
     });
     console.log(`pointer to painted curve, comb and graphs: p50 ${half.toFixed(1)} ms, p95 ${most.toFixed(1)} ms of ${count}`);
-    expect(count).toBeGreaterThan(50);
+    expect(count).toBeGreaterThan(isQuiet() ? 50 : 1);
     if (isQuiet()) expect(most).toBeLessThanOrEqual(16);
   });
-
-  it("complains of nothing", () => expect(at.errors).toEqual([]));
 });

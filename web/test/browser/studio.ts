@@ -5,8 +5,10 @@ import { availableParallelism, loadavg, tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { type Browser, type BrowserContext, chromium, type Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 export const source = join(dirname(fileURLToPath(import.meta.url)), "../../..");
+const kPatience = 120_000; // ms: how fast the machine is, is not what is asked
 export const token = "0123456789abcdef";
 
 /** Whether the machine has time for us alone: only then a measured time says something of us. */
@@ -80,6 +82,7 @@ export interface Visit {
 export async function visit(browser: Browser, url: string, size = { width: 1280, height: 800 }): Promise<Visit> {
   const context = await browser.newContext({ viewport: size, colorScheme: "dark", acceptDownloads: true });
   const page = await context.newPage();
+  page.setDefaultTimeout(kPatience);
   const errors: string[] = [];
   page.on("pageerror", (e) => errors.push(e.message));
   page.on("console", (m) => {
@@ -101,4 +104,30 @@ export async function onPage(page: Page, point: readonly [number, number]): Prom
 
 export async function settled(page: Page): Promise<void> {
   await page.waitForFunction(() => window.keyline.live.settled && window.keyline.store.state.work === null);
+}
+
+/** What every file of tests has: a server, a browser, a page that was opened. */
+export interface Stage {
+  readonly server: Server;
+  browser: Browser;
+  at: Visit;
+}
+
+/** A server of its own with the files opened, a page of it, and at the end nothing it complained of. */
+export function onStage(name: string, files: readonly string[], tests: (stage: Stage) => void,
+                        excused: RegExp = /(?!)/): void {
+  describe(name, () => {
+    const stage = { server: new Server() } as Stage;
+    beforeAll(async () => {
+      await stage.server.start(files);
+      stage.browser = await openBrowser();
+      stage.at = await visit(stage.browser, stage.server.url);
+    });
+    afterAll(async () => {
+      await stage.browser.close();
+      await stage.server.remove();
+    });
+    tests(stage);
+    it("complains of nothing", () => expect(stage.at.errors.filter((e) => !excused.test(e))).toEqual([]));
+  });
 }

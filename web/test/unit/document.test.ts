@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { added, emptyDoc, handlesOf, moved, type Point, withHandle, without } from "../../src/model/document.ts";
+import { added, emptyDoc, type Entity, handlesOf, moved, type Point, withHandle, without } from "../../src/model/document.ts";
 import { recipeOf } from "../../src/model/recipe.ts";
-import { isKept } from "../../src/model/autosave.ts";
+import { isKept, ownDocument } from "../../src/model/autosave.ts";
 
 const points: [Point, Point, Point] = [[0, 0], [2, 0], [3, 1]];
 
@@ -39,6 +39,23 @@ describe("document", () => {
     expect(recipeOf(mirror, () => curve)).toEqual({
       op: "curve.mirror", request: { curve, point: [0, 0], direction: Math.PI / 2 },
     });
+  });
+
+  it("slides a curve by the operation, to the place or to least energy", () => {
+    const given = { type: "bezier", points: [] };
+    const sliding = { kind: "sliding", name: "s", given, hold: "ends", amount: 0.5 } as const;
+    const made = (target: { alpha: number; s: number } | null) =>
+      recipeOf(added(emptyDoc(), { ...sliding, target }).doc.entities[0] as Entity, () => undefined);
+    expect(made(null)).toEqual({ op: "curve.edit", request: { curve: given, hold: "ends", amount: 0.5 } });
+    expect(made({ alpha: 0.3, s: 1.2 })?.request["target"]).toEqual({ alpha: 0.3, s: 1.2 });
+  });
+
+  it("knows its own file from others", async () => {
+    const file = (name: string, text: string) => Object.assign(new Blob([text]), { name });
+    const own = JSON.stringify({ format: "keyline-studio", version: 1, saved: 0, files: [], doc: two().doc });
+    expect((await ownDocument(file("a.keyline.json", own)))?.doc.entities.length).toBe(2);
+    for (const other of [file("a.json", '{"type":"bezier"}'), file("a.json", "{"), file("a.csv", own)])
+      expect(await ownDocument(other)).toBeNull();
   });
 
   it("takes back only what it kept itself", () => {

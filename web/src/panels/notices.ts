@@ -1,0 +1,41 @@
+/** What is being worked at, and what there is to say. */
+import type { Store } from "../model/state.ts";
+import { iconButton } from "../ui/controls.ts";
+import { fill, h } from "../ui/dom.ts";
+import { icons } from "../ui/icons.ts";
+
+const kGone = {
+  text: "The server is gone", hint: "your work is kept; start keyline studio again and open the address it prints", bad: true,
+};
+
+export class Notices {
+  readonly work = h("div", { class: "work" });
+  readonly toast = h("div", { class: "toast", role: "alert" });
+
+  constructor(private readonly store: Store) {
+    store.onChange((now, before) => {
+      if (now.work !== before.work) this.renderWork();
+      if (now.message !== before.message || now.reached !== before.reached) this.renderToast();
+    });
+  }
+
+  private renderWork(): void {
+    const { work } = this.store.state;
+    if (!work || !this.work.firstElementChild)
+      fill(this.work, work && h("div", { class: "progress" }, h("span"), h("progress", { max: 1, value: 0 }),
+        h("button", { type: "button", id: "cancel", click: () => this.store.state.work?.cancel() }, "Stop")));
+    if (!work) return;
+    const bar = this.work.querySelector("progress") as HTMLProgressElement; // stays while a hand moves towards the button
+    bar.value = work.fraction;
+    bar.ariaLabel = work.doing;
+    (this.work.querySelector("span") as HTMLElement).textContent = work.doing;
+  }
+
+  private renderToast(): void {
+    const { message, reached } = this.store.state;
+    const said = reached ? message : kGone;
+    fill(this.toast, said && h("div", { class: said.bad ? "said bad" : "said" },
+      h("strong", {}, said.text), said.hint && h("span", {}, said.hint),
+      iconButton({ icon: icons.remove, label: "Dismiss", onClick: () => this.store.say("") })));
+  }
+}

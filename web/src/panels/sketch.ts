@@ -1,0 +1,151 @@
+/** A picture below the curves: how it lies, what is seen in it stage by stage, and its lines as curves. */
+import {
+  type Curve, defaultsOfSketchTrace, type SketchTraceRequest, type SketchTraceResult, type StageShown,
+} from "../../generated/operations.ts";
+import type { Client } from "../api/client.ts";
+import { added, type Doc } from "../model/document.ts";
+import type { Store, Underlay } from "../model/state.ts";
+import { button, choice, section, slider, toggle } from "../ui/controls.ts";
+import { h } from "../ui/dom.ts";
+import { Regions } from "./regions.ts";
+
+const kLayer = "Sketch";
+
+/** One pixel is one unit, the lower left corner the origin, as sketch.trace has it. */
+export async function layUnder(store: Store, picture: Blob, file: string): Promise<void> {
+  const { width, height } = await createImageBitmap(picture);
+  const old = store.state.underlay;
+  if (old) URL.revokeObjectURL(old.url);
+  store.set({
+    underlay: {
+      url: URL.createObjectURL(picture), name: file.replace(/^.*\//, ""), file, width, height, at: [0, 0], scale: 1, opacity: 0.5,
+      stages: [], stage: "",
+    },
+  });
+}
+
+async function pictureOf(stage: StageShown): Promise<string> {
+  const { width = 1, height = 1 } = stage;
+  const gray = Uint8Array.from(atob(stage.gray ?? ""), (c) => c.charCodeAt(0));
+  const pixels = new ImageData(width, height);
+  gray.forEach((v, i) => pixels.data.set([v, v, v, 255], 4 * i));
+  const canvas = new OffscreenCanvas(width, height);
+  canvas.getContext("2d")?.putImageData(pixels, 0, 0);
+  return URL.createObjectURL(await canvas.convertToBlob());
+}
+
+/** The lines found take the place of those found before. */
+function withStrokes(doc: Doc, answer: SketchTraceResult, under: Underlay): { doc: Doc; ids: number[] } {
+  let now: Doc = { ...doc, entities: doc.entities.filter((e) => !(e.kind === "fixed" && e.layer === kLayer)) };
+  const ids: number[] = [];
+  for (const [i, stroke] of (answer.strokes ?? []).entries()) {
+    const made = added(now, { kind: "fixed", name: `Stroke ${i + 1}`, layer: kLayer, curve: stroke.curve as Curve });
+    now = made.doc;
+    ids.push(made.id);
+  }
+  return { doc: { ...now, unit: under.scale === 1 ? now.unit : "mm" }, ids };
+}
+
+export class SketchPanel {
+  private wishes: SketchTraceRequest = {};
+  private readonly regions = new Regions();
+
+  constructor(private readonly client: Client, private readonly store: Store) {}
+
+  private put(change: Partial<Underlay>): void {
+    const { underlay } = this.store.state;
+    if (underlay) this.store.set({ underlay: { ...underlay, ...change } });
+  }
+
+  async trace(): Promise<void> {
+    const { underlay } = this.store.state;
+    if (!underlay || this.store.state.work) return;
+    const request: SketchTraceRequest = {
+      file: underlay.file, stages: true, ...this.wishes,
+      ...(underlay.scale === 1 ? {} : { scale: underlay.scale }),
+      ...(this.regions.any ? { thresholds: [...this.regions.values] } : {}),
+    };
+    const work = this.client.long<SketchTraceResult>("sketch.trace", request, (fraction, doing) => {
+      if (this.store.state.work) this.store.set({ work: { ...this.store.state.work, fraction, doing } });
+    });
+    this.store.set({ work: { doing: "looking at the picture", fraction: 0, cancel: work.cancel } });
+    const answer = await work.answer;
+    this.store.set({ work: null });
+    if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", true);
+    const { doc, ids } = withStrokes(this.store.state.history.now, answer.result, underlay);
+    const stages = await Promise.all((answer.result.stages ?? []).map(async (stage) =>
+      ({ name: stage.name ?? "", url: await pictureOf(stage) })));
+    for (const old of underlay.stages) URL.revokeObjectURL(old.url);
+    this.put({ stages, stage: stages.some((s) => s.name === underlay.stage) ? underlay.stage : "" });
+    this.store.commit("Trace", doc, { selection: ids.slice(0, 1) });
+    const explained = answer.result.explained === undefined ? "" : `, ${(100 * answer.result.explained).toFixed(0)} % of the ink lies beside one`;
+    this.store.say(`${ids.length} line${ids.length === 1 ? "" : "s"} found${explained}`, (answer.result.report ?? []).join("; "));
+  }
+
+  element(): HTMLElement | null {
+    const { underlay } = this.store.state;
+    if (!underlay) return null;
+    const stages = [{ value: "", name: "the picture" }, ...underlay.stages.map((s) => ({ value: s.name, name: s.name }))];
+    return section("Picture below",
+      h("p", { class: "quiet" }, `${underlay.name}, ${underlay.width} \u00d7 ${underlay.height} pixels${underlay.scale === 1 ? "" : `, ${underlay.scale.toPrecision(4)} mm each`}`),
+      slider({
+        id: "opacity", label: "Opacity", value: underlay.opacity, min: 0, max: 1, show: (v) => v.toFixed(2),
+        onInput: (opacity) => this.put({ opacity }), onDone: () => {},
+      }),
+      underlay.stages.length > 0 && choice({
+        id: "stage", label: "Shows", value: underlay.stage, options: stages, onChoose: (stage) => this.put({ stage }),
+      }),
+      h("div", { class: "row" }, button("Scale by two points", () => this.store.set({ tool: "measure" }), { id: "scale-picture" }),
+        button("Remove", () => this.store.set({ underlay: null }))),
+      this.scaling(underlay),
+      h("h3", {}, "Lines"),
+      ...this.wishing(underlay),
+      h("div", { class: "row" }, button("Trace its lines", () => void this.trace(), { id: "trace", class: "primary" })));
+  }
+
+  /** Two points have been clicked: how far are they apart? */
+  private scaling(underlay: Underlay): HTMLElement | null {
+    const { measured } = this.store.state;
+    if (!measured) return null;
+    const [a, b] = measured;
+    const now = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const field = h("input", { type: "text", class: "number", id: "measured", inputmode: "decimal", value: now.toPrecision(5), "aria-label": "Distance of the two points, mm" });
+    field.addEventListener("change", () => {
+      const wanted = Number(field.value.replace(",", "."));
+      if (!(wanted > 0 && now > 0)) return;
+      const by = wanted / now;
+      this.store.set({ measured: null });
+      this.put({ scale: underlay.scale * by, at: [a[0] + (underlay.at[0] - a[0]) * by, a[1] + (underlay.at[1] - a[1]) * by] });
+    });
+    return h("div", { class: "row" }, h("label", { for: "measured" }, "They are apart, mm"), field);
+  }
+
+  private wishing(underlay: Underlay): (HTMLElement | false)[] {
+    const wish = <K extends keyof SketchTraceRequest>(name: K, value: SketchTraceRequest[K]) => {
+      this.wishes = { ...this.wishes, [name]: value };
+    };
+    const { wishes } = this;
+    return [
+      choice({
+        id: "trace-curvature", label: "Curvature", value: wishes.curvature ?? defaultsOfSketchTrace.curvature,
+        options: [{ value: "none", name: "as drawn" }, { value: "smooth", name: "smoothed" }, { value: "rhythm", name: "to its rhythm" }] as const,
+        onChoose: (v) => wish("curvature", v),
+      }),
+      choice({
+        id: "trace-edge", label: "Follows", value: wishes.edge ?? defaultsOfSketchTrace.edge,
+        options: [{ value: "center", name: "middle of the lines" }, { value: "outer", name: "outer border" }] as const,
+        onChoose: (v) => wish("edge", v),
+      }),
+      choice({
+        id: "trace-polarity", label: "Drawn", value: wishes.polarity ?? defaultsOfSketchTrace.polarity,
+        options: [{ value: "auto", name: "as found" }, { value: "dark", name: "dark on light" }, { value: "light", name: "light on dark" }] as const,
+        onChoose: (v) => wish("polarity", v),
+      }),
+      toggle({
+        id: "trace-consolidate", label: "Lines drawn several times become one",
+        value: wishes.consolidate ?? defaultsOfSketchTrace.consolidate, onChange: (v) => wish("consolidate", v),
+      }),
+      this.regions.element(underlay),
+    ];
+  }
+}

@@ -1,0 +1,116 @@
+/** The surfaces of the document in space, shown over the drawing board while one of them is chosen. */
+import type { Client } from "../api/client.ts";
+import { paletteOf } from "../canvas/scene.ts";
+import type { Palette } from "../canvas/palette.ts";
+import { entityOf, isShown, type SurfaceEntity } from "../model/document.ts";
+import type { Store } from "../model/state.ts";
+import { h } from "../ui/dom.ts";
+import { type Sampled, Samples, shownRange, type SurfaceLook } from "./mesh.ts";
+import type { NetworkLine, SurfaceView } from "./view.ts";
+
+export interface SurfaceLooks {
+  look: SurfaceLook;
+  stripes: number;
+  /** share of the values that the colours hold */
+  share: number;
+  /** as it was before editing */
+  before: boolean;
+  network: boolean;
+  /** name of a network curve: A1, A2, … */
+  chosen: string | null;
+}
+
+export class SurfaceStage {
+  readonly element = h("div", { class: "surface-stage", hidden: true });
+  readonly looks: SurfaceLooks = {
+    look: "zebra", stripes: 12, share: 0.95, before: false, network: true, chosen: null,
+  };
+  private view: SurfaceView | null = null;
+  private loading = false;
+  private readonly samples: Samples;
+  /** type of each network curve of the chosen surface, for its colour */
+  types = new Map<string, number>();
+  /** of the values in sight */
+  range: readonly [number, number] = [0, 1];
+  onRange: () => void = () => {};
+
+  constructor(client: Client, private readonly store: Store) {
+    this.samples = new Samples(client);
+    this.samples.onCame = () => this.paint();
+    this.samples.onFailure = (message) => store.say(message, "", true);
+    store.onChange((now, before) => {
+      if (now.history.now !== before.history.now || now.selection !== before.selection || now.looks.theme !== before.looks.theme)
+        this.paint();
+    });
+  }
+
+  subject(): SurfaceEntity | null {
+    const e = entityOf(this.store.doc, this.store.state.selection.at(-1) ?? null);
+    return e?.kind === "surface" ? e : null;
+  }
+
+  look(change: Partial<SurfaceLooks>): void {
+    Object.assign(this.looks, change);
+    this.paint();
+  }
+
+  private async load(): Promise<void> {
+    if (this.loading) return;
+    this.loading = true;
+    const canvas = h("canvas", {
+      class: "space", tabindex: 0, role: "application",
+      "aria-label": "Surfaces in space. Arrow keys turn them, plus and minus zoom.",
+    });
+    this.element.append(canvas);
+    try {
+      const { SurfaceView: View } = await import("./view.ts");
+      this.view = new View(canvas);
+    } catch (error) {
+      this.store.say("Surfaces cannot be shown", `the browser has no WebGL: ${String(error)}`, true);
+    }
+    this.paint();
+  }
+
+  private surfacesInSight(): SurfaceEntity[] {
+    const { doc } = this.store;
+    return doc.entities.filter((e): e is SurfaceEntity => e.kind === "surface" && isShown(doc, e));
+  }
+
+  paint(): void {
+    const subject = this.subject();
+    this.element.hidden = subject === null;
+    if (!subject) return;
+    if (!this.view) return void this.load();
+    const { looks } = this;
+    const sampled = this.surfacesInSight().map((e) =>
+      this.samples.of(looks.before && e.given ? e.given : e.surface, looks.look));
+    const there = sampled.filter((s): s is Sampled => s !== null);
+    if (there.length === 0) return;
+    this.range = shownRange(there.map((s) => s.values), looks.share);
+    const colors = paletteOf(this.store.state);
+    this.view.show({
+      surfaces: there, range: this.range, look: looks.look, stripes: looks.stripes, colors,
+      network: looks.network ? this.network(looks.before && subject.given ? subject.given : subject.surface, colors) : [],
+    });
+    this.onRange();
+  }
+
+  fit(): void {
+    const there = this.surfacesInSight().map((e) => this.samples.of(e.surface, this.looks.look));
+    this.view?.frame(there.filter((s): s is Sampled => s !== null));
+  }
+
+  /** Rows and columns of a patch's net, as the table names them. */
+  private network(surface: SurfaceEntity["surface"], colors: Palette): NetworkLine[] {
+    const net = surface.points;
+    const rows = net.map((points, i) => ({ name: `A${i + 1}`, points }));
+    const columns = (net[0] ?? []).map((_, j) => ({
+      name: `A${net.length + j + 1}`, points: net.map((row) => row[j] as number[]),
+    }));
+    return [...rows, ...columns].map(({ name, points }) => {
+      const type = this.types.get(name);
+      const color = type === undefined ? colors.faint : type <= 2 ? colors.inflection : type === 3 ? colors.comb : colors.bad;
+      return { name, points, color, chosen: name === this.looks.chosen };
+    });
+  }
+}

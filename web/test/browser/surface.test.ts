@@ -1,0 +1,56 @@
+import { expect, it } from "vitest";
+import { onStage, settled } from "./studio.ts";
+
+interface Edited {
+  surface: object;
+  after: { sav: number };
+}
+
+onStage("a patch", ["examples/panel-b.json"], (stage) => {
+  const painted = () => stage.at.page.evaluate(() => Number(document.querySelector<HTMLElement>(".space")?.dataset["painted"] ?? 0));
+  const shows = async (value: number) =>
+    stage.at.page.waitForFunction((wanted) => {
+      const shown = Number(document.querySelector("#sav-value")?.textContent?.split(" ").at(-1)?.replace("\u2212", "-"));
+      return Math.abs(shown - wanted) <= 1e-3 * Math.abs(wanted);
+    }, value);
+  const surface = () => stage.at.page.evaluate(() => {
+    const e = window.keyline.store.doc.entities[0];
+    return e?.kind === "surface" ? e.surface : null;
+  });
+
+  it("is shown in space with its value", async () => {
+    const { page } = stage.at;
+    const told = await stage.server.ask<{ sav: number; curves: unknown[] }>("surface.sav", { surface: await surface() });
+    await shows(told.sav);
+    expect(await page.locator("#sav tbody tr").count()).toBe(told.curves.length);
+    await page.waitForFunction(() => Number(document.querySelector<HTMLElement>(".space")?.dataset["painted"] ?? 0) > 0);
+  });
+
+  it("shows what light and curvature show, and turns by keyboard", async () => {
+    const { page } = stage.at;
+    for (const look of ["mean", "reflection"]) {
+      const before = await painted();
+      await page.selectOption("#surface-look", look);
+      await page.waitForFunction((n) => Number(document.querySelector<HTMLElement>(".space")?.dataset["painted"] ?? 0) > n, before);
+    }
+    const before = await painted();
+    await page.locator(".space").focus();
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForFunction((n) => Number(document.querySelector<HTMLElement>(".space")?.dataset["painted"] ?? 0) > n, before);
+  });
+
+  it("is edited to Class A as the operation edits it", async () => {
+    const { page } = stage.at;
+    await page.click("#network-A2");
+    expect(await page.locator("#network-A2").getAttribute("aria-pressed")).toBe("true");
+    const given = await surface();
+    await page.click("#edit-surface");
+    await page.waitForSelector("#surface-outcome");
+    await settled(page);
+    const edited = await stage.server.ask<Edited>("surface.edit", { surface: given, keep: "corners" });
+    expect(await surface()).toEqual(edited.surface);
+    await shows(edited.after.sav);
+    await page.keyboard.press("Control+z");
+    expect(await surface()).toEqual(given);
+  });
+});
