@@ -5,7 +5,7 @@
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/fairing/fair.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 #include "keyline/numeric/random.h"
 
 namespace keyline {

@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/hermite.h"
+#include "keyline/lac/hermite/hermite.h"
 
 #include "fair_curve_peer.h"
 

@@ -9,9 +9,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "keyline/lac/compound.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/region.h"
+#include "keyline/lac/hermite/compound.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/hermite/region.h"
 
 namespace keyline {
 namespace {

@@ -4,8 +4,8 @@
 #include <benchmark/benchmark.h>
 
 #include "keyline/core/point.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/segment.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/segment/segment.h"
 
 namespace keyline {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "keyline/lac/chain_sampler.h"
-#include "keyline/lac/hermite.h"
+#include "keyline/lac/chain/chain_sampler.h"
+#include "keyline/lac/hermite/hermite.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <benchmark/benchmark.h>
 
 #include "keyline/curve/conversion.h"
-#include "keyline/lac/cad.h"
-#include "keyline/lac/quasi.h"
+#include "keyline/lac/cad/cad.h"
+#include "keyline/lac/quasi/quasi.h"
 
 namespace keyline {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "keyline/lac/g2_hermite.h"
-#include "keyline/lac/spline.h"
+#include "keyline/lac/g2/g2_hermite.h"
+#include "keyline/lac/g2/spline.h"
 
 namespace keyline {
 namespace {

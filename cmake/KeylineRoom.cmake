@@ -3,10 +3,18 @@
 #   LINK          libraries whose headers stand in this room's own headers
 #   PRIVATE_LINK  libraries used in its .cpp files alone
 #   HEADERS_ONLY  its .cpp files are left out (an option is off)
+#   ELSEWHERE     inner folders whose .cpp files another target compiles
+# Sources stand in the room's folder and in its inner ones (README.md there says what each holds).
 function(keyline_room name)
-  cmake_parse_arguments(ARG "HEADERS_ONLY" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
-  file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
+  cmake_parse_arguments(ARG "HEADERS_ONLY" "" "DEPENDS;LINK;PRIVATE_LINK;ELSEWHERE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp"
+       "${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp")
+  file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h"
+       "${CMAKE_CURRENT_SOURCE_DIR}/*/*.h")
+  foreach(folder IN LISTS ARG_ELSEWHERE)
+    file(GLOB left_out CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
+    list(REMOVE_ITEM sources ${left_out})
+  endforeach()
   set(target keyline_${name})
   if(sources AND NOT ARG_HEADERS_ONLY)
     add_library(${target} STATIC ${sources} ${headers})

@@ -19,7 +19,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/json/json_document.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/writer.h"
 

@@ -13,7 +13,7 @@
 #include "keyline/core/error.h"
 #include "keyline/figure/class_a_charts.h"
 #include "keyline/figure/drawing.h"
-#include "keyline/lac/clamped.h"
+#include "keyline/lac/hermite/clamped.h"
 #include "keyline/presentation/class_a_figure.h"
 
 namespace {
@@ -104,7 +104,7 @@ void figures_7_and_8(const Output& out) {
   const classa::Evaluation after{{edited.curve, true}, edited.after, {}, {}};
   out.save("class-a-7-plane",
            presentation::plane_chart({{"given (π/4, 1.05)", &before}, {"edited", &after}},
-                                   options.cav, edited.path));
+                                     options.cav, edited.path));
   out.save("class-a-8-curves", pair_chart("Given and edited", given, edited.curve));
 }
 

@@ -10,9 +10,9 @@
 #include "keyline/core/angle.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/plot.h"
-#include "keyline/lac/compound.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/quasi.h"
+#include "keyline/lac/hermite/compound.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/quasi/quasi.h"
 
 #include "scene.h"
 

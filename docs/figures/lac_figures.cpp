@@ -8,11 +8,11 @@
 #include "keyline/core/angle.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/plot.h"
-#include "keyline/lac/compound.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/region.h"
-#include "keyline/lac/space_hermite.h"
-#include "keyline/lac/spline.h"
+#include "keyline/lac/g2/spline.h"
+#include "keyline/lac/hermite/compound.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/hermite/region.h"
+#include "keyline/lac/space/space_hermite.h"
 
 #include "scene.h"
 

@@ -11,8 +11,8 @@
 #include "keyline/core/error.h"
 #include "keyline/figure/drawing.h"
 #include "keyline/figure/plot.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/quasi.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/quasi/quasi.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "keyline/curve/jet.h"
-#include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/image/image_reader.h"
 #include "keyline/figure/plot.h"
 #include "keyline/fit/curvature_drive.h"
 #include "keyline/sketch/quintics.h"

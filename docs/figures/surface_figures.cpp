@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/curve/bspline.h"
-#include "keyline/exchange/json_surface.h"
+#include "keyline/exchange/json/json_surface.h"
 #include "keyline/figure/plot.h"
-#include "keyline/lac/quasi.h"
+#include "keyline/lac/quasi/quasi.h"
 #include "keyline/presentation/surface_pictures.h"
 #include "keyline/surface/continuity.h"
 #include "keyline/surface/edit.h"

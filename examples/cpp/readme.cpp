@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 int main() {
   using namespace keyline;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "keyline/exchange/dxf_reader.h"
+#include "keyline/exchange/dxf/dxf_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const keyline::exchange::DxfReadLimits limits{.depth = 8, .points = 2'000, .curves = 2'000};

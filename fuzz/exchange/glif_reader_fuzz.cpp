@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "keyline/exchange/glif.h"
+#include "keyline/exchange/font/glif.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto glyph = keyline::exchange::read_glif({reinterpret_cast<const char*>(data), size});

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "keyline/exchange/hull_table.h"
+#include "keyline/exchange/points/hull_table.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto table = keyline::exchange::read_hull_csv({reinterpret_cast<const char*>(data), size});

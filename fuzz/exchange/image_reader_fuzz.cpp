@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/image/image_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto image =

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/json/json_document.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto document = keyline::exchange::read_json({reinterpret_cast<const char*>(data), size});

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "keyline/acquire/symmetry.h"
-#include "keyline/exchange/mesh.h"
+#include "keyline/exchange/mesh/mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   namespace exchange = keyline::exchange;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "keyline/exchange/scap_reader.h"
+#include "keyline/exchange/points/scap_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto drawing =

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "keyline/core/point.h"
-#include "keyline/exchange/svg_reader.h"
+#include "keyline/exchange/svg/svg_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   keyline::exchange::SvgReadLimits limits;

@@ -9,7 +9,7 @@
 #include "keyline/curve/bspline.h"
 #include "keyline/curve/jet.h"
 #include "keyline/curve/polyline.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 namespace keyline::document {
 

@@ -8,7 +8,7 @@
 #include "keyline/curve/bspline.h"
 #include "keyline/curve/jet.h"
 #include "keyline/curve/polyline.h"
-#include "keyline/lac/space.h"
+#include "keyline/lac/space/space.h"
 
 namespace keyline::document {
 

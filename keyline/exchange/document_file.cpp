@@ -14,20 +14,20 @@
 
 #include "keyline/core/text.h"
 #include "keyline/document/units.h"
-#include "keyline/exchange/atomic_file.h"
-#include "keyline/exchange/cad_file.h"
-#include "keyline/exchange/csv_writer.h"
-#include "keyline/exchange/dxf_reader.h"
-#include "keyline/exchange/dxf_writer.h"
-#include "keyline/exchange/font.h"
-#include "keyline/exchange/glif.h"
-#include "keyline/exchange/hull_table.h"
-#include "keyline/exchange/json_document.h"
-#include "keyline/exchange/mesh.h"
-#include "keyline/exchange/pdf_document.h"
-#include "keyline/exchange/points_reader.h"
-#include "keyline/exchange/svg_document.h"
-#include "keyline/exchange/svg_text.h"
+#include "keyline/exchange/dxf/dxf_reader.h"
+#include "keyline/exchange/dxf/dxf_writer.h"
+#include "keyline/exchange/file/atomic_file.h"
+#include "keyline/exchange/font/font.h"
+#include "keyline/exchange/font/glif.h"
+#include "keyline/exchange/json/json_document.h"
+#include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/pdf/pdf_document.h"
+#include "keyline/exchange/points/csv_writer.h"
+#include "keyline/exchange/points/hull_table.h"
+#include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/step/cad_file.h"
+#include "keyline/exchange/svg/svg_document.h"
+#include "keyline/exchange/svg/svg_text.h"
 
 namespace keyline::exchange {
 namespace {
@@ -37,8 +37,6 @@ using core::ErrorCode;
 using core::fail;
 using core::Result;
 using document::Document;
-
-constexpr std::size_t kHead = 1024;  // bytes looked at to tell a format
 
 /// The points of every curve as a polyline.
 Result<Document> points_document(const fs::path& file) {
@@ -142,55 +140,6 @@ void sample_into(Corners& corners, const C& curve) {
 }
 
 }  // namespace
-
-core::Failure in_file(core::Failure failure, const std::string& file) {
-  if (failure.path.starts_with(file)) return failure;
-  const bool line = failure.path.starts_with("line ");
-  if (line)
-    failure.path = file + ":" + failure.path.substr(5);
-  else
-    failure.path = failure.path.empty() ? file : file + ": " + failure.path;
-  return failure;
-}
-
-Result<std::string> head_of(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    return fail(ErrorCode::io, "is a directory", "name a file", file.string());
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    return fail(ErrorCode::io,
-                "cannot be opened: " + std::generic_category().message(errno == 0 ? EIO : errno),
-                "check the name and the rights", file.string());
-  std::string head(kHead, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head;
-}
-
-Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
-  if (const auto head = head_of(file); !head) return std::unexpected(head.error());
-  std::ifstream in(file, std::ios::binary);
-  std::string content;
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  const auto too_large = [&] {
-    return fail(ErrorCode::bad_input,
-                "the file is larger than " + std::to_string(largest >> 20) + " MB", "split it",
-                file.string());
-  };
-  if (!error && size > largest) return too_large();  // before anything is read, holes and all
-  if (!error) content.reserve(size);
-  std::string chunk(std::size_t{1} << 20, '\0');
-  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
-    content.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
-    if (content.size() > largest) return too_large();
-  }
-  if (in.bad())
-    return fail(ErrorCode::io, "reading failed", "check the device or the network", file.string());
-  return content;
-}
 
 Result<Document> read_document(const fs::path& file, const ReadOptions& options) {
   const auto head = head_of(file);

@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "keyline/exchange/atomic_file.h"
-#include "keyline/exchange/format.h"
+#include "keyline/exchange/file/atomic_file.h"
+#include "keyline/exchange/format/format.h"
 
 namespace keyline::exchange {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/lac/sensitivity.h"
+#include "keyline/lac/segment/sensitivity.h"
 
 namespace keyline::fairing::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/fairing/chain_search.h"
 #include "keyline/fairing/local_pose.h"
-#include "keyline/lac/spline.h"
+#include "keyline/lac/g2/spline.h"
 
 namespace keyline::fairing {
 

@@ -6,7 +6,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/local_pose.h"
-#include "keyline/lac/sensitivity.h"
+#include "keyline/lac/segment/sensitivity.h"
 
 namespace keyline::fairing::detail {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "keyline/fairing/chain_fit.h"
 #include "keyline/fairing/riccati.h"
-#include "keyline/lac/sensitivity.h"
+#include "keyline/lac/segment/sensitivity.h"
 
 namespace keyline::fairing::detail {
 

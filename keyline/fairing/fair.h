@@ -16,7 +16,7 @@
 #include "keyline/core/progress.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/fit/fit_spline.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 /// The main job, [Fairing]: from a key-line's points to a faired chain and its verdict.
 namespace keyline::fairing {

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/sensitivity.h"
+#include "keyline/lac/segment/sensitivity.h"
 
 namespace keyline::fairing::detail {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "keyline/core/pose.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 namespace keyline::fairing::detail {
 

@@ -8,7 +8,7 @@
 #include "keyline/fairing/chain_search.h"
 #include "keyline/fairing/dense_curve.h"
 #include "keyline/fairing/fair.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 /// One smooth stretch of a key-line between corners.
 namespace keyline::fairing::detail {

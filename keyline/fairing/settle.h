@@ -4,7 +4,7 @@
 
 #include "keyline/core/similarity.h"
 #include "keyline/fairing/chain_search.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 /// From a chain that the search accepted to the one that is given out.
 namespace keyline::fairing::detail {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "keyline/fairing/chain_edit.h"
-#include "keyline/lac/segment.h"
+#include "keyline/lac/segment/segment.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {

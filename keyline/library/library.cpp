@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/json/json_document.h"
 #include "keyline/library/database.h"
 #include "keyline/library/schema.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "keyline/core/text.h"
-#include "keyline/exchange/atomic_file.h"
-#include "keyline/exchange/planar_form.h"
+#include "keyline/exchange/cad/planar_form.h"
+#include "keyline/exchange/file/atomic_file.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {

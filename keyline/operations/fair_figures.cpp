@@ -6,7 +6,7 @@
 
 #include "keyline/curve/concept.h"
 #include "keyline/fit/smoothing_spline.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 namespace keyline::operations {
 namespace {

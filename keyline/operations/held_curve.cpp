@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/curve/length.h"
-#include "keyline/exchange/json_curve.h"
-#include "keyline/exchange/json_space.h"
-#include "keyline/lac/chain_sampler.h"
+#include "keyline/exchange/json/json_curve.h"
+#include "keyline/exchange/json/json_space.h"
+#include "keyline/lac/chain/chain_sampler.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/operations/json_form.h"
 #include "keyline/operations/made_curve.h"

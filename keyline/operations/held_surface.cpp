@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_surface.h"
+#include "keyline/exchange/json/json_surface.h"
 #include "keyline/operations/held_curve.h"
 
 namespace keyline::operations {

@@ -1,4 +1,4 @@
-#include "keyline/lac/blend.h"
+#include "keyline/lac/g2/blend.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 

@@ -1,4 +1,4 @@
-#include "keyline/lac/compound.h"
+#include "keyline/lac/hermite/compound.h"
 #include "keyline/operations/handles.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"

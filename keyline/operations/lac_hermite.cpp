@@ -1,5 +1,5 @@
-#include "keyline/lac/clamped.h"
-#include "keyline/lac/g2_hermite.h"
+#include "keyline/lac/g2/g2_hermite.h"
+#include "keyline/lac/hermite/clamped.h"
 #include "keyline/operations/handles.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"

@@ -1,4 +1,4 @@
-#include "keyline/lac/quasi.h"
+#include "keyline/lac/quasi/quasi.h"
 #include "keyline/operations/handles.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"

@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/compound.h"
-#include "keyline/lac/handle_region.h"
-#include "keyline/lac/region.h"
+#include "keyline/lac/hermite/compound.h"
+#include "keyline/lac/hermite/handle_region.h"
+#include "keyline/lac/hermite/region.h"
 #include "keyline/operations/handles.h"
 #include "keyline/operations/registry.h"
 

@@ -1,4 +1,4 @@
-#include "keyline/lac/clamped.h"
+#include "keyline/lac/hermite/clamped.h"
 #include "keyline/operations/handles.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"

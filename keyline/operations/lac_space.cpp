@@ -1,6 +1,6 @@
-#include "keyline/lac/space_compound.h"
-#include "keyline/lac/space_graphs.h"
-#include "keyline/lac/space_hermite.h"
+#include "keyline/lac/space/space_compound.h"
+#include "keyline/lac/space/space_graphs.h"
+#include "keyline/lac/space/space_hermite.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 

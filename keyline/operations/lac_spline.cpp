@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "keyline/core/text.h"
-#include "keyline/lac/spline.h"
+#include "keyline/lac/g2/spline.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 

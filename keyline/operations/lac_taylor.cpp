@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/quasi.h"
-#include "keyline/lac/taylor_error.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/quasi/quasi.h"
+#include "keyline/lac/segment/taylor_error.h"
 #include "keyline/operations/handles.h"
 #include "keyline/operations/paper_operations.h"
 

@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "keyline/curve/conversion.h"
-#include "keyline/lac/cad.h"
-#include "keyline/lac/space.h"
+#include "keyline/lac/cad/cad.h"
+#include "keyline/lac/space/space.h"
 
 namespace keyline::operations {
 namespace {

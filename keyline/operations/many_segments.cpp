@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "keyline/core/error.h"
-#include "keyline/lac/hermite.h"
+#include "keyline/lac/hermite/hermite.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/operations/held_curve.h"
 

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/format.h"
-#include "keyline/exchange/json_text.h"
+#include "keyline/exchange/format/format.h"
+#include "keyline/exchange/json/json_text.h"
 #include "keyline/operations/common.h"
 #include "keyline/operations/sound_result.h"
 

@@ -7,7 +7,7 @@
 #include "keyline/analysis/lddc.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/analysis/split.h"
-#include "keyline/lac/chain_sampler.h"
+#include "keyline/lac/chain/chain_sampler.h"
 
 namespace keyline::operations {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/image/image_reader.h"
 #include "keyline/exchange/input_file.h"
-#include "keyline/exchange/scap_reader.h"
+#include "keyline/exchange/points/scap_reader.h"
 #include "keyline/operations/base64.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/sketch_run.h"

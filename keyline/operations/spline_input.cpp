@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "keyline/curve/conversion.h"
-#include "keyline/lac/cad.h"
+#include "keyline/lac/cad/cad.h"
 
 namespace keyline::operations {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "keyline/core/describe.h"
-#include "keyline/lac/standard_bounds.h"
+#include "keyline/lac/hermite/standard_bounds.h"
 
 namespace keyline::operations {
 

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_curve.h"
-#include "keyline/exchange/json_space.h"
-#include "keyline/exchange/json_surface.h"
+#include "keyline/exchange/json/json_curve.h"
+#include "keyline/exchange/json/json_space.h"
+#include "keyline/exchange/json/json_surface.h"
 #include "keyline/operations/json_form.h"
 
 namespace keyline::operations {

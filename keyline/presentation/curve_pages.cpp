@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/planar_form.h"
+#include "keyline/exchange/cad/planar_form.h"
 #include "keyline/operations/curve_edit.h"
 #include "keyline/operations/fair.h"
 #include "keyline/operations/json_form.h"

@@ -10,9 +10,9 @@
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/plot.h"
 #include "keyline/figure/rhythm_charts.h"
-#include "keyline/lac/compound.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/region.h"
+#include "keyline/lac/hermite/compound.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/hermite/region.h"
 #include "keyline/presentation/analyze_report.h"
 #include "keyline/presentation/curve_samples.h"
 

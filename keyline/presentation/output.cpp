@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/text.h"
-#include "keyline/exchange/atomic_file.h"
 #include "keyline/exchange/document_file.h"
+#include "keyline/exchange/file/atomic_file.h"
 #include "keyline/operations/json_form.h"
 
 namespace keyline::presentation {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "keyline/figure/drawing.h"
-#include "keyline/lac/space.h"
+#include "keyline/lac/space/space.h"
 #include "keyline/presentation/report_options.h"
 #include "keyline/report/report.h"
 

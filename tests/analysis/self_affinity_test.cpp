@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/analysis/profile.h"
-#include "keyline/lac/segment.h"
+#include "keyline/lac/segment/segment.h"
 
 namespace keyline::analysis {
 namespace {

@@ -1,4 +1,4 @@
-#include "keyline/exchange/atomic_file.h"
+#include "keyline/exchange/file/atomic_file.h"
 
 #include <chrono>
 #include <csignal>

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/exchange/cad_file.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/lac/chain.h"
+#include "keyline/exchange/step/cad_file.h"
+#include "keyline/lac/chain/chain.h"
 
 #include "cad_fixture.h"
 #include "tests/shared_data.h"

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "keyline/document/arc.h"
-#include "keyline/exchange/cad_file.h"
 #include "keyline/exchange/document_file.h"
+#include "keyline/exchange/step/cad_file.h"
 
 #include "cad_fixture.h"
 #include "tests/shared_data.h"

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_document.h"
-#include "keyline/exchange/svg_document.h"
-#include "keyline/exchange/svg_reader.h"
+#include "keyline/exchange/json/json_document.h"
+#include "keyline/exchange/svg/svg_document.h"
+#include "keyline/exchange/svg/svg_reader.h"
 
 namespace keyline::exchange {
 namespace {

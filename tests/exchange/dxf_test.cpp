@@ -9,9 +9,9 @@
 #include "keyline/core/angle.h"
 #include "keyline/document/arc.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/dxf_color.h"
-#include "keyline/exchange/dxf_reader.h"
-#include "keyline/exchange/dxf_writer.h"
+#include "keyline/exchange/dxf/dxf_color.h"
+#include "keyline/exchange/dxf/dxf_reader.h"
+#include "keyline/exchange/dxf/dxf_writer.h"
 
 #include "tests/shared_data.h"
 

@@ -10,8 +10,8 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/closest_point.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/font.h"
-#include "keyline/exchange/glif.h"
+#include "keyline/exchange/font/font.h"
+#include "keyline/exchange/font/glif.h"
 
 #include "tests/shared_data.h"
 

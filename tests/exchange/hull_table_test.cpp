@@ -1,4 +1,4 @@
-#include "keyline/exchange/hull_table.h"
+#include "keyline/exchange/points/hull_table.h"
 
 #include <cmath>
 #include <filesystem>
@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/cad/planar_form.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/planar_form.h"
+#include "keyline/exchange/json/json_hull.h"
 
 #include "tests/shared_data.h"
 

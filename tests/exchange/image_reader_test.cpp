@@ -1,4 +1,4 @@
-#include "keyline/exchange/image_reader.h"
+#include "keyline/exchange/image/image_reader.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "keyline/exchange/json_space.h"
+#include "keyline/exchange/json/json_space.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

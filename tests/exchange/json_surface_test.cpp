@@ -1,4 +1,4 @@
-#include "keyline/exchange/json_surface.h"
+#include "keyline/exchange/json/json_surface.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

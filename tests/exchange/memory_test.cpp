@@ -13,7 +13,7 @@
 
 #include "keyline/acquire/plane.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/mesh.h"
+#include "keyline/exchange/mesh/mesh.h"
 
 namespace keyline::exchange {
 namespace {

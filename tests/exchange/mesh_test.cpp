@@ -1,4 +1,4 @@
-#include "keyline/exchange/mesh.h"
+#include "keyline/exchange/mesh/mesh.h"
 
 #include <bit>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "keyline/acquire/symmetry.h"
 #include "keyline/core/angle.h"
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/section_file.h"
+#include "keyline/exchange/mesh/section_file.h"
 
 #include "tests/shared_data.h"
 

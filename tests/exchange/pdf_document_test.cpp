@@ -1,4 +1,4 @@
-#include "keyline/exchange/pdf_document.h"
+#include "keyline/exchange/pdf/pdf_document.h"
 
 #include <sstream>
 

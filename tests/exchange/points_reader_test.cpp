@@ -1,4 +1,4 @@
-#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/points/points_reader.h"
 
 #include <cmath>
 #include <filesystem>

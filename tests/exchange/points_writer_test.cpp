@@ -1,4 +1,4 @@
-#include "keyline/exchange/points_writer.h"
+#include "keyline/exchange/points/points_writer.h"
 
 #include <cmath>
 #include <sstream>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/exchange/lattice_reader.h"
-#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/points/lattice_reader.h"
+#include "keyline/exchange/points/points_reader.h"
 
 namespace keyline::exchange {
 namespace {

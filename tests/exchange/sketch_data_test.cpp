@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/exchange/image_reader.h"
-#include "keyline/exchange/scap_reader.h"
+#include "keyline/exchange/image/image_reader.h"
+#include "keyline/exchange/points/scap_reader.h"
 #include "keyline/sketch/consolidate.h"
 #include "keyline/sketch/trace.h"
 

@@ -1,4 +1,4 @@
-#include "keyline/exchange/svg_path.h"
+#include "keyline/exchange/svg/svg_path.h"
 
 #include <cmath>
 

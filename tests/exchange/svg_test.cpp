@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/exchange/svg_reader.h"
-#include "keyline/exchange/svg_writer.h"
+#include "keyline/exchange/svg/svg_reader.h"
+#include "keyline/exchange/svg/svg_writer.h"
 
 #include "tests/shared_data.h"
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "keyline/exchange/document_file.h"
-#include "keyline/exchange/dxf_reader.h"
-#include "keyline/exchange/mesh.h"
+#include "keyline/exchange/dxf/dxf_reader.h"
+#include "keyline/exchange/mesh/mesh.h"
 
 namespace keyline::exchange {
 namespace {

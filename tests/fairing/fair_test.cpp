@@ -6,7 +6,7 @@
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/curve/concept.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 namespace keyline::fairing {
 namespace {

@@ -6,7 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/fairing/calm_run.h"
 #include "keyline/fairing/fair.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 #include "truth.h"
 

@@ -6,7 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/polygon.h"
 #include "keyline/curve/concept.h"
-#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/points/points_reader.h"
 
 #include "truth.h"
 

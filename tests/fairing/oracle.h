@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "keyline/fairing/fair.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 namespace keyline::fairing::testing {
 

@@ -9,8 +9,8 @@
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/meet.h"
 #include "keyline/fairing/riccati.h"
-#include "keyline/lac/segment.h"
-#include "keyline/lac/sensitivity.h"
+#include "keyline/lac/segment/segment.h"
+#include "keyline/lac/segment/sensitivity.h"
 #include "keyline/numeric/random.h"
 
 /// The parts that the chain fit is made of, each against something plain.

@@ -9,7 +9,7 @@
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/acquire/section.h"
-#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/points/points_reader.h"
 #include "keyline/operations/subject.h"
 
 namespace keyline::fairing::testing {

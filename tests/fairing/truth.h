@@ -5,7 +5,7 @@
 
 #include "keyline/acquire/key_line.h"
 #include "keyline/fairing/fair.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 
 /// Chains made up at random, and how near an answer comes to one.
 namespace keyline::fairing::testing {

@@ -49,6 +49,36 @@ mkdir -p "$tree/apps/keyline"
 printf '#include "keyline/operations/b.h"\n#include "keyline/low/a.h"\n' >"$tree/apps/keyline/a.cpp"
 expect 1 "apps/keyline/a.cpp:2: a door includes low"
 rm -r "$tree/apps"
+# Inner folders: high/far uses high/near, and b.cpp of the room itself uses both.
+folders() {
+  fresh
+  mkdir -p "$tree"/keyline/high/{near,far}
+  printf '| folder | promises | uses |\n|---|---|---|\n| `near` | little | |\n| `far` | much | near |\n' \
+    >"$tree/keyline/high/README.md"
+  echo '#include "keyline/high/near/n.h"' >"$tree/keyline/high/near/n.cpp"
+  printf '#include "keyline/high/far/f.h"\n#include "keyline/high/near/n.h"\n' \
+    >"$tree/keyline/high/far/f.cpp"
+  printf '#include "keyline/high/far/f.h"\n#include "keyline/high/near/n.h"\n' \
+    >>"$tree/keyline/high/b.cpp"
+}
+folders
+expect 0 ""
+folders
+echo '#include "keyline/high/far/f.h"' >>"$tree/keyline/high/near/n.cpp"
+expect 1 "keyline/high/near/n.cpp:2: near includes far, a folder below it"
+expect 1 "the row of near lacks far"
+folders
+echo '#include "keyline/high/b.h"' >>"$tree/keyline/high/near/n.cpp"
+expect 1 "near includes what stands above every folder of high"
+folders
+rm "$tree/keyline/high/far/f.cpp"
+expect 1 "the row of far names near, which it never includes"
+folders
+mkdir "$tree/keyline/high/attic"
+expect 1 "keyline/high/attic: keyline/high/README.md does not say what it holds"
+folders
+rm -r "$tree/keyline/high/near"
+expect 1 "there is no folder near"
 fresh
 echo '#include <opencv2/core.hpp>' >"$tree/keyline/sketch/c.h"
 expect 1 ".cpp files only"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/exchange/lattice_reader.h"
-#include "keyline/exchange/points_reader.h"
+#include "keyline/exchange/points/lattice_reader.h"
+#include "keyline/exchange/points/points_reader.h"
 
 namespace keyline {
 namespace {

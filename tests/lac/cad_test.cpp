@@ -1,4 +1,4 @@
-#include "keyline/lac/cad.h"
+#include "keyline/lac/cad/cad.h"
 
 #include <cmath>
 #include <limits>

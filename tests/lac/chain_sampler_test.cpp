@@ -1,4 +1,4 @@
-#include "keyline/lac/chain_sampler.h"
+#include "keyline/lac/chain/chain_sampler.h"
 
 #include <random>
 

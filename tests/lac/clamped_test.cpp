@@ -1,4 +1,4 @@
-#include "keyline/lac/clamped.h"
+#include "keyline/lac/hermite/clamped.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/cad.h"
-#include "keyline/lac/region.h"
+#include "keyline/lac/cad/cad.h"
+#include "keyline/lac/hermite/region.h"
 
 namespace keyline::lac {
 namespace {

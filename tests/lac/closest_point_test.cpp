@@ -1,4 +1,4 @@
-#include "keyline/lac/closest_point.h"
+#include "keyline/lac/chain/closest_point.h"
 
 #include <cmath>
 #include <vector>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "keyline/lac/spline.h"
+#include "keyline/lac/g2/spline.h"
 
 namespace keyline::lac {
 namespace {

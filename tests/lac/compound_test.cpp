@@ -1,4 +1,4 @@
-#include "keyline/lac/compound.h"
+#include "keyline/lac/hermite/compound.h"
 
 #include <cmath>
 #include <random>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/region.h"
+#include "keyline/lac/hermite/region.h"
 
 #include "reference_table.h"
 #include "tests/shared_data.h"

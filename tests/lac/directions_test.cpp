@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/hermite.h"
+#include "keyline/lac/hermite/hermite.h"
 
 namespace keyline::lac {
 namespace {

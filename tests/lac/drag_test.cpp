@@ -1,4 +1,4 @@
-#include "keyline/lac/drag.h"
+#include "keyline/lac/chain/drag.h"
 
 #include <cmath>
 

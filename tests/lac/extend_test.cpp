@@ -1,4 +1,4 @@
-#include "keyline/lac/extend.h"
+#include "keyline/lac/chain/extend.h"
 
 #include <cmath>
 

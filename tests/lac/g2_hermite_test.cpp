@@ -1,4 +1,4 @@
-#include "keyline/lac/g2_hermite.h"
+#include "keyline/lac/g2/g2_hermite.h"
 
 #include <cmath>
 #include <random>
@@ -7,8 +7,8 @@
 #include <rapidcheck.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/piece_shape.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/segment/piece_shape.h"
 
 namespace keyline::lac {
 namespace {

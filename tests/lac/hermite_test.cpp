@@ -1,4 +1,4 @@
-#include "keyline/lac/hermite.h"
+#include "keyline/lac/hermite/hermite.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/region.h"
+#include "keyline/lac/hermite/region.h"
 
 #include "reference_table.h"
 #include "tests/shared_data.h"

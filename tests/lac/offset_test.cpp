@@ -1,4 +1,4 @@
-#include "keyline/lac/offset.h"
+#include "keyline/lac/chain/offset.h"
 
 #include <cmath>
 

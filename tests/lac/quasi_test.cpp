@@ -1,4 +1,4 @@
-#include "keyline/lac/quasi.h"
+#include "keyline/lac/quasi/quasi.h"
 
 #include <cmath>
 #include <limits>
@@ -9,10 +9,10 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/closest_point.h"
-#include "keyline/lac/deviation.h"
-#include "keyline/lac/hermite.h"
-#include "keyline/lac/quasi_forms.h"
-#include "keyline/lac/taylor.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/quasi/quasi_forms.h"
+#include "keyline/lac/segment/deviation.h"
+#include "keyline/lac/segment/taylor.h"
 
 namespace keyline::lac {
 namespace {

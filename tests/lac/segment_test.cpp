@@ -1,4 +1,4 @@
-#include "keyline/lac/segment.h"
+#include "keyline/lac/segment/segment.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::lac {

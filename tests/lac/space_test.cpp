@@ -1,4 +1,4 @@
-#include "keyline/lac/space.h"
+#include "keyline/lac/space/space.h"
 
 #include <cmath>
 #include <random>
@@ -7,7 +7,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
-#include "keyline/lac/space_hermite.h"
+#include "keyline/lac/space/space_hermite.h"
 
 namespace keyline::lac {
 namespace {

@@ -1,4 +1,4 @@
-#include "keyline/lac/spline.h"
+#include "keyline/lac/g2/spline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "keyline/lac/volume.h"
+#include "keyline/lac/hermite/volume.h"
 
 #include <cmath>
 #include <random>

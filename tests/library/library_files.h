@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "keyline/lac/chain.h"
+#include "keyline/lac/chain/chain.h"
 #include "keyline/library/library.h"
 
 namespace keyline::library::testing {

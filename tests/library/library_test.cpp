@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_document.h"
+#include "keyline/exchange/json/json_document.h"
 #include "keyline/library/search.h"
 #include "keyline/library/statistics.h"
 

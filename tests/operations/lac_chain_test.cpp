@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "keyline/exchange/json_curve.h"
-#include "keyline/exchange/json_space.h"
+#include "keyline/exchange/json/json_curve.h"
+#include "keyline/exchange/json/json_space.h"
 #include "keyline/operations/perform.h"
 
 namespace keyline::operations {

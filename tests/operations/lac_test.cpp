@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/angle.h"
-#include "keyline/exchange/json_curve.h"
+#include "keyline/exchange/json/json_curve.h"
 #include "keyline/operations/perform.h"
 
 #include "../lac/reference_table.h"

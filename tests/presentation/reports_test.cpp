@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "keyline/acquire/acquire.h"
-#include "keyline/exchange/json_curve.h"
-#include "keyline/exchange/points_reader.h"
-#include "keyline/exchange/svg_reader.h"
+#include "keyline/exchange/json/json_curve.h"
+#include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/svg/svg_reader.h"
 #include "keyline/operations/fair.h"
 #include "keyline/presentation/analyze_report.h"
 #include "keyline/presentation/fair_report.h"

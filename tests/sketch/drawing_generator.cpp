@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "keyline/curve/bezier.h"
-#include "keyline/lac/segment.h"
+#include "keyline/lac/segment/segment.h"
 #include "keyline/numeric/random.h"
 
 namespace keyline::sketch::testing {

@@ -34,7 +34,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/document/arc.h"
-#include "keyline/exchange/spline_corners.h"
+#include "keyline/exchange/cad/spline_corners.h"
 
 namespace keyline::exchange::occt {
 namespace {

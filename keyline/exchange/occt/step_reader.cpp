@@ -26,7 +26,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "keyline/exchange/dxf_color.h"
+#include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "keyline/core/text.h"
-#include "keyline/exchange/finite_number.h"
+#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange::occt {
 namespace {

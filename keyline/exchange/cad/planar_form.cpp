@@ -1,0 +1,80 @@
+#include "keyline/exchange/cad/planar_form.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "keyline/core/text.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::Point2;
+using core::Point3;
+
+std::optional<acquire::Plane> plane_of_points(const std::vector<Point3>& points) {
+  const auto fit = acquire::fit_plane(points);
+  double size = 0;
+  for (const Point3 p : points) size = std::max(size, distance(p, points.front()));
+  if (!(size > 0) || fit.departure > 1e-9 * size) return std::nullopt;
+  return fit.plane;
+}
+
+std::vector<Point2> in_plane(const acquire::Plane& plane, const std::vector<Point3>& points) {
+  std::vector<Point2> result;
+  for (const Point3 p : points) result.push_back(acquire::to_plane(plane, p));
+  return result;
+}
+
+std::string described(const acquire::Plane& plane) {
+  const auto at = [](double v) { return core::number_text(v + 0.0, 6); };
+  if (plane.axis_x == core::Vector3{1, 0, 0} && plane.axis_y == core::Vector3{0, 1, 0})
+    return "in the plane z = " + at(plane.origin.z) + "; x and y";
+  if (plane.axis_x == core::Vector3{1, 0, 0} && plane.axis_y == core::Vector3{0, 0, 1})
+    return "in the plane y = " + at(plane.origin.y) + "; x and z";
+  if (plane.axis_x == core::Vector3{0, 1, 0} && plane.axis_y == core::Vector3{0, 0, 1})
+    return "in the plane x = " + at(plane.origin.x) + "; y and z";
+  return "in a plane of its own";
+}
+
+}  // namespace
+
+std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve) {
+  if (const auto* line = std::get_if<curve::Polyline3>(&curve.value)) {
+    const auto plane = plane_of_points(line->points);
+    if (!plane) return std::nullopt;
+    return PlanarForm{{curve::Polyline2{in_plane(*plane, line->points)}}, *plane};
+  }
+  if (const auto* c = std::get_if<curve::Bezier3>(&curve.value)) {
+    const auto plane = plane_of_points(c->control);
+    if (!plane) return std::nullopt;
+    return PlanarForm{{curve::Bezier2{in_plane(*plane, c->control), c->weights}}, *plane};
+  }
+  if (const auto* c = std::get_if<curve::BSpline3>(&curve.value)) {
+    const auto plane = plane_of_points(c->control);
+    if (!plane) return std::nullopt;
+    return PlanarForm{
+        {curve::BSpline2{c->degree, c->knots, in_plane(*plane, c->control), c->weights}}, *plane};
+  }
+  return std::nullopt;
+}
+
+void flatten(document::Document& document, std::vector<std::string>& notes) {
+  std::vector<document::NamedSpaceCurve> left;
+  for (auto& named : document.space_curves) {
+    auto form = planar_form(named.curve);
+    if (!form) {
+      left.push_back(std::move(named));
+      continue;
+    }
+    notes.push_back(named.label.name + ": " + described(form->plane));
+    document::NamedPath path;
+    path.label = named.label;
+    path.path.closed = distance(evaluate(form->curve, 0), evaluate(form->curve, 1)) == 0;
+    path.path.curves.push_back(std::move(form->curve));
+    document.paths.push_back(std::move(path));
+  }
+  document.space_curves = std::move(left);
+}
+
+}  // namespace keyline::exchange

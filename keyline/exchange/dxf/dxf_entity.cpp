@@ -1,0 +1,233 @@
+#include "keyline/exchange/dxf/dxf_entity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "keyline/core/angle.h"
+
+namespace keyline::exchange::detail {
+namespace {
+
+using core::Point3;
+using core::Result;
+using core::Vector3;
+using Tags = std::vector<DxfTag>;
+
+constexpr double kRadians = core::kPi / 180;
+
+std::unexpected<core::Failure> none(std::string why) {
+  return core::fail(core::ErrorCode::bad_input, std::move(why));
+}
+
+Affine3 frame_of(const Tags& tags) { return extrusion_frame(vector(tags, 210, {0, 0, 1})); }
+
+Result<DxfCurve> line_of(const Tags& tags) {
+  const Point3 a = point(tags, 10);
+  const Point3 b = point(tags, 11);
+  if (a == b) return none("both ends are one point");
+  return DxfCurve{curve::Polyline3{{a, b}}, false};
+}
+
+Result<DxfCurve> circle_of(const Tags& tags, bool arc) {
+  const double radius = real(tags, 40);
+  if (!(radius > 0)) return none("its radius is not positive");
+  EllipseArc e{point(tags, 10), {radius, 0, 0}, {0, radius, 0}, 0, 2 * core::kPi};
+  if (arc) {
+    e.from = std::fmod(real(tags, 50), 360) * kRadians;
+    e.to = std::fmod(real(tags, 51), 360) * kRadians;
+    while (e.to <= e.from) e.to += 2 * core::kPi;
+  }
+  return DxfCurve{mapped(e, frame_of(tags)), !arc};
+}
+
+Result<DxfCurve> ellipse_of(const Tags& tags) {
+  EllipseArc e;
+  e.center = point(tags, 10);
+  e.major = vector(tags, 11);
+  const double ratio = real(tags, 40, 1);
+  const Vector3 z = frame_of(tags).z;
+  if (!(norm(e.major) > 0) || !(std::abs(ratio) > 0)) return none("it has no extent");
+  e.minor = ratio * cross(z, e.major);
+  e.from = real(tags, 41, 0);
+  e.to = real(tags, 42, 2 * core::kPi);
+  if (!(std::abs(e.from) < 1e6 && std::abs(e.to) < 1e6)) return none("its angles make no sense");
+  if (e.to <= e.from) e.to += 2 * core::kPi * std::ceil((e.from - e.to + 1e-12) / (2 * core::kPi));
+  e.to = std::min(e.to, e.from + 2 * core::kPi);
+  return DxfCurve{e, e.to - e.from >= 2 * core::kPi * (1 - 1e-9)};
+}
+
+Result<DxfCurve> bent(const std::vector<BulgeVertex>& vertices, bool closed, const Affine3& frame) {
+  const DxfShape shape = polyline_shape(vertices, closed);
+  if (const auto* line = std::get_if<curve::Polyline3>(&shape); line && line->points.size() < 2)
+    return none("it has fewer than two different points");
+  return DxfCurve{mapped(shape, frame), closed};
+}
+
+Result<DxfCurve> light_polyline_of(const Tags& tags) {
+  const double elevation = real(tags, 38);
+  std::vector<BulgeVertex> vertices;
+  for (const DxfTag& tag : tags) {
+    const auto value = number_of(tag);
+    if (tag.code == 10) vertices.push_back({{value.value_or(0), 0, elevation}, 0});
+    if (vertices.empty() || !value) continue;
+    if (tag.code == 20) vertices.back().point.y = *value;
+    if (tag.code == 42) vertices.back().bulge = *value;
+  }
+  if (const int wanted = integer(tags, 90); wanted > static_cast<int>(vertices.size()))
+    return none("only " + std::to_string(vertices.size()) + " of its " + std::to_string(wanted) +
+                " vertices are there");
+  return bent(vertices, (integer(tags, 70) & 1) != 0, frame_of(tags));
+}
+
+Result<DxfCurve> old_polyline_of(const DxfEntity& entity) {
+  const int flags = integer(entity.tags, 70);
+  if ((flags & (16 | 64)) != 0) return none("it is a mesh");
+  const bool space = (flags & 8) != 0;
+  const double elevation = point(entity.tags, 10).z;
+  std::vector<BulgeVertex> vertices;
+  for (const Tags& tags : entity.vertices) {
+    constexpr int kFrameOfSpline = 16;
+    if ((integer(tags, 70) & kFrameOfSpline) != 0) continue;
+    Point3 p = point(tags, 10);
+    if (!space) p.z = elevation;
+    vertices.push_back({p, space ? 0 : real(tags, 42)});
+  }
+  return bent(vertices, (flags & 1) != 0, space ? Affine3{} : frame_of(entity.tags));
+}
+
+/// Lists of a SPLINE in their order; a HELIX ends where its own groups start.
+struct SplineLists {
+  std::vector<double> knots;
+  std::vector<double> weights;
+  std::vector<Point3> control;
+  std::vector<Point3> fit;
+};
+
+SplineLists lists_of(const Tags& tags) {
+  SplineLists lists;
+  for (const DxfTag& tag : tags) {
+    if (tag.code == 100 && tag.text == "AcDbHelix") break;
+    const double value = number_of(tag).value_or(0);
+    const auto set = [value](std::vector<Point3>& points, double Point3::* axis) {
+      if (!points.empty()) points.back().*axis = value;
+    };
+    if (tag.code == 40) lists.knots.push_back(value);
+    if (tag.code == 41) lists.weights.push_back(value);
+    if (tag.code == 10) lists.control.push_back({value, 0, 0});
+    if (tag.code == 20) set(lists.control, &Point3::y);
+    if (tag.code == 30) set(lists.control, &Point3::z);
+    if (tag.code == 11) lists.fit.push_back({value, 0, 0});
+    if (tag.code == 21) set(lists.fit, &Point3::y);
+    if (tag.code == 31) set(lists.fit, &Point3::z);
+  }
+  return lists;
+}
+
+/// Knots written with few digits may step back by rounding.
+void mend(std::vector<double>& knots) {
+  if (knots.empty()) return;
+  const double reach = 1e-9 * std::abs(knots.back() - knots.front());
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    if (knots[i] < knots[i - 1] && knots[i - 1] - knots[i] <= reach) knots[i] = knots[i - 1];
+}
+
+Result<DxfCurve> spline_of(const Tags& tags) {
+  SplineLists lists = lists_of(tags);
+  const bool closed = (integer(tags, 70) & 1) != 0;
+  if (lists.control.empty()) {
+    auto& fit = lists.fit;
+    fit.erase(std::unique(fit.begin(), fit.end()), fit.end());
+    if (fit.size() < 2) return none("it has neither control points nor two fit points");
+    return DxfCurve{fit_point_spline(fit, vector(tags, 12), vector(tags, 13), closed), closed};
+  }
+  mend(lists.knots);
+  curve::BSpline3 spline;
+  spline.degree = integer(tags, 71, 3);
+  spline.knots = std::move(lists.knots);
+  spline.control = std::move(lists.control);
+  spline.weights = std::move(lists.weights);
+  const bool equal = std::all_of(spline.weights.begin(), spline.weights.end(),
+                                 [&](double w) { return w == spline.weights.front(); });
+  if (equal && !spline.weights.empty() && spline.weights.front() > 0) spline.weights.clear();
+  if (auto sound = validate(spline); !sound)
+    return none(sound.error().message +
+                (sound.error().path.empty() ? "" : " (" + sound.error().path + ")"));
+  return DxfCurve{std::move(spline), closed};
+}
+
+const DxfTag* find(const Tags& tags, int code) {
+  const auto found = std::find_if(tags.begin(), tags.end(),
+                                  [code](const DxfTag& tag) { return tag.code == code; });
+  return found == tags.end() ? nullptr : &*found;
+}
+
+/// True for the codes the readers of this file take numbers from: coordinates, sizes, angles,
+/// counts and flags, the direction of extrusion.
+bool is_geometry(int code) {
+  const auto within = [code](int low, int high) { return code >= low && code <= high; };
+  return within(10, 38) || within(40, 47) || within(50, 59) || within(70, 79) || within(90, 99) ||
+         within(210, 239);
+}
+
+const DxfTag* unreadable(const Tags& tags) {
+  const auto found = std::find_if(tags.begin(), tags.end(), [](const DxfTag& tag) {
+    return is_geometry(tag.code) && !number_of(tag);
+  });
+  return found == tags.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const DxfTag* unreadable(const DxfEntity& entity) {
+  if (const DxfTag* tag = unreadable(entity.tags)) return tag;
+  for (const Tags& vertex : entity.vertices)
+    if (const DxfTag* tag = unreadable(vertex)) return tag;
+  return nullptr;
+}
+
+double real(const Tags& tags, int code, double fallback) {
+  const DxfTag* tag = find(tags, code);
+  return tag ? number_of(*tag).value_or(fallback) : fallback;
+}
+
+int integer(const Tags& tags, int code, int fallback) {
+  const DxfTag* tag = find(tags, code);
+  return tag ? integer_of(*tag).value_or(fallback) : fallback;
+}
+
+std::string text(const Tags& tags, int code) {
+  const DxfTag* tag = find(tags, code);
+  return tag ? text_of(*tag) : std::string();
+}
+
+Point3 point(const Tags& tags, int code) {
+  return {real(tags, code), real(tags, code + 10), real(tags, code + 20)};
+}
+
+Vector3 vector(const Tags& tags, int code, Vector3 fallback) {
+  return {real(tags, code, fallback.x), real(tags, code + 10, fallback.y),
+          real(tags, code + 20, fallback.z)};
+}
+
+bool is_dxf_curve(std::string_view type) {
+  static constexpr std::array<std::string_view, 8> kTypes = {
+      "LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX"};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
+Result<DxfCurve> dxf_curve_of(const DxfEntity& entity) {
+  const auto made = [&]() -> Result<DxfCurve> {
+    if (entity.type == "LINE") return line_of(entity.tags);
+    if (entity.type == "ARC" || entity.type == "CIRCLE")
+      return circle_of(entity.tags, entity.type == "ARC");
+    if (entity.type == "ELLIPSE") return ellipse_of(entity.tags);
+    if (entity.type == "LWPOLYLINE") return light_polyline_of(entity.tags);
+    if (entity.type == "POLYLINE") return old_polyline_of(entity);
+    return spline_of(entity.tags);
+  }();
+  if (made && !is_finite(made->shape)) return none("its numbers are too large");
+  return made;
+}
+
+}  // namespace keyline::exchange::detail

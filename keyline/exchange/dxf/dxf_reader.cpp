@@ -1,0 +1,390 @@
+#include "keyline/exchange/dxf/dxf_reader.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "keyline/core/angle.h"
+#include "keyline/core/text.h"
+#include "keyline/document/units.h"
+#include "keyline/exchange/dxf/dxf_color.h"
+#include "keyline/exchange/dxf/dxf_entity.h"
+#include "keyline/exchange/dxf/dxf_units.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::Result;
+using detail::Affine3;
+using detail::DxfEntity;
+using detail::DxfTag;
+using document::Document;
+
+/// One thing of a block or of the drawing, not yet placed.
+struct Item {
+  std::string name;
+  std::string layer;
+  int color = 256;    ///< index; 0: of the insert, 256: of the layer
+  std::string exact;  ///< true colour; empty: by index
+  std::optional<detail::DxfCurve> curve;
+  std::string block;  ///< of an insert
+  std::vector<Affine3> places;
+};
+
+struct Block {
+  core::Point3 base;
+  std::vector<Item> items;
+};
+
+/// What an insert hands down to the things of its block.
+struct Outer {
+  Affine3 map;
+  std::string layer;
+  std::string color;
+  std::string name;
+  int depth = 0;
+};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+class DxfReader {
+ public:
+  DxfReader(std::string_view bytes, const DxfReadLimits& limits)
+      : tags_(bytes), limits_(limits), most_points_(limits.points + bytes.size() / 2) {}
+
+  Result<Document> read() {
+    while (true) {
+      const auto tag = tags_.next();
+      if (!tag) return broken(tag.error());
+      if (!*tag) {
+        cut_off();
+        break;
+      }
+      if ((*tag)->code == 0) {
+        finish_entity();
+        if ((*tag)->text == "EOF") break;
+        start(**tag);
+      } else {
+        take(**tag);
+      }
+    }
+    finish_entity();
+    if (!seen_section_)
+      return core::fail(core::ErrorCode::bad_input, "this is no DXF file",
+                        "it has to hold a SECTION", "line 1");
+    return finish();
+  }
+
+ private:
+  Result<Document> broken(const core::Failure& failure) {
+    if (size(document_) == 0) return std::unexpected(failure);
+    drop_entity();
+    problems_.push_back("the rest of the file from " + failure.path + ": " + failure.message);
+    return finish();
+  }
+
+  /// The file stopped before its EOF: what is open may be half of what was written.
+  void cut_off() {
+    if (!seen_section_) return;
+    const bool whole = section_.empty() && !entity_ && !polyline_;
+    drop_entity();
+    problems_.push_back(whole ? "nothing, but the file has no EOF at its end"
+                              : "the rest of the file: it is cut off before its EOF");
+  }
+
+  void drop_entity() {
+    for (const auto* open : {&polyline_, &entity_})
+      if (*open) problems_.push_back(describe(**open) + ": the file ends within it");
+    polyline_.reset();
+    entity_.reset();
+  }
+
+  Result<Document> finish() {
+    for (const Item& item : items_) place(item, Outer{});
+    if (paper_ > 0)
+      problems_.push_back(core::counted(paper_, "entity", "entities") + " in paper space");
+    for (const auto& [type, count] : ignored_)
+      problems_.push_back(type + ": " + core::counted(count, "entity", "entities"));
+    document_.skipped = std::move(problems_);
+    if (scale_ != 1) return document::scaled(std::move(document_), scale_);
+    return std::move(document_);
+  }
+
+  void problem(std::string what) {
+    constexpr std::size_t kMost = 1000;
+    if (problems_.size() < kMost) problems_.push_back(std::move(what));
+  }
+
+  /// Group 0: what comes next.
+  void start(const DxfTag& tag) {
+    if (tag.text == "SECTION") {
+      seen_section_ = naming_section_ = true;
+      return;
+    }
+    if (tag.text == "ENDSEC") {
+      section_.clear();
+      return;
+    }
+    if (tag.text == "SEQEND") return close_polyline();
+    if (tag.text == "VERTEX" && polyline_) {
+      polyline_->vertices.emplace_back();
+      return;
+    }
+    close_polyline();
+    entity_ = DxfEntity{tag.text, tag.place, {}, {}};
+  }
+
+  void take(const DxfTag& tag) {
+    if (naming_section_ && tag.code == 2) {
+      section_ = std::string(tag.text);
+      naming_section_ = false;
+    } else if (section_ == "HEADER") {
+      take_header(tag);
+    } else if (polyline_) {
+      auto& vertices = polyline_->vertices;
+      (vertices.empty() ? polyline_->tags : vertices.back()).push_back(tag);
+    } else if (entity_) {
+      entity_->tags.push_back(tag);
+    }
+  }
+
+  void take_header(const DxfTag& tag) {
+    if (tag.code == 9) variable_ = std::string(tag.text);
+    if (variable_ != "$INSUNITS" || tag.code != 70) return;
+    const auto given = detail::integer_of(tag);
+    if (!given) problem("the unit of the drawing: it is no number (" + tags_.place(tag) + ")");
+    const detail::DxfUnit* unit = detail::dxf_unit_of(given.value_or(0));
+    if (!unit) problem("the unit of the drawing ($INSUNITS " + std::to_string(*given) + ")");
+    document_.unit = unit ? unit->name : "";
+    scale_ = unit ? unit->factor : 1;
+  }
+
+  void close_polyline() {
+    if (!polyline_) return;
+    const DxfEntity entity = std::move(*polyline_);
+    polyline_.reset();
+    finish(entity);
+  }
+
+  void finish_entity() {
+    if (!entity_) return;
+    DxfEntity entity = std::move(*entity_);
+    entity_.reset();
+    if (entity.type == "POLYLINE") {
+      close_polyline();
+      polyline_ = std::move(entity);
+      return;
+    }
+    finish(entity);
+  }
+
+  void finish(const DxfEntity& entity) {
+    if (section_ == "TABLES") return add_layer(entity);
+    if (section_ == "BLOCKS" && entity.type == "BLOCK") {
+      if (!is_readable(entity)) {
+        block_ = nullptr;
+        return;
+      }
+      block_ = &blocks_[detail::text(entity.tags, 2)];
+      *block_ = Block{detail::point(entity.tags, 10), {}};
+      return;
+    }
+    if (section_ == "BLOCKS" && entity.type == "ENDBLK") {
+      block_ = nullptr;
+      return;
+    }
+    if (section_ == "ENTITIES" || (section_ == "BLOCKS" && block_)) add_entity(entity);
+  }
+
+  void add_layer(const DxfEntity& entity) {
+    if (entity.type != "LAYER") return;
+    const int exact = color_number(entity, 420, -1);
+    const int index = std::abs(color_number(entity, 62, 7));
+    layer_colors_[detail::text(entity.tags, 2)] =
+        exact >= 0 ? detail::true_color(exact) : detail::aci_color(index);
+  }
+
+  void add_entity(const DxfEntity& entity) {
+    const bool insert = entity.type == "INSERT";
+    if (!insert && !detail::is_dxf_curve(entity.type)) {
+      if (entity.type != "SEQEND" && entity.type != "VIEWPORT" && entity.type != "VERTEX")
+        ++ignored_[std::string(entity.type.substr(0, 40))];
+      return;
+    }
+    if (!block_ && detail::integer(entity.tags, 67) == 1) {
+      ++paper_;
+      return;
+    }
+    if (!is_readable(entity)) return;
+    Item item = labelled(entity);
+    if (insert) {
+      item.block = detail::text(entity.tags, 2);
+      item.places = places_of(entity);
+    } else {
+      auto curve = detail::dxf_curve_of(entity);
+      if (!curve) return problem(describe(entity) + ": " + curve.error().message);
+      item.curve = std::move(*curve);
+    }
+    if (block_) return block_->items.push_back(std::move(item));
+    // Blocks may stand behind the drawing.
+    const bool later = insert && !blocks_.contains(item.block);
+    if (later) return items_.push_back(std::move(item));
+    place(item, Outer{});
+  }
+
+  /// False, and said, where a number of its geometry cannot be read.
+  bool is_readable(const DxfEntity& entity) {
+    const DxfTag* tag = detail::unreadable(entity);
+    if (!tag) return true;
+    problem(describe(entity) + ": \"" + detail::text_of(*tag).substr(0, 40) + "\" at " +
+            tags_.place(*tag) + " is no number");
+    return false;
+  }
+
+  /// A colour as it is written; what cannot be read is said and counts as absent.
+  int color_number(const DxfEntity& entity, int code, int absent) {
+    for (const DxfTag& tag : entity.tags)
+      if (tag.code == code) {
+        const auto value = detail::integer_of(tag);
+        if (!value) problem(describe(entity) + ": a colour that is no number");
+        return value.value_or(absent);
+      }
+    return absent;
+  }
+
+  std::string describe(const DxfEntity& entity) const {
+    return tags_.place({.place = entity.place}) + ": " + std::string(entity.type);
+  }
+
+  Item labelled(const DxfEntity& entity) {
+    Item item;
+    item.layer = detail::text(entity.tags, 8);
+    item.color = color_number(entity, 62, 256);
+    const int exact = color_number(entity, 420, -1);
+    if (exact >= 0) item.exact = detail::true_color(exact);
+    bool ours = false;
+    for (const DxfTag& tag : entity.tags) {
+      if (tag.code == 1001) ours = tag.text == "KEYLINE";
+      if (tag.code == 1000 && ours) item.name = detail::text_of(tag);
+    }
+    const int number = ++numbers_[std::string(entity.type)];
+    if (item.name.empty()) item.name = lower(entity.type) + "-" + std::to_string(number);
+    return item;
+  }
+
+  /// One map for every cell of an insert's array: block coordinates less base to outer ones.
+  std::vector<Affine3> places_of(const DxfEntity& entity) {
+    const auto& t = entity.tags;
+    const double angle = std::fmod(detail::real(t, 50), 360) * core::kPi / 180;
+    const core::Vector3 x{std::cos(angle), std::sin(angle), 0};
+    const core::Vector3 y{-x.y, x.x, 0};
+    const Affine3 frame = detail::extrusion_frame(detail::vector(t, 210, {0, 0, 1}));
+    const core::Point3 at = detail::point(t, 10);
+    const int columns = std::clamp(detail::integer(t, 70, 1), 1, 30000);
+    const int rows = std::clamp(detail::integer(t, 71, 1), 1, 30000);
+    std::vector<Affine3> places;
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c) {
+        if (++cells_ > most_points_ / 8) {
+          problem(describe(entity) + ": the rest of too large an array");
+          return places;
+        }
+        const core::Vector3 cell = c * detail::real(t, 44) * x + r * detail::real(t, 45) * y;
+        places.push_back(
+            detail::combined(frame, {detail::real(t, 41, 1) * x, detail::real(t, 42, 1) * y,
+                                     core::Vector3{0, 0, detail::real(t, 43, 1)}, at + cell}));
+      }
+    return places;
+  }
+
+  std::string color_of(const Item& item, const Outer& outer, const std::string& layer) const {
+    if (!item.exact.empty()) return item.exact;
+    if (item.color == 0) return outer.color;
+    if (item.color != 256) return detail::aci_color(std::abs(item.color));
+    const auto found = layer_colors_.find(layer);
+    return found == layer_colors_.end() ? std::string() : found->second;
+  }
+
+  void place(const Item& item, const Outer& outer) {
+    if (full_) return;
+    const bool inherits = item.layer == "0" && outer.depth > 0;
+    const std::string& layer = inherits ? outer.layer : item.layer;
+    const std::string color = color_of(item, outer, layer);
+    const std::string name = outer.name.empty() ? item.name : outer.name + "/" + item.name;
+    if (!item.curve) return place_block(item, outer, layer, color, name);
+    const detail::DxfShape shape =
+        outer.depth == 0 ? item.curve->shape : detail::mapped(item.curve->shape, outer.map);
+    made_points_ += detail::point_count(shape);
+    if (made_points_ > most_points_ || size(document_) >= limits_.curves) {
+      full_ = true;
+      return problem("the rest of the drawing: its inserts make too many curves");
+    }
+    if (!detail::is_finite(shape)) return problem(name + ": its numbers are too large");
+    const auto added =
+        detail::add_shape(document_, shape, item.curve->closed, {name, layer, color});
+    if (!added) problem(name + ": " + added.error().message);
+  }
+
+  void place_block(const Item& item, const Outer& outer, const std::string& layer,
+                   const std::string& color, const std::string& name) {
+    const auto block = blocks_.find(item.block);
+    if (block == blocks_.end()) return problem(name + ": there is no block \"" + item.block + "\"");
+    if (outer.depth >= limits_.depth)
+      return problem(name + ": blocks within blocks, deeper than " + std::to_string(limits_.depth) +
+                     " or without end");
+    for (const Affine3& cell : item.places) {
+      Outer inner{detail::combined(outer.map, cell), layer, color, name, outer.depth + 1};
+      const core::Point3 base = block->second.base;
+      inner.map.origin = detail::apply(inner.map, core::Point3{-base.x, -base.y, -base.z});
+      for (const Item& part : block->second.items) {
+        if (full_ || ++visits_ > most_points_) {
+          if (!full_) problem("the rest of the drawing: too many inserts");
+          full_ = true;
+          return;
+        }
+        place(part, inner);
+      }
+    }
+  }
+
+  detail::DxfTags tags_;
+  DxfReadLimits limits_;
+  std::size_t most_points_;
+  Document document_;
+  double scale_ = 1;  ///< from the drawing's unit to ours
+  std::string section_;
+  std::string variable_;
+  bool naming_section_ = false;
+  bool seen_section_ = false;
+  std::optional<DxfEntity> entity_;
+  std::optional<DxfEntity> polyline_;  ///< its vertices are being read
+  std::unordered_map<std::string, Block> blocks_;
+  Block* block_ = nullptr;
+  std::vector<Item> items_;
+  std::unordered_map<std::string, std::string> layer_colors_;
+  std::map<std::string, int> numbers_;
+  std::map<std::string, int> ignored_;
+  std::vector<std::string> problems_;
+  int paper_ = 0;
+  std::size_t made_points_ = 0;
+  std::size_t cells_ = 0;
+  std::size_t visits_ = 0;
+  bool full_ = false;
+};
+
+}  // namespace
+
+Result<Document> read_dxf(std::string_view bytes, const DxfReadLimits& limits) {
+  return DxfReader(bytes, limits).read();
+}
+
+}  // namespace keyline::exchange

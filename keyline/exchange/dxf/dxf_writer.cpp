@@ -1,0 +1,223 @@
+#include "keyline/exchange/dxf/dxf_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "keyline/core/angle.h"
+#include "keyline/curve/conversion.h"
+#include "keyline/document/color.h"
+#include "keyline/exchange/cad/cad_parts.h"
+#include "keyline/exchange/dxf/dxf_color.h"
+#include "keyline/exchange/dxf/dxf_frame.h"
+#include "keyline/exchange/dxf/dxf_units.h"
+#include "keyline/lac/space/space.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::Point2;
+using core::Point3;
+using core::Result;
+using detail::DxfText;
+using document::Document;
+using document::Label;
+
+Point3 flat(Point2 p) { return {p.x, p.y, 0}; }
+double degrees(double radians) {
+  const double d = radians * 180 / core::kPi;
+  return d < 0 ? d + 360 : d;
+}
+
+class DxfWriter {
+ public:
+  explicit DxfWriter(const DxfWriteOptions& options) : options_(options) {}
+
+  Result<Written> write(const Document& document) {
+    if (document.paths.empty() && document.space_curves.empty() && !document.surfaces.empty())
+      return core::fail(core::ErrorCode::bad_input, "DXF holds no surfaces",
+                        "choose .step, .iges or .json");
+    for (const auto& named : document.paths)
+      if (auto done = add(named); !done) return std::unexpected(done.error());
+    for (const auto& named : document.space_curves) add(named);
+    note(document);
+    written_.content = detail::dxf_file(body_, layers_, detail::dxf_unit(document.unit));
+    return std::move(written_);
+  }
+
+ private:
+  void note(const Document& document) {
+    if (!document.surfaces.empty())
+      written_.notes.push_back(std::to_string(document.surfaces.size()) +
+                               " surfaces are not in the file: DXF holds none");
+  }
+
+  Result<void> add(const document::NamedPath& named) {
+    // Half the tolerance is for what is made of the parts: polylines, or one spline of a chain.
+    const double share = options_.tolerance / 2;
+    auto parts = cad_parts(named.path, share);
+    if (!parts) return std::unexpected(parts.error());
+    const bool chain = is_chain(*parts);
+    if (options_.polylines || (chain && is_bulged(*parts))) {
+      const BulgedPolyline line = bulged_polyline(*parts, named.path.closed, share);
+      written_.deviation = std::max(written_.deviation, line.deviation);
+      if (line.vertices.size() >= 2) light_polyline(named.label, line);
+      return {};
+    }
+    if (chain) {
+      const ChainSpline whole = chain_spline(*parts, share);
+      written_.deviation = std::max(written_.deviation, whole.deviation);
+      add_part(named.label, whole.curve);
+      return {};
+    }
+    written_.deviation = std::max(written_.deviation, parts->deviation);
+    for (const CadPart& part : parts->parts)
+      std::visit([&](const auto& p) { add_part(named.label, p); }, part);
+    return {};
+  }
+
+  void add_part(const Label& label, const CadLine& line) {
+    start("LINE", label, "AcDbLine");
+    body_.point(10, flat(line.from));
+    body_.point(11, flat(line.to));
+    end(label);
+  }
+
+  void add_part(const Label& label, const document::Arc& arc) {
+    const bool whole = std::abs(arc.turn) >= 2 * core::kPi * (1 - 1e-12);
+    start(whole ? "CIRCLE" : "ARC", label, "AcDbCircle");
+    body_.point(10, flat(arc.center));
+    body_.real(40, arc.radius);
+    if (!whole) {
+      const double to = core::wrap_angle(arc.start + arc.turn);
+      const double from = core::wrap_angle(arc.start);
+      body_.text(100, "AcDbArc");
+      body_.real(50, degrees(arc.turn > 0 ? from : to));
+      body_.real(51, degrees(arc.turn > 0 ? to : from));
+    }
+    end(label);
+  }
+
+  void add_part(const Label& label, const curve::Polyline2& line) {
+    BulgedPolyline vertices;
+    vertices.closed = line.points.size() > 3 && line.points.front() == line.points.back();
+    for (const Point2 p : line.points) vertices.vertices.push_back({p, 0});
+    if (vertices.closed) vertices.vertices.pop_back();
+    light_polyline(label, vertices);
+  }
+
+  void add_part(const Label& label, const curve::BSpline2& c) {
+    std::vector<Point3> control;
+    for (const Point2 p : c.control) control.push_back(flat(p));
+    spline(label, c.degree, c.knots, control, c.weights, true);
+  }
+
+  void light_polyline(const Label& label, const BulgedPolyline& line) {
+    start("LWPOLYLINE", label, "AcDbPolyline");
+    body_.whole(90, static_cast<long>(line.vertices.size()));
+    body_.whole(70, line.closed ? 1 : 0);
+    for (const auto& vertex : line.vertices) {
+      body_.real(10, vertex.point.x);
+      body_.real(20, vertex.point.y);
+      if (vertex.bulge != 0) body_.real(42, vertex.bulge);
+    }
+    end(label);
+  }
+
+  void spline(const Label& label, int degree, const std::vector<double>& knots,
+              const std::vector<Point3>& control, const std::vector<double>& weights, bool planar) {
+    const bool closed = control.front() == control.back();
+    start("SPLINE", label, "AcDbSpline");
+    if (planar) body_.point(210, {0, 0, 1});
+    body_.whole(70, (closed ? 1 : 0) + (weights.empty() ? 0 : 4) + (planar ? 8 : 0));
+    body_.whole(71, degree);
+    body_.whole(72, static_cast<long>(knots.size()));
+    body_.whole(73, static_cast<long>(control.size()));
+    body_.whole(74, 0);
+    for (const double knot : knots) body_.real(40, knot);
+    for (const double weight : weights) body_.real(41, weight);
+    for (const Point3 p : control) body_.point(10, p);
+    end(label);
+  }
+
+  void add(const document::NamedSpaceCurve& named) {
+    const auto& value = named.curve.value;
+    if (const auto* line = std::get_if<curve::Polyline3>(&value)) return add(named.label, *line);
+    if (const auto* c = std::get_if<curve::BSpline3>(&value))
+      return spline(named.label, c->degree, c->knots, c->control, c->weights, false);
+    if (const auto* c = std::get_if<curve::Bezier3>(&value)) return add(named.label, *c);
+    const auto quintics =
+        lac::approximate_by_quintics(std::get<lac::SpaceChain>(value), options_.tolerance);
+    written_.deviation = std::max(written_.deviation, quintics.deviation);
+    const auto whole = curve::to_bspline(quintics.pieces, 0).value();
+    spline(named.label, whole.degree, whole.knots, whole.control, {}, false);
+  }
+
+  void add(const Label& label, const curve::Bezier3& c) {
+    std::vector<double> knots(2 * c.control.size(), 0);
+    std::fill(knots.begin() + static_cast<std::ptrdiff_t>(c.control.size()), knots.end(), 1);
+    spline(label, degree(c), knots, c.control, c.weights, false);
+  }
+
+  void add(const Label& label, const curve::Polyline3& line) {
+    if (line.points.size() == 2) {
+      start("LINE", label, "AcDbLine");
+      body_.point(10, line.points[0]);
+      body_.point(11, line.points[1]);
+      return end(label);
+    }
+    start("POLYLINE", label, "AcDb3dPolyline");
+    body_.whole(66, 1);
+    body_.point(10, {});
+    body_.whole(70, 8);
+    end(label);
+    for (const Point3 p : line.points) {
+      start("VERTEX", label, "AcDbVertex");
+      body_.text(100, "AcDb3dPolylineVertex");
+      body_.point(10, p);
+      body_.whole(70, 32);
+    }
+    body_.text(0, "SEQEND");
+    body_.handle(5);
+    body_.text(100, "AcDbEntity");
+    body_.text(8, layer_of(label));
+  }
+
+  std::string layer_of(const Label& label) {
+    const std::string layer = detail::dxf_name(label.layer.empty() ? "0" : label.layer);
+    layers_.insert(layer);
+    return layer;
+  }
+
+  void start(const char* type, const Label& label, const char* subclass) {
+    body_.text(0, type);
+    body_.handle(5);
+    body_.text(100, "AcDbEntity");
+    body_.text(8, layer_of(label));
+    if (const int color = document::color_value(label.color); color >= 0) {
+      body_.whole(62, detail::nearest_aci(color));  // for readers older than true colours
+      body_.whole(420, color);
+    }
+    body_.text(100, subclass);
+  }
+
+  void end(const Label& label) {
+    if (label.name.empty()) return;
+    body_.text(1001, "KEYLINE");
+    body_.text(1000, detail::dxf_text(label.name));
+  }
+
+  DxfWriteOptions options_;
+  Written written_;
+  DxfText body_;
+  std::set<std::string> layers_{"0"};
+};
+
+}  // namespace
+
+Result<Written> write_dxf(const Document& document, const DxfWriteOptions& options) {
+  return DxfWriter(options).write(document);
+}
+
+}  // namespace keyline::exchange

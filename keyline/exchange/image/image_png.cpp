@@ -1,0 +1,118 @@
+#include <bit>
+#include <cmath>
+#include <csetjmp>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <png.h>
+
+#include "keyline/exchange/image/image_reader.h"
+
+namespace keyline::exchange::detail {
+namespace {
+
+using core::Result;
+using sketch::Image;
+
+/// What libpng's callbacks share with us; outlives every jump out of them.
+struct Source {
+  std::string_view bytes;
+  std::size_t at = 0;
+  std::string message;
+};
+
+void read_bytes(png_structp png, png_bytep out, png_size_t count) {
+  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+  if (source.bytes.size() - source.at < count) png_error(png, "it ends too early");
+  std::memcpy(out, source.bytes.data() + source.at, count);
+  source.at += count;
+}
+
+void on_error(png_structp png, png_const_charp text) {
+  static_cast<Source*>(png_get_error_ptr(png))->message = text;
+  png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+struct Reader {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+/// Asks libpng for 16 bit grey, over white, in the machine's byte order.
+void set_transforms(png_structp png, png_infop info) {
+  png_set_expand_16(png);
+  // only a file of another gamma is converted: libpng then weighs colours in linear light
+  double gamma = 0;
+  if (png_get_gAMA(png, info, &gamma) && std::abs(gamma - 0.4545) > 0.05)
+    png_set_gamma(png, PNG_DEFAULT_sRGB, gamma);
+  png_color_16 white{0, 65535, 65535, 65535, 65535};
+  if ((png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) ||
+      png_get_valid(png, info, PNG_INFO_tRNS))
+    png_set_background(png, &white, PNG_BACKGROUND_GAMMA_SCREEN, 0, 1);
+  if (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR)
+    png_set_rgb_to_gray_fixed(png, PNG_ERROR_ACTION_NONE, 29900, 58700);
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
+}
+
+/// The header, up to the pixels; false after a jump. No object with a destructor lives here.
+bool read_header(png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_read_info(png, info);
+  return true;
+}
+
+bool read_pixels(png_structp png, png_infop info, png_bytep* rows, std::size_t row_bytes) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  set_transforms(png, info);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "its pixels have an unknown form");
+  png_read_image(png, rows);
+  png_read_end(png, info);
+  return true;
+}
+
+/// Chunks that say nothing about the pixels are passed over; libpng would make room for what their
+/// headers state, whatever its limits.
+void skip_texts(png_structp png) {
+  static constexpr png_byte kNames[] = "tEXt\0zTXt\0iTXt\0iCCP\0sPLT\0hIST\0pCAL\0sCAL";
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, kNames, sizeof kNames / 5);
+}
+
+}  // namespace
+
+Result<Image> read_png(std::string_view bytes) {
+  Source source{bytes, 0, {}};
+  Reader reader;
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_error, on_warning);
+  reader.info = png_create_info_struct(reader.png);
+  png_set_read_fn(reader.png, &source, read_bytes);
+  png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);
+  png_set_chunk_malloc_max(reader.png, 8u << 20);
+  skip_texts(reader.png);
+  if (!read_header(reader.png, reader.info)) return damaged(source.message);
+  const std::int64_t width = png_get_image_width(reader.png, reader.info);
+  const std::int64_t height = png_get_image_height(reader.png, reader.info);
+  const double raw =
+      static_cast<double>(height) * static_cast<double>(png_get_rowbytes(reader.png, reader.info));
+  constexpr double kBestDeflate = 1040;  // deflate cannot pack closer
+  auto image = new_image(width, height, raw / kBestDeflate, bytes.size());
+  if (!image) return image;
+  std::vector<png_bytep> rows;
+  for (int y = 0; y < image->height(); ++y)
+    rows.push_back(reinterpret_cast<png_bytep>(&image->luminance.at(0, y)));
+  const auto row_bytes = 2 * static_cast<std::size_t>(width);
+  if (!read_pixels(reader.png, reader.info, rows.data(), row_bytes)) return damaged(source.message);
+  image->pixels_per_mm = png_get_pixels_per_meter(reader.png, reader.info) / 1000.0;
+  png_bytep exif = nullptr;
+  png_uint_32 size = 0;
+  if (png_get_eXIf_1(reader.png, reader.info, &size, &exif))
+    apply_orientation(*image, exif_orientation({reinterpret_cast<const char*>(exif), size}));
+  return image;
+}
+
+}  // namespace keyline::exchange::detail

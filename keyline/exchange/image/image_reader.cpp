@@ -1,0 +1,172 @@
+#include "keyline/exchange/image/image_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "keyline/exchange/format/format.h"
+
+namespace keyline::exchange {
+
+using core::ErrorCode;
+using core::Result;
+using sketch::Image;
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 512u << 20;
+
+bool starts_with(std::string_view bytes, std::string_view magic) {
+  return bytes.substr(0, magic.size()) == magic;
+}
+
+/// Little or big endian numbers of a TIFF structure, 0 beyond the end.
+class Fields {
+ public:
+  explicit Fields(std::string_view bytes) : bytes_(bytes), little_(starts_with(bytes, "II")) {}
+  std::uint32_t number(std::size_t at, std::size_t size) const {
+    if (at > bytes_.size() || bytes_.size() - at < size) return 0;
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = little_ ? at + size - 1 - k : at + k;
+      value = value << 8 | static_cast<unsigned char>(bytes_[i]);
+    }
+    return value;
+  }
+
+ private:
+  std::string_view bytes_;
+  bool little_;
+};
+
+/// Copies pixels to where `place` says, into an image of that size.
+template <class Place>
+void rearrange(Image& image, int width, int height, const Place& place) {
+  sketch::Raster<std::uint16_t> turned(width, height);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const auto [u, v] = place(x, y);
+      turned.at(u, v) = image.luminance.at(x, y);
+    }
+  image.luminance = std::move(turned);
+}
+
+}  // namespace
+
+namespace detail {
+
+std::unexpected<core::Failure> damaged(const std::string& what) {
+  return core::fail(ErrorCode::bad_input, "the picture is damaged: " + what,
+                    "save or export it again");
+}
+
+Result<Image> new_image(std::int64_t width, std::int64_t height, double least_bytes,
+                        std::size_t bytes) {
+  const std::string size = std::to_string(width) + " x " + std::to_string(height);
+  if (width <= 0 || height <= 0) return damaged("it states a size of " + size + " pixels");
+  if (!sketch::is_allowed_size(width, height))
+    return core::fail(ErrorCode::bad_input,
+                      "the picture has " + size + " pixels; 64 megapixels are the most",
+                      "make it smaller");
+  if (least_bytes > static_cast<double>(bytes))
+    return damaged("it is too short for the " + size + " pixels it states");
+  Image image;
+  image.luminance =
+      sketch::Raster<std::uint16_t>(static_cast<int>(width), static_cast<int>(height));
+  return image;
+}
+
+std::uint16_t luminance(double red, double green, double blue) {
+  return static_cast<std::uint16_t>(
+      std::clamp(std::lround(0.299 * red + 0.587 * green + 0.114 * blue), 0L, 65535L));
+}
+
+std::uint16_t over_white(double v, double opacity) {
+  return static_cast<std::uint16_t>(
+      std::clamp(std::lround(v * opacity + 65535 * (1 - opacity)), 0L, 65535L));
+}
+
+int exif_orientation(std::string_view exif) {
+  constexpr std::string_view kHead("Exif\0\0", 6);
+  if (starts_with(exif, kHead)) exif.remove_prefix(kHead.size());
+  if (!starts_with(exif, "II") && !starts_with(exif, "MM")) return 1;
+  const Fields fields(exif);
+  const std::size_t directory = fields.number(4, 4);
+  const std::size_t count = fields.number(directory, 2);
+  for (std::size_t k = 0; k < std::min<std::size_t>(count, 1000); ++k) {
+    const std::size_t entry = directory + 2 + 12 * k;
+    if (fields.number(entry, 2) != 0x0112) continue;
+    const auto value = static_cast<int>(fields.number(entry + 8, 2));
+    return value >= 1 && value <= 8 ? value : 1;
+  }
+  return 1;
+}
+
+void apply_orientation(Image& image, int orientation) {
+  const int w = image.width();
+  const int h = image.height();
+  using Place = std::array<int, 2>;
+  switch (orientation) {
+    case 2:
+      return rearrange(image, w, h, [=](int x, int y) { return Place{w - 1 - x, y}; });
+    case 3:
+      return rearrange(image, w, h, [=](int x, int y) { return Place{w - 1 - x, h - 1 - y}; });
+    case 4:
+      return rearrange(image, w, h, [=](int x, int y) { return Place{x, h - 1 - y}; });
+    case 5:
+      return rearrange(image, h, w, [=](int x, int y) { return Place{y, x}; });
+    case 6:
+      return rearrange(image, h, w, [=](int x, int y) { return Place{h - 1 - y, x}; });
+    case 7:
+      return rearrange(image, h, w, [=](int x, int y) { return Place{h - 1 - y, w - 1 - x}; });
+    case 8:
+      return rearrange(image, h, w, [=](int x, int y) { return Place{y, w - 1 - x}; });
+    default:
+      return;
+  }
+}
+
+}  // namespace detail
+
+bool has_image_name(const std::filesystem::path& path) {
+  static constexpr std::array<std::string_view, 6> kNames = {".png", ".jpg",  ".jpeg",
+                                                             ".tif", ".tiff", ".webp"};
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
+  return std::find(kNames.begin(), kNames.end(), extension) != kNames.end();
+}
+
+Result<Image> read_image(std::string_view bytes) {
+  const std::string_view kind = picture_extension(bytes);
+  if (kind == ".png") return detail::read_png(bytes);
+  if (kind == ".jpg") return detail::read_jpeg(bytes);
+  if (kind == ".tif") return detail::read_tiff(bytes);
+  if (kind == ".webp") return detail::read_webp(bytes);
+  return core::fail(ErrorCode::bad_input, "is no PNG, JPEG, TIFF or WebP picture",
+                    "save the drawing in one of these formats");
+}
+
+Result<Image> read_image_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    return core::fail(ErrorCode::io, "is a directory", "name a picture", path.string());
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    return core::fail(ErrorCode::io, std::string("cannot be opened: ") + std::strerror(errno),
+                      "check the name and the rights", path.string());
+  const auto size = std::filesystem::file_size(path, error);
+  if (!error && size > kLargestFile)
+    return core::fail(ErrorCode::bad_input, "is larger than 512 MB", "make the picture smaller",
+                      path.string());
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  auto image = read_image(bytes);
+  if (!image && image.error().path.empty()) image.error().path = path.string();
+  return image;
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,206 @@
+#include "keyline/exchange/json/json_curve.h"
+
+#include <cmath>
+#include <limits>
+
+#include "keyline/exchange/json/json_parts.h"
+#include "keyline/lac/chain/chain.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Point2;
+using core::Result;
+using detail::in;
+using detail::member;
+using detail::numbers;
+using detail::type_of;
+using document::Path;
+using document::PlanarCurve;
+using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using detail::curve_json;
+
+json curve_json(const lac::Chain& c) {
+  json pieces = json::array();
+  for (const lac::Piece& p : c.pieces) {
+    json piece{{"alpha", p.alpha}, {"length", p.length}};
+    const bool cusp = std::isinf(p.curvature_start) || std::isinf(p.curvature_end);
+    if (cusp)
+      piece["radius"] = {1 / p.curvature_start, 1 / p.curvature_end};
+    else
+      piece["curvature"] = {p.curvature_start, p.curvature_end};
+    pieces.push_back(std::move(piece));
+  }
+  return {{"type", "log-aesthetic"},
+          {"start", to_json(c.start.position)},
+          {"direction", c.start.direction},
+          {"closed", c.closed},
+          {"pieces", std::move(pieces)}};
+}
+
+/// "curvature":[κ0,κ1] or "radius":[ρ0,ρ1], the latter with 0 for a cusp.
+Result<std::array<double, 2>> end_curvatures(const json& j, const std::string& where) {
+  const bool by_radius = j.contains("radius");
+  if (by_radius == j.contains("curvature"))
+    return fail(ErrorCode::bad_input, "a piece has either \"curvature\" or \"radius\"",
+                "give one of the two", where);
+  const char* key = by_radius ? "radius" : "curvature";
+  auto pair = numbers(j[key], in(where, key));
+  if (!pair) return std::unexpected(pair.error());
+  if (pair->size() != 2)
+    return fail(ErrorCode::bad_input, "two numbers are wanted here", "give [start, end]",
+                in(where, key));
+  std::array<double, 2> k{(*pair)[0], (*pair)[1]};
+  if (!by_radius) return k;
+  const double sign = k[0] < 0 || k[1] < 0 ? -1 : 1;
+  for (double& x : k) x = x == 0 ? sign * kInfinity : 1 / x;
+  return k;
+}
+
+Result<lac::Piece> read_piece(const json& j, const std::string& where) {
+  if (!j.is_object())
+    return fail(ErrorCode::bad_input, "a piece is wanted here",
+                "give {\"alpha\":…, \"length\":…, \"curvature\":[…]}", where);
+  lac::Piece piece;
+  for (const auto& [key, target] :
+       {std::pair{"alpha", &piece.alpha}, std::pair{"length", &piece.length}}) {
+    const auto m = member(j, key, where);
+    if (!m) return std::unexpected(m.error());
+    const auto n = number_from_json(**m, in(where, key));
+    if (!n) return std::unexpected(n.error());
+    *target = *n;
+  }
+  const auto ends = end_curvatures(j, where);
+  if (!ends) return std::unexpected(ends.error());
+  piece.curvature_start = (*ends)[0];
+  piece.curvature_end = (*ends)[1];
+  return piece;
+}
+
+Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
+  lac::Chain chain;
+  const auto start = member(j, "start", where);
+  if (!start) return std::unexpected(start.error());
+  const auto position = point_from_json(**start, in(where, "start"));
+  if (!position) return std::unexpected(position.error());
+  const auto direction = member(j, "direction", where);
+  if (!direction) return std::unexpected(direction.error());
+  const auto angle = number_from_json(**direction, in(where, "direction"));
+  if (!angle) return std::unexpected(angle.error());
+  chain.start = {*position, *angle};
+  if (j.contains("closed")) {
+    if (!j["closed"].is_boolean())
+      return fail(ErrorCode::bad_input, "true or false is wanted here", "", in(where, "closed"));
+    chain.closed = j["closed"].get<bool>();
+  }
+  const auto pieces = member(j, "pieces", where);
+  if (!pieces) return std::unexpected(pieces.error());
+  if (!(*pieces)->is_array() || (*pieces)->empty())
+    return fail(ErrorCode::bad_input, "a list of pieces is wanted here", "give at least one",
+                in(where, "pieces"));
+  for (std::size_t i = 0; i < (*pieces)->size(); ++i) {
+    const auto piece = read_piece((**pieces)[i], in(in(where, "pieces"), i));
+    if (!piece) return std::unexpected(piece.error());
+    chain.pieces.push_back(*piece);
+  }
+  return PlanarCurve{std::move(chain)};
+}
+
+template <class T>
+Result<PlanarCurve> planar(Result<T> read) {
+  if (!read) return std::unexpected(std::move(read.error()));
+  return PlanarCurve{std::move(*read)};
+}
+
+Result<PlanarCurve> read_by_type(const json& j, const std::string& type, const std::string& where) {
+  if (type == "polyline") return planar(detail::read_polyline<Point2>(j, where));
+  if (type == "bezier") return planar(detail::read_bezier<Point2>(j, where));
+  if (type == "bspline") return planar(detail::read_bspline<Point2>(j, where));
+  if (type == "log-aesthetic") return read_chain(j, where);
+  return fail(ErrorCode::bad_input, "\"" + type + "\" is not a planar curve type",
+              "use polyline, bezier, bspline, log-aesthetic or path", in(where, "type"));
+}
+
+}  // namespace
+
+json to_json(Point2 p) { return json::array({p.x, p.y}); }
+
+json to_json(const PlanarCurve& c) {
+  return std::visit([](const auto& v) { return curve_json(v); }, c.value);
+}
+
+json to_json(const Path& path) {
+  json curves = json::array();
+  for (const PlanarCurve& c : path.curves) curves.push_back(to_json(c));
+  return {{"type", "path"}, {"curves", std::move(curves)}, {"closed", path.closed}};
+}
+
+Result<double> number_from_json(const json& j, const std::string& where) {
+  if (!j.is_number())
+    return fail(ErrorCode::bad_input, "a number is wanted here", "give a finite number", where);
+  const double value = j.get<double>();
+  if (!std::isfinite(value))
+    return fail(ErrorCode::bad_input, "the number is not finite", "give a finite number", where);
+  return value;
+}
+
+Result<Point2> point_from_json(const json& j, const std::string& where) {
+  if (!j.is_array() || j.size() < 2 || j.size() > 3)
+    return fail(ErrorCode::bad_input, "a point is wanted here", "give [x, y]", where);
+  double c[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < j.size(); ++i) {
+    const auto n = number_from_json(j[i], in(where, i));
+    if (!n) return std::unexpected(n.error());
+    c[i] = *n;
+  }
+  if (c[2] != 0)
+    return fail(ErrorCode::unsupported, "a point in space where a planar one is wanted",
+                "project the points on a plane first", where);
+  return Point2{c[0], c[1]};
+}
+
+Result<std::vector<Point2>> points_from_json(const json& j, const std::string& where,
+                                             std::size_t least) {
+  return detail::read_points<Point2>(j, where, least);
+}
+
+Result<PlanarCurve> curve_from_json(const json& j, const std::string& where) {
+  const auto type = type_of(j, where);
+  if (!type) return std::unexpected(type.error());
+  auto c = read_by_type(j, *type, where);
+  if (!c) return c;
+  if (auto sound = validate(*c); !sound) return detail::placed(sound.error(), where);
+  return c;
+}
+
+Result<Path> path_from_json(const json& j, const std::string& where) {
+  const auto type = type_of(j, where);
+  if (!type) return std::unexpected(type.error());
+  Path path;
+  if (*type != "path") {
+    auto only = curve_from_json(j, where);
+    if (!only) return std::unexpected(only.error());
+    if (const auto* chain = std::get_if<lac::Chain>(&only->value)) path.closed = chain->closed;
+    path.curves.push_back(std::move(*only));
+    return path;
+  }
+  const auto curves = member(j, "curves", where);
+  if (!curves) return std::unexpected(curves.error());
+  if (!(*curves)->is_array() || (*curves)->empty())
+    return fail(ErrorCode::bad_input, "a list of curves is wanted here", "give at least one",
+                in(where, "curves"));
+  for (std::size_t i = 0; i < (*curves)->size(); ++i) {
+    auto c = curve_from_json((**curves)[i], in(in(where, "curves"), i));
+    if (!c) return std::unexpected(c.error());
+    path.curves.push_back(std::move(*c));
+  }
+  if (j.contains("closed") && j["closed"].is_boolean()) path.closed = j["closed"].get<bool>();
+  return path;
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,254 @@
+#include "keyline/exchange/json/json_document.h"
+
+#include "keyline/exchange/json/json_hull.h"
+#include "keyline/exchange/json/json_lists.h"
+#include "keyline/exchange/json/json_parts.h"
+#include "keyline/exchange/json/json_surface.h"
+#include "keyline/exchange/json/json_text.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+using detail::in;
+using document::Document;
+using document::Label;
+using nlohmann::json;
+
+/// Long lists are left to `lists` where there are some to be filled.
+template <class Curve>
+json curve_json(const Curve& curve, detail::PointLists* lists) {
+  using Line = std::conditional_t<std::is_same_v<Curve, document::PlanarCurve>, curve::Polyline2,
+                                  curve::Polyline3>;
+  const auto* line = lists ? std::get_if<Line>(&curve.value) : nullptr;
+  if (!line || line->points.empty()) return to_json(curve);
+  lists->push_back(&line->points);
+  return {{"type", "polyline"}, {"points", json::array()}};
+}
+
+json path_json(const document::Path& path, detail::PointLists* lists) {
+  const bool chain =
+      path.curves.size() == 1 && std::holds_alternative<lac::Chain>(path.curves[0].value);
+  // A closed path of one curve other than a chain says so only as a path.
+  const bool plain = path.curves.size() == 1 && (chain || !path.closed);
+  if (plain) return curve_json(path.curves.front(), lists);
+  json whole = to_json(document::Path{{}, path.closed});
+  for (const document::PlanarCurve& c : path.curves)
+    whole["curves"].push_back(curve_json(c, lists));
+  return whole;
+}
+
+void add_label(json& j, const Label& label) {
+  if (!label.name.empty()) j["name"] = label.name;
+  if (!label.layer.empty()) j["layer"] = label.layer;
+  if (!label.color.empty()) j["color"] = label.color;
+}
+
+json item_json(const Label& label, const char* kind, json value) {
+  json item{{kind, std::move(value)}};
+  add_label(item, label);
+  return item;
+}
+
+std::string text_of(const json& j, const char* key) {
+  const auto it = j.find(key);
+  return it != j.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+Label label_of(const json& j) {
+  Label label{text_of(j, "name"), text_of(j, "layer"), text_of(j, "color")};
+  const bool color =
+      label.color.size() == 7 && label.color[0] == '#' &&
+      label.color.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (!color) label.color.clear();
+  return label;
+}
+
+Result<void> add_value(Document& document, const json& value, const std::string& where, Label label,
+                       double stroke_width) {
+  if (is_surface_json(value)) {
+    auto read = surface_from_json(value, where);
+    if (!read) return std::unexpected(read.error());
+    document.surfaces.push_back({std::move(label), std::move(*read), 0});
+    return {};
+  }
+  if (is_space_curve(value)) {
+    auto curve = space_curve_from_json(value, where);
+    if (!curve) return std::unexpected(curve.error());
+    document.space_curves.push_back({std::move(label), std::move(*curve)});
+    return {};
+  }
+  auto path = path_from_json(value, where);
+  if (!path) return std::unexpected(path.error());
+  document.paths.push_back({std::move(label), std::move(*path), stroke_width});
+  return {};
+}
+
+Result<void> add_trim_loops(document::NamedSurface& named, const json& item,
+                            const std::string& where) {
+  const auto loops = item.find("trim_loops");
+  if (loops == item.end()) return {};
+  const std::string at = in(where, "trim_loops");
+  const auto wanted = [](const std::string& path) {
+    return fail(ErrorCode::bad_input, "a list is wanted here", "give [[curve, …], …]", path);
+  };
+  if (!loops->is_array()) return wanted(at);
+  for (std::size_t i = 0; i < loops->size(); ++i) {
+    const json& list = (*loops)[i];
+    if (!list.is_array()) return wanted(in(at, i));
+    auto& loop = named.trim_loops.emplace_back();
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      auto curve = space_curve_from_json(list[k], in(in(at, i), k));
+      if (!curve) return std::unexpected(curve.error());
+      loop.push_back(std::move(*curve));
+    }
+  }
+  return {};
+}
+
+Result<void> add_surface(Document& document, const json& item, const std::string& where) {
+  if (!item.is_object() || !item.contains("surface"))
+    return fail(ErrorCode::bad_input, "a surface is wanted here", "give {\"surface\":{…}}", where);
+  auto read = surface_from_json(item["surface"], in(where, "surface"));
+  if (!read) return std::unexpected(read.error());
+  const auto trims = item.find("trims");
+  const bool counted = trims != item.end() && trims->is_number_unsigned() && *trims < 1'000'000;
+  document.surfaces.push_back({label_of(item), std::move(*read), counted ? trims->get<int>() : 0});
+  return add_trim_loops(document.surfaces.back(), item, where);
+}
+
+Result<void> add_item(Document& document, const json& item, const std::string& where) {
+  const bool wrapped = item.is_object() && item.contains("curve");
+  if (!wrapped)
+    return add_value(document, item, where, item.is_object() ? label_of(item) : Label{}, 0);
+  double width = 0;
+  if (item.contains("stroke_width")) {
+    const auto number = number_from_json(item["stroke_width"], in(where, "stroke_width"));
+    if (!number) return std::unexpected(number.error());
+    if (*number < 0)
+      return fail(ErrorCode::bad_input, "the stroke width is negative", "give 0 or more",
+                  in(where, "stroke_width"));
+    width = *number;
+  }
+  return add_value(document, item["curve"], in(where, "curve"), label_of(item), width);
+}
+
+Result<Document> document_of_list(const json& j) {
+  Document document;
+  document.unit = text_of(j, "unit");
+  for (const auto& [key, add] : {std::pair{"curves", &add_item}, {"surfaces", &add_surface}}) {
+    const auto list = j.find(key);
+    if (list == j.end()) continue;
+    if (!list->is_array())
+      return fail(ErrorCode::bad_input, "a list is wanted here", "give [{…}, …]", key);
+    for (std::size_t i = 0; i < list->size(); ++i)
+      if (auto done = add(document, (*list)[i], in(key, i)); !done)
+        return std::unexpected(done.error());
+  }
+  if (const auto skipped = j.find("skipped"); skipped != j.end() && skipped->is_array())
+    for (const json& line : *skipped)
+      if (line.is_string()) document.skipped.push_back(line.get<std::string>());
+  return document;
+}
+
+json surfaces_json(const Document& document) {
+  json list = json::array();
+  for (const auto& named : document.surfaces) {
+    list.push_back(item_json(named.label, "surface", to_json(named.surface)));
+    if (named.trims > 0) list.back()["trims"] = named.trims;
+    if (named.trim_loops.empty()) continue;
+    json& loops = list.back()["trim_loops"] = json::array();
+    for (const auto& loop : named.trim_loops) {
+      json curves = json::array();
+      for (const document::SpaceCurve& curve : loop) curves.push_back(to_json(curve));
+      loops.push_back(std::move(curves));
+    }
+  }
+  return list;
+}
+
+/// A single unlabelled thing is written as the value it is.
+bool is_one_path(const Document& document) {
+  return document.paths.size() == 1 && size(document) == 1 && document.skipped.empty() &&
+         document.paths[0].label.layer.empty() && document.paths[0].stroke_width == 0;
+}
+
+bool is_one_surface(const Document& document) {
+  return document.surfaces.size() == 1 && size(document) == 1 && document.skipped.empty() &&
+         document.surfaces[0].label.layer.empty() && document.surfaces[0].trims == 0;
+}
+
+bool is_one_space_curve(const Document& document) {
+  return document.space_curves.size() == 1 && size(document) == 1 && document.skipped.empty() &&
+         document.space_curves[0].label.layer.empty();
+}
+
+json value_of(const Document& document, detail::PointLists* lists) {
+  if (!document.paths.empty()) return path_json(document.paths[0].path, lists);
+  if (!document.space_curves.empty()) return curve_json(document.space_curves[0].curve, lists);
+  return to_json(document.surfaces[0].surface);
+}
+
+json tree_of(const Document& document, detail::PointLists* lists) {
+  if (is_one_path(document) || is_one_surface(document) || is_one_space_curve(document)) {
+    json one = value_of(document, lists);
+    add_label(one, labels(document).front());
+    if (!document.unit.empty()) one["unit"] = document.unit;
+    return one;
+  }
+  json list = json::array();
+  for (const auto& named : document.paths) {
+    list.push_back(item_json(named.label, "curve", path_json(named.path, lists)));
+    if (named.stroke_width > 0) list.back()["stroke_width"] = named.stroke_width;
+  }
+  for (const auto& named : document.space_curves)
+    list.push_back(item_json(named.label, "curve", curve_json(named.curve, lists)));
+  json j{{"curves", std::move(list)}};
+  if (!document.surfaces.empty()) j["surfaces"] = surfaces_json(document);
+  if (!document.unit.empty()) j["unit"] = document.unit;
+  if (!document.skipped.empty()) j["skipped"] = document.skipped;
+  return j;
+}
+
+}  // namespace
+
+json to_json(const Document& document) { return tree_of(document, nullptr); }
+
+std::string json_text(const Document& document, int indent, const json& further) {
+  detail::PointLists lists;
+  json tree = tree_of(document, &lists);
+  tree.update(further);
+  return detail::filled(tree.dump(indent), lists, indent);
+}
+
+std::string json_text(const Document& document, int indent) {
+  return json_text(document, indent, json::object());
+}
+
+Result<Document> document_from_json(const json& j) {
+  if (is_hull_json(j)) {
+    const auto hull = hull_from_json(j);
+    if (!hull) return std::unexpected(hull.error());
+    return hull_document(*hull);
+  }
+  const bool typed = j.is_object() && j.contains("type");
+  if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
+    return document_of_list(j);
+  Document document;
+  if (j.is_object()) document.unit = text_of(j, "unit");
+  const bool wrapped = j.is_object() && !typed && j.contains("curve");
+  const auto done = wrapped ? add_value(document, j["curve"], "curve", label_of(j), 0)
+                            : add_value(document, j, "", j.is_object() ? label_of(j) : Label{}, 0);
+  if (!done) return std::unexpected(done.error());
+  return document;
+}
+
+Result<Document> read_json(std::string_view text) {
+  const auto j = parse_json(text);
+  if (!j) return std::unexpected(j.error());
+  return document_from_json(*j);
+}
+
+}  // namespace keyline::exchange

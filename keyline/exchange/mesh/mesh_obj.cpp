@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <limits>
+
+#include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/text/byte_lines.h"
+#include "keyline/exchange/text/finite_number.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::Result;
+
+constexpr std::size_t kMostNotes = 1000;
+
+/// UTF-16 with a byte order mark as ASCII; what is not ASCII becomes "?".
+std::string narrowed(std::string_view bytes) {
+  const std::size_t low = bytes.starts_with("\xff\xfe") ? 0 : 1;
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    const bool ascii = bytes[i + 1 - low] == '\0';
+    text += ascii ? bytes[i + low] : '?';
+  }
+  return text;
+}
+
+class ObjReader {
+ public:
+  explicit ObjReader(std::string_view bytes) : lines_(bytes) {}
+
+  Result<Mesh> read() {
+    std::string_view line;
+    std::string joined;
+    while (lines_.next(line)) {
+      if (line.ends_with('\\')) {  // goes on in the next line
+        joined.append(line.substr(0, line.size() - 1));
+        joined += ' ';
+        continue;
+      }
+      if (!joined.empty()) {
+        joined.append(line);
+        line = joined;
+      }
+      if (auto done = statement(line); !done) return std::unexpected(done.error());
+      joined.clear();
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  Result<void> statement(std::string_view line) {
+    const std::string_view keyword = detail::take_word(line);
+    if (keyword == "v") return vertex(line);
+    if (keyword == "f" || keyword == "l") element(line, keyword == "f");
+    if (keyword == "curv" || keyword == "surf") note("free-form " + std::string(keyword));
+    return {};
+  }
+
+  Result<void> vertex(std::string_view line) {
+    double c[3] = {};
+    for (double& value : c) {
+      const std::string_view word = detail::take_word(line);
+      const auto number = detail::finite_number(word);
+      if (!number && word.find_first_of("0123456789") == word.npos)
+        return core::fail(ErrorCode::bad_input, "a vertex needs three numbers", "mend the line",
+                          lines_.place());
+      if (!number) note("the vertex: \"" + std::string(word.substr(0, 30)) + "\" is no number");
+      value = number.value_or(std::numeric_limits<double>::quiet_NaN());
+    }
+    if (mesh_.points.size() >= std::numeric_limits<std::uint32_t>::max() / 2)
+      return core::fail(ErrorCode::bad_input, "there are too many vertices", "split the file",
+                        lines_.place());
+    mesh_.points.push_back({c[0], c[1], c[2]});
+    return {};
+  }
+
+  void element(std::string_view line, bool face) {
+    indices_.clear();
+    for (auto word = detail::take_word(line); !word.empty(); word = detail::take_word(line)) {
+      const auto number = detail::finite_number(word.substr(0, word.find('/')));
+      const double count = static_cast<double>(mesh_.points.size());
+      const double index = !number ? -1 : *number < 0 ? count + *number : *number - 1;
+      if (!(index >= 0 && index < count))
+        return note("\"" + std::string(word.substr(0, 30)) + "\" is none of the vertices");
+      indices_.push_back(static_cast<std::uint32_t>(index));
+    }
+    if (indices_.size() < (face ? 3 : 2)) return note("too few vertices");
+    if (!face) {
+      mesh_.lines.push_back(indices_);
+      return;
+    }
+    for (std::size_t i = 2; i < indices_.size(); ++i)
+      mesh_.triangles.push_back({indices_[0], indices_[i - 1], indices_[i]});
+  }
+
+  void note(std::string what) {
+    if (mesh_.skipped.size() < kMostNotes)
+      mesh_.skipped.push_back(lines_.place() + ": " + std::move(what));
+  }
+
+  detail::ByteLines lines_;
+  Mesh mesh_;
+  std::vector<std::uint32_t> indices_;
+};
+
+}  // namespace
+
+Result<Mesh> read_obj(std::string_view bytes) {
+  const bool wide = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
+  const std::string text = wide ? narrowed(bytes) : std::string();
+  return ObjReader(wide ? std::string_view(text) : bytes).read();
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/file/read_file.h"
+#include "keyline/exchange/file/standard_stream.h"
+#include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/ply_header.h"
+#include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/text/line_reader.h"
+#include "keyline/exchange/text/text_table.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::Point3;
+using core::Result;
+using Take = std::function<void(Point3)>;
+
+using Left = std::vector<std::string>;
+
+/// Points of lines of text, one after the other.
+class TextPoints {
+ public:
+  TextPoints(std::istream& in, const std::string& name, const Take& take)
+      : lines_(in, name, std::size_t{1} << 20), name_(name), take_(take) {}
+
+  Result<Left> read() {
+    while (true) {
+      bool end = false;
+      const auto line = lines_.next(end);
+      if (!line) return std::unexpected(line.error());
+      if (end) break;
+      if (auto done = point(detail::trimmed(*line)); !done) return std::unexpected(done.error());
+    }
+    if (!started_)
+      return core::fail(ErrorCode::bad_input, "there are no points in it",
+                        "give x, y and z on each line", name_);
+    if (missing_ > 0)
+      left_.push_back(core::counted(missing_, "point") + " without all coordinates");
+    if (lines_.ended_early())
+      left_.push_back("line " + std::to_string(lines_.number()) +
+                      ": what follows the end mark (^Z)");
+    return std::move(left_);
+  }
+
+ private:
+  /// A header, a count or a comment before the points is let pass, text behind them left out.
+  Result<void> point(std::string_view line) {
+    if (line.empty() || detail::is_comment(line)) return {};
+    const detail::TableStyle style = detail::guess_style(line);
+    const auto fields = detail::split(line, style);
+    std::array<double, 3> c{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto value =
+          k < fields.size() ? detail::parse_number(fields[k], style) : std::optional<double>();
+      if (value && !(std::isfinite(*value) && std::abs(*value) > 1e100)) {
+        c[k] = *value;
+        continue;
+      }
+      if (!value && (!started_ || fields.size() == 1)) return {};  // header, count of a part
+      const core::Failure why{ErrorCode::bad_input, "three numbers (x y z) are needed here",
+                              "give every point all its coordinates", lines_.place()};
+      if (value || !detail::is_remark(fields, style, 0, 3)) return std::unexpected(why);
+      if (!remark_) remark_ = why;
+      left_.push_back("line " + std::to_string(lines_.number()) + ": " + detail::shortened(line));
+      return {};
+    }
+    if (remark_) return std::unexpected(*remark_);
+    started_ = true;
+    const Point3 p{c[0], c[1], c[2]};
+    if (core::is_finite(p))
+      take_(p);
+    else
+      ++missing_;
+    return {};
+  }
+
+  LineReader lines_;
+  const std::string& name_;
+  const Take& take_;
+  bool started_ = false;
+  std::optional<core::Failure> remark_;  ///< of the first line of text behind points
+  std::size_t missing_ = 0;
+  Left left_;
+};
+
+/// Vertices of a fixed size, a million bytes at a time.
+Result<Left> stream_vertices(std::istream& in, const detail::PlyHeader& header,
+                             const detail::PlyElement& vertex, const Take& take) {
+  std::size_t row = 0;
+  for (const auto& property : vertex.properties) row += size_of(property.type);
+  const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / row);
+  detail::PlyHeader chunk_header = header;
+  chunk_header.size = 0;
+  std::string chunk;
+  std::size_t at = header.size;
+  std::size_t missing = 0;
+  in.clear();
+  in.seekg(static_cast<std::streamoff>(at));
+  for (std::size_t done = 0; done < vertex.count; done += rows) {
+    chunk.resize(row * std::min(rows, vertex.count - done));
+    in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    if (static_cast<std::size_t>(in.gcount()) != chunk.size())
+      return core::fail(ErrorCode::bad_input, "the file ends before its last vertex",
+                        "check that it is complete",
+                        "byte " + std::to_string(at + static_cast<std::size_t>(in.gcount())));
+    at += chunk.size();
+    detail::PlyValues values(chunk, chunk_header);
+    for (std::size_t i = 0; i * row < chunk.size(); ++i) {
+      Point3 p;
+      for (const auto& property : vertex.properties) {
+        const double value = values.next(property.type).value();
+        if (property.name == "x") p.x = value;
+        if (property.name == "y") p.y = value;
+        if (property.name == "z") p.z = value;
+      }
+      if (core::is_finite(p))
+        take(p);
+      else
+        ++missing;
+    }
+  }
+  if (missing == 0) return Left{};
+  return Left{core::counted(missing, "point") + " that are not finite"};
+}
+
+Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, const Take& take) {
+  std::string head(std::size_t{1} << 20, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  const auto header = detail::read_ply_header(head);
+  if (!header) return std::unexpected(header.error());
+  const auto& elements = header->elements;
+  const bool plain =
+      header->binary && !elements.empty() && elements.front().name == "vertex" &&
+      !elements.front().properties.empty() &&
+      std::none_of(elements.front().properties.begin(), elements.front().properties.end(),
+                   [](const detail::PlyProperty& p) { return p.count.has_value(); });
+  if (plain) return stream_vertices(in, *header, elements.front(), take);
+  const auto mesh = read_mesh(file);
+  if (!mesh) return std::unexpected(mesh.error());
+  for (const Point3 p : mesh->points)
+    if (core::is_finite(p)) take(p);
+  return mesh->skipped;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> stream_points(const std::filesystem::path& file,
+                                               const Take& take) {
+  if (const auto head = head_of(file); !head) return std::unexpected(head.error());
+  std::ifstream in(file, std::ios::binary);
+  const std::string name = file.string();
+  auto done =
+      extension_of(file) == ".ply" ? stream_ply(in, file, take) : TextPoints(in, name, take).read();
+  if (!done) return std::unexpected(in_file(done.error(), name));
+  return done;
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,160 @@
+#include "keyline/exchange/points/csv_writer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "keyline/analysis/profile.h"
+#include "keyline/core/text.h"
+#include "keyline/exchange/points/points_writer.h"
+
+namespace keyline::exchange {
+namespace {
+
+/// A name as one field: quoted where it holds a separator.
+std::string field(const std::string& name) {
+  const std::string line = core::on_one_line(name);
+  if (line.find_first_of(",\"") == std::string::npos) return line;
+  std::string quoted = "\"";
+  for (const char c : line) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+void add_row(std::string& text, const std::string& id, const curve::Jet2& at, double s) {
+  const double bend = curvature(at);
+  text += id + shortest(at.point.x) + ',' + shortest(at.point.y) + ',' + shortest(s) + ',';
+  if (std::isfinite(bend)) text += shortest(bend);
+  text += '\n';
+}
+
+/// How far the straight line between two samples is from the curve between them, seen at places in
+/// between.
+template <class Point, class At>
+double sagitta(Point a, Point b, double from, double to, At&& at) {
+  constexpr int kBetween = 4;
+  double most = 0;
+  const double length = distance(a, b);
+  for (int i = 1; i < kBetween; ++i) {
+    const Point p = at(from + (to - from) * i / kBetween);
+    const double along =
+        length > 0 ? std::clamp(dot(p - a, b - a) / (length * length), 0.0, 1.0) : 0;
+    most = std::max(most, distance(p, a + along * (b - a)));
+  }
+  return most;
+}
+
+/// Samples at equal steps of arc length. Returns how far the polygon through them is off.
+double add_path(std::string& text, const std::string& id, const document::Path& path, int samples) {
+  const analysis::CurveView view = analysis::view(path);
+  const analysis::ArcLengthTable table(view);
+  double deviation = 0;
+  double last_parameter = 0;
+  core::Point2 last;
+  for (int i = 0; i < samples; ++i) {
+    const double s = table.length() * i / (samples - 1);
+    const double parameter = table.parameter_at(s);
+    const curve::Jet2 at = jet(view, parameter);
+    add_row(text, id, at, s);
+    if (i > 0)
+      deviation = std::max(deviation, sagitta(last, at.point, last_parameter, parameter,
+                                              [&](double t) { return jet(view, t).point; }));
+    last = at.point;
+    last_parameter = parameter;
+  }
+  return deviation;
+}
+
+bool is_polyline(const document::Path& path) {
+  return path.curves.size() == 1 &&
+         std::holds_alternative<curve::Polyline2>(path.curves.front().value);
+}
+
+void add_polyline(std::string& text, const std::string& id, const curve::Polyline2& line) {
+  double s = 0;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const core::Point2 p = line.points[i];
+    if (i > 0) s += distance(p, line.points[i - 1]);
+    text += id + shortest(p.x) + ',' + shortest(p.y) + ',' + shortest(s) + ",\n";
+  }
+}
+
+void add_row(std::string& text, const std::string& id, core::Point3 p) {
+  text += id + shortest(p.x) + ',' + shortest(p.y) + ',' + shortest(p.z) + '\n';
+}
+
+/// Samples at equal steps of the parameter, or the points of a polyline. Returns as add_path().
+template <class Curve, class At>
+double add_space(std::string& text, const std::string& id, const Curve* line, int samples,
+                 At&& at) {
+  const int count = line ? static_cast<int>(line->points.size()) : samples;
+  double deviation = 0;
+  core::Point3 last;
+  for (int i = 0; i < count; ++i) {
+    const double t = static_cast<double>(i) / (count - 1);
+    const core::Point3 p = at(t, i);
+    add_row(text, id, p);
+    if (i > 0 && !line)
+      deviation = std::max(deviation, sagitta(last, p, t - 1.0 / (count - 1), t,
+                                              [&](double u) { return at(u, 0); }));
+    last = p;
+  }
+  return deviation;
+}
+
+double add_space(std::string& text, const std::string& id, const document::SpaceCurve& c,
+                 int samples) {
+  const auto* line = std::get_if<curve::Polyline3>(&c.value);
+  return add_space(text, id, line, samples, [&](double t, int i) {
+    return line ? line->points[static_cast<std::size_t>(i)] : evaluate(c, t);
+  });
+}
+
+/// A planar path among space curves: z = 0.
+double add_lifted(std::string& text, const std::string& id, const document::Path& path,
+                  int samples) {
+  const auto* line =
+      is_polyline(path) ? &std::get<curve::Polyline2>(path.curves.front().value) : nullptr;
+  return add_space(text, id, line, samples, [&](double t, int i) {
+    const core::Point2 p = line ? line->points[static_cast<std::size_t>(i)] : evaluate(path, t);
+    return core::Point3{p.x, p.y, 0};
+  });
+}
+
+}  // namespace
+
+core::Result<Written> write_csv(const document::Document& document, int samples) {
+  Written written;
+  const bool several = document.paths.size() + document.space_curves.size() > 1;
+  const auto id = [several](const document::Label& label) {
+    return several ? field(label.name) + ',' : std::string();
+  };
+  if (document.paths.empty() && document.space_curves.empty())
+    return core::fail(core::ErrorCode::bad_input, "there is no curve to write as points",
+                      "choose a format that holds surfaces");
+  if (!document.surfaces.empty())
+    written.notes.push_back(std::to_string(document.surfaces.size()) +
+                            " surfaces are not in the table");
+  const auto take = [&](double off) { written.deviation = std::max(written.deviation, off); };
+  std::string& text = written.content;
+  if (!document.space_curves.empty()) {
+    text = several ? "id,x,y,z\n" : "x,y,z\n";
+    for (const auto& named : document.paths)
+      take(add_lifted(text, id(named.label), named.path, samples));
+    for (const auto& named : document.space_curves)
+      take(add_space(text, id(named.label), named.curve, samples));
+    return written;
+  }
+  text = several ? "id,x,y,arc_length,curvature\n" : "x,y,arc_length,curvature\n";
+  for (const auto& named : document.paths) {
+    if (is_polyline(named.path))
+      add_polyline(text, id(named.label),
+                   std::get<curve::Polyline2>(named.path.curves.front().value));
+    else
+      take(add_path(text, id(named.label), named.path, samples));
+  }
+  return written;
+}
+
+}  // namespace keyline::exchange

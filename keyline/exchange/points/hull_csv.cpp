@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "keyline/document/document.h"
+#include "keyline/exchange/points/hull_table.h"
+#include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/text/byte_lines.h"
+#include "keyline/exchange/text/text_table.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+
+constexpr double kOutside = std::numeric_limits<double>::quiet_NaN();
+
+/// A whole number that ends at `stop` (or the end for 0), taken off the text.
+std::optional<int> take_whole(std::string_view& text, char stop) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || value < 0) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  if (stop == '\0') return value;
+  if (!text.starts_with(stop)) return std::nullopt;
+  text.remove_prefix(1);
+  return value;
+}
+
+/// Feet-inches-eighths as shipyards write offsets.
+std::optional<double> feet_of(std::string_view text) {
+  const auto feet = take_whole(text, '-');
+  const auto inches = feet ? take_whole(text, '-') : std::nullopt;
+  const auto eighths = inches ? take_whole(text, '\0') : std::nullopt;
+  if (!eighths || *inches >= 12 || *eighths >= 8) return std::nullopt;
+  const double sixteenth = text == "+" ? 0.5 : text == "-" ? -0.5 : text.empty() ? 0 : NAN;
+  if (std::isnan(sixteenth)) return std::nullopt;
+  return *feet + (*inches + (*eighths + sixteenth) / 8) / 12;
+}
+
+/// "3 1/2" or "1/2".
+std::optional<double> fraction_of(std::string_view text) {
+  double whole = 0;
+  if (text.find(' ') != text.npos) {
+    const auto first = take_whole(text, ' ');
+    if (!first) return std::nullopt;
+    whole = *first;
+  }
+  const auto over = take_whole(text, '/');
+  const auto under = over ? take_whole(text, '\0') : std::nullopt;
+  if (!under || *under == 0 || !text.empty()) return std::nullopt;
+  return whole + static_cast<double>(*over) / *under;
+}
+
+class HullCsv {
+ public:
+  explicit HullCsv(std::string_view text) : lines_(text) {}
+
+  /// Reads up to the line of the axis across; false where there is none near the start.
+  bool find_header() {
+    constexpr std::size_t kFarthest = 20;
+    std::string_view line;
+    while (lines_.number() < kFarthest && lines_.next(line)) {
+      if (detail::trimmed(line).empty() || detail::is_comment(line)) continue;
+      const bool semicolon = line.find(';') != line.npos;
+      const char separator = semicolon ? ';' : line.find('\t') != line.npos ? '\t' : ',';
+      style_ = {separator, semicolon};
+      header_ = detail::split(line, style_);
+      if (is_axis(header_.front()) && header_.size() > 1) return true;
+      if (header_.size() > 2) return false;
+      take_unit(header_.back());
+    }
+    return false;
+  }
+
+  /// True for the header of a table: numbers behind our own words, nothing but two or more behind
+  /// others.
+  bool is_table() {
+    const auto is_number = [this](std::string_view cell) {
+      const auto value = number(cell);
+      return value && std::isfinite(*value);
+    };
+    const bool plain = header_.front() == "waterline" || header_.front() == "station";
+    if (plain) return std::any_of(header_.begin() + 1, header_.end(), is_number);
+    return header_.size() > 2 && std::all_of(header_.begin() + 1, header_.end(), is_number);
+  }
+
+  Result<HullTable> read() {
+    const auto across = numbers(header_);
+    if (!across) return std::unexpected(across.error());
+    if (!std::all_of(across->begin(), across->end(), [](double v) { return std::isfinite(v); }))
+      return fail(ErrorCode::bad_input, "the first line needs a number in every column", "mend it",
+                  lines_.place());
+    std::vector<double> down;
+    std::vector<std::vector<double>> rows;
+    std::string_view line;
+    std::string remark;  // the place of text behind rows
+    while (lines_.next(line)) {
+      if (detail::trimmed(line).empty() || detail::is_comment(line)) continue;
+      const auto fields = detail::split(line, style_);
+      if (fields.empty()) continue;
+      const auto at = number(fields.front());
+      if (!at && !rows.empty() && detail::is_remark(fields, style_, 0, header_.size())) {
+        if (remark.empty()) remark = lines_.place();
+        left_out_.push_back(lines_.place() + ": " + detail::shortened(detail::trimmed(line)));
+        continue;
+      }
+      if (!remark.empty())
+        return fail(ErrorCode::bad_input, "this row does not fit the first line", "mend it",
+                    remark);
+      auto row = numbers(fields);
+      if (!row) return std::unexpected(row.error());
+      if (!at || !std::isfinite(*at) || row->size() > across->size())
+        return fail(ErrorCode::bad_input, "this row does not fit the first line", "mend it",
+                    lines_.place());
+      row->resize(across->size(), kOutside);
+      down.push_back(*at);
+      rows.push_back(std::move(*row));
+    }
+    return table(*across, down, rows);
+  }
+
+ private:
+  bool is_axis(std::string_view cell) {
+    const std::string name = detail::plain_name(cell);
+    const auto starts = [&name](std::string_view word) {
+      if (!name.starts_with(word)) return false;
+      const char next = name.size() > word.size() ? name[word.size()] : ' ';
+      return !(next >= 'a' && next <= 'z') && !(next >= '0' && next <= '9');
+    };
+    by_station_ = starts("station") || starts("stations") || starts("st") || starts("sta");
+    const bool waterline = starts("waterline") || starts("waterlines") || starts("wl");
+    const std::size_t open = cell.find_first_of("([");
+    if (open != cell.npos)
+      take_unit(cell.substr(open + 1, cell.find_first_of(")]", open) - open - 1));
+    return by_station_ || waterline;
+  }
+
+  void take_unit(std::string_view text) {
+    static constexpr std::array<std::pair<std::string_view, const char*>, 9> kWords = {
+        {{"metres", "m"},
+         {"meters", "m"},
+         {"metre", "m"},
+         {"meter", "m"},
+         {"feet", "ft"},
+         {"foot", "ft"},
+         {"inches", "in"},
+         {"inch", "in"},
+         {"millimetres", "mm"}}};
+    std::string name(
+        detail::trimmed(text.substr(text.find(':') == text.npos ? 0 : text.find(':') + 1)));
+    for (const auto& [word, unit] : kWords)
+      if (name == word) name = unit;
+    if (document::millimetres(name) > 0) unit_ = name;
+  }
+
+  std::optional<double> number(std::string_view field) {
+    if (const auto plain = detail::parse_number(field, style_)) return plain;
+    if (field.find_first_not_of("-\u2013\u2014.") == field.npos) return kOutside;
+    if (const auto feet = feet_of(field)) {
+      if (unit_.empty()) unit_ = "ft";
+      return feet;
+    }
+    return fraction_of(field);
+  }
+
+  /// The numbers behind a row's first cell.
+  Result<std::vector<double>> numbers(const std::vector<std::string_view>& fields) {
+    std::vector<double> values;
+    for (std::size_t k = 1; k < fields.size(); ++k) {
+      const auto value = number(fields[k]);
+      if (!value || std::abs(*value) > 1e100)
+        return fail(ErrorCode::bad_input, "a number is expected in column " + std::to_string(k + 1),
+                    "mend it, or leave it empty outside the hull", lines_.place());
+      values.push_back(*value);
+    }
+    return values;
+  }
+
+  /// Indices that put the values in order; empty where one stands twice.
+  static std::vector<std::size_t> order_of(const std::vector<double>& values) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (values[order[i]] == values[order[i - 1]]) return {};
+    return order;
+  }
+
+  Result<HullTable> table(const std::vector<double>& across, const std::vector<double>& down,
+                          const std::vector<std::vector<double>>& rows) const {
+    const auto columns = order_of(across);
+    const auto order = order_of(down);
+    if (columns.size() != across.size() || order.size() != down.size())
+      return fail(ErrorCode::bad_input, "a station or a waterline stands twice", "leave one out",
+                  "line 1");
+    HullTable made;
+    made.unit = unit_;
+    made.left_out = left_out_;
+    for (const std::size_t i : by_station_ ? columns : order)
+      made.waterlines.push_back(by_station_ ? across[i] : down[i]);
+    for (const std::size_t i : by_station_ ? order : columns)
+      made.stations.push_back(by_station_ ? down[i] : across[i]);
+    for (const std::size_t i : by_station_ ? columns : order)
+      for (const std::size_t k : by_station_ ? order : columns)
+        made.half_breadth.push_back(by_station_ ? rows[k][i] : rows[i][k]);
+    return made;
+  }
+
+  detail::ByteLines lines_;
+  detail::TableStyle style_;
+  std::vector<std::string_view> header_;
+  std::string unit_;
+  std::vector<std::string> left_out_;
+  bool by_station_ = false;
+};
+
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
+}  // namespace
+
+bool is_hull_csv(std::string_view head) {
+  HullCsv csv(without_mark(head));
+  return csv.find_header() && csv.is_table();
+}
+
+Result<HullTable> read_hull_csv(std::string_view text) {
+  HullCsv csv(without_mark(text));
+  if (!csv.find_header())
+    return fail(ErrorCode::bad_input, "this is no table of offsets",
+                "start it with \"waterline\" and the stations", "line 1");
+  return csv.read();
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,128 @@
+#include "keyline/exchange/points/points_columns.h"
+
+#include <initializer_list>
+#include <utility>
+
+namespace keyline::exchange::detail {
+namespace {
+
+using core::ErrorCode;
+using core::Result;
+using Names = std::vector<std::string>;
+
+constexpr int kNone = PointsColumns::kNone;
+
+int find_name(const Names& names, std::initializer_list<const char*> wanted) {
+  for (const char* name : wanted) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at != names.end()) return static_cast<int>(at - names.begin());
+  }
+  return kNone;
+}
+
+Result<int> column_named(const Names& names, const std::string& wanted, const std::string& place) {
+  const int named = find_name(names, {plain_name(wanted).c_str()});
+  if (named != kNone) return named;
+  const bool digits =
+      !wanted.empty() && wanted.size() < 5 &&
+      std::all_of(wanted.begin(), wanted.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (digits && std::stoi(wanted) >= 1) return std::stoi(wanted) - 1;
+  std::string known;
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  return core::fail(ErrorCode::bad_input, "there is no column '" + shortened(wanted) + "'",
+                    known.empty() ? "the file has no header: give the number of the column"
+                                  : "the columns are " + shortened(known),
+                    place);
+}
+
+Result<void> take_asked(PointsColumns& columns, const Names& names, const PointsOptions& options,
+                        const std::string& place) {
+  if (options.columns.size() < 2 || options.columns.size() > 3)
+    return core::fail(ErrorCode::bad_input, "two or three columns are needed",
+                      "name the columns of x, y and maybe z", "columns");
+  int* const wanted[] = {&columns.x, &columns.y, &columns.z};
+  for (std::size_t k = 0; k < options.columns.size(); ++k) {
+    const auto column = column_named(names, options.columns[k], place);
+    if (!column) return std::unexpected(column.error());
+    *wanted[k] = *column;
+  }
+  return {};
+}
+
+void take_named(PointsColumns& columns, const Names& names) {
+  std::vector<int> found;
+  for (const char* name : {"x", "y", "z"}) {
+    const int column = find_name(names, {name});
+    if (column != kNone) found.push_back(column);
+  }
+  while (found.size() < 2) found.push_back(static_cast<int>(found.size()));
+  columns.x = found[0];
+  columns.y = found[1];
+  if (found.size() > 2) columns.z = found[2];
+}
+
+}  // namespace
+
+bool is_points_header(const Names& names, const PointsOptions& options) {
+  if (names.size() < 2) return false;
+  const auto named = [&](const char* name) { return find_name(names, {name}) != kNone; };
+  const auto wanted = [&](const std::string& name) {
+    return !name.empty() && find_name(names, {plain_name(name).c_str()}) != kNone;
+  };
+  const bool axes = (named("x") && (named("y") || named("z"))) || (named("y") && named("z"));
+  return axes || std::any_of(options.columns.begin(), options.columns.end(), wanted) ||
+         wanted(options.id_column) || wanted(options.weight_column);
+}
+
+Result<PointsColumns> choose_columns(const Names& names, const PointsOptions& options,
+                                     std::size_t fields, bool text_id, const std::string& place) {
+  PointsColumns columns;
+  if (!options.columns.empty()) {
+    if (auto taken = take_asked(columns, names, options, place); !taken)
+      return std::unexpected(taken.error());
+  } else if (!names.empty()) {
+    take_named(columns, names);
+  } else {
+    const int first = text_id ? 1 : 0;
+    const bool three = static_cast<int>(fields) - first >= 3;
+    columns = {first, first + 1, three ? first + 2 : kNone, kNone, text_id ? 0 : kNone};
+  }
+  if (columns.weight == kNone) columns.weight = find_name(names, {"weight", "weights", "w"});
+  if (columns.id == kNone) columns.id = find_name(names, {"id", "curve", "name", "curve_id"});
+  for (const auto& [name, target] : {std::pair{&options.weight_column, &columns.weight},
+                                     std::pair{&options.id_column, &columns.id}}) {
+    if (name->empty()) continue;
+    const auto column = column_named(names, *name, place);
+    if (!column) return std::unexpected(column.error());
+    *target = *column;
+  }
+  return columns;
+}
+
+std::string shortened(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, 40)) {
+    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return text.size() > 40 ? out + "..." : out;
+}
+
+bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, std::size_t column,
+               std::size_t width) {
+  const auto is_number = [&](std::string_view f) {
+    return !f.empty() && parse_number(f, style).has_value();
+  };
+  const auto words = static_cast<std::size_t>(std::count_if(
+      fields.begin(), fields.end(), [&](auto f) { return !f.empty() && !is_number(f); }));
+  if (words == 0) return false;
+  const bool starts = column < fields.size() && is_number(fields[column]);
+  // A row may have a word behind its numbers; a sentence that starts with a number has several.
+  if (starts) return fields.size() > width + 1 && words > 1;
+  if (style.separator == ' ') return true;
+  const bool sentence = std::any_of(fields.begin(), fields.end(), [](std::string_view f) {
+    return f.find_first_of(" :=") != f.npos;
+  });
+  return fields.size() < width || (words == fields.size() && sentence);
+}
+
+}  // namespace keyline::exchange::detail

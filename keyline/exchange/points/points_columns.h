@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/text/text_table.h"
+
+namespace keyline::exchange::detail {
+
+/// Which column holds what, counted from 0; kNone where absent.
+struct PointsColumns {
+  static constexpr int kNone = -1;
+  int x = 0;
+  int y = 1;
+  int z = kNone;
+  int weight = kNone;
+  int id = kNone;
+
+  int last() const { return std::max({x, y, z, weight, id}); }
+};
+
+/// True for names (plain_name) of which the axes, or a column asked for, are some.
+bool is_points_header(const std::vector<std::string>& names, const PointsOptions& options);
+
+/// The columns of a table with that header (empty: none) and so many fields in its first row;
+/// text_id: the first field is a name.
+/// Fails: bad_input where a column asked for is not there.
+core::Result<PointsColumns> choose_columns(const std::vector<std::string>& names,
+                                           const PointsOptions& options, std::size_t fields,
+                                           bool text_id, const std::string& place);
+
+/// The first 40 characters without control characters, for messages and names.
+std::string shortened(std::string_view text);
+
+/// True for a line among or behind the rows of a table that a person takes for text: it holds a
+/// word and has not the shape of a row of `width` fields that starts with a number in `column`.
+bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, std::size_t column,
+               std::size_t width);
+
+}  // namespace keyline::exchange::detail

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/document/document.h"
+#include "keyline/exchange/file/written.h"
+#include "keyline/exchange/svg/svg_writer.h"
+
+namespace keyline::exchange {
+
+/// What is drawn of a document: its paths as cubic Béziers within `tolerance` (> 0), one layer per
+/// layer of the document (paths without layer: one each under their own name), with colours and
+/// stroke widths. The deviation, and notes of what is left out, go into `written`.
+std::vector<SvgLayer> drawing_layers(const document::Document& document, double tolerance,
+                                     Written& written);
+
+}  // namespace keyline::exchange

@@ -1,0 +1,97 @@
+#include "keyline/exchange/text/line_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace keyline::exchange {
+namespace {
+
+constexpr std::size_t kChunk = 1 << 16;
+
+/// Control bytes no text file of numbers holds.
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v' &&
+         byte != 0x1a;
+}
+
+}  // namespace
+
+LineReader::LineReader(std::istream& in, std::string name, std::size_t longest)
+    : in_(in), name_(std::move(name)), longest_(longest), buffer_(kChunk) {}
+
+std::unexpected<core::Failure> LineReader::failure(std::string message, std::string hint) const {
+  return core::fail(core::ErrorCode::bad_input, std::move(message), std::move(hint), place());
+}
+
+bool LineReader::fill() {
+  in_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  filled_ = static_cast<std::size_t>(in_.gcount());
+  position_ = 0;
+  return filled_ > 0;
+}
+
+core::Result<void> LineReader::check_start() {
+  const std::string_view start(buffer_.data(), filled_);
+  if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
+    return failure("this is UTF-16 text", "save it as UTF-8 or plain ASCII text");
+  }
+  if (start.starts_with("\xef\xbb\xbf")) position_ = 3;
+  return {};
+}
+
+core::Result<std::string_view> LineReader::next(bool& end) {
+  end = false;
+  line_.clear();
+  ++number_;
+  bool any = false;
+  while (position_ < filled_ || fill()) {
+    if (!started_) {
+      started_ = true;
+      if (auto good = check_start(); !good) return std::unexpected(good.error());
+    }
+    if (after_return_) {
+      after_return_ = false;
+      if (position_ < filled_ && buffer_[position_] == '\n') {
+        ++position_;
+        continue;
+      }
+    }
+    any = true;
+    const char* from = buffer_.data() + position_;
+    const char* to = buffer_.data() + filled_;
+    const char* stop = std::find_if(from, to, [](char c) { return c == '\n' || c == '\r'; });
+    const char* control = std::find_if(from, stop, is_control);
+    end_mark_ = end_mark_ || std::find(from, control, '\x1a') != control;
+    if (control != stop && end_mark_) {
+      ended_early_ = true;
+      end = line_.empty();
+      position_ = filled_ = 0;
+      in_.setstate(std::ios::eofbit);
+      return std::string_view(line_);
+    }
+    if (control != stop) {
+      return failure("this is not text (binary data found)",
+                     "give a text file with one point per line");
+    }
+    if (line_.size() + static_cast<std::size_t>(stop - from) > longest_) {
+      return failure("this line is longer than " + std::to_string(longest_) + " bytes",
+                     "give a text file with one point per line");
+    }
+    line_.append(from, stop);
+    position_ = static_cast<std::size_t>(stop - buffer_.data());
+    if (stop != to) {
+      after_return_ = *stop == '\r';
+      ++position_;
+      return std::string_view(line_);
+    }
+  }
+  if (in_.bad()) {
+    return core::fail(core::ErrorCode::io, "reading failed", "check the device or the network",
+                      name_);
+  }
+  end = !any;
+  return std::string_view(line_);
+}
+
+}  // namespace keyline::exchange

@@ -1,0 +1,177 @@
+#include "keyline/exchange/text/text_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace keyline::exchange::detail {
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\x1a'; }
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return out;
+}
+
+std::optional<double> missing_value(std::string_view field) {
+  if (field.size() > 9) return std::nullopt;
+  std::string name = lower(field);
+  const bool negative = name.starts_with('-');
+  if (negative || name.starts_with('+')) {
+    name.erase(0, 1);
+    if (name.empty()) return std::nullopt;
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  if (name == "inf" || name == "infinity") return negative ? -infinity : infinity;
+  for (const std::string_view known : {"", "nan", "null", "na", "n/a", "none"}) {
+    if (name == known) return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::nullopt;
+}
+
+/// Where a field in quotes ends, doubled quotes within let pass; 0 for a field without quotes.
+std::size_t end_of_quoted(std::string_view line) {
+  if (!line.starts_with('"')) return 0;
+  for (std::size_t at = line.find('"', 1); at != std::string_view::npos;
+       at = line.find('"', at + 2))
+    if (at + 1 == line.size() || line[at + 1] != '"') return at + 1;
+  return 0;
+}
+
+std::size_t count_numbers(std::string_view line, TableStyle style) {
+  const auto fields = split(line, style);
+  return static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), [&](auto field) {
+    return !field.empty() && parse_number(field, style).has_value();
+  }));
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string unquoted(std::string_view field) {
+  std::string text;
+  for (std::size_t i = 1; i + 1 < field.size(); ++i) {
+    text += field[i];
+    if (field[i] == '"' && field[i + 1] == '"') ++i;
+  }
+  return text;
+}
+
+std::vector<std::string_view> split(std::string_view line, TableStyle style) {
+  std::vector<std::string_view> fields;
+  line = trimmed(line);
+  if (style.separator == ' ') {
+    while (!line.empty()) {
+      const auto stop = std::find_if(line.begin(), line.end(), is_space);
+      const auto length = static_cast<std::size_t>(stop - line.begin());
+      fields.push_back(line.substr(0, length));
+      line = trimmed(line.substr(length));
+    }
+    return fields;
+  }
+  while (true) {
+    line = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+    const std::size_t stop = line.find(style.separator, end_of_quoted(line));
+    fields.push_back(trimmed(line.substr(0, stop)));
+    if (stop == std::string_view::npos) break;
+    line.remove_prefix(stop + 1);
+  }
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+std::optional<double> parse_number(std::string_view field, TableStyle style) {
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+    field = trimmed(field.substr(1, field.size() - 2));
+  }
+  // Points written as (x, y) or [x, y].
+  while (field.starts_with('(') || field.starts_with('[')) field = trimmed(field.substr(1));
+  while (field.ends_with(')') || field.ends_with(']'))
+    field = trimmed(field.substr(0, field.size() - 1));
+  std::array<char, 128> text;
+  if (field.size() > text.size()) return std::nullopt;
+  std::copy(field.begin(), field.end(), text.begin());
+  for (char& c : text) {
+    // Fortran writes exponents with D.
+    if (c == 'D' || c == 'd') c = 'e';
+    if (style.decimal_comma && c == ',') c = '.';
+  }
+  const char* from = text.data();
+  const char* to = from + field.size();
+  if (from != to && *from == '+') ++from;
+  double value = 0;
+  const auto read = std::from_chars(from, to, value);
+  if (read.ec == std::errc{} && read.ptr == to) return value;
+  if (read.ec == std::errc::result_out_of_range && read.ptr == to) {
+    // Below the smallest double: zero. Above the largest: too large for anybody.
+    const std::string_view digits(from, static_cast<std::size_t>(to - from));
+    const bool tiny = digits.find("e-") != std::string_view::npos;
+    return tiny ? 0.0 : std::numeric_limits<double>::max();
+  }
+  return missing_value(field);
+}
+
+TableStyle guess_style(std::string_view line) {
+  constexpr std::array<TableStyle, 7> styles{{{';', true},
+                                              {';', false},
+                                              {'|', false},
+                                              {'\t', true},
+                                              {',', false},
+                                              {' ', true},
+                                              {' ', false}}};
+  TableStyle best{' ', false};
+  std::size_t most = 0;
+  for (const TableStyle style : styles) {
+    if (style.separator != ' ' && line.find(style.separator) == std::string_view::npos) continue;
+    if (style.decimal_comma && line.find(',') == std::string_view::npos) continue;
+    const std::size_t numbers = count_numbers(line, style);
+    const bool clean = style.separator != ',' || line.find(", ") != std::string_view::npos ||
+                       count_numbers(line, {' ', true}) < 2;
+    if (numbers > most && clean) {
+      most = numbers;
+      best = style;
+    }
+  }
+  return best;
+}
+
+std::string plain_name(std::string_view field) {
+  std::string name = lower(trimmed(field));
+  std::erase(name, '"');
+  std::erase(name, '\'');
+  if (const std::size_t unit = name.find_first_of("[("); unit != std::string::npos) {
+    name.erase(unit);
+  }
+  name = std::string(trimmed(name));
+  for (const std::string_view unit : {"_mm", "_cm", "_km", "_in", "_ft", "_px", "_m"}) {
+    if (name.size() > unit.size() && name.ends_with(unit)) name.erase(name.size() - unit.size());
+  }
+  return name;
+}
+
+bool is_comment(std::string_view line) {
+  line = trimmed(line);
+  return line.starts_with('#') || line.starts_with('%') || line.starts_with('!') ||
+         line.starts_with("//");
+}
+
+std::string_view comment_text(std::string_view line) {
+  line = trimmed(line);
+  while (!line.empty() && (line[0] == '#' || line[0] == '%' || line[0] == '!' || line[0] == '/')) {
+    line.remove_prefix(1);
+  }
+  return trimmed(line);
+}
+
+}  // namespace keyline::exchange::detail

@@ -1,0 +1,207 @@
+#include "keyline/lac/chain/chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "keyline/core/angle.h"
+
+namespace keyline::lac {
+namespace {
+
+using core::Point2;
+using core::Pose2;
+
+/// The piece's parameter in its place: the segment and t within it.
+struct Located {
+  Segment segment;
+  double t = 0;
+};
+Located segment_of(const Chain& chain, double t) {
+  const ChainLocation at = locate(chain, t);
+  return {segment_at(chain, at.piece), at.t};
+}
+
+}  // namespace
+
+core::Result<void> validate(const Chain& chain) {
+  if (chain.pieces.empty()) {
+    return core::fail(core::ErrorCode::bad_input, "the chain has no pieces");
+  }
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    const auto valid = validate(place(chain.pieces[i], chain.start));
+    if (valid) continue;
+    core::Failure failure = valid.error();
+    failure.path = "pieces[" + std::to_string(i) + "]";
+    return std::unexpected(std::move(failure));
+  }
+  return {};
+}
+
+JointGap largest_joint_gap(const Chain& chain) {
+  JointGap gap;
+  const std::size_t n = chain.pieces.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + 1 == n && !chain.closed) break;
+    const Piece& before = chain.pieces[i];
+    const Piece& after = chain.pieces[(i + 1) % n];
+    gap.curvature = std::max(gap.curvature, std::abs(after.curvature_start - before.curvature_end));
+    gap.curvature_rate = std::max(gap.curvature_rate,
+                                  std::abs(curvature_rate(after, 0) - curvature_rate(before, 1)));
+  }
+  return gap;
+}
+
+double arc_length(const Chain& chain) {
+  double sum = 0;
+  for (const Piece& piece : chain.pieces) sum += piece.length;
+  return sum;
+}
+
+double total_turning(const Chain& chain) {
+  double sum = 0;
+  for (const Piece& piece : chain.pieces) sum += total_turning(piece);
+  return sum;
+}
+
+ChainLocation locate(const Chain& chain, double t) {
+  const std::size_t last = chain.pieces.size() - 1;
+  if (t >= 1) return {last, 1};
+  double left = std::max(t, 0.0) * arc_length(chain);
+  for (std::size_t i = 0; i < last; ++i) {
+    const double length = chain.pieces[i].length;
+    if (left < length) return {i, left / length};
+    left -= length;
+  }
+  return {last, std::min(1.0, left / chain.pieces[last].length)};
+}
+
+std::vector<Segment> segments(const Chain& chain) {
+  std::vector<Segment> placed;
+  placed.reserve(chain.pieces.size());
+  Pose2 pose = chain.start;
+  for (const Piece& piece : chain.pieces) {
+    placed.push_back(place(piece, pose));
+    pose = end_pose(placed.back());
+  }
+  return placed;
+}
+
+Segment segment_at(const Chain& chain, std::size_t i) {
+  Pose2 pose = chain.start;
+  for (std::size_t k = 0; k < i; ++k) pose = end_pose(place(chain.pieces[k], pose));
+  return place(chain.pieces[i], pose);
+}
+
+std::vector<Pose2> joints(const Chain& chain) {
+  std::vector<Pose2> poses{chain.start};
+  for (const Piece& piece : chain.pieces) poses.push_back(end_pose(place(piece, poses.back())));
+  return poses;
+}
+
+Pose2 end_pose(const Chain& chain) {
+  Pose2 pose = chain.start;
+  for (const Piece& piece : chain.pieces) pose = end_pose(place(piece, pose));
+  return pose;
+}
+
+double curvature(const Chain& chain, double t) {
+  const ChainLocation at = locate(chain, t);
+  return curvature(chain.pieces[at.piece], at.t);
+}
+
+double curvature_rate(const Chain& chain, double t) {
+  const ChainLocation at = locate(chain, t);
+  return curvature_rate(chain.pieces[at.piece], at.t);
+}
+
+double tangent_angle(const Chain& chain, double t) {
+  const ChainLocation at = locate(chain, t);
+  double angle = chain.start.direction;
+  for (std::size_t i = 0; i < at.piece; ++i) angle += total_turning(chain.pieces[i]);
+  return angle + turning(chain.pieces[at.piece], at.t);
+}
+
+Point2 evaluate(const Chain& chain, double t) {
+  const Located at = segment_of(chain, t);
+  return evaluate(at.segment, at.t);
+}
+
+curve::Jet2 jet(const Chain& chain, double t) {
+  const Located at = segment_of(chain, t);
+  const double ratio = arc_length(chain) / at.segment.length;
+  curve::Jet2 result = jet(at.segment, at.t);
+  result.first = ratio * result.first;
+  result.second = ratio * ratio * result.second;
+  result.third = ratio * ratio * ratio * result.third;
+  return result;
+}
+
+std::vector<double> breakpoints(const Chain& chain) {
+  const double whole = arc_length(chain);
+  std::vector<double> at{0};
+  double before = 0;
+  for (const Piece& piece : chain.pieces) {
+    const double inner = inflection(piece);
+    if (inner > 0) at.push_back((before + inner * piece.length) / whole);
+    before += piece.length;
+    at.push_back(before / whole);
+  }
+  at.back() = 1;
+  return at;
+}
+
+std::vector<Point2> sample(const Chain& chain, int n) {
+  if (n < 2) throw core::InvalidInput("sample: fewer than two points asked for");
+  const std::vector<Segment> placed = segments(chain);
+  std::vector<Point2> points(n);
+  std::vector<double> at;
+  int done = 0;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    at.clear();
+    for (int k = done; k < n; ++k) {
+      const ChainLocation where = locate(chain, k / (n - 1.0));
+      if (where.piece != i) break;
+      at.push_back(where.t);
+    }
+    sample(placed[i], at, std::span(points).subspan(done, at.size()));
+    done += static_cast<int>(at.size());
+  }
+  return points;
+}
+
+Chain part(const Chain& chain, double t0, double t1) {
+  const ChainLocation from = locate(chain, t0);
+  ChainLocation to = locate(chain, t1);
+  if (to.t == 0 && to.piece > from.piece) to = {to.piece - 1, 1};
+  const Segment first = segment_at(chain, from.piece);
+  Chain result{pose_at(first, from.t), {}, false};
+  for (std::size_t i = from.piece; i <= to.piece; ++i) {
+    const double low = i == from.piece ? from.t : 0;
+    const double high = i == to.piece ? to.t : 1;
+    if (high > low) result.pieces.push_back(part(chain.pieces[i], low, high));
+  }
+  return result;
+}
+
+Chain reverse(const Chain& chain) {
+  const Pose2 end = end_pose(chain);
+  Chain result{{end.position, core::wrap_angle(end.direction + core::kPi)}, {}, chain.closed};
+  for (auto it = chain.pieces.rbegin(); it != chain.pieces.rend(); ++it) {
+    result.pieces.push_back(reversed(*it));
+  }
+  return result;
+}
+
+ChainPair split(const Chain& chain, double t) { return {part(chain, 0, t), part(chain, t, 1)}; }
+
+Chain transform(const Chain& chain, const core::Similarity2& map) {
+  Chain result{
+      {apply(map, chain.start.position), chain.start.direction + map.rotation}, {}, chain.closed};
+  for (const Piece& piece : chain.pieces) {
+    result.pieces.push_back(piece_of(transform(place(piece, chain.start), map)));
+  }
+  return result;
+}
+
+}  // namespace keyline::lac

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/core/pose.h"
+#include "keyline/core/similarity.h"
+#include "keyline/curve/jet.h"
+#include "keyline/lac/segment/segment.h"
+
+namespace keyline::lac {
+
+/// Pieces laid end to end with common tangents: G1 by construction, G2 where neighbours share the
+/// curvature at their joint. Models curve::PlanarCurve; parameter t = fraction of the whole arc
+/// length. closed says that the end is meant to meet the start; it does not make it so.
+struct Chain {
+  core::Pose2 start;
+  std::vector<Piece> pieces;
+  bool closed = false;
+  friend bool operator==(const Chain&, const Chain&) = default;
+};
+
+inline Chain chain_of(const Segment& s) { return {s.start, {piece_of(s)}, false}; }
+
+/// bad_input if there is no piece or one is not valid; the failure's path names the piece.
+core::Result<void> validate(const Chain& chain);
+
+/// Largest jump of curvature at the joints (with the closing joint if closed), in 1/length, and
+/// of its rate dkappa/ds, in 1/length^2: 0 and 0 for a G3 chain.
+struct JointGap {
+  double curvature = 0;
+  double curvature_rate = 0;
+};
+JointGap largest_joint_gap(const Chain& chain);
+
+double arc_length(const Chain& chain);
+double total_turning(const Chain& chain);
+
+/// Which piece the parameter falls into and the piece's own parameter there; a joint belongs to
+/// the piece after it. t is clamped to [0, 1].
+struct ChainLocation {
+  std::size_t piece = 0;
+  double t = 0;
+};
+ChainLocation locate(const Chain& chain, double t);
+
+/// The i-th piece in its place, i < pieces.size(); all of them in one pass.
+Segment segment_at(const Chain& chain, std::size_t i);
+std::vector<Segment> segments(const Chain& chain);
+/// Poses at the start, at every inner joint and at the end: pieces.size() + 1 of them.
+std::vector<core::Pose2> joints(const Chain& chain);
+core::Pose2 end_pose(const Chain& chain);
+
+double curvature(const Chain& chain, double t);
+double curvature_rate(const Chain& chain, double t);
+/// Continuous along the chain from start.direction (not wrapped).
+double tangent_angle(const Chain& chain, double t);
+core::Point2 evaluate(const Chain& chain, double t);
+/// Derivatives in t, the fraction of the whole length.
+curve::Jet2 jet(const Chain& chain, double t);
+/// 0, the joints and inflections, 1, increasing.
+std::vector<double> breakpoints(const Chain& chain);
+/// Points at n >= 2 equal steps of the length, in one pass.
+std::vector<core::Point2> sample(const Chain& chain, int n);
+
+/// The part from t0 to t1 (0 <= t0 < t1 <= 1), never closed.
+Chain part(const Chain& chain, double t0, double t1);
+Chain reverse(const Chain& chain);
+struct ChainPair {
+  Chain first, second;
+};
+ChainPair split(const Chain& chain, double t);
+Chain transform(const Chain& chain, const core::Similarity2& map);
+
+}  // namespace keyline::lac

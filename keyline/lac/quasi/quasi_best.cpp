@@ -1,0 +1,389 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include "keyline/core/angle.h"
+#include "keyline/lac/quasi/quasi_forms.h"
+
+namespace keyline::lac::detail {
+
+using core::Vector2;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Bernstein polynomials of degree n at t, and their derivatives.
+struct Basis {
+  std::vector<double> value, slope;
+  Basis(int n, double t) : value(n + 1, 0.0), slope(n + 1, 0.0) {
+    std::vector<double> b{1};
+    for (int level = 1; level <= n; ++level) {
+      if (level == n)
+        for (int i = 0; i <= n; ++i) slope[i] = n * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
+      b.push_back(0);
+      for (int i = level; i > 0; --i) b[i] = (1 - t) * b[i] + t * b[i - 1];
+      b[0] *= 1 - t;
+    }
+    value = b;
+  }
+};
+
+Vector2 combine(const std::vector<double>& weights, const ControlPolygon& b) {
+  Vector2 v;
+  for (std::size_t i = 0; i < b.size(); ++i) v = v + weights[i] * b[i];
+  return v;
+}
+
+/// Bézier polygons of one degree with the ends, tangents and curvatures of a unit piece. Unknowns:
+/// handle length and far handle's offset along the tangent at either end, then the inner points.
+class Family {
+ public:
+  Family(const UnitPiece& unit, int degree)
+      : unit_(unit),
+        n_(degree),
+        end_(displacement(unit.piece, 1)),
+        end_tangent_(core::unit_vector(unit.turning)) {}
+
+  int unknowns() const { return 4 + 2 * (n_ - 5); }
+
+  ControlPolygon polygon(const VectorXd& x) const {
+    ControlPolygon b(n_ + 1);
+    const double bend = n_ / (n_ - 1.0);
+    const Vector2 tangent{1, 0};
+    b[1] = x[0] * tangent;
+    b[2] = x[1] * tangent + (bend * unit_.piece.curvature_start * x[0] * x[0]) * Vector2{0, 1};
+    for (int i = 3; i < n_ - 2; ++i) b[i] = {x[4 + 2 * (i - 3)], x[5 + 2 * (i - 3)]};
+    b[n_] = end_;
+    b[n_ - 1] = end_ - x[2] * end_tangent_;
+    b[n_ - 2] =
+        end_ - x[3] * end_tangent_ +
+        (bend * unit_.piece.curvature_end * x[2] * x[2]) * core::perpendicular_left(end_tangent_);
+    return b;
+  }
+
+  /// d(combination of the polygon) / dx_k.
+  Vector2 change(const VectorXd& x, const std::vector<double>& w, int k) const {
+    const double bend = 2 * n_ / (n_ - 1.0);
+    const Vector2 normal = core::perpendicular_left(end_tangent_);
+    switch (k) {
+      case 0:
+        return {w[1], w[2] * bend * unit_.piece.curvature_start * x[0]};
+      case 1:
+        return {w[2], 0};
+      case 2:
+        return -w[n_ - 1] * end_tangent_ +
+               (w[n_ - 2] * bend * unit_.piece.curvature_end * x[2]) * normal;
+      case 3:
+        return -w[n_ - 2] * end_tangent_;
+      default: {
+        const double at = w[3 + (k - 4) / 2];
+        return k % 2 == 0 ? Vector2{at, 0} : Vector2{0, at};
+      }
+    }
+  }
+
+  /// The curve of the family nearest to a polygon of its degree: what that misses the ends by is
+  /// spread over it.
+  VectorXd nearest(const ControlPolygon& polygon) const {
+    const Vector2 from = polygon.front();
+    const Vector2 off = end_ - (polygon.back() - from);
+    const auto moved = [&](int i) { return polygon[i] - from + (i / double(n_)) * off; };
+    VectorXd x(unknowns());
+    x[0] = norm(moved(1));
+    x[1] = moved(2).x;
+    x[2] = norm(end_ - moved(n_ - 1));
+    x[3] = dot(end_ - moved(n_ - 2), end_tangent_);
+    for (int i = 3; i < n_ - 2; ++i) {
+      const Vector2 b = moved(i);
+      x[4 + 2 * (i - 3)] = b.x;
+      x[5 + 2 * (i - 3)] = b.y;
+    }
+    return x;
+  }
+
+  /// Handles of the given lengths, all else by least squares against points at given parameters;
+  /// `miss` is the root mean square that is left.
+  VectorXd start(double first, double last, const std::vector<double>& at,
+                 const std::vector<Vector2>& points, double& miss) const {
+    VectorXd x = VectorXd::Zero(unknowns());
+    x[0] = first;
+    x[2] = last;
+    const ControlPolygon fixed = polygon(x);
+    const int rows = static_cast<int>(at.size());
+    const int columns = unknowns() - 2;
+    const auto unknown = [](int column) { return column == 0 ? 1 : column + 2; };
+    MatrixXd a(2 * rows, columns);
+    VectorXd rest(2 * rows);
+    for (int j = 0; j < rows; ++j) {
+      const Basis basis(n_, at[j]);
+      const Vector2 r = points[j] - combine(basis.value, fixed);
+      rest.segment<2>(2 * j) << r.x, r.y;
+      for (int i = 0; i < columns; ++i) {
+        const Vector2 d = change(x, basis.value, unknown(i));
+        a.block<2, 1>(2 * j, i) << d.x, d.y;
+      }
+    }
+    const VectorXd solved = a.householderQr().solve(rest);
+    for (int i = 0; i < columns; ++i) x[unknown(i)] = solved[i];
+    miss = (a * solved - rest).norm() / std::sqrt(static_cast<double>(rows));
+    return x;
+  }
+
+ private:
+  const UnitPiece& unit_;
+  int n_;
+  Vector2 end_, end_tangent_;
+};
+
+/// Where a search begins: unknowns, and parameters of the feet.
+struct Start {
+  VectorXd x;
+  std::vector<double> feet;
+  double miss = 0;
+};
+
+/// Fractions of the arc length, close at the ends; where one end is much sharper than the other,
+/// as many by tangent angle, so that it is not passed by.
+std::vector<double> places(const UnitPiece& unit, int count) {
+  std::vector<double> at;
+  const double k0 = unit.piece.curvature_start;
+  const double k1 = unit.piece.curvature_end;
+  const bool uneven = k0 * k1 > 0 && std::max(k0, k1) > 20 * std::min(k0, k1);
+  for (int j = 0; j < count; ++j) {
+    const double v = 0.5 - 0.5 * std::cos(core::kPi * (j + 0.5) / count);
+    at.push_back(v);
+    if (uneven) at.push_back(fraction_at_turning(unit.piece, v));
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+/// Share of the parameter up to each place where it runs as the power gamma of the curvature over
+/// the arc length: 0 arc length, 1 tangent angle.
+std::vector<double> parameters(const UnitPiece& unit, const std::vector<double>& at, double gamma) {
+  if (gamma == 0) return at;
+  constexpr int kPanels = 400;
+  const double floor = 0.02 * unit.turning;  // an inflection takes its share too
+  const auto rate = [&](double v) {
+    return std::pow(std::min(std::abs(curvature(unit.piece, v)), 1e6) + floor, gamma);
+  };
+  std::vector<double> sum{0};
+  const auto place = [](int i) { return 0.5 - 0.5 * std::cos(core::kPi * i / kPanels); };
+  for (int i = 0; i < kPanels; ++i) {
+    const double v0 = place(i), v1 = place(i + 1);
+    sum.push_back(sum.back() + (v1 - v0) * rate(0.5 * (v0 + v1)));
+  }
+  std::vector<double> out;
+  for (const double v : at) {
+    const double k = std::acos(1 - 2 * v) / core::kPi * kPanels;
+    const int i = std::clamp(static_cast<int>(k), 0, kPanels - 1);
+    out.push_back((sum[i] + (k - i) * (sum[i + 1] - sum[i])) / sum.back());
+  }
+  return out;
+}
+
+/// Smallest largest normal distance at places of the piece: damped Gauss-Newton steps on weighted
+/// distances, weights growing where the distance is large (Lawson's rule).
+class Fit {
+ public:
+  Fit(const UnitPiece& unit, int degree) : unit_(unit), family_(unit, degree), degree_(degree) {
+    at_ = places(unit, 4 * degree + 8);
+    for (const double v : at_) {
+      points_.push_back(displacement(unit.piece, v));
+      tangents_.push_back(core::unit_vector(turning(unit.piece, v)));
+    }
+  }
+
+  /// From unit speed alone, or, where that leaves much, from the best of many starts too.
+  ControlPolygon run(bool thorough) {
+    double miss = 0;
+    const double handle = 1.0 / degree_;
+    descend_from({family_.start(handle, handle, at_, points_, miss), at_, miss});
+    if (thorough && !(least_ < kGood)) {
+      for (const Start& start : starts()) descend_from(start);
+      for (const Start& start : other_forms()) descend_from(start);
+    }
+    if (std::isinf(least_)) return {};
+    return family_.polygon(best_);
+  }
+
+ private:
+  /// Deviation from which on, of the length, other starts are worth their time.
+  static constexpr double kGood = 1e-9;
+  static constexpr std::size_t kStarts = 6;
+
+  /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
+  /// radius bends the polygon by about a radian.
+  double handle(double speed, double curvature) const {
+    return std::min(speed / degree_, 1 / std::abs(curvature));
+  }
+
+  /// From the Taylor forms about either end and the middle, and the discretised ones.
+  std::vector<Start> other_forms() const {
+    std::vector<Start> all;
+    const auto add = [&](SeriesVariable variable, const ControlPolygon& polygon) {
+      const bool sound = std::all_of(polygon.begin(), polygon.end(),
+                                     [](Vector2 v) { return std::isfinite(norm(v)); });
+      if (!sound) return;
+      std::vector<double> feet = at_;
+      if (variable == SeriesVariable::tangent_angle)
+        for (double& t : feet) t = std::clamp(turning(unit_.piece, t) / unit_.turning, 0.0, 1.0);
+      all.push_back({family_.nearest(polygon), feet, 0});
+    };
+    const bool turns = unit_.turning > 0 && !(inflection(unit_.piece) > 0) &&
+                       unit_.piece.curvature_start * unit_.piece.curvature_end > 0;
+    for (const auto variable : {SeriesVariable::arc_length, SeriesVariable::tangent_angle}) {
+      if (variable == SeriesVariable::tangent_angle && !turns) continue;
+      for (const double about : {0.0, 0.5, 1.0}) {
+        const TaylorSeries series = taylor_series(unit_, variable, about, degree_);
+        if (series.analytic) add(variable, taylor_polygon(unit_, series));
+      }
+      add(variable, discrete_polygon(unit_, variable, degree_));
+    }
+    return all;
+  }
+
+  /// Handles about those of each parameter's own speed; the closest first.
+  std::vector<Start> starts() const {
+    std::vector<Start> all;
+    for (const double gamma : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const std::vector<double> t = parameters(unit_, at_, gamma);
+      const double first = handle(at_.front() / t.front(), unit_.piece.curvature_start);
+      const double last = handle((1 - at_.back()) / (1 - t.back()), unit_.piece.curvature_end);
+      Start best{{}, t, std::numeric_limits<double>::infinity()};
+      for (const double a : {0.4, 0.6, 0.8, 1.0, 1.3, 1.7})
+        for (const double b : {0.4, 0.6, 0.8, 1.0, 1.3, 1.7}) {
+          double miss = 0;
+          VectorXd x = family_.start(a * first, b * last, t, points_, miss);
+          if (miss < best.miss) best = {std::move(x), t, miss};
+        }
+      if (best.x.size() > 0) all.push_back(std::move(best));
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Start& a, const Start& b) { return a.miss < b.miss; });
+    if (all.size() > kStarts) all.resize(kStarts);
+    return all;
+  }
+
+  void descend_from(const Start& start) {
+    weights_ = VectorXd::Constant(static_cast<Eigen::Index>(at_.size()), 1.0);
+    damping_ = 1e-6;
+    round_least_ = std::numeric_limits<double>::infinity();
+    feet_of_last_ = start.feet;
+    last_ = start.x;
+    residuals_.resize(0);
+    descend(start.x, 40);
+    if (std::isinf(round_least_)) return;
+    for (int round = 0; round < 25 && least_ > 1e-14; ++round) {
+      reweight();
+      descend(last_, 2);
+    }
+  }
+
+  /// Distances along the normals at x, feet moved along; false where a foot is lost.
+  bool distances(const VectorXd& x, VectorXd& r, MatrixXd* jacobian) {
+    const ControlPolygon b = family_.polygon(x);
+    const int rows = static_cast<int>(at_.size());
+    r.resize(rows);
+    if (jacobian) jacobian->resize(rows, family_.unknowns());
+    for (int j = 0; j < rows; ++j) {
+      double& t = feet_[j];
+      const Vector2 tangent = tangents_[j];
+      const Vector2 normal = core::perpendicular_left(tangent);
+      for (int step = 0; step < 4; ++step) {
+        const Basis basis(degree_, t);
+        const double pace = dot(combine(basis.slope, b), tangent);
+        if (!(pace > 0)) return false;
+        const double change = dot(combine(basis.value, b) - points_[j], tangent) / pace;
+        t = std::clamp(t - change, 0.0, 1.0);
+        if (std::abs(change) < 1e-13) break;
+      }
+      const Basis basis(degree_, t);
+      r[j] = dot(combine(basis.value, b) - points_[j], normal);
+      if (!jacobian) continue;
+      const Vector2 velocity = combine(basis.slope, b);
+      const double lean = dot(velocity, normal) / dot(velocity, tangent);
+      for (int k = 0; k < family_.unknowns(); ++k) {
+        const Vector2 d = family_.change(x, basis.value, k);
+        (*jacobian)(j, k) = dot(d, normal) - lean * dot(d, tangent);
+      }
+    }
+    return r.allFinite();
+  }
+
+  void keep_better(const VectorXd& x, const VectorXd& r) {
+    if (!(x[0] > 0) || !(x[2] > 0)) return;  // a handle the other way: an end tangent reversed
+    const double largest = r.cwiseAbs().maxCoeff();
+    round_least_ = std::min(round_least_, largest);
+    if (!(largest < least_)) return;
+    least_ = largest;
+    best_ = x;
+  }
+
+  void descend(VectorXd x, int steps) {
+    VectorXd r;
+    MatrixXd jacobian;
+    feet_ = feet_of_last_;
+    if (!distances(x, r, &jacobian)) return;
+    keep_better(x, r);
+    for (int step = 0; step < steps && least_ > 1e-15; ++step) {
+      const double cost = weights_.dot(r.cwiseAbs2());
+      const MatrixXd weighted = weights_.asDiagonal() * jacobian;
+      MatrixXd normal = jacobian.transpose() * weighted;
+      normal.diagonal().array() += damping_ * normal.diagonal().maxCoeff();
+      const VectorXd next = x - normal.ldlt().solve(weighted.transpose() * r);
+      const std::vector<double> feet = feet_;
+      VectorXd moved;
+      MatrixXd slopes;
+      const bool fine = distances(next, moved, &slopes);
+      if (!fine || !(weights_.dot(moved.cwiseAbs2()) <= cost)) {
+        feet_ = feet;
+        damping_ = std::min(damping_ * 30, 1e2);
+        if (damping_ >= 1e2) break;
+        continue;
+      }
+      const bool settled = weights_.dot(moved.cwiseAbs2()) > 0.999 * cost;
+      damping_ = std::max(damping_ / 10, 1e-13);
+      x = next;
+      r = moved;
+      jacobian = slopes;
+      keep_better(x, r);
+      if (settled) break;
+    }
+    feet_of_last_ = feet_;
+    last_ = x;
+    residuals_ = r;
+  }
+
+  void reweight() {
+    if (residuals_.size() != weights_.size()) return;
+    const double largest = residuals_.cwiseAbs().maxCoeff();
+    for (Eigen::Index j = 0; j < weights_.size(); ++j)
+      weights_[j] *= std::abs(residuals_[j]) + 1e-3 * largest;
+    weights_ *= static_cast<double>(weights_.size()) / weights_.sum();
+    damping_ = std::min(damping_, 1e-6);
+  }
+
+  const UnitPiece& unit_;
+  Family family_;
+  int degree_;
+  std::vector<double> at_, feet_, feet_of_last_;
+  std::vector<Vector2> points_, tangents_;
+  VectorXd weights_, best_, last_, residuals_;
+  double damping_ = 1e-6;
+  double least_ = std::numeric_limits<double>::infinity();
+  double round_least_ = std::numeric_limits<double>::infinity();  ///< from the present start
+};
+
+}  // namespace
+
+ControlPolygon best_polygon(const UnitPiece& unit, int degree, bool thorough) {
+  return Fit(unit, degree).run(thorough);
+}
+
+}  // namespace keyline::lac::detail

@@ -1,0 +1,258 @@
+#include "keyline/lac/quasi/quasi_hermite.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "keyline/core/angle.h"
+#include "keyline/lac/hermite/hermite.h"
+#include "keyline/numeric/power_mean.h"
+
+namespace keyline::lac {
+
+using core::ErrorCode;
+using core::Point2;
+using core::Result;
+using core::Vector2;
+using detail::ControlPolygon;
+using detail::UnitPiece;
+
+namespace {
+
+/// The two unknowns: ln(rho1 / rho0) and the turning.
+struct Unknowns {
+  double log_ratio = 0;
+  double turning = 0;
+};
+
+UnitPiece piece_from(double alpha, const Unknowns& x) {
+  const double end = std::exp(-x.log_ratio);
+  const double start_curvature = x.turning / numeric::power_mean_integral(1, end, -alpha, 1);
+  return detail::unit_piece({alpha, 1, start_curvature, start_curvature * end});
+}
+
+/// How far a Bézier misses the wanted turning and chord angle.
+struct Miss {
+  double turning = 0;
+  double chord_angle = 0;
+  double size() const { return std::max(std::abs(turning), std::abs(chord_angle)); }
+};
+
+class Hermite {
+ public:
+  Hermite(const HandleAngles& angles, double alpha, const QuasiOptions& options)
+      : turning_(std::abs(angles.turning)),
+        chord_angle_(std::abs(angles.chord_angle)),
+        alpha_(alpha),
+        options_(options) {}
+
+  /// Newton's method with steps halved until they help.
+  bool solve(Unknowns& x) {
+    std::optional<Miss> miss = at(x);
+    if (!miss) return false;
+    for (iterations = 0; iterations < 60 && miss->size() > 2e-16 * (1 + turning_); ++iterations) {
+      const std::optional<Unknowns> step = newton_step(x, *miss);
+      if (!step) return false;
+      double factor = 1;
+      std::optional<Miss> next;
+      for (; factor > 1e-3; factor /= 2) {
+        next = at({x.log_ratio + factor * step->log_ratio, x.turning + factor * step->turning});
+        if (next && next->size() < miss->size()) break;
+      }
+      if (!(factor > 1e-3)) break;  // as good as rounding lets it be, or stuck
+      x = {x.log_ratio + factor * step->log_ratio, x.turning + factor * step->turning};
+      miss = next;
+    }
+    return miss->size() < 1e-11;
+  }
+
+  /// The paper's scan for Lambda ([QLAC] §4) in both unknowns: from the places that miss least,
+  /// every solution found, each once.
+  std::vector<Unknowns> scan() {
+    struct Place {
+      Unknowns x;
+      double miss = 0;
+    };
+    std::vector<Place> places;
+    for (double log_ratio = -12; log_ratio <= 12; log_ratio += 0.5)
+      for (double log_share = -1.2; log_share <= 0.95; log_share += 0.1) {
+        const Unknowns x{log_ratio, turning_ * std::exp(log_share)};
+        if (const auto miss = at(x)) places.push_back({x, miss->size()});
+      }
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.miss < b.miss; });
+    if (places.size() > kTried) places.resize(kTried);
+    std::vector<Unknowns> found;
+    for (const Place& place : places) {
+      Unknowns x = place.x;
+      if (!solve(x)) continue;
+      const bool known = std::any_of(found.begin(), found.end(), [&](const Unknowns& y) {
+        return std::abs(y.log_ratio - x.log_ratio) + std::abs(y.turning - x.turning) < 1e-7;
+      });
+      if (!known) found.push_back(x);
+    }
+    return found;
+  }
+
+  int iterations = 0;
+
+ private:
+  static constexpr std::size_t kTried = 40;
+
+  std::optional<Miss> at(const Unknowns& x) const {
+    if (!(x.turning > 1e-3 * turning_ && x.turning < 6.2) || !(std::abs(x.log_ratio) < 60))
+      return std::nullopt;
+    const ControlPolygon b = draw_form(piece_from(alpha_, x), options_).polygon;
+    const std::size_t n = b.size() - 1;
+    const Vector2 first = b[1] - b[0];
+    const Vector2 last = b[n] - b[n - 1];
+    const double turned = core::angle_between(first, last) - turning_;
+    const double chord = core::angle_between(first, b[n] - b[0]) - chord_angle_;
+    if (!std::isfinite(turned) || !std::isfinite(chord)) return std::nullopt;
+    return Miss{core::wrap_angle(turned), chord};
+  }
+
+  /// By central differences of the two angles: the step's accuracy is no matter of the result's.
+  std::optional<Unknowns> newton_step(const Unknowns& x, const Miss& miss) const {
+    const double h = 1e-5;
+    const double k = 1e-5 * x.turning;
+    const auto a0 = at({x.log_ratio - h, x.turning});
+    const auto a1 = at({x.log_ratio + h, x.turning});
+    const auto b0 = at({x.log_ratio, x.turning - k});
+    const auto b1 = at({x.log_ratio, x.turning + k});
+    if (!a0 || !a1 || !b0 || !b1) return std::nullopt;
+    const double tq = (a1->turning - a0->turning) / (2 * h);
+    const double cq = (a1->chord_angle - a0->chord_angle) / (2 * h);
+    const double tt = (b1->turning - b0->turning) / (2 * k);
+    const double ct = (b1->chord_angle - b0->chord_angle) / (2 * k);
+    const double determinant = tq * ct - cq * tt;
+    if (!(std::abs(determinant) > 0)) return std::nullopt;
+    const double dq = -(ct * miss.turning - tt * miss.chord_angle) / determinant;
+    const double dt = -(tq * miss.chord_angle - cq * miss.turning) / determinant;
+    return Unknowns{std::clamp(dq, -1.5, 1.5), std::clamp(dt, -0.5 * x.turning, 0.5 * x.turning)};
+  }
+
+  double turning_, chord_angle_, alpha_;
+  QuasiOptions options_;
+};
+
+/// Ends and end tangents, off by rounding, put exactly in place.
+void settle_ends(curve::Bezier2& c, Point2 p0, Point2 p1, Point2 p2) {
+  const std::size_t n = c.control.size() - 1;
+  const Vector2 first = (p1 - p0) / distance(p0, p1);
+  const Vector2 last = (p2 - p1) / distance(p1, p2);
+  c.control[0] = p0;
+  c.control[1] = p0 + dot(c.control[1] - p0, first) * first;
+  c.control[n] = p2;
+  c.control[n - 1] = p2 - dot(p2 - c.control[n - 1], last) * last;
+}
+
+/// The polygon laid over the handles.
+curve::Bezier2 laid_over(const detail::Drawn& drawn, Point2 p0, Point2 p1, Point2 p2,
+                         double mirror) {
+  const ControlPolygon& b = drawn.polygon;
+  const std::size_t n = b.size() - 1;
+  const Vector2 chord = b[n] - b[0];
+  const double scale = distance(p0, p2) / norm(chord);
+  const double rotation = core::direction_of(p2 - p0) - mirror * core::direction_of(chord);
+  curve::Bezier2 c;
+  for (const Vector2 v : b)
+    c.control.push_back(
+        p0 + scale * core::rotate_ccw({v.x - b[0].x, mirror * (v.y - b[0].y)}, rotation));
+  c.weights = drawn.weights;
+  settle_ends(c, p0, p1, p2);
+  return c;
+}
+
+/// The curve of solved unknowns over the handles, measured.
+QuasiResult laid_result(const SegmentSolution& solution, const Unknowns& x, double alpha,
+                        const QuasiOptions& settled, const std::array<Point2, 3>& handles,
+                        double mirror) {
+  const UnitPiece solved = piece_from(alpha, x);
+  const detail::Drawn drawn = draw_form(solved, settled);
+  QuasiResult r;
+  r.target = solution.segment;
+  r.form = settled.form;
+  r.about = settled.about.value_or(0);
+  r.lambda = lambda_of(solved.piece);
+  r.curve = laid_over(drawn, handles[0], handles[1], handles[2], mirror);
+  const double chord = norm(drawn.polygon.back() - drawn.polygon.front());
+  r.series_bound = distance(handles[0], handles[2]) / chord * drawn.series_bound;
+  detail::measure(r);
+  return r;
+}
+
+/// Of the other forms over the handles, as far as Newton's method finds them at once, the closest.
+std::optional<QuasiResult> closest_other(const SegmentSolution& solution,
+                                         const HandleAngles& angles, double alpha, int degree,
+                                         const std::array<Point2, 3>& handles) {
+  const UnitPiece unit = detail::unit_piece(piece_of(solution.segment));
+  std::optional<QuasiResult> closest;
+  for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc,
+                               QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
+    const auto settled = detail::settled(unit, {form, degree, {}, false});
+    if (!settled) continue;
+    Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
+               unit.turning};
+    if (!Hermite(angles, alpha, *settled).solve(x)) continue;
+    QuasiResult r = laid_result(solution, x, alpha, *settled, handles, unit.mirror);
+    if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+  }
+  return closest;
+}
+
+/// What is left of a fit of free handles that another form beats: that form.
+void take_closer(Result<QuasiResult>& best, std::optional<QuasiResult> other,
+                 const SegmentSolution& solution) {
+  if (!other || !std::isfinite(other->deviation)) return;
+  if (best && !(other->deviation < best->deviation)) return;
+  other->form = QuasiForm::best;
+  other->lambda = lambda_of(piece_of(solution.segment));
+  best = *std::move(other);
+}
+
+bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == QuasiForm::best; }
+
+}  // namespace
+
+Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double alpha,
+                                        const QuasiOptions& options) {
+  const auto solution = solve_g1(p0, p1, p2, alpha);
+  if (!solution) return std::unexpected(solution.error());
+  const auto angles = handle_angles(p0, p1, p2);
+  if (keeps_ends(options.form) || solution->turning == 0) {
+    auto result = quasi_log_aesthetic(solution->segment, options);
+    if (result && solution->turning != 0) settle_ends(result->curve, p0, p1, p2);
+    if (options.form == QuasiForm::best && solution->turning != 0)
+      take_closer(result, closest_other(*solution, *angles, alpha, options.degree, {p0, p1, p2}),
+                  *solution);
+    return result;
+  }
+  const UnitPiece unit = detail::unit_piece(piece_of(solution->segment));
+  const auto settled = detail::settled(unit, options);
+  if (!settled) return std::unexpected(settled.error());
+  Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
+             unit.turning};
+  Hermite hermite(*angles, alpha, *settled);
+  const auto result = [&](const Unknowns& solved) {
+    return laid_result(*solution, solved, alpha, *settled, {p0, p1, p2}, unit.mirror);
+  };
+  if (hermite.solve(x)) {
+    QuasiResult r = result(x);
+    r.iterations = hermite.iterations;
+    return r;
+  }
+  std::optional<QuasiResult> closest;
+  for (const Unknowns& found : hermite.scan()) {
+    QuasiResult r = result(found);
+    if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+  }
+  if (closest) return *std::move(closest);
+  return core::fail(ErrorCode::undrawable,
+                    "no Lambda gives a curve of this form and degree with these end tangents",
+                    "raise the degree, or take the form best or rational-cubic");
+}
+
+}  // namespace keyline::lac

@@ -1,0 +1,126 @@
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "keyline/core/angle.h"
+#include "keyline/curve/bezier.h"
+#include "keyline/lac/quasi/quasi_forms.h"
+#include "keyline/numeric/levenberg_marquardt.h"
+
+namespace keyline::lac::detail {
+
+using core::Vector2;
+
+namespace {
+
+constexpr int kSamples = 40;
+
+/// Rational cubics with given ends, tangents and end curvatures: handle lengths a and b are free.
+/// With curvature 2/3 w0 w2 / w1^2 h / a^2 at an end, h the distance of the far handle from the
+/// tangent there, and w0 = w3 = 1 the weights follow.
+class Family {
+ public:
+  explicit Family(const UnitPiece& unit)
+      : end_(displacement(unit.piece, 1)),
+        tangent_(core::unit_vector(unit.turning)),
+        k0_(unit.piece.curvature_start),
+        k1_(unit.piece.curvature_end) {}
+
+  /// False where a weight would not be positive.
+  bool member(double a, double b, RationalCubic& c) const {
+    const Vector2 b1{a, 0};
+    const Vector2 b2 = end_ - b * tangent_;
+    const double h0 = b2.y;
+    const double h1 = cross(tangent_, b1 - end_);
+    const double p = k0_ * 1.5 * a * a / h0;  // w2 / w1^2
+    const double q = k1_ * 1.5 * b * b / h1;  // w1 / w2^2
+    if (!(h0 > 0 && h1 > 0 && p > 0 && q > 0)) return false;
+    c.polygon = {{0, 0}, b1, b2, end_};
+    c.weights = {1, 1 / std::cbrt(p * p * q), 1 / std::cbrt(p * q * q), 1};
+    return std::isfinite(c.weights[1]) && std::isfinite(c.weights[2]);
+  }
+
+ private:
+  Vector2 end_, tangent_;
+  double k0_, k1_;
+};
+
+/// Vertical distances of graph points from their line of least squares, each weighted by the root
+/// of the arc length it stands for; false where the graph is not defined all along.
+bool graph_residuals(const RationalCubic& c, Eigen::VectorXd& r) {
+  curve::Bezier2 bezier{{}, c.weights};
+  for (const Vector2 v : c.polygon) bezier.control.push_back({v.x, v.y});
+  Eigen::ArrayXd x(kSamples), y(kSamples), w(kSamples);
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = 0.5 - 0.5 * std::cos(core::kPi * (i + 0.5) / kSamples);
+    const curve::Jet2 j = jet(bezier, t);
+    const double kappa = curvature(j);
+    const double rate = curvature_rate(j);
+    x[i] = -std::log(std::abs(kappa));
+    y[i] = std::log(std::abs(kappa / rate));
+    w[i] = speed(j) * std::sqrt(t * (1 - t));
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i]) || !(kappa > 0)) return false;
+  }
+  w /= w.sum();
+  const double mx = (w * x).sum();
+  const double my = (w * y).sum();
+  const double slope = (w * (x - mx) * (y - my)).sum() / (w * (x - mx).square()).sum();
+  r = (w.sqrt() * (y - my - slope * (x - mx))).matrix();
+  return r.allFinite();
+}
+
+/// Logarithms of the handle lengths as unknowns, derivatives by central differences.
+struct Variance {
+  const Family& family;
+  bool value(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
+    RationalCubic c;
+    return family.member(std::exp(x[0]), std::exp(x[1]), c) && graph_residuals(c, r);
+  }
+  bool operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) const {
+    if (!value(x, r)) return false;
+    if (!jacobian) return true;
+    jacobian->resize(kSamples, 2);
+    for (int k = 0; k < 2; ++k) {
+      const double h = 1e-6;
+      Eigen::VectorXd up = x, down = x, ru, rd;
+      up[k] += h;
+      down[k] -= h;
+      if (!value(up, ru) || !value(down, rd)) return false;
+      jacobian->col(k) = (ru - rd) / (2 * h);
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+RationalCubic rational_cubic(const UnitPiece& unit) {
+  const double theta = unit.turning;
+  RationalCubic best;
+  if (theta == 0) return {{{0, 0}, {1.0 / 3, 0}, {2.0 / 3, 0}, {1, 0}}, {1, 1, 1, 1}};
+  const Family family(unit);
+  const double radius = 1 / theta;  // of the arc of this length and turning
+  const double arc_handle =
+      2 * radius * std::sin(theta / 2) / (1 + 2 * std::cos(theta / 2));  // exact for an arc
+  const double handle = theta < 3.5 ? arc_handle : 0.5;
+  if (unit.piece.curvature_start == unit.piece.curvature_end) {
+    family.member(arc_handle, arc_handle, best);
+    return best;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  const double share = std::log(unit.piece.curvature_start / unit.piece.curvature_end) / 6;
+  for (const double tilt : {0.0, 0.5, 1.0}) {
+    Eigen::VectorXd x(2);
+    x << std::log(handle) - tilt * share, std::log(handle) + tilt * share;
+    const auto report = numeric::minimize_least_squares(Variance{family}, x);
+    if (report.status == numeric::LevenbergMarquardtStatus::no_start) continue;
+    RationalCubic c;
+    if (report.cost < least && family.member(std::exp(x[0]), std::exp(x[1]), c)) {
+      least = report.cost;
+      best = std::move(c);
+    }
+  }
+  return best;
+}
+
+}  // namespace keyline::lac::detail

@@ -1,0 +1,209 @@
+#include "keyline/lac/space/space_compound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "keyline/core/angle.h"
+#include "keyline/core/text.h"
+#include "keyline/lac/chain/extend.h"
+#include "keyline/lac/segment/piece_shape.h"
+#include "keyline/lac/space/space_steer.h"
+
+namespace keyline::lac {
+namespace {
+
+using core::ErrorCode;
+using core::Result;
+using detail::SpaceUnknowns;
+using detail::space::Invariants;
+using detail::space::Miss;
+using detail::space::miss_of;
+using detail::space::moved;
+using detail::space::reasonable;
+using detail::space::Setting;
+using detail::space::size_of;
+
+/// Both pieces in the standard frame, the radius of curvature at the start being 1; `twist` of the
+/// unknowns is here the torsion at the start times the length. Empty where one ends too early.
+std::optional<SpaceChain> chain_of(const SpaceRhythm& r, const SpaceUnknowns& x) {
+  if (!reasonable(x)) return std::nullopt;
+  const double lambda = x.bend / x.length;
+  const double nu = x.twist / x.length;
+  const double first = r.length_share * x.length;
+  const double second = x.length - first;
+  const double bend = detail::carried(1, r.alpha[0], lambda * first);
+  const double twist = detail::carried(nu, r.beta[0], r.omega * first);
+  const double bend_rate = -lambda * std::pow(std::abs(bend), r.alpha[0] + 1);
+  const double twist_rate =
+      nu == 0 && r.omega == 0 ? 0 : -r.omega * std::pow(std::abs(twist), r.beta[0] + 1);
+  if (!std::isfinite(bend_rate) || !std::isfinite(twist_rate)) return std::nullopt;
+  const auto last_bend = detail::curvature_continued(r.alpha[1], bend, bend_rate, second);
+  const auto last_twist = twist == 0 && twist_rate == 0
+                              ? std::optional(0.0)
+                              : detail::curvature_continued(r.beta[1], twist, twist_rate, second);
+  if (!last_bend || !last_twist) return std::nullopt;
+  SpaceChain chain{{},
+                   {{r.alpha[0], r.beta[0], first, 1, bend, nu, twist},
+                    {r.alpha[1], r.beta[1], second, bend, *last_bend, twist, *last_twist}}};
+  return validate(chain) ? std::optional(std::move(chain)) : std::nullopt;
+}
+
+struct Shot {
+  SpaceChain chain;
+  SpaceFrame end;
+  Miss miss{};
+};
+
+std::optional<Shot> shot_of(const SpaceRhythm& r, const SpaceUnknowns& x,
+                            const Invariants& wanted) {
+  auto chain = chain_of(r, x);
+  if (!chain) return std::nullopt;
+  Shot shot{std::move(*chain), {}, {}};
+  shot.end = frame_at(shot.chain, 1);
+  const core::Vector3 chord = shot.end.position - core::Point3{};
+  if (!(norm(chord) > 1e-6 * x.length)) return std::nullopt;
+  shot.miss = miss_of(chord, shot.end.tangent, wanted);
+  return shot;
+}
+
+/// Newton's step by differences. In a plane torsion stays 0, and so does the miss across it.
+std::optional<Miss> step_of(const SpaceRhythm& r, const SpaceUnknowns& x, const Shot& at,
+                            const Setting& setting) {
+  constexpr double kSize = 1e-6;
+  std::array<std::array<double, 3>, 3> slope{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (setting.planar && i == 1) continue;
+    SpaceUnknowns near = x;
+    double& unknown = i == 0 ? near.bend : i == 1 ? near.twist : near.length;
+    unknown += kSize;
+    const auto shot = shot_of(r, near, setting.wanted);
+    if (!shot) return std::nullopt;
+    for (std::size_t row = 0; row < 3; ++row)
+      slope[row][i] = (shot->miss[row] - at.miss[row]) / kSize;
+  }
+  Miss step = at.miss;
+  if (setting.planar) {
+    slope[2] = {0, 1, 0};
+    step[2] = 0;
+  }
+  if (!detail::solve_small(slope, step)) return std::nullopt;
+  return size_of(step) < 1e6 ? std::optional(step) : std::nullopt;
+}
+
+/// Newton's method with steps shortened until the miss falls; false where it does not settle.
+bool settle(const SpaceRhythm& r, const Setting& setting, double enough, SpaceUnknowns& x,
+            int& iterations) {
+  auto at = shot_of(r, x, setting.wanted);
+  for (int i = 0; at && i < 25; ++i) {
+    if (size_of(at->miss) <= enough) return true;
+    const auto step = step_of(r, x, *at, setting);
+    if (!step) return false;
+    ++iterations;
+    std::optional<Shot> next;
+    SpaceUnknowns to = x;
+    for (double share = 1; share > 1e-3; share /= 2) {
+      to = moved(x, *step, share);
+      next = shot_of(r, to, setting.wanted);
+      if (next && size_of(next->miss) < size_of(at->miss)) break;
+      next.reset();
+    }
+    if (!next) return false;
+    at = std::move(next);
+    x = to;
+  }
+  return at && size_of(at->miss) <= enough;
+}
+
+/// Slopes between those of a curve of one slope and those wanted.
+SpaceRhythm part_way(const SpaceRhythm& r, double alpha, double beta, double share) {
+  SpaceRhythm part = r;
+  for (std::size_t i = 0; i < 2; ++i) {
+    part.alpha[i] = std::lerp(alpha, r.alpha[i], share);
+    part.beta[i] = std::lerp(beta, r.beta[i], share);
+  }
+  return part;
+}
+
+constexpr double kExact = 1e-12;
+
+struct Reached {
+  SpaceUnknowns x;
+  double share = 0;
+  int iterations = 0;
+};
+
+/// From the curve of one slope to that of both.
+Reached follow(const Setting& setting, const SpaceRhythm& r, double alpha, double beta) {
+  Reached reached;
+  const auto single = solve_g1_space(setting.data, alpha, beta, r.omega);
+  if (!single || !std::isfinite(single->lambda) || !(single->length > 0)) return reached;
+  const double nu = setting.mirrored ? -single->nu : single->nu;
+  reached.x = {single->lambda * single->length, nu * single->length, single->length};
+  reached.iterations = single->iterations;
+  double step = 0.25;
+  while (reached.share < 1 && step > 0.004) {
+    const double to = std::min(1.0, reached.share + step);
+    SpaceUnknowns x = reached.x;
+    if (settle(part_way(r, alpha, beta, to), setting, to < 1 ? 1e-6 : kExact, x,
+               reached.iterations)) {
+      reached.x = x;
+      reached.share = to;
+      step *= 2;
+    } else {
+      step /= 2.5;
+    }
+  }
+  return reached;
+}
+
+Result<void> check(const SpaceRhythm& r) {
+  if (!(r.length_share > 0 && r.length_share < 1))
+    return core::fail(ErrorCode::bad_input, "the share of the length must lie between 0 and 1",
+                      "give more than 0 and less than 1", "ratio");
+  for (const double slope : {r.alpha[0], r.alpha[1], r.beta[0], r.beta[1]})
+    if (!(std::abs(slope) <= 100))
+      return core::fail(ErrorCode::bad_input,
+                        "a slope of a compound rhythm in space lies "
+                        "outside -100 to 100",
+                        "give slopes nearer to 0");
+  return {};
+}
+
+}  // namespace
+
+Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const SpaceRhythm& rhythm) {
+  if (auto sound = check(rhythm); !sound) return std::unexpected(sound.error());
+  const auto setting =
+      detail::space::setting_of(data, rhythm.alpha[0], rhythm.beta[0], rhythm.omega);
+  if (!setting) return std::unexpected(setting.error());
+  SpaceRhythm r = rhythm;
+  if (setting->planar) r.omega = 0;
+  const auto& [a0, a1] = r.alpha;
+  const auto& [b0, b1] = r.beta;
+  double furthest = 0;
+  for (const auto& [alpha, beta] : {std::pair{a0, b0}, {a1, b1}, {(a0 + a1) / 2, (b0 + b1) / 2}}) {
+    const Reached reached = follow(*setting, r, alpha, beta);
+    furthest = std::max(furthest, reached.share);
+    if (reached.share < 1) continue;
+    const auto shot = shot_of(r, reached.x, setting->wanted);
+    if (!shot) continue;
+    SpaceSolution solution;
+    solution.chain = detail::space::placed(shot->chain, shot->end.position - core::Point3{},
+                                           setting->data, setting->mirrored);
+    solution.lambda = reached.x.bend / reached.x.length;
+    solution.nu = (setting->mirrored ? -1 : 1) * reached.x.twist / reached.x.length;
+    solution.length = reached.x.length;
+    solution.planar = setting->planar;
+    solution.iterations = reached.iterations;
+    return solution;
+  }
+  return core::fail(ErrorCode::undrawable,
+                    "no compound space curve of these slopes meets the "
+                    "tangents",
+                    "one was followed " + core::number_text(100 * furthest, 3) +
+                        " % of the way from a curve of one slope: bring the slopes together, or "
+                        "turn the tangents towards the chord");
+}
+
+}  // namespace keyline::lac

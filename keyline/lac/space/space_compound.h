@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "keyline/core/error.h"
+#include "keyline/lac/space/space_hermite.h"
+
+namespace keyline::lac {
+
+/// Two slopes of curvature and two of torsion; the first of each for the piece at the start.
+struct SpaceRhythm {
+  std::array<double, 2> alpha{-1, 1};
+  std::array<double, 2> beta{-1, -1};
+  double omega = 0;           ///< of the first piece, as for solve_g1_space
+  double length_share = 0.5;  ///< of the whole arc length in the first piece, in (0, 1)
+};
+
+/// Compound rhythm in space ([Compound] 6): G1 Hermite data met by two pieces with curvature,
+/// torsion and the rates of both continuous at the joint. lambda, nu and omega are those of the
+/// first piece, conventions and handedness as solve_g1_space; data in one plane give the plane
+/// curve of both slopes, without torsion and without regard to omega.
+///
+/// Led by Newton's method from a curve of one slope (either piece's, or the mean of both) while the
+/// slopes part. Accuracy: 1e-11 of the chord, 1e-11 rad. 10 to 200 ms.
+/// Fails: bad_input as solve_g1_space and for a share outside (0, 1); undrawable where no such way
+/// leads to the data.
+core::Result<SpaceSolution> solve_compound_space(const SpaceHermite& data,
+                                                 const SpaceRhythm& rhythm);
+
+}  // namespace keyline::lac

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "keyline/core/point.h"
+#include "keyline/lac/space/space.h"
+#include "keyline/numeric/power_mean.h"
+
+/// Internals of the space Hermite solver: a quick integration of a log-aesthetic space curve, with
+/// derivatives, where six digits are enough to steer Newton's method
+/// (docs/design/space-hermite.md).
+namespace keyline::lac::detail {
+
+/// y with y^-p = x^-p + p d for p != 0 (signed powers for p < 0), x e^-d for p = 0; NaN past the
+/// end of the curve. Standard form: p the slope, d the rate times arc length.
+inline double carried(double x, double p, double d) {
+  if (p < 0) return numeric::signed_power(numeric::signed_power(x, -p) + p * d, -1 / p);
+  const double part = p * d * std::pow(std::abs(x), p);
+  if (part == 0 && p != 0) return x;
+  return p == 0 ? x * std::exp(-d) : part > -1 ? x * std::exp(-std::log1p(part) / p) : NAN;
+}
+
+/// What decides a curve of given slopes and omega up to its size, all in units of the radius of
+/// curvature at the start.
+struct SpaceUnknowns {
+  double bend = 0;    ///< lambda times length
+  double twist = 0;   ///< total torsion, rad
+  double length = 1;  ///< so that curvature times length is `length` at the start
+};
+
+/// Torsion times length at the start for which the torsion comes to x.twist in all; empty where no
+/// curve of this slope and rate has as much.
+std::optional<double> start_torsion(double beta, double omega, const SpaceUnknowns& x);
+
+/// Both ends of the curve of unit length in its standard frame, with derivatives by bend, twist and
+/// length.
+struct SpaceShot {
+  core::Vector3 chord;
+  core::Vector3 tangent;  ///< at the end
+  std::array<core::Vector3, 3> chord_by;
+  std::array<core::Vector3, 3> tangent_by;
+};
+
+/// Of form only alpha, beta and omega count. Magnus' method of order 4 on the group of motions, in
+/// 32 steps: about 1e-7 per radian of turning; derivatives about 1e-4. Empty where the curve ends
+/// before its length.
+std::optional<SpaceShot> shoot_space(const SpaceStandardForm& form, const SpaceUnknowns& x);
+
+}  // namespace keyline::lac::detail
