@@ -109,8 +109,8 @@ TEST(Commands, WhatAPointFileLeavesOutIsSaidByAll) {
   const Scratch s;
   const std::string file =
       s.write("points", "1 0\n0.75 0.04\n0.5 0.06\n0 0\n0.5 -0.04\n1 0\nProfiltyp: Tropfen\n");
-  for (const std::string command : {"list " + file, "convert " + file + " -o " + s.path("a.svg"),
-                                    "analyze " + file, "fair " + file}) {
+  for (const std::string& command : {"list " + file, "convert " + file + " -o " + s.path("a.svg"),
+                                     "analyze " + file, "fair " + file}) {
     SCOPED_TRACE(command);
     const Outcome o = run_keyline(command);
     EXPECT_EQ(o.status, 0) << o.err;
@@ -130,8 +130,8 @@ TEST(Commands, AFailureNamesAFileAsItIs) {
 TEST(Commands, WhatMakesNoCurveWritesNoFile) {
   const Scratch s;
   const std::string file = example("cubic.json");
-  for (const std::string command :
-       {"compare " + file + " " + file, "list " + file, "curve.continuity --curves []"}) {
+  for (const std::string& command : {"compare " + file + " " + file, "list " + file,
+                                     std::string("curve.continuity --curves []")}) {
     SCOPED_TRACE(command);
     expect_failure(run_keyline(command + " -o " + s.path("a.svg")), 2, "makes no curve");
     EXPECT_EQ(s.count(), 0U);
