@@ -29,7 +29,8 @@ std::vector<analysis::Interpretation> readings_of(const lac::Chain& piece, doubl
   return reading->interpretations;
 }
 
-/// The most plausible reading is the piece's: its own slope where that is the same rhythm.
+/// The most plausible reading is the piece's: its own slope where that is the same rhythm. Points
+/// that a line or an arc would do for do not tell how a piece bends that its neighbours make bend.
 void take_reading(FairPiece& piece, const lac::Piece& shape, int points) {
   const bool flat = shape.curvature_start == shape.curvature_end;
   piece.told = flat || points >= kTelling;
@@ -37,7 +38,8 @@ void take_reading(FairPiece& piece, const lac::Piece& shape, int points) {
   const analysis::Interpretation& best = piece.interpretations.front();
   const auto unsure = [](double error) { return error > kToldSlope; };
   piece.told = std::none_of(best.slope_errors.begin(), best.slope_errors.end(), unsure);
-  if (best.rhythm == piece.rhythm && best.slopes.size() == 1) return;
+  if (best.slopes.empty()) piece.told = false;
+  if (best.slopes.empty() || (best.rhythm == piece.rhythm && best.slopes.size() == 1)) return;
   piece.rhythm = best.rhythm;
   piece.slopes = best.slopes;
 }
