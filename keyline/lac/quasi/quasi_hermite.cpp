@@ -206,6 +206,7 @@ std::optional<QuasiResult> closest_other(const SegmentSolution& solution,
 /// What is left of a fit of free handles that another form beats: that form.
 void take_closer(Result<QuasiResult>& best, std::optional<QuasiResult> other,
                  const SegmentSolution& solution) {
+  if (!best && best.error().code != ErrorCode::undrawable) return;
   if (!other || !std::isfinite(other->deviation)) return;
   if (best && !(other->deviation < best->deviation)) return;
   other->form = QuasiForm::best;
