@@ -32,7 +32,8 @@ struct Local {
 
 Local local_at(double alpha, double s, int degree) {
   // z G'/G of G = 1 + z + … + z^(n-1): by ln z, the rates of ln|G| and of its direction.
-  const std::complex<double> z = std::polar(s, alpha);
+  // Not std::polar: the optimiser also tries what is no number, and takes the answer for bad.
+  const std::complex<double> z{s * std::cos(alpha), s * std::sin(alpha)};
   std::complex<double> sum = 0;
   std::complex<double> slope = 0;
   for (int i = 0; i < degree; ++i) {

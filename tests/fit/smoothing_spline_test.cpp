@@ -12,7 +12,8 @@ namespace {
 
 std::vector<core::Point2> ellipse(int n, double share, double noise) {
   std::mt19937_64 random(7);
-  std::normal_distribution<double> error(0, noise);
+  std::normal_distribution<double> unit(0, 1);
+  const auto error = [&](std::mt19937_64& from) { return noise * unit(from); };
   std::vector<core::Point2> points;
   for (int i = 0; i < n; ++i) {
     const double t = 2 * std::numbers::pi * share * i / (share < 1 ? n - 1 : n);
