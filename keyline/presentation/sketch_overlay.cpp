@@ -16,7 +16,7 @@ using core::Point2;
 
 constexpr double kSide = 1600;  ///< pixels of the longer side, at least
 constexpr double kMostPixels = 16e6;
-constexpr double kPale = 0.6;             ///< of the ink's darkness is left
+constexpr double kPale = 0.6;              ///< of the ink's darkness is left
 constexpr std::size_t kMostNumbers = 400;  ///< of strokes: more would hide the drawing
 constexpr double kText = 11;
 constexpr double kRim = 0.03;  ///< of the size of drawn strokes
