@@ -124,24 +124,29 @@ Result<std::vector<Shown>> fair_all(Session& session, const std::vector<json>& t
 }
 
 /// A request of document.write, within a tenth of the tolerance: what is written is faired too.
-json document_of(const std::vector<Shown>& all, const std::vector<json>& shown, const json& read) {
-  json document{{"unit", read["unit"]}, {"curves", json::array()}};
+/// It lies over what was read: with its page, layers and colours.
+json document_of(const std::vector<Shown>& all, const std::vector<json>& shown,
+                 const std::vector<json>& things, const ReadFiles& read) {
+  json document{{"unit", read.shown["unit"]}, {"curves", json::array()}};
   double tolerance = answer_of(all.front()).tolerance;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    document["curves"].push_back({{"name", all[i].name}, {"curve", shown[i]["curve"]}});
+    json curve{{"name", all[i].name}, {"curve", shown[i]["curve"]}};
+    for (const char* look : {"layer", "color", "stroke_width"})
+      if (things[i].contains(look)) curve[look] = things[i][look];
+    document["curves"].push_back(std::move(curve));
     tolerance = std::min(tolerance, answer_of(all[i]).tolerance);
   }
   document["tolerance"] = 0.1 * tolerance;
-  if (read.contains("page")) {
-    document["page"] = read["page"];
-    document["on_page"] = true;
+  if (read.shown.contains("page")) {
+    document["page"] = read.shown["page"];
+    document["on_page"] = read.answer().document.paths.empty();  // a picture's, in pixels
   }
   return document;
 }
 
 /// What was read, shown and written; then the verdict.
 int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& all,
-           std::size_t wanted) {
+           const std::vector<json>& things) {
   std::vector<json> shown;
   std::string text;
   for (const Shown& faired : all) {
@@ -153,13 +158,13 @@ int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& al
   presentation::ReportOptions options = session.report_options();
   options.unit = read.shown["unit"].get<std::string>();
   auto written =
-      session.write(presentation::fair_pages(all, options), document_of(all, shown, read.shown));
+      session.write(presentation::fair_pages(all, options), document_of(all, shown, things, read));
   if (!written) return report_failure(written.error());
   if (all.size() > 1)
     for (std::size_t i = 0; i < all.size(); ++i) shown[i]["id"] = all[i].name;
   session.print(one_or_all(shown, "curves"), text);
   for (const Shown& faired : all) tell(session, faired);
-  return verdict_of(all, wanted, session.files().front());
+  return verdict_of(all, things.size(), session.files().front());
 }
 
 }  // namespace
@@ -176,7 +181,7 @@ int run_fair(const Words& words) {
     say_skipped(session.door().quiet, read->answer().skipped);
   const auto all = fair_all(session, things);
   if (!all) return report_failure(all.error());
-  return finish(session, *read, *all, things.size());
+  return finish(session, *read, *all, things);
 }
 
 std::vector<std::string> fair_options() { return new_session().arguments().names(); }

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/point.h"
+#include "keyline/exchange/svg_reader.h"
 #include "keyline/operations/operation.h"
 
 #include "run_keyline.h"
@@ -191,6 +193,35 @@ TEST(Commands, SvgReadsBackAsTheExactChain) {
   ASSERT_EQ(run_keyline("convert --quiet " + s.path("a.svg") + " -o " + s.path("b.json")).status,
             0);
   EXPECT_EQ(slurp(s.path("a.json")), slurp(s.path("b.json")));
+}
+
+/// The drawing's page, layer and colours stay; the faired curve lies over the one given.
+TEST(Commands, AFairedDrawingLiesOverTheOriginal) {
+  const Scratch scratch;
+  const std::string given = scratch.write(
+      "drawing.svg",
+      "<svg xmlns='http://www.w3.org/2000/svg' width='120mm' height='60mm' viewBox='-20 0 240 120'>"
+      "<g id='roof' transform='translate(20 10) scale(1 2)' fill='none' stroke='#cc2200' "
+      "stroke-width='3'><path id='line' d='M0 30C40 0 100 0 160 36'/></g></svg>");
+  const std::string faired = scratch.path("faired.svg");
+  const Outcome o = run_keyline("fair " + given + " -o " + faired);
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto before = exchange::read_svg(slurp(given));
+  const auto after = exchange::read_svg(slurp(faired));
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->unit, "mm");
+  ASSERT_TRUE(after->page);
+  EXPECT_EQ(after->page->low, before->page->low);
+  EXPECT_EQ(after->page->high, before->page->high);
+  ASSERT_EQ(after->curves.size(), 1U);
+  EXPECT_EQ(after->curves[0].layer, "roof");
+  EXPECT_EQ(after->curves[0].color, "#cc2200");
+  EXPECT_DOUBLE_EQ(after->curves[0].stroke_width, before->curves[0].stroke_width);
+  // 0.01 % of the length is the tolerance of points without noise; the ends are the drawing's.
+  const auto& first = before->curves[0].pieces.front().control.front();
+  const auto& last = before->curves[0].pieces.back().control.back();
+  EXPECT_LT(core::distance(after->curves[0].pieces.front().control.front(), first), 0.05);
+  EXPECT_LT(core::distance(after->curves[0].pieces.back().control.back(), last), 0.05);
 }
 
 TEST(Commands, SameBytesWithOneThreadAndTwo) {

@@ -166,6 +166,20 @@ TEST(SvgDocument, HoldsLayersColoursAndWidths) {
   EXPECT_THAT(svg->content, HasSubstr("stroke-width=\"0.25\""));
 }
 
+TEST(SvgDocument, KeepsThePageOfADrawing) {
+  const auto given = read_svg_document(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='80mm' height='60mm' viewBox='10 20 160 120'>"
+      "<path d='M30 40C50 40 60 60 90 70' stroke='#112233'/></svg>");
+  ASSERT_TRUE(given);
+  const auto written = write_svg_document(*given, 0.001);
+  ASSERT_TRUE(written);
+  EXPECT_THAT(written->content, HasSubstr("width=\"80mm\" height=\"60mm\" viewBox=\"5 10 80 60\""));
+  const auto again = read_svg_document(written->content);
+  ASSERT_TRUE(again && again->page);
+  EXPECT_EQ(again->page->low, given->page->low);
+  EXPECT_EQ(again->page->high, given->page->high);
+}
+
 TEST(SvgDocument, AChangedDrawingCounts) {
   std::string text = write_svg_document(mixed(), 0.001)->content;
   const std::size_t at = text.find("<g id=\"layer1\"");

@@ -118,6 +118,28 @@ TEST(SvgReader, ScalesToMillimetresByViewBox) {
   EXPECT_EQ(end("width='-5' height='0'"), (std::pair<std::string, Point2>("px", {10, 10})));
 }
 
+TEST(SvgReader, SaysWhatThePageShows) {
+  const auto page = [](const std::string& attributes) {
+    const SvgContents c = contents(wrap("<line x2='10' y2='-10'/>", attributes));
+    return c.page ? std::array{c.page->low.x, c.page->low.y, c.page->high.x, c.page->high.y}
+                  : std::array<double, 4>{};
+  };
+  using Sides = std::array<double, 4>;
+  EXPECT_EQ(page(""), Sides{});
+  EXPECT_EQ(page("width='200mm'"), Sides{});
+  EXPECT_EQ(page("width='40' height='30'"), (Sides{0, -30, 40, 0}));
+  EXPECT_EQ(page("viewBox='5 6 40 20'"), (Sides{5, -26, 45, -6}));
+  EXPECT_EQ(page("width='200mm' height='100mm' viewBox='5 6 400 200'"),
+            (Sides{2.5, -103, 202.5, -3}));
+  // Another aspect shows what lies beside the viewBox: here 50 px above and below, or all below.
+  EXPECT_EQ(page("width='100' height='200' viewBox='0 0 100 100'"), (Sides{0, -150, 100, 50}));
+  EXPECT_EQ(page("width='100' height='200' viewBox='0 0 100 100' "
+                 "preserveAspectRatio='xMidYMin meet'"),
+            (Sides{0, -200, 100, 0}));
+  EXPECT_EQ(page("width='100' height='200' viewBox='0 0 100 100' preserveAspectRatio='none'"),
+            (Sides{0, -200, 100, 0}));
+}
+
 TEST(SvgReader, ReadsShapes) {
   const SvgContents c = contents(
       wrap("<rect id='r' x='1' y='2' width='3' height='4'/><rect width='10' height='10' rx='2'/>"

@@ -78,6 +78,7 @@ std::vector<document::PlanarCurve> curves_of(std::vector<curve::Bezier2> pieces)
 Document document_of(SvgContents svg) {
   Document document;
   document.unit = svg.unit;
+  document.page = svg.page;
   for (SvgCurve& curve : svg.curves) {
     document::NamedPath named{
         {curve.name, curve.layer, curve.color}, {{}, curve.closed}, curve.stroke_width};
@@ -101,7 +102,10 @@ Result<Document> read_svg_document(std::string_view bytes) {
   const auto metadata = parse_json(svg->metadata);
   if (metadata && is_current(*metadata, *svg)) {
     auto exact = document_from_json(*metadata);
-    if (exact) return exact;
+    if (exact) {
+      exact->page = svg->page;
+      return exact;
+    }
   }
   Document document = document_of(std::move(*svg));
   document.skipped.push_back(

@@ -129,21 +129,14 @@ class SvgReader {
         size->reset();
       }
     check_view_box(root);
-    const bool physical = (width && width->physical) || (height && height->physical);
-    contents_.unit = physical ? "mm" : "px";
-    const auto in_unit = [physical](detail::SvgLength l) { return physical ? in_mm(l) : in_px(l); };
-    double x = physical ? detail::kMillimetresPerPx : 1;
-    double y = x;
-    if (const auto box = detail::parse_svg_view_box(root.attribute("viewBox").value())) {
-      if (width) x = in_unit(*width) / box->width;
-      if (height) y = in_unit(*height) / box->height;
-      if (!width && height) x = y;
-      if (width && !height) y = x;
-      const bool none = std::strcmp(root.attribute("preserveAspectRatio").value(), "none") == 0;
-      if (!width && !height) x = y = 1;
-      if (!none) x = y = std::min(x, y);
-    }
-    return {x, 0, 0, -y, 0, 0};
+    const detail::SvgFrame frame = detail::outermost_frame(
+        width, height, detail::parse_svg_view_box(root.attribute("viewBox").value()),
+        root.attribute("preserveAspectRatio").value());
+    contents_.unit = frame.physical ? "mm" : "px";
+    if (const auto& page = frame.page)
+      contents_.page = {apply(frame.map, {page->x, page->y + page->height}),
+                        apply(frame.map, {page->x + page->width, page->y})};
+    return frame.map;
   }
 
   void read_children(const pugi::xml_node& parent, const Place& place) {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "keyline/core/error.h"
 #include "keyline/curve/bezier.h"
+#include "keyline/curve/bounding_box.h"
 
 namespace keyline::exchange {
 
@@ -28,8 +30,9 @@ struct SvgSkipped {
 
 struct SvgContents {
   std::vector<SvgCurve> curves = {};
-  std::string unit = {};      ///< "mm" where the file states a physical size, else "px"
-  std::string metadata = {};  ///< our own JSON exactly as write_svg() got it; else empty
+  std::string unit = {};                 ///< "mm" where the file states a physical size, else "px"
+  std::optional<curve::Box2> page = {};  ///< what the file shows, where it says so
+  std::string metadata = {};             ///< our own JSON exactly as write_svg() got it; else empty
   std::vector<SvgSkipped> skipped = {};
 };
 

@@ -149,4 +149,40 @@ std::optional<SvgLength> parse_svg_length(std::string_view text) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Scales of the viewBox in the lengths that the sizes are given in; 0 for one that is not.
+Affine scales(double width, double height, const SvgViewBox& box, bool even) {
+  double x = width > 0 ? width / box.width : height > 0 ? height / box.height : 1;
+  double y = height > 0 ? height / box.height : x;
+  if (even) x = y = std::min(x, y);
+  return {x, 0, 0, -y, 0, 0};
+}
+
+}  // namespace
+
+SvgFrame outermost_frame(const std::optional<SvgLength>& width,
+                         const std::optional<SvgLength>& height,
+                         const std::optional<SvgViewBox>& box, std::string_view aspect) {
+  SvgFrame frame;
+  frame.physical = (width && width->physical) || (height && height->physical);
+  const auto size = [&frame](const std::optional<SvgLength>& l) {
+    return !l ? 0 : frame.physical ? in_mm(*l) : in_px(*l);
+  };
+  const double w = size(width);
+  const double h = size(height);
+  frame.page = box;
+  if (box) {
+    frame.map = scales(w, h, *box, aspect != "none");
+    if (w == 0 || h == 0) return frame;
+    const Affine fit = fit_view_box(*box, w, h, aspect);
+    frame.page = SvgViewBox{-fit.e / fit.a, -fit.f / fit.d, w / fit.a, h / fit.d};
+    return frame;
+  }
+  const double scale = frame.physical ? kMillimetresPerPx : 1;
+  frame.map = {scale, 0, 0, -scale, 0, 0};
+  if (w > 0 && h > 0) frame.page = SvgViewBox{0, 0, w / scale, h / scale};
+  return frame;
+}
+
 }  // namespace keyline::exchange::detail

@@ -54,4 +54,18 @@ inline double in_px(SvgLength l) { return l.physical ? l.value / kMillimetresPer
 inline double in_mm(SvgLength l) { return l.physical ? l.value : l.value * kMillimetresPerPx; }
 std::optional<SvgLength> parse_svg_length(std::string_view text);
 
+/// The outermost user space of a file.
+struct SvgFrame {
+  bool physical = false;           ///< its lengths come out in mm, else in px
+  Affine map;                      ///< user units to them, y up
+  std::optional<SvgViewBox> page;  ///< what the file shows, in user units; empty: not said
+};
+
+/// The frame of a root element of these sizes (positive where given). The page is the viewBox;
+/// where both sizes are given and their aspect is another one, what lies beside it too, as
+/// preserveAspectRatio says.
+SvgFrame outermost_frame(const std::optional<SvgLength>& width,
+                         const std::optional<SvgLength>& height,
+                         const std::optional<SvgViewBox>& box, std::string_view aspect);
+
 }  // namespace keyline::exchange::detail
