@@ -133,9 +133,12 @@ class SvgReader {
         width, height, detail::parse_svg_view_box(root.attribute("viewBox").value()),
         root.attribute("preserveAspectRatio").value());
     contents_.unit = frame.physical ? "mm" : "px";
-    if (const auto& page = frame.page)
-      contents_.page = {apply(frame.map, {page->x, page->y + page->height}),
-                        apply(frame.map, {page->x + page->width, page->y})};
+    if (const auto& page = frame.page) {
+      const curve::Box2 box{apply(frame.map, {page->x, page->y + page->height}),
+                            apply(frame.map, {page->x + page->width, page->y})};
+      const bool seen = curve::width(box) > 0 && curve::height(box) > 0;
+      if (seen && core::is_finite(box.low) && core::is_finite(box.high)) contents_.page = box;
+    }
     return frame.map;
   }
 
