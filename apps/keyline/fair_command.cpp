@@ -131,7 +131,7 @@ json document_of(const std::vector<Shown>& all, const std::vector<json>& shown,
   double tolerance = answer_of(all.front()).tolerance;
   for (std::size_t i = 0; i < all.size(); ++i) {
     json curve{{"name", all[i].name}, {"curve", shown[i]["curve"]}};
-    for (const char* look : {"layer", "color", "stroke_width"})
+    for (const char* look : {"layer", "color", "stroke_width", "plane"})
       if (things[i].contains(look)) curve[look] = things[i][look];
     document["curves"].push_back(std::move(curve));
     tolerance = std::min(tolerance, answer_of(all[i]).tolerance);

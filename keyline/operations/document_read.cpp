@@ -220,6 +220,16 @@ ReadAnswer answer_of(document::Document document) {
   return answer;
 }
 
+}  // namespace
+
+std::optional<Placement> placement_of(const acquire::Plane& plane) {
+  if (plane == acquire::Plane{}) return std::nullopt;
+  const auto point = [](core::Vector3 v) { return core::Point3{} + v; };
+  return Placement{plane.origin, point(plane.axis_x), point(plane.axis_y)};
+}
+
+namespace {
+
 Result<ReadAnswer> read_curves(const InputRequest& input) {
   const std::string& file = input.file.front();
   auto document = exchange::is_mesh_file(file) && !input.section.empty()
@@ -231,10 +241,15 @@ Result<ReadAnswer> read_curves(const InputRequest& input) {
   if (!input.unit.empty()) document->unit = input.unit;
   if (input.trims) document::add_trim_curves(*document);
   if (input.planar && document->surfaces.empty()) {
-    exchange::flatten(*document, document->skipped);
+    const std::size_t plane_already = document->paths.size();
+    const auto planes = exchange::flatten(*document, document->skipped);
     if (document->paths.empty())
       return fail(ErrorCode::bad_input, "there is no planar curve in it",
                   "give curves that lie in a plane", file);
+    ReadAnswer answer = answer_of(std::move(*document));
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      answer.curves[plane_already + i].plane = placement_of(planes[i]);
+    return answer;
   }
   return answer_of(std::move(*document));
 }

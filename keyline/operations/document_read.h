@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "keyline/acquire/plane.h"
 #include "keyline/core/progress.h"
 #include "keyline/document/document.h"
 #include "keyline/operations/subject.h"
@@ -60,6 +61,21 @@ struct InputRequest {
   }
 };
 
+/// Where a plane curve lies in space.
+struct Placement {
+  core::Point3 origin;
+  core::Point3 axis_x{1, 0, 0};
+  core::Point3 axis_y{0, 1, 0};
+  static constexpr auto describe() {
+    return core::fields(core::field<&Placement::origin>("the place of the plane's (0, 0)"),
+                        core::field<&Placement::axis_x>("way to (1, 0); of length 1"),
+                        core::field<&Placement::axis_y>("way to (0, 1); of length 1"));
+  }
+};
+
+/// None for the plane z = 0 with the axes x and y.
+std::optional<Placement> placement_of(const acquire::Plane& plane);
+
 /// A curve, or points, with its label.
 struct NamedCurve {
   std::string name;
@@ -68,6 +84,7 @@ struct NamedCurve {
   double stroke_width = 0;
   std::optional<AnyCurve> curve;
   std::optional<acquire::KeyLine> line;
+  std::optional<Placement> plane = {};
   static constexpr auto describe() {
     return core::fields(
         core::field<&NamedCurve::name>("in the file; may be empty"),
@@ -77,7 +94,8 @@ struct NamedCurve {
             .in("length")
             .within(core::at_least(0)),
         core::field<&NamedCurve::curve>("the curve, exact"),
-        core::field<&NamedCurve::line>("measured points, put in order and cleaned"));
+        core::field<&NamedCurve::line>("measured points, put in order and cleaned"),
+        core::field<&NamedCurve::plane>("in which a plane curve lies, where it is not z = 0"));
   }
 };
 

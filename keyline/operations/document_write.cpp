@@ -18,6 +18,31 @@ document::Path path_of(const acquire::KeyLine& line) {
   return {{{std::move(polyline)}}, line.closed};
 }
 
+/// How far it reaches from its start, about; 1 where it is a point.
+double size_of(const document::Path& path) {
+  constexpr int kSamples = 16;
+  const core::Point2 start = evaluate(path.curves.front(), 0);
+  double size = 0;
+  for (const document::PlanarCurve& member : path.curves)
+    for (int i = 0; i <= kSamples; ++i)
+      size = std::max(size, core::distance(start, evaluate(member, 1.0 * i / kSamples)));
+  return size > 0 ? size : 1;
+}
+
+/// A plane curve with a plane as a curve of space; false for other curves, which lie where they
+/// are. tolerance: 0 for 1e-5 of its size.
+bool put_in_space(document::Document& document, const NamedCurve& named, double tolerance) {
+  const auto path = planar_path(*named.curve);
+  if (!path || path->curves.empty()) return false;
+  const auto vector = [](core::Point3 p) { return p - core::Point3{}; };
+  const acquire::Plane plane{named.plane->origin, vector(named.plane->axis_x),
+                             vector(named.plane->axis_y)};
+  const double within = tolerance > 0 ? tolerance : 1e-5 * size_of(*path);
+  document.space_curves.push_back(
+      {{named.name, named.layer, named.color}, exchange::placed(*path, plane, within)});
+  return true;
+}
+
 bool is_planar_format(const std::string& extension) {
   return extension == ".svg" || extension == ".svgz" || extension == ".glif" || extension == ".pdf";
 }
@@ -86,6 +111,7 @@ document::Document document_of(const WriteRequest& request) {
     const document::Label label{c.name, c.layer, c.color};
     if (c.line) document.paths.push_back({label, path_of(*c.line), c.stroke_width});
     if (!c.curve) continue;
+    if (c.plane && put_in_space(document, c, request.format.tolerance)) continue;
     if (const auto path = planar_path(*c.curve))
       document.paths.push_back({label, *path, c.stroke_width});
     else if (const auto* space = std::get_if<document::SpaceCurve>(&*c.curve))

@@ -195,6 +195,40 @@ TEST(Commands, SvgReadsBackAsTheExactChain) {
   EXPECT_EQ(slurp(s.path("a.json")), slurp(s.path("b.json")));
 }
 
+/// A waterline at height 2, a half breadth every metre.
+TEST(Commands, AFairedCurveOfAHullStaysInItsPlane) {
+  const Scratch s;
+  const std::string hull =
+      s.write("hull.csv",
+              "waterline,0,1,2,3,4,5,6\n0,,0.1,0.3,0.5,0.5,0.2,0\n1,0.1,0.8,1.6,2,1.9,1.3,0.4\n"
+              "2,0.3,1.2,2,2.4,2.3,1.9,1\n3,0.5,1.5,2.2,2.5,2.45,2.2,1.6\n");
+  const std::string given = s.path("given.json");
+  const std::string faired = s.path("faired.json");
+  ASSERT_EQ(
+      run_keyline("convert --quiet --unit m --select waterline-3 " + hull + " -o " + given).status,
+      0);
+  const Outcome o =
+      run_keyline("fair --quiet --unit m --select waterline-3 " + hull + " -o " + faired);
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json before = json::parse(slurp(given));
+  const json after = json::parse(slurp(faired));
+  EXPECT_EQ(after["unit"], "m");
+  const auto curve_of = [](const json& document) {
+    return document.contains("curves") ? document["curves"].at(0)["curve"] : document["curve"];
+  };
+  const json points = curve_of(before)["points"];
+  const json control = curve_of(after)["points"];
+  for (const json& p : control) {
+    ASSERT_EQ(p.size(), 3U) << after.dump();
+    EXPECT_NEAR(p[2].get<double>(), 2, 1e-12);
+  }
+  // Its ends are the table's, within the tolerance.
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(control.front()[k].get<double>(), points.front()[k].get<double>(), 0.05);
+    EXPECT_NEAR(control.back()[k].get<double>(), points.back()[k].get<double>(), 0.05);
+  }
+}
+
 /// The drawing's page, layer and colours stay; the faired curve lies over the one given.
 TEST(Commands, AFairedDrawingLiesOverTheOriginal) {
   const Scratch scratch;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/core/text.h"
+#include "keyline/exchange/cubic_path.h"
 
 namespace keyline::exchange {
 namespace {
@@ -59,7 +60,8 @@ std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve) {
   return std::nullopt;
 }
 
-void flatten(document::Document& document, std::vector<std::string>& notes) {
+std::vector<acquire::Plane> flatten(document::Document& document, std::vector<std::string>& notes) {
+  std::vector<acquire::Plane> planes;
   std::vector<document::NamedSpaceCurve> left;
   for (auto& named : document.space_curves) {
     auto form = planar_form(named.curve);
@@ -68,6 +70,7 @@ void flatten(document::Document& document, std::vector<std::string>& notes) {
       continue;
     }
     notes.push_back(named.label.name + ": " + described(form->plane));
+    planes.push_back(form->plane);
     document::NamedPath path;
     path.label = named.label;
     path.path.closed = distance(evaluate(form->curve, 0), evaluate(form->curve, 1)) == 0;
@@ -75,6 +78,27 @@ void flatten(document::Document& document, std::vector<std::string>& notes) {
     document.paths.push_back(std::move(path));
   }
   document.space_curves = std::move(left);
+  return planes;
+}
+
+document::SpaceCurve placed(const document::Path& path, const acquire::Plane& plane,
+                            double tolerance) {
+  curve::BSpline3 spline;
+  double knot = 0;
+  spline.knots.push_back(knot);
+  for (curve::Bezier2 piece : cubic_path(path, "", tolerance).path.pieces) {
+    const int missing = 4 - static_cast<int>(piece.control.size());
+    if (missing > 0) piece = curve::elevate_degree(piece, missing);
+    if (spline.control.empty())
+      spline.control.push_back(acquire::from_plane(plane, piece.control[0]));
+    spline.knots.insert(spline.knots.end(), 3, knot);
+    for (std::size_t i = 1; i < 4; ++i)
+      spline.control.push_back(acquire::from_plane(plane, piece.control[i]));
+    knot += 1;
+  }
+  spline.knots.insert(spline.knots.end(), 4, knot);
+  for (double& k : spline.knots) k /= std::max(knot, 1.0);
+  return {std::move(spline)};
 }
 
 }  // namespace keyline::exchange

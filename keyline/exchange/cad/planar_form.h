@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "keyline/acquire/plane.h"
 #include "keyline/document/document.h"
@@ -21,6 +22,11 @@ std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve);
 
 /// Every space curve that lies in a plane becomes a planar path of the same name; notes which
 /// coordinates it now has, for example "waterline-3: in the plane z = 1.5; x and y".
-void flatten(document::Document& document, std::vector<std::string>& notes);
+/// Returns: the plane of each, in the order in which they now end the document's paths.
+std::vector<acquire::Plane> flatten(document::Document& document, std::vector<std::string>& notes);
+
+/// A path of the plane as one curve in space, piecewise cubic within `tolerance` (> 0) of it.
+document::SpaceCurve placed(const document::Path& path, const acquire::Plane& plane,
+                            double tolerance);
 
 }  // namespace keyline::exchange
