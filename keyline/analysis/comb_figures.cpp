@@ -11,6 +11,7 @@ constexpr int kGrid = 4000;
 constexpr int kWithin = 20;  // steps of the grid: 0.5 % of the length
 constexpr double kSeen = 0.02;
 constexpr double kTail = 0.005;
+constexpr double kPace = 0.25;  // of the range within 0.5 %: all of it within 2 %
 
 /// Curvature at even steps of the length.
 std::vector<double> resampled(const curve::CurvatureGraph& graph) {
@@ -59,6 +60,42 @@ int extrema(const std::vector<double>& grid, double swing) {
   return found;
 }
 
+/// Places where curvature turns that quickly on both sides.
+std::vector<CombMark> needles(const std::vector<double>& grid, double range) {
+  std::vector<CombMark> found;
+  for (std::size_t i = kWithin; i + kWithin < grid.size(); ++i) {
+    const double before = (grid[i] - grid[i - kWithin]) / range;
+    const double after = (grid[i] - grid[i + kWithin]) / range;
+    const double change = std::min(std::abs(before), std::abs(after));
+    if (before * after > 0 && change >= kPace)
+      found.push_back({true, static_cast<double>(i), change});
+  }
+  return found;
+}
+
+std::vector<CombMark> near_steps(const std::vector<double>& grid, double range) {
+  std::vector<CombMark> found;
+  for (std::size_t i = kWithin; i < grid.size(); ++i) {
+    const double change = std::abs(grid[i] - grid[i - kWithin]) / range;
+    if (change >= kPace) found.push_back({false, i - 0.5 * kWithin, change});
+  }
+  return found;
+}
+
+/// Of marks at neighbouring places the sharpest.
+void keep_sharpest(std::vector<CombMark>& marks) {
+  std::vector<CombMark> kept;
+  double last = 0;
+  for (const CombMark& mark : marks) {
+    if (kept.empty() || mark.at > last + 1)
+      kept.push_back(mark);
+    else if (mark.change > kept.back().change)
+      kept.back() = mark;
+    last = mark.at;
+  }
+  marks = std::move(kept);
+}
+
 }  // namespace
 
 CombFigures comb_figures(const curve::CurvatureGraph& graph) {
@@ -76,6 +113,28 @@ CombFigures comb_figures(const curve::CurvatureGraph& graph) {
   }
   figures.energy *= std::pow(graph.arc_length.back() - graph.arc_length.front(), 3);
   return figures;
+}
+
+std::vector<CombMark> comb_marks(const curve::CurvatureGraph& graph) {
+  const std::vector<double> grid = resampled(graph);
+  const double range = range_of(grid);
+  if (!(range > 0)) return {};
+  std::vector<CombMark> marks = needles(grid, range);
+  keep_sharpest(marks);
+  std::vector<CombMark> steps = near_steps(grid, range);
+  keep_sharpest(steps);
+  const std::size_t sharp = marks.size();
+  for (const CombMark& step : steps) {
+    const auto beside = [&](const CombMark& needle) {
+      return std::abs(needle.at - step.at) <= 2 * kWithin;
+    };
+    if (std::none_of(marks.begin(), marks.begin() + static_cast<std::ptrdiff_t>(sharp), beside))
+      marks.push_back(step);
+  }
+  std::sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  const double from = graph.arc_length.front();
+  for (CombMark& mark : marks) mark.at = from + (graph.arc_length.back() - from) * mark.at / kGrid;
+  return marks;
 }
 
 }  // namespace keyline::analysis

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "keyline/core/describe.h"
 #include "keyline/curve/curvature_graph.h"
 
@@ -27,5 +29,20 @@ struct CombFigures {
 /// Source: energy by H. Moreton and C. Sequin, Functional optimization for fair surface design,
 ///         SIGGRAPH 1992.
 CombFigures comb_figures(const curve::CurvatureGraph& graph);
+
+/// Where a comb has something that a finger feels.
+struct CombMark {
+  bool needle = false;  ///< a rise and at once a fall, or the reverse; else a near-step
+  double at = 0;        ///< arc length
+  double change = 0;    ///< of curvature within 0.5 % of the length, as a share of its range
+};
+
+/// Near-steps: curvature changes at a pace at which its range would be passed within 2 % of the
+/// length, which is as short as anything can be and still be seen as a piece of its own
+/// (a quarter of the range within 0.5 %). Needles: a turn with such a pace on either side. In
+/// order along the curve, the sharpest place of each. A closed curve's seam is an end.
+///
+/// Precondition: as for comb_figures().
+std::vector<CombMark> comb_marks(const curve::CurvatureGraph& graph);
 
 }  // namespace keyline::analysis

@@ -163,6 +163,25 @@ void add_teeth(ModelFigure& figure, const SampledCurve& curve, const std::vector
   figure.drawing.add(Shape{path, Stroke{lighter(palette(0), 0.55), 0.7, {}}, std::nullopt});
 }
 
+/// Rings about the tips of teeth with their letters beyond; of those on one spot the first.
+void add_marks(ModelFigure& figure, const SampledCurve& curve, const std::vector<Point2>& tips) {
+  Marks rings{.marker = Marker::circle, .size = 8, .color = palette(1)};
+  for (const CurveMark& mark : curve.marks) {
+    if (mark.sample >= tips.size() || !core::is_finite(tips[mark.sample])) continue;
+    const Point2 at = to_page(figure.view, tips[mark.sample]);
+    const auto near = [at](Point2 other) { return core::distance(at, other) < 9; };
+    if (std::any_of(rings.points.begin(), rings.points.end(), near)) continue;
+    rings.points.push_back(at);
+    figure.drawing.add(Label{.at = {at.x + 6, at.y - 6},
+                             .text = mark.text,
+                             .size = 10.5,
+                             .color = palette(1),
+                             .bold = true,
+                             .halo = 2});
+  }
+  if (!rings.points.empty()) figure.drawing.add(rings);
+}
+
 }  // namespace
 
 Drawing curvature_comb(const SampledCurve& curve, const ChartOptions& options) {
@@ -183,6 +202,7 @@ Drawing curvature_comb(const SampledCurve& curve, const ChartOptions& options) {
   add_teeth(figure, curve, tips);
   detail::add_line(figure, tips, Stroke{palette(0), 1, {}});
   detail::add_curve(figure, curve, Stroke{kInk, 1.8, {}});
+  add_marks(figure, curve, tips);
   detail::add_piece_numbers(figure, curve);
   detail::add_scale_bar(figure, options.unit);
   return std::move(figure.drawing);

@@ -9,6 +9,12 @@
 
 namespace keyline::figure {
 
+/// A place of a curve to look at.
+struct CurveMark {
+  std::size_t sample = 0;
+  std::string text = {};  ///< a letter or two
+};
+
 /// A curve as figures need it: samples in order along it. All four lists have the same length
 /// (InvalidInput otherwise); what is not finite is left out.
 struct SampledCurve {
@@ -19,6 +25,7 @@ struct SampledCurve {
   std::vector<double> curvature = {};      ///< signed, positive turning left
   std::vector<std::size_t> joints = {};    ///< samples at which one piece ends and the next starts
   std::vector<std::string> piece_names = {};  ///< written at the pieces; empty: 1, 2, 3 …
+  std::vector<CurveMark> marks = {};          ///< ringed in the comb
 };
 
 struct ChartOptions {

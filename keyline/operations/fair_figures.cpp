@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "keyline/curve/concept.h"
+#include "keyline/curve/length.h"
 #include "keyline/fit/smoothing_spline.h"
 #include "keyline/lac/chain/chain.h"
 
@@ -71,6 +72,24 @@ FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult
   figures.smoothing_spline = analysis::comb_figures(*smooth);
   figures.fair = straight || as_fair(figures.answer, *figures.smoothing_spline);
   return figures;
+}
+
+std::vector<analysis::CombMark> comb_marks(const fairing::FairResult& result) {
+  std::vector<analysis::CombMark> marks;
+  double from = 0;
+  for (const fairing::FairCurve& member : result.curves) {
+    const auto* chain = std::get_if<lac::Chain>(&member);
+    if (!chain) {
+      from += curve::arc_length(std::get<curve::BSpline2>(member));
+      continue;
+    }
+    for (analysis::CombMark mark : analysis::comb_marks(graph_of(*chain))) {
+      mark.at += from;
+      marks.push_back(mark);
+    }
+    from += lac::arc_length(*chain);
+  }
+  return marks;
 }
 
 }  // namespace keyline::operations

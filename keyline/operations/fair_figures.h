@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "keyline/acquire/key_line.h"
 #include "keyline/analysis/comb_figures.h"
@@ -29,5 +30,8 @@ struct FairFigures {
 
 /// Waves of all members together, energy and jolt of the worst.
 FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult& result);
+
+/// Near-steps and needles of the answer's chains, by arc length from the start of the whole.
+std::vector<analysis::CombMark> comb_marks(const fairing::FairResult& result);
 
 }  // namespace keyline::operations

@@ -30,9 +30,13 @@ const operations::FairAnswer& fair_of(const Shown& shown) {
   return *shown.outcome.result_as<operations::FairAnswer>();
 }
 
+const operations::FairRequest& request_of(const Shown& shown) {
+  return *shown.outcome.request_as<operations::FairRequest>();
+}
+
 ReportOptions fair_options(const Shown& shown, const ReportOptions& given) {
   ReportOptions options = titled(given, "Faired key-line", shown.name);
-  const auto& request = *shown.outcome.request_as<operations::FairRequest>();
+  const auto& request = request_of(shown);
   const bool by_rule = request.options.tolerance <= 0;
   options.options.insert(options.options.begin(),
                          {"tolerance", fmt::format("{:.6g}{}", fair_of(shown).tolerance,
@@ -163,8 +167,9 @@ Pages fair_pages(const std::vector<Shown>& all, const ReportOptions& options) {
       [=]() -> Result<Report> {
         std::vector<Report> reports;
         for (const Shown& one : all)
-          reports.push_back(
-              fair_report(named_line(one), fair_of(one).faired, fair_options(one, options)));
+          reports.push_back(fair_report(named_line(one), fair_of(one).faired,
+                                        fair_options(one, options),
+                                        request_of(one).options.slopes));
         return joined_report(reports, "Faired key-lines");
       });
 }

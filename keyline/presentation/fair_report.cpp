@@ -12,6 +12,7 @@
 #include "keyline/operations/fair_figures.h"
 #include "keyline/presentation/curve_samples.h"
 #include "keyline/presentation/fair_joints.h"
+#include "keyline/presentation/fair_marks.h"
 #include "keyline/presentation/report_parts.h"
 
 namespace keyline::presentation {
@@ -30,7 +31,8 @@ constexpr int kGraphSamples = 201;
 struct Material {
   const acquire::KeyLine& line;
   const FairResult& result;
-  const ReportOptions& options;
+  const FairReportOptions& options;
+  core::Interval slopes;
   operations::FairFigures fairness;
   SampledCurve faired;
   SampledCurve spline;
@@ -141,8 +143,12 @@ report::Section curvature_section(const Material& m) {
       {figure::curvature_plot(curves, m.chart),
        "Curvature along the faired curve and, for comparison, along the spline through the points "
        "(stretched to the same length). Bands and numbers are the pieces, counted from 0."});
-  section.figures.push_back({figure::curvature_comb(m.faired, m.chart),
-                             "Curvature comb of the faired curve: a wobble would show here."});
+  SampledCurve marked = m.faired;
+  detail::add_marks(marked, m.result, m.slopes);
+  section.figures.push_back(
+      {figure::curvature_comb(marked, m.chart),
+       std::string("Curvature comb of the faired curve: a wobble would show here. ") +
+           (marked.marks.empty() ? "" : detail::kMarksCaption)});
   section.figures.push_back(
       {figure::evolute_chart(m.faired, m.chart),
        "Evolute of the faired curve, the locus of its centres of curvature. It runs to infinity at "
@@ -217,8 +223,10 @@ report::ReportTable piece_table(const Material& m) {
                              {"Radius start \u2026 end", number},
                              {"Volume", number},
                              {"Deviation", number},
-                             {"Impression", text}},
+                             {"Impression", text},
+                             {"Look at", text}},
                             {}};
+  const auto marks = detail::piece_marks(m.result, m.slopes);
   for (std::size_t i = 0; i < m.result.pieces.size(); ++i) {
     const FairPiece& piece = m.result.pieces[i];
     const lac::Piece* shape = lac_piece(m.result, piece);
@@ -227,7 +235,8 @@ report::ReportTable piece_table(const Material& m) {
          length_text(piece.length, unit),
          shape ? detail::radii_text(shape->curvature_start, shape->curvature_end, unit) : "",
          detail::area_text(piece.volume, unit), length_text(piece.deviation, unit, 3),
-         piece.told ? fairing::impression(piece) : "the points do not tell"});
+         piece.told ? fairing::impression(piece) : "the points do not tell",
+         detail::marks_text(marks[i])});
   }
   return table;
 }
@@ -323,12 +332,13 @@ void add_repeat(const Material& m, report::Report& report) {
 }  // namespace
 
 report::Report fair_report(const acquire::KeyLine& line, const FairResult& result,
-                           const FairReportOptions& options) {
+                           const FairReportOptions& options, core::Interval slopes) {
   if (line.points.size() != result.offsets.size())
     throw core::InvalidInput("fair_report: the result is of another key-line");
   const Material m{line,
                    result,
                    options,
+                   slopes,
                    operations::fair_figures(line, result),
                    detail::faired_samples(result),
                    detail::spline_samples(result),

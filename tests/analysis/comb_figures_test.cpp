@@ -1,5 +1,6 @@
 #include "keyline/analysis/comb_figures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,6 +49,32 @@ TEST(CombFigures, OfACircleAreNone) {
   EXPECT_EQ(f.waves, 0);
   EXPECT_EQ(f.energy, 0);
   EXPECT_EQ(f.jolt, 0);
+}
+
+TEST(CombMarks, FindANearStepAndANeedle) {
+  // 1 over a hundredth of the length about the middle: half of it within 0.5 %.
+  const auto step = [](double t) { return std::clamp((t - 0.495) / 0.01, 0.0, 1.0); };
+  const auto steps = comb_marks(graph(10, step));
+  ASSERT_EQ(steps.size(), 1U);
+  EXPECT_FALSE(steps[0].needle);
+  EXPECT_NEAR(steps[0].at, 5, 0.05);
+  EXPECT_NEAR(steps[0].change, 0.5, 1e-9);
+  // The same up and down again.
+  const auto needle = [](double t) {
+    return std::max(0.0, 1 - std::abs(t - 0.3) / 0.01) + 0.01 * t;
+  };
+  const auto needles = comb_marks(graph(10, needle));
+  ASSERT_EQ(needles.size(), 1U);
+  EXPECT_TRUE(needles[0].needle);
+  EXPECT_NEAR(needles[0].at, 3, 1e-9);
+}
+
+TEST(CombMarks, PassWhatIsSmooth) {
+  EXPECT_TRUE(comb_marks(graph(1, [](double t) { return std::sin(40 * t); })).empty());
+  // Three times the width of a near-step.
+  const auto ramp = [](double t) { return std::clamp((t - 0.4) / 0.03, 0.0, 1.0); };
+  EXPECT_TRUE(comb_marks(graph(1, ramp)).empty());
+  EXPECT_TRUE(comb_marks(graph(5, [](double) { return 2.0; })).empty());
 }
 
 }  // namespace

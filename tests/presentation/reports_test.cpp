@@ -75,6 +75,31 @@ TEST(FairReport, HoldsEveryPieceJointAndNote) {
   EXPECT_EQ(report.options.front().first, "seed");
 }
 
+TEST(FairReport, SaysWhatToLookAtAgain) {
+  // An arc, a quarter of the bend within a hundred-and-fiftieth of the way, the rest of it, an arc.
+  Faired f = faired(circle(60, false));
+  const lac::Chain chain{{{0, 0}, 0},
+                         {{-1, 100, 0.01, 0.01}, {-3, 1, 0.01, 0.02}, {-1, 100, 0.02, 0.02}}};
+  f.result.curves = {chain};
+  f.result.pieces.assign(3, {});
+  for (int i = 0; i < 3; ++i) f.result.pieces[i].piece = i;
+  f.result.pieces[1].start = 100;
+  f.result.pieces[1].seen = false;
+  f.result.pieces[2].start = 101;
+  const auto look_at = [&](core::Interval slopes) {
+    const report::Report report = fair_report(f.line, f.result, {}, slopes);
+    std::vector<std::string> texts;
+    for (const auto& row : section(report, "Pieces and their rhythm").tables.at(0).rows)
+      texts.push_back(row.back());
+    return texts;
+  };
+  EXPECT_THAT(look_at({-3, 3}),
+              testing::ElementsAre("", "near-step, too short to see, slope at its limit", ""));
+  EXPECT_THAT(look_at({-4, 3}), testing::ElementsAre("", "near-step, too short to see", ""));
+  const report::Report report = fair_report(f.line, f.result);
+  EXPECT_THAT(section(report, "Curvature").figures.at(1).caption, HasSubstr("near-step"));
+}
+
 TEST(FairReport, IsTheSameBytesTwice) {
   const Faired f = faired_example("bottle.csv");
   EXPECT_EQ(report::html_report(fair_report(f.line, f.result)),
