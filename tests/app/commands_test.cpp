@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/point.h"
-#include "keyline/exchange/svg_reader.h"
+#include "keyline/exchange/svg/svg_reader.h"
 #include "keyline/operations/operation.h"
 
 #include "run_keyline.h"

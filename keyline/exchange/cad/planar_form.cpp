@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "keyline/core/text.h"
-#include "keyline/exchange/cubic_path.h"
+#include "keyline/exchange/svg/cubic_path.h"
 
 namespace keyline::exchange {
 namespace {
