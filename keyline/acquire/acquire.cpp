@@ -150,14 +150,12 @@ Texture texture_of(const Working& work, bool closed, const AcquireOptions& optio
   const double stride = std::round(*options.detail / (kStridesPerWave * step));
   const double most = static_cast<double>(work.points.size()) / kStridesPerWave;
   const auto apart = static_cast<std::size_t>(std::max(1.0, std::min(stride, most)));
-  return {estimate_noise(work.points, closed, apart), apart};
+  return {estimate_noise(work.points, closed, apart), apart, noise_stride(work.points, closed)};
 }
 
 /// Says where waves that one could see are taken for noise.
-void note_texture(const Working& work, const AcquireOptions& options, KeyLine& line) {
-  if (options.noise) return;
-  const Texture texture = texture_of(work, line.closed, options);
-  if (texture.stride <= 1 || texture.stride <= noise_stride(work.points, line.closed)) return;
+void note_texture(const Working& work, const Texture& texture, KeyLine& line) {
+  if (texture.stride <= texture.nearest) return;
   const double length = core::polygon_length(work.points, line.closed);
   const double wave = kStridesPerWave * static_cast<double>(texture.stride) * length /
                       static_cast<double>(work.points.size());
@@ -169,11 +167,10 @@ void note_texture(const Working& work, const AcquireOptions& options, KeyLine& l
 
 /// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
 /// one: integers may also be exact coordinates of a small figure.
-double noise_of(const Working& work, bool closed, const AcquireOptions& options, double rounding) {
-  if (options.noise) return *options.noise;
+double noise_of(const Working& work, bool closed, const Texture& texture, double rounding) {
   const double most = 3e-4 * core::polygon_length(work.points, closed);
-  const double found = texture_of(work, closed, options).noise;
-  const double estimate = work.points.size() < kTelling ? std::min(found, most) : found;
+  const double estimate =
+      work.points.size() < kTelling ? std::min(texture.noise, most) : texture.noise;
   if (work.points.size() < 8) return estimate;
   return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
 }
@@ -205,11 +202,18 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   }
   line.rounding = estimate_rounding(raw);
   const std::size_t stride = noise_stride(work.points, false);
-  const double noise = noise_of(work, false, options, line.rounding);
+  const auto noise_now = [&](const Texture& texture) {
+    return options.noise.value_or(noise_of(work, line.closed, texture, line.rounding));
+  };
+  const auto texture_now = [&] {
+    return options.noise ? Texture{} : texture_of(work, line.closed, options);
+  };
+  const double noise = noise_now(texture_now());
   if (options.remove_outliers) drop_outliers(work, noise, stride, line);
   settle_ends(work, stride, options, line);
-  line.noise = noise_of(work, line.closed, options, line.rounding);
-  note_texture(work, options, line);
+  const Texture texture = texture_now();
+  line.noise = noise_now(texture);
+  note_texture(work, texture, line);
   if (options.find_corners) {
     line.corners = find_corners(work.points, line.closed, line.noise, options.corner_angle);
   }

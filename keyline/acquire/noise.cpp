@@ -173,10 +173,11 @@ Texture estimate_texture(std::span<const core::Point2> points, bool closed) {
   for (std::size_t stride = 2 * nearest; kScales * stride <= points.size(); stride *= 2) {
     const double now = estimate_noise(points, closed, stride);
     if (now <= kStays * before)
-      return stride == 2 * nearest ? Texture{least, nearest} : Texture{now, stride};
+      return stride == 2 * nearest ? Texture{least, nearest, nearest}
+                                   : Texture{now, stride, nearest};
     before = now;
   }
-  return {least, nearest};
+  return {least, nearest, nearest};
 }
 
 double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride) {

@@ -22,7 +22,8 @@ double estimate_noise(std::span<const core::Point2> points, bool closed, std::si
 /// Noise whose neighbours err alike, as a scanned surface's roughness does.
 struct Texture {
   double noise = 0;
-  std::size_t stride = 1;  ///< points apart at which it shows whole; 1: neighbours err by chance
+  std::size_t stride = 1;   ///< points apart at which it shows whole
+  std::size_t nearest = 1;  ///< the least stride, see noise_stride: there errors are chance
 };
 
 /// Looks farther and farther apart, by doubling, until the estimate stays as it is: there roughness

@@ -106,14 +106,18 @@ void measure_spread(std::vector<FitPoint>& points, DenseCurve curve, const Membe
     for (int i = 0; i < kFootSteps; ++i) move_foot(curve, shapes, point, foot);
     return offset_of(point, place_of(curve, shapes, foot));
   };
-  for (FitPoint& p : points)
-    if (p.count > 1) p.low = HUGE_VAL, p.high = -HUGE_VAL;
+  std::vector<double> own(points.size());  // the means' offsets
+  for (std::size_t f = 0; f < points.size(); ++f) {
+    if (!(points[f].count > 1)) continue;
+    own[f] = offset(points[f].position, curve.feet[f]);
+    points[f].low = HUGE_VAL;
+    points[f].high = -HUGE_VAL;
+  }
   for (std::size_t j = 0; j < members.points.size(); ++j) {
     const std::size_t f = members.fitted[j];
     FitPoint& mean = points[f];
     if (!(mean.count > 1)) continue;
-    const double off =
-        offset(members.points[j], curve.feet[f]) - offset(mean.position, curve.feet[f]);
+    const double off = offset(members.points[j], curve.feet[f]) - own[f];
     mean.low = std::min(mean.low, off);
     mean.high = std::max(mean.high, off);
   }
@@ -140,9 +144,12 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
     again.tolerance = kRoom * options.tolerance;
     run.band = least_variation(run.curve, points, again);
   }
+  const auto rms_of_lines = [&] {
+    return std::max(options.residuals.most(kErrorsOfLines), run.band.rms);
+  };
   FlatOptions flat;
   flat.band = piece_band(run, options);
-  flat.most_rms = std::max(options.residuals.most(kErrorsOfLines), run.band.rms);
+  flat.most_rms = rms_of_lines();
   flat.noise = std::max(options.residuals.noise, kLeastNoise * options.tolerance);
   if (run.band.within) lay_lines(run.curve, run.band, points, flat);
   run.calm_energy = run.band.energy;
@@ -150,7 +157,7 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
   run.curve.sense.clear();
   choose_pieces(run, points, options);
   flat.band.spring = run.band.spring;
-  flat.most_rms = std::max(options.residuals.most(kErrorsOfLines), run.band.rms);
+  flat.most_rms = rms_of_lines();
   flat.worth = 1 + kForPieces;
   if (run.band.within) make_arcs(run.curve, run.band, points, flat);
   return run;

@@ -36,9 +36,8 @@ void take_reading(FairPiece& piece, const lac::Piece& shape, int points) {
   piece.told = flat || points >= kTelling;
   if (piece.interpretations.empty() || flat) return;
   const analysis::Interpretation& best = piece.interpretations.front();
-  const auto unsure = [](double error) { return error > kToldSlope; };
-  piece.told = std::none_of(best.slope_errors.begin(), best.slope_errors.end(), unsure);
-  if (best.slopes.empty()) piece.told = false;
+  const auto sure = [](double error) { return error <= kToldSlope; };
+  piece.told = !best.slopes.empty() && std::ranges::all_of(best.slope_errors, sure);
   if (best.slopes.empty() || (best.rhythm == piece.rhythm && best.slopes.size() == 1)) return;
   piece.rhythm = best.rhythm;
   piece.slopes = best.slopes;

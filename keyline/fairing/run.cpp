@@ -202,7 +202,7 @@ void take_calm_points(RunResult& result, const Run& run, const RunFrame& frame, 
     }
     if (bend <= tolerance) return;
   }
-  take_points(result, run, frame, std::max(most, kMostFitPoints));
+  take_points(result, run, frame, most);
 }
 
 /// Of every measured point in the frame's order: which of the fitted ones holds it.
@@ -252,11 +252,10 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
   if (solve_straight(result, run, options)) return;
   if (options.criterion == Criterion::least_variation && options.pieces == 0) {
     if (solve_exact(result, run, frame, spline, options)) return;
-    const RunResult before = result;
+    RunResult shortest = result;
     solve_least_variation(result, run, frame, spline, options);
     const bool stays = !wanders(result.dense, result.points, result.accept.tolerance);
     if ((result.within_tolerance && stays) || options.progress.stop_requested()) return;
-    RunResult shortest = before;
     solve(shortest, run, frame, spline, options);
     if (!shortest.within_tolerance) return;
     result = std::move(shortest);
