@@ -103,7 +103,16 @@ int verdict_of(const std::vector<Shown>& all, std::size_t wanted, const std::str
     }
     if (!answer_of(faired).within_tolerance) missed.push_back(&faired);
   }
-  return missed.empty() ? kDone : report_missed(missed, file);
+  if (!missed.empty()) return report_missed(missed, file);
+  const auto most = std::ranges::max_element(
+      all, {}, [](const Shown& faired) { return answer_of(faired).outside; });
+  if (most == all.end() || answer_of(*most).outside == 0) return kDone;
+  return report_failure({core::ErrorCode::not_converged,
+                         fmt::format("no chain found{} that keeps its bounds: the best passes one "
+                                     "by {:.3g}",
+                                     name_of(*most), answer_of(*most).outside),
+                         "give a larger --tolerance, or a wider --keep-inside", ""},
+                        file);
 }
 
 /// All key-lines of the input; the best until then where the work is cancelled.
@@ -113,6 +122,8 @@ Result<std::vector<Shown>> fair_all(Session& session, const std::vector<json>& t
   for (const json& thing : things) {
     json request = session.of(0);
     request.update(subject_of(thing));
+    if (!request.contains("keep_inside") && thing.contains("keep_inside"))
+      request["keep_inside"] = thing["keep_inside"];
     auto outcome =
         session.perform("fair", request, one_of_many(progress, all.size(), things.size()));
     if (!outcome) return std::unexpected(told_how_far(outcome.error(), all.size(), things.size()));

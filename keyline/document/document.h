@@ -29,6 +29,7 @@ struct NamedPath {
 struct NamedSpaceCurve {
   Label label;
   SpaceCurve curve;
+  bool half_breadth = false;  ///< of a hull: y counts from its centre plane and is never negative
 };
 
 struct NamedSurface {

@@ -63,11 +63,13 @@ Band::Band(const std::vector<FitPoint>& points, double tolerance, double spring)
 }
 
 double Band::room_high(std::size_t j, double offset) const {
-  return tolerance_ - offset - points_[j].share * points_[j].high;
+  const FitPoint& p = points_[j];
+  return std::min(tolerance_ - p.share * p.high, p.highest) - offset;
 }
 
 double Band::room_low(std::size_t j, double offset) const {
-  return tolerance_ + offset + points_[j].share * points_[j].low;
+  const FitPoint& p = points_[j];
+  return std::min(tolerance_ + p.share * p.low, -p.lowest) + offset;
 }
 
 Pull Band::pull(std::size_t j) const {

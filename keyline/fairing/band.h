@@ -57,8 +57,9 @@ class Springs : public Limits {
 };
 
 /// Slacks and multipliers of offset + high <= tolerance and -offset - low <= tolerance, a pair a
-/// point. A first curve need not keep to them: what a limit is passed by counts as extra width,
-/// which every step of Newton's takes back as far as it goes (an infeasible interior point).
+/// point, and of the limits that a point has of its own. A first curve need not keep to them: what
+/// a limit is passed by counts as extra width, which every step of Newton's takes back as far as it
+/// goes (an infeasible interior point).
 ///
 /// Source: S. Wright, Primal-Dual Interior-Point Methods (SIAM, 1997), chapters 1 and 6.
 class Band : public Limits {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "keyline/core/point.h"
@@ -17,11 +18,13 @@ namespace keyline::fairing {
 struct FitPoint {
   core::Point2 position;
   double weight = 1;
-  double low = 0;          ///< <= 0: the run's lowest offset
-  double high = 0;         ///< >= 0: the run's highest offset
-  double count = 1;        ///< how many points the run holds; 0: a guide, not measured
-  bool must_pass = false;  ///< its weight is never changed
-  double share = 1;        ///< offsets from this point count this much; below 1 for guides
+  double low = 0;             ///< <= 0: the run's lowest offset
+  double high = 0;            ///< >= 0: the run's highest offset
+  double count = 1;           ///< how many points the run holds; 0: a guide, not measured
+  bool must_pass = false;     ///< its weight is never changed
+  double share = 1;           ///< offsets from this point count this much; below 1 for guides
+  double lowest = -HUGE_VAL;  ///< limits of its offset (times its share) beside the tolerance
+  double highest = HUGE_VAL;
 };
 
 /// Slopes beyond this are not told apart from it by any data.

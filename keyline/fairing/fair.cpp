@@ -22,6 +22,8 @@ using core::Result;
 constexpr double kCornerRoom =
     0.9;  // of the tolerance: how far chains may meet from a corner's point
 
+constexpr double kOutside = 1e-9;  // of the length: farther out is no matter of rounding
+
 Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (line.points.size() < 2)
     return fail(ErrorCode::bad_input, "a key-line needs at least two points", "give more points");
@@ -92,6 +94,7 @@ class Job {
   Result<FairResult> run() {
     if (options_.region) return run_region();
     runs_ = detail::runs_of(line_, options_);
+    if (auto sound = bound_runs(); !sound) return std::unexpected(sound.error());
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (auto done = fair_one(k, {}); !done) return std::unexpected(done.error());
     tie_corners();
@@ -123,6 +126,30 @@ class Job {
             .progress = core::part_of(whole, 0.4, 1)};
   }
 
+  /// Runs learn what they stay inside; those whose outer ends stand on a border, or beyond it by
+  /// their noise, end on it. bad_input where a point lies farther out than the tolerance.
+  Result<void> bound_runs() {
+    const std::vector<core::HalfPlane> inside = half_planes(options_.keep_inside);
+    for (const core::HalfPlane& half : inside)
+      for (const core::Point2 p : line_.points)
+        if (core::depth(half, p) < -result_.tolerance)
+          return fail(ErrorCode::bad_input,
+                      fmt::format("the point ({:.6g}, {:.6g}) lies {:.3g} outside", p.x, p.y,
+                                  -core::depth(half, p)),
+                      "correct it, or give a wider bound", "keep_inside");
+    const auto tie = [&](std::optional<core::Point2>& place, core::Point2 end) {
+      for (const core::HalfPlane& half : inside)
+        if (const double depth = core::depth(half, end); depth <= 0)
+          place = end = end - depth * half.normal;
+    };
+    for (detail::Run& run : runs_) run.inside = inside;
+    if (runs_.front().closed || line_.closed) return {};
+    if (runs_.front().clamp_start == Clamp::none)
+      tie(runs_.front().tie_start, line_.points.front());
+    if (runs_.back().clamp_end == Clamp::none) tie(runs_.back().tie_end, line_.points.back());
+    return {};
+  }
+
   /// The place, or the nearest to it that leaves the corner's own point inside the tolerance.
   core::Point2 near_corner(core::Point2 place, core::Point2 corner) const {
     const double most = kCornerRoom * result_.tolerance;
@@ -140,8 +167,10 @@ class Job {
       if (runs_[k].clamp_end != Clamp::none || runs_[next].clamp_start != Clamp::none) continue;
       const core::Point2 from = lac::end_pose(solved_[k].chain).position;
       const core::Point2 to = solved_[next].chain.start.position;
-      runs_[k].tie_end = runs_[next].tie_start =
-          near_corner(from + 0.5 * (to - from), runs_[k].points.back());
+      core::Point2 place = near_corner(from + 0.5 * (to - from), runs_[k].points.back());
+      for (const core::HalfPlane& half : runs_[k].inside)
+        place = place - std::min(0.0, core::depth(half, place)) * half.normal;
+      runs_[k].tie_end = runs_[next].tie_start = place;
     }
     for (std::size_t k = 0; k < n; ++k)
       if (runs_[k].tie_start || runs_[k].tie_end)
@@ -212,6 +241,7 @@ class Job {
                   "choose a larger region", "region");
     const curve::BSpline2 inside = subcurve(*whole, range.t_first, range.t_last);
     runs_ = {detail::run_between(line_, range.first, range.last)};
+    if (auto sound = bound_runs(); !sound) return std::unexpected(sound.error());
     const bool from_start = range.first == 0 && !line_.closed;
     const bool to_end = range.last + 1 == line_.points.size() && !line_.closed;
     runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
@@ -229,9 +259,20 @@ class Job {
     if (!options_.interpretations.empty()) {
       if (auto done = reinterpret(); !done) return std::unexpected(done.error());
     }
+    note_outside();
     detail::assemble(result_, solved_, kept_before_, kept_after_);
     result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
+  }
+
+  void note_outside() {
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      for (const core::HalfPlane& half : runs_[k].inside)
+        result_.outside = std::max(result_.outside, detail::outside(solved_[k].chain, half));
+    if (result_.outside > kOutside * result_.length)
+      result_.notes.push_back(fmt::format("a bound is passed by {:.3g}", result_.outside));
+    else
+      result_.outside = 0;
   }
 
   /// Pieces, offsets and the deviation from the solved runs as they stand.

@@ -15,6 +15,7 @@
 #include "keyline/core/error.h"
 #include "keyline/core/progress.h"
 #include "keyline/curve/bspline.h"
+#include "keyline/fairing/bound.h"
 #include "keyline/fit/fit_spline.h"
 #include "keyline/lac/chain/chain.h"
 
@@ -81,6 +82,8 @@ struct FairOptions {
   core::Interval slopes{-3, 3};  ///< of the pieces' logarithmic curvature graphs
   int pieces = 0;                ///< wanted number of pieces; 0: as the criterion has it
   Criterion criterion = Criterion::least_variation;
+  /// Sides of lines that the curve stays on, beside those that the key-line itself has.
+  std::vector<Bound> keep_inside;
   bool keep_corners = true;
   EndClamps clamp;
   std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
@@ -113,6 +116,9 @@ struct FairOptions {
             .within(core::from_to(0, 400)),
         core::field<&FairOptions::criterion>(
             "what the chain is to be within the tolerance: as short as possible, or as calm"),
+        core::field<&FairOptions::keep_inside>(
+            "what the curve does not pass: x>=0, y<=2.5; of a hull's half-breadths by itself")
+            .or_bare_item(),
         core::field<&FairOptions::keep_corners>("corners end chains"),
         core::field<&FairOptions::clamp>(
             "what is held at the ends: G0 position, G1 also direction, G2 also curvature"),
@@ -179,6 +185,7 @@ struct FairResult {
   double rms_deviation = 0;
   std::size_t worst_point = 0;
   bool within_tolerance = false;
+  double outside = 0;  ///< by how much the answer passes a bound; 0 where it keeps them
   bool cancelled = false;
   std::vector<analysis::JointContinuity> joints;  ///< inside chains and between curves
   std::vector<std::string> notes;  ///< everything dropped, merged, overridden, in words

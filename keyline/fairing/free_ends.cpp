@@ -111,7 +111,8 @@ void place_end(RunResult& result, const Run& run, const RunOptions& options, boo
 }  // namespace
 
 void place_free_ends(RunResult& result, const Run& run, const RunOptions& options) {
-  if (run.closed || result.exact || !noisy(result.accept)) return;
+  // A longer end might leave what the run stays inside.
+  if (run.closed || !run.inside.empty() || result.exact || !noisy(result.accept)) return;
   const std::vector<PointPlace> places = place_points(result, run);
   const bool start_free = run.clamp_start == Clamp::none && !run.tie_start;
   const bool end_free = run.clamp_end == Clamp::none && !run.tie_end;

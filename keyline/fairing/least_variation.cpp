@@ -80,7 +80,7 @@ class Search {
     report.max_offset = largest();
     report.rms = root_mean_square(mean_weight_, spots_.offset);
     report.spring = spring_;
-    report.within = report.max_offset <= options_.tolerance && closed_enough();
+    report.within = report.max_offset <= options_.tolerance && closed_enough() && limits_kept();
     return report;
   }
 
@@ -93,6 +93,16 @@ class Search {
       most = std::max(most, -spots_.offset[j] - share * points_[j].low);
     }
     return most;
+  }
+
+  /// Whether the offsets keep the points' own limits, to what counts as no extra width.
+  bool limits_kept() const {
+    const double slack = kExtra * unit_;
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      const double offset = spots_.offset[j];
+      if (offset > points_[j].highest + slack || offset < points_[j].lowest - slack) return false;
+    }
+    return true;
   }
 
   /// The curve that hangs on springs of this weight of the mean square beside the energy's unit.

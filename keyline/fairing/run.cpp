@@ -10,6 +10,7 @@
 #include "keyline/fairing/exact_chain.h"
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/residuals.h"
+#include "keyline/fairing/run_again.h"
 #include "keyline/fairing/run_frame.h"
 #include "keyline/fairing/settle.h"
 #include "keyline/fairing/straight_run.h"
@@ -19,8 +20,6 @@ namespace {
 
 constexpr std::size_t kMostFitPoints = 1200;
 constexpr std::size_t kFewCalmPoints = 400;  // means of more points tell the calmest curve as much
-// What an end is off along the curve, and cells and means tell only nearly, has to fit in as well.
-constexpr double kInside = 0.995;
 constexpr int kTightenings = 5;
 constexpr double kLoose = 5e-4;   // of the length
 constexpr double kExactRoom = 5;  // a tolerance within which rounding is no matter, in its units
@@ -43,24 +42,6 @@ ChainSearchOptions search_options(const Run& run, const RunOptions& options) {
   search.threads = options.threads;
   search.progress = options.progress;
   return search;
-}
-
-/// What is held at the canonical start or end of a run: its clamp, by the spline, or its tie.
-HeldEnd held_end(const Run& run, const RunFrame& frame, const curve::BSpline2& spline,
-                 bool canonical_start) {
-  if (run.closed) return {};
-  const bool at_start = canonical_start != frame.reversed;
-  const Clamp clamp = at_start ? run.clamp_start : run.clamp_end;
-  const auto& tie = at_start ? run.tie_start : run.tie_end;
-  HeldEnd held{static_cast<Hold>(static_cast<int>(clamp)), {}};
-  if (tie) return {Hold::position, {core::apply(frame.to_canonical, *tie), 0, 0}};
-  if (held.hold == Hold::free) return held;
-  const curve::Jet2 end = jet(spline, at_start ? 0.0 : 1.0);
-  held.joint.position = core::apply(frame.to_canonical, end.point);
-  held.joint.direction =
-      tangent_angle(end) + frame.to_canonical.rotation + (frame.reversed ? core::kPi : 0);
-  held.joint.curvature = (frame.reversed ? -1 : 1) * curvature(end) / frame.to_canonical.scale;
-  return held;
 }
 
 /// One search, polished.
@@ -148,19 +129,6 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
   }
 }
 
-/// The solved curve as a chain whose pieces meet to the last digit, moved as little as that takes.
-FitChain closed_chain(const DenseCurve& curve, const std::vector<FitPoint>& points,
-                      double tolerance) {
-  FitChain chain = chain_of(curve);
-  ChainFitOptions fit;
-  fit.fine = true;
-  fit.scale = tolerance;
-  fit.close_gaps = true;
-  fit.iterations = 20;
-  fit_chain(chain, points, fit);
-  return chain;
-}
-
 /// Points that a chain reproduces to rounding get that chain, whatever the tolerance allows.
 /// The search begins with few pieces, as a loose tolerance gives them.
 bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
@@ -219,13 +187,14 @@ std::vector<std::size_t> holders(const RunResult& result, const RunFrame& frame)
 /// The curve of least variation in the tolerance, in log-aesthetic pieces.
 void solve_least_variation(RunResult& result, const Run& run, const RunFrame& frame,
                            const curve::BSpline2& spline, const RunOptions& options) {
-  const double tolerance = kInside * result.accept.tolerance;
+  const double tolerance = kBandShare * result.accept.tolerance;
   take_calm_points(result, run, frame, tolerance);
   const Residuals residuals = allowed_residuals(result.points, run.closed, run.points.size(),
                                                 result.accept.noise, tolerance, options.smoothness);
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
   for (FitPoint& p : result.points)
     if (p.must_pass) p.share = kPassed;
+  watch_borders(result, run, tolerance);
   CalmRunOptions calm;
   calm.tolerance = tolerance;
   calm.residuals = residuals;
@@ -251,7 +220,11 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
                    const curve::BSpline2& spline, const RunOptions& options) {
   if (solve_straight(result, run, options)) return;
   if (options.criterion == Criterion::least_variation && options.pieces == 0) {
-    if (solve_exact(result, run, frame, spline, options)) return;
+    RunResult exact = result;
+    if (solve_exact(exact, run, frame, spline, options) && stays_inside(exact, run)) {
+      result = std::move(exact);
+      return;
+    }
     RunResult shortest = result;
     solve_least_variation(result, run, frame, spline, options);
     const bool stays = !wanders(result.dense, result.points, result.accept.tolerance);
@@ -281,43 +254,40 @@ RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOpt
   return result;
 }
 
-double largest_offset(const RunResult& result, const Run& run) {
-  double most = 0;
-  for (const PointPlace& place : place_points(result, run))
-    most = std::max(most, std::abs(place.offset));
-  return most;
-}
-
-/// The solved curve anew within that share of the tolerance, its ends held; false where the points
-/// leave it.
-bool solve_again(RunResult& result, const Run& run, const RunFrame& frame,
-                 const curve::BSpline2& spline, double share) {
-  const double tolerance = share * kInside * result.accept.tolerance;
-  const bool within =
-      hold_ends(result.dense, result.points, tolerance, result.spring,
-                held_end(run, frame, spline, true), held_end(run, frame, spline, false))
-          .within;
-  result.fit = closed_chain(result.dense, result.points, tolerance);
-  result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
-  return within;
-}
-
 /// Where points lie a hair outside after pieces have met, the same pieces with that much less room.
 void draw_in(RunResult& result, const Run& run, const curve::BSpline2& spline,
              const RunOptions& options) {
-  const RunFrame frame = make_frame(run);
   double share = 1;
   for (int round = 0; round < kTightenings && !options.progress.stop_requested(); ++round) {
     const double most = largest_offset(result, run);
     if (most <= options.tolerance || most > kFar * options.tolerance) return;
     share *= 0.998 * options.tolerance / most;
     RunResult again = result;
-    if (!solve_again(again, run, frame, spline, share) || largest_offset(again, run) >= most) {
+    if (!solve_again(again, run, spline, share) || largest_offset(again, run) >= most) {
       RunOptions tighter = options;
       tighter.tolerance *= share;
       again = solved_run(run, spline, tighter);
     }
     if (largest_offset(again, run) < most) result = std::move(again);
+  }
+}
+
+/// Where the chain passes a border, the same pieces with that much margin; where these cannot keep
+/// it, other pieces.
+void bring_inside(RunResult& result, const Run& run, const curve::BSpline2& spline,
+                  const RunOptions& options) {
+  Run drawn = run;
+  for (int round = 0; round < kTightenings && !options.progress.stop_requested(); ++round) {
+    const double most = passed_most(result, run);
+    if (most == 0) return;
+    add_margin(drawn, result);
+    RunResult again = result;
+    if (!solve_inside(again, drawn, spline) || passed_most(again, run) >= most) {
+      again = solved_run(drawn, spline, options);
+      if (again.dense.joints.empty()) return;
+    }
+    if (passed_most(again, run) < most && largest_offset(again, run) <= options.tolerance)
+      result = std::move(again);
   }
 }
 
@@ -338,6 +308,7 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
   RunResult result = solved_run(run, spline, options);
   if (!result.dense.joints.empty()) {
     draw_in(result, run, spline, options);
+    bring_inside(result, run, spline, options);
     keep_tolerance(result, run, spline, options);
     return result;
   }
@@ -362,12 +333,13 @@ void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
     hold = std::max(hold, end.hold);
   };
   if (!result.dense.joints.empty()) {
-    result.within_tolerance = solve_again(result, run, frame, spline, 1);
+    result.within_tolerance = solve_again(result, run, spline, 1);
     if (!result.within_tolerance) {
       result = fair_run(run, spline, options);
       return;
     }
     draw_in(result, run, spline, options);
+    bring_inside(result, run, spline, options);
     keep_tolerance(result, run, spline, options);
     return;
   }

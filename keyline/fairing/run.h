@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "keyline/core/half_plane.h"
 #include "keyline/core/interval.h"
 #include "keyline/core/similarity.h"
 #include "keyline/fairing/chain_search.h"
@@ -24,6 +25,8 @@ struct Run {
   std::optional<core::Point2> tie_start;  ///< where the chain must start: a corner shared
   std::optional<core::Point2> tie_end;
   double length = 0;
+  std::vector<core::HalfPlane> inside;  ///< that the chain stays in…
+  std::vector<double> margin = {};      ///< …and how much farther; empty: none
 };
 
 struct RunOptions {

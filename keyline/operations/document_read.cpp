@@ -230,6 +230,15 @@ std::optional<Placement> placement_of(const acquire::Plane& plane) {
 
 namespace {
 
+/// Half-breadths stay on their side of the centre plane.
+void place(NamedCurve& curve, const exchange::Laid& laid) {
+  curve.plane = placement_of(laid.plane);
+  if (!laid.half_breadth) return;
+  const core::Vector3 across{0, 1, 0};
+  if (laid.plane.axis_x == across) curve.keep_inside = {{fairing::Axis::x, 0.0, {}}};
+  if (laid.plane.axis_y == across) curve.keep_inside = {{fairing::Axis::y, 0.0, {}}};
+}
+
 Result<ReadAnswer> read_curves(const InputRequest& input) {
   const std::string& file = input.file.front();
   auto document = exchange::is_mesh_file(file) && !input.section.empty()
@@ -248,7 +257,7 @@ Result<ReadAnswer> read_curves(const InputRequest& input) {
                   "give curves that lie in a plane", file);
     ReadAnswer answer = answer_of(std::move(*document));
     for (std::size_t i = 0; i < planes.size(); ++i)
-      answer.curves[plane_already + i].plane = placement_of(planes[i]);
+      place(answer.curves[plane_already + i], planes[i]);
     return answer;
   }
   return answer_of(std::move(*document));

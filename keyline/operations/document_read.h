@@ -7,6 +7,7 @@
 #include "keyline/acquire/plane.h"
 #include "keyline/core/progress.h"
 #include "keyline/document/document.h"
+#include "keyline/fairing/bound.h"
 #include "keyline/operations/subject.h"
 
 /// Files as operations: document.read, document.list, document.write.
@@ -85,6 +86,7 @@ struct NamedCurve {
   std::optional<AnyCurve> curve;
   std::optional<acquire::KeyLine> line;
   std::optional<Placement> plane = {};
+  std::vector<fairing::Bound> keep_inside = {};
   static constexpr auto describe() {
     return core::fields(
         core::field<&NamedCurve::name>("in the file; may be empty"),
@@ -95,7 +97,9 @@ struct NamedCurve {
             .within(core::at_least(0)),
         core::field<&NamedCurve::curve>("the curve, exact"),
         core::field<&NamedCurve::line>("measured points, put in order and cleaned"),
-        core::field<&NamedCurve::plane>("in which a plane curve lies, where it is not z = 0"));
+        core::field<&NamedCurve::plane>("in which a plane curve lies, where it is not z = 0"),
+        core::field<&NamedCurve::keep_inside>(
+            "what it does not pass when it is faired: a hull's centre plane"));
   }
 };
 

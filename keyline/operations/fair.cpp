@@ -86,6 +86,7 @@ FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   answer.tolerance = result.tolerance;
   answer.deviation = {result.max_deviation, result.rms_deviation, result.worst_point};
   answer.within_tolerance = result.within_tolerance;
+  answer.outside = result.outside;
   answer.fairness = fair_figures(line, result);
   answer.cancelled = result.cancelled;
   for (const auto& joint : result.joints) answer.continuity.push_back(joint_of(joint));

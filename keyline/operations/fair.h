@@ -73,6 +73,7 @@ struct FairAnswer {
   double tolerance = 0;
   FairDeviation deviation;
   bool within_tolerance = false;
+  double outside = 0;
   FairFigures fairness;
   bool cancelled = false;
   std::vector<Joint> continuity;
@@ -93,6 +94,8 @@ struct FairAnswer {
         core::field<&FairAnswer::tolerance>("that was kept").in("length"),
         core::field<&FairAnswer::deviation>("of the points from the curve"),
         core::field<&FairAnswer::within_tolerance>("whether every point is"),
+        core::field<&FairAnswer::outside>("by how much a bound is passed; 0: all are kept")
+            .in("length"),
         core::field<&FairAnswer::fairness>("how calm its comb is, beside others'"),
         core::field<&FairAnswer::cancelled>("stopped: the best found until then"),
         core::field<&FairAnswer::continuity>("at the joints, inside chains and between curves"),

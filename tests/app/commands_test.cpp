@@ -195,6 +195,25 @@ TEST(Commands, SvgReadsBackAsTheExactChain) {
   EXPECT_EQ(slurp(s.path("a.json")), slurp(s.path("b.json")));
 }
 
+/// A section that touches the centre plane half way up, as beside a bulb.
+TEST(Commands, HalfBreadthsStayOnTheirSide) {
+  const Scratch s;
+  const std::string hull =
+      s.write("hull.csv",
+              "waterline,0,1\n0,0,1\n1,0.46,1\n2,0.92,1\n3,0.84,1\n4,0,1\n5,0.08,1\n6,1.2,1\n"
+              "7,2.2,1\n8,3.1,1\n");
+  const auto least = [&](const std::string& more) {
+    const Outcome o = run_keyline("fair --quiet --json --samples 4001 --tolerance 0.02 " + more +
+                                  " --select station-1 " + hull);
+    const json answer = json::parse(o.out);
+    double value = HUGE_VAL;
+    for (const json& p : answer["polyline"]["points"]) value = std::min(value, p[0].get<double>());
+    return value;
+  };
+  EXPECT_LT(least("--keep-inside 'x>=-1'"), -0.01);
+  EXPECT_GE(least(""), -1e-8);
+}
+
 /// A waterline at height 2, a half breadth every metre.
 TEST(Commands, AFairedCurveOfAHullStaysInItsPlane) {
   const Scratch s;

@@ -60,8 +60,8 @@ std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve) {
   return std::nullopt;
 }
 
-std::vector<acquire::Plane> flatten(document::Document& document, std::vector<std::string>& notes) {
-  std::vector<acquire::Plane> planes;
+std::vector<Laid> flatten(document::Document& document, std::vector<std::string>& notes) {
+  std::vector<Laid> planes;
   std::vector<document::NamedSpaceCurve> left;
   for (auto& named : document.space_curves) {
     auto form = planar_form(named.curve);
@@ -70,7 +70,7 @@ std::vector<acquire::Plane> flatten(document::Document& document, std::vector<st
       continue;
     }
     notes.push_back(named.label.name + ": " + described(form->plane));
-    planes.push_back(form->plane);
+    planes.push_back({form->plane, named.half_breadth});
     document::NamedPath path;
     path.label = named.label;
     path.path.closed = distance(evaluate(form->curve, 0), evaluate(form->curve, 1)) == 0;

@@ -20,10 +20,16 @@ struct PlanarForm {
 /// for log-aesthetic space curves.
 std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve);
 
+/// Where a curve lay in space before it was told in its plane's coordinates.
+struct Laid {
+  acquire::Plane plane;
+  bool half_breadth = false;  ///< see document::NamedSpaceCurve
+};
+
 /// Every space curve that lies in a plane becomes a planar path of the same name; notes which
 /// coordinates it now has, for example "waterline-3: in the plane z = 1.5; x and y".
-/// Returns: the plane of each, in the order in which they now end the document's paths.
-std::vector<acquire::Plane> flatten(document::Document& document, std::vector<std::string>& notes);
+/// Returns: of each where it lay, in the order in which they now end the document's paths.
+std::vector<Laid> flatten(document::Document& document, std::vector<std::string>& notes);
 
 /// A path of the plane as one curve in space, piecewise cubic within `tolerance` (> 0) of it.
 document::SpaceCurve placed(const document::Path& path, const acquire::Plane& plane,

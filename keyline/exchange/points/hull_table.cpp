@@ -23,7 +23,8 @@ class Lines {
       ++short_;
       return;
     }
-    document_.space_curves.push_back({{name, layer, {}}, {curve::Polyline3{std::move(points)}}});
+    document_.space_curves.push_back(
+        {{name, layer, {}}, {curve::Polyline3{std::move(points)}}, true});
   }
 
   void finish() {
