@@ -51,7 +51,7 @@ struct PieceAnalysis {
   std::vector<Interpretation> interpretations;  ///< best first
 };
 
-/// All of CONTRACT's curve.analyze for a planar curve.
+/// All that operation curve.analyze tells of a planar curve.
 struct CurveAnalysis {
   double length = 0;
   double volume = 0;

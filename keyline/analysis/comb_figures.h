@@ -26,8 +26,8 @@ struct CombFigures {
 /// between the samples: of a curve whose rate is not finite somewhere it grows with their number.
 ///
 /// Precondition: as many curvatures as arc lengths, at least two, arc lengths never falling.
-/// Source: energy by H. Moreton and C. Sequin, Functional optimization for fair surface design,
-///         SIGGRAPH 1992.
+/// Source: the energy is the variation of curvature of [Moreton 1992] times the length cubed,
+///         so that scale does not matter.
 CombFigures comb_figures(const curve::CurvatureGraph& graph);
 
 /// Where a comb has something that a finger feels.

@@ -10,7 +10,7 @@ namespace keyline::analysis::detail {
 ///
 /// One and two lines share one form around an anchor b: with x = s - b,
 ///   kappa = km (1 - alpha lambda x)^(-1/alpha),   alpha = alpha0 before b, alpha1 after it,
-/// so that curvature and its rate (km lambda) agree at b: the power mean of papers/NOTES.md with
+/// so that curvature and its rate (km lambda) agree at b: the power mean (docs/readings.md) with
 /// a G3 joint. One line is alpha0 = alpha1.
 struct LineModel {
   double curvature = 1;  ///< km

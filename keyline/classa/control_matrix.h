@@ -10,8 +10,8 @@
 #include "keyline/curve/bezier.h"
 
 /// Class A curves, strain energy and the curve aesthetic value of
-/// [Oya] Oya, Hanafusa, Aoyama, "Efficient Shape-editing Method for Curves and Surfaces based on
-/// the Quantification of Aesthetic Properties".
+/// [Oya]. What that key and the others stand for is told in docs/bibliography.md, how open passages
+/// are read in docs/readings.md.
 namespace keyline::classa {
 
 /// The control matrix M of [Oya] Eq. 6: a rotation by alpha (radians, counter-clockwise positive)

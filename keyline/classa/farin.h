@@ -7,8 +7,8 @@
 #include "keyline/curve/bezier.h"
 #include "keyline/curve/monotone.h"
 
-/// Matrices in space after Farin (CAGD 23, 2006), the source of [Oya] Eqs. 3 and 4. Cao and Wang
-/// (CAGD 25, 2008) showed that his conditions do not imply monotone curvature: they are reported,
+/// Matrices in space after [Farin 2006], the source of [Oya] Eqs. 3 and 4. Cao and Wang
+/// ([Cao 2008]) showed that his conditions do not imply monotone curvature: they are reported,
 /// and the curve itself is judged.
 namespace keyline::classa {
 

@@ -7,7 +7,7 @@
 
 namespace keyline::core {
 
-/// Why an answer is missing; the names are those of the public interface (CONTRACT: error codes).
+/// Why an answer is missing; the names are those of the public interface (docs/contract.md).
 enum class ErrorCode { bad_input, undrawable, not_converged, unsupported, cancelled, io, internal };
 
 /// "bad-input", "undrawable", …: the code as it is printed in JSON.

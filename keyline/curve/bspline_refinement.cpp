@@ -115,7 +115,7 @@ V blossom(const Net<V>& net, int span, const double* arguments) {
 }
 
 /// Control value of the elevated curve that belongs to its inner knots at[0..degree]: the mean of
-/// the blossom over leaving one of them out (Ramshaw, "Blossoms are polar forms", 1989).
+/// the blossom over leaving one of them out ([Ramshaw 1989]).
 template <class V>
 V elevated_value(const Net<V>& net, int span, const double* at) {
   const int count = net.degree + 1;

@@ -61,7 +61,7 @@ class Springs : public Limits {
 /// a limit is passed by counts as extra width, which every step of Newton's takes back as far as it
 /// goes (an infeasible interior point).
 ///
-/// Source: S. Wright, Primal-Dual Interior-Point Methods (SIAM, 1997), chapters 1 and 6.
+/// Source: [Wright 1997], chapters 1 and 6.
 class Band : public Limits {
  public:
   /// spring: also half that weight times the mean square of all offsets, in the merit's unit.

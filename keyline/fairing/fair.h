@@ -201,7 +201,7 @@ struct FairResult {
 ///          tolerance is returned with within_tolerance false. Cancelled work returns the best
 ///          found with cancelled true, or a `cancelled` failure where there is nothing yet.
 /// Invariance: moving, turning, scaling or reversing the points changes the answer by rounding.
-/// Source:  [Fairing]; docs/design/fairness.md and chain-fit.md for step 5.
+/// Source:  [Fairing] sections 2 to 5; docs/design/fairness.md, chain-fit.md for step 5.
 core::Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options = {});
 
 /// Standard deviations that all of n normal errors stay below in nineteen runs of twenty; three at

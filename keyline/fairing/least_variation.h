@@ -34,8 +34,8 @@ struct BandReport {
 /// given: sequential quadratic programming with a primal-dual interior point, each step one sweep
 /// over the cells. The band starts as wide as the first curve needs and is drawn in.
 ///
-/// Source: H. Moreton and C. Sequin, Functional optimization for fair surface design, SIGGRAPH
-///         1992 (minimum variation curves); docs/design/fairness.md.
+/// Source: the minimum variation curves of [Moreton 1992] within a band of tolerance;
+///         docs/design/fairness.md.
 BandReport least_variation(DenseCurve& curve, const std::vector<FitPoint>& points,
                            const BandOptions& options);
 

@@ -12,7 +12,7 @@ constexpr double kTilt = 1e-2;       // of the curvature's range, over the whole
 
 /// Weighted means of neighbours until they rise: pooling adjacent violators.
 ///
-/// Source: R. Barlow et al., Statistical Inference under Order Restrictions (Wiley, 1972), 1.2.
+/// Source: [Barlow 1972], section 1.2 (pooling adjacent violators).
 std::vector<double> rising(const std::vector<double>& value) {
   struct Block {
     double mean;

@@ -26,7 +26,7 @@ struct BezierFit {
 
 /// Bézier curve of the lowest degree that stays within the tolerance of the samples, starting at
 /// the first and ending at the last of them with the given unit tangents (in the direction of
-/// travel). Feet and curve are found in turn (Hoschek, CAGD 5 (1988)), with feet free to slide
+/// travel). Feet and curve are found in turn ([Hoschek 1988]), with feet free to slide
 /// (tangent distance minimisation), the lengths of the end handles kept positive.
 ///
 /// bad_input: fewer than two samples, numbers not finite, equal ends of all samples, a zero

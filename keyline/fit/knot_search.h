@@ -9,7 +9,7 @@
 #include "keyline/fit/least_squares_spline.h"
 
 /// Where to put the knots of a least-squares spline: the genetic search of the GA spline
-/// ([Fairing] 3.2.2, after Yoshimoto, Harada & Yoshimoto, CAD 35 (2003)) and a local polish.
+/// ([Fairing] 3.2.2, after [Yoshimoto 2003]) and a local polish.
 /// docs/design/ga-knots.md tells why it is made this way and what it reaches.
 namespace keyline::fit {
 

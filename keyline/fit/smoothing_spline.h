@@ -16,8 +16,8 @@ namespace keyline::fit {
 /// largest penalty that keeps the tolerance found by bisection of its logarithm.
 /// Returns: nothing for fewer than eight points, points of no extent, or where no penalty keeps the
 ///          tolerance.
-/// Source: P. Eilers and B. Marx, Flexible smoothing with B-splines and penalties, Statistical
-///         Science 11 (1996).
+/// Source: [Eilers 1996], penalised B-splines: many knots, and differences of the coefficients
+///         kept small.
 std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
     std::span<const core::Point2> points, bool closed, double tolerance);
 

@@ -17,7 +17,7 @@
 ///
 /// One generation: selection (tournaments of two), crossover of pairs, mutation of individuals,
 /// the best so far kept and put back in place of the worst (steps 5 to 11 of the GA spline of
-/// [Fairing] 3.2.2). Rates adapt after Srinivas & Patnaik (IEEE Trans. SMC 24, 1994): with the
+/// [Fairing] 3.2.2). Rates adapt after [Srinivas 1994]: with the
 /// least cost e_min and the mean e_avg of the population, a pair whose better parent costs
 /// e' <= e_avg crosses with probability k1 (e' - e_min) / (e_avg - e_min), any other with k3; an
 /// individual mutates likewise with k2 and k4; no rate falls below minimum_rate.

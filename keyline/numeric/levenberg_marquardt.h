@@ -29,8 +29,8 @@ struct LevenbergMarquardtReport {
 
 /// Minimises half the sum of squared residuals, starting at x and leaving the best point in x.
 ///
-/// Damped normal equations with the columns scaled to unit length (Marquardt 1963) and the gain
-/// ratio controlling the damping (Nielsen 1999). For small and moderate dense problems; a rank
+/// Damped normal equations with the columns scaled to unit length ([Marquardt 1963]) and the gain
+/// ratio controlling the damping ([Nielsen 1999]). For small and moderate dense problems; a rank
 /// deficient Jacobian is harmless (the damping regularises it), but precision of x is then
 /// limited to about the square root of rounding. no_start: the function refused the start, x is
 /// untouched.

@@ -6,7 +6,7 @@
 /// Weighted power means and their integrals: the one formula behind log-aesthetic curves.
 /// With M_p(a, b; u) = ((1-u) a^p + u b^p)^(1/p) the curvature of a log-aesthetic curve of slope
 /// alpha is M_{-alpha} in arc length, its radius of curvature M_{alpha-1} in tangent angle
-/// (Yoshida & Saito, The Visual Computer 22 (2006); [QLAC] Eqs. 2 and 4).
+/// ([Yoshida 2006]; [QLAC] Eqs. 2 and 4).
 namespace keyline::numeric {
 
 /// (e^x - 1) / x, continued by 1 at 0. Relative accuracy about 1e-16 for every x; +inf above 709.

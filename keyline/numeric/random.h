@@ -6,9 +6,9 @@
 
 namespace keyline::numeric {
 
-/// Seeded random numbers, the same on every platform (xoshiro256++ of Blackman & Vigna, ACM TOMS
-/// 47 (2021), state filled by splitmix64). Streams of one seed are independent of one another:
-/// give each trial or worker its own and the results do not depend on who runs first.
+/// Seeded random numbers, the same on every platform (xoshiro256++ of
+/// [Blackman 2021], state filled by splitmix64). Streams of one seed are independent of one
+/// another: give each trial or worker its own and the results do not depend on who runs first.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0) {

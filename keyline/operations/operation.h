@@ -10,7 +10,7 @@
 
 /// Every capability once: a function from a typed request to a typed result, both described once
 /// (core/describe.h). The command line, batch, the HTTP server and Python all go through perform;
-/// CONTRACT lists the names. docs/design/operations.md tells how to add one.
+/// docs/contract.md lists the names. docs/design/operations.md tells how to add one.
 namespace keyline::operations {
 
 /// How a request is served; nothing in it changes a result.

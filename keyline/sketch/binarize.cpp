@@ -37,7 +37,7 @@ struct Otsu {
   double ink_weight = 0;
 };
 
-/// Threshold of largest variance between the classes (Otsu 1979).
+/// Threshold of largest variance between the classes ([Otsu 1979]).
 Otsu otsu(const Histogram& h) {
   double sum = 0;
   for (int i = 0; i < kBins; ++i) sum += i * h.weight[static_cast<std::size_t>(i)];

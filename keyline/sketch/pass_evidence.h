@@ -19,7 +19,7 @@ struct PassModel {
 using PassEvidence = std::vector<std::map<std::size_t, double>>;
 
 /// How far apart passes of a line of that length may lie: what the pen allows and what the hand
-/// adds, which errs in proportion to the way it goes (Schmidt 1979), as independent errors.
+/// adds, which errs in proportion to the way it goes ([Schmidt 1979]), as independent errors.
 double pass_distance(const PassModel& model, double length);
 
 /// Evidence that strokes are passes of one line, summed along where they run beside each other, in
@@ -30,7 +30,7 @@ double pass_distance(const PassModel& model, double length);
 PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model);
 
 /// Strokes put together, most evidence first, as long as what speaks for two groups being one
-/// outweighs what speaks against (greedy additive contraction, Keuper et al. 2015). Groups and
+/// outweighs what speaks against (greedy additive contraction, [Keuper 2015]). Groups and
 /// their strokes in the order of the strokes.
 std::vector<std::vector<std::size_t>> group_by_evidence(const PassEvidence& evidence);
 

@@ -11,7 +11,7 @@ using Binary = Raster<std::uint8_t>;
 
 /// Thins ink to lines one pixel wide that keep its connections, holes and ends.
 ///
-/// Guo & Hall's parallel thinning (Communications of the ACM 32, 1989) over a list of border
+/// Guo & Hall's parallel thinning ([Guo 1989]) over a list of border
 /// pixels, so that the time grows with the ink, not with ink times width; then corners of
 /// staircases are taken out until no pixel can go without changing connections.
 Binary thin(const Binary& ink);

@@ -33,8 +33,8 @@ struct GordonSurface {
 ///
 /// Fails: bad_input for fewer than two curves either way, for curves that miss each other or cross
 /// in different orders; not_converged where 128 spans are not enough (a curve has a corner).
-/// Source: W. Gordon, Spline-blended surface interpolation through curve networks, J. Math. Mech.
-///         18 (1969); S. Coons, MIT MAC-TR-41 (1967).
+/// Source: [Gordon 1969], the Boolean sum of the interpolations in u and v; with two curves each
+///         way [Coons 1967].
 core::Result<GordonSurface> gordon_surface(const std::vector<curve::BSpline3>& along_u,
                                            const std::vector<curve::BSpline3>& along_v,
                                            const GordonOptions& options = {});

@@ -12,8 +12,8 @@
 #include "keyline/surface/surface.h"
 
 /// Surface aesthetic value of
-/// [Oya] Oya, Hanafusa, Aoyama, "Efficient Shape-editing Method for Curves and Surfaces based on
-/// the Quantification of Aesthetic Properties".
+/// [Oya]. What that key and the others stand for is told in docs/bibliography.md, how open passages
+/// are read in docs/readings.md.
 namespace keyline::surface {
 
 /// A row or column of a Bézier patch's net, read as the control polygon of a curve. A bicubic patch

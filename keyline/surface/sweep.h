@@ -24,8 +24,8 @@ core::Result<BSplineSurface> extrude(const curve::BSpline3& profile, core::Vecto
 core::Result<BSplineSurface> translate(const curve::BSpline3& profile, const curve::BSpline3& rail);
 
 /// The profile carried along the rail like a rigid body, with a frame that does not twist about the
-/// rail's tangent (rotation minimising, by double reflection: Wang, Juettler, Zheng, Liu, ACM
-/// Trans. Graphics 27, 2008). Cubic splines in u through the carried control points, as many as
+/// rail's tangent (rotation minimising, by the double reflection
+/// of [Wang 2008]). Cubic splines in u through the carried control points, as many as
 /// hold `tolerance` (> 0, absolute), at four places between each two. Errors: bad_input for a
 /// tolerance that is not positive; unsupported for a rail with a corner (tangent turning by more
 /// than 1e-3 rad) or a place without tangent; not_converged where 513 places are not enough.

@@ -148,7 +148,7 @@ TEST(Sketch, PrintsWhatTheOperationAnswers) {
   for (const auto& stroke : j["strokes"]) {
     EXPECT_GE(stroke["points"].size(), 2U);
     EXPECT_GE(stroke["segments"].size(), 2U);
-    EXPECT_EQ(stroke["curve"]["type"], "path");  // also of one quintic, as CONTRACT has it
+    EXPECT_EQ(stroke["curve"]["type"], "path");  // also of one quintic, as docs/contract.md has it
     EXPECT_EQ(stroke["curve"]["curves"][0]["points"].size(), 6U);
     EXPECT_GT(stroke["width"], 0.1);
   }

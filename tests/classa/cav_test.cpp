@@ -90,7 +90,7 @@ TEST(Cav, OfClassAIsTheDistanceInThePlane) {
   EXPECT_NEAR(value->cav, 0.5, 1e-12);
 }
 
-// CONTRACT: the end may lie 0.01 of the chord away. The energy falls as the end is let go, so that
+// By default the end may lie 0.01 of the chord away. The energy falls as the end is let go, so that
 // the minimum uses all of it.
 TEST(Cav, EndMayLieAHundredthOfTheChordAway) {
   const auto value = cav(kOya);

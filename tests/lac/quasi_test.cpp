@@ -132,7 +132,7 @@ TEST(Quasi, StandardSegmentPassesTheOrigin) {
     EXPECT_NEAR(tangent_angle(*s, t), 0, 1e-15);
     EXPECT_NEAR(curvature(*s, t), 1, 1e-14);
     EXPECT_NEAR(total_turning(*s), 1.2, 1e-14);
-    // NOTES: Lambda = drho/ds at the reference point.
+    // Standard form: Lambda = drho/ds at the reference point.
     EXPECT_NEAR(-curvature_rate(*s, t), 0.3, 1e-13);
     const auto later = standard_segment(alpha, 0.3, {0.2, 0.8});
     ASSERT_TRUE(later);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 /// Numerics of the tests' own to judge answers by: nothing here calls the library's geometry. What
-/// is known of a log-aesthetic piece is its law alone (papers/NOTES.md): curvature is the power
+/// is known of a log-aesthetic piece is its law alone (docs/readings.md): curvature is the power
 /// mean of its ends by the fraction of the length, radius that by the fraction of the turning.
 namespace keyline::own {
 

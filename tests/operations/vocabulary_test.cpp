@@ -105,7 +105,7 @@ TEST(Vocabulary, WrongKindsAreRefusedWithTheirPlace) {
   EXPECT_EQ(path_of("bezier", {{"tolerance", 1}, {"grade", 3}}), "bezier.grade");
 }
 
-/// The types CONTRACT names for results, also where there is one member alone.
+/// The types docs/contract.md names for results, also where there is one member alone.
 TEST(Vocabulary, CurvesOfResultsHaveTheTypeOfThePublicInterface) {
   const json quintic{{"type", "bezier"},
                      {"points", {{0, 0}, {1, 0.1}, {2, 0.4}, {3, 0.9}, {4, 1.6}, {5, 2.5}}}};

@@ -65,7 +65,7 @@ def test_quasi_curves_come_nearer_with_their_degree(drawn):
 
 def test_the_energy_of_oya(drawn):
     said = drawn[0]["class_a"]
-    assert said["before"] == pytest.approx(0.3925, abs=5e-5)  # papers/NOTES.md
+    assert said["before"] == pytest.approx(0.3925, abs=5e-5)  # docs/readings.md
     assert said["after"] == pytest.approx(0.3287, abs=5e-5)
 
 

@@ -98,7 +98,7 @@ std::optional<Ends> ends_of(const PlanarCurve& c) {
   return e;
 }
 
-/// The cubic with tangents and curvatures of both ends (de Boor, Höllig & Sabin 1987): handles of
+/// The cubic with tangents and curvatures of both ends ([de Boor 1987]): handles of
 /// lengths f and g with 3/2 bend f^2 = distance of the other handle from the tangent, by Newton's
 /// method from a third of the chord. Empty where it does not settle.
 std::optional<Bezier2> curvature_cubic(const Ends& e) {

@@ -102,7 +102,7 @@ NodeValues<Nodes> node_values(const SeriesTable::Stretch& s, double w0, double w
 }
 
 /// Largest value over [-1, 1] of a polynomial of that degree from its largest at `nodes` Chebyshev
-/// nodes (Ehlich & Zeller 1964).
+/// nodes ([Ehlich 1964]).
 double whole(double value, int degree, int nodes) {
   return value / std::cos(degree * core::kPi / (2 * nodes));
 }

@@ -37,7 +37,7 @@ struct QuasiOptions {
   QuasiForm form = QuasiForm::taylor_angle;
   int degree = 8;  ///< 3 … 30; at least 5 for best; the rational cubic is always 3
   /// Taylor forms: fraction of the interval of tangent angle or arc length to expand at, in
-  /// [0, 1]. Empty: the end away from the singularity ([QLAC] §3 as read in NOTES), which is that
+  /// [0, 1]. Empty: the end away from the singularity ([QLAC] §3; docs/readings.md), which is that
   /// of smaller radius for alpha < 1 (tangent angle) or alpha < 0 (arc length), else the other.
   std::optional<double> about = {};
   /// Taylor forms: the point of expansion, and the better of tangent angle and arc length, by the

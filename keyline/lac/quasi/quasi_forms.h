@@ -19,7 +19,7 @@ using ControlPolygon = std::vector<core::Vector2>;
 /// so that nothing grows: at degree 30 the loss stays below 1e-15 of the sum of |c_k|.
 ControlPolygon taylor_polygon(const UnitPiece& unit, const TaylorSeries& series);
 
-/// Control edges along the tangents at the middle of `degree` equal parts (NOTES, discretisation).
+/// Control edges along the tangents at the middle of `degree` equal parts ([Miura 2010]).
 ControlPolygon discrete_polygon(const UnitPiece& unit, SeriesVariable variable, int degree);
 
 struct RationalCubic {

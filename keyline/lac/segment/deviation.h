@@ -13,7 +13,7 @@ namespace keyline::lac {
 /// tangent line, off by no more than length times turning). On each stretch the Bézier's parameter
 /// is a polynomial through feet of normals, so that the difference is a polynomial of known
 /// degree n, bounded by its values at N = 4n Chebyshev nodes divided by cos(n pi / 2N) = 0.92
-/// (Ehlich & Zeller, Math. Z. 86 (1964)). Between the nodes nothing is left to luck; the bound is
+/// ([Ehlich 1964]). Between the nodes nothing is left to luck; the bound is
 /// 0 to 4 % above the distance under this change of parameter. Rounding is covered by 1e-14 of
 /// the length. Weights must be positive. Infinite where the two have nothing to do with each other.
 double deviation_bound(const Segment& segment, const curve::Bezier2& bezier);

@@ -13,7 +13,7 @@
 /// Log-aesthetic curves of every slope alpha, exact to rounding.
 ///
 /// In the fraction t of the arc length the curvature is the power mean
-/// kappa(t) = M_{-alpha}(kappa0, kappa1; t) (NOTES; [QLAC] Eqs. 2-4): alpha = -1 is the clothoid,
+/// kappa(t) = M_{-alpha}(kappa0, kappa1; t) ([QLAC] Eqs. 2-4): alpha = -1 is the clothoid,
 /// 0 Nielsen's spiral, 1 the logarithmic spiral, 2 the circle involute; kappa0 = kappa1 a circle,
 /// both 0 a straight line.
 namespace keyline::lac {

@@ -19,7 +19,7 @@ inline constexpr int kPieceVariables = 4;
 /// Accuracy: positions and angle to about 1e-13 of the length where curvature has no zero inside
 ///           and |log(curvature ratio)| is moderate; 1e-9 where an end or the inside is an
 ///           inflection (graded panels). Derivatives lose a few digits more at an inflection.
-/// Source:   papers/NOTES "One formula": curvature is the power mean of exponent -alpha in arc
+/// Source:   [QLAC] Eqs. 2-4: curvature is the power mean of exponent -alpha in arc
 ///           length; derivatives by differentiation under the integral.
 class PieceTable {
  public:

@@ -11,7 +11,7 @@
 #include "keyline/lac/segment/segment.h"
 
 /// Log-aesthetic space curves: curvature and torsion both follow the law of the plane, each with a
-/// slope of its own (NOTES; Yoshida, Fukuda & Saito, Computer-Aided Design 41 (2009)):
+/// slope of its own (docs/readings.md; [Yoshida 2009]):
 /// kappa(t) = M_{-alpha}(kappa0, kappa1; t), tau(t) = M_{-beta}(tau0, tau1; t), t the fraction of
 /// the arc length.
 namespace keyline::lac {
