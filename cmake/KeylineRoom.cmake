@@ -2,11 +2,13 @@
 #   DEPENDS       rooms used, all of them above this one in keyline/CMakeLists.txt
 #   LINK          libraries whose headers stand in this room's own headers
 #   PRIVATE_LINK  libraries used in its .cpp files alone
+#   INCLUDES      libraries of headers that its .cpp files alone include
 #   HEADERS_ONLY  its .cpp files are left out (an option is off)
 #   ELSEWHERE     inner folders whose .cpp files another target compiles
+# Each library is told in KeylineLibraries.cmake; it is found when a room asks for it.
 # Sources stand in the room's folder and in its inner ones (README.md there says what each holds).
 function(keyline_room name)
-  cmake_parse_arguments(ARG "HEADERS_ONLY" "" "DEPENDS;LINK;PRIVATE_LINK;ELSEWHERE" ${ARGN})
+  cmake_parse_arguments(ARG "HEADERS_ONLY" "" "DEPENDS;LINK;PRIVATE_LINK;INCLUDES;ELSEWHERE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp"
        "${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp")
   file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h"
@@ -34,9 +36,26 @@ function(keyline_room name)
     target_link_libraries(${target} ${scope} keyline::${room})
   endforeach()
   target_link_libraries(${target} ${scope} ${ARG_LINK})
-  set_property(GLOBAL APPEND PROPERTY KEYLINE_ROOMS ${name})
-  set_property(GLOBAL APPEND PROPERTY KEYLINE_LINKS ${ARG_LINK} ${ARG_PRIVATE_LINK})
+  keyline_room_is(${name})
 endfunction()
+
+# Finds a room's libraries and keeps what the package tells of it. Called by keyline_room.
+macro(keyline_room_is name)
+  set(libraries "")
+  foreach(link IN LISTS ARG_LINK ARG_PRIVATE_LINK ARG_INCLUDES)
+    if(NOT link MATCHES "BUILD_INTERFACE")  # the same library is named for the installed package
+      keyline_library_of("${link}" library)
+      list(APPEND libraries "${library}")
+    endif()
+  endforeach()
+  keyline_find(${libraries})
+  set_property(GLOBAL APPEND PROPERTY KEYLINE_ROOMS ${name})
+  set_property(GLOBAL APPEND PROPERTY KEYLINE_WANTED ${ARG_DEPENDS})
+  set_property(GLOBAL PROPERTY KEYLINE_${name}_DEPENDS ${ARG_DEPENDS})
+  list(REMOVE_ITEM libraries ${ARG_INCLUDES} "")  # nothing of them is left to find or to link
+  set_property(GLOBAL PROPERTY KEYLINE_${name}_LIBRARIES ${libraries})
+  set_property(GLOBAL PROPERTY KEYLINE_${name}_INCLUDES ${ARG_INCLUDES})
+endmacro()
 
 # One test program per room: every *_test.cpp of the folder.
 function(keyline_tests name)

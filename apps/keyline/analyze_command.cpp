@@ -223,6 +223,6 @@ int run_analyze(const Words& words) {
   return analyze_curves(session, *read);
 }
 
-std::vector<std::string> analyze_options() { return new_session().arguments().names(); }
+Manual analyze_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

@@ -158,22 +158,25 @@ std::string Arguments::nearest(const std::string& option) const {
   return "";
 }
 
-std::string Arguments::help() const {
-  std::string text;
+std::vector<OptionTexts> Arguments::texts() const {
+  std::vector<OptionTexts> all;
   for (std::size_t i = 0; i < titles_.size(); ++i) {
-    std::string lines;
+    OptionTexts group{titles_[i], {}};
     for (const Known& known : fields_)
-      if (known.record == i && known.shown) lines += help_line(known.field, known.member);
-    if (!lines.empty()) text += "\n" + titles_[i] + ":\n" + lines;
+      if (known.record == i && known.shown)
+        group.options.push_back(option_text(known.field, known.member));
+    if (!group.options.empty()) all.push_back(std::move(group));
   }
-  return text;
+  return all;
 }
 
-std::vector<std::string> Arguments::names() const {
-  std::vector<std::string> all;
-  for (const Known& known : fields_)
-    if (known.shown) all.push_back(option_name(known.field.name));
-  return all;
+std::string Arguments::help() const {
+  std::string text;
+  for (const OptionTexts& group : texts()) {
+    text += "\n" + group.title + ":\n";
+    for (const OptionText& option : group.options) text += help_line(option);
+  }
+  return text;
 }
 
 }  // namespace keyline::app

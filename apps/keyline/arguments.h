@@ -11,6 +11,8 @@
 #include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 
+#include "words.h"
+
 /// A command line read by described records: no option is stated twice.
 namespace keyline::app {
 
@@ -19,6 +21,12 @@ struct OptionGroup {
   std::string title;
   const core::Type* record;
   std::vector<std::string_view> without = {};  ///< fields that are no options here
+};
+
+/// The options of a group.
+struct OptionTexts {
+  std::string title;
+  std::vector<OptionText> options;
 };
 
 class Arguments {
@@ -42,8 +50,8 @@ class Arguments {
   /// A line for each option, group by group.
   std::string help() const;
 
-  /// All options.
-  std::vector<std::string> names() const;
+  /// All options, group by group.
+  std::vector<OptionTexts> texts() const;
 
  private:
   struct Known {

@@ -193,6 +193,6 @@ int run_batch(const Words& words) {
   return answer_lines(session.door(), *batch);
 }
 
-std::vector<std::string> batch_options() { return new_session().arguments().names(); }
+Manual batch_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

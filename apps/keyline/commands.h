@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "manual.h"
+
 /// The commands: each reads its words by the declarations of the operations it performs.
 namespace keyline::app {
 
@@ -14,7 +16,7 @@ struct Command {
   const char* name;
   const char* text;
   int (*run)(const Words& words);  ///< returns the exit status
-  std::vector<std::string> (*options)();
+  Manual (*manual)();
 };
 
 /// All commands, in the order of the help.
@@ -32,16 +34,16 @@ int run_batch(const Words& words);
 int run_studio(const Words& words);
 int run_operations(const Words& words);
 
-std::vector<std::string> fair_options();
-std::vector<std::string> analyze_options();
-std::vector<std::string> edit_options();
-std::vector<std::string> draw_options();
-std::vector<std::string> sketch_options();
-std::vector<std::string> convert_options();
-std::vector<std::string> list_options();
-std::vector<std::string> batch_options();
-std::vector<std::string> studio_options();
-std::vector<std::string> operations_options();
+Manual fair_manual();
+Manual analyze_manual();
+Manual edit_manual();
+Manual draw_manual();
+Manual sketch_manual();
+Manual convert_manual();
+Manual list_manual();
+Manual batch_manual();
+Manual studio_manual();
+Manual operations_manual();
 
 /// A command on curves of files: its operation takes them as "curve", one by one, or as "curves".
 struct Tool {
@@ -50,10 +52,10 @@ struct Tool {
 };
 std::span<const Tool> tools();
 int run_tool(const Tool& tool, const Words& words);
-std::vector<std::string> tool_options(const Tool& tool);
+Manual tool_manual(const Tool& tool);
 
 /// An operation by its own name: every field an option.
 int run_plain(const std::string& operation, const Words& words);
-std::vector<std::string> plain_options(const std::string& operation);
+Manual plain_manual(const std::string& operation);
 
 }  // namespace keyline::app

@@ -60,6 +60,6 @@ int run_convert(const Words& words) {
   return kDone;
 }
 
-std::vector<std::string> convert_options() { return new_session().arguments().names(); }
+Manual convert_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

@@ -194,7 +194,7 @@ Result<operations::Outcome> drawn(Session& session, const Operation& operation) 
 /// Which option asks for the operation that has the option refused.
 std::string asked_by(const std::string& option) {
   for (const Kind& kind : kKinds) {
-    const auto options = plain_options(kind.operation);
+    const auto options = option_names(plain_manual(kind.operation));
     if (*kind.sign != '\0' && std::ranges::find(options, option) != options.end())
       return std::string(kind.sign);
   }
@@ -229,8 +229,6 @@ int run_draw(const Words& words) {
   return kDone;
 }
 
-std::vector<std::string> draw_options() {
-  return new_session(operation_for({}), true).arguments().names();
-}
+Manual draw_manual() { return new_session(operation_for({}), true).manual(); }
 
 }  // namespace keyline::app

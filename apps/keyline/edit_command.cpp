@@ -174,6 +174,6 @@ int run_edit(const Words& words) {
   return surfaces ? edit_surfaces(session, *read) : edit_curves(session, *read);
 }
 
-std::vector<std::string> edit_options() { return new_session().arguments().names(); }
+Manual edit_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

@@ -195,6 +195,6 @@ int run_fair(const Words& words) {
   return finish(session, *read, *all, things);
 }
 
-std::vector<std::string> fair_options() { return new_session().arguments().names(); }
+Manual fair_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/version.h"
 #include "keyline/operations/perform.h"
 
 #include "commands.h"
+#include "manual.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -42,33 +44,29 @@ std::string help() {
          "\nEvery operation is a command too (keyline perform NAME, or its name alone):\n"
          "  keyline lac.segment --points 0,0 2,0 3,1.5 --alpha -1\n"
          "  keyline library find --rhythm accelerating --slope -1±0.2\n\n"
-         "keyline completion bash prints completion for the shell. keyline COMMAND --help tells "
-         "more.\nExit status: 0 done, 1 no such answer, 2 bad input, 3 file trouble, 130 "
+         "keyline COMMAND --help tells more, keyline man COMMAND as a page for man (--all FOLDER: "
+         "all\nof them); keyline completion bash, zsh or fish prints completion for the "
+         "shell.\nExit status: 0 done, 1 no such answer, 2 bad input, 3 file trouble, 130 "
          "cancelled.\n";
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
-  return all;
+/// Prints what was made, or says why not.
+int print(const core::Result<std::string>& text) {
+  if (!text) return report_failure(text.error());
+  fmt::print("{}", *text);
+  return kDone;
 }
 
-/// Completion for bash: every command and its options.
-std::string bash_completion() {
-  std::string names;
-  std::string cases;
-  const auto add = [&](const std::string& name, const std::vector<std::string>& options) {
-    names += name + " ";
-    cases += fmt::format("    {}) words=\"{}\" ;;\n", name, joined(options));
-  };
-  for (const Command& command : commands()) add(command.name, command.options());
-  for (const Tool& tool : tools()) add(tool.name, tool_options(tool));
-  for (const auto& operation : operations::operations())
-    add(operation.name, plain_options(operation.name));
-  return "_keyline() {\n  local words=\"\"\n  case \"${COMP_WORDS[1]}\" in\n" + cases +
-         "  esac\n  [ \"$COMP_CWORD\" -eq 1 ] && words=\"" + names +
-         "\"\n  COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n}\n"
-         "complete -o default -F _keyline keyline\n";
+/// keyline man [COMMAND], keyline man --all FOLDER
+int run_man(const Words& words) {
+  if (words.size() == 2 && words.front() == "--all") {
+    const auto written = write_manual_pages(words.back());
+    return written ? kDone : report_failure(written.error());
+  }
+  if (words.size() > 1)
+    return report_failure({core::ErrorCode::bad_input, "one command at a time",
+                           "keyline man COMMAND, or keyline man --all FOLDER", words[1]});
+  return print(manual_page(words.empty() ? "" : words.front()));
 }
 
 /// "lac.segment", "perform lac.segment" and "lac segment" alike.
@@ -97,13 +95,11 @@ int run(const Words& all) {
     return kDone;
   }
   if (first == "--version") {
-    fmt::print("keyline {}\n", KEYLINE_VERSION);
+    fmt::print("keyline {}\n", core::version());
     return kDone;
   }
-  if (first == "completion" && words == Words{"bash"}) {
-    fmt::print("{}", bash_completion());
-    return kDone;
-  }
+  if (first == "completion") return print(completion(words.size() == 1 ? words.front() : ""));
+  if (first == "man") return run_man(words);
   for (const Command& command : commands())
     if (first == command.name) return command.run(words);
   for (const Tool& tool : tools())

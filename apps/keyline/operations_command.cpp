@@ -105,6 +105,6 @@ int run_operations(const Words& words) {
   return print_one(session.files().front(), asked->format.value_or(Reference::schema));
 }
 
-std::vector<std::string> operations_options() { return new_session().arguments().names(); }
+Manual operations_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/version.h"
 #include "keyline/operations/schema.h"
 
 #include "terminal.h"
@@ -62,6 +63,10 @@ Session::Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes
       takes_files_(takes_files),
       door_record_(groups.size() - (usage_.forms ? 0 : 1)) {}
 
+Manual Session::manual() const {
+  return {usage_.command, usage_.words, usage_.text, arguments_.texts(), usage_.more};
+}
+
 std::string Session::help() const {
   return usage_.text + "\n\nkeyline " + usage_.command + " " + usage_.words + "[options]\n" +
          arguments_.help() + (usage_.more.empty() ? "" : "\n" + usage_.more + "\n");
@@ -82,7 +87,7 @@ std::optional<int> Session::begin(const Words& words) {
   if (!door) return report_failure(door.error());
   door_ = std::move(*door);
   if (door_.version) {
-    fmt::print("keyline {}\n", KEYLINE_VERSION);
+    fmt::print("keyline {}\n", core::version());
     return kDone;
   }
   if (door_.help) {
@@ -100,7 +105,7 @@ presentation::ReportOptions Session::report_options() const {
   for (const std::string& file : files())
     options.subtitle += (options.subtitle.empty() ? "" : ", ") + file;
   options.command = typed_;
-  options.generator = "Keyline " KEYLINE_VERSION;
+  options.generator = std::string("Keyline ") + core::version();
   for (const auto& [name, value] : arguments_.typed())
     if (name != "output" && name != "json" && name != "quiet" && name != "tolerance" &&
         name != "seed")

@@ -117,6 +117,8 @@ class Session {
   /// With --json the object, else the text unless quiet.
   void print(const nlohmann::json& shown, const std::string& text) const;
 
+  /// The command as completion and manual pages tell it.
+  Manual manual() const;
   std::string help() const;
   std::string usage_hint() const { return "see keyline " + usage_.command + " --help"; }
 

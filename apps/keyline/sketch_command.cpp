@@ -153,6 +153,6 @@ int run_sketch(const Words& words) {
   return kDone;
 }
 
-std::vector<std::string> sketch_options() { return new_session().arguments().names(); }
+Manual sketch_manual() { return new_session().manual(); }
 
 }  // namespace keyline::app

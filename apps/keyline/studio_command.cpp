@@ -23,6 +23,12 @@ int run_studio(const Words& arguments) {
                          "build it with KEYLINE_STUDIO=ON, beside keyline", program});
 }
 
-std::vector<std::string> studio_options() { return studio::option_names(); }
+Manual studio_manual() {
+  OptionTexts group{"Options", {}};
+  for (const studio::OptionLine& line : studio::option_lines())
+    group.options.push_back(
+        {.name = line.name, .value = line.value ? line.value : "", .text = line.text});
+  return {"studio", "[FILE...] ", studio::help_text(), {group}, studio::help_example()};
+}
 
 }  // namespace keyline::app

@@ -230,9 +230,7 @@ int run_tool(const Tool& tool, const Words& words) {
   return finish(session, made);
 }
 
-std::vector<std::string> tool_options(const Tool& tool) {
-  return tool_session(tool).arguments().names();
-}
+Manual tool_manual(const Tool& tool) { return tool_session(tool).manual(); }
 
 int run_list(const Words& words) {
   Session session = list_session();
@@ -252,7 +250,7 @@ int run_list(const Words& words) {
   return kDone;
 }
 
-std::vector<std::string> list_options() { return list_session().arguments().names(); }
+Manual list_manual() { return list_session().manual(); }
 
 int run_plain(const std::string& name, const Words& words) {
   const Operation& operation = named(name);
@@ -268,8 +266,8 @@ int run_plain(const std::string& name, const Words& words) {
   return finish(session, made);
 }
 
-std::vector<std::string> plain_options(const std::string& operation) {
-  return plain_session(named(operation)).arguments().names();
+Manual plain_manual(const std::string& operation) {
+  return plain_session(named(operation)).manual();
 }
 
 }  // namespace keyline::app

@@ -251,8 +251,8 @@ Result<json> value_of(const Field& field, const std::vector<std::string>& words)
   return Words(field).value(field.type(), words);
 }
 
-std::string help_line(const Field& field, const void* member) {
-  const std::string holder = placeholder(field.type());
+OptionText option_text(const Field& field, const void* member) {
+  OptionText option{.name = option_name(field.name), .value = placeholder(field.type())};
   std::string more;
   const auto add = [&](const std::string& text) {
     if (!text.empty()) more += (more.empty() ? "" : "; ") + text;
@@ -263,10 +263,20 @@ std::string help_line(const Field& field, const void* member) {
   const json value = operations::default_of(field, member);
   if (!value.is_null() && !value.is_structured() && !value.is_boolean() && value != "")
     add("default " + (value.is_string() ? value.get<std::string>() : value.dump()));
-  const std::string name = option_name(field.name);
-  return in_columns((value == json(true) ? "--[no-]" + name.substr(2) : name) +
-                        (holder.empty() ? "" : " " + holder),
-                    std::string(field.text) + (more.empty() ? "" : " (" + more + ")"));
+  option.text = std::string(field.text) + (more.empty() ? "" : " (" + more + ")");
+  option.on = value == json(true);
+  const Type* type = &field.type();
+  while (type->kind == Kind::optional || type->kind == Kind::list) type = &type->item();
+  if (type->kind == Kind::choice)
+    option.choices.assign(type->words, type->words + type->word_count);
+  option.file = type->kind == Kind::value || field.name == "output" || field.name == "file";
+  return option;
+}
+
+std::string help_line(const OptionText& option) {
+  return in_columns((option.on ? "--[no-]" + option.name.substr(2) : option.name) +
+                        (option.value.empty() ? "" : " " + option.value),
+                    option.text);
 }
 
 bool is_number_like(const Type& item, const std::string& word) {

@@ -21,8 +21,19 @@ std::string option_name(std::string_view field);
 core::Result<nlohmann::json> value_of(const core::Field& field,
                                       const std::vector<std::string>& words);
 
+/// An option as help, completion and manual pages tell it.
+struct OptionText {
+  std::string name;                       ///< "--alpha"
+  std::string value = {};                 ///< "NUMBER"; empty: it takes none
+  std::string text = {};                  ///< "slope of … (radian; 0 to 1; default 0.5)"
+  std::vector<std::string> choices = {};  ///< words it may take
+  bool file = false;                      ///< its value is the name of a file
+  bool on = false;                        ///< a flag that is on unless --no- stands before it
+};
+OptionText option_text(const core::Field& field, const void* member);
+
 /// One line of help: "--alpha NUMBER  slope of … (radian; 0 to 1; default 0.5)".
-std::string help_line(const core::Field& field, const void* member);
+std::string help_line(const OptionText& option);
 
 /// Whether a word can be an item of a list of numbers, points and the like.
 bool is_number_like(const core::Type& item, const std::string& word);

@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "keyline/core/version.h"
+
 #include "guard.h"
 #include "options.h"
 #include "server.h"
@@ -127,7 +129,10 @@ int run(const std::vector<std::string>& words) {
   if (!read) return report(read.error().message, read.error().hint, kBadInput);
   const Options& options = *read;
   if (options.help || options.version) {
-    std::fputs(options.help ? help().c_str() : "keyline " KEYLINE_VERSION "\n", stdout);
+    if (options.help)
+      std::fputs(help().c_str(), stdout);
+    else
+      std::printf("keyline %s\n", core::version());
     return kDone;
   }
   if (!is_loopback(options.address) && options.token.empty())

@@ -101,26 +101,32 @@ Result<Options> read_options(const std::vector<std::string>& words) {
   return options;
 }
 
-std::vector<std::string> option_names() {
-  std::vector<std::string> names;
-  for (const Option& option : kOptions) names.emplace_back(option.name);
-  return names;
+std::vector<OptionLine> option_lines() {
+  std::vector<OptionLine> lines;
+  for (const Option& option : kOptions) lines.push_back({option.name, option.value, option.text});
+  return lines;
+}
+
+const char* help_text() {
+  return "Keyline Studio: draw, see the curvature, fair it, take it home.";
+}
+
+const char* help_example() {
+  return "FILE: to open at the start: points, curves, drawings, surfaces.\n"
+         "Example: keyline studio examples/bonnet-scan.csv\n"
+         "Files are read and written in the folder it is started in, and nowhere else.\n";
 }
 
 std::string help() {
   std::string text =
-      "Keyline Studio: draw, see the curvature, fair it, take it home.\n\n"
-      "keyline studio [FILE...] [options]\n\n"
-      "FILE: to open at the start: points, curves, drawings, surfaces.\n\nOptions:\n";
-  for (const Option& option : kOptions) {
+      std::string(help_text()) + "\n\nkeyline studio [FILE...] [options]\n\nOptions:\n";
+  for (const OptionLine& option : option_lines()) {
     std::string head = std::string("  ") + option.name;
     if (option.value) head += std::string(" ") + option.value;
     head.resize(std::max<std::size_t>(head.size() + 1, 20), ' ');
     text += head + option.text + "\n";
   }
-  return text +
-         "\nExample: keyline studio examples/bonnet-scan.csv\n"
-         "Files are read and written in the folder it is started in, and nowhere else.\n";
+  return text + "\n" + help_example();
 }
 
 }  // namespace keyline::studio

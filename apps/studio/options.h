@@ -23,9 +23,17 @@ struct Options {
 /// Fails: bad_input, with the option it is about.
 core::Result<Options> read_options(const std::vector<std::string>& words);
 
+/// What the help says before the options, and after them.
+const char* help_text();
+const char* help_example();
 std::string help();
 
-/// All of them, as they are typed: for completion.
-std::vector<std::string> option_names();
+/// An option as help, completion and manual pages tell it.
+struct OptionLine {
+  const char* name;   ///< "--port"
+  const char* value;  ///< null: it takes none
+  const char* text;
+};
+std::vector<OptionLine> option_lines();
 
 }  // namespace keyline::studio

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/version.h"
 #include "keyline/operations/perform.h"
 #include "keyline/operations/references.h"
 #include "keyline/presentation/output.h"
@@ -125,7 +126,7 @@ Result<operations::Written> written_as(const std::string& file, json request) {
   presentation::ReportOptions options;
   options.title = "Keyline Studio";
   options.unit = output->document.unit;
-  options.generator = "Keyline " KEYLINE_VERSION;
+  options.generator = std::string("Keyline ") + core::version();
   const auto pages = presentation::document_pages(output->document, options);
   auto answer = presentation::write_files({file}, pages, *output);
   if (!answer) return std::unexpected(std::move(answer.error()));
@@ -335,7 +336,7 @@ void Studio::send_asset(const std::string& path, Responder& back) const {
 }
 
 std::string Studio::session() const {
-  return text_of({{"version", KEYLINE_VERSION},
+  return text_of({{"version", core::version()},
                   {"folder", folder_.root().string()},
                   {"files", settings_.files},
                   {"kept", !recovery_.kept().empty()}});

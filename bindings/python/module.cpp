@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/version.h"
 #include "keyline/operations/held_curve.h"
 #include "keyline/operations/operation.h"
 #include "keyline/operations/perform.h"
@@ -237,7 +238,7 @@ void define_curve(py::module_& module) {
 
 PYBIND11_MODULE(_keyline, module) {
   using namespace keyline::python;
-  module.attr("__version__") = KEYLINE_VERSION;
+  module.attr("__version__") = keyline::core::version();
   module.def("declared", &declared, "Every operation: name, summary and schemas.");
   module.def("perform", &perform, py::arg("name"), py::arg("fields"), py::arg("threads"),
              py::arg("progress"));

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/text.h"
+#include "keyline/core/version.h"
 #include "keyline/operations/common.h"
 #include "keyline/operations/json_form.h"
 #include "keyline/operations/schema.h"
@@ -321,7 +322,7 @@ json openapi_document() {
       {"properties",
        {{"code", {{"enum", codes}}}, {"message", text}, {"path", text}, {"hint", text}}}};
   json document{{"openapi", "3.1.0"},
-                {"info", {{"title", "Keyline"}, {"version", "0.1.0"}}},
+                {"info", {{"title", "Keyline"}, {"version", core::version()}}},
                 {"paths", std::move(paths)},
                 {"components", {{"schemas", std::move(schemas)}}}};
   std::string whole = document.dump();

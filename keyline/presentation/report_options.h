@@ -13,7 +13,7 @@ struct ReportOptions {
   std::string unit = {};      ///< of length, "mm"; empty: none stated
   std::string command = {};   ///< command line that repeats the run; may be empty
   std::vector<std::pair<std::string, std::string>> options = {};  ///< in force, name and value
-  std::string generator = {};                                     ///< "Keyline 0.1.0"
+  std::string generator = {};                                     ///< the program and its version
 };
 
 }  // namespace keyline::presentation

@@ -66,7 +66,7 @@ struct Report {
   std::vector<ReportNote> notes = {};
   std::vector<std::pair<std::string, std::string>> options = {};  ///< name and value
   std::string command = {};                                       ///< repeats the run
-  std::string generator = {};                                     ///< "Keyline 0.1.0"
+  std::string generator = {};                                     ///< the program and its version
 };
 
 /// One row of the table of pieces; lengths and radii already carry their unit.

@@ -1,9 +1,11 @@
-# Installs the built tree and builds and runs a small project against the installed package.
+# Installs the built tree and builds and runs a small project against the installed package: one room
+# by CMake and by pkg-config, then all rooms.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${ARGN}\n${output}")
   endif()
+  set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 set(flags "")
@@ -12,8 +14,34 @@ if(SANITIZE)
 endif()
 file(REMOVE_RECURSE "${WORK}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
+set(readme "${SOURCE}/../../../examples/cpp/readme.cpp")
 run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}"
     "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${flags}"
-    "-DCMAKE_PREFIX_PATH=${WORK}/prefix")
+    "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DKEYLINE_WANTED_VERSION=${VERSION}"
+    "-DREADME_SOURCE=${readme}")
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
+run("${WORK}/build/readme")
+set(by_cmake "${output}")
+
+file(GLOB_RECURSE pc "${WORK}/prefix/*/keyline-lac.pc")
+get_filename_component(pc_dir "${pc}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} "${pc_dir}")
+run(pkg-config --modversion keyline-lac)
+if(NOT output STREQUAL "${VERSION}\n")
+  message(FATAL_ERROR "pkg-config says ${output} where CMakeLists.txt says ${VERSION}")
+endif()
+run(pkg-config --cflags --libs keyline-lac)
+string(STRIP "${output} ${flags}" words)
+separate_arguments(words UNIX_COMMAND "${words}")
+run("${COMPILER}" -std=c++23 "${readme}" ${words} -o "${WORK}/readme")
+run("${WORK}/readme")
+if(NOT output STREQUAL by_cmake)
+  message(FATAL_ERROR "by CMake:\n${by_cmake}by pkg-config:\n${output}")
+endif()
+foreach(file IN ITEMS man/man1/keyline-fair.1 bash-completion/completions/keyline
+                      zsh/vendor-completions/_keyline fish/vendor_completions.d/keyline.fish)
+  if(EXISTS "${WORK}/prefix/bin/keyline" AND NOT EXISTS "${WORK}/prefix/share/${file}")
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()

@@ -30,7 +30,7 @@ Report sample_report() {
   report.notes = {{NoteKind::warning, "2 strays left out"}, {NoteKind::note, "points reordered"}};
   report.options = {{"seed", "1"}};
   report.command = "keyline fair bonnet.csv --seed 1";
-  report.generator = "Keyline 0.1.0";
+  report.generator = "Keyline 9.8.7";
   return report;
 }
 

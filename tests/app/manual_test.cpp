@@ -1,0 +1,86 @@
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "run_keyline.h"
+
+namespace keyline::app_test {
+namespace {
+
+using testing::HasSubstr;
+
+Outcome run_command(const std::string& command) {
+  const Scratch s;
+  const int status =
+      std::system(("(" + command + ") >" + s.path("out") + " 2>" + s.path("err")).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(s.path("out")), slurp(s.path("err"))};
+}
+
+/// What a shell says to its own script; empty where the shell is not installed.
+Outcome shell(const std::string& name, const std::string& arguments) {
+  return run_command("command -v " + name + " >/dev/null || exit 127; " + name + " " + arguments);
+}
+
+TEST(Manual, EveryShellTakesItsCompletion) {
+  for (const std::string name : {"bash", "zsh", "fish"}) {
+    const Scratch s;
+    const Outcome made = run_keyline("completion " + name);
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr("pieces")) << name;
+    EXPECT_THAT(made.out, HasSubstr("lac.hermite")) << name;
+    const Outcome read = shell(name, "-n " + s.write("script", made.out));
+    EXPECT_TRUE(read.status == 0 || read.status == 127) << name << read.err;
+  }
+  expect_failure(run_keyline("completion tcsh"), 2, "ask for bash, zsh or fish");
+  expect_failure(run_keyline("completion"), 2, "ask for bash, zsh or fish");
+}
+
+TEST(Manual, BashCompletesOptionsAndTheirWords) {
+  const Scratch s;
+  const std::string script = s.write("script", run_keyline("completion bash").out);
+  const auto completed = [&](const std::string& words, int at) {
+    return run_command("bash -c 'source " + script + "; COMP_WORDS=(" + words + "); COMP_CWORD=" +
+                       std::to_string(at) + "; _keyline; echo \"${COMPREPLY[*]}\"'")
+        .out;
+  };
+  EXPECT_EQ(completed("keyline fai", 1), "fair\n");
+  EXPECT_EQ(completed("keyline fair --piec", 2), "--pieces\n");
+  EXPECT_EQ(completed("keyline edit --joints \"\"", 3), "free G1 G2\n");
+  EXPECT_EQ(completed("keyline fair exam", 2), "\n");  // a file: the shell's own part
+}
+
+TEST(Manual, PagesTellEveryOptionAsTheHelpDoes) {
+  const Scratch s;
+  ASSERT_EQ(run_keyline("man --all " + s.path("man")).status, 0);
+  const std::string page = slurp(s.path("man/keyline-fair.1"));
+  EXPECT_EQ(page, run_keyline("man fair").out);
+  EXPECT_THAT(page, testing::StartsWith(".TH KEYLINE\\-FAIR 1 "));
+  std::istringstream help(run_keyline("fair --help").out);
+  int options = 0;
+  for (std::string line; std::getline(help, line);) {
+    if (!line.starts_with("  --")) continue;
+    std::string name = line.substr(2, line.find(' ', 2) - 2);
+    for (std::size_t at = 0; (at = name.find('-', at)) != std::string::npos; at += 2)
+      name.insert(at, "\\");
+    EXPECT_THAT(page, HasSubstr("\\fB" + name + "\\fR"));
+    ++options;
+  }
+  EXPECT_GT(options, 20);
+  const std::string all = slurp(s.path("man/keyline.1"));
+  for (const char* command : {"fair", "blend", "studio", "lac.quasi"})
+    EXPECT_THAT(all, HasSubstr(std::string("keyline\\-") + command)) << command;
+  expect_failure(run_keyline("man nonsense"), 2, "there is no command");
+}
+
+/// A line that begins with a dot or a quote would be taken for a request and vanish.
+TEST(Manual, ManReadsEveryPageWithoutAWarning) {
+  const Scratch s;
+  ASSERT_EQ(run_keyline("man --all " + s.path("man")).status, 0);
+  if (run_command("command -v groff").status != 0) GTEST_SKIP() << "groff is not installed";
+  const Outcome o = run_command("groff -Kutf8 -man -Tutf8 -ww " + s.path("man") + "/*.1 >/dev/null");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+}
+
+}  // namespace
+}  // namespace keyline::app_test
