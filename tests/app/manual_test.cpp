@@ -77,7 +77,8 @@ TEST(Manual, ManReadsEveryPageWithoutAWarning) {
   const Scratch s;
   ASSERT_EQ(run_keyline("man --all " + s.path("man")).status, 0);
   if (run_command("command -v groff").status != 0) GTEST_SKIP() << "groff is not installed";
-  const Outcome o = run_command("groff -Kutf8 -man -Tutf8 -ww " + s.path("man") + "/*.1 >/dev/null");
+  const Outcome o =
+      run_command("groff -Kutf8 -man -Tutf8 -ww " + s.path("man") + "/*.1 >/dev/null");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
 }
