@@ -45,8 +45,9 @@ BezierSurface elevate_rows(const BezierSurface& s, int by) {
 SurfaceJet jet_to_order(const BezierSurface& s, double u, double v, int orders) {
   require_counts(s);
   detail::Strip strip;
-  detail::contract({&s.net, &s.weights}, detail::bernstein_basis(s.net.rows - 1, u), orders, strip);
-  return detail::combine(strip, detail::bernstein_basis(s.net.columns - 1, v), orders);
+  detail::contract({&s.net, &s.weights}, detail::bernstein_basis(s.net.rows - 1, u, orders), orders,
+                   strip);
+  return detail::combine(strip, detail::bernstein_basis(s.net.columns - 1, v, orders), orders);
 }
 
 }  // namespace

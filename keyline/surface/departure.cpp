@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/surface/closest_point.h"
+#include "keyline/surface/tensor.h"
 
 namespace keyline::surface {
 namespace {
@@ -60,12 +61,28 @@ VectorNet vectors_of(const Net& net) {
   return n;
 }
 
+/// A polynomial patch at many places: value and first derivatives.
+class Places {
+ public:
+  explicit Places(const BezierSurface& s) : s_(s) {}
+  SurfaceJet jet(double u, double v, int orders = 2) {
+    detail::contract({&s_.net, &s_.weights}, detail::bernstein_basis(s_.net.rows - 1, u, orders),
+                     orders, strip_);
+    return detail::combine(strip_, detail::bernstein_basis(s_.net.columns - 1, v, orders), orders);
+  }
+  Point3 point(double u, double v) { return jet(u, v, 1).point; }
+
+ private:
+  const BezierSurface& s_;
+  detail::Strip strip_;
+};
+
 /// Close to the nearest point of the patch to p, from (u, v): any point makes a sound bound.
-SurfacePoint foot(const BezierSurface& s, const Point3& p, double u, double v) {
-  SurfacePoint at{u, v, evaluate(s, u, v), 0};
+SurfacePoint foot(Places& s, const Point3& p, double u, double v) {
+  SurfacePoint at{u, v, s.point(u, v), 0};
   at.distance = distance(at.point, p);
   for (int i = 0; i < 4; ++i) {
-    const SurfaceJet j = jet(s, at.u, at.v);
+    const SurfaceJet j = s.jet(at.u, at.v);
     const Vector3 off = j.point - p;
     const double gu = dot(off, j.u), gv = dot(off, j.v);
     const double a = dot(j.u, j.u), b = dot(j.u, j.v), c = dot(j.v, j.v);
@@ -74,7 +91,7 @@ SurfacePoint foot(const BezierSurface& s, const Point3& p, double u, double v) {
     SurfacePoint next;
     next.u = std::clamp(at.u + (b * gv - c * gu) / det, 0.0, 1.0);
     next.v = std::clamp(at.v + (b * gu - a * gv) / det, 0.0, 1.0);
-    next.point = evaluate(s, next.u, next.v);
+    next.point = s.point(next.u, next.v);
     next.distance = distance(next.point, p);
     if (!(next.distance < at.distance)) break;
     const bool settled = next.distance > 0.9999 * at.distance;
@@ -93,9 +110,11 @@ class OneWay {
     for (std::size_t i = 0; i < apart.v.size(); ++i)
       apart.v[i] = from.net.points[i] - onto.net.points[i];
     apart_ = bounds_of(apart);
+    Places here(from);
+    Places there(onto);
     for (int i = 0; i <= cells; ++i)
       for (int j = 0; j <= cells; ++j)
-        feet_.push_back(foot(onto, evaluate(from, share(i), share(j)), share(i), share(j)));
+        feet_.push_back(foot(there, here.point(share(i), share(j)), share(i), share(j)));
   }
 
   /// The bound, and how much of it is not distance at a corner.

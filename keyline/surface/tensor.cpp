@@ -16,7 +16,7 @@ using Row = std::array<double, kMost + 1>;
 /// low(i) and high(i) give knots[span + 1 - i] and knots[span + i].
 template <class Low, class High>
 Row cox_de_boor(int degree, double x, Low low, High high) {
-  Row n{};
+  Row n;
   n[0] = 1;
   for (int p = 1; p <= degree; ++p) {
     double saved = 0;
@@ -36,7 +36,8 @@ Row cox_de_boor(int degree, double x, Low low, High high) {
 /// N'_i,p = p (N_i,p-1 / (U_{i+p} - U_i) - N_{i+1,p-1} / (U_{i+p+1} - U_{i+1})).
 template <class Low, class High>
 Row differentiated(const Row& lower, int p, Low low, High high) {
-  Row n{};
+  Row n;
+  std::fill_n(n.begin(), p + 1, 0.0);
   for (int r = 0; r < p; ++r) {  // lower[r] lives on [low(p - r), high(r + 1)]
     const double d = p * lower[r] / (high(r + 1) - low(p - r));
     n[r] -= d;
@@ -46,18 +47,18 @@ Row differentiated(const Row& lower, int p, Low low, High high) {
 }
 
 template <class Low, class High>
-void fill(Basis& basis, int degree, double x, double scale, Low low, High high) {
+void fill(Basis& basis, int degree, double x, double scale, int orders, Low low, High high) {
   basis.count = degree + 1;
   double factor = 1;
-  for (int order = 0; order < kOrders; ++order, factor *= scale) {
+  for (int order = 0; order < orders; ++order, factor *= scale) {
+    Row& values = basis.values[order];
     if (order > degree) {
-      basis.values[order].fill(0);
+      std::fill_n(values.begin(), basis.count, 0.0);
       continue;
     }
     Row row = cox_de_boor(degree - order, x, low, high);
     for (int p = degree - order + 1; p <= degree; ++p) row = differentiated(row, p, low, high);
-    for (double& b : row) b *= factor;
-    basis.values[order] = row;
+    for (int i = 0; i < basis.count; ++i) values[i] = factor * row[i];
   }
 }
 
@@ -88,13 +89,15 @@ void divide(std::array<std::array<Vector3, kOrders>, kOrders>& a,
 
 }  // namespace
 
-Basis bernstein_basis(int degree, double t) {
+Basis bernstein_basis(int degree, double t, int orders) {
   Basis basis;
-  fill(basis, degree, std::clamp(t, 0.0, 1.0), 1, [](int) { return 0.0; }, [](int) { return 1.0; });
+  fill(
+      basis, degree, std::clamp(t, 0.0, 1.0), 1, orders, [](int) { return 0.0; },
+      [](int) { return 1.0; });
   return basis;
 }
 
-Basis spline_basis(int degree, std::span<const double> knots, double t) {
+Basis spline_basis(int degree, std::span<const double> knots, double t, int orders) {
   const double start = knots[degree];
   const double end = knots[knots.size() - degree - 1];
   const double u = std::clamp(t, 0.0, 1.0);
@@ -103,7 +106,7 @@ Basis spline_basis(int degree, std::span<const double> knots, double t) {
   Basis basis;
   basis.first = span - degree;
   fill(
-      basis, degree, x, end - start, [&](int i) { return knots[span + 1 - i]; },
+      basis, degree, x, end - start, orders, [&](int i) { return knots[span + 1 - i]; },
       [&](int i) { return knots[span + i]; });
   return basis;
 }

@@ -14,7 +14,8 @@ namespace keyline::surface::detail {
 inline constexpr int kOrders = 4;  ///< value and three derivatives
 
 /// The degree + 1 basis functions that do not vanish at a parameter, with derivatives in the
-/// parameter of [0, 1]; they belong to the control points from `first` on.
+/// parameter of [0, 1]; they belong to the control points from `first` on. Only the first `count`
+/// of the orders that were asked for are set.
 struct Basis {
   int first = 0;
   int count = 0;
@@ -22,10 +23,10 @@ struct Basis {
 };
 
 /// Bernstein polynomials of the degree at t, clamped to [0, 1].
-Basis bernstein_basis(int degree, double t);
+Basis bernstein_basis(int degree, double t, int orders = kOrders);
 
 /// B-spline basis at t in [0, 1] mapped to [knots[degree], knots[n]], n control points.
-Basis spline_basis(int degree, std::span<const double> knots, double t);
+Basis spline_basis(int degree, std::span<const double> knots, double t, int orders = kOrders);
 
 /// Net and weights of a surface, not owned.
 struct NetView {
