@@ -54,15 +54,20 @@ std::string patches_text(const json& patches) {
   return text;
 }
 
+std::string tradeoff_text(const json& found) {
+  std::string text = fmt::format("{:>31} {:>11} {:>11}\n", "target", "departure", "SAV");
+  for (const json& t : found)
+    text += fmt::format("{:>31} {:>11.5g} {:>11.5g}\n", t["target"].get<std::string>(),
+                        t["departure"].get<double>(), t["sav"].get<double>());
+  return text;
+}
+
 std::string one_patch_text(const json& r) {
   std::string text = fmt::format("SAV {:.5g} to {:.5g}  departure {:.4g}  target {} ({:.3g} %)\n",
                                  r["before"]["sav"].get<double>(), r["after"]["sav"].get<double>(),
                                  r["departure"].get<double>(), r["target"].get<std::string>(),
                                  100 * r["amount"].get<double>());
-  text += fmt::format("{:>31} {:>11} {:>11}\n", "target", "departure", "SAV");
-  for (const json& t : r["tradeoff"])
-    text += fmt::format("{:>31} {:>11.5g} {:>11.5g}\n", t["target"].get<std::string>(),
-                        t["departure"].get<double>(), t["sav"].get<double>());
+  text += tradeoff_text(r["tradeoff"]);
   for (const json& m : r["missed"])
     text += fmt::format("{:>31} not found: {}, {}\n", m["target"].get<std::string>(),
                         m["curve"].get<std::string>(), m["why"].get<std::string>());
@@ -83,6 +88,7 @@ std::string many_patches_text(const json& r) {
   if (r.contains("sav_apart"))
     text += fmt::format("joints are held; each patch for itself would come to SAV {:.5g}\n",
                         r["sav_apart"].get<double>());
+  if (r.contains("tradeoff")) text += tradeoff_text(r["tradeoff"]);
   text += fmt::format("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure",
                       "target");
   for (const json& p : patches) {

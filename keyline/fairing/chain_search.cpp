@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/chain_edit.h"

@@ -13,6 +13,12 @@ std::vector<MissedShown> missed_shown(const std::vector<surface::MissedTarget>& 
   return all;
 }
 
+std::vector<TradeOffShown> tradeoff_shown(const std::vector<surface::TradeOff>& found) {
+  std::vector<TradeOffShown> all;
+  for (const surface::TradeOff& t : found) all.push_back({t.name, t.departure, t.sav});
+  return all;
+}
+
 PatchEditShown patch_shown(const surface::SurfaceEdit& edit, std::size_t i) {
   const auto columns = static_cast<std::size_t>(edit.grid.columns);
   const auto& [result, why] = edit.edited.patches[i];
@@ -40,9 +46,7 @@ SurfaceEditAnswer answer_of_one(const surface::EditResult& edited) {
   answer.departure = edited.departure;
   answer.amount = edited.amount;
   answer.target = edited.target;
-  answer.tradeoff.emplace();
-  for (const surface::TradeOff& t : edited.tradeoff)
-    answer.tradeoff->push_back({t.name, t.departure, t.sav});
+  answer.tradeoff = tradeoff_shown(edited.tradeoff);
   answer.missed = missed_shown(edited.missed);
   if (!edited.unmet.empty()) answer.unmet = missed_shown(edited.unmet);
   return answer;
@@ -96,6 +100,7 @@ SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit) {
   for (std::size_t i = 0; i < all.patches.size(); ++i)
     answer.patch_edits->push_back(patch_shown(edit, i));
   answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost};
+  if (!all.tradeoff.empty()) answer.tradeoff = tradeoff_shown(all.tradeoff);
   if (all.sav_apart < answer.after.sav) answer.sav_apart = all.sav_apart;
   answer.edit = edit;
   return answer;

@@ -151,7 +151,8 @@ struct SurfaceEditAnswer {
         core::field<&Answer::departure>("largest, from the given surface").in("length"),
         core::field<&Answer::amount>("as used, of one patch"),
         core::field<&Answer::target>("that was taken, of one patch"),
-        core::field<&Answer::tradeoff>("every target found, of one patch, by departure"),
+        core::field<&Answer::tradeoff>(
+            "every target found, by departure: of one patch, or of several with joints held"),
         core::field<&Answer::missed>("others, of one patch"),
         core::field<&Answer::unmet>("conditions not met part of the way, of one patch"),
         core::field<&Answer::patch_edits>("of several patches, one by one"),

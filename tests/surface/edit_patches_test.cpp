@@ -129,6 +129,47 @@ TEST(EditPatches, JointsHeldStayTangent) {
   }
 }
 
+/// The largest difference of a cubic's edge ratios, as complex numbers in the plane of the curve:
+/// 0 where it has one control matrix.
+double ratio_spread(const std::vector<core::Point3>& c) {
+  const auto turn = [](core::Vector3 a, core::Vector3 b) {
+    return std::atan2(norm(cross(a, b)), dot(a, b));
+  };
+  const core::Vector3 e0 = c[1] - c[0];
+  const core::Vector3 e1 = c[2] - c[1];
+  const core::Vector3 e2 = c[3] - c[2];
+  return std::hypot(turn(e0, e1) - turn(e1, e2), norm(e1) / norm(e0) - norm(e2) / norm(e1));
+}
+
+// A skin whose sections are not quite translates of one another: its patches' rows and columns can
+// be taken to one matrix each, all of them but few, without any joint coming loose.
+TEST(EditPatches, CurvesOfJoinedPatchesTakeOneMatrixTogether) {
+  BSplineSurface s;
+  s.net = {5, 6, {}};
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 6; ++j)
+      s.net.points.push_back({i * 240.0, j * 180.0 - 450,
+                              80 - 0.00011 * (i * 240 - 900) * (i * 240 - 900) -
+                                  7.0 * (j - 2.5) * (j - 2.5) + 0.2 * i * j});
+  s.knots = {{{0, 0, 0, 0, 0.5, 1, 1, 1, 1}, {0, 0, 0, 0, 1.0 / 3, 2.0 / 3, 1, 1, 1, 1}}};
+  EditOptions options;
+  options.keep = Keep::joints;
+  const auto edit = edit_surface(s, options, 2);
+  ASSERT_TRUE(edit) << edit.error().message;
+  const PatchesEdit& all = edit->edited;
+  EXPECT_LT(all.sav_after, 0.2 * all.sav_before);
+  EXPECT_EQ(all.after.order_at_least[1], 7U);
+  EXPECT_LT(largest_jump_of_normals(all.surfaces[0], all.surfaces[1]), 1e-4);
+  int of_one_matrix = 0;
+  for (const BezierSurface& patch : all.surfaces)
+    for (const NetworkCurve& c : network_curves(patch.net))
+      of_one_matrix += ratio_spread(c.control) < 2e-6;
+  EXPECT_GE(of_one_matrix, 40);  // of 48
+  ASSERT_FALSE(all.tradeoff.empty());
+  const auto corner = [](const BezierSurface& p) { return p.net.at(0, 0); };
+  EXPECT_LT(distance(corner(all.surfaces[0]), s.net.at(0, 0)), 1e-12);
+}
+
 TEST(EditPatches, CurvatureIsHeldOnRequest) {
   const BSplineSurface s = four_patches();
   EditOptions options;

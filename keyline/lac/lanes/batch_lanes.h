@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <xsimd/xsimd.hpp>
+
 #include "keyline/lac/lanes/gauss_nodes.h"
 
 /// Internals: quick_search on several problems at once, one a lane.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <xsimd/xsimd.hpp>
+
 /// Internals: the sums of the chord integral, vectorised, one body for every instruction set.
 namespace keyline::lac::detail {
 
