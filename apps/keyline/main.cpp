@@ -69,6 +69,15 @@ int run_man(const Words& words) {
   return print(manual_page(words.empty() ? "" : words.front()));
 }
 
+/// The operations of a room, "library" say, a line each; empty where there is no such room.
+std::string help_of_room(const std::string& room) {
+  std::string text;
+  for (const operations::Operation& operation : operations::operations())
+    if (operation.name.starts_with(room + "."))
+      text += fmt::format("  {:<22} {}\n", operation.name, operation.summary);
+  return text;
+}
+
 /// "lac.segment", "perform lac.segment" and "lac segment" alike.
 int run_named(const std::string& first, Words words) {
   std::string name = first;
@@ -80,8 +89,14 @@ int run_named(const std::string& first, Words words) {
     words.erase(words.begin());
   }
   if (operations::find_operation(name)) return run_plain(name, words);
+  const std::string room = help_of_room(name);
+  const std::string lists = room.empty() ? "keyline --help" : "keyline " + name + " --help";
+  if (!room.empty() && !words.empty() && (words.front() == "--help" || words.front() == "-h")) {
+    fmt::print("{}\nkeyline OPERATION --help tells more.\n", room);
+    return kDone;
+  }
   return report_failure({core::ErrorCode::bad_input, "there is no command \"" + name + "\"",
-                         "keyline --help lists them", ""});
+                         lists + " lists them", ""});
 }
 
 int run(const Words& all) {

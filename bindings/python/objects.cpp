@@ -71,6 +71,8 @@ json to_json(const py::handle& object, const std::string& where) {
   if (py::hasattr(object, "_handle")) return to_json(object.attr("_handle"), where);
   if (py::isinstance<py::dict>(object))
     return from_mapping(py::reinterpret_borrow<py::dict>(object), where);
+  if (py::hasattr(object, "keys"))
+    return from_mapping(py::dict(py::reinterpret_borrow<py::object>(object)), where);
   if (py::isinstance<py::array>(object))
     return from_array(py::reinterpret_borrow<py::array>(object), where);
   if (py::hasattr(object, "__fspath__"))

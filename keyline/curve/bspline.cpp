@@ -99,7 +99,7 @@ Jet<P> jet(const BSpline<P>& c, double t) {
   require_counts(c);
   const auto [span, u] = locate(c, t);
   const double scale = core::length(domain(c));
-  const auto in_knots = [&](auto d) {
+  const auto in_knots = [&, span = span, u = u](auto d) {
     return detail::to_jet<P>(
         detail::spline_derivatives(d.data(), c.knots.data(), c.degree, span, u));
   };

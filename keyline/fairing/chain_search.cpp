@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/chain_edit.h"

@@ -28,7 +28,7 @@ Result<void> check_parameters(std::span<const double> u, std::span<const double>
 Result<HeldSurface> HeldSurface::from_json(const nlohmann::json& value) {
   auto surface = exchange::surface_from_json(value, "surface");
   if (!surface) return std::unexpected(surface.error());
-  return HeldSurface(std::make_shared<Body>(std::move(*surface)));
+  return HeldSurface(std::make_shared<Body>(Body{std::move(*surface)}));
 }
 
 nlohmann::json HeldSurface::to_json() const { return exchange::to_json(body_->surface); }

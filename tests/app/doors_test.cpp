@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/numeric/instruction_set.h"
 #include "keyline/operations/perform.h"
 #include "keyline/operations/schema.h"
 
@@ -186,6 +187,95 @@ TEST(Doors, StudioAndBatchAnswerAlikeToTheLastBit) {
   // A design library lies outside the folder the server keeps to; it says so.
   std::erase_if(all, [](const Case& c) { return c.operation->name.starts_with("library."); });
   expect_as_batch("python3 -B tests/app/studio_door.py " KEYLINE_PROGRAM " .", all);
+}
+
+/// The largest number in there.
+double largest(const json& value) {
+  if (value.is_number()) return std::abs(value.get<double>());
+  double most = 0;
+  if (value.is_structured())
+    for (const json& part : value) most = std::max(most, largest(part));
+  return most;
+}
+
+/// The first place where the answers differ by more than `tolerance` of the numbers around it (the
+/// largest of an array and of the arrays within, 1 at least); empty where there is none.
+std::string difference(const json& a, const json& b, double tolerance, double scale = 1,
+                       const std::string& place = "") {
+  if (a.is_number() && b.is_number()) {
+    const double x = a.get<double>();
+    const double y = b.get<double>();
+    return std::abs(x - y) <= tolerance * std::max({scale, std::abs(x), std::abs(y)})
+               ? ""
+               : place + ": " + a.dump() + " and " + b.dump();
+  }
+  if (a.type() != b.type() || a.size() != b.size() || !a.is_structured())
+    return a == b ? "" : place + ": " + a.dump().substr(0, 200) + " and " + b.dump().substr(0, 200);
+  if (a.is_array()) scale = std::max(scale, largest(a));
+  for (const auto& [key, value] : a.items()) {
+    const json* other = nullptr;
+    if (a.is_array()) {
+      other = &b[static_cast<std::size_t>(std::stoul(key))];
+    } else if (const auto at = b.find(key); at != b.end()) {
+      other = &*at;
+    }
+    if (!other) return place + "." + key + " is missing";
+    if (auto found = difference(value, *other, tolerance, scale, place + "." + key); !found.empty())
+      return found;
+  }
+  return "";
+}
+
+/// House rule: 1e-12. Torsion's slopes are measured on third differences of points.
+double tolerance_of(const std::string& operation) {
+  return operation == "lac.space" ? 1e-9 : 1e-12;
+}
+
+/// What is compared of an answer. A fairing's descent ends where rounding lets it, so that its last
+/// digits are not promised; only that there is an answer. Of the best form of a quasi curve the
+/// deviation is promised; how its points run along it is left to rounding.
+json promised(const std::string& operation, json answer) {
+  if (operation == "fair") return answer["ok"];
+  if (operation == "lac.quasi" && answer["ok"] == true && answer["result"]["form"] == "best") {
+    answer["result"].erase("curve");
+    answer["result"].erase("lcg");
+  }
+  return answer;
+}
+
+TEST(Doors, EveryInstructionSetAnswersAlike) {
+  const Scratch s;
+  const std::vector<Case> all = cases();
+  const std::string command = "batch --quiet <" + s.write("requests", lines_of(all));
+  const auto with = [&](const std::string& set) {
+    const Outcome o = run_keyline(command, kThere + "KEYLINE_SIMD=" + set);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return answers_of(o.out, all.size());
+  };
+  const std::vector<json> plain = with("scalar");
+  std::size_t changed = 0;
+  for (const numeric::InstructionSet set : numeric::instruction_sets()) {
+    if (set == numeric::InstructionSet::scalar) continue;
+    const std::string name(numeric::instruction_set_name(set));
+    const std::vector<json> other = with(name);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::string& operation = all[i].operation->name;
+      EXPECT_EQ(difference(promised(operation, plain[i]), promised(operation, other[i]),
+                           tolerance_of(operation)),
+                "")
+          << name << ": " << operation << " " << all[i].request;
+      if (plain[i] != other[i]) ++changed;
+    }
+  }
+  // The switch does something: the sets' sums end in different digits.
+  EXPECT_TRUE(changed > 0 || numeric::instruction_sets().size() == 1);
+}
+
+TEST(Doors, AnInstructionSetTheProcessorHasNotIsRefused) {
+  const Outcome o = run_keyline("perform lac.segment --points '[[0,0],[2,0],[3,1.5]]' --alpha=-1",
+                                "KEYLINE_SIMD=avx9");
+  EXPECT_EQ(o.status, 2) << o.out;
+  EXPECT_NE(o.err.find("avx9"), std::string::npos) << o.err;
 }
 
 /// One polyline as points, as a curve value, in a table and in a drawing: one curve through all.

@@ -8,6 +8,7 @@ namespace keyline::app_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 Outcome run_command(const std::string& command) {
   const Scratch s;
@@ -70,6 +71,15 @@ TEST(Manual, PagesTellEveryOptionAsTheHelpDoes) {
   for (const char* command : {"fair", "blend", "studio", "lac.quasi"})
     EXPECT_THAT(all, HasSubstr(std::string("keyline\\-") + command)) << command;
   expect_failure(run_keyline("man nonsense"), 2, "there is no command");
+}
+
+TEST(Manual, ARoomListsItsOperations) {
+  const Outcome o = run_keyline("library --help");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("library.add"));
+  EXPECT_THAT(o.out, Not(HasSubstr("lac.segment")));
+  expect_failure(run_keyline("library"), 2, "keyline library --help lists them");
+  expect_failure(run_keyline("nonsense --help"), 2, "there is no command");
 }
 
 /// A line that begins with a dot or a quote would be taken for a request and vanish.

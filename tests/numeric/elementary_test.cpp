@@ -7,9 +7,13 @@
 namespace keyline::numeric {
 namespace {
 
-using Batch = xsimd::batch<double, xsimd::default_arch>;
+template <class Arch>
+class Elementary : public testing::Test {};
+using Architectures = testing::Types<simd::ScalarArch, simd::BaselineArch>;
+TYPED_TEST_SUITE(Elementary, Architectures);
 
-TEST(Elementary, ExponentialsOverTheirRange) {
+TYPED_TEST(Elementary, ExponentialsOverTheirRange) {
+  using Batch = simd::Lanes<TypeParam>;
   for (double x = -690; x <= 690; x += 0.7377) {
     EXPECT_NEAR(simd::exp(Batch(x)).get(0) / std::exp(x), 1, 4e-16) << x;
     EXPECT_NEAR(simd::expm1(Batch(x)).get(0) / std::expm1(x), 1, 6e-16) << x;
@@ -23,7 +27,8 @@ TEST(Elementary, ExponentialsOverTheirRange) {
   EXPECT_EQ(simd::expm1(Batch(0.0)).get(0), 0);
 }
 
-TEST(Elementary, SineAndCosineOfShortAngles) {
+TYPED_TEST(Elementary, SineAndCosineOfShortAngles) {
+  using Batch = simd::Lanes<TypeParam>;
   for (double x = -1.7; x <= 1.7; x += 0.0137) {
     Batch sine, cosine;
     simd::sincos_short(Batch(x), sine, cosine);

@@ -2,6 +2,7 @@
 
 import math
 import os
+import pathlib
 import pickle
 import signal
 import threading
@@ -231,6 +232,14 @@ def test_every_example_of_every_operation_gives_what_json_gives(monkeypatch):
 
 
 @pytest.mark.skipif(not os.path.isdir(os.environ.get("KEYLINE_SHARED_DATA", "")), reason="no shared data")
+def test_what_was_read_is_a_request_again():
+    examples = pathlib.Path(__file__).resolve().parents[2] / "examples"
+    read = keyline.read(examples / "clothoid.csv")
+    assert set(dict(read)) == set(read)
+    given = keyline.fair(line=read.curves[0].line)
+    assert given.curve.length == pytest.approx(100, abs=0.01)  # by clothoid-truth.json
+
+
 def test_files_of_every_kind_are_read():
     assert hasattr(keyline, "document"), "document.read is not declared"
     folder = os.environ["KEYLINE_SHARED_DATA"]

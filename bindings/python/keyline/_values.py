@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from typing import Any, Iterator, Mapping
+from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -24,6 +24,10 @@ class Record:
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.__dict__)
+
+    def keys(self) -> Iterable[str]:
+        """With `[]` what a mapping needs: dict(record), and records in requests."""
+        return self.__dict__.keys()
 
     def __repr__(self) -> str:
         return "Record(" + ", ".join(f"{k}={_short(v)}" for k, v in self.__dict__.items()) + ")"

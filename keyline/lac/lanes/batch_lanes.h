@@ -2,8 +2,6 @@
 
 #include <cstddef>
 
-#include <xsimd/xsimd.hpp>
-
 #include "keyline/lac/lanes/gauss_nodes.h"
 
 /// Internals: quick_search on several problems at once, one a lane.

@@ -15,11 +15,11 @@ struct LaneProblem {
 
   LaneProblem(const Batch& alpha, const Batch& turning, const Batch& excess) : theta(turning) {
     const Mask negative = alpha < Batch(0.0);
-    a = xsimd::abs(alpha);
-    b = xsimd::select(negative, Batch(1.0) - alpha, alpha - Batch(1.0));
-    k = xsimd::min(a, xsimd::abs(b));
-    sharpness = xsimd::max(a, xsimd::abs(b));
-    sign = xsimd::select(negative, Batch(1.0), Batch(-1.0));
+    a = abs(alpha);
+    b = select(negative, Batch(1.0) - alpha, alpha - Batch(1.0));
+    k = min(a, abs(b));
+    sharpness = max(a, abs(b));
+    sign = select(negative, Batch(1.0), Batch(-1.0));
     const Batch h = Batch(0.5) * theta;
     numeric::simd::sincos_short(h, half_y, half_x);
     Batch sine;
@@ -27,33 +27,31 @@ struct LaneProblem {
     axis_y = sign * sine;
     const Batch z = h * h;
     const Batch series = h * numeric::simd::horner(z, 1.0 / 6, 1.0 / 90, 1.0 / 945, 1.0 / 9450);
-    slope = xsimd::select(h < Batch(0.1), series, (Batch(1.0) - h * half_x / half_y) / theta);
+    slope = select(h < Batch(0.1), series, (Batch(1.0) - h * half_x / half_y) / theta);
   }
 
   /// The first guess of q; sets bend.
   Batch guess(const Batch& excess) {
-    const Batch growing = xsimd::min(Batch(1.0), Batch(2.5) * a);
+    const Batch growing = min(Batch(1.0), Batch(2.5) * a);
     const Batch falling = Batch(0.8) * b / (Batch(1.0) + b);
-    const Batch share =
-        xsimd::select(b > a, growing, xsimd::select(b > Batch(0.0), falling, Batch(0.0)));
-    const Batch spread = a + xsimd::abs(b);
-    const Batch grown = xsimd::fma(share, Batch(12.0) * slope / theta - Batch(1.0), Batch(1.0));
+    const Batch share = select(b > a, growing, select(b > Batch(0.0), falling, Batch(0.0)));
+    const Batch spread = a + abs(b);
+    const Batch grown = fma(share, Batch(12.0) * slope / theta - Batch(1.0), Batch(1.0));
     const Batch c = Batch(0.5) * theta / spread * grown;
-    const Batch y = xsimd::min(excess / c, Batch(0.98));
+    const Batch y = min(excess / c, Batch(0.98));
     const Batch s = a + b;
-    const Batch end = xsimd::min(Batch(2.0), spread / xsimd::max(Batch(6.0) * k, Batch(1e-9)));
+    const Batch end = min(Batch(2.0), spread / max(Batch(6.0) * k, Batch(1e-9)));
     const Batch twice = end + end;
     const Batch cubic =
         Batch(0.3) * (Batch(1.0) + s * s) / (spread * spread) - twice * Batch(1.0 / 3);
     const Batch square = y * y;
     const Batch open = Batch(1.0) / (Batch(1.0) - square);
-    const Batch first =
-        xsimd::fma(twice, open - Batch(1.0), xsimd::fma(Batch(3.0) * cubic, square, Batch(1.0)));
+    const Batch first = fma(twice, open - Batch(1.0), fma(Batch(3.0) * cubic, square, Batch(1.0)));
     const Batch second = y * (Batch(2.0) * twice * open * open + Batch(6.0) * cubic);
     const Batch scale = c / slope;
     bend = second / (first * first * scale);
-    const Batch rest = xsimd::fma(square, cubic, Batch(1.0) - twice);
-    return scale * (y * rest + end * xsimd::log((Batch(1.0) + y) / (Batch(1.0) - y)));
+    const Batch rest = fma(square, cubic, Batch(1.0) - twice);
+    return scale * (y * rest + end * log((Batch(1.0) + y) / (Batch(1.0) - y)));
   }
 };
 
@@ -84,8 +82,8 @@ inline LaneStep<Batch> lane_step(const LaneProblem<Batch>& p, const Batch& q, co
                                  int nodes) {
   const Batch arc = LaneDecay<Batch>(p.a).integral(q);
   const Batch angle = LaneDecay<Batch>(p.b).integral(q);
-  const Batch arc_rest = xsimd::fnma(p.a, arc, Batch(1.0));
-  const Batch angle_rest = xsimd::fnma(p.b, angle, Batch(1.0));
+  const Batch arc_rest = fnma(p.a, arc, Batch(1.0));
+  const Batch angle_rest = fnma(p.b, angle, Batch(1.0));
   const Batch unit = Batch(1.0) / arc;
   const LaneSums<Batch> s = lane_sums(p, q, p.theta / angle, nodes);
   const Batch width = q * unit;
@@ -96,18 +94,18 @@ inline LaneStep<Batch> lane_step(const LaneProblem<Batch>& p, const Batch& q, co
   const auto circle = reach - p.theta < Batch(1e-3);
   const Batch circle_rate = p.sign * p.slope;
   const Batch dx =
-      xsimd::select(circle, -circle_rate * y, arc_end * (p.half_x - x) + angle_end * s.angle_y);
+      select(circle, -circle_rate * y, arc_end * (p.half_x - x) + angle_end * s.angle_y);
   const Batch dy =
-      xsimd::select(circle, circle_rate * x, arc_end * (p.half_y - y) - angle_end * s.angle_x);
+      select(circle, circle_rate * x, arc_end * (p.half_y - y) - angle_end * s.angle_x);
   const Batch square = x * x + y * y;
   const Batch r = (p.axis_x * y - p.axis_y * x) / (p.axis_x * x + p.axis_y * y);
   LaneStep<Batch> step;
-  step.miss = p.sign * r / xsimd::fma(r, r * Batch(1.0 / 3), Batch(1.0));
+  step.miss = p.sign * r / fma(r, r * Batch(1.0 / 3), Batch(1.0));
   const Batch rate = p.sign * (x * dy - y * dx) / square;
   const Batch newton = step.miss / rate;
   const Batch bend = p.bend * newton;
-  step.change = -newton / xsimd::fma(Batch(0.5), bend, Batch(1.0));
-  step.length = xsimd::sqrt(square);
+  step.change = -newton / fma(Batch(0.5), bend, Batch(1.0));
+  step.length = sqrt(square);
   step.length_slope = (x * dx + y * dy) / step.length;
   step.fits = (rate > Batch(0.0)) & (bend > Batch(-0.8));
   return step;
@@ -134,13 +132,13 @@ inline void solve_lanes(ChordBlock& block, std::size_t at) {
   Mask open(true);
   Mask failed(false);
   for (int iteration = 0; iteration < 8; ++iteration) {
-    const Batch reach = xsimd::fma(p.sharpness, q, p.theta);
+    const Batch reach = fma(p.sharpness, q, p.theta);
     const Mask bad = open & !((q > Batch(0.0)) & (reach < Batch(16.0)));
     failed = failed | bad;
     open = open & !bad;
-    if (!xsimd::any(open)) break;
-    const Batch safe_q = xsimd::select(open, q, Batch(0.5) / p.sharpness);
-    const Batch safe_reach = xsimd::fma(p.sharpness, safe_q, p.theta);
+    if (!any(open)) break;
+    const Batch safe_q = select(open, q, Batch(0.5) / p.sharpness);
+    const Batch safe_reach = fma(p.sharpness, safe_q, p.theta);
     const double most = lane_max(safe_reach);
     const bool rough = iteration == 0;
     const LaneStep<Batch> step =
@@ -149,19 +147,19 @@ inline void solve_lanes(ChordBlock& block, std::size_t at) {
     failed = failed | lost;
     open = open & !lost;
     const Mask done =
-        open & Mask(!rough) & (xsimd::abs(step.miss * p.sharpness * step.change) < Batch(1e-13));
-    length = xsimd::select(done, xsimd::fma(step.length_slope, step.change, step.length), length);
-    q = xsimd::select(open, xsimd::max(q + step.change, Batch(0.0)), q);
+        open & Mask(!rough) & (abs(step.miss * p.sharpness * step.change) < Batch(1e-13));
+    length = select(done, fma(step.length_slope, step.change, step.length), length);
+    q = select(open, max(q + step.change, Batch(0.0)), q);
     open = open & !done;
   }
   failed = failed | open;
-  const Batch last = xsimd::select(failed, Batch(0.0), q);
+  const Batch last = select(failed, Batch(0.0), q);
   const Batch arc = LaneDecay<Batch>(p.a).integral(last);
   const Batch angle = LaneDecay<Batch>(p.b).integral(last);
   const Batch angle_rest = numeric::simd::exp(-p.b * last);
-  const Batch heavy = xsimd::select(last > Batch(0.0), p.theta * arc / angle, p.theta);
-  const Batch standard = xsimd::select(p.b < Batch(0.0), angle / angle_rest, angle);
-  xsimd::select(failed, Batch(0.0), Batch(1.0)).store_aligned(block.solved + at);
+  const Batch heavy = select(last > Batch(0.0), p.theta * arc / angle, p.theta);
+  const Batch standard = select(p.b < Batch(0.0), angle / angle_rest, angle);
+  select(failed, Batch(0.0), Batch(1.0)).store_aligned(block.solved + at);
   length.store_aligned(block.chord_length + at);
   heavy.store_aligned(block.heavy + at);
   numeric::simd::exp(-last).store_aligned(block.ratio + at);
@@ -171,15 +169,15 @@ inline void solve_lanes(ChordBlock& block, std::size_t at) {
 template <class Arch>
 void AngleKernel::operator()(Arch, const double* y, const double* x, double* angle,
                              std::size_t count) const {
-  using Batch = xsimd::batch<double, Arch>;
+  using Batch = numeric::simd::Lanes<Arch>;
   for (std::size_t i = 0; i < count; i += Batch::size) {
-    xsimd::atan2(Batch::load_aligned(y + i), Batch::load_aligned(x + i)).store_aligned(angle + i);
+    atan2(Batch::load_aligned(y + i), Batch::load_aligned(x + i)).store_aligned(angle + i);
   }
 }
 
 template <class Arch>
 void BatchKernel::operator()(Arch, ChordBlock* block, std::size_t count) const {
-  using Batch = xsimd::batch<double, Arch>;
+  using Batch = numeric::simd::Lanes<Arch>;
   for (std::size_t i = 0; i < count; i += Batch::size) solve_lanes<Batch>(*block, i);
 }
 

@@ -1,48 +1,53 @@
 #include "keyline/lac/lanes/batch_lanes_body.h"
+#include "keyline/numeric/instruction_set.h"
 
 namespace keyline::lac::detail {
 
-// The instruction set every machine of this build has.
-template PanelSums PanelKernel::operator()<xsimd::default_arch>(xsimd::default_arch, double, double,
-                                                                double, double, double, double,
-                                                                const GaussNodes*, int) const;
+using numeric::InstructionSet;
+using numeric::simd::BaselineArch;
+using numeric::simd::ScalarArch;
 
-template void BatchKernel::operator()<xsimd::default_arch>(xsimd::default_arch, ChordBlock*,
-                                                           std::size_t) const;
-
-template void AngleKernel::operator()<xsimd::default_arch>(xsimd::default_arch, const double*,
-                                                           const double*, double*,
-                                                           std::size_t) const;
-
-#ifdef KEYLINE_LAC_AVX2
-extern template void AngleKernel::operator()<xsimd::fma3<xsimd::avx2>>(xsimd::fma3<xsimd::avx2>,
-                                                                       const double*, const double*,
-                                                                       double*, std::size_t) const;
-extern template void BatchKernel::operator()<xsimd::fma3<xsimd::avx2>>(xsimd::fma3<xsimd::avx2>,
-                                                                       ChordBlock*,
-                                                                       std::size_t) const;
-extern template PanelSums PanelKernel::operator()<xsimd::fma3<xsimd::avx2>>(
-    xsimd::fma3<xsimd::avx2>, double, double, double, double, double, double, const GaussNodes*,
-    int) const;
-using Architectures = xsimd::arch_list<xsimd::fma3<xsimd::avx2>, xsimd::default_arch>;
+#ifdef __x86_64__
+using Avx2 = xsimd::fma3<xsimd::avx2>;
+// chord_lanes_avx2.cpp has these.
+extern template void AngleKernel::operator()<Avx2>(Avx2, const double*, const double*, double*,
+                                                   std::size_t) const;
+extern template void BatchKernel::operator()<Avx2>(Avx2, ChordBlock*, std::size_t) const;
+extern template PanelSums PanelKernel::operator()<Avx2>(Avx2, double, double, double, double,
+                                                        double, double, const GaussNodes*,
+                                                        int) const;
 #else
-using Architectures = xsimd::arch_list<xsimd::default_arch>;
+using Avx2 = BaselineArch;  // never asked for
 #endif
 
+namespace {
+
+/// The kernel on the instruction set that runs.
+template <class Kernel, class... Arguments>
+auto run(const Kernel& kernel, Arguments... arguments) {
+  static const InstructionSet set = numeric::instruction_set();
+  switch (set) {
+    case InstructionSet::avx2:
+      return kernel(Avx2{}, arguments...);
+    case InstructionSet::baseline:
+      return kernel(BaselineArch{}, arguments...);
+    case InstructionSet::scalar:
+      break;
+  }
+  return kernel(ScalarArch{}, arguments...);
+}
+
+}  // namespace
+
 PanelSums panel_sums(const PanelJob& job) {
-  static auto kernel = xsimd::dispatch<Architectures>(PanelKernel{});
-  return kernel(job.a, job.b, job.from, job.width, job.scale, job.centre, &gauss_nodes(job.nodes),
-                job.nodes);
+  return run(PanelKernel{}, job.a, job.b, job.from, job.width, job.scale, job.centre,
+             &gauss_nodes(job.nodes), job.nodes);
 }
 
 void angles_of_block(const double* y, const double* x, double* angle, std::size_t count) {
-  static auto kernel = xsimd::dispatch<Architectures>(AngleKernel{});
-  kernel(y, x, angle, count);
+  run(AngleKernel{}, y, x, angle, count);
 }
 
-void solve_block(ChordBlock& block, std::size_t count) {
-  static auto kernel = xsimd::dispatch<Architectures>(BatchKernel{});
-  kernel(&block, count);
-}
+void solve_block(ChordBlock& block, std::size_t count) { run(BatchKernel{}, &block, count); }
 
 }  // namespace keyline::lac::detail

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <xsimd/xsimd.hpp>
-
 /// Internals: the sums of the chord integral, vectorised, one body for every instruction set.
 namespace keyline::lac::detail {
 

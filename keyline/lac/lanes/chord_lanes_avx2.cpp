@@ -1,5 +1,5 @@
 // Compiled with AVX2 and FMA (see CMakeLists.txt); only templates of that instruction set here.
-#ifdef KEYLINE_LAC_AVX2
+#ifdef __x86_64__
 #include "keyline/lac/lanes/batch_lanes_body.h"
 
 namespace keyline::lac::detail {

@@ -12,7 +12,7 @@ template <class Batch>
 struct LaneDecay {
   Batch minus_k, scale;
   explicit LaneDecay(const Batch& k) {
-    const Batch safe = xsimd::select(k == Batch(0.0), Batch(1e-30), k);
+    const Batch safe = select(k == Batch(0.0), Batch(1e-30), k);
     minus_k = -safe;
     scale = Batch(-1.0) / safe;
   }
@@ -31,8 +31,8 @@ struct LaneSums {
     const Batch fy = weight * sine;
     x += fx;
     y += fy;
-    angle_x = xsimd::fma(angle, fx, angle_x);
-    angle_y = xsimd::fma(angle, fy, angle_y);
+    angle_x = fma(angle, fx, angle_x);
+    angle_y = fma(angle, fy, angle_y);
   }
 };
 
@@ -40,18 +40,18 @@ template <class Arch>
 PanelSums PanelKernel::operator()(Arch, double decay_a, double decay_b, double start, double extent,
                                   double factor, double middle, const GaussNodes* rule,
                                   int nodes) const {
-  using Batch = xsimd::batch<double, Arch>;
+  using Batch = numeric::simd::Lanes<Arch>;
   const Batch a(decay_a), from(start), width(extent), scale(factor), centre(middle);
   const LaneDecay<Batch> b{Batch(decay_b)};
   LaneSums<Batch> sums;
   for (int i = 0; i < nodes; i += static_cast<int>(Batch::size)) {
-    const Batch lambda = xsimd::fma(width, Batch::load_aligned(rule->nodes + i), from);
+    const Batch lambda = fma(width, Batch::load_aligned(rule->nodes + i), from);
     const Batch weight = Batch::load_aligned(rule->weights + i) * numeric::simd::exp(-a * lambda);
     const Batch angle = scale * b.integral(lambda);
     sums.add(weight, angle, angle - centre);
   }
-  return {extent * xsimd::hadd(sums.x), extent * xsimd::hadd(sums.y),
-          extent * xsimd::hadd(sums.angle_x), extent * xsimd::hadd(sums.angle_y)};
+  return {extent * hadd(sums.x), extent * hadd(sums.y), extent * hadd(sums.angle_x),
+          extent * hadd(sums.angle_y)};
 }
 
 }  // namespace keyline::lac::detail
