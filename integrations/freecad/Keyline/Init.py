@@ -1,0 +1,1 @@
+"""Keyline's workbench needs nothing before FreeCAD has a window."""
