@@ -43,14 +43,20 @@ std::string table_of(const Shown& faired) {
   return text;
 }
 
-std::string comb_of(const operations::FairFigures& f) {
+const char* verdict_of(bool near, bool fair) {
+  if (near) return fair ? "" : " - near enough, but not fair";
+  return fair ? " - fair, but not near enough" : " - neither near enough nor fair";
+}
+
+std::string comb_of(const operations::FairAnswer& a) {
+  const operations::FairFigures& f = a.fairness;
   const auto& other = f.smoothing_spline ? *f.smoothing_spline : f.spline;
   const char* whose = f.smoothing_spline ? "the smoothest spline as near" : "the points' spline";
   return fmt::format("comb: {}, variation {:.3g}, jolt {:.2g}; {}: {}, {:.3g}, {:.2g}{}",
                      core::counted(static_cast<std::size_t>(f.answer.waves), "wave"),
                      f.answer.energy, f.answer.jolt, whose,
                      core::counted(static_cast<std::size_t>(other.waves), "wave"), other.energy,
-                     other.jolt, f.fair ? "" : " - near enough, but not fair");
+                     other.jolt, verdict_of(a.within_tolerance, f.fair));
 }
 
 void tell(const Session& session, const Shown& faired) {
@@ -64,7 +70,7 @@ void tell(const Session& session, const Shown& faired) {
                          core::counted(a.pieces.size(), "piece"),
                          core::counted(a.faired.curves.size(), "chain"), a.deviation.max,
                          a.deviation.rms, a.tolerance, a.noise));
-  say(quiet, name + comb_of(a.fairness));
+  say(quiet, name + comb_of(a));
 }
 
 std::string name_of(const Shown& faired) {

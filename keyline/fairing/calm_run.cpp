@@ -36,7 +36,11 @@ void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
   double& value = at_start ? curve.value.front() : curve.value.back();
   (at_start ? curve.hold_start : curve.hold_end) = end.hold;
   (at_start ? curve.held_start : curve.held_end) = end.joint;
-  if (end.hold >= Hold::position) joint.position = end.joint.position;
+  (at_start ? curve.slides_start : curve.slides_end) = end.slides;
+  if (end.hold >= Hold::position) {
+    if (!end.slides) joint.position.x = end.joint.position.x;
+    joint.position.y = end.joint.position.y;
+  }
   if (end.hold >= Hold::direction) {
     const double turn = end.joint.direction - joint.direction;
     joint.direction += std::remainder(turn, 2 * core::kPi);
@@ -128,6 +132,7 @@ void measure_spread(std::vector<FitPoint>& points, DenseCurve curve, const Membe
 CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options) {
   CalmRun run;
   run.curve = dense_curve(points, closed, kLeastCells);
+  run.curve.most_rate = options.most_rate;
   put_end(run.curve, options.start, true);
   put_end(run.curve, options.end, false);
   CalmOptions calm_options;
@@ -193,8 +198,11 @@ void flatten(FitChain& chain) {
 }
 
 /// A held end is where it is held, to the last digit.
-void settle_end(FitJoint& joint, const FitJoint& held, Hold hold) {
-  if (hold >= Hold::position) joint.position = held.position;
+void settle_end(FitJoint& joint, const FitJoint& held, Hold hold, bool slides) {
+  if (hold >= Hold::position) {
+    if (!slides) joint.position.x = held.position.x;
+    joint.position.y = held.position.y;
+  }
   if (hold >= Hold::direction) joint.direction = held.direction;
   if (hold >= Hold::curvature) joint.curvature = held.curvature;
 }
@@ -219,8 +227,8 @@ FitChain chain_of(const DenseCurve& curve) {
     if (!curve.kind.empty()) chain.pieces.back().kind = curve.kind[p];
   }
   flatten(chain);
-  settle_end(chain.joints.front(), curve.held_start, curve.hold_start);
-  settle_end(chain.joints.back(), curve.held_end, curve.hold_end);
+  settle_end(chain.joints.front(), curve.held_start, curve.hold_start, curve.slides_start);
+  settle_end(chain.joints.back(), curve.held_end, curve.hold_end, curve.slides_end);
   for (const Foot& foot : curve.feet) {
     const int p = piece_of[foot.piece];
     const double t = place_along(curve, foot);

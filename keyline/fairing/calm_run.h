@@ -3,21 +3,17 @@
 #include "keyline/core/interval.h"
 #include "keyline/fairing/calm.h"
 #include "keyline/fairing/chain_search.h"
+#include "keyline/fairing/members.h"
 #include "keyline/fairing/residuals.h"
 
 namespace keyline::fairing::detail {
-
-/// The measured points that fitted ones are means of.
-struct Members {
-  std::vector<core::Point2> points;
-  std::vector<std::size_t> fitted;  ///< which of the fitted points each belongs to
-};
 
 struct CalmRunOptions {
   double tolerance = 0;  ///< of the points' offsets, in their unit
   Residuals residuals;   ///< of the same
   core::Interval slopes{-3, 3};
   std::optional<int> most_turns = {};  ///< see CalmOptions
+  double most_rate = HUGE_VAL;         ///< see DenseCurve
   HeldEnd start;
   HeldEnd end;
   Members members;  ///< empty: every fitted point is a measured one

@@ -22,6 +22,7 @@ bool noisy(const Acceptance& accept);
 struct HeldEnd {
   Hold hold = Hold::free;
   FitJoint joint;
+  bool slides = false;  ///< its x is free: the end stands on a line along the x axis
 };
 
 struct ChainSearchOptions {

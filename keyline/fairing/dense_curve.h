@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "keyline/fairing/chain_fit.h"
@@ -25,12 +26,15 @@ struct DenseCurve {
   double turning = 0;  ///< of the whole closed curve
   Hold hold_start = Hold::free;
   Hold hold_end = Hold::free;
+  bool slides_start = false;  ///< a held end's x is free
+  bool slides_end = false;
   FitJoint held_start;  ///< where a held end is held
   FitJoint held_end;
   /// Pieces that are circular arcs or straight lines; the curvatures of a line's ends stay 0.
   std::vector<PieceKind> kind;  ///< empty: all are curves
   /// Which way curvature may run in each piece: +1 up, -1 down, 0 either. Empty: either everywhere.
   std::vector<signed char> sense;
+  double most_rate = HUGE_VAL;  ///< fastest that curvature may change with arc length
 };
 
 /// Curvature of a cell at its start, middle and end, and by the curvatures at its piece's ends.

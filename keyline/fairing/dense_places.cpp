@@ -16,7 +16,7 @@ void add_seam(Gaps& gaps, const DenseCurve& curve) {
       last.direction - first.direction - (curve.closed ? curve.turning : 0),
       last.curvature - first.curvature * (curve.closed ? 1 : curve.length), 0, 0;
   for (int k = 0; k < 4; ++k)
-    if (!curve.closed && k > held) gaps.seam(k) = 0;
+    if (!curve.closed && (k > held || (k == 0 && curve.slides_end))) gaps.seam(k) = 0;
   gaps.sum += gaps.seam.head<3>().lpNorm<1>() + kCurvatureShare * std::abs(gaps.seam(3));
 }
 

@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "keyline/core/polygon.h"
 #include "keyline/core/text.h"
+#include "keyline/fairing/asked.h"
 #include "keyline/fairing/assemble.h"
+#include "keyline/fairing/corners.h"
 #include "keyline/fairing/free_ends.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
+#include "keyline/fairing/symmetric_run.h"
+#include "keyline/lac/chain/chain_graph.h"
 
 namespace keyline::fairing {
 namespace {
@@ -19,40 +24,9 @@ using core::ErrorCode;
 using core::fail;
 using core::Result;
 
-constexpr double kCornerRoom =
-    0.9;  // of the tolerance: how far chains may meet from a corner's point
-
-constexpr double kOutside = 1e-9;  // of the length: farther out is no matter of rounding
-
-Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
-  if (line.points.size() < 2)
-    return fail(ErrorCode::bad_input, "a key-line needs at least two points", "give more points");
-  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
-    return fail(ErrorCode::bad_input, "the tolerance is not a length",
-                "give a number greater than 0", "tolerance");
-  if (options.sigmas && options.tolerance > 0)
-    return fail(ErrorCode::bad_input, "the tolerance is given twice",
-                "give either \"tolerance\" or \"sigmas\"", "sigmas");
-  if (options.sigmas && !(line.noise > 0))
-    return fail(ErrorCode::bad_input, "these points have no noise to count the tolerance in",
-                "give \"tolerance\", or the \"noise\"", "sigmas");
-  if (options.spline.order < 4 || options.spline.order > 6)
-    return fail(ErrorCode::bad_input, "the order of the spline is out of range", "give 4, 5 or 6",
-                "order");
-  if (options.waves && *options.waves < 0)
-    return fail(ErrorCode::bad_input, "the number of waves is negative", "give 0 or more", "waves");
-  if (options.pieces < 0)
-    return fail(ErrorCode::bad_input, "the number of pieces is negative", "give 1 or more",
-                "pieces");
-  for (const std::size_t index : options.must_pass)
-    if (index >= line.points.size())
-      return fail(ErrorCode::bad_input, "a point to be passed does not exist",
-                  fmt::format("give indices below {}", line.points.size()), "must_pass");
-  if (const auto& r = options.region; r && !(r->low >= 0 && r->low < r->high && r->high <= 1))
-    return fail(ErrorCode::bad_input, "the region is not a part of the key-line",
-                "give a:b with 0 <= a < b <= 1", "region");
-  return {};
-}
+constexpr double kPlainShare = 0.6;  // of the time, where a symmetric answer is looked for too
+constexpr double kAlike = 0.98;      // of a limit on rates: as good as on it
+constexpr double kOutside = 1e-9;    // of the length: farther out is no matter of rounding
 
 void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
   const std::string where = fmt::format("run {}", index);
@@ -95,17 +69,31 @@ class Job {
     if (options_.region) return run_region();
     runs_ = detail::runs_of(line_, options_);
     if (auto sound = bound_runs(); !sound) return std::unexpected(sound.error());
+    const auto mirror = asked_mirror();
+    if (!mirror) return std::unexpected(mirror.error());
+    const bool exactly = *mirror && options_.symmetric.mode != SymmetricMode::off;
+    if (exactly) share_ = kPlainShare;
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (auto done = fair_one(k, {}); !done) return std::unexpected(done.error());
-    tie_corners();
+    detail::tie_corners(runs_, solved_, result_.splines, options_of_runs(), result_.closed);
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      detail::place_free_ends(solved_[k], runs_[k], run_options(k));
+    if (*mirror) tell_symmetry(**mirror);
+    if (exactly) {
+      if (auto done = mirror_answer(**mirror); !done) return std::unexpected(done.error());
+    }
     return finish();
   }
 
  private:
   core::Progress progress_of(std::size_t k) const {
     const double n = static_cast<double>(runs_.size());
-    return core::part_of(options_.progress, static_cast<double>(k) / n,
-                         static_cast<double>(k + 1) / n);
+    return core::part_of(options_.progress, share_ * static_cast<double>(k) / n,
+                         share_ * static_cast<double>(k + 1) / n);
+  }
+
+  detail::OptionsOf options_of_runs() const {
+    return [this](std::size_t k) { return run_options(k); };
   }
 
   detail::RunOptions run_options(std::size_t k) const {
@@ -120,6 +108,7 @@ class Job {
             .criterion = options_.criterion,
             .smoothness = options_.smoothness,
             .waves = options_.waves,
+            .max_rate = options_.max_rate,
             .slopes = options_.slopes,
             .asked = asked_.empty() ? std::vector<int>{} : asked_[k],
             .threads = options_.threads,
@@ -148,33 +137,6 @@ class Job {
       tie(runs_.front().tie_start, line_.points.front());
     if (runs_.back().clamp_end == Clamp::none) tie(runs_.back().tie_end, line_.points.back());
     return {};
-  }
-
-  /// The place, or the nearest to it that leaves the corner's own point inside the tolerance.
-  core::Point2 near_corner(core::Point2 place, core::Point2 corner) const {
-    const double most = kCornerRoom * result_.tolerance;
-    const double far = core::distance(place, corner);
-    return far <= most ? place : corner + (most / far) * (place - corner);
-  }
-
-  /// Neighbouring chains end in one place at a corner: half way between their ends.
-  void tie_corners() {
-    const std::size_t n = runs_.size();
-    if (runs_.front().closed) return;
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t next = (k + 1) % n;
-      if (next == 0 && !result_.closed) break;
-      if (runs_[k].clamp_end != Clamp::none || runs_[next].clamp_start != Clamp::none) continue;
-      const core::Point2 from = lac::end_pose(solved_[k].chain).position;
-      const core::Point2 to = solved_[next].chain.start.position;
-      core::Point2 place = near_corner(from + 0.5 * (to - from), runs_[k].points.back());
-      for (const core::HalfPlane& half : runs_[k].inside)
-        place = place - std::min(0.0, core::depth(half, place)) * half.normal;
-      runs_[k].tie_end = runs_[next].tie_start = place;
-    }
-    for (std::size_t k = 0; k < n; ++k)
-      if (runs_[k].tie_start || runs_[k].tie_end)
-        detail::tie_ends(solved_[k], runs_[k], result_.splines[k], run_options(k));
   }
 
   Result<curve::BSpline2> spline_of(std::size_t k) {
@@ -227,6 +189,62 @@ class Job {
     }
   }
 
+  /// The line in which the points mirror; none where they do not.
+  Result<std::optional<Mirror>> asked_mirror() const {
+    const Symmetric& asked = options_.symmetric;
+    const std::string against = detail::against_symmetry(options_);
+    if (asked.mode != SymmetricMode::off && !against.empty())
+      return fail(ErrorCode::bad_input, "a symmetric answer does not go with " + against,
+                  "leave one of them out", "symmetric");
+    if (asked.mode != SymmetricMode::line)
+      return detail::mirror_within_noise(line_, result_.tolerance);
+    const Mirror found = detail::mirror_in({asked.point, asked.direction}, line_);
+    if (found.largest > 2 * result_.tolerance)
+      return fail(ErrorCode::bad_input,
+                  fmt::format("the points are not symmetric about that line: their images lie up "
+                              "to {:.3g} beside",
+                              found.largest),
+                  "give another line, or a larger tolerance", "symmetric");
+    return std::optional<Mirror>{found};
+  }
+
+  void tell_symmetry(const Mirror& mirror) {
+    result_.symmetry = {mirror.line.position, mirror.line.direction, mirror.rms, false};
+    result_.notes.push_back(
+        fmt::format("the points are symmetric about the line through {}, within {:.3g}",
+                    detail::told(mirror.line), mirror.rms));
+  }
+
+  /// The symmetric answer in place of the plain one, where it keeps the tolerance or the line was
+  /// given.
+  Result<void> mirror_answer(const Mirror& mirror) {
+    const bool given = options_.symmetric.mode == SymmetricMode::line;
+    const double from = std::exchange(share_, 1.0);
+    const auto options = [this, from](std::size_t) {
+      detail::RunOptions half = run_options(0);
+      half.progress = core::part_of(options_.progress, from, 1);
+      return half;
+    };
+    auto found = detail::solve_symmetric(line_, mirror.line, runs_, options);
+    if (!found && given)
+      return fail(ErrorCode::undrawable, found.error().message, found.error().hint, "symmetric");
+    const double off = found ? detail::largest_of(*found, runs_) : 0;
+    if (!found || (off > result_.tolerance && !given)) {
+      result_.notes.push_back(
+          "the answer is not: " +
+          (found ? fmt::format("it would leave the tolerance by {:.3g}", off - result_.tolerance)
+                 : found.error().message));
+      return {};
+    }
+    const int more = detail::waves_of(*found) - detail::waves_of(solved_);
+    solved_ = std::move(*found);
+    result_.symmetry->exact = true;
+    result_.notes.push_back(
+        "the answer is so exactly" +
+        (more > 0 ? ", which takes " + core::counted(std::size_t(more), "more wave") : ""));
+    return {};
+  }
+
   Result<FairResult> run_region() {
     const core::Interval region = *options_.region;
     acquire::KeyLine smooth = line_;
@@ -247,22 +265,44 @@ class Job {
     runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
     runs_[0].clamp_end = to_end ? options_.clamp.end : Clamp::g2;
     if (auto done = fair_one(0, inside); !done) return std::unexpected(done.error());
+    detail::place_free_ends(solved_[0], runs_[0], run_options(0));
     if (range.t_first > 0) kept_before_ = subcurve(*whole, 0, range.t_first);
     if (range.t_last < 1) kept_after_ = subcurve(*whole, range.t_last, 1);
     return finish();
   }
 
   Result<FairResult> finish() {
-    for (std::size_t k = 0; k < runs_.size(); ++k)
-      detail::place_free_ends(solved_[k], runs_[k], run_options(k));
     if (auto read = read_all(); !read) return std::unexpected(read.error());
     if (!options_.interpretations.empty()) {
       if (auto done = reinterpret(); !done) return std::unexpected(done.error());
     }
     note_outside();
+    if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
     detail::assemble(result_, solved_, kept_before_, kept_after_);
     result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
+  }
+
+  /// The fastest rate; undrawable where a limit on it is not kept within the tolerance.
+  Result<void> limit_rate() {
+    for (const detail::RunResult& one : solved_)
+      result_.rate = std::max(result_.rate, lac::fastest_rate(one.chain));
+    if (!options_.max_rate || options_.progress.stop_requested()) return {};
+    if (result_.within_tolerance && result_.rate <= *options_.max_rate) {
+      if (result_.rate > kAlike * *options_.max_rate)
+        result_.notes.push_back("the limit on how fast curvature changes is what binds");
+      return {};
+    }
+    FairOptions without = options_;
+    without.max_rate.reset();
+    const auto plain = Job(line_, without).run();
+    return fail(
+        ErrorCode::undrawable,
+        fmt::format("no curve within {:.4g} of the points was found whose curvature changes "
+                    "by at most {:.4g}{}",
+                    result_.tolerance, *options_.max_rate,
+                    plain ? fmt::format("; without a limit it is {:.4g}", plain->rate) : ""),
+        "give a larger limit or a larger tolerance", "max_rate");
   }
 
   void note_outside() {
@@ -314,6 +354,7 @@ class Job {
   const FairOptions& options_;
   std::vector<detail::Run> runs_;
   std::vector<detail::RunResult> solved_;
+  double share_ = 1;                     ///< of the progress that the runs as they are take
   std::vector<std::vector<int>> asked_;  ///< pieces of every run that read as asked; empty: none
   std::optional<curve::BSpline2> kept_before_;
   std::optional<curve::BSpline2> kept_after_;
@@ -327,7 +368,7 @@ const char* impression(const FairPiece& piece) {
 }
 
 Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
-  if (auto sound = check(line, options); !sound) return std::unexpected(sound.error());
+  if (auto sound = detail::check(line, options); !sound) return std::unexpected(sound.error());
   return Job(line, options).run();
 }
 

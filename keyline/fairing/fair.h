@@ -16,6 +16,7 @@
 #include "keyline/core/progress.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/fairing/bound.h"
+#include "keyline/fairing/symmetric.h"
 #include "keyline/fit/fit_spline.h"
 #include "keyline/lac/chain/chain.h"
 
@@ -79,11 +80,15 @@ struct FairOptions {
   double smoothness = 0.5;
   /// Waves of curvature between corners, at most; empty: as many as the points ask for.
   std::optional<int> waves;
+  /// Fastest that curvature may change along the curve, |dkappa/ds|, in 1/unit^2: undrawable where
+  /// that is not found within the tolerance. Of the calmest chain alone.
+  std::optional<double> max_rate;
   core::Interval slopes{-3, 3};  ///< of the pieces' logarithmic curvature graphs
   int pieces = 0;                ///< wanted number of pieces; 0: as the criterion has it
   Criterion criterion = Criterion::least_variation;
   /// Sides of lines that the curve stays on, beside those that the key-line itself has.
   std::vector<Bound> keep_inside;
+  Symmetric symmetric;
   bool keep_corners = true;
   EndClamps clamp;
   std::optional<core::Interval> region;  ///< fractions of the length: fair only this part
@@ -110,6 +115,11 @@ struct FairOptions {
         core::field<&FairOptions::waves>(
             "waves of curvature between corners, at most; else as many as the points ask for")
             .within(core::at_least(0)),
+        core::field<&FairOptions::max_rate>(
+            "fastest that curvature may change along the curve; refused where none within the "
+            "tolerance does")
+            .in("1/length^2")
+            .within(core::kPositive),
         core::field<&FairOptions::slopes>("slopes that pieces may have")
             .within(core::from_to(-12, 12)),
         core::field<&FairOptions::pieces>("wanted number of pieces; 0: as the criterion has it")
@@ -119,6 +129,9 @@ struct FairOptions {
         core::field<&FairOptions::keep_inside>(
             "what the curve does not pass: x>=0, y<=2.5; of a hull's half-breadths by itself")
             .or_bare_item(),
+        core::field<&FairOptions::symmetric>(
+            "an exactly symmetric answer: about the line in which the points mirror within their "
+            "noise, or about a given one; off: such a line is only told"),
         core::field<&FairOptions::keep_corners>("corners end chains"),
         core::field<&FairOptions::clamp>(
             "what is held at the ends: G0 position, G1 also direction, G2 also curvature"),
@@ -185,6 +198,8 @@ struct FairResult {
   double rms_deviation = 0;
   std::size_t worst_point = 0;
   bool within_tolerance = false;
+  double rate = 0;  ///< fastest that curvature changes in the faired curves, see FairOptions
+  std::optional<FoundSymmetry> symmetry;
   double outside = 0;  ///< by how much the answer passes a bound; 0 where it keeps them
   bool cancelled = false;
   std::vector<analysis::JointContinuity> joints;  ///< inside chains and between curves

@@ -114,8 +114,10 @@ void place_free_ends(RunResult& result, const Run& run, const RunOptions& option
   // A longer end might leave what the run stays inside.
   if (run.closed || !run.inside.empty() || result.exact || !noisy(result.accept)) return;
   const std::vector<PointPlace> places = place_points(result, run);
-  const bool start_free = run.clamp_start == Clamp::none && !run.tie_start;
-  const bool end_free = run.clamp_end == Clamp::none && !run.tie_end;
+  const bool start_free =
+      run.clamp_start == Clamp::none && !run.tie_start && run.start_on_axis == HalfEnd::free;
+  const bool end_free =
+      run.clamp_end == Clamp::none && !run.tie_end && run.end_on_axis == HalfEnd::free;
   if (start_free) place_end(result, run, options, false, places);
   if (end_free) place_end(result, run, options, true, places);
 }

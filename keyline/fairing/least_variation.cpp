@@ -7,7 +7,7 @@
 #include "keyline/fairing/band.h"
 #include "keyline/fairing/dense_places.h"
 #include "keyline/fairing/dense_riccati.h"
-#include "keyline/fairing/sense_barrier.h"
+#include "keyline/fairing/rise_barrier.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -29,7 +29,9 @@ constexpr double kFollowGain = 1e-2;
 constexpr int kLoosenings = 12;
 constexpr double kMeanSquareGap = 0.02;  // of the rms asked for
 constexpr double kFirstPower = -0.25;    // of the weight that the rms goes with, as a first guess
-constexpr double kMostLoosening = 4.6;   // a hundredfold at once
+constexpr int kRateRounds = 4;
+constexpr double kAsFast = 1 + 1e-6;    // times the fastest rate allowed
+constexpr double kMostLoosening = 4.6;  // a hundredfold at once
 
 class Search {
  public:
@@ -55,12 +57,12 @@ class Search {
   }
 
   BandReport run() {
-    keep_senses(curve_);
+    keep_rises(curve_);
     look();
     energy_unit_ = energy_scale();
     Band band(points_, unit_, spring_ / energy_unit_);
     band.start(spots_.offset, 0.5 / static_cast<double>(points_.size()));
-    senses_.emplace(curve_, band.barrier());
+    rises_.emplace(curve_, band.barrier());
     limits_ = &band;
     band_ = &band;
     damping_ = 0;
@@ -166,11 +168,15 @@ class Search {
 
   bool pinned(std::size_t j) const { return !curve_.closed && (j == 0 || j + 1 == points_.size()); }
 
+  /// Whether the end that the point is pinned to stands on a line and slides along it.
+  bool slides(std::size_t j) const { return j == 0 ? curve_.slides_start : curve_.slides_end; }
+
   double merit(const DenseCurve& curve, const Spots& spots, double gaps, double share) const {
     double sum = variation(curve) / energy_unit_ + limits_->merit(spots.offset, share);
-    if (senses_) sum += senses_->merit(curve);
+    if (rises_) sum += rises_->merit(curve);
     if (!curve.closed)
       for (const std::size_t j : {std::size_t{0}, points_.size() - 1}) {
+        if (slides(j)) continue;
         const double a = along(spots, points_, j) / unit_;
         sum += 0.5 * kReach * a * a;
       }
@@ -222,8 +228,8 @@ class Search {
     d(3) = energy.by_start;
     d(4) = energy.by_end;
     add(cell, d, w, w * energy.root);
-    if (!senses_) return;
-    const Pull pull = senses_->pull(p);
+    if (!rises_) return;
+    const Pull pull = rises_->pull(p);
     d(3) = -1;
     d(4) = 1;
     add(cell, d, pull.weight, pull.slope);
@@ -239,7 +245,7 @@ class Search {
     const CellPlace& s = spots_.place[j];
     const Pull pull = limits_->pull(j);
     add(cells[cell], by_offset(j), pull.weight, pull.slope);
-    if (!pinned(j)) return;
+    if (!pinned(j) || slides(j)) return;
     const double w = kReach / (unit_ * unit_);
     add(cells[cell], derivative(curve_, s, cell, s.tangent), w, w * along(spots_, points_, j));
   }
@@ -255,12 +261,13 @@ class Search {
     DenseBoundary b;
     b.closed = curve_.closed;
     const int start = static_cast<int>(curve_.hold_start);
-    for (int k = 0; k < 4; ++k) b.fixed_start[k] = start > 0 && k <= start;
+    for (int k = curve_.slides_start ? 1 : 0; k < 4; ++k)
+      b.fixed_start[k] = start > 0 && k <= start;
     b.fixed_start[3] = b.fixed_start[3] || end_of_line(0);
     b.fixed_start[4] = flat(curve_, 0) || end_of_line(1);
     const int end = static_cast<int>(curve_.hold_end);
     const double w = kHeld / (unit_ * unit_);
-    for (int k = 0; k < 4; ++k)
+    for (int k = !curve_.closed && curve_.slides_end ? 1 : 0; k < 4; ++k)
       if (curve_.closed || (end > 0 && k <= end)) b.end_hessian(k, k) = k == 3 ? 1e-2 * w : w;
     b.end_gradient = b.end_hessian * gaps_.seam + multiplier_;
     return b;
@@ -311,10 +318,10 @@ class Search {
     const std::vector<double> rises = meant_rises(step);
     const double before = merit(curve_, spots_, gaps_.sum, 0);
     double share = std::min(limits_->longest(planned), keeps_side(step));
-    if (senses_) share = std::min(share, senses_->longest(rises));
+    if (rises_) share = std::min(share, rises_->longest(rises));
     for (int h = 0; h <= kHalvings; ++h, share *= 0.5)
       if (take(step, planned, share, before)) {
-        if (senses_) senses_->move(curve_, rises);
+        if (rises_) rises_->move(curve_, rises);
         damping_ = h == 0 ? 0.1 * damping_ : damping_;
         if (damping_ < kLeastDamping) damping_ = 0;
         return;
@@ -391,7 +398,7 @@ class Search {
   }
 
   bool last() const {
-    const double limits = 2.0 * static_cast<double>(points_.size()) + senses_->count();
+    const double limits = 2.0 * static_cast<double>(points_.size()) + rises_->count();
     return band_->barrier() * limits <= options_.gap;
   }
 
@@ -401,8 +408,8 @@ class Search {
     energy_unit_ = unit;
     band_->set_barrier(kBarrierDrop * band_->barrier());
     band_->rescale(rescale);
-    senses_->set_barrier(band_->barrier());
-    senses_->rescale(rescale);
+    rises_->set_barrier(band_->barrier());
+    rises_->rescale(rescale);
     gap_price_ *= rescale;
     multiplier_ *= rescale;
   }
@@ -412,7 +419,7 @@ class Search {
   const BandOptions& options_;
   Limits* limits_ = nullptr;
   std::optional<Springs> springs_;
-  std::optional<SenseBarrier> senses_;
+  std::optional<RiseBarrier> rises_;
   Band* band_ = nullptr;
   double unit_;
   Shapes shapes_;
@@ -436,7 +443,14 @@ BandReport least_variation(DenseCurve& curve, const std::vector<FitPoint>& point
                            const BandOptions& options) {
   Search search(curve, points, options);
   if (!options.warm) search.follow();
-  return search.run();
+  BandReport report = search.run();
+  // Of pieces the limit on rates is linear only about the curve that it was taken of.
+  for (int round = 0; round < kRateRounds && too_fast(curve) > kAsFast; ++round) {
+    ease(curve);
+    report = Search(curve, points, options).run();
+  }
+  report.within = report.within && too_fast(curve) <= kAsFast;
+  return report;
 }
 
 }  // namespace keyline::fairing::detail

@@ -12,16 +12,16 @@
 #include "keyline/fairing/residuals.h"
 #include "keyline/fairing/run_again.h"
 #include "keyline/fairing/run_frame.h"
+#include "keyline/fairing/run_points.h"
 #include "keyline/fairing/settle.h"
 #include "keyline/fairing/straight_run.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr std::size_t kMostFitPoints = 1200;
-constexpr std::size_t kFewCalmPoints = 400;  // means of more points tell the calmest curve as much
 constexpr int kTightenings = 5;
-constexpr double kLoose = 5e-4;   // of the length
+constexpr double kRateShare = 0.999;  // of a limit on rates: the rest is for what closes the chain
+constexpr double kLoose = 5e-4;       // of the length
 constexpr double kExactRoom = 5;  // a tolerance within which rounding is no matter, in its units
 constexpr double kFar = 1.3;      // of the tolerance: farther off is no matter of rounding
 constexpr double kPassed = 1e3;   // a point to be passed is off by so much less than others may
@@ -100,7 +100,7 @@ bool solve_once(RunResult& result, const std::vector<FitPoint>& measured, const 
 /// Points on a line need no search, unless more is asked of the run than to pass them.
 bool solve_straight(RunResult& result, const Run& run, const RunOptions& options) {
   const bool held = run.clamp_start != Clamp::none || run.clamp_end != Clamp::none ||
-                    run.tie_start || run.tie_end;
+                    run.tie_start || run.tie_end || run.axis;
   if (run.closed || held || options.pieces > 0) return false;
   auto line = straight_chain(result.points);
   if (!line) return false;
@@ -129,12 +129,18 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
   }
 }
 
+/// Whether rounding is small beside the tolerance and single pieces follow most of the points.
+bool may_reproduce(const RunResult& result, const Run& run) {
+  const double exact = exactness(result.accept);
+  return kExactRoom * exact <= result.accept.tolerance &&
+         may_be_exact(result.points, run.closed, exact);
+}
+
 /// Points that a chain reproduces to rounding get that chain, whatever the tolerance allows.
 /// The search begins with few pieces, as a loose tolerance gives them.
 bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
                  const curve::BSpline2& spline, RunOptions options) {
-  const bool noisy = kExactRoom * exactness(result.accept) > result.accept.tolerance;
-  if (noisy || !may_be_exact(result.points, run.closed, exactness(result.accept))) return false;
+  if (run.axis || !may_reproduce(result, run)) return false;
   options.tolerance = std::max(options.tolerance, kLoose * run.length);
   const std::vector<FitPoint> points =
       with_guides(cut_digits(result.points), run.closed, rounded(options.tolerance / run.length));
@@ -143,45 +149,6 @@ bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
   searching.end = held_end(run, frame, spline, false);
   return finish_exact(result, search_chain(points, run.closed, searching), result.points, run,
                       searching);
-}
-
-/// The points as they are fitted: at most so many.
-void take_points(RunResult& result, const Run& run, const RunFrame& frame, std::size_t most) {
-  result.most_points = most;
-  result.points = condense(frame.points, frame.weights, most);
-  for (std::size_t j = 0; j < frame.order.size(); ++j)
-    if (std::ranges::count(run.must_pass, frame.order[j]) > 0)
-      result.points[condensed_index(j, frame.order.size(), most)].must_pass = true;
-}
-
-/// Points for the calmest curve: so few that no three of them bend by more than the tolerance, for
-/// means lie inside bends by an eighth of that.
-void take_calm_points(RunResult& result, const Run& run, const RunFrame& frame, double tolerance) {
-  std::size_t most = kFewCalmPoints;
-  for (; most < kMostFitPoints; most *= 2) {
-    take_points(result, run, frame, most);
-    double bend = 0;
-    for (std::size_t j = 1; j + 1 < result.points.size(); ++j) {
-      const core::Point2 before = result.points[j - 1].position;
-      const core::Vector2 chord = result.points[j + 1].position - before;
-      const double across = core::cross(chord, result.points[j].position - before);
-      if (result.points[j].count > 1)
-        bend = std::max(bend, std::abs(across) / std::max(core::norm(chord), 1e-300));
-    }
-    if (bend <= tolerance) return;
-  }
-  take_points(result, run, frame, most);
-}
-
-/// Of every measured point in the frame's order: which of the fitted ones holds it.
-std::vector<std::size_t> holders(const RunResult& result, const RunFrame& frame) {
-  std::vector<std::size_t> measured;
-  for (std::size_t j = 0; j < result.points.size(); ++j)
-    if (result.points[j].count > 0) measured.push_back(j);
-  std::vector<std::size_t> held;
-  for (std::size_t j = 0; j < frame.order.size(); ++j)
-    held.push_back(measured[condensed_index(j, frame.order.size(), result.most_points)]);
-  return held;
 }
 
 /// The curve of least variation in the tolerance, in log-aesthetic pieces.
@@ -194,16 +161,19 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
   for (FitPoint& p : result.points)
     if (p.must_pass) p.share = kPassed;
-  watch_borders(result, run, tolerance);
   CalmRunOptions calm;
+  calm.start = held_end(run, frame, spline, true);
+  calm.end = held_end(run, frame, spline, false);
+  reach_axis(result.points, calm.start, calm.end, tolerance);
+  watch_borders(result, run, tolerance);
   calm.tolerance = tolerance;
   calm.residuals = residuals;
   calm.slopes = options.slopes;
   calm.most_turns = options.waves;
-  calm.start = held_end(run, frame, spline, true);
-  calm.end = held_end(run, frame, spline, false);
+  const double size = result.to_canonical.scale;
+  if (options.max_rate) calm.most_rate = kRateShare * *options.max_rate / (size * size);
   calm.progress = options.progress;
-  if (run.points.size() > result.most_points) calm.members = {frame.points, holders(result, frame)};
+  calm.members = members_of(result, run, frame);
   CalmRun found = solve_calm(result.points, run.closed, calm);
   result.fit = closed_chain(found.curve, result.points, tolerance);
   result.start_pieces = static_cast<int>(result.fit.pieces.size());
@@ -221,7 +191,8 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
   if (solve_straight(result, run, options)) return;
   if (options.criterion == Criterion::least_variation && options.pieces == 0) {
     RunResult exact = result;
-    if (solve_exact(exact, run, frame, spline, options) && stays_inside(exact, run)) {
+    if (!options.max_rate && solve_exact(exact, run, frame, spline, options) &&
+        stays_inside(exact, run)) {
       result = std::move(exact);
       return;
     }
@@ -229,6 +200,7 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
     solve_least_variation(result, run, frame, spline, options);
     const bool stays = !wanders(result.dense, result.points, result.accept.tolerance);
     if ((result.within_tolerance && stays) || options.progress.stop_requested()) return;
+    if (options.max_rate) return;  // a limit comes before the tolerance
     solve(shortest, run, frame, spline, options);
     if (!shortest.within_tolerance) return;
     result = std::move(shortest);
@@ -242,9 +214,9 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
 RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
   RunResult result;
-  take_points(result, run, frame, kMostFitPoints);
   result.to_canonical = frame.to_canonical;
   result.reversed = frame.reversed;
+  take_points(result, run, frame, kMostFitPoints);
   result.accept = search_options(run, options).accept;
   solve_one_way(result, run, frame, spline, options);
   result.point_of.resize(run.points.size());
@@ -294,7 +266,9 @@ void bring_inside(RunResult& result, const Run& run, const curve::BSpline2& spli
 /// The shortest chain, where the calmest leaves a point outside in the end.
 void keep_tolerance(RunResult& result, const Run& run, const curve::BSpline2& spline,
                     RunOptions options) {
-  if (options.progress.stop_requested() || largest_offset(result, run) <= options.tolerance) return;
+  if (options.progress.stop_requested() || options.max_rate ||
+      largest_offset(result, run) <= options.tolerance)
+    return;
   options.criterion = Criterion::fewest_pieces;
   RunResult shortest = fair_run(run, spline, options);
   if (largest_offset(shortest, run) > options.tolerance) return;

@@ -9,6 +9,8 @@
 #include "keyline/fairing/chain_search.h"
 #include "keyline/fairing/dense_curve.h"
 #include "keyline/fairing/fair.h"
+#include "keyline/fairing/half_line.h"
+#include "keyline/fairing/members.h"
 #include "keyline/lac/chain/chain.h"
 
 /// One smooth stretch of a key-line between corners.
@@ -25,6 +27,10 @@ struct Run {
   std::optional<core::Point2> tie_start;  ///< where the chain must start: a corner shared
   std::optional<core::Point2> tie_end;
   double length = 0;
+  std::optional<core::Pose2> axis;  ///< of a half (see half_line.h), and how its ends stand to it
+  HalfEnd start_on_axis = HalfEnd::free;
+  HalfEnd end_on_axis = HalfEnd::free;
+  Members members;  ///< measured points that the run's are means of; empty: its own
   std::vector<core::HalfPlane> inside;  ///< that the chain stays in…
   std::vector<double> margin = {};      ///< …and how much farther; empty: none
 };
@@ -34,10 +40,11 @@ struct RunOptions {
   double noise = 0;
   int pieces = 0;
   Criterion criterion = Criterion::least_variation;
-  double smoothness = 0.5;       ///< see FairOptions
-  std::optional<int> waves;      ///< at most, see FairOptions
-  core::Interval slopes{-3, 3};  ///< of the calmest chain's pieces
-  std::vector<int> asked;        ///< pieces whose reading was asked for
+  double smoothness = 0.5;         ///< see FairOptions
+  std::optional<int> waves;        ///< at most, see FairOptions
+  std::optional<double> max_rate;  ///< of curvature along the chain, in the points' unit
+  core::Interval slopes{-3, 3};    ///< of the calmest chain's pieces
+  std::vector<int> asked;          ///< pieces whose reading was asked for
   int threads = 0;
   core::Progress progress;
 };

@@ -16,6 +16,22 @@ constexpr double kMoreMargin = 1.2;  // of what the chain passes the border by
 
 }  // namespace
 
+namespace {
+
+/// An end that stands on the line of symmetry, square to it where the curve runs across smoothly.
+HeldEnd end_on_axis(const Run& run, const RunFrame& frame, bool canonical_start, HalfEnd how) {
+  const double y = core::apply(frame.to_canonical, run.axis->position).y;
+  const std::vector<core::Point2>& points = frame.points;
+  const core::Point2 last = canonical_start ? points.front() : points.back();
+  const core::Point2 middle = points[points.size() / 2];
+  HeldEnd held{how == HalfEnd::square ? Hold::direction : Hold::position, {}, true};
+  const bool leaves_upwards = (middle.y > y) == canonical_start;
+  held.joint = {{last.x, y}, (leaves_upwards ? 0.5 : -0.5) * core::kPi, 0};
+  return held;
+}
+
+}  // namespace
+
 HeldEnd held_end(const Run& run, const RunFrame& frame, const curve::BSpline2& spline,
                  bool canonical_start) {
   if (run.closed) return {};
@@ -23,6 +39,8 @@ HeldEnd held_end(const Run& run, const RunFrame& frame, const curve::BSpline2& s
   const Clamp clamp = at_start ? run.clamp_start : run.clamp_end;
   const auto& tie = at_start ? run.tie_start : run.tie_end;
   HeldEnd held{static_cast<Hold>(static_cast<int>(clamp)), {}};
+  const HalfEnd on_axis = at_start ? run.start_on_axis : run.end_on_axis;
+  if (on_axis != HalfEnd::free) return end_on_axis(run, frame, canonical_start, on_axis);
   if (tie) return {Hold::position, {core::apply(frame.to_canonical, *tie), 0, 0}};
   if (held.hold == Hold::free) return held;
   const curve::Jet2 end = jet(spline, at_start ? 0.0 : 1.0);

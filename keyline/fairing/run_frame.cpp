@@ -41,6 +41,14 @@ std::size_t farthest(const std::vector<core::Point2>& points, core::Point2 centr
   return best;
 }
 
+/// Turns the way to the centroid onto the x axis; a half's line of symmetry instead, the way as
+/// nearly as that allows.
+double turn_of(const Run& run, core::Vector2 to_centroid) {
+  if (!run.axis) return -core::direction_of(to_centroid);
+  const bool against = core::dot(core::unit_vector(run.axis->direction), to_centroid) < 0;
+  return -run.axis->direction + (against ? core::kPi : 0);
+}
+
 }  // namespace
 
 RunFrame make_frame(const Run& run) {
@@ -57,7 +65,7 @@ RunFrame make_frame(const Run& run) {
     std::rotate(frame.order.begin(), start, frame.order.end());
   }
   const core::Point2 first = run.points[frame.order.front()];
-  const double turn = -core::direction_of(centroid - first);
+  const double turn = turn_of(run, centroid - first);
   const double scale = 1 / run.length;
   const core::Vector2 moved = core::rotate_ccw({first.x, first.y}, turn);
   frame.to_canonical = {scale, turn, -scale * moved};

@@ -8,7 +8,8 @@ namespace keyline::fairing::detail {
 
 /// A run's points in a frame of its own: length 1, first point at the origin, centroid on the x
 /// axis; direction of travel by shape (the end farther from the centroid comes last; closed runs
-/// turn left and start at the point farthest from the centroid).
+/// turn left and start at the point farthest from the centroid). A half's line of symmetry runs
+/// along the x axis instead.
 struct RunFrame {
   std::vector<core::Point2> points;
   std::vector<double> weights;     ///< one per point

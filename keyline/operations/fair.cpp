@@ -1,6 +1,7 @@
 #include "keyline/operations/fair.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "keyline/operations/registry.h"
 
@@ -86,6 +87,8 @@ FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   answer.tolerance = result.tolerance;
   answer.deviation = {result.max_deviation, result.rms_deviation, result.worst_point};
   answer.within_tolerance = result.within_tolerance;
+  answer.symmetry = result.symmetry;
+  if (std::isfinite(result.rate)) answer.rate = result.rate;
   answer.outside = result.outside;
   answer.fairness = fair_figures(line, result);
   answer.cancelled = result.cancelled;

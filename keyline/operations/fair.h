@@ -73,7 +73,9 @@ struct FairAnswer {
   double tolerance = 0;
   FairDeviation deviation;
   bool within_tolerance = false;
+  std::optional<double> rate;
   double outside = 0;
+  std::optional<fairing::FoundSymmetry> symmetry;
   FairFigures fairness;
   bool cancelled = false;
   std::vector<Joint> continuity;
@@ -94,8 +96,13 @@ struct FairAnswer {
         core::field<&FairAnswer::tolerance>("that was kept").in("length"),
         core::field<&FairAnswer::deviation>("of the points from the curve"),
         core::field<&FairAnswer::within_tolerance>("whether every point is"),
+        core::field<&FairAnswer::rate>(
+            "fastest that curvature changes; none where a piece begins or ends so steeply that it "
+            "has no bound")
+            .in("1/length^2"),
         core::field<&FairAnswer::outside>("by how much a bound is passed; 0: all are kept")
             .in("length"),
+        core::field<&FairAnswer::symmetry>("line in which the points mirror within their noise"),
         core::field<&FairAnswer::fairness>("how calm its comb is, beside others'"),
         core::field<&FairAnswer::cancelled>("stopped: the best found until then"),
         core::field<&FairAnswer::continuity>("at the joints, inside chains and between curves"),

@@ -2,34 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "keyline/curve/concept.h"
 #include "keyline/curve/length.h"
 #include "keyline/fit/smoothing_spline.h"
-#include "keyline/lac/chain/chain.h"
+#include "keyline/lac/chain/chain_graph.h"
 
 namespace keyline::operations {
 namespace {
 
-constexpr int kPerPiece = 400;
 constexpr int kPerSpline = 6000;
 constexpr double kAsGood = 1.5;  // times another's figure: as calm to the eye
 
-curve::CurvatureGraph graph_of(const lac::Chain& chain) {
-  curve::CurvatureGraph graph;
-  double at = 0;
-  for (const lac::Segment& segment : lac::segments(chain)) {
-    for (int i = 0; i <= kPerPiece; ++i) {
-      // Denser towards both ends, where rates of steep slopes grow.
-      const double share = 0.5 * (1 - std::cos(std::numbers::pi * i / kPerPiece));
-      graph.arc_length.push_back(at + share * segment.length);
-      graph.curvature.push_back(lac::curvature(segment, share));
-    }
-    at += segment.length;
-  }
-  return graph;
-}
+curve::CurvatureGraph graph_of(const lac::Chain& chain) { return lac::curvature_graph(chain); }
 
 curve::CurvatureGraph graph_of(const curve::BSpline2& spline) {
   curve::CurvatureGraph graph;

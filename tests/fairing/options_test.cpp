@@ -107,6 +107,42 @@ TEST(FairOptions, SlopeAskedForIsHeld) {
   EXPECT_EQ(only_chain(result).pieces[0].alpha, -0.5);
 }
 
+/// Fastest change of curvature along the chain, by differences of our own.
+double measured_rate(const FairResult& result) {
+  double most = 0;
+  for (const lac::Segment& s : lac::segments(only_chain(result))) {
+    const int n = 4000;
+    for (int i = 0; i < n; ++i) {
+      const double rise = lac::curvature(s, (i + 1.0) / n) - lac::curvature(s, 1.0 * i / n);
+      most = std::max(most, std::abs(rise) * n / s.length);
+    }
+  }
+  return most;
+}
+
+TEST(FairOptions, CurvatureChangesNoFasterThanAskedFor) {
+  const FairResult plain = fair(bow()).value();
+  EXPECT_NEAR(plain.rate, measured_rate(plain), 1e-3 * plain.rate);
+  FairOptions options;
+  options.max_rate = 0.7 * plain.rate;
+  const FairResult slow = fair(bow(), options).value();
+  EXPECT_LE(measured_rate(slow), *options.max_rate);
+  EXPECT_GT(slow.rate, 0.9 * *options.max_rate);
+  EXPECT_TRUE(slow.within_tolerance);
+}
+
+TEST(FairOptions, ARateThatTheToleranceDoesNotAllowIsRefused) {
+  FairOptions options;
+  options.max_rate = 0.02 * fair(bow()).value().rate;
+  const auto refused = fair(bow(), options);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, core::ErrorCode::undrawable);
+  EXPECT_EQ(refused.error().path, "max_rate");
+  EXPECT_NE(refused.error().message.find("without a limit it is"), std::string::npos);
+  options.pieces = 3;
+  EXPECT_EQ(fair(bow(), options).error().code, core::ErrorCode::bad_input);
+}
+
 /// [Fairing], 4, curve B: points of a single R, replaced by a line of slope 2/3 "in the meaning of
 /// correcting what was produced in the facilitation".
 TEST(FairOptions, ASingleRBecomesSlopeTwoThirds) {

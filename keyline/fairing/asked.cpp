@@ -1,0 +1,47 @@
+#include "keyline/fairing/asked.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace keyline::fairing::detail {
+
+using core::ErrorCode;
+using core::fail;
+using core::Result;
+
+Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
+  if (line.points.size() < 2)
+    return fail(ErrorCode::bad_input, "a key-line needs at least two points", "give more points");
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    return fail(ErrorCode::bad_input, "the tolerance is not a length",
+                "give a number greater than 0", "tolerance");
+  if (options.sigmas && options.tolerance > 0)
+    return fail(ErrorCode::bad_input, "the tolerance is given twice",
+                "give either \"tolerance\" or \"sigmas\"", "sigmas");
+  if (options.sigmas && !(line.noise > 0))
+    return fail(ErrorCode::bad_input, "these points have no noise to count the tolerance in",
+                "give \"tolerance\", or the \"noise\"", "sigmas");
+  if (options.spline.order < 4 || options.spline.order > 6)
+    return fail(ErrorCode::bad_input, "the order of the spline is out of range", "give 4, 5 or 6",
+                "order");
+  if (options.waves && *options.waves < 0)
+    return fail(ErrorCode::bad_input, "the number of waves is negative", "give 0 or more", "waves");
+  if (options.pieces < 0)
+    return fail(ErrorCode::bad_input, "the number of pieces is negative", "give 1 or more",
+                "pieces");
+  if (options.max_rate && (options.pieces > 0 || options.criterion != Criterion::least_variation))
+    return fail(ErrorCode::bad_input,
+                "a limit on curvature's rate does not go with the shortest chain",
+                "leave one of them out", "max_rate");
+  for (const std::size_t index : options.must_pass)
+    if (index >= line.points.size())
+      return fail(ErrorCode::bad_input, "a point to be passed does not exist",
+                  fmt::format("give indices below {}", line.points.size()), "must_pass");
+  if (const auto& r = options.region; r && !(r->low >= 0 && r->low < r->high && r->high <= 1))
+    return fail(ErrorCode::bad_input, "the region is not a part of the key-line",
+                "give a:b with 0 <= a < b <= 1", "region");
+  return {};
+}
+
+}  // namespace keyline::fairing::detail

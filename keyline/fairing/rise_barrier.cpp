@@ -1,0 +1,267 @@
+#include "keyline/fairing/rise_barrier.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kBoundary = 0.995;  // share of the way to zero that room or multiplier may go
+constexpr double kCentred = 1e4;     // products of room and multiplier stay this near the barrier
+constexpr double kTilt = 1e-2;       // of the curvature's range, over the whole length
+constexpr double kSlower = 0.9;      // of the fastest rate: where the solver starts
+
+/// Weighted means of neighbours until they rise: pooling adjacent violators.
+///
+/// Source: [Barlow 1972], section 1.2 (pooling adjacent violators).
+std::vector<double> rising(const std::vector<double>& value) {
+  struct Block {
+    double mean;
+    int count;
+  };
+  std::vector<Block> blocks;
+  for (const double v : value) {
+    blocks.push_back({v, 1});
+    while (blocks.size() > 1 && blocks.end()[-2].mean > blocks.back().mean) {
+      const Block last = blocks.back();
+      blocks.pop_back();
+      Block& one = blocks.back();
+      one.mean = (one.mean * one.count + last.mean * last.count) / (one.count + last.count);
+      one.count += last.count;
+    }
+  }
+  std::vector<double> out;
+  for (const Block& b : blocks) out.insert(out.end(), b.count, b.mean);
+  return out;
+}
+
+/// The values of one stretch of pieces of the same sense, and how they are to run.
+struct Stretch {
+  std::vector<std::size_t> node;
+  std::vector<double> value;
+  int sense = 0;
+};
+
+std::vector<Stretch> stretches_of(const DenseCurve& curve) {
+  const std::size_t pieces = curve.alpha.size();
+  const auto sense = [&](std::size_t p) { return flat(curve, p) ? 0 : int{curve.sense[p]}; };
+  std::size_t first = 0;
+  if (curve.closed)
+    while (first < pieces && sense(first) == sense((first + pieces - 1) % pieces)) ++first;
+  first %= pieces;
+  std::vector<Stretch> all;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const std::size_t p = (first + i) % pieces;
+    if (all.empty() || all.back().sense != sense(p)) {
+      all.emplace_back();
+      all.back().sense = sense(p);
+      all.back().node.push_back(p);
+    }
+    all.back().node.push_back(p + 1);
+  }
+  for (Stretch& s : all)
+    for (const std::size_t node : s.node) s.value.push_back(curve.value[node]);
+  return all;
+}
+
+double along(const DenseCurve& curve, std::size_t node) { return curve.at[curve.cut[node]]; }
+
+/// The stretch's values, strictly running as they should.
+void straighten(const DenseCurve& curve, Stretch& stretch, double tilt) {
+  for (double& v : stretch.value) v *= stretch.sense;
+  const auto falls = std::adjacent_find(stretch.value.begin(), stretch.value.end(),
+                                        [](double a, double b) { return !(a < b); });
+  if (falls == stretch.value.end()) tilt = 0;
+  stretch.value = rising(stretch.value);
+  double way = 0;
+  for (std::size_t i = 0; i < stretch.value.size(); ++i) {
+    if (i > 0) {
+      const double step = along(curve, stretch.node[i]) - along(curve, stretch.node[i - 1]);
+      way += step - std::floor(step);
+    }
+    stretch.value[i] = stretch.sense * (stretch.value[i] + tilt * way);
+  }
+}
+
+/// Rate of curvature times the square of the length: where the piece runs fastest, one of its ends.
+double fastest(const DenseCurve& curve, std::size_t p) {
+  if (flat(curve, p)) return 0;
+  const double a = curve.value[p];
+  const double b = curve.value[p + 1];
+  const double width = along(curve, p + 1) - along(curve, p);
+  const double power = -curve.alpha[p];
+  if (a == b || std::abs(power - 1) < 1e-9) return std::abs(b - a) / width;
+  const double big = std::max(std::abs(a), std::abs(b));
+  const double small = a * b <= 0 ? 0.0 : std::min(std::abs(a), std::abs(b));
+  if (std::abs(power) < 1e-9) return small > 0 ? std::abs(std::log(b / a)) * big / width : HUGE_VAL;
+  const auto raised = [&](double v) { return std::copysign(std::pow(std::abs(v), power), v); };
+  const double reach = std::abs((raised(b) - raised(a)) / power);
+  return reach * std::pow(power < 1 ? big : small, 1 - power) / width;
+}
+
+/// The fastest rate that is allowed, times the square of the length.
+double steepest(const DenseCurve& curve) { return curve.most_rate * curve.length * curve.length; }
+
+/// The largest rise that a piece may have for its fastest rate to be the one allowed, from what
+/// its rate and rise are now.
+double most_rise(const DenseCurve& curve, std::size_t p) {
+  const double width = along(curve, p + 1) - along(curve, p);
+  const double rise = std::abs(curve.value[p + 1] - curve.value[p]);
+  const double rate = fastest(curve, p);
+  const double share = rise > 0 && rate > 0 && std::isfinite(rate) ? rise / (rate * width) : 1;
+  return steepest(curve) * width * share;
+}
+
+/// Means of the greatest curvatures below and the least above that run no faster than their
+/// neighbours allow.
+void slow_down(DenseCurve& curve) {
+  const std::size_t pieces = curve.alpha.size();
+  std::vector<double> low = curve.value;
+  std::vector<double> high = curve.value;
+  const auto pass = [&](std::size_t from, std::size_t to, std::size_t p) {
+    const double most = kSlower * most_rise(curve, p);
+    low[to] = std::min(low[to], low[from] + most);
+    high[to] = std::max(high[to], high[from] - most);
+  };
+  for (int lap = 0; lap < (curve.closed ? 2 : 1); ++lap) {
+    for (std::size_t p = 0; p < pieces; ++p) pass(p, p + 1, p);
+    for (std::size_t p = pieces; p-- > 0;) pass(p + 1, p, p);
+    if (!curve.closed) continue;
+    low.front() = low.back() = std::min(low.front(), low.back());
+    high.front() = high.back() = std::max(high.front(), high.back());
+  }
+  for (std::size_t i = 0; i <= pieces; ++i) curve.value[i] = 0.5 * (low[i] + high[i]);
+}
+
+/// What is held stays as it was.
+void put_back(DenseCurve& curve, const std::vector<double>& before) {
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p)
+    if (flat(curve, p))
+      for (const std::size_t node : {p, p + 1}) curve.value[node] = before[node];
+  if (curve.hold_start >= Hold::curvature) curve.value.front() = before.front();
+  if (curve.hold_end >= Hold::curvature) curve.value.back() = before.back();
+}
+
+/// Curvatures moved to the nearest ones that keep the senses strictly.
+void keep_senses(DenseCurve& curve) {
+  if (curve.sense.empty()) return;
+  const auto [low, high] = std::minmax_element(curve.value.begin(), curve.value.end());
+  const double tilt = kTilt * std::max(*high - *low, 1e-6);
+  const std::size_t last = curve.value.size() - 1;
+  std::vector<double> top(curve.value.size(), -HUGE_VAL);
+  std::vector<double> bottom(curve.value.size(), HUGE_VAL);
+  for (Stretch& s : stretches_of(curve)) {
+    if (s.sense == 0) continue;
+    straighten(curve, s, tilt);
+    for (std::size_t i = 0; i < s.node.size(); ++i) {
+      const bool ends_high = i == 0 ? s.sense < 0 : s.sense > 0;
+      const bool end = i == 0 || i + 1 == s.node.size();
+      const auto keep = [&](std::size_t node) {
+        if (end && !ends_high) bottom[node] = std::min(bottom[node], s.value[i]);
+        if (end && ends_high) top[node] = std::max(top[node], s.value[i]);
+        if (!end) curve.value[node] = s.value[i];
+      };
+      keep(s.node[i]);
+      if (curve.closed && s.node[i] % last == 0) keep(s.node[i] == 0 ? last : 0);
+    }
+  }
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (std::isfinite(top[i])) curve.value[i] = top[i];
+    if (std::isfinite(bottom[i])) curve.value[i] = bottom[i];
+  }
+}
+
+}  // namespace
+
+void keep_rises(DenseCurve& curve) {
+  const std::vector<double> before = curve.value;
+  if (std::isfinite(curve.most_rate) && too_fast(curve) > kSlower) slow_down(curve);
+  keep_senses(curve);
+  put_back(curve, before);
+}
+
+void ease(DenseCurve& curve) {
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p)
+    if (fastest(curve, p) > steepest(curve)) curve.alpha[p] = -1;
+}
+
+double too_fast(const DenseCurve& curve) {
+  if (!std::isfinite(curve.most_rate)) return 0;
+  double most = 0;
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p) most = std::max(most, fastest(curve, p));
+  return most / steepest(curve);
+}
+
+RiseBarrier::RiseBarrier(const DenseCurve& curve, double barrier) : barrier_(barrier) {
+  const bool rates = std::isfinite(curve.most_rate);
+  if (curve.sense.empty() && !rates) return;
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
+    begins_.push_back(limits_.size());
+    if (flat(curve, p)) continue;
+    const int sense = curve.sense.empty() ? 0 : curve.sense[p];
+    if (sense != 0) add(curve, p, sense, 0);
+    for (const int way : {-1, 1})
+      if (rates && sense != way) add(curve, p, way, most_rise(curve, p));
+  }
+  begins_.push_back(limits_.size());
+}
+
+void RiseBarrier::add(const DenseCurve& curve, std::size_t piece, double way, double most) {
+  Limit limit{piece, way, most, 0, 0, 0};
+  limit.first = limit.room = room(curve, limit);
+  if (!(limit.room > 0)) return;
+  limit.multiplier = barrier_ / limit.room;
+  limits_.push_back(limit);
+}
+
+double RiseBarrier::room(const DenseCurve& curve, const Limit& limit) {
+  return limit.most + limit.way * (curve.value[limit.piece + 1] - curve.value[limit.piece]);
+}
+
+Pull RiseBarrier::pull(std::size_t p) const {
+  Pull sum;
+  if (begins_.empty()) return sum;
+  for (std::size_t i = begins_[p]; i < begins_[p + 1]; ++i) {
+    sum.weight += limits_[i].multiplier / limits_[i].room;
+    sum.slope += -limits_[i].way * barrier_ / limits_[i].room;
+  }
+  return sum;
+}
+
+double RiseBarrier::longest(const std::vector<double>& meant) const {
+  double share = 1;
+  for (const Limit& limit : limits_) {
+    const double by = limit.way * meant[limit.piece];
+    if (by < 0) share = std::min(share, -kBoundary * limit.room / by);
+  }
+  return share;
+}
+
+double RiseBarrier::merit(const DenseCurve& curve) const {
+  double logs = 0;
+  for (const Limit& limit : limits_) logs += std::log(room(curve, limit) / limit.first);
+  return -barrier_ * logs;
+}
+
+void RiseBarrier::move(const DenseCurve& curve, const std::vector<double>& meant) {
+  double dual = 1;
+  std::vector<double> by;
+  for (const Limit& limit : limits_) {
+    by.push_back((barrier_ - limit.multiplier * limit.way * meant[limit.piece]) / limit.room -
+                 limit.multiplier);
+    if (by.back() < 0) dual = std::min(dual, -kBoundary * limit.multiplier / by.back());
+  }
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    Limit& limit = limits_[i];
+    limit.room = room(curve, limit);
+    const double centre = barrier_ / limit.room;
+    limit.multiplier =
+        std::clamp(limit.multiplier + dual * by[i], centre / kCentred, centre * kCentred);
+  }
+}
+
+void RiseBarrier::rescale(double by) {
+  for (Limit& limit : limits_) limit.multiplier *= by;
+}
+
+}  // namespace keyline::fairing::detail
