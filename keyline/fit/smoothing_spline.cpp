@@ -48,6 +48,7 @@ class Smoother {
     total_ = at_.back() + (closed ? core::distance(points.back(), points.front()) : 0);
     spans_ = std::clamp(static_cast<int>(points.size() / 2), 6, kMostSpans);
     count_ = closed ? spans_ : spans_ + 5;
+    gather();
   }
 
   bool sound() const { return total_ > 0; }
@@ -55,7 +56,7 @@ class Smoother {
   bool within(double penalty, double tolerance) {
     if (!solve(penalty)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i)
-      if (distance(i) > tolerance) return false;
+      if (farther(i, tolerance)) return false;
     return true;
   }
 
@@ -94,49 +95,57 @@ class Smoother {
 
   double place(std::size_t i) const { return at_[i] / total_ * spans_; }
 
-  /// Of a point from the curve near its parameter.
-  double distance(std::size_t i) const {
+  /// Whether a point is farther than that from the curve near its parameter.
+  bool farther(std::size_t i, double tolerance) const {
     double t = place(i);
-    double least = core::distance(at(t, 0), points_[i]);
+    core::Point2 p = at(t, 0);
     for (int step = 0; step < 4; ++step) {
-      const core::Point2 p = at(t, 0);
+      if (core::distance(p, points_[i]) <= tolerance) return false;
       const auto [dx, dy] = at(t, 1);
       const double along = (points_[i].x - p.x) * dx + (points_[i].y - p.y) * dy;
       t += along / (dx * dx + dy * dy);
       if (closed_) t -= spans_ * std::floor(t / spans_);
       t = std::clamp(t, 0.0, static_cast<double>(spans_));
-      least = std::min(least, core::distance(at(t, 0), points_[i]));
+      p = at(t, 0);
     }
-    return least;
+    return !(core::distance(p, points_[i]) <= tolerance);
+  }
+
+  /// What the points ask of the coefficients, whatever the penalty.
+  void gather() {
+    normal_.assign(spans_, {});
+    right_x_ = Eigen::VectorXd::Zero(count_);
+    right_y_ = Eigen::VectorXd::Zero(count_);
+    if (!sound()) return;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int k = span(place(i));
+      const Basis b = basis(place(i) - k, 0);
+      for (int j = 0; j < 6; ++j) {
+        for (int l = 0; l < 6; ++l) normal_[k][j][l] += b[j] * b[l];
+        right_x_(index(k + j)) += b[j] * points_[i].x;
+        right_y_(index(k + j)) += b[j] * points_[i].y;
+      }
+    }
   }
 
   bool solve(double penalty) {
     std::vector<Eigen::Triplet<double>> entries;
-    const auto add = [&](int first, std::span<const double> row, double weight) {
-      for (std::size_t a = 0; a < row.size(); ++a)
-        for (std::size_t b = 0; b < row.size(); ++b)
-          entries.emplace_back(index(first + static_cast<int>(a)),
-                               index(first + static_cast<int>(b)), weight * row[a] * row[b]);
+    const auto add = [&](int row, int column, double value) {
+      entries.emplace_back(index(row), index(column), value);
     };
-    Eigen::VectorXd right_x = Eigen::VectorXd::Zero(count_);
-    Eigen::VectorXd right_y = Eigen::VectorXd::Zero(count_);
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const int k = span(place(i));
-      const Basis b = basis(place(i) - k, 0);
-      add(k, b, 1);
-      for (int j = 0; j < 6; ++j) {
-        right_x(index(k + j)) += b[j] * points_[i].x;
-        right_y(index(k + j)) += b[j] * points_[i].y;
-      }
-    }
+    for (int k = 0; k < spans_; ++k)
+      for (int j = 0; j < 6; ++j)
+        for (int l = 0; l < 6; ++l) add(k + j, k + l, normal_[k][j][l]);
     constexpr std::array<double, 4> kThird{-1, 3, -3, 1};
-    for (int i = 0; i + (closed_ ? 0 : 3) < count_; ++i) add(i, kThird, penalty);
+    for (int i = 0; i + (closed_ ? 0 : 3) < count_; ++i)
+      for (int j = 0; j < 4; ++j)
+        for (int l = 0; l < 4; ++l) add(i + j, i + l, penalty * kThird[j] * kThird[l]);
     Eigen::SparseMatrix<double> normal(count_, count_);
     normal.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
     if (factor.info() != Eigen::Success) return false;
-    x_ = factor.solve(right_x);
-    y_ = factor.solve(right_y);
+    x_ = factor.solve(right_x_);
+    y_ = factor.solve(right_y_);
     return x_.allFinite() && y_.allFinite();
   }
 
@@ -146,6 +155,9 @@ class Smoother {
   double total_ = 0;
   int spans_ = 0;
   int count_ = 0;
+  std::vector<std::array<Basis, 6>> normal_;  ///< of every span: products of its splines
+  Eigen::VectorXd right_x_;
+  Eigen::VectorXd right_y_;
   Eigen::VectorXd x_;
   Eigen::VectorXd y_;
 };
