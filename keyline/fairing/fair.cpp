@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "keyline/core/polygon.h"
 #include "keyline/core/text.h"
@@ -25,7 +26,7 @@ using core::fail;
 using core::Result;
 
 constexpr double kPlainShare = 0.6;  // of the time, where a symmetric answer is looked for too
-constexpr double kAlike = 0.98;      // of a limit on rates: as good as on it
+constexpr double kAlike = 0.98;      // of a limit: as good as on it
 constexpr double kOutside = 1e-9;    // of the length: farther out is no matter of rounding
 
 void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
@@ -278,6 +279,7 @@ class Job {
     }
     note_outside();
     if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
+    note_limits();
     detail::assemble(result_, solved_, kept_before_, kept_after_);
     result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
@@ -288,11 +290,7 @@ class Job {
     for (const detail::RunResult& one : solved_)
       result_.rate = std::max(result_.rate, lac::fastest_rate(one.chain));
     if (!options_.max_rate || options_.progress.stop_requested()) return {};
-    if (result_.within_tolerance && result_.rate <= *options_.max_rate) {
-      if (result_.rate > kAlike * *options_.max_rate)
-        result_.notes.push_back("the limit on how fast curvature changes is what binds");
-      return {};
-    }
+    if (result_.within_tolerance && result_.rate <= *options_.max_rate) return {};
     FairOptions without = options_;
     without.max_rate.reset();
     const auto plain = Job(line_, without).run();
@@ -303,6 +301,29 @@ class Job {
                     result_.tolerance, *options_.max_rate,
                     plain ? fmt::format("; without a limit it is {:.4g}", plain->rate) : ""),
         "give a larger limit or a larger tolerance", "max_rate");
+  }
+
+  /// Which limits bound.
+  void note_limits() {
+    const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
+    if (!std::ranges::all_of(solved_, lacs)) return;
+    const auto at_tolerance = std::ranges::count_if(
+        result_.offsets, [&](double o) { return std::abs(o) > kAlike * result_.tolerance; });
+    const auto at_slope = std::ranges::count_if(result_.pieces, [&](const FairPiece& p) {
+      return std::ranges::any_of(p.slopes, [&](double slope) {
+        return slope == options_.slopes.low || slope == options_.slopes.high;
+      });
+    });
+    std::vector<std::string> bound;
+    if (at_tolerance > 0)
+      bound.push_back("the tolerance at " + core::counted(std::size_t(at_tolerance), "point"));
+    if (at_slope > 0)
+      bound.push_back("the range of slopes at " + core::counted(std::size_t(at_slope), "piece"));
+    if (options_.max_rate && result_.rate > kAlike * *options_.max_rate)
+      bound.emplace_back("how fast curvature may change");
+    if (bound.empty()) bound.emplace_back("the points' noise, which keeps it near them");
+    result_.notes.push_back(
+        fmt::format("what holds it from being calmer: {}", fmt::join(bound, ", ")));
   }
 
   void note_outside() {

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "keyline/acquire/acquire.h"
@@ -127,8 +128,21 @@ TEST(FairOptions, CurvatureChangesNoFasterThanAskedFor) {
   options.max_rate = 0.7 * plain.rate;
   const FairResult slow = fair(bow(), options).value();
   EXPECT_LE(measured_rate(slow), *options.max_rate);
-  EXPECT_GT(slow.rate, 0.9 * *options.max_rate);
+  EXPECT_GT(slow.rate, 0.98 * *options.max_rate);
+  EXPECT_THAT(slow.notes, ::testing::Contains(::testing::HasSubstr("how fast curvature may")));
   EXPECT_TRUE(slow.within_tolerance);
+}
+
+/// A tolerance of many standard deviations leaves the noise to bind, a tight one binds itself.
+TEST(FairOptions, WhatBindsIsTold) {
+  FairOptions options;
+  options.sigmas = 30;
+  options.smoothness = 0;
+  EXPECT_THAT(fair(bow(), options)->notes,
+              ::testing::Contains(::testing::HasSubstr("calmer: the points' noise")));
+  options.sigmas = 2.2;
+  EXPECT_THAT(fair(bow(), options)->notes,
+              ::testing::Contains(::testing::HasSubstr("calmer: the tolerance at")));
 }
 
 TEST(FairOptions, ARateThatTheToleranceDoesNotAllowIsRefused) {
