@@ -23,13 +23,22 @@ def libraries():
     ]
 
 
+def errata(paper):
+    """What is wrong in a paper, from the table of all of them."""
+    text = (root / "docs/readings.md").read_text()
+    rows = re.findall(rf"(?m)^\| \[{paper}\] ([^|]*)\| ([^|]*)\| ([^|]*)\|$", text)
+    lines = [f"| {where.strip()} | {said.strip()} | {right.strip()} |" for where, said, right in rows]
+    return ["| where | is | must be |", "|---|---|---|", *lines]
+
+
 def blocks_of(page):
     text = page.read_text()
 
     def made(match):
-        return f"<!-- table: {match[1]} -->\n" + "\n".join(globals()[match[1]]()) + "\n<!-- end -->"
+        name, *of = match[1].split()
+        return f"<!-- table: {match[1]} -->\n" + "\n".join(globals()[name](*of)) + "\n<!-- end -->"
 
-    return text, re.sub(r"<!-- table: (\w+) -->\n(?:.*?\n)?<!-- end -->", made, text, flags=re.S)
+    return text, re.sub(r"<!-- table: ([\w ]+) -->\n(?:.*?\n)?<!-- end -->", made, text, flags=re.S)
 
 
 def code_formats():

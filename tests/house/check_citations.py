@@ -4,6 +4,7 @@
 - every [Key] in comments and pages stands in docs/bibliography.md;
 - a "Source:" of a contract names a key or a page below docs/;
 - pages link to headings and anchors that are there;
+- the glossary is sorted and names each term once;
 - nothing refers to papers that lie outside the tree (reading notes, a contract, an issue).
 Prints a line per breach and fails if there is any.
 """
@@ -44,10 +45,20 @@ def without_code(text):
     return re.sub(r"```.*?```|`[^`\n]*`", lambda m: "\n" * m.group().count("\n"), text, flags=re.S)
 
 
+def out_of_order(page):
+    """The first term of the glossary that does not come after the one before it."""
+    terms = [t.lower().replace("α", "alpha") for t in re.findall(r"^\*\*(.+?)\*\*", page.read_text(), re.M)]
+    plain = [re.sub(r"[^a-z0-9 ]", "", t) for t in terms]
+    return next((terms[i + 1] for i in range(len(plain) - 1) if not plain[i] < plain[i + 1]), None)
+
+
 keys = set(re.findall(r"\*\*\[([^\]]+)\]\*\*", (root / "docs/bibliography.md").read_text()))
 if not keys:
     sys.exit("docs/bibliography.md holds no key")
 breaches = []
+misplaced = out_of_order(root / "docs/glossary.md")
+if misplaced:
+    breaches.append(f"docs/glossary.md: {misplaced} is out of order, or there twice")
 for file in files():
     if file.suffix not in {".md", *COMMENT}:
         continue
