@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "keyline/core/polygon.h"
+#include "keyline/numeric/damped_descent.h"
+#include "keyline/numeric/lawson.h"
 
 namespace keyline::curve::detail {
 
@@ -223,17 +225,16 @@ class HandleFit {
   void run(double a, double b, double wanted) {
     weights_.assign(points_.size(), 1.0);
     Normal at = linearise(a, b);
-    double damping = 1e-6;
-    for (int step = 0; step < 40 && damping < 1e4; ++step) {  // Levenberg-Marquardt
+    numeric::FactorDamping rule{.least = 0, .most = 1e4};
+    numeric::damped_descent(rule, 40, [&](double damping) -> numeric::StepOutcome {
       const Normal next = linearise(moved(at, damping));
-      const bool better = next.cost < at.cost;
-      const bool settled = next.cost > 0.9995 * at.cost;
-      damping *= better ? 0.1 : 10;
-      if (better) at = next;
-      if (better && (settled || best_ <= 0.7 * wanted)) break;
-    }
+      if (!(next.cost < at.cost)) return {};
+      const bool settled = next.cost > 0.9995 * at.cost || best_ <= 0.7 * wanted;
+      at = next;
+      return {settled ? numeric::StepEnd::settled : numeric::StepEnd::taken};
+    });
     for (int step = 0; step < 12 && best_ > 0.9 * wanted && best_ < 3 * wanted; ++step) {
-      reweight();
+      numeric::lawson_weights(weights_, residuals_);
       at = linearise(at.a, at.b);
       at = linearise(moved(at, 1e-9));
     }
@@ -308,20 +309,6 @@ class HandleFit {
     };
     return {step(at.a, (bb * at.ra - at.ab * at.rb) / determinant),
             step(at.b, (aa * at.rb - at.ab * at.ra) / determinant)};
-  }
-
-  /// Lawson's rule: weight grows where the distance is large.
-  void reweight() {
-    double sum = 0;
-    for (std::size_t k = 0; k < weights_.size(); ++k) {
-      weights_[k] *= residuals_[k] + 1e-3 * best_;
-      sum += weights_[k];
-    }
-    if (!(sum > 0)) {
-      weights_.assign(weights_.size(), 1.0);
-      return;
-    }
-    for (double& w : weights_) w *= static_cast<double>(weights_.size()) / sum;
   }
 
   std::span<const Cubic> row_;

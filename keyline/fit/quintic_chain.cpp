@@ -10,6 +10,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/fit/chain_data.h"
+#include "keyline/numeric/damped_descent.h"
 
 namespace keyline::fit {
 namespace {
@@ -111,9 +112,9 @@ class Fit {
   }
 
   void run() {
-    double damping = 1e-6;
     double cost = move_feet();
-    for (int i = 0; i < kIterations; ++i) {
+    numeric::FactorDamping rule{.raise = 100, .least = 1e-9, .most = 1e3};
+    numeric::damped_descent(rule, kIterations, [&](double damping) -> numeric::StepOutcome {
       const Chain before = chain_;
       const std::vector<Foot> feet_before = feet_;
       step(damping);
@@ -121,15 +122,12 @@ class Fit {
       if (now > cost * (1 + 1e-9)) {
         chain_ = before;
         feet_ = feet_before;
-        damping = std::min(damping * 100, 1e3);
-        if (damping >= 1e3) return;
-        continue;
+        return {};
       }
-      damping = std::max(damping / 10, 1e-9);
-      const bool done = cost - now < 1e-5 * cost;
+      const bool settled = cost - now < 1e-5 * cost;
       cost = now;
-      if (done) return;
-    }
+      return {settled ? numeric::StepEnd::settled : numeric::StepEnd::taken};
+    });
   }
 
   QuinticChain result(double tolerance) const {

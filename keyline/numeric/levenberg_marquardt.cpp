@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "keyline/numeric/damped_descent.h"
+
 namespace keyline::numeric {
 namespace {
 
@@ -45,28 +47,6 @@ Step damped_step(const NormalEquations& normal, double damping, const Eigen::Vec
   return step;
 }
 
-/// How large the steps may be: raised faster and faster while steps fail, lowered by the gain of
-/// one that succeeds (Nielsen's rule).
-class Damping {
- public:
-  explicit Damping(double initial) : value_(initial) {}
-  double value() const { return value_; }
-  void lower(double gain) {
-    value_ = std::max(1e-15, value_ * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
-    growth_ = 2;
-  }
-  /// False where no step is short enough any more.
-  bool raise() {
-    value_ *= growth_;
-    growth_ *= 2;
-    return value_ <= 1e16;
-  }
-
- private:
-  double value_;
-  double growth_ = 2;
-};
-
 bool is_flat(const NormalEquations& normal, double cost, double tolerance) {
   return normal.gradient.lpNorm<Eigen::Infinity>() <= tolerance * std::sqrt(2 * cost);
 }
@@ -84,32 +64,28 @@ LevenbergMarquardtReport minimize_least_squares(const ResidualFunction& function
   report.cost = residuals.squaredNorm() / 2;
   report.status = LevenbergMarquardtStatus::iteration_limit;
   NormalEquations normal = assemble(jacobian, residuals);
-  Damping damping(options.initial_damping);
-  const auto converged = [&report] {
-    report.status = LevenbergMarquardtStatus::converged;
-    return report;
-  };
-  while (report.iterations < options.max_iterations) {
-    if (is_flat(normal, report.cost, options.gradient_tolerance)) return converged();
-    ++report.iterations;
-    const Step step = damped_step(normal, damping.value(), x);
+  const auto flat = [&] { return is_flat(normal, report.cost, options.gradient_tolerance); };
+  GainDamping rule{options.initial_damping};
+  const auto take_step = [&](double damping) -> StepOutcome {
+    const Step step = damped_step(normal, damping, x);
     if (step.length <= options.step_tolerance * (x.norm() + options.step_tolerance))
-      return converged();
+      return {StepEnd::settled};
     const bool inside = step.x.allFinite() && function(step.x, trial_residuals, nullptr);
     const double cost = inside ? trial_residuals.squaredNorm() / 2 : report.cost;
-    const double predicted = step.scaled.dot(damping.value() * step.scaled - normal.gradient) / 2;
+    const double predicted = step.scaled.dot(damping * step.scaled - normal.gradient) / 2;
     const double gain = inside && std::isfinite(cost) ? (report.cost - cost) / predicted : -1;
-    if (!(gain > 0)) {
-      if (!damping.raise()) return converged();
-      continue;
-    }
+    if (!(gain > 0)) return {};
     x = step.x;
-    damping.lower(gain);
     const bool settled = report.cost - cost <= options.cost_tolerance * report.cost;
     report.cost = cost;
-    if (settled || !function(x, residuals, &jacobian)) return converged();
+    if (settled || !function(x, residuals, &jacobian)) return {StepEnd::settled};
     normal = assemble(jacobian, residuals);
-  }
+    return {flat() ? StepEnd::settled : StepEnd::taken, gain};
+  };
+  const DescentEnd end = damped_descent(rule, flat() ? 0 : options.max_iterations, take_step);
+  report.iterations = end.steps;
+  if (end.settled || end.exhausted || end.steps == 0)
+    report.status = LevenbergMarquardtStatus::converged;
   return report;
 }
 

@@ -8,6 +8,8 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/quasi/quasi_forms.h"
+#include "keyline/numeric/damped_descent.h"
+#include "keyline/numeric/lawson.h"
 
 namespace keyline::lac::detail {
 
@@ -215,6 +217,7 @@ class Fit {
  private:
   /// Deviation from which on, of the length, other starts are worth their time.
   static constexpr double kGood = 1e-9;
+  static constexpr double kExact = 1e-15;
   static constexpr std::size_t kStarts = 6;
 
   /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
@@ -272,7 +275,7 @@ class Fit {
 
   void descend_from(const Start& start) {
     weights_ = VectorXd::Constant(static_cast<Eigen::Index>(at_.size()), 1.0);
-    damping_ = 1e-6;
+    damping_ = {.raise = 30, .least = 1e-13, .most = 1e2};
     round_least_ = std::numeric_limits<double>::infinity();
     feet_of_last_ = start.feet;
     last_ = start.x;
@@ -331,11 +334,12 @@ class Fit {
     feet_ = feet_of_last_;
     if (!distances(x, r, &jacobian)) return;
     keep_better(x, r);
-    for (int step = 0; step < steps && least_ > 1e-15; ++step) {
+    if (!(least_ > kExact)) steps = 0;
+    numeric::damped_descent(damping_, steps, [&](double damping) -> numeric::StepOutcome {
       const double cost = weights_.dot(r.cwiseAbs2());
       const MatrixXd weighted = weights_.asDiagonal() * jacobian;
       MatrixXd normal = jacobian.transpose() * weighted;
-      normal.diagonal().array() += damping_ * normal.diagonal().maxCoeff();
+      normal.diagonal().array() += damping * normal.diagonal().maxCoeff();
       const VectorXd next = x - normal.ldlt().solve(weighted.transpose() * r);
       const std::vector<double> feet = feet_;
       VectorXd moved;
@@ -343,18 +347,15 @@ class Fit {
       const bool fine = distances(next, moved, &slopes);
       if (!fine || !(weights_.dot(moved.cwiseAbs2()) <= cost)) {
         feet_ = feet;
-        damping_ = std::min(damping_ * 30, 1e2);
-        if (damping_ >= 1e2) break;
-        continue;
+        return {};
       }
       const bool settled = weights_.dot(moved.cwiseAbs2()) > 0.999 * cost;
-      damping_ = std::max(damping_ / 10, 1e-13);
       x = next;
       r = moved;
       jacobian = slopes;
       keep_better(x, r);
-      if (settled) break;
-    }
+      return {settled || !(least_ > kExact) ? numeric::StepEnd::settled : numeric::StepEnd::taken};
+    });
     feet_of_last_ = feet_;
     last_ = x;
     residuals_ = r;
@@ -362,11 +363,10 @@ class Fit {
 
   void reweight() {
     if (residuals_.size() != weights_.size()) return;
-    const double largest = residuals_.cwiseAbs().maxCoeff();
-    for (Eigen::Index j = 0; j < weights_.size(); ++j)
-      weights_[j] *= std::abs(residuals_[j]) + 1e-3 * largest;
-    weights_ *= static_cast<double>(weights_.size()) / weights_.sum();
-    damping_ = std::min(damping_, 1e-6);
+    const VectorXd distances = residuals_.cwiseAbs();
+    const auto count = static_cast<std::size_t>(distances.size());
+    numeric::lawson_weights({weights_.data(), count}, {distances.data(), count});
+    damping_.value = std::min(damping_.value, 1e-6);
   }
 
   const UnitPiece& unit_;
@@ -375,7 +375,7 @@ class Fit {
   std::vector<double> at_, feet_, feet_of_last_;
   std::vector<Vector2> points_, tangents_;
   VectorXd weights_, best_, last_, residuals_;
-  double damping_ = 1e-6;
+  numeric::FactorDamping damping_;
   double least_ = std::numeric_limits<double>::infinity();
   double round_least_ = std::numeric_limits<double>::infinity();  ///< from the present start
 };
