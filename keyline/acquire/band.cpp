@@ -10,6 +10,7 @@
 #include "keyline/acquire/order.h"
 #include "keyline/acquire/statistics.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 #include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
@@ -46,7 +47,7 @@ Spread spread_of(std::span<const core::Point2> points, std::span<const double> w
     yy += weight(i) * d.y * d.y;
   }
   const double half = 0.5 * std::hypot(xx - yy, 2 * xy);
-  s.direction = core::unit_vector(0.5 * std::atan2(2 * xy, xx - yy));
+  s.direction = core::unit_vector(core::principal_angle(xx, xy, yy));
   s.along = std::sqrt((0.5 * (xx + yy) + half) / total);
   s.across = std::sqrt(std::max(0.5 * (xx + yy) - half, 0.0) / total);
   return s;

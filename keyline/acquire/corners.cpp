@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 #include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
@@ -55,8 +56,7 @@ Arm arm_of(const Ring& ring, std::ptrdiff_t from, std::ptrdiff_t to) {
     xy += d.x * d.y;
     yy += d.y * d.y;
   }
-  const double half = 0.5 * std::atan2(2 * xy, xx - yy);
-  core::Vector2 v = core::unit_vector(half);
+  core::Vector2 v = core::unit_vector(core::principal_angle(xx, xy, yy));
   if (core::dot(v, ring[to] - ring[from]) < 0) v = -v;
   const double spread = 0.5 * (xx + yy) + 0.5 * std::hypot(2 * xy, xx - yy);
   return {v, spread};

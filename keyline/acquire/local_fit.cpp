@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
+
 namespace keyline::acquire::detail {
 namespace {
 
@@ -15,8 +18,7 @@ core::Vector2 principal_direction(std::span<const core::Point2> points, core::Po
     xy += d.x * d.y;
     yy += d.y * d.y;
   }
-  const double half = 0.5 * std::atan2(2 * xy, xx - yy);
-  const core::Vector2 v{std::cos(half), std::sin(half)};
+  const core::Vector2 v = core::unit_vector(core::principal_angle(xx, xy, yy));
   return core::dot(v, points.back() - points.front()) < 0 ? -v : v;
 }
 

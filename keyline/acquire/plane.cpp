@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "keyline/core/error.h"
+#include "keyline/core/polygon.h"
 
 namespace keyline::acquire {
 namespace {
@@ -25,12 +26,6 @@ PlaneFit measured(const Plane& plane, std::span<const core::Point3> points) {
   }
   fit.departure_rms = std::sqrt(sum / static_cast<double>(points.size()));
   return fit;
-}
-
-core::Point3 centroid(std::span<const core::Point3> points) {
-  core::Vector3 sum;
-  for (const core::Point3& p : points) sum = sum + (p - points[0]);
-  return points[0] + sum / static_cast<double>(points.size());
 }
 
 /// Planes parallel to two coordinate axes through c, in order of preference.
@@ -78,7 +73,7 @@ PlaneFit fit_plane(std::span<const core::Point3> points) {
   for (const core::Point3& p : points) {
     if (!core::is_finite(p)) throw core::InvalidInput("fit_plane needs finite points");
   }
-  const core::Point3 c = centroid(points);
+  const core::Point3 c = core::centroid(points);
   const PlaneFit best = measured(principal_plane(points, c), points);
   double size = 0;
   for (const core::Point3& p : points) size = std::max(size, core::distance(p, c));

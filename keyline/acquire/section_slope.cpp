@@ -7,6 +7,8 @@
 #include <Eigen/Dense>
 
 #include "keyline/acquire/kd_tree.h"
+#include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -37,8 +39,7 @@ Nearby nearby(std::span<const core::Point2> feet, std::span<const double> away,
     yy += d.y * d.y;
   }
   Nearby n;
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  n.along = {std::cos(angle), std::sin(angle)};
+  n.along = core::unit_vector(core::principal_angle(xx, xy, yy));
   const auto count = static_cast<Eigen::Index>(near.size());
   n.u.resize(count);
   n.v.resize(count);

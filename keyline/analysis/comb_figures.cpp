@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "keyline/core/quantile.h"
+
 namespace keyline::analysis {
 namespace {
 
@@ -30,12 +32,7 @@ std::vector<double> resampled(const curve::CurvatureGraph& graph) {
 }
 
 double range_of(std::vector<double> grid) {
-  const auto at = [&](double share) {
-    const auto place = grid.begin() + std::lround(share * static_cast<double>(grid.size() - 1));
-    std::nth_element(grid.begin(), place, grid.end());
-    return *place;
-  };
-  return at(1 - kTail) - at(kTail);
+  return core::value_at(grid, 1 - kTail) - core::value_at(grid, kTail);
 }
 
 /// Extrema, each followed by a swing of at least so much.

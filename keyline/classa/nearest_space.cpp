@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/axis.h"
 #include "keyline/curve/closest_point.h"
 #include "keyline/curve/length.h"
 
@@ -47,7 +48,7 @@ Plane plane_through_ends(const std::vector<Point3>& points) {
     ab += da * db;
     bb += db * db;
   }
-  const double angle = 0.5 * std::atan2(2 * ab, aa - bb);
+  const double angle = core::principal_angle(aa, ab, bb);
   plane.y = std::cos(angle) * a + std::sin(angle) * b;
   plane.z = cross(plane.x, plane.y);
   return plane;

@@ -17,4 +17,13 @@ double polygon_length(const Points& points, bool closed = false) {
   return sum;
 }
 
+/// Mean of the points, without loss far from the origin. Precondition: there is one.
+template <class Points>
+auto centroid(const Points& points) {
+  const auto& first = points.front();
+  auto sum = first - first;
+  for (const auto& p : points) sum = sum + (p - first);
+  return first + sum / static_cast<double>(points.size());
+}
+
 }  // namespace keyline::core

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/polygon.h"
 
 namespace keyline::fit::detail {
 namespace {
@@ -15,12 +16,6 @@ using core::Point2;
 using core::Vector2;
 
 double quantised(double x) { return std::nearbyint(x * 0x1p34) * 0x1p-34; }
-
-Point2 centroid(std::span<const Point2> points) {
-  Vector2 sum;
-  for (const Point2& p : points) sum = sum + (p - points.front());
-  return points.front() + sum / static_cast<double>(points.size());
-}
 
 /// Whether reversal is wanted: the moment of `squares` about the middle parameter is negative.
 /// Empty where it is zero to rounding.
@@ -76,7 +71,7 @@ std::vector<double> quantised(std::vector<double> values) {
 
 CanonicalData canonical_curve(std::span<const Point2> points, const std::vector<double>& parameters,
                               const std::vector<double>& weights) {
-  const Point2 centre = centroid(points);
+  const Point2 centre = core::centroid(points);
   double length = 0;
   for (const Point2& p : points) length = std::max(length, distance(centre, p));
   CanonicalData result;

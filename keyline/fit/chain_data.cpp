@@ -41,8 +41,7 @@ ChainData prepare_chain_data(const std::vector<Point2>& points, bool closed) {
   data.curvature.assign(p.size(), 0);
   double turned = 0;
   for (long i = 0; i < n; ++i) {
-    const Vector2 d = at(i + reach) - at(i - reach);
-    double angle = std::atan2(d.y, d.x);
+    double angle = core::direction_of(at(i + reach) - at(i - reach));
     if (i > 0) angle = turned + std::remainder(angle - turned, 2 * M_PI);
     data.direction[static_cast<std::size_t>(i)] = turned = angle;
     const Vector2 before = at(i) - at(i - 2 * reach);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "keyline/core/axis.h"
 #include "keyline/surface/curvature.h"
 
 namespace keyline::surface {
@@ -141,9 +142,7 @@ SideState turned(SideState s) {
 
 void compare(EdgeSample& sample, const SideState& a, SideState b, double size) {
   if (dot(a.frame.along, b.frame.along) < 0) b = turned(b);
-  const Vector3 x = a.frame.across;
-  const Vector3 y = b.frame.across;
-  sample.angle = std::atan2(norm(cross(x, y)), dot(x, y));
+  sample.angle = core::angle_between(a.frame.across, b.frame.across);
   const CurvatureForm jump{b.form.xx - a.form.xx, b.form.xy - a.form.xy, b.form.yy - a.form.yy};
   sample.curvature_jump = largest_curvature(jump);
   sample.rate_jump = std::abs(b.rate - a.rate);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "keyline/core/axis.h"
+
 namespace keyline::surface {
 
 using core::cross;
@@ -61,7 +63,7 @@ std::optional<SurfaceCurvature> curvature_of(const SurfaceJet& jet) {
   const CurvatureForm form = curvature_form(jet, *frame);
   const double half = 0.5 * (form.xx - form.yy);
   const double radius = std::hypot(half, form.xy);
-  const double angle = 0.5 * std::atan2(form.xy, half);
+  const double angle = core::principal_angle(form.xx, form.xy, form.yy);
   SurfaceCurvature k;
   k.mean = 0.5 * (form.xx + form.yy);
   k.gaussian = form.xx * form.yy - form.xy * form.xy;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/axis.h"
 #include "keyline/core/text.h"
 
 namespace keyline::surface::detail {
@@ -27,7 +28,7 @@ classa::EnergyConditions conditions_of(const CurveTask& task) {
   const Curve c = oriented(task);
   const Vector3 tangent = c[1] - c[0];
   const Vector3 chord = c.back() - c[0];
-  const double angle = std::atan2(norm(cross(tangent, chord)), dot(tangent, chord));
+  const double angle = core::angle_between(tangent, chord);
   const CurveCondition& asked = task.condition;
   classa::EnergyConditions e;
   e.tangent = {norm(tangent), 0};

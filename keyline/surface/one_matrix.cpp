@@ -5,6 +5,7 @@
 
 #include <Eigen/QR>
 
+#include "keyline/core/axis.h"
 #include "keyline/numeric/levenberg_marquardt.h"
 
 namespace keyline::surface::detail {
@@ -141,9 +142,7 @@ class System {
       const double weight = wish.firm ? equation_weight_ : p_.growth_weight;
       r[row++] = weight * (std::log(norm(e.back()) / norm(e.front())) / steps - *wish.growth);
     }
-    if (wish.turn)
-      r[row++] =
-          equation_weight_ * (std::atan2(norm(cross(e[0], e[1])), dot(e[0], e[1])) - *wish.turn);
+    if (wish.turn) r[row++] = equation_weight_ * (core::angle_between(e[0], e[1]) - *wish.turn);
     if (wish.tangent) put(e[0] - dot(e[0], *wish.tangent) * *wish.tangent);
     return true;
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/axis.h"
 #include "keyline/surface/edit_targets.h"
 #include "keyline/surface/one_matrix.h"
 
@@ -100,7 +101,7 @@ bool bind(const EditTask& task, const Net& net, const Sense& sense, OneMatrixPro
     CurveWish& wish = problem.wishes[task.index_of(c)];
     const Vector3 e0 = c.control[1] - c.control[0];
     const Vector3 e1 = c.control[2] - c.control[1];
-    const double turn = std::atan2(norm(cross(e0, e1)), dot(e0, e1));
+    const double turn = core::angle_between(e0, e1);
     const double sign = own.from_end ? -1 : 1;
     const double s = std::pow(norm(e1) / norm(e0), sign);
     const auto& [alpha_range, s_range] = std::pair(own.condition.alpha, own.condition.s);

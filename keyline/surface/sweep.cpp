@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 #include "keyline/curve/length.h"
 #include "keyline/surface/interpolate.h"
 #include "keyline/surface/tensor.h"
@@ -150,7 +151,7 @@ Result<void> check_corners(const BSpline3& rail) {
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
     const Vector3 a = curve::jet(rail, std::nextafter(breaks[i], 0)).first;
     const Vector3 b = curve::jet(rail, breaks[i]).first;
-    if (std::atan2(norm(cross(a, b)), dot(a, b)) > 1e-3)
+    if (core::angle_between(a, b) > 1e-3)
       return fail(ErrorCode::unsupported, "the rail has a corner",
                   "sweep along its smooth parts one by one", "rail");
   }

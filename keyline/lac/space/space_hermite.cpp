@@ -18,7 +18,6 @@ using core::Point3;
 using core::Result;
 using core::Vector3;
 using detail::SpaceUnknowns;
-using detail::space::angle_between;
 using detail::space::chord_frame;
 using detail::space::ChordFrame;
 using detail::space::Invariants;

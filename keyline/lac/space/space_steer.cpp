@@ -87,8 +87,6 @@ SpaceChain placed(const SpaceChain& own_chain, Vector3 own, const SpaceHermite& 
   return chain;
 }
 
-double angle_between(Vector3 a, Vector3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
-
 Miss miss_of(Vector3 chord, Vector3 tangent, const Invariants& wanted) {
   const Vector3 there = into(chord_frame(chord, {1, 0, 0}), tangent);
   const double c = std::cos(wanted.last);
@@ -101,7 +99,7 @@ Miss miss_of(Vector3 chord, Vector3 tangent, const Invariants& wanted) {
   // Far off, the angle still tells how far.
   const double angle = std::atan2(sine, dot(there, end_tangent(wanted)));
   const double scale = sine > 1e-8 ? angle / sine : angle > 1 ? HUGE_VAL : 1;
-  return {angle_between({1, 0, 0}, chord) - wanted.first, scale * x, scale * y};
+  return {core::angle_between({1, 0, 0}, chord) - wanted.first, scale * x, scale * y};
 }
 
 double size_of(const Miss& miss) {

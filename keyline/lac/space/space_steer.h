@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "keyline/core/axis.h"
 #include "keyline/core/point.h"
 #include "keyline/lac/space/space_hermite.h"
 #include "keyline/lac/space/space_shooting.h"
@@ -52,7 +53,6 @@ inline core::Vector3 into(const ChordFrame& f, core::Vector3 v) {
 }
 /// y towards `side` (any direction where that lies along the chord).
 ChordFrame chord_frame(core::Vector3 chord, core::Vector3 side);
-double angle_between(core::Vector3 a, core::Vector3 b);
 
 /// Angle of the start tangent against the chord, and direction of the end tangent, less the wanted
 /// ones, for a curve in its standard frame.
