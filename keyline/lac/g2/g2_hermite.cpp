@@ -1,6 +1,7 @@
 #include "keyline/lac/g2/g2_hermite.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -181,6 +182,60 @@ void search_by_following(const UnitG2& request, Best& best) {
   }
 }
 
+/// Pieces of a chain whose ends carry the curvatures asked for to those of the segment between:
+/// the outer ones as long as `share` of the sharper radius at their ends.
+struct Bridge {
+  std::array<Piece, 3> piece;
+  double change = HUGE_VAL;  ///< of the segment's end curvatures in the last round, of themselves
+};
+
+std::optional<Bridge> next_bridge(const UnitG2& request, const Piece& middle, double share) {
+  const auto outer = [&](double k0, double k1) {
+    const double sharper = std::max({std::abs(k0), std::abs(k1), 1.0});
+    return Piece{request.alpha, share / sharper, k0, k1};
+  };
+  Bridge b{{outer(request.curvature_start, middle.curvature_start), middle,
+            outer(middle.curvature_end, request.curvature_end)}};
+  const Piece& first = b.piece[0];
+  const Piece& last = b.piece[2];
+  const core::Pose2 from{core::Point2{} + rotate_ccw(displacement(first, 1), request.from),
+                         request.from + turning(first, 1)};
+  const double before = request.to - turning(last, 1);
+  const core::Pose2 to{core::Point2{1, 0} - rotate_ccw(displacement(last, 1), before), before};
+  const auto segment = solve_g1_directions(from, to, request.alpha);
+  if (!segment) return std::nullopt;
+  b.piece[1] = piece_of(segment->segment);
+  const auto change = [](double now, double was) {
+    return now == was ? 0 : std::abs(now - was) / std::abs(was);
+  };
+  b.change = std::max(change(b.piece[1].curvature_start, middle.curvature_start),
+                      change(b.piece[1].curvature_end, middle.curvature_end));
+  return b;
+}
+
+/// The segment between the poses with a short piece at either end. The shorter these are the less
+/// they move the segment, so that for slopes below 0, which have a segment between any directions,
+/// there is an answer; the longest that settle are the calmest.
+void search_bridge(const UnitG2& request, Best& best) {
+  if (!best.one) return;
+  const Piece whole = piece_of(*best.one);
+  const bool one_way = whole.curvature_start * request.curvature_start > 0 &&
+                       whole.curvature_end * request.curvature_end > 0;
+  if (request.alpha >= 0 && !one_way) return;
+  for (double share = 1; share > 1e-4 && !best.solution; share /= 2) {
+    ++best.starts;
+    std::optional<Bridge> bridge{Bridge{{whole, whole, whole}}};
+    for (int round = 0; round < 60 && bridge && bridge->change > 1e-15; ++round)
+      bridge = next_bridge(request, bridge->piece[1], share);
+    if (!bridge || bridge->change > 1e-13) continue;
+    Chain chain{{{}, request.from}, {bridge->piece.begin(), bridge->piece.end()}, false};
+    chain.pieces[1].curvature_start = chain.pieces[0].curvature_end;
+    chain.pieces[1].curvature_end = chain.pieces[2].curvature_start;
+    const double residual = distance(end_pose(chain).position, {1, 0});
+    if (auto s = measured(best, std::move(chain), residual)) best.offer(std::move(*s));
+  }
+}
+
 /// The single piece, where it happens to have the curvatures asked for.
 std::optional<G2Solution> single(const UnitG2& request, const Best& best) {
   if (!best.one) return std::nullopt;
@@ -201,6 +256,7 @@ Best search(UnitG2 request) {
   search_two(request, best);
   if (!best.solution) search_three(request, best);
   if (!best.solution) search_by_following(request, best);
+  if (!best.solution) search_bridge(request, best);
   return best;
 }
 
