@@ -6,9 +6,9 @@
 
 #include "keyline/classa/farin.h"
 #include "keyline/classa/plane_of.h"
+#include "keyline/classa/space_reading.h"
 #include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
-#include "keyline/core/text.h"
 
 namespace keyline::classa {
 
@@ -115,16 +115,23 @@ core::Result<CurveValue> value_of(const curve::Bezier2& given, const CavOptions&
   return value;
 }
 
-/// Type 5: a curve in no plane has no place in this one.
-CurveValue value_in_space(const curve::Bezier3& given, double off_plane, const CavOptions& o) {
+/// Type 5: a curve in no plane has no place in this one; its minimum lies in the plane of its start
+/// tangent and its chord.
+CurveValue value_in_space(const curve::Bezier3& given, const CavOptions& o) {
+  const detail::SpaceReading r = detail::read_in_space(given.control, o);
   const Diagonals d = diagonals(o.alpha_max);
   CurveValue value;
   value.degree = curve::degree(given);
   value.cav = std::pow(d.boundary * d.plane, 3);
   value.energy = strain_energy(given);
   value.monotone = certify_monotone_curvature(given);
-  value.no_minimum =
-      "the curve is not planar: it leaves its plane by " + core::number_text(off_plane, 4);
+  value.reversed = r.reversed;
+  core::Result<EnergyMinimum> minimum =
+      o.minimum ? core::Result<EnergyMinimum>(*o.minimum) : minimum_energy(r.conditions);
+  if (minimum)
+    value.minimum = *minimum;
+  else
+    value.no_minimum = minimum.error().message;
   return value;
 }
 
@@ -146,6 +153,16 @@ core::Result<void> check_curve(const Curve& c, const CavOptions& options) {
 
 Diagonals diagonals(double alpha_max) {
   return {std::hypot(alpha_max, 1 / std::cos(alpha_max) - 1), std::hypot(alpha_max, 2)};
+}
+
+LargestValues largest_values(double alpha_max) {
+  const Diagonals d = diagonals(alpha_max);
+  // The boundary s = 1/cos(alpha) leaves the plane of Tab. 2 at s = 2.
+  const double corner = std::min(alpha_max, std::acos(0.5));
+  const double class_a = std::hypot(corner, 2 - 1);
+  const double other = std::hypot(alpha_max, 2 - std::cos(alpha_max));
+  return {class_a, d.boundary * (1 + other), std::pow(d.boundary * d.plane, 2),
+          std::pow(d.boundary * d.plane, 3)};
 }
 
 MatrixReading read_matrix(std::span<const Point2> control, double alpha_max, double tolerance) {
@@ -197,8 +214,7 @@ core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOpt
 core::Result<CurveValue> cav(const curve::Bezier3& c, const CavOptions& options) {
   if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
   detail::Flattened flat = detail::flatten(c.control);
-  if (flat.off_plane > options.tolerance * flat.size)
-    return value_in_space(c, flat.off_plane, options);
+  if (flat.off_plane > options.tolerance * flat.size) return value_in_space(c, options);
   return value_of({std::move(flat.points), {}}, options);
 }
 

@@ -74,6 +74,19 @@ struct Diagonals {
 };
 Diagonals diagonals(double alpha_max);
 
+/// The steps of [Oya] Eq. 10 for one curve, an eighth of 12, 38, 110 and 407: the largest values of
+/// a curve that is Class A, has one matrix, has several, or none. L is largest in the plane that
+/// Tab. 2 draws, 0 <= alpha <= alpha_max and 0 <= s <= 2, the minimum on the branch of growing
+/// edges: from (0, 1) to (arccos 1/2, 2) for Class A curves (alpha_max where that is less), from
+/// (0, 2) to (alpha_max, cos alpha_max) for others.
+struct LargestValues {
+  double class_a = 0;
+  double one_matrix = 0;
+  double several = 0;
+  double none = 0;
+};
+LargestValues largest_values(double alpha_max);
+
 /// Curve aesthetic value of a polynomial Bézier curve of degree 1 … 30.
 ///
 /// The conditions of its minimum are its own: start point and start tangent (of the direction in
@@ -86,7 +99,9 @@ Diagonals diagonals(double alpha_max);
 /// of Tab. 2 does not exist.
 core::Result<CurveValue> cav(const curve::Bezier2& c, const CavOptions& options = {});
 
-/// The same in space: in the plane of the curve, or type 5 and without a minimum where it has none.
+/// The same in space, in the plane of the curve. Where it lies in none it is of type 5, and its
+/// minimum lies in the plane of its start tangent and its chord: the x axis of the minimum's chord
+/// is the tangent. (Torsion costs energy and meets none of the conditions.)
 core::Result<CurveValue> cav(std::span<const core::Point3> control, const CavOptions& options = {});
 core::Result<CurveValue> cav(const curve::Bezier3& c, const CavOptions& options = {});
 

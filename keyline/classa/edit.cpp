@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "keyline/classa/plane_of.h"
+#include "keyline/classa/space_reading.h"
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
 
@@ -208,17 +209,47 @@ core::Result<EditResult> edit(const curve::Bezier2& c, const EditOptions& option
   return result;
 }
 
+namespace {
+
+/// A curve that lies in no plane slides by its control points to the plane curve of its conditions.
+core::Result<SpaceEditResult> edit_off_plane(const curve::Bezier3& c, const EditOptions& options) {
+  auto before = cav(c, options.cav);
+  if (!before) return std::unexpected(std::move(before.error()));
+  const detail::SpaceReading reading = detail::read_in_space(c.control, options.cav);
+  const Bench bench{{{core::Point2{}}, false, {}, reading.conditions}, 1, curve::degree(c)};
+  const auto to = destination(bench, options, *before);
+  if (!to) return std::unexpected(to.error());
+  SpaceEditResult result;
+  result.flat.curve.control =
+      make(bench, *to, options.target ? options.hold : Hold::ends_and_tangent);
+  result.flat.target = to->matrix;
+  result.flat.path = {{to->matrix.alpha, to->matrix.s}};
+  for (std::size_t i = 0; i < c.control.size(); ++i) {
+    const core::Point3 from = reading.control[i];
+    const core::Point3 there = reading.lifted(result.flat.curve.control[i]);
+    result.curve.control.push_back(from + options.amount * (there - from));
+  }
+  if (reading.reversed) std::reverse(result.curve.control.begin(), result.curve.control.end());
+  CavOptions again = options.cav;
+  again.minimum = before->minimum;
+  auto after = cav(result.curve, again);
+  if (!after) return std::unexpected(std::move(after.error()));
+  result.flat.before = std::move(*before);
+  result.flat.after = std::move(*after);
+  return result;
+}
+
+}  // namespace
+
 core::Result<SpaceEditResult> edit(const curve::Bezier3& c, const EditOptions& options) {
+  if (!(options.amount >= 0 && options.amount <= 1))
+    return fail(ErrorCode::bad_input, "the amount has to lie between 0 and 1", {}, "amount");
   if (auto sound = validate(c); !sound) return std::unexpected(sound.error());
   if (is_rational(c))
     return fail(ErrorCode::unsupported, "a rational curve has no control matrix",
                 "approximate it by a polynomial Bezier curve", "weights");
   const detail::Flattened flat = detail::flatten(c.control);
-  if (flat.off_plane > options.cav.tolerance * flat.size)
-    return fail(
-        ErrorCode::unsupported,
-        "the curve is not planar: it leaves its plane by " + core::number_text(flat.off_plane, 4),
-        "lay it into a plane first", "curve");
+  if (flat.off_plane > options.cav.tolerance * flat.size) return edit_off_plane(c, options);
   auto edited = edit(curve::Bezier2{flat.points, {}}, options);
   if (!edited) return std::unexpected(std::move(edited.error()));
   SpaceEditResult result;

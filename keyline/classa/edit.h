@@ -51,8 +51,9 @@ struct SpaceEditResult {
   curve::Bezier3 curve;  ///< in the plane of the given one, start and end where they were
   EditResult flat;       ///< in that plane, the start of the given curve at the origin
 };
-/// The same for a planar curve in space; unsupported where it lies in no plane (within
-/// options.cav.tolerance of its size).
+/// The same for a curve in space. One that lies in no plane (within options.cav.tolerance of its
+/// size) slides by its control points to the plane curve of its conditions (cav.h): `flat.curve` is
+/// that curve, where the slide ends.
 core::Result<SpaceEditResult> edit(const curve::Bezier3& c, const EditOptions& options = {});
 
 }  // namespace keyline::classa

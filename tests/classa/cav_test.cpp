@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/classa/farin.h"
+#include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
 #include "keyline/core/similarity.h"
 #include "keyline/numeric/random.h"
@@ -166,10 +168,115 @@ TEST(Cav, InSpace) {
   const auto twisted = cav(tilted);
   ASSERT_TRUE(twisted);
   EXPECT_EQ(twisted->type, 5);
-  EXPECT_FALSE(twisted->minimum);
-  EXPECT_NE(twisted->no_minimum.find("not planar"), std::string::npos);
+  // Its minimum is that of a plane curve with its start, tangent and end.
+  const core::Vector3 first = tilted[1] - tilted[0];
+  const core::Vector3 chord = tilted[3] - tilted[0];
+  EnergyConditions own;
+  own.tangent = {norm(first), 0};
+  own.chord = {dot(chord, first) / norm(first), norm(cross(first, chord)) / norm(first)};
+  own.end_tolerance = 0.01 * norm(chord);
+  const auto minimum = minimum_energy(own);
+  ASSERT_TRUE(minimum && twisted->minimum);
+  EXPECT_NEAR(twisted->minimum->energy, minimum->energy, 1e-9);
+  EXPECT_LT(twisted->minimum->energy, twisted->energy);
   EXPECT_GT(twisted->energy, 0);
   EXPECT_NEAR(space->energy, plane->energy, 1e-9);
+}
+
+/// The greatest distance in the plane of Tab. 2, 0 <= alpha <= alpha_max and 0 <= s <= 2, between a
+/// Class A place of growing edges and one that `counts`, on a grid.
+template <class Counts>
+double greatest_distance(double alpha_max, Counts counts) {
+  constexpr int kSteps = 60;
+  double most = 0;
+  const auto each = [&](auto visit) {
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; j <= kSteps; ++j) visit(alpha_max * i / kSteps, 2.0 * j / kSteps);
+  };
+  each([&](double a, double s) {
+    if (s * std::cos(a) < 1) return;
+    each([&](double b, double t) {
+      if (counts(b, t)) most = std::max(most, std::hypot(a - b, s - t));
+    });
+  });
+  return most;
+}
+
+TEST(Cav, StepsOfEquation10AreTheLargestValuesInThePlaneOfTable2) {
+  const LargestValues most = largest_values(kDefaultAlphaMax);
+  EXPECT_EQ(std::round(8 * most.class_a), 12);
+  EXPECT_EQ(std::round(8 * most.one_matrix), 38);
+  EXPECT_EQ(std::round(8 * most.several), 110);
+  EXPECT_EQ(std::round(8 * most.none), 407);
+  const double d = diagonals(kDefaultAlphaMax).boundary;
+  for (const double alpha_max : {0.6, kDefaultAlphaMax}) {
+    const LargestValues at = largest_values(alpha_max);
+    const double class_a =
+        greatest_distance(alpha_max, [](double b, double t) { return t * std::cos(b) >= 1; });
+    EXPECT_LE(class_a, at.class_a * (1 + 1e-12));
+    EXPECT_NEAR(class_a, at.class_a, 0.05);
+    const double other = greatest_distance(
+        alpha_max, [](double b, double t) { return t > std::cos(b) && t * std::cos(b) < 1; });
+    const double l = at.one_matrix / diagonals(alpha_max).boundary - 1;
+    EXPECT_LE(other, l * (1 + 1e-12));
+    EXPECT_NEAR(other, l, 0.05);
+  }
+  EXPECT_NEAR(most.one_matrix, d * 2.8953, 1e-3);
+}
+
+/// Edges s^k R^k v about an axis at the angle `tilt` from v: a helix on a cone. End and energy for
+/// a first edge of length 1.
+struct ConicalHelix {
+  core::Vector3 end, first;
+  curve::Bezier3 curve;
+  ConicalHelix(double alpha, double s, double tilt, int degree) {
+    first = {std::sin(tilt), 0, std::cos(tilt)};
+    core::Point3 at;
+    curve.control.push_back(at);
+    double length = 1;
+    for (int k = 0; k < degree; ++k) {
+      at = at + length * core::Vector3{std::sin(tilt) * std::cos(k * alpha),
+                                       std::sin(tilt) * std::sin(k * alpha), std::cos(tilt)};
+      curve.control.push_back(at);
+      length *= s;
+    }
+    end = at - curve.control.front();
+  }
+  double off_tangent() const { return std::atan2(norm(cross(first, end)), dot(first, end)); }
+};
+
+TEST(Cav, NoConicalHelixOfClassABendsLessThanThePlaneMinimum) {
+  for (const double angle : {0.3, 0.7, 1.1}) {
+    EnergyConditions conditions;
+    conditions.chord = {std::cos(angle), std::sin(angle)};
+    const auto plane = minimum_energy(conditions);
+    ASSERT_TRUE(plane);
+    double least = HUGE_VAL;
+    int met = 0;
+    for (int i = 1; i <= 24; ++i)
+      for (int j = 1; j <= 16; ++j) {
+        const double alpha = kDefaultAlphaMax * i / 24;
+        const double tilt = core::kPi / 2 * j / 16;
+        // s by bisection: the end leaves the tangent by the angle asked for.
+        double low = 1, high = 12;
+        const auto off = [&](double s) {
+          return ConicalHelix(alpha, s, tilt, 3).off_tangent() - angle;
+        };
+        if (off(low) * off(high) > 0) continue;
+        const bool rises = off(high) > 0;
+        for (int k = 0; k < 60; ++k) {
+          const double s = 0.5 * (low + high);
+          ((off(s) > 0) == rises ? high : low) = s;
+        }
+        const ConicalHelix helix(alpha, low, tilt, 3);
+        if (certify_monotone_curvature(helix.curve).answer != curve::MonotoneVerdict::yes) continue;
+        ++met;
+        // Scaled to a chord of length 1.
+        least = std::min(least, strain_energy(helix.curve) * norm(helix.end));
+      }
+    EXPECT_GT(met, 10);
+    EXPECT_GE(least, plane->energy * (1 - 1e-6)) << angle;
+  }
 }
 
 TEST(Cav, BadInput) {

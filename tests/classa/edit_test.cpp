@@ -131,9 +131,20 @@ TEST(Edit, InSpace) {
   }
   tilted.control[2].x += 0.1;
   tilted.control[2].z += 0.1;
+  // In no plane: to the plane curve of least energy with its start, tangent and end.
   const auto twisted = edit(tilted, options);
-  ASSERT_FALSE(twisted);
-  EXPECT_EQ(twisted.error().code, core::ErrorCode::unsupported);
+  ASSERT_TRUE(twisted) << twisted.error().message;
+  const auto& points = twisted->curve.control;
+  EXPECT_EQ(twisted->flat.after.type, 1);
+  EXPECT_LT(twisted->flat.after.energy, twisted->flat.before.energy);
+  EXPECT_LE(core::distance(points.front(), tilted.control.front()), 1e-12);
+  EXPECT_LE(core::distance(points.back(), tilted.control.back()), 1e-9);
+  const core::Vector3 tangent = tilted.control[1] - tilted.control[0];
+  EXPECT_LE(norm(cross(points[1] - points[0], tangent)), 1e-9);
+  options.amount = 0;
+  const auto still = edit(tilted, options);
+  ASSERT_TRUE(still);
+  EXPECT_EQ(still->curve, tilted);
 }
 
 TEST(Edit, BadInput) {
