@@ -1,8 +1,9 @@
 #include "options.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
+
+#include "keyline/core/leading_number.h"
 
 namespace keyline::studio {
 namespace {
@@ -19,10 +20,10 @@ struct Option {
 };
 
 const char* set_port(Options& options, const std::string& value) {
-  const char* const end = value.data() + value.size();
-  const auto [at, failed] = std::from_chars(value.data(), end, options.port);
-  return failed == std::errc() && at == end && !value.empty() ? nullptr
-                                                              : "a port is a number up to 65535";
+  const auto port = core::parse_whole<decltype(options.port)>(value);
+  if (!port) return "a port is a number up to 65535";
+  options.port = *port;
+  return nullptr;
 }
 
 const char* set_token(Options& options, const std::string& value) {

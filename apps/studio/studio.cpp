@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/core/version.h"
 #include "keyline/operations/perform.h"
 #include "keyline/operations/references.h"
@@ -108,8 +109,11 @@ std::string query_value(const std::string& query, const std::string& name) {
   const std::string raw = all.substr(from, all.find('&', from) - from);
   std::string value;
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    if (raw[i] == '%' && i + 2 < raw.size()) {
-      value += static_cast<char>(std::strtol(raw.substr(i + 1, 2).c_str(), nullptr, 16));
+    const auto code = raw[i] == '%' && i + 2 < raw.size()
+                          ? core::parse_whole<unsigned char>(raw.substr(i + 1, 2), 16)
+                          : std::nullopt;
+    if (code) {
+      value += static_cast<char>(*code);
       i += 2;
     } else {
       value += raw[i] == '+' ? ' ' : raw[i];

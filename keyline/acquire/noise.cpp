@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "keyline/acquire/local_fit.h"
+#include "keyline/core/leading_number.h"
 #include "keyline/core/quantile.h"
 
 namespace keyline::acquire {
@@ -123,8 +124,7 @@ DecimalForm decimal_form(double value) {
                                  std::chars_format::scientific);
   const std::string_view s(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
   const std::size_t e = s.find('e');
-  int exponent = 0;
-  std::from_chars(s.data() + e + (s[e + 1] == '+' ? 2 : 1), s.data() + s.size(), exponent);
+  const int exponent = core::parse_whole<int>(s.substr(e + (s[e + 1] == '+' ? 2 : 1))).value_or(0);
   const int digits = e == 1 ? 1 : static_cast<int>(e) - 1;
   return {exponent - digits + 1, digits};
 }

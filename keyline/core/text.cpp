@@ -5,8 +5,9 @@
 #include <charconv>
 #include <cmath>
 
-namespace keyline::core {
+#include "keyline/core/leading_number.h"
 
+namespace keyline::core {
 std::string number_text(double value, int significant_digits) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
@@ -15,11 +16,10 @@ std::string number_text(double value, int significant_digits) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+  const auto number = leading_number(text);
+  if (!number || number->length != text.size() || !std::isfinite(number->value))
     return std::nullopt;
-  return value;
+  return number->value;
 }
 
 std::string counted(std::size_t n, std::string_view one, std::string_view many) {

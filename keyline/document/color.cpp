@@ -1,14 +1,15 @@
 #include "keyline/document/color.h"
 
-#include <charconv>
+#include <string_view>
+
+#include "keyline/core/leading_number.h"
 
 namespace keyline::document {
 
 int color_value(const std::string& text) {
-  int value = 0;
   if (text.size() != 7 || text[0] != '#') return -1;
-  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, value, 16);
-  return error == std::errc() && end == text.data() + 7 && value >= 0 ? value : -1;
+  const auto value = core::parse_whole<unsigned>(std::string_view(text).substr(1), 16);
+  return value ? static_cast<int>(*value) : -1;
 }
 
 }  // namespace keyline::document

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/document/select.h"
 
 namespace keyline::document {
@@ -28,11 +28,9 @@ std::vector<bool> chosen(const std::vector<Label>& all, const std::string& wante
       any_where([&](const Label& label) { return label.layer == wanted; }) ||
       any_where([&](const Label& label) { return within(label.name, wanted); }))
     return keep;
-  std::size_t index = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto [stop, error] = std::from_chars(wanted.data(), end, index);
-  if (error != std::errc() || stop != end || index < 1 || index > all.size()) return {};
-  keep[index - 1] = true;
+  const auto index = core::parse_whole<std::size_t>(wanted);
+  if (!index || *index < 1 || *index > all.size()) return {};
+  keep[*index - 1] = true;
   return keep;
 }
 

@@ -1,13 +1,13 @@
 #include "keyline/exchange/dxf/dxf_tags.h"
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
 
+#include "keyline/core/leading_number.h"
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
-#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -23,12 +23,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::optional<int> code_of(std::string_view text) {
-  text = trimmed(text);
-  int code = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (code < -5 || code > 1071) return std::nullopt;
-  return code;
+  const auto code = core::parse_whole<int>(trimmed(text));
+  return code && *code >= -5 && *code <= 1071 ? code : std::nullopt;
 }
 
 /// What a binary group of this code holds.
@@ -52,10 +48,8 @@ Kind kind_of(int code) {
 /// The unit of UTF-16 behind "\U+"; empty where there are no four hexadecimal digits.
 std::optional<unsigned> unit_at(std::string_view text) {
   if (!text.starts_with("\\U+") || text.size() < 7) return std::nullopt;
-  unsigned code = 0;
-  const auto [end, error] = std::from_chars(text.data() + 3, text.data() + 7, code, 16);
-  if (error != std::errc() || end != text.data() + 7 || code < 0x20) return std::nullopt;
-  return code;
+  const auto code = core::parse_whole<unsigned>(text.substr(3, 4), 16);
+  return code && *code >= 0x20 ? code : std::nullopt;
 }
 
 /// The code point the escapes at the start of the text stand for, and how many bytes they take.
@@ -73,7 +67,7 @@ std::optional<std::pair<unsigned, std::size_t>> escape_at(std::string_view text)
 
 std::optional<double> number_of(const DxfTag& tag) {
   if (std::isfinite(tag.number)) return tag.number;
-  return finite_number(trimmed(tag.text));
+  return core::parse_number(trimmed(tag.text));
 }
 
 std::optional<int> integer_of(const DxfTag& tag) {

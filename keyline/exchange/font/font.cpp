@@ -1,7 +1,6 @@
 #include "keyline/exchange/font/font.h"
 
 #include <array>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +10,7 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
+#include "keyline/core/leading_number.h"
 #include "keyline/core/utf8.h"
 
 namespace keyline::exchange {
@@ -143,11 +143,9 @@ Result<std::vector<Glyph>> glyphs_of(FT_Face face, const std::string& wanted) {
     return std::vector<Glyph>{{index, wanted.substr(1)}};
   }
   if (wanted.starts_with("U+") && wanted.size() > 2) {
-    FT_ULong code = 0;
-    const char* end = wanted.data() + wanted.size();
-    const auto [stop, error] = std::from_chars(wanted.data() + 2, end, code, 16);
-    if (error != std::errc() || stop != end) return missing(wanted);
-    return only(coded_glyph(face, code, wanted));
+    const auto code = core::parse_whole<FT_ULong>(std::string_view(wanted).substr(2), 16);
+    if (!code) return missing(wanted);
+    return only(coded_glyph(face, *code, wanted));
   }
   std::vector<Glyph> glyphs;
   for (std::string_view rest = wanted; !rest.empty();) {

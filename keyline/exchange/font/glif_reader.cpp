@@ -14,7 +14,6 @@
 #include "keyline/exchange/font/glif.h"
 #include "keyline/exchange/svg/svg_transform.h"
 #include "keyline/exchange/text/byte_lines.h"
-#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange {
 namespace {
@@ -108,7 +107,7 @@ document::Path path_of(std::vector<Node> nodes) {
 
 std::optional<double> number(const pugi::xml_node& node, const char* name) {
   const char* text = node.attribute(name).value();
-  return detail::finite_number(text);
+  return core::parse_number(text);
 }
 
 /// A glyph being read with the components it is made of.

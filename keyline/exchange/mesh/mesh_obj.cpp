@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/text/byte_lines.h"
-#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange {
 namespace {
@@ -61,7 +61,7 @@ class ObjReader {
     double c[3] = {};
     for (double& value : c) {
       const std::string_view word = detail::take_word(line);
-      const auto number = detail::finite_number(word);
+      const auto number = core::parse_number(word);
       if (!number && word.find_first_of("0123456789") == word.npos)
         return core::fail(ErrorCode::bad_input, "a vertex needs three numbers", "mend the line",
                           lines_.place());
@@ -78,7 +78,7 @@ class ObjReader {
   void element(std::string_view line, bool face) {
     indices_.clear();
     for (auto word = detail::take_word(line); !word.empty(); word = detail::take_word(line)) {
-      const auto number = detail::finite_number(word.substr(0, word.find('/')));
+      const auto number = core::parse_number(word.substr(0, word.find('/')));
       const double count = static_cast<double>(mesh_.points.size());
       const double index = !number ? -1 : *number < 0 ? count + *number : *number - 1;
       if (!(index >= 0 && index < count))

@@ -2,9 +2,9 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/text/byte_lines.h"
-#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange {
 namespace {
@@ -102,7 +102,7 @@ Result<Mesh> read_text(std::string_view bytes) {
     if (word != "vertex") continue;
     double c[3] = {};
     for (double& value : c) {
-      const auto number = detail::finite_number(detail::take_word(line));
+      const auto number = core::parse_number(detail::take_word(line));
       if (!number || have == 3)
         return core::fail(
             ErrorCode::bad_input,

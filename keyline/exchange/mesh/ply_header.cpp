@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/text/byte_lines.h"
-#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -57,7 +57,7 @@ bool add_property(PlyHeader& header, std::string_view line) {
 
 bool add_element(PlyHeader& header, std::string_view line) {
   const std::string_view name = take_word(line);
-  const auto count = finite_number(take_word(line));
+  const auto count = core::parse_number(take_word(line));
   if (!count || *count < 0 || *count > 4e9 || header.elements.size() > 100) return false;
   header.elements.push_back({std::string(name), static_cast<std::size_t>(*count), {}});
   return true;
@@ -127,7 +127,7 @@ Result<double> PlyValues::word() {
     line_ += bytes_[position_++] == '\n';
   const std::size_t end = std::min(bytes_.find_first_of(" \t\r\n\f\v", position_), bytes_.size());
   if (end == position_) return failure("the file ends before its last value");
-  const auto value = finite_number(bytes_.substr(position_, end - position_));
+  const auto value = core::parse_number(bytes_.substr(position_, end - position_));
   if (!value) return failure("a number is expected here");
   position_ = end;
   return *value;

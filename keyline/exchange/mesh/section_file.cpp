@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -150,13 +149,10 @@ Result<SectionRequest> parse_section(const std::string& text) {
   if (text == "auto") return SectionRequest{};
   static constexpr std::array<Vector3, 3> kAxes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const bool named = text.size() > 2 && text[1] == '=' && text[0] >= 'x' && text[0] <= 'z';
-  double position = 0;
-  const char* last = text.data() + text.size();
   if (named) {
-    const auto [end, error] = std::from_chars(text.data() + 2, last, position);
-    if (error == std::errc() && end == last && std::isfinite(position))
+    if (const auto position = core::parse_number(std::string_view(text).substr(2)))
       return SectionRequest{
-          acquire::plane_of(kAxes[static_cast<std::size_t>(text[0] - 'x')], position)};
+          acquire::plane_of(kAxes[static_cast<std::size_t>(text[0] - 'x')], *position)};
   }
   return core::fail(ErrorCode::bad_input, "\"" + text + "\" is no section",
                     "give x=, y= or z= and a number, as in y=0, or auto", "--section");

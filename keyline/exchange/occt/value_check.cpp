@@ -1,13 +1,12 @@
 #include "keyline/exchange/occt/value_check.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
-#include "keyline/exchange/text/finite_number.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -66,7 +65,7 @@ class StepValues {
     if (depth_ == 0 || word.starts_with('#')) return true;
     const bool enumeration = word.size() > 2 && word.starts_with('.') && word.ends_with('.');
     if (enumeration) return true;
-    if (!is_letter(word.front())) return detail::finite_number(word).has_value();
+    if (!is_letter(word.front())) return core::parse_number(word).has_value();
     std::size_t next = at_;
     while (next < text_.size() && is_space(text_[next])) ++next;
     return next < text_.size() && text_[next] == '(';
@@ -87,21 +86,20 @@ bool is_iges_number(std::string_view word) {
   std::string plain(word);
   for (char& c : plain)
     if (c == 'D' || c == 'd') c = 'E';
-  return detail::finite_number(plain).has_value();
+  return core::parse_number(plain).has_value();
 }
 
 /// The parameters of one entity; empty where all are numbers, strings or absent.
 std::string_view bad_parameter(std::string_view text) {
   const std::size_t comma = text.find(',');
-  const auto type = detail::finite_number(text.substr(0, comma));
+  const auto type = core::parse_number(text.substr(0, comma));
   if (!type || *type < 100 || *type >= 200) return {};
   for (std::size_t at = 0; at < text.size();) {
     at = std::min(text.find_first_not_of(" \t", at), text.size());
-    std::size_t length = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), length);
-    const auto behind = static_cast<std::size_t>(end - text.data());
-    if (error == std::errc() && behind < text.size() && text[behind] == 'H')
-      at = std::min(behind + 1 + length, text.size());  // a string
+    std::string_view behind = text.substr(at);
+    const auto length = core::take_whole<std::size_t>(behind);
+    if (length && behind.starts_with('H'))  // a string
+      at = text.size() - behind.size() + 1 + std::min(*length, behind.size() - 1);
     const std::size_t stop = std::min(text.find_first_of(",;", at), text.size());
     std::string_view word = text.substr(at, stop - at);
     while (word.ends_with(' ')) word.remove_suffix(1);

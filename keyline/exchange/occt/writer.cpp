@@ -43,6 +43,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/document/color.h"

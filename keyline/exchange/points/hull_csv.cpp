@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 
+#include "keyline/core/leading_number.h"
+#include "keyline/core/text.h"
 #include "keyline/document/document.h"
 #include "keyline/exchange/points/hull_table.h"
 #include "keyline/exchange/points/points_columns.h"
@@ -23,10 +24,8 @@ constexpr double kOutside = std::numeric_limits<double>::quiet_NaN();
 
 /// A whole number that ends at `stop` (or the end for 0), taken off the text.
 std::optional<int> take_whole(std::string_view& text, char stop) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || value < 0) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  const auto value = core::take_whole<int>(text);
+  if (!value || *value < 0) return std::nullopt;
   if (stop == '\0') return value;
   if (!text.starts_with(stop)) return std::nullopt;
   text.remove_prefix(1);

@@ -1,10 +1,11 @@
 #include "keyline/exchange/points/scap_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <string>
+
+#include "keyline/core/text.h"
 
 namespace keyline::exchange {
 namespace {
@@ -24,9 +25,9 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 bool parse(std::string_view text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value) &&
-         std::abs(value) < 1e9;
+  const auto number = core::parse_number(text);
+  value = number.value_or(0);
+  return number && std::abs(value) < 1e9;
 }
 
 class Reader {

@@ -1,12 +1,12 @@
 #include "keyline/exchange/svg/svg_path.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/leading_number.h"
 
 namespace keyline::exchange {
 
@@ -43,21 +43,10 @@ bool SvgScanner::number_ahead() const {
 
 bool SvgScanner::number(double& value) {
   if (!number_ahead()) return false;
-  const char* begin = text_.data() + position_ + (peek() == '+');
-  double parsed = 0;
-  const auto result = std::from_chars(begin, text_.data() + text_.size(), parsed);
-  const auto end = static_cast<std::size_t>(result.ptr - text_.data());
-  // Numbers too small for a double are zero, numbers too large are errors.
-  if (result.ec == std::errc::result_out_of_range) {
-    const std::string_view digits(begin, result.ptr);
-    const std::size_t e = digits.find_first_of("eE");
-    if (e == std::string_view::npos || digits.substr(e + 1, 1) != "-") return false;
-    parsed = 0;
-  } else if (result.ec != std::errc{} || !std::isfinite(parsed)) {
-    return false;
-  }
-  value = parsed;
-  position_ = end;
+  const auto number = core::leading_number(rest());
+  if (!number || !std::isfinite(number->value)) return false;
+  value = number->value;
+  position_ += number->length;
   return true;
 }
 

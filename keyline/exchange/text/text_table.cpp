@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "keyline/core/leading_number.h"
+#include "keyline/core/text.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -107,19 +109,10 @@ std::optional<double> parse_number(std::string_view field, TableStyle style) {
     if (c == 'D' || c == 'd') c = 'e';
     if (style.decimal_comma && c == ',') c = '.';
   }
-  const char* from = text.data();
-  const char* to = from + field.size();
-  if (from != to && *from == '+') ++from;
-  double value = 0;
-  const auto read = std::from_chars(from, to, value);
-  if (read.ec == std::errc{} && read.ptr == to) return value;
-  if (read.ec == std::errc::result_out_of_range && read.ptr == to) {
-    // Below the smallest double: zero. Above the largest: too large for anybody.
-    const std::string_view digits(from, static_cast<std::size_t>(to - from));
-    const bool tiny = digits.find("e-") != std::string_view::npos;
-    return tiny ? 0.0 : std::numeric_limits<double>::max();
-  }
-  return missing_value(field);
+  const auto number = core::leading_number({text.data(), field.size()});
+  if (!number || number->length != field.size()) return missing_value(field);
+  // Above the largest double: too large for anybody, but no infinity that somebody wrote.
+  return std::isinf(number->value) ? std::numeric_limits<double>::max() : number->value;
 }
 
 TableStyle guess_style(std::string_view line) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/hermite/one_signed.h"
 #include "keyline/lac/segment/arm.h"
 #include "keyline/lac/segment/slope.h"
@@ -154,9 +155,9 @@ std::optional<SegmentSolution> solve_inflecting(double from, double to, double a
 
 std::unexpected<core::Failure> needs_inflection(double from, double to) {
   std::string hint = "use a slope below 0";
-  for (const char* slope : {"-0.01", "-0.1", "-1"}) {
-    if (!solve_inflecting(from, to, std::stod(slope))) continue;
-    hint = std::string("use a slope below 0, such as ") + slope;
+  for (const double slope : {-0.01, -0.1, -1.0}) {
+    if (!solve_inflecting(from, to, slope)) continue;
+    hint = "use a slope below 0, such as " + core::number_text(slope, 2);
     break;
   }
   return core::fail(ErrorCode::undrawable,
