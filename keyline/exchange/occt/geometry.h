@@ -9,9 +9,8 @@ class handle;
 }
 class Geom_Curve;
 class Geom_Surface;
-class TopoDS_Shape;
 
-/// Curves and surfaces between Keyline and OCCT, exactly. Only keyline-cad uses this folder.
+/// Curves and surfaces of OCCT as Keyline's, exactly. Only keyline-cad uses this folder.
 namespace keyline::exchange::occt {
 
 /// A planar path (z = 0) or a space curve from the part of a curve between two parameters: lines,
@@ -27,11 +26,5 @@ document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& curve
 /// whole. deviation: largest distance from it, 0 where the form is exact. Throws as above.
 surface::Surface surface_of(const opencascade::handle<Geom_Surface>& surface, double u1, double u2,
                             double v1, double v2, double& deviation);
-
-/// A path of curves cad_parts() gives, as an edge or, of several, a wire of edges in their order; a
-/// face of a whole surface. Throws std::runtime_error for what has no extent.
-TopoDS_Shape shape_of(const document::Path& path);
-TopoDS_Shape edge_of(const document::SpaceCurve& curve);
-TopoDS_Shape face_of(const surface::Surface& surface);
 
 }  // namespace keyline::exchange::occt

@@ -38,7 +38,6 @@
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
-#include <charconv>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -47,7 +46,7 @@
 #include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/document/color.h"
-#include "keyline/exchange/occt/geometry.h"
+#include "keyline/exchange/occt/shapes.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -319,12 +318,9 @@ class IgesLooks {
     const auto known = levels_.find(layer);
     if (known != levels_.end()) return known->second;
     constexpr int kNamed = 1000;
-    int level = 0;
-    const char* end = layer.data() + layer.size();
-    const auto [stop, error] = std::from_chars(layer.data(), end, level);
-    const bool number = error == std::errc() && stop == end && level > 0 && level <= kNamed &&
-                        layer == std::to_string(level);
-    if (!number) level = kNamed + 1 + static_cast<int>(levels_.size());
+    int level = core::parse_whole<int>(layer).value_or(0);
+    if (level <= 0 || level > kNamed || layer != std::to_string(level))
+      level = kNamed + 1 + static_cast<int>(levels_.size());
     return levels_[layer] = level;
   }
 
