@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/evaluation.h"
+#include "keyline/numeric/damped_descent.h"
 
 namespace keyline::fairing {
 namespace {
@@ -147,16 +148,15 @@ class Descent {
       : chain_(chain), points_(points), options_(options) {
     for (int round = 0; round < 2; ++round) Evaluation(chain, points, options).move_feet();
     model_ = Evaluation(chain, points, options).model();
-    lambda_ = options.close_gaps ? 1e-9 : 1e-2;
+    damping_.value = options.close_gaps ? 1e-9 : 1e-2;
   }
 
   ChainFitReport run() {
+    const numeric::DescentEnd end = numeric::damped_descent(
+        damping_, options_.iterations, [this](double damping) { return iterate(damping); });
     ChainFitReport report;
-    while (report.iterations < options_.iterations && !finished_) {
-      iterate(report);
-      ++report.iterations;
-    }
-    report.converged = converged_;
+    report.iterations = end.steps;
+    report.converged = converged_ || (end.exhausted && damping_.refused);
     report.cost = model_.cost;
     report.max_offset = model_.max_offset;
     report.max_gap = model_.max_gap;
@@ -164,23 +164,19 @@ class Descent {
   }
 
  private:
-  void iterate(const ChainFitReport& report) {
+  numeric::StepOutcome iterate(double damping) {
+    const int iteration = steps_++;
     std::vector<Stage> stages = model_.stages;
-    damp(stages, chain_, lambda_, 100 * options_.scale * options_.scale);
+    damp(stages, chain_, damping, 100 * options_.scale * options_.scale);
     const detail::Step step = solve_stages(stages, boundary_of(chain_));
-    if (!step.sound) {
-      lambda_ = std::max(lambda_ * 10, 1e-8);
-      finished_ = lambda_ > kMostDamping;
-      return;
-    }
+    if (!step.sound) return {numeric::StepEnd::unsolved};
     FitChain next = moved(chain_, step, step_limit(chain_, step), options_.fine);
     Evaluation evaluation(next, points_, options_);
     evaluation.move_feet();
     Model trial = evaluation.model();
-    if (better(trial))
-      accept(std::move(next), std::move(trial), report.iterations);
-    else
-      refuse();
+    if (better(trial)) return {accept(std::move(next), std::move(trial), iteration)};
+    const bool closed = options_.close_gaps && model_.max_gap < 1e-14;
+    return {closed ? numeric::StepEnd::settled : numeric::StepEnd::refused};
   }
 
   bool better(const Model& trial) const {
@@ -188,36 +184,26 @@ class Descent {
     return options_.close_gaps ? trial.max_gap < 0.7 * model_.max_gap : trial.merit < model_.merit;
   }
 
-  void refuse() {
-    lambda_ *= 5;
-    refused_ = true;
-    if (options_.close_gaps && model_.max_gap < 1e-14) finished_ = true;
-    if (lambda_ > kMostDamping) finished_ = converged_ = true;
-  }
-
-  void accept(FitChain next, Model trial, int iteration) {
+  numeric::StepEnd accept(FitChain next, Model trial, int iteration) {
     const double gain = (model_.merit - trial.merit) / std::max(model_.merit, 1e-300);
     chain_ = std::move(next);
     model_ = std::move(trial);
-    if (!refused_) lambda_ = std::max(lambda_ * 0.3, 1e-12);
-    refused_ = false;
-    if (options_.close_gaps) return;
+    if (options_.close_gaps) return numeric::StepEnd::taken;
     calm_ = gain < options_.gradient_tolerance ? calm_ + 1 : 0;
-    if (calm_ >= 2 || model_.merit < 1e-30) finished_ = converged_ = true;
+    converged_ = calm_ >= 2 || model_.merit < 1e-30;
     const bool slow = iteration >= 3 && gain < 0.3;
-    if (options_.hopeless > 0 && slow && model_.max_offset > options_.hopeless) finished_ = true;
+    const bool hopeless = options_.hopeless > 0 && slow && model_.max_offset > options_.hopeless;
+    return converged_ || hopeless ? numeric::StepEnd::settled : numeric::StepEnd::taken;
   }
-
-  static constexpr double kMostDamping = 1e8;
 
   FitChain& chain_;
   const std::vector<FitPoint>& points_;
   const ChainFitOptions& options_;
   Model model_;
-  double lambda_ = 1e-2;
+  numeric::FactorDamping damping_{
+      .raise = 5, .lower = 0.3, .least = 1e-12, .most = 1e8, .after_refusal = true};
+  int steps_ = 0;
   int calm_ = 0;
-  bool refused_ = false;
-  bool finished_ = false;
   bool converged_ = false;
 };
 

@@ -8,6 +8,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/chain_edit.h"
+#include "keyline/fairing/chain_weights.h"
 #include "keyline/fairing/structure.h"
 #include "keyline/numeric/parallel.h"
 
@@ -48,24 +49,8 @@ bool has_trend(const std::vector<FitPoint>& points, const std::vector<double>& o
   return false;
 }
 
-/// How hard a round pushes: a weight's factor at no offset, and what it gains up to the tolerance.
-struct Push {
-  double rest;
-  double gain;
-};
-constexpr Push kGentle{0.6, 0.8};  // a whole dense chain swings if pushed harder
-constexpr Push kHard{0.3, 2};      // a window of few pieces does not
-
-/// Lawson's weights: points far off count more, until the largest offset is near its least.
-void weigh_up(std::vector<FitPoint>& points, const std::vector<FitPoint>& original,
-              const std::vector<double>& offsets, double tolerance, Push push) {
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    if (points[j].must_pass) continue;
-    const double share = std::abs(offsets[j]) / tolerance;
-    points[j].weight = std::min(1e4 * original[j].weight,
-                                points[j].weight * (push.rest + push.gain * share * share));
-  }
-}
+constexpr numeric::Push kGentle{0.6, 0.8};  // a whole dense chain swings if pushed harder
+constexpr numeric::Push kHard{0.3, 2};      // a window of few pieces does not
 
 struct Trial {
   FitChain chain;

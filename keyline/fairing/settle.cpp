@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/fairing/chain_weights.h"
 #include "keyline/fairing/meet.h"
 
 namespace keyline::fairing::detail {
@@ -151,7 +152,7 @@ class Polisher {
     chain_ = rough;
     const std::vector<FitPoint> original = points_;
     for (int round = 0; round < kPolishSqueezes; ++round) {
-      weigh_up(original);
+      weigh_up(points_, original, offsets(chain_, points_), accept_.tolerance, kPush);
       if (refine(10, 1e-3)) return true;
     }
     chain_ = best_;
@@ -189,19 +190,9 @@ class Polisher {
     }
   }
 
-  /// Lawson's weights, gently.
-  void weigh_up(const std::vector<FitPoint>& original) {
-    const std::vector<double> off = offsets(chain_, points_);
-    for (std::size_t j = 0; j < off.size(); ++j) {
-      if (points_[j].must_pass) continue;
-      const double share = std::abs(off[j]) / accept_.tolerance;
-      points_[j].weight =
-          std::min(1e4 * original[j].weight, points_[j].weight * (0.4 + 1.6 * share * share));
-    }
-  }
-
   static constexpr double kClosedGap = 1e-9;
   static constexpr int kPolishSqueezes = 8;
+  static constexpr numeric::Push kPush{0.4, 1.6};
   static constexpr double kLoose = 0.05;  // smaller over larger curvature
 
   FitChain& chain_;
