@@ -5,17 +5,12 @@
 #include <numeric>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/polygon.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
 constexpr double kHeavy = 1e6;  // weight of a point that must be passed
-
-core::Point2 centroid_of(const std::vector<core::Point2>& points) {
-  core::Vector2 sum;
-  for (const core::Point2 p : points) sum = sum + (p - points.front());
-  return points.front() + sum / static_cast<double>(points.size());
-}
 
 /// True where the run is taken from its end.
 bool runs_backwards(const Run& run, core::Point2 centroid) {
@@ -54,7 +49,7 @@ double turn_of(const Run& run, core::Vector2 to_centroid) {
 RunFrame make_frame(const Run& run) {
   RunFrame frame;
   const std::size_t n = run.points.size();
-  const core::Point2 centroid = centroid_of(run.points);
+  const core::Point2 centroid = core::centroid(run.points);
   frame.reversed = runs_backwards(run, centroid);
   frame.order.resize(n);
   std::iota(frame.order.begin(), frame.order.end(), std::size_t{0});

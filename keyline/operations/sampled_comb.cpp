@@ -7,6 +7,7 @@
 #include "keyline/analysis/lddc.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/analysis/split.h"
+#include "keyline/core/angle.h"
 #include "keyline/lac/chain/chain_sampler.h"
 
 namespace keyline::operations {
@@ -63,7 +64,7 @@ void add_polyline(Places& places, const curve::Polyline2& line, double from) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const core::Vector2 along = i + 1 < p.size() ? p[i + 1] - p[i] : p[i] - p[i - 1];
     if (i > 0) from += core::distance(p[i - 1], p[i]);
-    places.add(from, p[i], std::atan2(along.y, along.x), 0, 0);
+    places.add(from, p[i], core::direction_of(along), 0, 0);
   }
 }
 

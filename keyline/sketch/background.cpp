@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "keyline/core/quantile.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -19,10 +21,7 @@ std::uint16_t percentile_in(const Gray& image, int x0, int y0, int x1, int y1, d
   scratch.clear();
   for (int y = y0; y < y1; y += 2)
     for (int x = x0; x < x1; x += 2) scratch.push_back(image.at(x, y));
-  const auto at =
-      scratch.begin() + static_cast<long>(share * static_cast<double>(scratch.size() - 1));
-  std::nth_element(scratch.begin(), at, scratch.end());
-  return *at;
+  return core::value_at(scratch, share);
 }
 
 constexpr int kRim = 4;  ///< blocks around the picture

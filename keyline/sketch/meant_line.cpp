@@ -6,6 +6,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/polygon.h"
+#include "keyline/core/quantile.h"
 #include "keyline/sketch/align_strokes.h"
 #include "keyline/sketch/hold_line.h"
 #include "keyline/sketch/strip.h"
@@ -100,10 +101,7 @@ class Line {
         if (least < most) nearest.push_back(least);
       }
     if (nearest.empty()) return most;
-    const auto rank =
-        nearest.begin() + static_cast<long>(kFarOnes * static_cast<double>(nearest.size() - 1));
-    std::nth_element(nearest.begin(), rank, nearest.end());
-    return *rank;
+    return core::value_at(nearest, kFarOnes);
   }
 
   void set_line(const std::vector<Point2>& points, bool closed) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 #include "keyline/core/polygon.h"
 
 namespace keyline::sketch {
@@ -51,8 +53,7 @@ Axis principal_axis(const std::vector<Point2>& points, std::size_t first, std::s
     xy += d.x * d.y;
     yy += d.y * d.y;
   }
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  axis.direction = {std::cos(angle), std::sin(angle)};
+  axis.direction = core::unit_vector(core::principal_angle(xx, xy, yy));
   if (core::dot(axis.direction, points[last] - points[first]) < 0) axis.direction = -axis.direction;
   for (std::size_t i = first; i <= last; ++i)
     axis.largest_offset = std::max(axis.largest_offset,

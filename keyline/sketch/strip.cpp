@@ -311,10 +311,7 @@ double spread_of(const Strip& strip, const std::vector<SampledStroke>& strokes, 
     far.push_back(most);
   }
   if (far.empty()) return 0;
-  const auto rank =
-      far.begin() + static_cast<long>(kUsualSpread * static_cast<double>(far.size() - 1));
-  std::nth_element(far.begin(), rank, far.end());
-  return *rank;
+  return core::value_at(far, kUsualSpread);
 }
 
 void cut_ends(Strip& strip, double near) {

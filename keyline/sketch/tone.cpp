@@ -63,10 +63,7 @@ double percentile(const Gray& image, double share) {
   std::vector<std::uint16_t> sample;
   const std::size_t step = std::max<std::size_t>(1, image.data.size() / 200000);
   for (std::size_t i = 0; i < image.data.size(); i += step) sample.push_back(image.data[i]);
-  const auto at =
-      sample.begin() + static_cast<long>(share * static_cast<double>(sample.size() - 1));
-  std::nth_element(sample.begin(), at, sample.end());
-  return *at;
+  return core::value_at(sample, share);
 }
 
 /// Share of a sample of pixels below level y.
