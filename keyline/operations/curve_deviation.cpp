@@ -3,7 +3,7 @@
 
 #include "keyline/analysis/profile.h"
 #include "keyline/curve/closest_point.h"
-#include "keyline/operations/registry.h"
+#include "keyline/operations/paper_operations.h"
 #include "keyline/operations/values.h"
 
 namespace keyline::operations {

@@ -2,7 +2,7 @@
 
 #include "keyline/operations/class_a.h"
 #include "keyline/operations/class_a_plane.h"
-#include "keyline/operations/registry.h"
+#include "keyline/operations/paper_operations.h"
 
 namespace keyline::operations {
 namespace {

@@ -6,7 +6,9 @@
 /// of registry.h.
 namespace keyline::operations {
 
+Operation curve_deviation_operation();
 Operation curve_diagrams_operation();
+Operation curve_plane_operation();
 Operation lac_drag_operation();
 Operation lac_taylor_operation();
 Operation surface_patch_operation();

@@ -5,9 +5,6 @@
 
 namespace keyline::operations {
 
-Operation curve_deviation_operation();
-Operation curve_plane_operation();
-
 std::vector<Operation> all_operations() {
   return {
 #ifdef KEYLINE_HAS_SKETCH
