@@ -44,7 +44,12 @@ core::Result<SurfaceValueShown> run(const SavRequest& request, const Context& co
   if (!values) return std::unexpected(values.error());
   if (request.nearest) find_nearest(request, *values, context);
   if (context.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
-  return shown(*values);
+  SurfaceValueShown result = shown(*values);
+  const classa::LargestValues most = classa::largest_values(request.options.alpha_max);
+  const auto count = static_cast<double>(result.curves.size());
+  result.steps = {count * most.class_a, count * most.one_matrix, count * most.several,
+                  count * most.none};
+  return result;
 }
 
 }  // namespace

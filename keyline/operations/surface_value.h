@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,7 @@ struct SurfaceValueShown {
   std::optional<double> nearest_sav;
   std::optional<PatchPlace> worst_patch;
   std::optional<std::vector<PatchValueShown>> patches;
+  std::optional<std::array<double, 4>> steps;
 
   std::vector<surface::PatchValue> values;  ///< not part of the public form: for pictures
 
@@ -59,7 +61,9 @@ struct SurfaceValueShown {
         core::field<&Value::worst>("name of the curve of the largest value"),
         core::field<&Value::nearest_sav>("sum with the nearest curves for types 4 and 5"),
         core::field<&Value::worst_patch>("of several patches"),
-        core::field<&Value::patches>("of several, one by one"));
+        core::field<&Value::patches>("of several, one by one"),
+        core::field<&Value::steps>("what the sum can be at most where all curves are Class A, have "
+                                   "one matrix, several, or none (Eq. 10: 12, 38, 110, 407)"));
   }
 };
 SurfaceValueShown shown(const std::vector<surface::PatchValue>& patches);

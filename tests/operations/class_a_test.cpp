@@ -153,7 +153,10 @@ TEST(CurveEdit, InSpace) {
   EXPECT_EQ(edited["curve"]["points"][3].size(), 3U);
   json twisted = tilted;
   twisted["points"][3][2] = 1;
-  EXPECT_EQ(code_of("curve.edit", {{"curve", twisted}}), "unsupported");
+  const json fair = perform_well("curve.edit", {{"curve", twisted}, {"end_tolerance", 0}});
+  EXPECT_EQ(fair["before"]["type"], 5);
+  EXPECT_EQ(fair["after"]["type"], 1);
+  EXPECT_EQ(fair["curve"]["points"][0], twisted["points"][0]);
 }
 
 TEST(CurveCav, RangesOfTheMinimum) {
