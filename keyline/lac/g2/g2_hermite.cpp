@@ -272,7 +272,8 @@ const char* needs_inflection(const UnitG2& r) {
   return nullptr;
 }
 
-std::unexpected<core::Failure> no_chain(const UnitG2& request, double chord, const char* reason) {
+std::unexpected<core::Failure> no_chain(const UnitG2& request, double chord, ErrorCode code,
+                                        const char* reason) {
   std::string hint;
   const auto one = solve_g1_directions({{0, 0}, request.from}, {{1, 0}, request.to}, request.alpha);
   if (one) {
@@ -286,7 +287,7 @@ std::unexpected<core::Failure> no_chain(const UnitG2& request, double chord, con
     if (search(clothoid).solution)
       hint += std::string(hint.empty() ? "" : "; ") + "slope -1 serves";
   }
-  return core::fail(ErrorCode::undrawable, reason, hint);
+  return core::fail(code, reason, hint);
 }
 
 core::Result<void> checked(const CurvatureElement& start, const CurvatureElement& end,
@@ -320,11 +321,12 @@ core::Result<G2Solution> solve_g2(const CurvatureElement& start, const Curvature
   const bool straight = request.from == 0 && request.to == 0 && request.curvature_start == 0 &&
                         request.curvature_end == 0;
   if (!straight) {
-    if (const char* reason = needs_inflection(request)) return no_chain(request, chord, reason);
+    if (const char* reason = needs_inflection(request))
+      return no_chain(request, chord, ErrorCode::undrawable, reason);
   }
   Best best = search(request);
   if (!best.solution) {
-    return no_chain(request, chord,
+    return no_chain(request, chord, ErrorCode::not_converged,
                     "no chain of up to three pieces without loops was found for these ends");
   }
   G2Solution& s = *best.solution;

@@ -28,17 +28,18 @@ struct G2Solution {
 /// both measured from the chord in (-pi, pi].
 ///
 /// One piece where one fits (to 1e-12), else two where some two pieces do, else three, the outer
-/// ones equally long. Of several solutions with as many pieces the one of least absolute turning,
-/// and of those (within 1e-9) of least bending energy. Where one segment joins the poses without
-/// regard to curvature it is the measure of wildness: a solution with a piece that turns by more
-/// than 3 pi / 2 and 1.25 times that segment's turning, or longer than 12 chords and twice the
-/// segment, does not count.
+/// ones equally long where such a chain is found, else short against their end radii. Of several
+/// solutions with as many pieces the one of least absolute turning, and of those (within 1e-9) of
+/// least bending energy. Where one segment joins the poses without regard to curvature it is the
+/// measure of wildness: a solution with a piece that turns by more than 3 pi / 2 and 1.25 times
+/// that segment's turning, or longer than 12 chords and twice the segment, does not count.
 ///
 /// alpha < 0: inflections are allowed. alpha >= 0: curvature keeps one sign, so both curvatures
 /// must be of the sign of the turning and not zero.
 /// Accuracy: end position 1e-12 of the chord, direction 1e-12 rad; end curvatures are exact.
-/// Fails: bad_input; undrawable with the reason and, in the hint, what would serve: a slope below
-/// 0, or the end curvatures of the one segment between the poses.
+/// Fails: bad_input; undrawable where there is none, or not_converged where none was found, with
+/// the reason and, in the hint, what would serve: a slope below 0, or the end curvatures of the one
+/// segment between the poses.
 core::Result<G2Solution> solve_g2(const CurvatureElement& start, const CurvatureElement& end,
                                   double alpha);
 
