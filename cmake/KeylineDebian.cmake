@@ -25,7 +25,7 @@ if(TARGET keyline-studio)
   list(APPEND parts studio)
 endif()
 if(TARGET keyline_python)
-  list(APPEND parts python)
+  list(APPEND parts python plugins)
 endif()
 if(TARGET keyline)
   list(APPEND parts tool)
@@ -35,11 +35,13 @@ set(name_tool keyline)
 set(name_cad keyline-cad)
 set(name_studio keyline-studio)
 set(name_python python3-keyline)
+set(name_plugins keyline-plugins)
 set(name_development libkeyline-dev)
 set(text_tool "Aesthetic curves and surfaces: the command line")
 set(text_cad "Aesthetic curves and surfaces: reading and writing STEP and IGES")
 set(text_studio "Aesthetic curves and surfaces: the studio in the browser")
 set(text_python "Aesthetic curves and surfaces: the Python package")
+set(text_plugins "Aesthetic curves and surfaces: inside Inkscape and FreeCAD, and for type in UFO")
 set(text_development "Aesthetic curves and surfaces: the C++ library")
 
 # The library's headers and archives want those of the libraries beneath it.
@@ -60,6 +62,19 @@ if(minor)  # the module is made for one version of Python
   math(EXPR next "${minor} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${minor}), python3 (<< 3.${next}), python3-numpy")
+endif()
+
+# Plug-ins lie where the programs look for them.
+if(TARGET keyline_python)
+  set(CPACK_DEBIAN_PLUGINS_PACKAGE_DEPENDS "python3-keyline (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_PLUGINS_PACKAGE_SUGGESTS "inkscape, freecad, python3-ufolib2")
+  set(plugins "${PROJECT_SOURCE_DIR}/integrations")
+  install(DIRECTORY "${plugins}/inkscape/" COMPONENT plugins DESTINATION share/inkscape/extensions/keyline
+          PATTERN "__pycache__" EXCLUDE)
+  install(DIRECTORY "${plugins}/freecad/Keyline" COMPONENT plugins DESTINATION share/freecad/Mod
+          PATTERN "__pycache__" EXCLUDE)
+  install(PROGRAMS "${plugins}/ufo/keyline_ufo.py" RENAME keyline-ufo COMPONENT plugins
+          DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
 
 foreach(part IN LISTS parts)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Curvature of glyphs and fair outlines of a UFO, for type designers.
 
 keyline_ufo.py curvature FONT.ufo [GLYPH…] [-o COMBS.svg]

@@ -32,16 +32,17 @@ quietly() { inside "$*" >"$bare/log" 2>&1 || { tail -20 "$bare/log" >&2; return 
 
 quietly 'apt-get update'
 quietly 'apt-get install -y --no-install-recommends /debs/*.deb g++ pkg-config'
-inside 'dpkg-query -W keyline keyline-cad keyline-studio python3-keyline libkeyline-dev'
+inside 'dpkg-query -W keyline keyline-cad keyline-studio python3-keyline keyline-plugins libkeyline-dev'
 inside 'keyline --version'
 inside 'keyline fair bonnet-scan.csv --quiet -o faired.svg -o faired.step && ls -s faired.svg faired.step'
 inside 'keyline list faired.step | head -2'
 inside 'keyline studio --version && test -s /usr/share/keyline/studio/index.html'
 inside "python3 -c 'import keyline; print(keyline.lac.segment([[0, 0], [2, 0], [3, 1.5]], -1).length)'"
+inside 'test -s /usr/share/inkscape/extensions/keyline/keyline_fair.inx && test -s /usr/share/freecad/Mod/Keyline/InitGui.py'
 inside 'g++ -std=c++23 readme.cpp $(pkg-config --cflags --libs keyline-lac) -o readme && ./readme | tail -1'
 inside 'test -s /usr/share/man/man1/keyline-fair.1.gz -o -s /usr/share/man/man1/keyline-fair.1'
-inside 'dpkg -L keyline keyline-cad keyline-studio python3-keyline libkeyline-dev | sort -u > /work/files'
-quietly 'apt-get purge -y keyline keyline-cad keyline-studio python3-keyline libkeyline-dev'
+inside 'dpkg -L keyline keyline-cad keyline-studio python3-keyline keyline-plugins libkeyline-dev | sort -u > /work/files'
+quietly 'apt-get purge -y keyline keyline-cad keyline-studio python3-keyline keyline-plugins libkeyline-dev'
 left=$(inside 'while read -r f; do [ ! -f "$f" ] || echo "$f"; done < /work/files' | sed 1d)
 [ -z "$left" ] || { printf 'left behind: %s\n' "$left" >&2; exit 1; }
 left=$(chroot "$bare" sh -c 'find / -xdev -path /work -prune -o -path /debs -prune -o -path /proc -prune -o -iname "*keyline*" -print')

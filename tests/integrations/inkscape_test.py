@@ -165,7 +165,7 @@ def test_within_inkscape(work):
         print("not tried within Inkscape: inkscape or xvfb-run is not installed")
         return
     profile = work / "profile"
-    shutil.copytree(FOLDER, profile / "extensions")
+    shutil.copytree(FOLDER, profile / "extensions" / "keyline")  # as the package has it
     (work / "drawing.svg").write_text(DRAWING)
     chosen = {"comb": ["quarter"], "segment": ["bent"], "blend": ["first", "second"], "fair": ["wavy"]}
     actions = ";".join(f"select-clear;select-by-id:{','.join(ids)};keyline.{n}.noprefs" for n, ids in chosen.items())
