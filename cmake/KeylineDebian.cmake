@@ -66,6 +66,7 @@ endif()
 
 # Plug-ins lie where the programs look for them.
 if(TARGET keyline_python)
+  set(CPACK_DEBIAN_PLUGINS_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PLUGINS_PACKAGE_DEPENDS "python3-keyline (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_PLUGINS_PACKAGE_SUGGESTS "inkscape, freecad, python3-ufolib2")
   set(plugins "${PROJECT_SOURCE_DIR}/integrations")

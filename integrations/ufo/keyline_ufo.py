@@ -13,15 +13,18 @@ Needs python3-ufolib2 and python3-keyline. Glyphs without outlines and component
 import argparse
 import math
 import sys
+import tempfile
+from pathlib import Path
 
 import keyline
 import ufoLib2
 from fontTools.misc.bezierTools import splitCubicAtT
 from fontTools.pens.recordingPen import RecordingPen
 from fontTools.ufoLib.errors import UFOLibError
+from fontTools.ufoLib.glifLib import readGlyphFromString
 
 SMOOTH = math.radians(3)  # a turn of the handles below this was not meant: a unit of a handle of 20
-JUMP = 0.1  # of curvature, of the larger: below, cubics within a tenth of the tolerance jump by themselves
+JUMP = 0.1  # of curvature, as a share of the larger
 
 
 
@@ -63,6 +66,25 @@ def _quadratics(contour, at, points):
         contour.append([at, *handles, end])
         at = end
     return at if offs else _line(contour, at, points[-1])
+
+
+def cubics_of_curve(curve, tolerance):
+    """A curve as Keyline writes a glyph: cubics of its curvature at both ends, nodes at extrema."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "a.glif"
+        keyline.document.write(file, curves=[{"name": "a", "curve": curve}], tolerance=tolerance)
+        drawn = ufoLib2.objects.Glyph("a")
+        readGlyphFromString(file.read_text(encoding="utf-8"), drawn, drawn.getPointPen())
+    made = []
+    pen = RecordingPen()
+    drawn.draw(pen)
+    for verb, points in pen.value:
+        if verb == "lineTo":
+            _line(made, at, points[0])
+        elif verb == "curveTo":
+            made.append([at, *points])
+        at = points[-1] if points else at
+    return made
 
 
 def is_line(cubic):
@@ -179,13 +201,12 @@ def from_extremum(run, like=None):
 def faired(run, tolerance, closed):
     """The run as cubics of the calmest chain within the tolerance, its extrema where they were; None: no such."""
     path = {"type": "path", "curves": [{"type": "bezier", "points": c} for c in run], "closed": closed}
-    request = {"curve": path, "tolerance": tolerance / 2, "bezier": {"degree": 3, "tolerance": tolerance / 100}}
+    request = {"curve": path, "tolerance": tolerance / 2}
     if not closed:
         request["clamp"] = {"start": "G1", "end": "G1"}
     answer = keyline.perform("fair", request)
-    parts = answer["bezier"].get("curves", [answer["bezier"]])
     old = with_extrema(run)
-    new = with_extrema([[tuple(p) for p in part["points"]] for part in parts])
+    new = [list(cubic) for cubic in cubics_of_curve(answer["curve"], tolerance / 10)]
     if closed:
         old = from_extremum(old)
         new = from_extremum(new, old)
