@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# readme_test.sh ROOT: the C++ in the README is examples/cpp/readme.cpp, and every link leads somewhere.
+# readme_test.sh ROOT: the C++ in the README and the guide is that of examples/cpp, and every link leads somewhere.
 set -euo pipefail
 cd "$1"
-diff <(sed -n '/^```cpp$/,/^```$/p' README.md | sed '1d;$d') examples/cpp/readme.cpp
+program_of() { sed -n '/^```cpp$/,/^```$/p' "$1" | sed '1d;$d'; }
+diff <(program_of README.md) examples/cpp/readme.cpp
+diff <(program_of docs/log-aesthetic-curves.md) examples/cpp/segment.cpp
 
 missing=0
 while IFS=: read -r file link; do
