@@ -1,3 +1,5 @@
+#include <map>
+
 #include <fmt/format.h>
 
 #include "keyline/core/text.h"
@@ -62,41 +64,114 @@ std::string text_of(const std::string& name, const json& result) {
   return text;
 }
 
+std::string pieces_text(const std::string& name, const json& result) {
+  const json& pieces = result["pieces"];
+  std::string text = name.empty() ? "" : name + "\n";
+  text +=
+      fmt::format("{} pieces, {} to Class A  CAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
+                  pieces.size(), result["edited"].get<int>(), result["cav_before"].get<double>(),
+                  result["cav_after"].get<double>(), result["departure"].get<double>());
+  const json& before = result["joints_before"];
+  const json& after = result["joints_after"];
+  if (before["g0"] != 0)
+    text += fmt::format("joints {}  G1 {} to {}  G2 {} to {}\n", before["g0"].get<int>(),
+                        before["g1"].get<int>(), after["g1"].get<int>(), before["g2"].get<int>(),
+                        after["g2"].get<int>());
+  std::map<std::string, int> kept;
+  for (const json& piece : pieces)
+    if (piece.contains("why")) ++kept[piece["why"].get<std::string>()];
+  for (const auto& [why, count] : kept) text += fmt::format("{} kept: {}\n", count, why);
+  return text;
+}
+
+/// What became of the curves of the files.
+struct EditedCurves {
+  std::vector<Shown> whole;  ///< of curve.edit
+  std::vector<json> shown;
+  json curves = json::array();
+  std::string text;
+  std::vector<std::string> left;  ///< as given, and why
+  core::Failure first;            ///< of those
+};
+
+/// Whether pieces of the curve may do where one Bezier does not: none comes near enough and no
+/// tolerance was asked for, or the curve is closed.
+bool pieces_may_do(const json& request, const core::Failure& why) {
+  if (request.contains("fit_tolerance") || request.contains("target")) return false;
+  return why.path == option_name("fit_tolerance") ||
+         (why.path == option_name("curve") && request["curve"]["type"] != "bezier");
+}
+
+/// As one Bezier, or piece by piece.
+Result<operations::Outcome> edit_one(Session& session, const json& request) {
+  auto whole = session.perform("curve.edit", request, {});
+  if (whole || !pieces_may_do(request, whole.error())) return whole;
+  json pieces = {{"curve", request["curve"]}};
+  for (const char* field : {"amount", "alpha_max"})
+    if (request.contains(field)) pieces[field] = request[field];
+  return session.perform("curve.edit_pieces", pieces, {});
+}
+
+Result<void> add_curve(Session& session, const json& thing, json& request, EditedCurves& all) {
+  request["curve"] = curve_of(thing);
+  const std::string name = thing["name"].get<std::string>();
+  auto outcome = edit_one(session, request);
+  if (!outcome) {
+    if (all.left.empty()) all.first = outcome.error();
+    all.left.push_back((name.empty() ? "a curve" : name) +
+                       " left as given: " + outcome.error().message);
+    all.curves.push_back(thing);
+    return {};
+  }
+  auto one = shown_of(*outcome);
+  if (!one) return std::unexpected(one.error());
+  const bool pieces = one->contains("pieces");
+  all.text += pieces ? pieces_text(name, *one) : text_of(name, *one);
+  json written = thing;
+  written["curve"] = (*one)["curve"];
+  written.erase("line");
+  all.curves.push_back(std::move(written));
+  if (!name.empty()) (*one)["name"] = name;
+  all.shown.push_back(std::move(*one));
+  if (!pieces) all.whole.push_back({name, std::move(*outcome)});
+  return {};
+}
+
+int write_curves(Session& session, const ReadFiles& read, const EditedCurves& all) {
+  presentation::ReportOptions options = session.report_options();
+  options.unit = read.shown["unit"].get<std::string>();
+  const json document{{"unit", read.shown["unit"]}, {"curves", all.curves}};
+  presentation::Pages pages;
+  if (all.whole.size() == all.shown.size()) {
+    pages = presentation::edit_pages(all.whole, options);
+  } else if (!session.door().output.empty()) {
+    const auto output = presentation::output_of(document);
+    if (!output) return report_failure(output.error());
+    options.title = "Edited curves";
+    pages = presentation::document_pages(output->document, options);
+  }
+  auto written = session.write(pages, document);
+  if (!written) return report_failure(written.error());
+  session.print(one_or_all(all.shown, "curves"), all.text);
+  return kDone;
+}
+
 int edit_curves(Session& session, const ReadFiles& read) {
   json request = session.of(kCurves);
   if (session.door().tolerance && !request.contains("fit_tolerance"))
     request["fit_tolerance"] = *session.door().tolerance;
-  std::vector<Shown> all;
-  std::vector<json> shown;
-  json curves = json::array();
-  std::string text;
-  for (const json& thing : planar_things(read)) {
-    request["curve"] = curve_of(thing);
-    auto outcome = session.perform("curve.edit", request, {});
-    if (!outcome) return report_failure(outcome.error(), session.files().front());
-    auto one = shown_of(*outcome);
-    if (!one) return report_failure(one.error());
-    const std::string name = thing["name"].get<std::string>();
-    text += text_of(name, *one);
-    json written = thing;
-    written["curve"] = (*one)["curve"];
-    written.erase("line");
-    curves.push_back(std::move(written));
-    if (!name.empty()) (*one)["name"] = name;
-    shown.push_back(std::move(*one));
-    all.push_back({name, std::move(*outcome)});
-  }
-  if (all.empty())
+  EditedCurves all;
+  for (const json& thing : planar_things(read))
+    if (auto done = add_curve(session, thing, request, all); !done)
+      return report_failure(done.error());
+  if (all.shown.empty() && !all.left.empty())
+    return report_failure(all.first, session.files().front());
+  if (all.shown.empty())
     return report_failure({core::ErrorCode::bad_input, "there is no planar curve or patch to edit",
                            "give a file that holds one", ""},
                           session.files().front());
-  presentation::ReportOptions options = session.report_options();
-  options.unit = read.shown["unit"].get<std::string>();
-  auto written = session.write(presentation::edit_pages(all, options),
-                               {{"unit", read.shown["unit"]}, {"curves", curves}});
-  if (!written) return report_failure(written.error());
-  session.print(one_or_all(shown, "curves"), text);
-  return kDone;
+  for (const std::string& why : all.left) say(session.door().quiet, why);
+  return write_curves(session, read, all);
 }
 
 /// The surface as edited, in the kind it was, or as its patches where they no longer meet.

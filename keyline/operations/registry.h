@@ -11,6 +11,7 @@ Operation curve_analyze_operation();
 Operation curve_cav_operation();
 Operation curve_continuity_operation();
 Operation curve_edit_operation();
+Operation curve_edit_pieces_operation();
 Operation curve_compare_operation();
 Operation curve_join_operation();
 Operation curve_mirror_operation();

@@ -54,5 +54,32 @@ TEST(Edit, Failures) {
   expect_failure(run_keyline("edit " + closed), 1, "ends where it starts");
 }
 
+// A drawing: a closed outline, a path with a corner and a circle, of which one Bezier curve is
+// none. Every one comes back, on its page, with as many curves; the circle stays.
+TEST(Edit, DrawingsAreEditedPieceByPiece) {
+  const Scratch s;
+  const std::string drawing = s.write(
+      "drawing.svg",
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100">
+<path id="egg" d="M20 50C20 20 80 10 120 20C160 30 180 40 180 50C180 70 120 90 80 85C50 80 20 70 20 50Z"/>
+<path id="corner" d="M20 80C40 60 60 60 85 80L100 60C105 50 130 50 150 60"/>
+<circle id="wheel" cx="50" cy="50" r="20"/></svg>)");
+  const std::string made = s.path("made.svg");
+  const Outcome o =
+      run_keyline("edit --json " + drawing + " -o " + made + " -o " + s.path("made.html"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json all = json::parse(o.out)["curves"];
+  ASSERT_EQ(all.size(), 3U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_GE(all[i]["edited"].get<int>(), 2) << all[i]["name"];
+    EXPECT_EQ(all[i]["joints_after"]["g1"], all[i]["joints_before"]["g1"]);
+  }
+  EXPECT_EQ(all[0]["curve"]["closed"], true);
+  EXPECT_EQ(all[2]["edited"], 0);
+  const json again = json::parse(run_keyline("convert --json " + made).out);
+  EXPECT_EQ(again["curves"].size(), 3U);
+  EXPECT_NE(slurp(made).find("viewBox"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace keyline::app_test

@@ -208,5 +208,43 @@ TEST(CurveCav, BadInput) {
   EXPECT_EQ(code_of("curve.edit", {{"curve", closed}}), "undrawable");
 }
 
+// A closed path of four cubics with one direction at every joint (the egg) and a corner: judged by
+// the edges at the joints and by curvature along each piece, not by what the answer says of itself.
+TEST(CurveEditPieces, KeepsDirectionsAndCornersOfAClosedPath) {
+  const json path = json::parse(R"({"type":"path","closed":true,"curves":[
+    {"type":"bezier","points":[[0,0],[0,30],[20,50],[60,50]]},
+    {"type":"bezier","points":[[60,50],[90,50],[100,40],[100,10]]},
+    {"type":"bezier","points":[[100,10],[100,4],[98,0],[90,-2]]},
+    {"type":"bezier","points":[[90,-2],[60,-2]]},
+    {"type":"bezier","points":[[60,-2],[30,-10],[0,-30],[0,0]]}]})");
+  const json r = perform_well("curve.edit_pieces", {{"curve", path}});
+  EXPECT_EQ(r["curve"]["closed"], true);
+  const json& after = r["curve"]["curves"];
+  ASSERT_EQ(after.size(), 5U);
+  const auto edge = [](const json& c, bool first) {
+    const json& p = c["points"];
+    const std::size_t i = first ? 0 : p.size() - 2;
+    return std::atan2(p[i + 1][1].get<double>() - p[i][1].get<double>(),
+                      p[i + 1][0].get<double>() - p[i][0].get<double>());
+  };
+  for (std::size_t i = 0; i < 5; ++i) {
+    const json& given = path["curves"][i];
+    EXPECT_NEAR(edge(after[i], true), edge(given, true), 1e-9) << i;
+    EXPECT_NEAR(edge(after[i], false), edge(given, false), 1e-9) << i;
+    EXPECT_EQ(after[i]["points"].front(), given["points"].front()) << i;
+    EXPECT_EQ(after[i]["points"].back(), given["points"].back()) << i;
+  }
+  for (const std::size_t i : {1U, 3U}) EXPECT_EQ(after[i], path["curves"][i]);  // an arc, a line
+  EXPECT_EQ(r["edited"], 3);
+  for (const std::size_t i : {0U, 2U, 4U}) {
+    const json value = perform_well("curve.cav", {{"curve", after[i]}});
+    EXPECT_EQ(value["monotone"], "yes") << i;
+    EXPECT_LE(value["type"].get<int>(), 2) << i;
+  }
+  const json kept = perform_well("curve.edit_pieces", {{"curve", path}, {"limit", 0}});
+  EXPECT_EQ(kept["edited"], 0);
+  EXPECT_EQ(kept["curve"], path);
+}
+
 }  // namespace
 }  // namespace keyline::operations
