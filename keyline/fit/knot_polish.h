@@ -16,11 +16,16 @@ struct ScoredKnots {
 /// Improves knots by local search until nothing helps, `rounds` improvements were made or a stop
 /// is requested: continuous optimisation of the positions (Levenberg-Marquardt on the residuals,
 /// coefficients eliminated), neighbours merged into multiple knots and multiple knots split,
-/// single knots removed, inserted and moved elsewhere. Never worse than the start. Works with
-/// as many threads as there are solvers; the result does not depend on their number.
+/// single knots removed, inserted and moved elsewhere; `in_pairs`: where nothing of that helps, two
+/// inserted at once (not yet worth its time for large data). Never worse
+/// than the start. Works with as many threads as there are solvers; the result does not depend on
+/// their number.
 ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& criterion,
                          const std::vector<double>& knots, int rounds,
-                         const core::Progress& progress);
+                         const core::Progress& progress, bool in_pairs = false);
+
+/// Whether a polish of such data is a matter of milliseconds, and tries harder.
+bool is_small(const SplineSolver& solver);
 
 /// Knots by refinement where residuals are large, then removal of those of little use: quick,
 /// deterministic, a start for the genetic search. Thorough: also from knots too many to pay.

@@ -173,14 +173,14 @@ int steps_of(const KnotSearchOptions& options) {
 /// candidates of one.
 void polish(std::vector<detail::ScoredKnots>& ends, std::span<SplineSolver> solvers,
             const BayesCriterion& criterion, const KnotSearchOptions& options,
-            SearchProgress& progress) {
+            SearchProgress& progress, bool in_pairs) {
   const bool trials_in_parallel = ends.size() >= 2 * solvers.size();
   numeric::parallel_for(
       ends.size(), trials_in_parallel ? options.threads : 1, [&](std::size_t i, int worker) {
         const auto used =
             trials_in_parallel ? solvers.subspan(static_cast<std::size_t>(worker), 1) : solvers;
         ends[i] = detail::polish_knots(used, criterion, ends[i].knots, options.polish_rounds,
-                                       options.progress);
+                                       options.progress, in_pairs);
         for (int k = 0; k < polish_steps(options); ++k) progress.step(ends[i].bic);
       });
 }
@@ -229,7 +229,8 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
     if (!options.smart_start) {
       ends.push_back(detail::refined_knots(problem.solvers()[0], criterion, true));
     }
-    polish(ends, problem.solvers(), criterion, options, progress);
+    const bool thorough = options.trials > 1 && detail::is_small(solver);
+    polish(ends, problem.solvers(), criterion, options, progress, thorough);
   }
   result.bic = kInfinity;
   for (auto& end : ends) {
