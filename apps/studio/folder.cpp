@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 
 #include <stdlib.h>
 
@@ -27,6 +28,14 @@ fs::path resolved(const fs::path& path) {
 bool is_inside(const fs::path& path, const fs::path& root) {
   const auto [left, right] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
   return left == root.end() && right != path.end();
+}
+
+/// Whether requests have a field of this name.
+bool may_name(const operations::Operation& operation, std::string_view wanted) {
+  bool found = false;
+  core::visit_fields(*operation.request, operation.request->make().get(),
+                     [&](const core::Field& field, void*) { found |= field.name == wanted; });
+  return found;
 }
 
 }  // namespace
@@ -72,7 +81,7 @@ Result<void> Folder::confine(const operations::Operation& operation, json& reque
     for (json& name : *at)
       if (auto done = place(name); !done) return done;
   }
-  if (operation.name.starts_with("library.") && !request.contains("library"))
+  if (may_name(operation, "library") && !request.contains("library"))
     return core::fail(ErrorCode::unsupported, "the studio keeps to its folder",
                       "name a library inside it", "library");
   return {};

@@ -53,6 +53,15 @@ TEST(Folder, ConfinesEveryFileOfARequest) {
   }
 }
 
+TEST(Folder, RefusesALibraryOfTheOperationsOwnChoice) {
+  const Scratch scratch;
+  const Folder folder(scratch.file("."), {});
+  json unnamed{{"rhythm", "accelerating"}};
+  EXPECT_FALSE(folder.confine(*operations::find_operation("library.find"), unnamed));
+  json measured{{"file", "a.csv"}};
+  EXPECT_TRUE(folder.confine(*operations::find_operation("library.measure"), measured));
+}
+
 /// What confine() looks at are the only texts of such operations that say they name a file.
 TEST(Folder, KnowsEveryFieldThatNamesAFile) {
   for (const operations::Operation& operation : operations::operations()) {
