@@ -1,6 +1,7 @@
 #include "keyline/fairing/calm_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "keyline/core/angle.h"
@@ -21,7 +22,8 @@ constexpr double kErrorsOfPieces = 5;
 constexpr double kPieceRms = 1.05;  // of the calm curve's, where that was asked to depart farther
 constexpr double kErrorsOfLines = 2.5;
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
-constexpr double kRoom = 0.9;  // of the tolerance for the calm curve: the rest is for its pieces
+// Of the tolerance for the calm curve: the rest is for its pieces; the first that they fit into.
+constexpr std::array kRooms{0.9, 0.8, 0.65};
 constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken to err by at least
 constexpr int kPieceSteps = 40;
 constexpr int kFootSteps = 4;
@@ -129,14 +131,18 @@ void measure_spread(std::vector<FitPoint>& points, DenseCurve curve, const Membe
 
 }  // namespace
 
-CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options) {
+namespace {
+
+/// The calm curve in that share of the tolerance, in pieces in all of it.
+CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
+                 const CalmRunOptions& options) {
   CalmRun run;
   run.curve = dense_curve(points, closed, kLeastCells);
   run.curve.most_rate = options.most_rate;
   put_end(run.curve, options.start, true);
   put_end(run.curve, options.end, false);
   CalmOptions calm_options;
-  calm_options.band.tolerance = kRoom * options.tolerance;
+  calm_options.band.tolerance = room * options.tolerance;
   calm_options.band.rms = options.residuals.rms;
   calm_options.most_rms = options.residuals.most(kErrorsOfWaves);
   calm_options.worth = kWorth;
@@ -146,7 +152,7 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
   if (!options.members.points.empty() && run.band.within) {
     measure_spread(points, run.curve, options.members);
     BandOptions again = piece_band(run, options);
-    again.tolerance = kRoom * options.tolerance;
+    again.tolerance = room * options.tolerance;
     run.band = least_variation(run.curve, points, again);
   }
   const auto rms_of_lines = [&] {
@@ -165,6 +171,18 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
   flat.most_rms = rms_of_lines();
   flat.worth = 1 + kForPieces;
   if (run.band.within) make_arcs(run.curve, run.band, points, flat);
+  return run;
+}
+
+}  // namespace
+
+CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOptions& options) {
+  CalmRun run;
+  for (const double room : kRooms) {
+    CalmRun found = solve_in(room, points, closed, options);
+    if (room == kRooms.front() || found.band.within) run = std::move(found);
+    if (run.band.within || options.progress.stop_requested()) break;
+  }
   return run;
 }
 
