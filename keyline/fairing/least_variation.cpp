@@ -7,6 +7,7 @@
 #include "keyline/fairing/band.h"
 #include "keyline/fairing/dense_places.h"
 #include "keyline/fairing/dense_riccati.h"
+#include "keyline/fairing/dense_step.h"
 #include "keyline/fairing/rise_barrier.h"
 
 namespace keyline::fairing::detail {
@@ -15,10 +16,8 @@ namespace {
 constexpr double kHeld = 1e4;   // weight of held ends and seams, in squared tolerances
 constexpr double kReach = 1e2;  // the same of where an open curve ends beside its last point
 constexpr double kBarrierDrop = 0.25;
-constexpr double kExtra = 1e-6;             // of the tolerance: extra width that counts as none
-constexpr double kProgress = 0.9;           // of the extra width after a step that is worth it
-constexpr double kInflectionSlope = -0.25;  // steeper slopes alone may meet an inflection
-constexpr double kSide = 0.8;               // of a curvature that may go in a step
+constexpr double kExtra = 1e-6;    // of the tolerance: extra width that counts as none
+constexpr double kProgress = 0.9;  // of the extra width after a step that is worth it
 constexpr int kHalvings = 5;
 constexpr double kLeastDamping = 1e-2;
 constexpr double kMostDamping = 1e9;
@@ -194,21 +193,9 @@ class Search {
       passage.ends_piece = true;
       passage.arc = flat(curve_, p);
       passage.ends_curve = p + 1 == pieces;
-      passage.fixed = !passage.ends_curve && (flat(curve_, p + 1) || end_of_line(p + 2));
+      passage.fixed = !passage.ends_curve && (flat(curve_, p + 1) || end_of_line(curve_, p + 2));
     }
     return cells;
-  }
-
-  bool line(std::size_t p) const {
-    return !curve_.kind.empty() && curve_.kind[p] == PieceKind::line;
-  }
-
-  /// Whether a line begins or ends at the cut: its curvature there is 0 and stays it.
-  bool end_of_line(std::size_t cut) const {
-    const std::size_t pieces = curve_.alpha.size();
-    const bool before = cut > 0 ? line(cut - 1) : curve_.closed && line(pieces - 1);
-    const bool after = cut < pieces ? line(cut) : curve_.closed && line(0);
-    return before || after;
   }
 
   void add_cell(Cell& cell, int i) const {
@@ -263,8 +250,8 @@ class Search {
     const int start = static_cast<int>(curve_.hold_start);
     for (int k = curve_.slides_start ? 1 : 0; k < 4; ++k)
       b.fixed_start[k] = start > 0 && k <= start;
-    b.fixed_start[3] = b.fixed_start[3] || end_of_line(0);
-    b.fixed_start[4] = flat(curve_, 0) || end_of_line(1);
+    b.fixed_start[3] = b.fixed_start[3] || end_of_line(curve_, 0);
+    b.fixed_start[4] = flat(curve_, 0) || end_of_line(curve_, 1);
     const int end = static_cast<int>(curve_.hold_end);
     const double w = kHeld / (unit_ * unit_);
     for (int k = !curve_.closed && curve_.slides_end ? 1 : 0; k < 4; ++k)
@@ -273,35 +260,10 @@ class Search {
     return b;
   }
 
-  static DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share) {
-    DenseCurve next = curve;
-    for (std::size_t i = 0; i < next.joints.size(); ++i) {
-      next.joints[i].position.x += share * step.state[i](0);
-      next.joints[i].position.y += share * step.state[i](1);
-      next.joints[i].direction += share * step.state[i](2);
-    }
-    for (std::size_t p = 0; p + 1 < next.cut.size(); ++p) {
-      const Vector6& state = step.state[next.cut[p]];
-      next.value[p] += share * state(3);
-      if (p + 2 == next.cut.size()) next.value[p + 1] += share * state(4);
-    }
-    next.length += share * step.state[0](5);
-    return next;
-  }
-
   std::vector<double> meant(const DenseStep& step) const {
     std::vector<double> change(points_.size());
     for (std::size_t j = 0; j < points_.size(); ++j)
       change[j] = by_offset(j).dot(step.state[curve_.feet[j].piece]);
-    return change;
-  }
-
-  std::vector<double> meant_rises(const DenseStep& step) const {
-    std::vector<double> change;
-    for (std::size_t p = 0; p < curve_.alpha.size(); ++p) {
-      const Vector6& state = step.state[curve_.cut[p]];
-      change.push_back(state(4) - state(3));
-    }
     return change;
   }
 
@@ -315,9 +277,9 @@ class Search {
     }
     gap_price_ = std::max(2 * step.largest_costate, 0.5 * gap_price_);
     const std::vector<double> planned = meant(step);
-    const std::vector<double> rises = meant_rises(step);
+    const std::vector<double> rises = meant_rises(curve_, step);
     const double before = merit(curve_, spots_, gaps_.sum, 0);
-    double share = std::min(limits_->longest(planned), keeps_side(step));
+    double share = std::min(limits_->longest(planned), keeps_side(curve_, step));
     if (rises_) share = std::min(share, rises_->longest(rises));
     for (int h = 0; h <= kHalvings; ++h, share *= 0.5)
       if (take(step, planned, share, before)) {
@@ -327,23 +289,6 @@ class Search {
         return;
       }
     refuse();
-  }
-
-  /// Largest share of the step that keeps curvature on its side where the slope allows no
-  /// inflection.
-  double keeps_side(const DenseStep& step) const {
-    double share = 1;
-    for (std::size_t p = 0; p < curve_.alpha.size(); ++p) {
-      if (curve_.alpha[p] <= kInflectionSlope) continue;
-      const Vector6& by = step.state[curve_.cut[p]];
-      for (const int end : {0, 1}) {
-        const double now = curve_.value[p + end];
-        const double change = by(3 + end);
-        if (now * change < 0 && std::abs(change) > kSide * std::abs(now))
-          share = std::min(share, kSide * std::abs(now / change));
-      }
-    }
-    return share;
   }
 
   /// Steps that turn the curve far are not what the linear model is good for.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "keyline/fairing/dense_curve.h"
+#include "keyline/fairing/dense_riccati.h"
+
+/// Steps of a dense curve's solver.
+namespace keyline::fairing::detail {
+
+/// The curve after that share of the step; feet stay.
+DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share);
+
+/// By how much more each piece's curvature rises after the whole step.
+std::vector<double> meant_rises(const DenseCurve& curve, const DenseStep& step);
+
+/// Largest share of the step that keeps curvature on its side where the slope allows no inflection.
+double keeps_side(const DenseCurve& curve, const DenseStep& step);
+
+/// Whether a line begins or ends at the cut: its curvature there is 0 and stays it.
+bool end_of_line(const DenseCurve& curve, std::size_t cut);
+
+}  // namespace keyline::fairing::detail
