@@ -1,4 +1,4 @@
-import { Client, takeToken } from "./api/client.ts";
+import { ServerClient, takeToken } from "./api/server.ts";
 import { Studio } from "./studio.ts";
 
 declare global {
@@ -7,7 +7,7 @@ declare global {
   }
 }
 
-const client = new Client(takeToken(location, sessionStorage));
+const client = new ServerClient(takeToken(location, sessionStorage));
 client.warm();
 if (location.hash) history.replaceState(null, "", location.pathname);
 window.keyline = new Studio(client, document.getElementById("studio") as HTMLElement);

@@ -1,5 +1,5 @@
 /** The page put together. */
-import { Client, type Session } from "./api/client.ts";
+import type { Client } from "./api/client.ts";
 import { Canvas } from "./canvas/canvas.ts";
 import { paletteOf } from "./canvas/scene.ts";
 import type { Table } from "./gestures/gesture.ts";
@@ -10,7 +10,7 @@ import { Before } from "./model/before.ts";
 import { Deviation } from "./model/deviation.ts";
 import { added, emptyDoc, entityOf, isShown, type Point, without } from "./model/document.ts";
 import { Live, type Shown } from "./model/live.ts";
-import { exportAs, type Format, isImage, openNamed } from "./model/open.ts";
+import { exportAs, isImage, openNamed } from "./model/open.ts";
 import { DrawableRegion } from "./model/region.ts";
 import { startState, Store } from "./model/state.ts";
 import { actionsPanel, split } from "./panels/actions.ts";
@@ -120,7 +120,7 @@ export class Studio {
       if (now.tool !== before.tool) this.canvas.useTool(now.tool);
       const panel = now.history !== before.history || now.selection !== before.selection || now.underlay?.file !== before.underlay?.file
         || now.underlay?.stages !== before.underlay?.stages || now.underlay?.scale !== before.underlay?.scale || now.measured !== before.measured
-        || now.targeting !== before.targeting;
+        || now.targeting !== before.targeting || now.tool !== before.tool;
       if (panel) this.renderPanel();
       if (now.history !== before.history) this.bar.render();
       const fair = this.panel.querySelector<HTMLButtonElement>("#fair");
@@ -267,7 +267,7 @@ export class Studio {
     input.click();
   }
 
-  export(format: Format): void {
+  export(format: string): void {
     void exportAs(this.client, this.store, this.live, format, (name, content) => this.save(name, content));
   }
 
@@ -310,7 +310,7 @@ export class Studio {
       h("div", { id: "measures-slot" }),
       fairable && this.fair.element(e),
       e && this.target.element(e),
-      e && subject?.entity === e.id && this.classA.element(e),
+      e && subject?.entity === e.id && this.client.can("curve.edit") && this.classA.element(e),
       this.sketch.element(),
       subject && h("section", {}, h("h2", {}, "Comb"), this.looks.combControls()));
     this.renderMeasures();
@@ -343,11 +343,12 @@ export class Studio {
 
   async start(): Promise<void> {
     const keeping = this.autosave.kept(); // both at once: a first curve waits for them
-    const session = await this.client.get<Session>("studio/session");
-    if (!session) {
-      this.store.say("The server does not know this page", "open the address that keyline studio prints", true);
+    const there = await this.client.session();
+    if (!there.ok) {
+      this.store.say(there.error.message, there.error.hint ?? "", true);
       return;
     }
+    const session = there.result;
     this.autosave.files = session.files;
     document.title = session.files[0] ? `${session.files[0]} \u2013 Keyline Studio` : "Keyline Studio";
     const kept = await keeping;

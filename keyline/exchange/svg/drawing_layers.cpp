@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/svg/cubic_path.h"
 
 namespace keyline::exchange {
@@ -46,6 +47,15 @@ std::vector<SvgLayer> drawing_layers(const document::Document& document, double 
     written.notes.push_back(std::to_string(document.surfaces.size()) +
                             " surfaces are not in the drawing");
   return layers.take();
+}
+
+SvgWriteOptions drawing_options(const document::Document& document, const Written& written) {
+  SvgWriteOptions options;
+  if (!document.unit.empty()) options.unit = document.unit;
+  options.page = document.page;
+  options.title = "Keyline: cubic B\u00E9ziers within " + core::number_text(written.deviation, 3) +
+                  " of the exact curve";
+  return options;
 }
 
 }  // namespace keyline::exchange

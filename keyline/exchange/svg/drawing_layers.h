@@ -14,4 +14,8 @@ namespace keyline::exchange {
 std::vector<SvgLayer> drawing_layers(const document::Document& document, double tolerance,
                                      Written& written);
 
+/// How that drawing is written: in the document's unit (mm where it has none), on its page, its
+/// title telling the deviation in `written`.
+SvgWriteOptions drawing_options(const document::Document& document, const Written& written);
+
 }  // namespace keyline::exchange

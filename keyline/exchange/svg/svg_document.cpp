@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "keyline/core/text.h"
 #include "keyline/exchange/json/json_document.h"
 #include "keyline/exchange/json/json_text.h"
 #include "keyline/exchange/svg/drawing_layers.h"
@@ -90,9 +89,6 @@ Document document_of(SvgContents svg) {
   return document;
 }
 
-/// The unit the file is written in; a drawing without unit is taken as mm.
-std::string svg_unit(const std::string& unit) { return unit.empty() ? "mm" : unit; }
-
 }  // namespace
 
 Result<Document> read_svg_document(std::string_view bytes) {
@@ -119,11 +115,7 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
     return core::fail(core::ErrorCode::bad_input, "there is no planar curve to draw",
                       "choose a format of space (.step, .iges, .dxf, .json)");
   const std::vector<SvgLayer> layers = drawing_layers(document, tolerance, written);
-  SvgWriteOptions options;
-  options.unit = svg_unit(document.unit);
-  options.page = document.page;
-  options.title = "Keyline: cubic B\u00E9ziers within " + core::number_text(written.deviation, 3) +
-                  " of the exact curve";
+  SvgWriteOptions options = drawing_options(document, written);
   const auto plain = write_svg(layers, options);
   if (!plain) return std::unexpected(plain.error());
   const auto read = read_svg(*plain);

@@ -63,17 +63,24 @@ export class Autosave {
     const doc = this.store.state.history.now;
     if (doc === this.saved) return;
     const text = this.text();
+    const here = this.keepHere(text);
+    if (await this.client.keep(text)) this.saved = doc;
+    else if (!here) this.store.say("This is more than the browser keeps", "save it as a Keyline document", true);
+  }
+
+  private keepHere(text: string): boolean {
     try {
       this.storage.setItem(kHere, text);
+      return true;
     } catch {
-      this.storage.removeItem(kHere); // larger than the browser keeps: the server's copy stands
+      this.storage.removeItem(kHere); // larger than the browser keeps
+      return false;
     }
-    if (await this.client.keep(text)) this.saved = doc;
   }
 
   /** The newest of what either keeps; null: nothing. */
   async kept(): Promise<Kept | null> {
-    const there = await this.client.get<unknown>("studio/recovery");
+    const there = await this.client.kept();
     let here: unknown = null;
     try {
       here = JSON.parse(this.storage.getItem(kHere) ?? "null");

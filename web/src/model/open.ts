@@ -52,11 +52,8 @@ export async function openNamed(client: Client, store: Store, file: string): Pro
   return ids;
 }
 
-export const formats = ["json", "svg", "dxf", "step", "iges", "csv", "pdf", "png", "html"] as const;
-export type Format = (typeof formats)[number];
-
 /** What is shown, as a file of that format; says what could not be held and how far it is off. */
-export async function exportAs(client: Client, store: Store, live: Live, format: Format,
+export async function exportAs(client: Client, store: Store, live: Live, format: string,
                                save: (name: string, content: Blob) => void): Promise<void> {
   const doc = store.doc;
   const curves = doc.entities.filter((e) => isShown(doc, e)).flatMap((e): object[] => {

@@ -1,6 +1,5 @@
 /** Opening, undoing, taking home. */
 import type { Studio } from "../studio.ts";
-import { formats, type Format } from "../model/open.ts";
 import { iconButton } from "../ui/controls.ts";
 import { fill, h } from "../ui/dom.ts";
 import { icons } from "../ui/icons.ts";
@@ -39,13 +38,13 @@ export class FileBar {
   private exporting(): HTMLElement {
     const choose = h("select", { id: "export", "aria-label": "Export" },
       h("option", { value: "" }, "Export\u2026"),
-      ...formats.map((f) => h("option", { value: f }, f.toUpperCase())),
+      ...this.studio.client.formats.map((f) => h("option", { value: f }, f.toUpperCase())),
       h("option", { value: kClipboard }, "Copy as SVG"),
       h("option", { value: kDocument }, "Keyline document"));
     choose.addEventListener("change", () => {
       if (choose.value === kClipboard) void this.studio.copy();
       else if (choose.value === kDocument) this.studio.saveDocument();
-      else if (choose.value) this.studio.export(choose.value as Format);
+      else if (choose.value) this.studio.export(choose.value);
       choose.value = "";
     });
     return choose;

@@ -70,11 +70,11 @@ export class SketchPanel {
     });
     this.store.set({ work: { doing: "looking at the picture", fraction: 0, cancel: work.cancel } });
     const answer = await work.answer;
+    const stages = answer.ok ? await Promise.all((answer.result.stages ?? []).map(async (stage) =>
+      ({ name: stage.name ?? "", url: await pictureOf(stage) }))) : [];
     this.store.set({ work: null });
     if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", true);
     const { doc, ids } = withStrokes(this.store.state.history.now, answer.result, underlay);
-    const stages = await Promise.all((answer.result.stages ?? []).map(async (stage) =>
-      ({ name: stage.name ?? "", url: await pictureOf(stage) })));
     for (const old of underlay.stages) URL.revokeObjectURL(old.url);
     this.put({ stages, stage: stages.some((s) => s.name === underlay.stage) ? underlay.stage : "" });
     this.store.commit("Trace", doc, { selection: ids.slice(0, 1) });
@@ -98,9 +98,15 @@ export class SketchPanel {
       h("div", { class: "row" }, button("Scale by two points", () => this.store.set({ tool: "measure" }), { id: "scale-picture" }),
         button("Remove", () => this.store.set({ underlay: null }))),
       this.scaling(underlay),
+      ...(this.client.can("sketch.trace") ? this.tracing(underlay) : []));
+  }
+
+  private tracing(underlay: Underlay): (HTMLElement | false)[] {
+    return [
       h("h3", {}, "Lines"),
       ...this.wishing(underlay),
-      h("div", { class: "row" }, button("Trace its lines", () => void this.trace(), { id: "trace", class: "primary" })));
+      h("div", { class: "row" }, button("Trace its lines", () => void this.trace(), { id: "trace", class: "primary" })),
+    ];
   }
 
   /** Two points have been clicked: how far are they apart? */

@@ -2,13 +2,13 @@
 import { type ChildProcess, spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { availableParallelism, loadavg, tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
-import { type Browser, type BrowserContext, chromium, type Page } from "playwright-core";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { openBrowser, source, visit, type Visit } from "./open.ts";
 
-export const source = join(dirname(fileURLToPath(import.meta.url)), "../../..");
-const kPatience = 120_000; // ms: how fast the machine is, is not what is asked
+export { openBrowser, source, visit, type Visit } from "./open.ts";
+
 export const token = "0123456789abcdef";
 
 /** Whether the machine has time for us alone: only then a measured time says something of us. */
@@ -63,34 +63,6 @@ export class Server {
     await this.end();
     rmSync(this.state, { recursive: true, force: true });
   }
-}
-
-export async function openBrowser(): Promise<Browser> {
-  return chromium.launch({
-    executablePath: process.env.KEYLINE_CHROMIUM as string,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-  });
-}
-
-export interface Visit {
-  page: Page;
-  context: BrowserContext;
-  /** what the page complained of */
-  errors: string[];
-}
-
-export async function visit(browser: Browser, url: string, size = { width: 1280, height: 800 }): Promise<Visit> {
-  const context = await browser.newContext({ viewport: size, colorScheme: "dark", acceptDownloads: true });
-  const page = await context.newPage();
-  page.setDefaultTimeout(kPatience);
-  const errors: string[] = [];
-  page.on("pageerror", (e) => errors.push(e.message));
-  page.on("console", (m) => {
-    if (m.type() === "error") errors.push(m.text());
-  });
-  await page.goto(url);
-  await page.waitForFunction(() => window.keyline?.live.settled && window.keyline.store.doc.entities.length > 0);
-  return { page, context, errors };
 }
 
 /** Where a point of the model is on the page. */

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { eventsOf, takeToken } from "../../src/api/client.ts";
+import { eventsOf, takeToken } from "../../src/api/server.ts";
 
 function inPieces(text: string, size: number): ReadableStream<Uint8Array> {
   const bytes = new TextEncoder().encode(text);
