@@ -180,6 +180,21 @@ export function paintPoints(g: Pen, view: Viewport, points: readonly Point[], co
   g.fill();
 }
 
+/** Crosses: points that were left out. */
+export function paintStrays(g: Pen, view: Viewport, points: readonly Point[], color: string): void {
+  g.strokeStyle = color;
+  g.lineWidth = 1.5;
+  g.beginPath();
+  for (const p of points) {
+    const [x, y] = view.toScreen(p);
+    g.moveTo(x - 4, y - 4);
+    g.lineTo(x + 4, y + 4);
+    g.moveTo(x - 4, y + 4);
+    g.lineTo(x + 4, y - 4);
+  }
+  g.stroke();
+}
+
 /** The place that is hovered, with its tooth. */
 export function paintMark(g: Pen, view: Viewport, comb: Comb, sample: number, scale: number, colors: Palette): void {
   const p = comb.points[sample] as Point | undefined;

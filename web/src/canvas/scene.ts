@@ -1,13 +1,13 @@
 /** All that stands on the canvas, back to front. */
 import { jointOf } from "../gestures/joint.ts";
-import { type Comb, type Entity, entityOf, isHeld, isShown, type Point } from "../model/document.ts";
+import { type Comb, type Entity, entityOf, isHeld, isShown, lineOf, type Point } from "../model/document.ts";
 import type { DeviationTold } from "../model/deviation.ts";
 import type { Live } from "../model/live.ts";
 import type { DrawableRegion } from "../model/region.ts";
 import { docOf, type State } from "../model/state.ts";
 import type { Viewport } from "../view/viewport.ts";
 import {
-  paintComb, paintCurve, paintDeviation, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints, paintStretch,
+  paintComb, paintCurve, paintDeviation, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints, paintStrays, paintStretch,
 } from "./curves.ts";
 import { kRuler, paintGrid, paintRulers } from "./grid.ts";
 import { paintHandles } from "./handles.ts";
@@ -45,7 +45,8 @@ function paintEntity(g: CanvasRenderingContext2D, scene: Scene, e: Entity, color
   const { state, view, live } = scene;
   const selected = state.selection.includes(e.id);
   if (e.kind === "scan") {
-    paintPoints(g, view, e.line.points as Point[], selected ? colors.text : colors.point);
+    paintPoints(g, view, lineOf(e).points as Point[], selected ? colors.text : colors.point);
+    paintStrays(g, view, (e.strays ?? []).map((i) => e.line.points[i] as Point), colors.bad);
     return;
   }
   const shown = live.of(e.id);

@@ -4,6 +4,7 @@ import type { ToolName } from "../model/state.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Measuring } from "./measure.ts";
 import { Idle, Panning } from "./select.ts";
+import { ClickingStrays } from "./stray.ts";
 
 interface Recipe {
   /** clicks that complete it; Infinity: until it is ended */
@@ -104,6 +105,7 @@ class PanningWithin extends Panning {
 
 export function gestureFor(table: Table, tool: ToolName): Gesture {
   if (tool === "measure") return new Measuring(table);
+  if (tool === "strays") return new ClickingStrays(table);
   const recipe = recipes[tool];
   return recipe ? new Drawing(table, tool, recipe) : new Idle(table);
 }

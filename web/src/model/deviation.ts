@@ -1,7 +1,7 @@
 /** How far the points of a scan lie from what fairing made of them. */
 import type { Curve, CurveDeviationResult } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
-import { entityOf } from "./document.ts";
+import { entityOf, lineOf } from "./document.ts";
 import type { Store } from "./state.ts";
 
 export interface DeviationTold {
@@ -24,7 +24,7 @@ export class Deviation {
     const known = this.known.get(e.curve);
     if (known === undefined) {
       this.known.set(e.curve, null);
-      void this.ask(e.curve, scan.line.points);
+      void this.ask(e.curve, lineOf(scan).points);
     }
     return known ? { places: known, tolerance: e.told.tolerance } : undefined;
   }

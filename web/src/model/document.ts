@@ -63,6 +63,8 @@ export interface Fixed extends Common {
   curve: Curve;
   /** what it was made of, to be looked at beside it */
   before?: Curve;
+  /** of a traced line: the drawn strokes it stands for, by their numbers from 0 */
+  members?: readonly number[];
 }
 /** A curve on its way to Class A: the operation slides it whenever the hand moves its place. */
 export interface Sliding extends Common {
@@ -77,6 +79,8 @@ export interface Sliding extends Common {
 export interface Scan extends Common {
   kind: "scan";
   line: KeyLine;
+  /** points left out by hand, by their places in the line */
+  strays?: readonly number[];
 }
 /** What fairing made of measured points or of a curve. */
 export interface Faired extends Common {
@@ -175,6 +179,28 @@ export function without(doc: Doc, ids: readonly number[]): Doc {
     for (const e of doc.entities) if (needs(e).some((id) => gone.has(id))) gone.add(e.id);
   }
   return { ...doc, entities: doc.entities.filter((e) => !gone.has(e.id)) };
+}
+
+export function toggledStray(e: Scan, index: number): Scan {
+  const strays = e.strays ?? [];
+  const others = strays.filter((i) => i !== index);
+  return { ...e, strays: others.length < strays.length ? others : [...strays, index].sort((a, b) => a - b) };
+}
+
+/** What is measured without the points left out. */
+export function lineOf(e: Scan): KeyLine {
+  const out = new Set(e.strays ?? []);
+  if (out.size === 0) return e.line;
+  const stays = (_: unknown, i: number) => !out.has(i);
+  const places = e.line.points.map((_, i) => i).filter((i) => !out.has(i));
+  const { weights, sources, corners } = e.line;
+  return {
+    ...e.line,
+    points: e.line.points.filter(stays),
+    ...(weights && { weights: weights.filter(stays) }),
+    ...(sources && { sources: sources.filter(stays) }),
+    ...(corners && { corners: corners.flatMap((i) => (out.has(i) ? [] : [places.indexOf(i)])) }),
+  };
 }
 
 const layerOf = (doc: Doc, e: Entity) => doc.layers.find((l) => l.name === e.layer);

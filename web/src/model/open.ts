@@ -1,7 +1,7 @@
 /** Files into the document and out of it. */
 import type { Curve, DocumentReadResult, KeyLine, NamedCurve, Surface } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
-import { added, type Doc, type Fresh, isShown } from "./document.ts";
+import { added, type Doc, type Fresh, isShown, lineOf } from "./document.ts";
 import type { Live } from "./live.ts";
 import type { Store } from "./state.ts";
 
@@ -58,7 +58,7 @@ export async function exportAs(client: Client, store: Store, live: Live, format:
   const doc = store.doc;
   const curves = doc.entities.filter((e) => isShown(doc, e)).flatMap((e): object[] => {
     const label = { name: e.name, layer: e.layer, ...(e.color ? { color: e.color } : {}) };
-    if (e.kind === "scan") return [{ ...label, line: e.line }];
+    if (e.kind === "scan") return [{ ...label, line: lineOf(e) }];
     const curve = live.of(e.id)?.curve;
     return curve ? [{ ...label, curve }] : [];
   });

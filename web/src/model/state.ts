@@ -4,7 +4,7 @@ import { emptyDoc } from "./document.ts";
 import { committed, type History, redone, started, undone } from "./history.ts";
 
 export type ToolName =
-  | "select" | "segment" | "compound" | "s-shape" | "spline" | "quasi" | "measure";
+  | "select" | "segment" | "compound" | "s-shape" | "spline" | "quasi" | "measure" | "strays";
 
 export interface Hover {
   entity: number;

@@ -3,7 +3,7 @@ import {
   type Curve, defaultsOfFair, type FairedPiece, type FairRequest, type FairResult,
 } from "../../generated/operations.ts";
 import type { Client, LongWork } from "../api/client.ts";
-import { added, type Entity, type Faired, type FairTold, type Fresh, type Scan } from "../model/document.ts";
+import { added, type Entity, entityOf, type Faired, type FairTold, type Fresh, lineOf } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
 import type { Store, Stretch } from "../model/state.ts";
 import { button, choice, fact, section, slider } from "../ui/controls.ts";
@@ -18,6 +18,8 @@ export interface FairWishes {
   tolerance: number;
   smoothness: number;
   criterion: Criterion;
+  /** what the curve may not pass, as `fair --keep-inside` has it: y>=0 */
+  inside: string;
 }
 
 const kCriteria: Record<Criterion, string> = { "least-variation": "calmest curvature", "fewest-pieces": "fewest pieces" };
@@ -26,10 +28,11 @@ function requestOf(e: Entity, live: Live, wishes: FairWishes): FairRequest {
   const curve = live.of(e.id)?.curve;
   const calm = wishes.criterion === "least-variation" ? { smoothness: wishes.smoothness } : {};
   return {
-    ...(e.kind === "scan" ? { line: e.line } : curve ? { curve } : {}),
+    ...(e.kind === "scan" ? { line: lineOf(e) } : curve ? { curve } : {}),
     criterion: wishes.criterion,
     ...(wishes.smoothness === defaultsOfFair.smoothness ? {} : calm),
     ...(wishes.tolerance > 0 ? { tolerance: wishes.tolerance } : {}),
+    ...(wishes.inside ? { keep_inside: wishes.inside } : {}),
   };
 }
 
@@ -82,7 +85,7 @@ export async function fairIt(client: Client, store: Store, live: Live, e: Entity
 
 export class FairPanel {
   private wishes: FairWishes = {
-    tolerance: 0, smoothness: defaultsOfFair.smoothness, criterion: defaultsOfFair.criterion,
+    tolerance: 0, smoothness: defaultsOfFair.smoothness, criterion: defaultsOfFair.criterion, inside: "",
   };
 
   constructor(private readonly client: Client, private readonly store: Store, private readonly live: Live) {}
@@ -99,7 +102,7 @@ export class FairPanel {
   private points(e: Entity): (HTMLElement | null)[] {
     if (e.kind !== "scan") return [];
     return [h("dl", { class: "facts" },
-      fact("Points", String((e as Scan).line.points.length)),
+      fact("Points", String(lineOf(e).points.length)),
       fact("Noise", measure(e.line.noise ?? 0, 3)),
       fact("Length", measure(e.line.length ?? 0))),
     notes(e.line.notes ?? [])];
@@ -133,10 +136,33 @@ export class FairPanel {
         onInput: (smoothness) => { this.wishes.smoothness = smoothness; },
         onDone: again,
       }),
+      this.keeping(again),
+      this.leaving(e),
       h("div", { class: "row" },
         button(told ? "Fair again" : "Fair", () => this.start(e), { class: "primary", id: "fair", disabled: this.store.state.work !== null }),
         h("span", { class: "quiet" }, this.wishes.tolerance > 0 ? "" : "tolerance by the noise")),
     ];
+  }
+
+  private keeping(again: () => void): HTMLElement {
+    const field = h("input", { type: "text", id: "keep-inside", value: this.wishes.inside, placeholder: "y>=0", "aria-label": "Not past" });
+    field.addEventListener("change", () => {
+      this.wishes.inside = field.value.trim();
+      again();
+    });
+    return h("div", { class: "row" }, h("label", { for: "keep-inside" }, "Not past"), field);
+  }
+
+  /** Points that a click leaves out. */
+  private leaving(e: Entity): HTMLElement | false {
+    const scan = e.kind === "faired" ? entityOf(this.store.doc, e.of) : e;
+    if (scan?.kind !== "scan") return false;
+    const count = scan.strays?.length ?? 0;
+    const clicking = this.store.state.tool === "strays";
+    return h("div", { class: "row" },
+      button(clicking ? "Done" : "Leave points out", () => this.store.set({ tool: clicking ? "select" : "strays" }),
+        { id: "strays", "aria-pressed": String(clicking) }),
+      h("span", { class: "quiet" }, count > 0 ? `${count} left out` : clicking ? "click them" : ""));
   }
 
   private steps(e: Faired, told: FairTold): (HTMLElement | null)[] {

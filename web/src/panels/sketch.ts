@@ -39,7 +39,10 @@ function withStrokes(doc: Doc, answer: SketchTraceResult, under: Underlay): { do
   let now: Doc = { ...doc, entities: doc.entities.filter((e) => !(e.kind === "fixed" && e.layer === kLayer)) };
   const ids: number[] = [];
   for (const [i, stroke] of (answer.strokes ?? []).entries()) {
-    const made = added(now, { kind: "fixed", name: `Stroke ${i + 1}`, layer: kLayer, curve: stroke.curve as Curve });
+    const made = added(now, {
+      kind: "fixed", name: `Stroke ${i + 1}`, layer: kLayer, curve: stroke.curve as Curve,
+      ...(stroke.members && { members: stroke.members }),
+    });
     now = made.doc;
     ids.push(made.id);
   }
@@ -105,8 +108,30 @@ export class SketchPanel {
     return [
       h("h3", {}, "Lines"),
       ...this.wishing(underlay),
+      this.grouping(),
       h("div", { class: "row" }, button("Trace its lines", () => void this.trace(), { id: "trace", class: "primary" })),
     ];
+  }
+
+  /** Which drawn strokes the chosen lines stand for, and what to make of them instead. */
+  private grouping(): HTMLElement | false {
+    const { doc, state } = this.store;
+    const chosen = doc.entities.flatMap((e) => (e.kind === "fixed" && e.members && state.selection.includes(e.id) ? [e.members] : []));
+    const members = chosen.flat();
+    if (chosen.length === 0) return false;
+    const again = (wish: SketchTraceRequest) => {
+      this.wishes = { ...this.wishes, ...wish };
+      void this.trace();
+    };
+    const { join = [], split = [], keep = [] } = this.wishes;
+    const decided = join.length + split.length + keep.length;
+    return h("div", { id: "members" },
+      h("p", { class: "quiet" }, `${chosen.length > 1 ? "The chosen lines stand" : "The chosen line stands"} for stroke${members.length > 1 ? "s" : ""} ${members.join(", ")}`),
+      h("div", { class: "row wrap" },
+        chosen.length > 1 && button("Make them one line", () => again({ join: [...join, members] }), { id: "join-strokes" }),
+        members.length > 1 && button("Take apart", () => again({ split: [...split, members] }), { id: "split-strokes" }),
+        button("Leave as drawn", () => again({ keep: [...keep, ...members] }), { id: "keep-strokes" }),
+        decided > 0 && button("Decide anew", () => again({ join: [], split: [], keep: [] }), { id: "decide-anew" })));
   }
 
   /** Two points have been clicked: how far are they apart? */

@@ -3,7 +3,7 @@ import { iconButton } from "../ui/controls.ts";
 import { fill, h } from "../ui/dom.ts";
 import { icons } from "../ui/icons.ts";
 
-type Railed = Exclude<ToolName, "measure">;
+type Railed = Exclude<ToolName, "measure" | "strays">;
 
 export const tools: readonly { name: Railed; label: string; key: string }[] = [
   { name: "select", label: "Select and drag", key: "V" },

@@ -1,6 +1,6 @@
 import { readFileSync } from "node:fs";
 import { expect, it } from "vitest";
-import { onStage, settled, visit } from "./studio.ts";
+import { onPage, onStage, settled, visit } from "./studio.ts";
 
 onStage("fairing a scan", ["examples/bonnet-scan.csv"], (stage) => {
   const kinds = () => stage.at.page.evaluate(() => window.keyline.store.doc.entities.map((e) => e.kind));
@@ -25,6 +25,35 @@ onStage("fairing a scan", ["examples/bonnet-scan.csv"], (stage) => {
     expect(said).toMatch(/Stopped early|cancelled/i);
     if ((await kinds()).length > 1) await stage.at.page.keyboard.press("Control+z");
     expect(await kinds()).toEqual(["scan"]);
+  });
+
+  it("leaves out what is clicked and keeps to a side", async () => {
+    const { page } = stage.at;
+    const scan = () => page.evaluate(() => {
+      const e = window.keyline.store.doc.entities[0];
+      return e?.kind === "scan" ? { points: e.line.points as [number, number][], strays: e.strays ?? [] } : null;
+    });
+    await page.locator("#entity-1").click();
+    await page.click("#strays");
+    const { points } = (await scan()) ?? { points: [] };
+    for (const index of [100, 300, 300]) { // the second time it comes back
+      const { x, y } = await onPage(page, points[index] as [number, number]);
+      await page.mouse.click(x, y);
+    }
+    expect((await scan())?.strays).toEqual([100]);
+    await page.click("#strays");
+    await page.fill("#keep-inside", "y>=-1000000");
+    const asked = page.waitForRequest("**/api/v1/fair");
+    await page.click("#fair");
+    const request = (await asked).postDataJSON() as { line: { points: unknown[] }; keep_inside: string };
+    expect(request.line.points).toEqual(points.filter((_, i) => i !== 100));
+    expect(request.keep_inside).toBe("y>=-1000000");
+    await page.waitForSelector("#verdict");
+    await settled(page);
+    await page.fill("#keep-inside", "");
+    await page.press("#keep-inside", "Enter");
+    await settled(page);
+    while ((await kinds()).length > 1 || ((await scan())?.strays.length ?? 0) > 0) await page.keyboard.press("Control+z");
   });
 
   it("shows before and after, and the operation's numbers", async () => {

@@ -51,6 +51,34 @@ onStage("making one thing of another", [], (stage) => {
     expect(await stage.at.page.evaluate(() => window.keyline.store.state.underlay?.stage)).toBe("binary");
   });
 
+  it("tells which strokes a line stands for, and makes one line of two", async () => {
+    const { page } = stage.at;
+    const members = () => page.evaluate(() => window.keyline.store.doc.entities
+      .flatMap((e) => (e.kind === "fixed" && e.members ? [[...e.members]] : [])));
+    const choose = (wanted: readonly string[]) => page.evaluate((which) => {
+      const { store } = window.keyline;
+      store.set({ selection: store.doc.entities
+        .filter((e) => e.kind === "fixed" && which.includes(String(e.members))).map((e) => e.id) });
+    }, wanted);
+    await page.check("#trace-consolidate");
+    await page.click("#trace");
+    await settled(page);
+    expect(await members()).not.toContainEqual([4, 5]);
+    await choose(["4", "5"]);
+    expect(await page.locator("#members").textContent()).toContain("strokes 4, 5");
+    await page.click("#join-strokes");
+    await settled(page);
+    expect(await members()).toContainEqual([4, 5]);
+    await choose(["4,5"]);
+    await page.click("#decide-anew");
+    await settled(page);
+    expect(await members()).toEqual(expect.arrayContaining([[4], [5]]));
+    // as it was for what follows
+    await page.uncheck("#trace-consolidate");
+    await page.click("#trace");
+    await settled(page);
+  });
+
   it("drives a stroke to a curvature drawn by hand", async () => {
     const { page } = stage.at;
     const stroke = await page.evaluate(() => {

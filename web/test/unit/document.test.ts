@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { added, emptyDoc, type Entity, handlesOf, moved, type Point, withHandle, without } from "../../src/model/document.ts";
+import { added, emptyDoc, type Entity, handlesOf, lineOf, moved, type Point, type Scan, toggledStray, withHandle, without } from "../../src/model/document.ts";
 import { recipeOf } from "../../src/model/recipe.ts";
 import { isKept, ownDocument } from "../../src/model/autosave.ts";
 
@@ -20,6 +20,14 @@ describe("document", () => {
   it("takes along what was made of a thing that goes", () => {
     expect(without(two().doc, [1]).entities).toEqual([]);
     expect(without(two().doc, [2]).entities.length).toBe(1);
+  });
+
+  it("leaves points out, and what belongs to them", () => {
+    const line = { points: [[0, 0], [1, 9], [2, 0], [3, 0]] as Point[], weights: [1, 2, 3, 4], corners: [1, 2], closed: false };
+    const scan = added(emptyDoc(), { kind: "scan", name: "s", line }).doc.entities[0] as Scan;
+    const without = toggledStray(scan, 1);
+    expect(lineOf(without)).toEqual({ points: [[0, 0], [2, 0], [3, 0]], weights: [1, 3, 4], corners: [1], closed: false });
+    expect(lineOf(toggledStray(without, 1))).toEqual(line);
   });
 
   it("moves one handle, or all of them", () => {
