@@ -58,6 +58,10 @@ export class SurfacePanel {
         }),
         this.scale,
         toggle({ id: "network", label: "Net and its curves", value: looks.network, onChange: (network) => this.stage.look({ network }) }),
+        this.store.doc.entities.filter((x) => x.kind === "surface").length > 1 && toggle({
+          id: "surface-joints", label: "Joints: G2 green, G1 amber, a fold red", value: looks.joints,
+          onChange: (joints) => this.stage.look({ joints }),
+        }),
         e.given && toggle({ id: "surface-before", label: "As it was before", value: looks.before, onChange: (before) => this.stage.look({ before }) })),
       section("Surface aesthetic value", this.table),
       this.editing(e),

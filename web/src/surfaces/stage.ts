@@ -5,6 +5,7 @@ import type { Palette } from "../canvas/palette.ts";
 import { entityOf, isShown, type SurfaceEntity } from "../model/document.ts";
 import type { Store } from "../model/state.ts";
 import { h } from "../ui/dom.ts";
+import { type SurfaceJoint, SurfaceJoints } from "./joints.ts";
 import { type Sampled, Samples, shownRange, type SurfaceLook } from "./mesh.ts";
 import type { NetworkLine, SurfaceView } from "./view.ts";
 
@@ -16,18 +17,26 @@ export interface SurfaceLooks {
   /** as it was before editing */
   before: boolean;
   network: boolean;
+  joints: boolean;
   /** name of a network curve: A1, A2, … */
   chosen: string | null;
 }
 
+/** As good, fair or bad as they are: G2 and better, G1, a fold. */
+const jointColor = (order: SurfaceJoint["order"], colors: Palette): string =>
+  order === "G0" ? colors.bad : order === "G1" ? colors.comb : colors.inflection;
+
 export class SurfaceStage {
   readonly element = h("div", { class: "surface-stage", hidden: true });
   readonly looks: SurfaceLooks = {
-    look: "zebra", stripes: 12, share: 0.95, before: false, network: true, chosen: null,
+    look: "zebra", stripes: 12, share: 0.95, before: false, network: true, joints: true, chosen: null,
   };
   private view: SurfaceView | null = null;
   private loading = false;
   private readonly samples: Samples;
+  private readonly meetings: SurfaceJoints;
+  /** of the surfaces in sight */
+  joints: readonly SurfaceJoint[] = [];
   /** type of each network curve of the chosen surface, for its colour */
   types = new Map<string, number>();
   /** of the values in sight */
@@ -37,6 +46,8 @@ export class SurfaceStage {
   constructor(client: Client, private readonly store: Store) {
     this.samples = new Samples(client);
     this.samples.onCame = () => this.paint();
+    this.meetings = new SurfaceJoints(client);
+    this.meetings.onCame = () => this.paint();
     this.samples.onFailure = (message) => store.say(message, "", true);
     store.onChange((now, before) => {
       if (now.history.now !== before.history.now || now.selection !== before.selection || now.looks.theme !== before.looks.theme)
@@ -82,13 +93,15 @@ export class SurfaceStage {
     if (!subject) return;
     if (!this.view) return void this.load();
     const { looks } = this;
-    const sampled = this.surfacesInSight().map((e) =>
-      this.samples.of(looks.before && e.given ? e.given : e.surface, looks.look));
+    const surfaces = this.surfacesInSight().map((e) => (looks.before && e.given ? e.given : e.surface));
+    const sampled = surfaces.map((s) => this.samples.of(s, looks.look));
     const there = sampled.filter((s): s is Sampled => s !== null);
     if (there.length === 0) return;
     this.range = shownRange(there.map((s) => s.values), looks.share);
     const colors = paletteOf(this.store.state);
+    this.joints = looks.joints ? this.meetings.of(surfaces) : [];
     this.view.show({
+      joints: this.joints.map(({ order, points }) => ({ points, color: jointColor(order, colors) })),
       surfaces: there, range: this.range, look: looks.look, stripes: looks.stripes, colors,
       network: looks.network ? this.network(looks.before && subject.given ? subject.given : subject.surface, colors) : [],
     });

@@ -22,6 +22,7 @@ export interface SurfaceScene {
   look: SurfaceLook;
   stripes: number;
   network: readonly NetworkLine[];
+  joints: readonly { points: readonly (readonly number[])[]; color: string }[];
   colors: Palette;
 }
 
@@ -113,10 +114,19 @@ export class SurfaceView {
       this.content.add(meshOf(sampled, shown.range, material), lineOf(borderOf(sampled), shown.colors.curve));
     }
     for (const line of shown.network) this.content.add(...this.networkLine(line, shown.colors));
+    for (const joint of shown.joints) this.content.add(this.jointLine(joint.points, joint.color));
     this.scene.add(this.content);
     this.scene.background = new Color(shown.colors.ground);
     this.frameOnce(shown.surfaces);
     this.schedule();
+  }
+
+  /** Thick: what one looks for among the borders. */
+  private jointLine(points: readonly (readonly number[])[], color: string): Points {
+    const drawn = lineOf(points, color);
+    const dots = new Points(drawn.geometry, new PointsMaterial({ color: new Color(color), size: 5, sizeAttenuation: false }));
+    dots.renderOrder = 1;
+    return dots;
   }
 
   private networkLine(line: NetworkLine, colors: Palette): (Line | Points)[] {

@@ -53,4 +53,33 @@ onStage("a patch", ["examples/panel-b.json"], (stage) => {
     await page.keyboard.press("Control+z");
     expect(await surface()).toEqual(given);
   });
+
+  it("draws where patches meet, and how well", async () => {
+    const { page } = stage.at;
+    // another patch that goes on over the first row: mirrored at each of its points, so that no fold is there
+    const pair = await page.evaluate(() => {
+      const { store } = window.keyline;
+      const e = store.doc.entities[0];
+      if (e?.kind !== "surface") throw new Error("no surface");
+      const [first] = e.surface.points as number[][][];
+      const points = (e.surface.points as number[][][]).map((row) =>
+        row.map((p, j) => p.map((v, k) => 2 * ((first?.[j] as number[])[k] as number) - v)));
+      const other = { ...e, id: 2, name: "other", surface: { ...e.surface, points } } as typeof e;
+      store.commit("Test", { ...store.doc, next: 3, entities: [...store.doc.entities, other] });
+      return [e.surface, other.surface];
+    });
+    const told = await stage.server.ask<{ order: string }>("surface.continuity", { surfaces: pair });
+    expect(["G1", "G2", "G3"]).toContain(told.order);
+    await page.waitForFunction(() => (window.keyline as unknown as { surfaces: { joints: unknown[] } }).surfaces.joints.length > 0);
+    const drawn = await page.evaluate(() =>
+      (window.keyline as unknown as { surfaces: { joints: { order: string }[] } }).surfaces.joints.map((joint) => joint.order));
+    expect(drawn).toEqual([told.order]);
+    await page.uncheck("#surface-joints");
+    expect(await page.evaluate(() => (window.keyline as unknown as { surfaces: { joints: unknown[] } }).surfaces.joints.length)).toBe(0);
+    if (process.env["KEYLINE_PICTURES"]) {
+      await page.check("#surface-joints");
+      await page.screenshot({ path: `${process.env["KEYLINE_PICTURES"]}/joints.png` });
+    }
+    await page.keyboard.press("Control+z");
+  });
 });
