@@ -14,7 +14,8 @@ import sys
 
 root, keyline = pathlib.Path(sys.argv[1]), sys.argv[2]
 out = root / "build/site/pages"
-OUTSIDE = ["README.md", "examples/README.md", "bench/README.md", "bindings/python/README.md", "CHANGELOG.md"]
+OUTSIDE = ["README.md", "examples/README.md", "bench/README.md", "bindings/python/README.md",
+           "bindings/wasm/README.md", "CHANGELOG.md"]
 ROOMS = re.compile(r"IN ITEMS([a-z_\s]+)\)")
 
 

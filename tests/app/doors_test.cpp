@@ -1,10 +1,13 @@
 #include <cmath>
+#include <cstdlib>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "keyline/numeric/instruction_set.h"
+#include "keyline/operations/curve_registry.h"
 #include "keyline/operations/perform.h"
 #include "keyline/operations/schema.h"
 
@@ -150,17 +153,26 @@ TEST(Doors, CommandLineAndBatchAnswerAlikeToTheLastBit) {
   EXPECT_GT(good, all.size() / 2);  // most are answered, not refused
 }
 
-/// What another door makes of all requests (its command reads them, a line each, and writes
-/// {"ok", "result" or "message"} for each) is what batch makes of them.
-void expect_as_batch(const std::string& door, std::vector<Case> all) {
+struct BothAnswers {
+  std::vector<json> batch, door;
+};
+
+/// What batch and another door make of all requests. The door's command reads them, a line each,
+/// and writes {"ok", "result" or "message"} for each.
+BothAnswers both_answers(const std::string& door, const std::vector<Case>& all,
+                         const std::string& environment = "") {
   const Scratch s;
   const std::string requests = s.write("requests", lines_of(all));
-  const Outcome batch = run_keyline("batch --quiet <" + requests, kThere);
-  ASSERT_EQ(batch.status, 0) << batch.err;
+  const Outcome batch = run_keyline("batch --quiet <" + requests, kThere + environment);
+  EXPECT_EQ(batch.status, 0) << batch.err;
   const std::string written = s.path("answers");
-  ASSERT_EQ(std::system((kThere + door + " <" + requests + " >" + written).c_str()), 0);
-  const std::vector<json> answers = answers_of(batch.out, all.size());
-  const std::vector<json> others = answers_of(slurp(written), all.size());
+  EXPECT_EQ(std::system((kThere + door + " <" + requests + " >" + written).c_str()), 0);
+  return {answers_of(batch.out, all.size()), answers_of(slurp(written), all.size())};
+}
+
+/// The door answers as batch does.
+void expect_as_batch(const std::string& door, const std::vector<Case>& all) {
+  const auto [answers, others] = both_answers(door, all);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string asked = all[i].operation->name + " " + all[i].request.dump();
     ASSERT_EQ(others[i]["ok"], answers[i]["ok"]) << asked << others[i] << answers[i];
@@ -269,6 +281,81 @@ TEST(Doors, EveryInstructionSetAnswersAlike) {
   }
   // The switch does something: the sets' sums end in different digits.
   EXPECT_TRUE(changed > 0 || numeric::instruction_sets().size() == 1);
+}
+
+struct Looser {
+  std::string_view operation;
+  double tolerance;
+  const char* why;
+};
+
+/// What a page's answers may differ by from the tool's: the C library's sines and logarithms round
+/// otherwise, which searches and differences of differences make larger.
+constexpr Looser kOnPages[] = {
+    {"curve.analyze", 1e-5, "readings end where the steps of their search are small"},
+    {"curve.diagrams", 1e-8, "so does the self-affinity's scale"},
+    {"curve.offset", 1e-10, "fitted until it is near enough"},
+    {"fit.curvature", 1e-11, "iterated until it is near enough"},
+    {"lac.quasi", 1e-12, "the slope of its graph is measured on differences"},
+    {"lac.space", 1e-9, "torsion's slopes are measured on third differences"},
+};
+
+double tolerance_on_pages(const std::string& operation) {
+  for (const Looser& looser : kOnPages)
+    if (looser.operation == operation) return looser.tolerance;
+  return 1e-13;
+}
+
+/// Without what rounding decides: how many steps a search took, which of several places as far off
+/// is named.
+json without_ties(const std::string& operation, json answer) {
+  if (!answer.is_object() || answer["ok"] != true) return answer;
+  if (operation == "fit.curvature") answer["result"].erase("iterations");
+  if (operation ==
+      "curve.analyze")  // the best reading; what else is thinkable is hardly determined
+    for (json& piece : answer["result"]["pieces"])
+      if (json& readings = piece["interpretations"]; readings.size() > 1)
+        readings.erase(readings.begin() + 1, readings.end());
+  if (operation == "curve.compare")
+    for (json& deviation : answer["result"]["deviation"]) {
+      deviation.erase("at");
+      deviation.erase("place");
+    }
+  return answer;
+}
+
+/// The operations compiled for a page (bindings/wasm), asked in Chromium; plain doubles on both
+/// sides. ./dev wasm test builds the page and runs this.
+TEST(Doors, PageWithoutServerAndBatchAnswerAlike) {
+  const char* const page = std::getenv("KEYLINE_WASM_PAGE");
+  if (!page) GTEST_SKIP() << "./dev wasm test runs this: it needs Emscripten";
+  std::set<std::string> there;
+  for (const Operation& operation : operations::curve_operations()) there.insert(operation.name);
+  std::vector<Case> all = cases();
+  std::erase_if(all, [&](const Case& c) { return !there.contains(c.operation->name); });
+  const auto [answers, others] = both_answers(
+      "node web/node_modules/vite-node/vite-node.mjs web/test/static/door.ts " + std::string(page),
+      all, "KEYLINE_SIMD=scalar ");
+  std::size_t absent = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string& operation = all[i].operation->name;
+    const json& other = others[i];
+    if (other["ok"] == false &&
+        other["message"].get<std::string>().ends_with("a page without a server")) {
+      ++absent;
+      continue;
+    }
+    json answer = answers[i];
+    if (answer["ok"] == false) answer = {{"ok", false}, {"message", answer["error"]["message"]}};
+    answer.erase("id");
+    json said = other;
+    said.erase("id");
+    answer = without_ties(operation, promised(operation, std::move(answer)));
+    said = without_ties(operation, promised(operation, std::move(said)));
+    EXPECT_EQ(difference(answer, said, tolerance_on_pages(operation)), "")
+        << operation << " " << all[i].request;
+  }
+  EXPECT_LT(absent, all.size() / 10);
 }
 
 TEST(Doors, AnInstructionSetTheProcessorHasNotIsRefused) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# page_test.sh types|units|browser KEYLINE WEB: one part of the page's tests.
+# page_test.sh types|units|browser|static KEYLINE WEB: one part of the page's tests.
 # 77, with the reason, where what it needs cannot be had: npm's packages, a browser.
 set -euo pipefail
 part=$1 keyline=$2 web=$3
@@ -21,5 +21,11 @@ case $part in
     [ -n "$browser" ] || skip "chromium is not installed; ./dev test installs it"
     KEYLINE=$keyline KEYLINE_CHROMIUM=$browser \
       exec node node_modules/vitest/vitest.mjs run --dir test/browser
+    ;;
+  static)
+    browser=${KEYLINE_CHROMIUM:-$(command -v chromium || true)}
+    [ -n "$browser" ] || skip "chromium is not installed; ./dev wasm test installs it"
+    [ -n "${KEYLINE_WASM_PAGE:-}" ] || skip "./dev wasm test runs this: it needs Emscripten"
+    KEYLINE_CHROMIUM=$browser exec node node_modules/vitest/vitest.mjs run --dir test/static
     ;;
 esac
