@@ -8,6 +8,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
+#include "keyline/lac/chain/extend.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -71,17 +72,19 @@ Eigen::VectorXd places_along(const lac::Chain& chain, const std::vector<PointPla
 
 /// The chain with its last piece longer by `more` (shorter where negative) on the same curve.
 std::optional<lac::Chain> lengthened(const lac::Chain& chain, double more) {
-  lac::Chain next = chain;
-  lac::Piece& last = next.pieces.back();
+  const lac::Piece& last = chain.pieces.back();
   const double share = 1 + more / last.length;
   if (share < 0.5 || share > 1.5) return std::nullopt;
-  const double curvature = lac::curvature(last, share);
-  if (!std::isfinite(curvature)) return std::nullopt;
-  const bool turned =
-      (curvature - last.curvature_start) * (last.curvature_end - last.curvature_start) < 0;
-  if (turned || curvature * last.curvature_end < 0) return std::nullopt;
-  last.curvature_end = curvature;
-  last.length *= share;
+  lac::Chain next = chain;
+  if (more > 0) {
+    auto longer = lac::extend(chain, 0, more);
+    if (!longer) return std::nullopt;
+    next = std::move(*longer);
+  } else {
+    next.pieces.back().curvature_end = lac::curvature(last, share);
+    next.pieces.back().length *= share;
+  }
+  if (next.pieces.back().curvature_end * last.curvature_end < 0) return std::nullopt;
   return lac::validate(next) ? std::optional(next) : std::nullopt;
 }
 

@@ -1,7 +1,6 @@
 #include "true_curves.h"
 
 #include <cstdlib>
-#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -35,10 +34,7 @@ TEST(TrueCurves, CarryTheJudgesOfRealInput) {
     const auto result = fair(line);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_EQ(result->closed, curve.closed);
-    // The hyperbola's answer comes 1 % above its tolerance, and says so: not yet mended.
-    if (std::string_view(curve.name) != "hyperbola") {
-      EXPECT_EQ(testing::judge(*result, line.points).fault, "");
-    }
+    EXPECT_EQ(testing::judge(*result, line.points).fault, "");
     const testing::Away away = testing::away_from(curve, places_on(*result));
     if (curve.noise > 0) {
       EXPECT_LE(away.rms, curve.noise);
