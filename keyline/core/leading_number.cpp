@@ -31,7 +31,7 @@ std::optional<LeadingNumber> leading_number(std::string_view text) {
   const auto [end, error] = std::from_chars(from, text.data() + text.size(), number.value);
   number.length = static_cast<std::size_t>(end - text.data());
   if (error == std::errc::result_out_of_range)
-    number.value = is_below_one({from, end}) ? 0 : HUGE_VAL;
+    number.value = is_below_one({from, static_cast<std::size_t>(end - from)}) ? 0 : HUGE_VAL;
   else if (error != std::errc() || !std::isfinite(number.value))
     return std::nullopt;
   return number;

@@ -244,11 +244,13 @@ double tolerance_of(const std::string& operation) {
 }
 
 /// What is compared of an answer. A fairing's descent ends where rounding lets it, so that its last
-/// digits are not promised; only that there is an answer. Of the best form of a quasi curve the
-/// deviation is promised; how its points run along it is left to rounding.
+/// digits are not promised; only that there is an answer. Of the forms of a quasi curve that a
+/// search fits the deviation is promised; how their points run along it is left to rounding.
 json promised(const std::string& operation, json answer) {
   if (operation == "fair") return answer["ok"];
-  if (operation == "lac.quasi" && answer["ok"] == true && answer["result"]["form"] == "best") {
+  if (operation != "lac.quasi" || answer["ok"] != true) return answer;
+  const json form = answer["result"]["form"];
+  if (form == "best" || form == "rational-cubic") {
     answer["result"].erase("curve");
     answer["result"].erase("lcg");
   }
