@@ -223,31 +223,6 @@ core::Result<RhythmReading> classify_rhythm(const CurvatureProfile& piece,
   return reading;
 }
 
-core::Result<Interpretation> interpret_as(const CurvatureProfile& piece, Rhythm rhythm,
-                                          const RhythmOptions& options) {
-  const auto profile = complete(piece);
-  if (!profile) return std::unexpected(profile.error());
-  const Reader reader(*profile, options);
-  switch (rhythm) {
-    case Rhythm::straight:
-      return reader.straight();
-    case Rhythm::arc:
-      return reader.arcs(1);
-    case Rhythm::arcs:
-      return reader.best_arcs();
-    case Rhythm::minus:
-      return reader.minus();
-    case Rhythm::zero:
-      return reader.zero();
-    case Rhythm::plus:
-      return reader.plus();
-    case Rhythm::plus_minus:
-    case Rhythm::minus_plus:
-      return reader.two_lines(rhythm);
-  }
-  return core::fail(core::ErrorCode::bad_input, "unknown rhythm");
-}
-
 core::Result<Interpretation> interpret_with_slope(const CurvatureProfile& piece, double slope,
                                                   const RhythmOptions& options) {
   if (!std::isfinite(slope))

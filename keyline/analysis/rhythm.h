@@ -98,10 +98,6 @@ struct RhythmReading {
 core::Result<RhythmReading> classify_rhythm(const CurvatureProfile& piece,
                                             const RhythmOptions& options = {});
 
-/// The best reading of the piece as the given rhythm, whatever it scores.
-core::Result<Interpretation> interpret_as(const CurvatureProfile& piece, Rhythm rhythm,
-                                          const RhythmOptions& options = {});
-
 /// The best reading of the piece as one line of the given slope.
 core::Result<Interpretation> interpret_with_slope(const CurvatureProfile& piece, double slope,
                                                   const RhythmOptions& options = {});

@@ -1,5 +1,6 @@
 #include "keyline/analysis/rhythm.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -159,6 +160,10 @@ TEST(Rhythm, InterpretationsAreRankedAndComplete) {
     EXPECT_LE(reading.interpretations[i - 1].score, reading.interpretations[i].score);
   }
   EXPECT_NEAR(share, 1, 1e-12);
+  for (Rhythm r : {Rhythm::straight, Rhythm::arc, Rhythm::arcs, Rhythm::minus, Rhythm::zero,
+                   Rhythm::plus, Rhythm::plus_minus, Rhythm::minus_plus})
+    EXPECT_TRUE(std::ranges::count(reading.interpretations, r, &Interpretation::rhythm) > 0)
+        << rhythm_name(r);
 }
 
 TEST(Rhythm, ReadAsAskedFor) {
@@ -167,9 +172,6 @@ TEST(Rhythm, ReadAsAskedFor) {
   EXPECT_EQ(two_thirds.rhythm, Rhythm::plus);
   EXPECT_DOUBLE_EQ(two_thirds.slopes[0], 2.0 / 3);
   EXPECT_LT(two_thirds.deviation, 1e-9);
-  for (Rhythm r : {Rhythm::straight, Rhythm::arc, Rhythm::arcs, Rhythm::minus, Rhythm::zero,
-                   Rhythm::plus, Rhythm::plus_minus, Rhythm::minus_plus})
-    EXPECT_EQ(interpret_as(arc, r).value().rhythm, r);
   EXPECT_FALSE(interpret_with_slope(arc, std::nan("")));
 }
 
