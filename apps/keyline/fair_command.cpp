@@ -174,8 +174,10 @@ int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& al
   }
   presentation::ReportOptions options = session.report_options();
   options.unit = read.shown["unit"].get<std::string>();
+  const bool cut_short = answer_of(all.back()).cancelled;
   auto written =
-      session.write(presentation::fair_pages(all, options), document_of(all, shown, things, read));
+      session.write(presentation::fair_pages(all, options), document_of(all, shown, things, read),
+                    cut_short ? Session::Ending::kept : Session::Ending::cancellable);
   if (!written) return report_failure(written.error());
   if (all.size() > 1)
     for (std::size_t i = 0; i < all.size(); ++i) shown[i]["id"] = all[i].name;

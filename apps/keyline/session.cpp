@@ -142,21 +142,23 @@ Result<operations::Outcome> Session::perform(const std::string& operation, json 
   return std::unexpected(as_options(outcome.error()));
 }
 
-Result<json> Session::write(const presentation::Pages& pages,
-                            const presentation::Output& output) const {
+Result<json> Session::write(const presentation::Pages& pages, const presentation::Output& output,
+                            Ending ending) const {
+  core::Progress progress = this->progress();
+  if (ending == Ending::kept) progress.cancellation = {};
+  const auto written = presentation::write_files(door_.output, pages, output, progress);
   end_progress();
-  const auto written = presentation::write_files(door_.output, pages, output);
   if (!written) return std::unexpected(as_options(written.error()));
   for (const operations::Written& one : written->written)
     for (const std::string& note : one.notes) say(door_.quiet, one.file + ": " + note);
   return operations::write_json(core::type_of<operations::WriteAnswer>(), &*written);
 }
 
-Result<json> Session::write(const presentation::Pages& pages, json document) const {
+Result<json> Session::write(const presentation::Pages& pages, json document, Ending ending) const {
   if (door_.tolerance && !document.contains("tolerance")) document["tolerance"] = *door_.tolerance;
   const auto output = presentation::output_of(std::move(document));
   if (!output) return std::unexpected(output.error());
-  return write(pages, *output);
+  return write(pages, *output, ending);
 }
 
 void Session::print(const json& shown, const std::string& text) const {

@@ -107,12 +107,16 @@ class Session {
     return record;
   }
 
+  /// Ctrl-C ends writing, or what it cut short is kept and written all the same.
+  enum class Ending { cancellable, kept };
+
   /// Writes the files of -o; says what a format could not hold.
   core::Result<nlohmann::json> write(const presentation::Pages& pages,
-                                     const presentation::Output& output) const;
+                                     const presentation::Output& output,
+                                     Ending ending = Ending::cancellable) const;
   /// The same of a request of document.write; "tolerance" of the door where it has none.
-  core::Result<nlohmann::json> write(const presentation::Pages& pages,
-                                     nlohmann::json document) const;
+  core::Result<nlohmann::json> write(const presentation::Pages& pages, nlohmann::json document,
+                                     Ending ending = Ending::cancellable) const;
 
   /// With --json the object, else the text unless quiet.
   void print(const nlohmann::json& shown, const std::string& text) const;

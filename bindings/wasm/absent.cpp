@@ -34,10 +34,12 @@ Result<Document> read_glif(std::string_view, const std::filesystem::path&) {
   return absent("GLIF");
 }
 Result<Written> write_glif(const Document&, const GlifOptions&) { return absent("GLIF"); }
-Result<Document> read_cad(const std::filesystem::path&, CadFormat) {
+Result<Document> read_cad(const std::filesystem::path&, CadFormat, const core::CancellationToken&) {
   return absent("STEP or IGES");
 }
-Result<Written> write_cad(const Document&, CadFormat, double) { return absent("STEP or IGES"); }
+Result<Written> write_cad(const Document&, CadFormat, double, const core::CancellationToken&) {
+  return absent("STEP or IGES");
+}
 Result<Written> write_pdf_document(const Document&, double) { return absent("PDF"); }
 
 /// Without the exact curves that read_svg_document() would find in it, and says so.

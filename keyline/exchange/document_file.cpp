@@ -79,7 +79,11 @@ Result<Document> mesh_document(const fs::path& file) {
   for (const auto& indices : mesh->lines) {
     curve::Polyline3 line;
     for (const std::uint32_t i : indices) line.points.push_back(mesh->points[i]);
-    const std::string name = "line-" + std::to_string(document.space_curves.size() + 1);
+    const std::string name = "line-" + std::to_string(&indices - mesh->lines.data() + 1);
+    if (!std::ranges::all_of(line.points, [](core::Point3 p) { return core::is_finite(p); })) {
+      document.skipped.push_back(name + ": a vertex of it is no point");
+      continue;
+    }
     document.space_curves.push_back({{name, {}, {}}, {std::move(line)}});
   }
   if (document.space_curves.empty())
@@ -95,8 +99,8 @@ Result<Document> mesh_document(const fs::path& file) {
 Result<Document> document_of(Format format, const fs::path& file, const ReadOptions& options) {
   if (format == Format::points) return points_document(file);
   if (format == Format::mesh) return mesh_document(file);
-  if (format == Format::step) return read_cad(file, CadFormat::step);
-  if (format == Format::iges) return read_cad(file, CadFormat::iges);
+  if (format == Format::step) return read_cad(file, CadFormat::step, options.cancellation);
+  if (format == Format::iges) return read_cad(file, CadFormat::iges, options.cancellation);
   const auto content = read_file(file);
   if (!content) return std::unexpected(content.error());
   switch (format) {
@@ -237,9 +241,9 @@ Result<Written> format_in_unit(const Document& document, const std::string& exte
     return write_glif(document, {.tolerance = share, .grid = options.grid});
   }
   if (extension == ".step" || extension == ".stp")
-    return write_cad(document, CadFormat::step, tolerance);
+    return write_cad(document, CadFormat::step, tolerance, options.cancellation);
   if (extension == ".iges" || extension == ".igs")
-    return write_cad(document, CadFormat::iges, tolerance);
+    return write_cad(document, CadFormat::iges, tolerance, options.cancellation);
   std::string list;
   for (const std::string& name : written_extensions()) list += (list.empty() ? "" : " ") + name;
   return fail(ErrorCode::bad_input, "\"" + extension + "\" is no format that can be written",

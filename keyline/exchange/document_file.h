@@ -4,6 +4,7 @@
 #include <string>
 
 #include "keyline/core/error.h"
+#include "keyline/core/progress.h"
 #include "keyline/document/document.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/file/written.h"
@@ -14,6 +15,7 @@ namespace keyline::exchange {
 
 struct ReadOptions {
   std::string glyphs;  ///< of a font; see read_font()
+  core::CancellationToken cancellation = {};
 };
 
 /// Everything a file holds, in its own unit, transforms applied. The format is that of the
@@ -21,7 +23,7 @@ struct ReadOptions {
 /// is sorted or dropped (room acquire does that).
 /// Returns: a document that holds something; `skipped` lists what it does not hold.
 /// Fails: io for files that cannot be read, bad_input with "file:line" or "file: place" for
-///        contents; bad_input where there is nothing in it to read.
+///        contents; bad_input where there is nothing in it to read; cancelled.
 core::Result<document::Document> read_document(const std::filesystem::path& file,
                                                const ReadOptions& options = {});
 
@@ -30,12 +32,13 @@ struct WriteOptions {
   int samples = 1001;      ///< rows per curve of a table
   bool polylines = false;  ///< dxf: polylines in place of splines
   bool grid = false;       ///< glif: whole numbers
+  core::CancellationToken cancellation = {};
 };
 
 /// The document in the format of `extension` (with its dot, of written_extensions(), or ".pdf": the
 /// planar curves in real size).
 /// Exact curves stay exact where the format has them; the deviation of the rest is in the answer.
-/// Fails: bad_input for other extensions and for what the format's writer refuses.
+/// Fails: bad_input for other extensions and for what the format's writer refuses; cancelled.
 core::Result<Written> format_document(const document::Document& document,
                                       const std::string& extension,
                                       const WriteOptions& options = {});

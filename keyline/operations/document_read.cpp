@@ -8,6 +8,7 @@
 #include "keyline/acquire/section.h"
 #include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
+#include "keyline/core/text.h"
 #include "keyline/document/select.h"
 #include "keyline/exchange/cad/planar_form.h"
 #include "keyline/exchange/document_file.h"
@@ -104,6 +105,18 @@ bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::s
   return !named && wanted == std::to_string(index + 1);
 }
 
+/// What was not taken of a key-line's points, in words.
+void tell_dropped(const KeyLine& line, std::vector<std::string>& skipped) {
+  const std::string of = line.id.empty() ? "" : line.id + ": ";
+  const auto tell = [&](std::size_t count, const char* what) {
+    if (count > 0) skipped.push_back(of + core::counted(count, "point") + what);
+  };
+  tell(line.report.non_finite, " without all coordinates");
+  tell(line.report.outliers, " astray");
+  tell(line.report.apart, " apart from the rest");
+  tell(line.report.averaged, " replaced by means");
+}
+
 /// `skipped` tells what of the file was not taken.
 Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::string& file,
                                          std::vector<std::string>& skipped) {
@@ -118,6 +131,7 @@ Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::s
                         raw->size() > 1 ? file + ": " + curve.id : file);
     if (!line) return std::unexpected(line.error());
     line->id = curve.id;
+    tell_dropped(*line, skipped);
     lines.push_back(std::move(*line));
   }
   if (lines.empty()) {
@@ -239,11 +253,12 @@ void place(NamedCurve& curve, const exchange::Laid& laid) {
   if (laid.plane.axis_y == across) curve.keep_inside = {{fairing::Axis::y, 0.0, {}}};
 }
 
-Result<ReadAnswer> read_curves(const InputRequest& input) {
+Result<ReadAnswer> read_curves(const InputRequest& input, const core::Progress& progress) {
   const std::string& file = input.file.front();
   auto document = exchange::is_mesh_file(file) && !input.section.empty()
                       ? section_document(input, file)
-                      : exchange::read_document(file, {.glyphs = input.glyphs});
+                      : exchange::read_document(
+                            file, {.glyphs = input.glyphs, .cancellation = progress.cancellation});
   if (!document) return std::unexpected(document.error());
   if (auto done = in_file(document::select(*document, input.select), file); !done)
     return std::unexpected(done.error());
@@ -275,7 +290,7 @@ Result<ReadAnswer> read_files(const InputRequest& request, const core::Progress&
     return fail(ErrorCode::bad_input, "several files are parts of one key-line of points",
                 "give one file of curves, or one drawing, at a time", "file");
   if (exchange::has_image_name(file)) return read_drawing(request, progress);
-  if (!points) return read_curves(request);
+  if (!points) return read_curves(request, progress);
   ReadAnswer answer;
   auto lines =
       request.file.size() > 1 ? join_files(request) : acquire_all(request, file, answer.skipped);
@@ -301,6 +316,8 @@ Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress&
     files.push_back(std::move(*opened));
   }
   auto read = read_files(readable, progress);
+  if (read && progress.stop_requested())
+    return fail(ErrorCode::cancelled, "cancelled", {}, request.file.front());
   if (!read)
     for (const exchange::InputFile& file : files)
       read = std::unexpected(file.as_named(read.error()));

@@ -62,21 +62,25 @@ document::Document from_corner(document::Document document) {
 }
 
 Result<WriteAnswer> write(const document::Document& document, const std::vector<std::string>& names,
-                          const FormatOptions& options, bool on_page) {
+                          const FormatOptions& options, bool on_page,
+                          const core::Progress& progress) {
   exchange::OutputFiles files;
   WriteAnswer answer;
   for (const std::string& name : names) {
-    auto written = formatted(document, exchange::extension_of(name), options, on_page);
+    auto written =
+        formatted(document, exchange::extension_of(name), options, on_page, progress.cancellation);
     if (!written) return std::unexpected(exchange::in_file(written.error(), name));
     if (auto done = files.add(name, written->content); !done) return std::unexpected(done.error());
     answer.written.push_back({name, written->deviation, std::move(written->notes)});
   }
+  if (progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (auto done = files.commit(); !done) return std::unexpected(done.error());
   return answer;
 }
 
-Result<WriteAnswer> run(const WriteRequest& request, const Context&) {
-  return write(document_of(request), request.file, request.format, request.on_page);
+Result<WriteAnswer> run(const WriteRequest& request, const Context& context) {
+  return write(document_of(request), request.file, request.format, request.on_page,
+               context.progress);
 }
 
 struct ConvertRequest {
@@ -99,7 +103,7 @@ struct ConvertRequest {
 Result<WriteAnswer> run_convert(const ConvertRequest& request, const Context& context) {
   const auto read = read_input(request.input, context.progress);
   if (!read) return std::unexpected(read.error());
-  return write(document_of(*read), request.to, request.format, is_picture(*read));
+  return write(document_of(*read), request.to, request.format, is_picture(*read), context.progress);
 }
 
 }  // namespace
@@ -137,9 +141,11 @@ document::Document document_of(const ReadAnswer& read) {
 
 Result<exchange::Written> formatted(const document::Document& document,
                                     const std::string& extension, const FormatOptions& options,
-                                    bool on_page) {
-  const exchange::WriteOptions how{
-      .tolerance = options.tolerance, .polylines = options.polylines, .grid = options.grid};
+                                    bool on_page, const core::CancellationToken& cancellation) {
+  const exchange::WriteOptions how{.tolerance = options.tolerance,
+                                   .polylines = options.polylines,
+                                   .grid = options.grid,
+                                   .cancellation = cancellation};
   if (!is_planar_format(extension)) return exchange::format_document(document, extension, how);
   document::Document planar;
   const document::Document* shown = &document;

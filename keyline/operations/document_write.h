@@ -79,9 +79,11 @@ document::Document document_of(const ReadAnswer& read);
 
 /// The document in the format of `extension`. Formats of the plane (svg, glif, pdf) show, where
 /// there is no planar curve, space curves in the coordinates of their own planes, and say so.
+/// Fails: as exchange::format_document().
 core::Result<exchange::Written> formatted(const document::Document& document,
                                           const std::string& extension,
-                                          const FormatOptions& options, bool on_page = false);
+                                          const FormatOptions& options, bool on_page = false,
+                                          const core::CancellationToken& cancellation = {});
 
 /// The formats there are, as extensions with their dot.
 std::vector<std::string> document_extensions();

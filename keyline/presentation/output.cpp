@@ -90,10 +90,13 @@ std::string contents_of(const operations::ReadAnswer& read) {
 }
 
 Result<operations::WriteAnswer> write_files(const std::vector<std::string>& files,
-                                            const Pages& pages, const Output& output) {
+                                            const Pages& pages, const Output& output,
+                                            const core::Progress& progress) {
   exchange::OutputFiles beside;
   operations::WriteAnswer answer;
   for (const std::string& file : files) {
+    progress.report(static_cast<double>(answer.written.size()) / static_cast<double>(files.size()),
+                    "writing " + file);
     const std::string extension = exchange::extension_of(file);
     Result<exchange::Written> written;
     if (const auto page = pages.find(extension); page != pages.end()) {
@@ -103,12 +106,14 @@ Result<operations::WriteAnswer> write_files(const std::vector<std::string>& file
       else
         written = std::unexpected(content.error());
     } else {
-      written = operations::formatted(output.document, extension, output.format, output.on_page);
+      written = operations::formatted(output.document, extension, output.format, output.on_page,
+                                      progress.cancellation);
     }
     if (!written) return std::unexpected(exchange::in_file(written.error(), file));
     if (auto done = beside.add(file, written->content); !done) return std::unexpected(done.error());
     answer.written.push_back({file, written->deviation, std::move(written->notes)});
   }
+  if (progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (auto done = beside.commit(); !done) return std::unexpected(done.error());
   return answer;
 }

@@ -41,8 +41,10 @@ std::string contents_of(const operations::ReadAnswer& read);
 
 /// Writes every file, all of them or none: with its page where there is one for the extension, else
 /// as document.write does. Returns what was written, as document.write tells it.
+/// Fails: as document.write; cancelled, before any file is in place.
 core::Result<operations::WriteAnswer> write_files(const std::vector<std::string>& files,
-                                                  const Pages& pages, const Output& output);
+                                                  const Pages& pages, const Output& output,
+                                                  const core::Progress& progress = {});
 
 /// Pictures into a folder, which is made where it does not exist.
 core::Result<void> write_folder(const std::string& folder,

@@ -107,6 +107,38 @@ TEST(Streams, WaitingForAPipeCanBeInterrupted) {
   expect_failure(stopped, 130, "cancelled");
 }
 
+// The program that reads and writes STEP hangs: Ctrl-C ends both, and the old file stays.
+TEST(Streams, ForeignFormatsCanBeInterrupted) {
+  const Scratch s;
+  const std::string program = s.write("cad", "#!/bin/sh\nexec sleep 60\n");
+  ASSERT_EQ(::chmod(program.c_str(), 0700), 0);
+  const std::string impatient = "KEYLINE_CAD=" + program + " timeout --preserve-status -s INT 1";
+  expect_failure(run_keyline("list " + s.write("a.step", "ISO-10303-21;"), impatient), 130,
+                 "cancelled");
+  const std::string kept = s.write("b.step", "old");
+  expect_failure(run_keyline("convert --quiet " + example("cubic.json") + " -o " + kept, impatient),
+                 130, "cancelled");
+  EXPECT_EQ(slurp(kept), "old");
+  EXPECT_EQ(s.count(), 3U);
+}
+
+// A stray point, a missing coordinate: what is taken out is told by those who only hand on.
+TEST(Streams, WhatIsTakenOutOfPointsIsTold) {
+  const Scratch s;
+  std::string text;
+  for (int i = 0; i < 200; ++i)
+    text += i == 70   ? "90,90\n"
+            : i == 90 ? "1,nan\n"
+                      : std::to_string(50 * std::cos(0.02 * i)) + "," +
+                            std::to_string(30 * std::sin(0.02 * i)) + "\n";
+  const std::string file = s.write("strays.csv", text);
+  for (const std::string& said :
+       {run_keyline("list " + file).out, run_keyline("convert " + file + " -o csv:-").err}) {
+    EXPECT_NE(said.find("skipped: 1 point astray\n"), std::string::npos) << said;
+    EXPECT_NE(said.find("skipped: 1 point without all coordinates\n"), std::string::npos) << said;
+  }
+}
+
 /// A program on a terminal of its own, and what it says there.
 struct OnTerminal {
   int status = -1;

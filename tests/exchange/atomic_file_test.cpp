@@ -88,6 +88,23 @@ TEST_F(Outputs, KeepRightsAndLinks) {
   EXPECT_EQ(status.st_mode & 07777, 0640U);
 }
 
+TEST_F(Outputs, LinksToNothingAreFollowed) {
+  fs::create_directory(folder_ / "sub");
+  fs::create_symlink("sub/made", folder_ / "link");
+  fs::create_symlink("link", folder_ / "link-to-link");
+  ASSERT_TRUE(write_atomically(folder_ / "link-to-link", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link-to-link"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(held("sub/made"), "new");
+  fs::create_symlink("nowhere/made", folder_ / "lost");
+  fs::create_symlink("round", folder_ / "round");
+  for (const char* name : {"lost", "round"}) {
+    EXPECT_FALSE(check_writable(folder_ / name)) << name;
+    EXPECT_FALSE(write_atomically(folder_ / name, "new")) << name;
+    EXPECT_TRUE(fs::is_symlink(folder_ / name)) << name;
+  }
+}
+
 TEST_F(Outputs, UnwritableIsIo) {
   for (const fs::path& path : {folder_ / "no" / "such" / "folder.csv", folder_}) {
     EXPECT_FALSE(check_writable(path));

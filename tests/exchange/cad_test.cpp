@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -138,7 +139,47 @@ TEST_F(Cad, WhatBreaksTheReaderIsAFailureOfTheFile) {
   EXPECT_EQ(answer("echo 'no good; mend it' >&2; exit 1"), "no good");
   EXPECT_THAT(answer("echo '{'"), HasSubstr("not JSON"));
   ::setenv("KEYLINE_CAD", (folder_ / "none").c_str(), 1);
-  EXPECT_EQ(read_cad("/dev/null", CadFormat::step, {}).error().code, core::ErrorCode::unsupported);
+  EXPECT_EQ(read_cad("/dev/null", CadFormat::step, ChildLimits{}).error().code,
+            core::ErrorCode::unsupported);
+}
+
+// Without the last line, section T, or without parameter lines that it counts, the file says so.
+TEST_F(Cad, IgesCutOffIsNotWhole) {
+  document::Document document;
+  document.unit = "mm";
+  for (const double x : {0.0, 1.0, 2.0})
+    document.paths.push_back({{}, {{{curve::Bezier2{{{x, 0}, {x, 5}}, {}}}}, false}, 0});
+  const auto written = write_cad(document, CadFormat::iges, 1e-3);
+  ASSERT_TRUE(written) << written.error().message;
+  const fs::path file = folder_ / "cut.iges";
+  const auto skipped_of = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    const auto read = read_cad(file, CadFormat::iges);
+    return read ? read->skipped : std::vector<std::string>{read.error().message};
+  };
+  const std::string& text = written->content;
+  EXPECT_THAT(skipped_of(text), testing::IsEmpty());
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+  EXPECT_THAT(skipped_of(text.substr(0, last)), testing::Contains(HasSubstr("cut off")));
+  const std::size_t before = text.rfind('\n', last - 2) + 1;
+  EXPECT_THAT(skipped_of(text.substr(0, before) + text.substr(last)),
+              testing::Contains(HasSubstr("not in the file")));
+}
+
+// Asked to stop, the work of the other process ends at once, and what Ctrl-C sends to it too does
+// not look like a broken file.
+TEST(ChildProcess, EndsWhereTheCallerAsks) {
+  const auto token = core::CancellationToken::make();
+  std::jthread impatient([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    token.request_stop();
+  });
+  const auto began = std::chrono::steady_clock::now();
+  const auto child =
+      run_child("/bin/sh", {"-c", "kill -INT $$; kill -TERM $$; exec sleep 60"}, {}, {}, token);
+  ASSERT_TRUE(child);
+  EXPECT_TRUE(child->cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(20));
 }
 
 TEST(ChildProcess, TakesLargeInputAndOutput) {

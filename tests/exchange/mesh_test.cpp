@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using core::Point3;
+using testing::Contains;
 using testing::HasSubstr;
 
 /// A ball of radius 2 about the origin, turned so that no vertex lies in a coordinate plane.
@@ -184,6 +185,38 @@ TEST(Mesh, BadFilesAreFailuresWithThePlace) {
       "ply\nformat binary_little_endian 1.0\nelement vertex 3000000000\nproperty float "
       "x\nend_header\n";
   EXPECT_FALSE(read_ply(huge));
+}
+
+// A number left out shifts all that follow: what is left at the end tells of it.
+TEST(Mesh, PlyOfMoreThanItsHeaderTellsSo) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto whole = read_ply(head + "0 0 0\n1 5 0\n0 1 0\n3 0 1 2\n\n");
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->skipped.empty());
+  const auto shifted = read_ply(head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n");
+  ASSERT_TRUE(shifted);
+  EXPECT_THAT(shifted->skipped, Contains(HasSubstr("behind the last element")));
+}
+
+// Vertices alone are a cloud: a tube of radius 2, cut across.
+TEST(Mesh, ObjWithoutFacesIsCutAsACloud) {
+  const fs::path file =
+      fs::temp_directory_path() / ("keyline-cloud-" + std::to_string(::getpid()) + ".obj");
+  {
+    std::ofstream out(file);
+    for (int i = 0; i < 600; ++i)
+      for (int k = -2; k <= 2; ++k)
+        out << "v " << 2 * std::cos(0.01 * i) << ' ' << 2 * std::sin(0.01 * i) << ' ' << 0.5 * k
+            << '\n';
+  }
+  const auto cut = section_of_file(file, parse_section("z=0").value(), 0.03);
+  fs::remove(file);
+  ASSERT_TRUE(cut) << cut.error().message;
+  ASSERT_EQ(cut->curves.size(), 1U);
+  ASSERT_EQ(cut->curves[0].points.size(), 600U);
+  for (const Point3 p : cut->curves[0].points) EXPECT_NEAR(std::hypot(p.x, p.y), 2, 1e-5);
 }
 
 TEST(Mesh, VerticesRepeatedFaceByFaceAreOne) {

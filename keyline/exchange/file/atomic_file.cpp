@@ -50,6 +50,18 @@ std::string name_by_chance() {
 
 fs::path name_beside(const fs::path& target) { return folder_of(target) / name_by_chance(); }
 
+/// What a link leads to, there already or not; a link where they lead round in circles.
+fs::path target_of(fs::path path) {
+  constexpr int kMost = 40;  // as Linux follows
+  std::error_code error;
+  for (int i = 0; i < kMost && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    const fs::path link = fs::read_symlink(path, error);
+    if (error) break;
+    path = folder_of(path) / link;  // that alone where it is absolute
+  }
+  return path;
+}
+
 /// Takes away what killed runs left in a folder: files named like ours that are ours and that
 /// nobody holds locked.
 void sweep(const fs::path& folder) {
@@ -146,8 +158,10 @@ Result<void> check_writable(const fs::path& path) {
   if (fs::is_directory(status)) return unwritable(path, "it is a folder");
   if (fs::exists(status))
     return ::access(path.c_str(), W_OK) == 0 ? Result<void>() : unwritable(path, reason_of(errno));
-  if (::access(folder_of(path).c_str(), W_OK | X_OK) != 0)
-    return unwritable(path, reason_of(errno));
+  if (const bool unresolved = error && status.type() != fs::file_type::not_found; unresolved)
+    return unwritable(path, error.message());
+  const fs::path folder = folder_of(target_of(path));
+  if (::access((folder / "").c_str(), W_OK | X_OK) != 0) return unwritable(path, reason_of(errno));
   return {};
 }
 
@@ -173,9 +187,8 @@ Result<void> OutputFiles::add(const fs::path& path, std::string_view content) {
     files_.push_back(std::move(file));
     return {};
   }
-  // A link keeps pointing where it did: the file it names is the one replaced.
-  if (fs::is_symlink(fs::symlink_status(path, error)) && fs::exists(status))
-    file.target = fs::canonical(path, error);
+  // A link keeps pointing where it did: the file it names is the one replaced or made.
+  file.target = target_of(path);
   sweep(folder_of(file.target));
   file.beside = name_beside(file.target);
   file.lock = create_locked(file.beside);

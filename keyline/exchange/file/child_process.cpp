@@ -10,6 +10,9 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -19,6 +22,8 @@ namespace keyline::exchange {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr long kPatience = 100;  // ms between looks at the caller's wish
 
 /// A file descriptor that is closed once.
 class Descriptor {
@@ -81,6 +86,10 @@ void limit(int resource, std::size_t most) {
   limit(RLIMIT_AS, limits.memory);
 #endif
   limit(RLIMIT_CORE, 0);
+#ifdef __linux__
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  for (const int asked_to_end : {SIGINT, SIGTERM}) ::signal(asked_to_end, SIG_IGN);
   limit(RLIMIT_CPU, static_cast<std::size_t>(limits.seconds) + 2);
   ::execv(program, arguments);
   ::_exit(127);
@@ -89,14 +98,22 @@ void limit(int resource, std::size_t most) {
 /// Feeds and empties the child's pipes until it is done or its time is over.
 class Talk {
  public:
-  Talk(Pipe& in, Pipe& out, Pipe& err, std::string_view input, const ChildLimits& limits)
-      : in_(in.write), out_(out.read), err_(err.read), input_(input), limits_(limits) {}
+  Talk(Pipe& in, Pipe& out, Pipe& err, std::string_view input, const ChildLimits& limits,
+       const core::CancellationToken& cancellation)
+      : in_(in.write),
+        out_(out.read),
+        err_(err.read),
+        input_(input),
+        limits_(limits),
+        cancellation_(cancellation) {}
 
   /// False where the child has to be killed.
   bool run(ChildResult& result) {
     const auto end = Clock::now() + std::chrono::duration<double>(limits_.seconds);
     if (input_.empty()) in_.close();
     while (out_.open() || err_.open()) {
+      result.cancelled = cancellation_.stop_requested();
+      if (result.cancelled) return false;
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
       if (left <= 0) {
@@ -105,7 +122,7 @@ class Talk {
       }
       std::array<pollfd, 3> polled = {
           {{in_.get(), POLLOUT, 0}, {out_.get(), POLLIN, 0}, {err_.get(), POLLIN, 0}}};
-      if (::poll(polled.data(), polled.size(), static_cast<int>(std::min<long>(left, 1000))) < 0 &&
+      if (::poll(polled.data(), polled.size(), static_cast<int>(std::min(left, kPatience))) < 0 &&
           errno != EINTR)
         return false;
       if (polled[0].revents != 0) feed();
@@ -137,13 +154,15 @@ class Talk {
   Descriptor& err_;
   std::string_view input_;
   ChildLimits limits_;
+  core::CancellationToken cancellation_;
 };
 
 }  // namespace
 
 core::Result<ChildResult> run_child(const std::filesystem::path& program,
                                     const std::vector<std::string>& arguments,
-                                    std::string_view input, const ChildLimits& limits) {
+                                    std::string_view input, const ChildLimits& limits,
+                                    const core::CancellationToken& cancellation) {
   Pipe in;
   Pipe out;
   Pipe err;
@@ -161,7 +180,7 @@ core::Result<ChildResult> run_child(const std::filesystem::path& program,
   err.write.close();
   ::fcntl(in.write.get(), F_SETFL, O_NONBLOCK);
   ChildResult result;
-  if (!Talk(in, out, err, input, limits).run(result)) ::kill(child, SIGKILL);
+  if (!Talk(in, out, err, input, limits, cancellation).run(result)) ::kill(child, SIGKILL);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

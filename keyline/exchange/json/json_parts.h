@@ -86,6 +86,11 @@ core::Result<std::vector<Point>> read_points(const nlohmann::json& j, const std:
   for (std::size_t i = 0; i < j.size(); ++i) {
     const auto p = coordinates(j[i], in(where, i), Point{});
     if (!p) return std::unexpected(p.error());
+    if (j[i].size() != j[0].size())  // a decimal comma makes two numbers of one
+      return core::fail(core::ErrorCode::bad_input,
+                        std::to_string(j[i].size()) + " coordinates where the first point has " +
+                            std::to_string(j[0].size()),
+                        "give every point the same", in(where, i));
     points.push_back(*p);
   }
   return points;

@@ -23,6 +23,10 @@ class PlyReader {
       if (auto done = read(element); !done) return std::unexpected(done.error());
     if (bad_points_ > 0)
       mesh_.skipped.push_back(std::to_string(bad_points_) + " vertices that are not finite");
+    if (!header_.binary && values_.more())
+      mesh_.skipped.push_back(
+          "what stands behind the last element its header tells of: check that no number is "
+          "missing");
     if (bad_faces_ > 0)
       mesh_.skipped.push_back(std::to_string(bad_faces_) + " faces that name no vertices");
     return std::move(mesh_);

@@ -133,6 +133,10 @@ Result<double> PlyValues::word() {
   return *value;
 }
 
+bool PlyValues::more() const {
+  return bytes_.find_first_not_of(" \t\r\n\f\v", position_) != std::string_view::npos;
+}
+
 Result<double> PlyValues::next(PlyType type) {
   if (!header_.binary) return word();
   const std::size_t size = size_of(type);

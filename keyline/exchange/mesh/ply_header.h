@@ -46,6 +46,8 @@ class PlyValues {
   core::Result<double> next(PlyType type);
   /// Where the next value stands, from the start of `bytes`.
   std::size_t position() const { return position_; }
+  /// Whether words are left.
+  bool more() const;
 
  private:
   core::Result<double> word();

@@ -89,6 +89,15 @@ class TextPoints {
   Left left_;
 };
 
+/// Of a file that has to be read whole.
+Result<Left> stream_mesh(const std::filesystem::path& file, const Take& take) {
+  const auto mesh = read_mesh(file);
+  if (!mesh) return std::unexpected(mesh.error());
+  for (const Point3 p : mesh->points)
+    if (core::is_finite(p)) take(p);
+  return mesh->skipped;
+}
+
 /// Vertices of a fixed size, a million bytes at a time.
 Result<Left> stream_vertices(std::istream& in, const detail::PlyHeader& header,
                              const detail::PlyElement& vertex, const Take& take) {
@@ -142,11 +151,7 @@ Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, con
       std::none_of(elements.front().properties.begin(), elements.front().properties.end(),
                    [](const detail::PlyProperty& p) { return p.count.has_value(); });
   if (plain) return stream_vertices(in, *header, elements.front(), take);
-  const auto mesh = read_mesh(file);
-  if (!mesh) return std::unexpected(mesh.error());
-  for (const Point3 p : mesh->points)
-    if (core::is_finite(p)) take(p);
-  return mesh->skipped;
+  return stream_mesh(file, take);
 }
 
 }  // namespace
@@ -156,8 +161,10 @@ Result<std::vector<std::string>> stream_points(const std::filesystem::path& file
   if (const auto head = head_of(file); !head) return std::unexpected(head.error());
   std::ifstream in(file, std::ios::binary);
   const std::string name = file.string();
-  auto done =
-      extension_of(file) == ".ply" ? stream_ply(in, file, take) : TextPoints(in, name, take).read();
+  const std::string extension = extension_of(file);
+  auto done = extension == ".ply"   ? stream_ply(in, file, take)
+              : extension == ".obj" ? stream_mesh(file, take)
+                                    : TextPoints(in, name, take).read();
   if (!done) return std::unexpected(in_file(done.error(), name));
   return done;
 }

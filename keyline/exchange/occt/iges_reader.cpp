@@ -114,7 +114,8 @@ void note_unread(IGESControl_Reader& reader, document::Document& document) {
 }  // namespace
 
 document::Document read_iges(const std::string& file) {
-  if (const std::string bad = bad_iges_value(text_of(file)); !bad.empty())
+  const std::string text = text_of(file);
+  if (const std::string bad = bad_iges_value(text); !bad.empty())
     throw std::runtime_error(bad + "; mend the file");
   IGESControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
@@ -139,6 +140,8 @@ document::Document read_iges(const std::string& file) {
   ShapeWalk walk(document, labels);
   for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
+  if (std::string missing = missing_iges_end(text); !missing.empty())
+    document.skipped.push_back(std::move(missing));
   return document;
 }
 

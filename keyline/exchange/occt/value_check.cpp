@@ -131,6 +131,28 @@ std::string text_of(const std::string& file) {
 
 std::string bad_step_value(std::string_view text) { return StepValues(text).bad(); }
 
+std::string missing_iges_end(std::string_view text) {
+  constexpr std::size_t kSection = 72;  // column of a line's section, from 0
+  std::size_t parameters = 0;
+  std::string_view last;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    if (line.find_first_not_of(" \t\x1a") == line.npos) continue;
+    last = line;
+    parameters += line.size() > kSection && line[kSection] == 'P';
+  }
+  if (last.size() <= kSection || last[kSection] != 'T')
+    return "the rest of the file: it is cut off before its last line (section T)";
+  std::string_view count = last.substr(last.find('P') + 1);
+  count.remove_prefix(std::min(count.find_first_not_of(' '), count.size()));
+  const auto told = core::take_whole<std::size_t>(count);
+  if (!told || *told <= parameters) return {};
+  return core::counted(*told - parameters, "parameter line") + " of " + std::to_string(*told) +
+         " that are not in the file";
+}
+
 std::string bad_iges_value(std::string_view text) {
   constexpr std::size_t kData = 64;  // columns of a parameter line; the entity's number follows
   // Other separators than "," and ";" are named at the start of the global section.

@@ -16,4 +16,8 @@ std::string bad_step_value(std::string_view text);
 /// The same for the parameters of an IGES file's geometry (types 100 to 199; IGES 5.3, 2.2.2).
 std::string bad_iges_value(std::string_view text);
 
+/// What an IGES file lacks at its end, in words: its last line, or parameter lines that the last
+/// one counts (IGES 5.3, 2.2.4.6); empty where it is whole. OCCT reads what is there.
+std::string missing_iges_end(std::string_view text);
+
 }  // namespace keyline::exchange::occt

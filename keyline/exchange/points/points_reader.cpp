@@ -53,6 +53,7 @@ class PointsTable {
   core::Result<void> among_data(std::string_view line, int number, const std::string& place);
   core::Result<void> take_up_again();
   bool first_was_none(const Fields& fields) const;
+  core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
   core::Result<double> number_in(const Fields& fields, int column, const std::string& place) const;
   core::Result<Row> row_of(const Fields& fields, const std::string& place) const;
   void add(Row row, int number);
@@ -74,6 +75,7 @@ class PointsTable {
   bool text_id_ = false;
   std::size_t text_lines_ = 0;
   std::size_t width_ = 0;  // fields of the first row
+  std::size_t most_ = 0;  // the same, or of its header: empty fields at a row's end are not counted
   std::size_t rows_ = 0;
   int first_line_ = 0;
   std::size_t ignored_columns_ = 0;
@@ -121,25 +123,45 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
   }
   auto row = row_of(fields, place);
   if (!row) return std::unexpected(row.error());
+  if (auto done = surplus(fields, number, place); !done) return done;
   if (remark_)
     if (auto again = take_up_again(); !again) return again;
   add(std::move(*row), number);
   return {};
 }
 
-/// A first row of more numbers than the next, as the window before an airfoil's points, is no
-/// point.
+/// Numbers behind the columns of the first row are left out; where commas separate they are rather
+/// what a decimal comma makes of one number, and the row would be read wrongly.
+core::Result<void> PointsTable::surplus(const Fields& fields, int number,
+                                        const std::string& place) {
+  if (fields.size() <= most_) return {};
+  const auto is_number = [&](std::string_view f) {
+    return !f.empty() && detail::parse_number(f, style_).has_value();
+  };
+  if (std::none_of(fields.begin() + static_cast<std::ptrdiff_t>(most_), fields.end(), is_number))
+    return {};
+  if (style_.separator == ',')
+    return core::fail(
+        ErrorCode::bad_input,
+        std::to_string(fields.size()) + " columns where the first row has " + std::to_string(most_),
+        "where numbers have a decimal comma, separate columns by ; or blanks", place);
+  left_out_.push_back("line " + std::to_string(number) + ": what stands behind column " +
+                      std::to_string(most_));
+  return {};
+}
+
+/// A first row of more or fewer numbers than the next, as the window before an airfoil's points or
+/// the count before a list of points in space, is no point.
 bool PointsTable::first_was_none(const Fields& fields) const {
   const bool chosen = !names_.empty() || !options_.columns.empty() || text_id_;
   return rows_ == 1 && !chosen && !remark_ && style_.separator == ' ' && fields.size() >= 2 &&
-         fields.size() < width_ && all_numbers(fields, 0);
+         fields.size() != width_ && all_numbers(fields, 0);
 }
 
 void PointsTable::restart(std::size_t fields, const std::string& place) {
-  misfit_ = {
-      ErrorCode::bad_input,
-      "only " + std::to_string(fields) + " of at least " + std::to_string(width_) + " columns",
-      "give every point all its coordinates", place};
+  misfit_ = {ErrorCode::bad_input,
+             std::to_string(fields) + " columns where the row before has " + std::to_string(width_),
+             "give every point all its coordinates", place};
   left_out_.push_back("line " + std::to_string(first_line_) + ": " +
                       core::counted(width_, "number") + " before the rows of points");
   curves_.clear();
@@ -217,6 +239,9 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
   first_line_ = number;
   unknown_header_ = text_lines_ > 0 && style_.separator != ' ' &&
                     detail::split(last_text_, style_).size() == fields.size();
+  const bool headed = text_lines_ > 0 && style_.separator != ' ';
+  most_ = std::max(
+      {width_, names_.size(), headed ? detail::split(last_text_, style_).size() : std::size_t{0}});
   const auto chosen = detail::choose_columns(names_, options_, width_, text_id_, place);
   if (!chosen) return std::unexpected(chosen.error());
   columns_ = *chosen;

@@ -60,14 +60,16 @@ core::Failure failure_of(const ChildResult& child, CadFormat format) {
 }
 
 Result<ChildResult> run(const std::vector<std::string>& arguments, std::string_view input,
-                        CadFormat format, const ChildLimits& limits) {
+                        CadFormat format, const ChildLimits& limits,
+                        const core::CancellationToken& cancellation) {
   const fs::path program = cad_program();
   if (program.empty())
     return fail(ErrorCode::unsupported,
                 std::string(title_of(format)) + " files need the program keyline-cad",
                 "build with KEYLINE_OCCT, or name the program in KEYLINE_CAD");
-  auto child = run_child(program, arguments, input, limits);
+  auto child = run_child(program, arguments, input, limits, cancellation);
   if (!child) return child;
+  if (child->cancelled) return fail(ErrorCode::cancelled, "cancelled");
   if (child->status != 0 || child->out_of_time) return std::unexpected(failure_of(*child, format));
   return child;
 }
@@ -81,12 +83,14 @@ document::PlanarCurve curve_of(const CadPart& part) {
   return {std::get<curve::BSpline2>(part)};
 }
 
-Result<Document> simplified(const Document& document, double tolerance, double& deviation) {
+Result<Document> simplified(const Document& document, double tolerance, double& deviation,
+                            const core::CancellationToken& cancellation) {
   Document result;
   result.unit = document.unit;
   result.surfaces = document.surfaces;
   for (auto& named : result.surfaces) named.trim_loops.clear();
   for (const auto& named : document.paths) {
+    if (cancellation.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
     const auto parts = cad_parts(named.path, tolerance);
     if (!parts) return std::unexpected(parts.error());
     deviation = std::max(deviation, parts->deviation);
@@ -132,7 +136,8 @@ ChildLimits cad_limits(std::uintmax_t bytes) {
   return limits;
 }
 
-Result<Document> read_cad(const fs::path& file, CadFormat format) {
+Result<Document> read_cad(const fs::path& file, CadFormat format,
+                          const core::CancellationToken& cancellation) {
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(file, error);
   if (error)
@@ -142,22 +147,24 @@ Result<Document> read_cad(const fs::path& file, CadFormat format) {
     return fail(ErrorCode::bad_input,
                 "the file is larger than " + std::to_string(kLargestFile >> 20) + " MB",
                 "split it");
-  return read_cad(file, format, cad_limits(bytes));
+  return read_cad(file, format, cad_limits(bytes), cancellation);
 }
 
-Result<Document> read_cad(const fs::path& file, CadFormat format, const ChildLimits& limits) {
+Result<Document> read_cad(const fs::path& file, CadFormat format, const ChildLimits& limits,
+                          const core::CancellationToken& cancellation) {
   const auto child =
-      run({"read", name_of(format), fs::absolute(file).string()}, {}, format, limits);
+      run({"read", name_of(format), fs::absolute(file).string()}, {}, format, limits, cancellation);
   if (!child) return std::unexpected(child.error());
   return read_json(child->output);
 }
 
-Result<Written> write_cad(const Document& document, CadFormat format, double tolerance) {
+Result<Written> write_cad(const Document& document, CadFormat format, double tolerance,
+                          const core::CancellationToken& cancellation) {
   Written written;
-  const auto simple = simplified(document, tolerance, written.deviation);
+  const auto simple = simplified(document, tolerance, written.deviation, cancellation);
   if (!simple) return std::unexpected(simple.error());
   const std::string text = json_text(*simple, -1);
-  auto child = run({"write", name_of(format)}, text, format, cad_limits(text.size()));
+  auto child = run({"write", name_of(format)}, text, format, cad_limits(text.size()), cancellation);
   if (!child) return std::unexpected(child.error());
   written.content = std::move(child->output);
   return written;

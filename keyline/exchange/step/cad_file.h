@@ -25,15 +25,17 @@ ChildLimits cad_limits(std::uintmax_t bytes);
 /// names, layers and colours, in the file's own unit. Lines stay lines and circular arcs arcs;
 /// everything else is a B-spline. Curves in z = 0 are planar.
 /// Fails: bad_input where the file is no such file or breaks the reader or passes a limit;
-///        unsupported where keyline-cad is not installed; io.
-core::Result<document::Document> read_cad(const std::filesystem::path& file, CadFormat format);
+///        unsupported where keyline-cad is not installed; io; cancelled.
 core::Result<document::Document> read_cad(const std::filesystem::path& file, CadFormat format,
-                                          const ChildLimits& limits);
+                                          const core::CancellationToken& cancellation = {});
+core::Result<document::Document> read_cad(const std::filesystem::path& file, CadFormat format,
+                                          const ChildLimits& limits,
+                                          const core::CancellationToken& cancellation = {});
 
 /// Curves and surfaces with names and unit. Lines, arcs and splines are exact; the rest is within
 /// `tolerance` (cad_parts). Notes a unit CAD files do not have (px, pt): its numbers stand as mm.
 /// Fails: as read_cad; as cad_parts.
 core::Result<Written> write_cad(const document::Document& document, CadFormat format,
-                                double tolerance);
+                                double tolerance, const core::CancellationToken& cancellation = {});
 
 }  // namespace keyline::exchange
