@@ -154,23 +154,30 @@ class Splitter {
                         samples_[i + 1].stretch == here.stretch;
     const Flat* flat = flat_around(i);
     if (!flat && inside) {
-      const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet_at(at)); };
-      t = zero_of(rate, samples_[i - 1].t, samples_[i + 1].t, t);
+      t = turn_within(kind, samples_[i - 1].t, samples_[i + 1].t, t);
     } else if (!flat) {  // the turn may lie just beside the breakpoint, inside the stretch
-      t = refine_beside(i);
+      t = refine_beside(kind, i);
     }
     const double kappa = inside ? curvature_at(t) : here.curvature;
     add({kind, t, arc_length_at(t, i), kappa, {t, t}}, flat);
   }
 
-  double refine_beside(std::size_t i) const {
-    const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet_at(at)); };
+  double refine_beside(Kind kind, std::size_t i) const {
     const Sample& here = samples_[i];
     if (i > 0 && samples_[i - 1].stretch == here.stretch)
-      return zero_of(rate, samples_[i - 1].t, std::nextafter(here.t, 0.0), here.t);
+      return turn_within(kind, samples_[i - 1].t, here.t, here.t);
     if (i + 1 < samples_.size() && samples_[i + 1].stretch == here.stretch)
-      return zero_of(rate, here.t, samples_[i + 1].t, here.t);
+      return turn_within(kind, here.t, samples_[i + 1].t, here.t);
     return here.t;
+  }
+
+  /// Where curvature turns within a stretch from low up to high, which may be its end; `otherwise`
+  /// where it turns the other way first, as beside a kink that is the turn itself.
+  double turn_within(Kind kind, double low, double high, double otherwise) const {
+    const auto rate = [&](double at) { return curve::curvature_rate(curve_.jet_at(at)); };
+    const double first = rate(low);
+    const bool towards = kind == Kind::maximum ? first > 0 : first < 0;
+    return towards ? zero_of(rate, low, std::nextafter(high, 0.0), otherwise) : otherwise;
   }
 
   /// The zero of f in [low, high], or `otherwise` where f does not change sign.

@@ -127,7 +127,9 @@ double rms_error(const PiecewiseBezier& chain, const std::vector<LocalTarget>& t
 struct Solution {
   PiecewiseBezier chain;
   numeric::LevenbergMarquardtReport report;
-  double moved = 0;  ///< bound of the distance from the start, see moved_bound
+  double moved = 0;    ///< bound of the distance from the start, see moved_bound
+  double stretch = 0;  ///< of the length that changed most: |ln| of its factor
+  bool held = false;   ///< lengths had to be held near the start for it
 };
 
 /// Everything the search for the lengths starts from.
@@ -150,8 +152,14 @@ double moved_bound(const Problem& problem, const PiecewiseBezier& chain, double 
 /// Root of the weight of a length's own change (of its logarithm) to that of distance.
 constexpr double kEvenness = 0.1;
 
-/// Residuals of Eq. 14, and with `weight` > 0 of the way every place moved, in largest deviations,
-/// and of the lengths' own changes.
+/// ln of the factor by which a length may grow or shrink. Where no lengths meet the targets the
+/// least squares may be an infimum only, at a length of 0 or none. A first edge of length a gives
+/// an end 0.8 h / a^2 of curvature, h the height of the third control point over it: rounding eps
+/// of a curve of size L tells there as eps (L / a)^3 / L, 1e-9 of 1 / L for a hundredth.
+const double kMostStretch = std::log(100);
+
+/// Residuals of Eq. 14, and with `weight` > 0 of the way every place moved, in largest deviations
+/// (where there is one), and of the lengths' own changes.
 class Residuals {
  public:
   Residuals(const Problem& problem, const std::vector<LocalTarget>& targets, double weight)
@@ -166,7 +174,8 @@ class Residuals {
       now_[static_cast<std::size_t>(k) / kEdges].length[static_cast<std::size_t>(k) % kEdges] =
           a_[k];
     const auto count = static_cast<Eigen::Index>(targets_.size());
-    const Eigen::Index places = weight_ > 0 ? problem_.displacement.by_length().rows() : 0;
+    const bool near = weight_ > 0 && problem_.max_deviation > 0;
+    const Eigen::Index places = near ? problem_.displacement.by_length().rows() : 0;
     const Eigen::Index all = count + places + (weight_ > 0 ? a_.size() : 0);
     residuals.resize(all);
     if (jacobian) rows_.setZero(all, problem_.lengths.size());
@@ -193,14 +202,16 @@ class Residuals {
 
   void add_distances(Eigen::Index first, Eigen::Index places, Eigen::VectorXd& residuals,
                      bool derivatives) {
-    const double nearness = weight_ / problem_.max_deviation;
     const double evenness = weight_ * kEvenness;
     const ChainDisplacement& moved = problem_.displacement;
-    residuals.segment(first, places) = nearness * moved(a_);
     residuals.tail(a_.size()) = evenness * (a_.array() / moved.start().array()).log();
-    if (!derivatives) return;
-    rows_.middleRows(first, places).noalias() = nearness * (moved.by_length() * by_x_);
-    rows_.bottomRows(a_.size()) = evenness * (a_.cwiseInverse().asDiagonal() * by_x_);
+    if (derivatives)
+      rows_.bottomRows(a_.size()) = evenness * (a_.cwiseInverse().asDiagonal() * by_x_);
+    if (places == 0) return;
+    const double nearness = weight_ / problem_.max_deviation;
+    residuals.segment(first, places) = nearness * moved(a_);
+    if (derivatives)
+      rows_.middleRows(first, places).noalias() = nearness * (moved.by_length() * by_x_);
   }
 
   const Problem& problem_;
@@ -224,6 +235,9 @@ Solution solve_weighted(const Problem& problem, const std::vector<LocalTarget>& 
   Eigen::VectorXd a;
   problem.lengths.expand(x, a, nullptr);
   solution.chain = chain_of(problem.chain.pieces.front().control.front(), problem.edges, a);
+  solution.stretch = (a.array() / problem.displacement.start().array()).log().abs().maxCoeff();
+  solution.held = weight > 0 && problem.max_deviation <= 0;
+  if (!(solution.stretch <= kMostStretch)) return solution;  // no answer: its place is no matter
   const double about = problem.displacement(a).lpNorm<Eigen::Infinity>();
   solution.moved = moved_bound(problem, solution.chain,
                                problem.max_deviation > 0 ? problem.max_deviation : about);
@@ -240,23 +254,32 @@ double sharpest(const PiecewiseBezier& chain) {
   return most;
 }
 
+/// The lengths that meet the targets best; where some would run away, the least weight of all
+/// lengths' own changes that keeps them, by powers of ten.
+Solution solve_freely(const Problem& problem, const std::vector<LocalTarget>& targets) {
+  Solution found = solve_weighted(problem, targets, 0);
+  for (double weight = 1e-6; !(found.stretch <= kMostStretch) && weight < 1e3; weight *= 10)
+    found = solve_weighted(problem, targets, weight);
+  return found.stretch <= kMostStretch ? found : Solution{problem.chain, {}, 0, 0, true};
+}
+
 /// The lengths that meet the targets best; with a largest deviation, best of those that neither
 /// take the curve farther nor leave a spike between targets: the least weight of nearness that
 /// does, by halving of its logarithm.
 Solution solve(const Problem& problem, const std::vector<LocalTarget>& targets) {
-  if (problem.max_deviation <= 0) return solve_weighted(problem, targets, 0);
+  if (problem.max_deviation <= 0) return solve_freely(problem, targets);
   constexpr double kSpike = 1.2;
   double low = -3;
   double high = 2;
   constexpr int kRounds = 5;
   double bend = sharpest(problem.chain);
   for (const LocalTarget& t : targets) bend = std::max(bend, std::abs(t.curvature));
-  Solution best{problem.chain, {}, 0};
+  Solution best{problem.chain, {}};
   for (int round = 0; round < kRounds; ++round) {
     const double middle = 0.5 * (low + high);
     Solution found = solve_weighted(problem, targets, std::pow(10, middle));
-    const bool good =
-        found.moved <= problem.max_deviation && sharpest(found.chain) <= kSpike * bend;
+    const bool good = found.stretch <= kMostStretch && found.moved <= problem.max_deviation &&
+                      sharpest(found.chain) <= kSpike * bend;
     if (good) best = std::move(found);
     (good ? high : low) = middle;
   }
@@ -316,7 +339,7 @@ Solution keep_monotone(const Problem& problem, const std::vector<LocalTarget>& t
                        double& share) {
   double low = 0;
   double high = 1;
-  Solution best{problem.chain, {}, 0};
+  Solution best{problem.chain, {}};
   for (int round = 0; round < 10; ++round) {
     const double way = round == 0 ? 1 : 0.5 * (low + high);
     std::vector<LocalTarget> part = targets;
@@ -386,6 +409,11 @@ Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
   result.moved = solution.moved;
   result.target = over_all(*targets, chain.pieces.size());
   result.chain = std::move(solution.chain);
+  if (solution.held)
+    result.notes.push_back(
+        "control edges were held between a hundredth and a hundredfold of their lengths: the "
+        "target "
+        "is met best by none that are");
   if (result.share < 1)
     result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");
   return result;

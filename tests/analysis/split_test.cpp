@@ -1,5 +1,6 @@
 #include "keyline/analysis/split.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,32 @@ TEST(Split, EllipseArcHasItsVertices) {
   EXPECT_NEAR(split.extrema[0].t, 1.0 / 3, 1e-9);
   EXPECT_NEAR(split.extrema[0].curvature, 2, 1e-12);
   EXPECT_EQ(split.pieces.size(), 2u);
+}
+
+/// A spline of degree 3 whose curvature turns inside a span and again at the kink of the knot next
+/// to it: both places, and the same ones from the other end.
+TEST(Split, TurnsNextToAKinkAreFoundFromEitherEnd) {
+  curve::BSpline2 there{
+      3,
+      {0, 0, 0, 0, 0.5962453055163222, 1.356460181612206, 1.7729157962788988, 2.1850463566712754,
+       2.688982523382092, 2.688982523382092, 2.688982523382092, 2.688982523382092},
+      {{-1.4137639309245351, 26.54177824127498},
+       {1.7820890299213659, 24.909341585091184},
+       {1.284101282103654, 20.593115645893544},
+       {5.6039322038391735, 21.887117488545854},
+       {8.811642450916008, 18.163252968102572},
+       {10.091800689149784, 14.596045024769348},
+       {12.677649317217773, 14.816814987247424},
+       {14.365168024118022, 14.340248607694898}},
+      {}};
+  curve::BSpline2 back = there;
+  std::reverse(back.control.begin(), back.control.end());
+  std::reverse(back.knots.begin(), back.knots.end());
+  for (double& k : back.knots) k = there.knots.back() - k;
+  const Split a = split_monotone(there), b = split_monotone(back);
+  ASSERT_EQ(a.pieces.size(), b.pieces.size());
+  for (std::size_t i = 0; i < a.pieces.size(); ++i)
+    EXPECT_NEAR(a.pieces[i].t.low, 1 - b.pieces[b.pieces.size() - 1 - i].t.high, 1e-7);
 }
 
 TEST(Split, SmallWavesAreMergedAndReported) {

@@ -97,6 +97,22 @@ TEST(CurvatureDrive, KeepsJointsAndTheHeldEnd) {
   }
 }
 
+/// Curvature that no lengths have: the least squares go on falling while an edge goes to nothing.
+TEST(CurvatureDrive, LeavesEveryEdgeALength) {
+  const PiecewiseBezier s{{{{{0, 0}, {1, 1}, {2, 1}, {3, -1}, {4, -1}, {5, 0}}, {}}}, 0};
+  auto targets = curvatures(s, 40);
+  for (auto& t : targets) t.curvature = t.t < 0.5 ? 100 : 0;
+  const auto result = drive_curvature(s, targets);
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->notes.empty());
+  for (const curve::Bezier2& piece : result->chain.pieces)
+    for (std::size_t k = 1; k < piece.control.size(); ++k) {
+      const double length = core::distance(piece.control[k - 1], piece.control[k]);
+      EXPECT_GT(length, 1e-3);
+      EXPECT_LT(length, 1e3);
+    }
+}
+
 TEST(CurvatureDrive, SplitsAtInflectionsFirst) {
   const PiecewiseBezier s{{{{{0, 0}, {1, 1}, {2, 1}, {3, -1}, {4, -1}, {5, 0}}, {}}}, 0};
   auto targets = curvatures(s, 40);
