@@ -145,14 +145,39 @@ double power_law(double k0, double k1, double alpha, double v) {
   return sign * numeric::power_mean(std::abs(k0), std::abs(k1), -alpha, v);
 }
 
-/// The slope that fits best, by a fine look over what is usual.
+struct Slopes {
+  double low = -6;
+  double high = 6;
+};
+
+Slopes slopes_of(WantedRhythm wanted) {
+  constexpr double kClear = 0.5;
+  const Slopes all;
+  switch (wanted) {
+    case WantedRhythm::own:
+      return all;
+    case WantedRhythm::accelerating:
+      return {all.low, -kClear};
+    case WantedRhythm::stable:
+      return {0, 0};
+    case WantedRhythm::decelerating:
+      break;
+  }
+  return {kClear, all.high};
+}
+
+/// Slopes of stretches whose curvature is 0 at an end, or changes sign.
+constexpr Slopes kThroughZero{-6, -0.1};
+
+/// The slope that fits best, by a fine look over those allowed.
 double best_slope(const Profile& p, const std::vector<double>& k, std::size_t from, std::size_t to,
-                  double k0, double k1) {
-  const bool negative_only = k0 * k1 <= 0;
-  double best = -1;
+                  double k0, double k1, Slopes slopes) {
+  constexpr double kStep = 0.05;
+  const auto steps = static_cast<int>(std::lround((slopes.high - slopes.low) / kStep));
+  double best = slopes.low;
   double least = HUGE_VAL;
-  for (double alpha = -6; alpha <= 6; alpha += 0.05) {
-    if (negative_only && alpha > -0.1) break;
+  for (int step = 0; step <= steps; ++step) {
+    const double alpha = slopes.low + kStep * step;
     double sum = 0;
     for (std::size_t i = from; i <= to; ++i) {
       const double v = (p.length[i] - p.length[from]) / (p.length[to] - p.length[from]);
@@ -173,12 +198,14 @@ std::vector<CurvatureTarget> smooth_target(const curve::PiecewiseBezier& chain, 
   return thinned(p, low_pass(p, sigma_of(wavelength), closed));
 }
 
-std::vector<CurvatureTarget> rhythm_target(const curve::PiecewiseBezier& chain, bool closed) {
+RhythmTarget rhythm_target(const curve::PiecewiseBezier& chain, bool closed, WantedRhythm wanted) {
   const Profile p = profile_of(chain);
   const std::vector<double> smooth =
       low_pass(p, sigma_of(automatic_cutoff(p, chain.pieces.size())), closed);
   const std::vector<std::size_t> marks = landmarks(smooth);
-  std::vector<double> wanted(smooth.size());
+  const Slopes slopes = slopes_of(wanted);
+  std::size_t straight_ended = 0;
+  std::vector<double> power(smooth.size());
   for (std::size_t m = 0; m + 1 < marks.size(); ++m) {
     const std::size_t from = marks[m];
     const std::size_t to = marks[m + 1];
@@ -187,13 +214,17 @@ std::vector<CurvatureTarget> rhythm_target(const curve::PiecewiseBezier& chain, 
       const bool flips = i > 0 && i + 1 < smooth.size() && (smooth[i - 1] < 0) != (smooth[i] < 0);
       return flips ? 0.0 : smooth[i];
     };
-    const double alpha = best_slope(p, smooth, from, to, value(from), value(to));
+    const bool through_zero = value(from) * value(to) <= 0;
+    if (through_zero && slopes.high >= 0) ++straight_ended;
+    const double alpha = best_slope(
+        p, smooth, from, to, value(from), value(to),
+        through_zero ? Slopes{kThroughZero.low, std::min(kThroughZero.high, slopes.high)} : slopes);
     for (std::size_t i = from; i <= to; ++i) {
       const double v = (p.length[i] - p.length[from]) / (p.length[to] - p.length[from]);
-      wanted[i] = power_law(value(from), value(to), alpha, v);
+      power[i] = power_law(value(from), value(to), alpha, v);
     }
   }
-  return thinned(p, wanted);
+  return {thinned(p, power), wanted == WantedRhythm::own ? 0 : straight_ended};
 }
 
 }  // namespace keyline::fit

@@ -1,4 +1,5 @@
 #include "keyline/analysis/profile.h"
+#include "keyline/core/text.h"
 #include "keyline/fit/curvature_drive.h"
 #include "keyline/fit/curvature_target.h"
 #include "keyline/operations/made_curve.h"
@@ -41,6 +42,7 @@ struct CurvatureRequest {
   document::Path curve;
   std::variant<TargetKind, std::vector<WantedCurvature>> target;
   std::optional<double> cutoff;
+  fit::WantedRhythm rhythm = fit::WantedRhythm::own;
   bool hold_end = false;
   std::optional<double> max_deviation;
   bool keep_monotone = false;
@@ -54,12 +56,23 @@ struct CurvatureRequest {
         core::field<&Request::cutoff>(
             "wavelength that smooth halves; else twice the mean length of a piece")
             .in("length"),
+        core::field<&Request::rhythm>(
+            "target rhythm: the curve's own, or another to give it (accelerating: slope -0.5 and "
+            "less, stable: 0, decelerating: 0.5 and more)"),
         core::field<&Request::hold_end>("the end point stays; else it moves with the lengths"),
         core::field<&Request::max_deviation>(
             "farthest the curve may move; else as far as the lengths take it")
             .in("length")
             .within(core::kPositive),
         core::field<&Request::keep_monotone>("pieces of monotone curvature stay so"));
+  }
+  /// Fails: bad_input for a rhythm where the target is none.
+  static Result<void> check(const CurvatureRequest& request) {
+    const auto* kind = std::get_if<TargetKind>(&request.target);
+    if (request.rhythm == fit::WantedRhythm::own || (kind && *kind == TargetKind::rhythm))
+      return {};
+    return core::fail(ErrorCode::bad_input, "a rhythm is wanted of a target that is none",
+                      "give \"target\": \"rhythm\", or leave rhythm out", "rhythm");
   }
 };
 
@@ -101,20 +114,19 @@ Result<curve::PiecewiseBezier> chain_of(const document::Path& path) {
   return chain;
 }
 
-std::vector<fit::CurvatureTarget> target_of(const CurvatureRequest& request,
-                                            const curve::PiecewiseBezier& chain) {
+fit::RhythmTarget target_of(const CurvatureRequest& request, const curve::PiecewiseBezier& chain) {
   const bool closed = request.curve.closed;
   if (const auto* kind = std::get_if<TargetKind>(&request.target))
     return *kind == TargetKind::smooth
-               ? fit::smooth_target(chain, closed, request.cutoff.value_or(0))
-               : fit::rhythm_target(chain, closed);
+               ? fit::RhythmTarget{fit::smooth_target(chain, closed, request.cutoff.value_or(0))}
+               : fit::rhythm_target(chain, closed, request.rhythm);
   const analysis::CurveView view(request.curve);
   const analysis::ArcLengthTable table(view);
   std::vector<fit::CurvatureTarget> list;
   for (const WantedCurvature& wanted : std::get<1>(request.target))
     list.push_back({wanted.t ? *wanted.t : table.parameter_at(*wanted.along * table.length()),
                     wanted.curvature});
-  return list;
+  return {std::move(list)};
 }
 
 Result<CurvatureAnswer> run(const CurvatureRequest& request, const Context&) {
@@ -125,7 +137,8 @@ Result<CurvatureAnswer> run(const CurvatureRequest& request, const Context&) {
   options.hold_end = request.hold_end;
   options.keep_monotone = request.keep_monotone;
   options.max_deviation = request.max_deviation.value_or(0);
-  auto driven = fit::drive_curvature(*chain, target_of(request, *chain), options);
+  const fit::RhythmTarget target = target_of(request, *chain);
+  auto driven = fit::drive_curvature(*chain, target.places, options);
   if (!driven) return std::unexpected(driven.error());
   document::Path out{{}, request.curve.closed};
   for (const curve::Bezier2& piece : driven->chain.pieces) out.curves.push_back({piece});
@@ -139,6 +152,9 @@ Result<CurvatureAnswer> run(const CurvatureRequest& request, const Context&) {
   answer.end_moved = driven->end_moved;
   answer.moved = driven->moved;
   answer.report = std::move(driven->notes);
+  if (target.straight_ended > 0)
+    answer.report.push_back(core::counted(target.straight_ended, "stretch", "stretches") +
+                            " from or to a straight place can only be accelerating");
   return answer;
 }
 

@@ -121,6 +121,8 @@ Result<sketch::TraceResult> trace_readable(const SketchRequest& request, const C
   sketch::TraceOptions options = request.options;
   if (request.thresholds)
     options.binarize.regions = {request.thresholds->begin(), request.thresholds->end()};
+  if (options.curve.rhythm != fit::WantedRhythm::own)
+    options.curve.aim = sketch::CurvatureAim::rhythm;
   options.progress = context.progress;
   if (request.stages)
     options.stage = [&stages](const sketch::Stage& stage) { stages.push_back(stage); };
@@ -168,10 +170,14 @@ Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
   auto trace = trace_drawing(request, context, answer.pictures);
   if (!trace) return std::unexpected(trace.error());
   answer.scale = scale_of(request);
+  answer.unit = request.scale || request.dpi ? "mm" : "px";
+  if (auto done =
+          follow_wanted(request.target, trace->strokes, answer.scale, answer.unit, trace->notes);
+      !done)
+    return std::unexpected(done.error());
   for (const sketch::Stroke& stroke : trace->strokes)
     answer.strokes.push_back(shown(stroke, answer.scale));
   answer.size = {answer.scale * trace->width, answer.scale * trace->height};
-  answer.unit = request.scale || request.dpi ? "mm" : "px";
   answer.explained = trace->explained;
   answer.left_over = trace->left_over;
   answer.report = trace->notes;
@@ -183,6 +189,10 @@ Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
 }  // namespace
 
 Result<void> SketchRequest::check(const SketchRequest& request) {
+  const sketch::StrokeCurveOptions& curve = request.options.curve;
+  if (curve.aim == sketch::CurvatureAim::smooth && curve.rhythm != fit::WantedRhythm::own)
+    return core::fail(ErrorCode::bad_input, "curvature is to be smoothed and to have a rhythm",
+                      "leave one of them out", "rhythm");
   if (request.options.wishes.empty() || request.options.consolidate) return {};
   return core::fail(ErrorCode::bad_input, "nothing is consolidated that wishes could be about",
                     "add --consolidate (\"consolidate\": true), or leave keep, join, split out",

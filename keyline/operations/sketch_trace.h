@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/operations/made_curve.h"
+#include "keyline/operations/sketch_target.h"
 #include "keyline/sketch/trace.h"
 
 /// From a drawing to curves as an operation: sketch.trace.
@@ -18,6 +19,7 @@ struct SketchRequest {
   std::optional<double> scale;
   std::optional<double> dpi;
   std::optional<double> tolerance;
+  std::vector<WantedPlace> target;
   bool per_segment = false;
   bool stages = false;
   static constexpr auto describe() {
@@ -60,6 +62,12 @@ struct SketchRequest {
         core::field<&Request::options, &Trace::curve, &Curve::aim>(
             "what the curves' curvature is driven to")
             .named("curvature"),
+        core::field<&Request::options, &Trace::curve, &Curve::rhythm>(
+            "the lines' own, or one to give them (curvature: rhythm, too): accelerating is slope "
+            "-0.5 and less, stable 0, decelerating 0.5 and more"),
+        core::field<&Request::target>(
+            "curvatures wanted of a line: its number from 0, the fraction of its length, the "
+            "curvature in 1/length, as 0,0.5,0.01; two and more a line, its ends held"),
         core::field<&Request::tolerance>(
             "largest distance of the curve from the line; half a pixel, or half the pen's width of "
             "drawn strokes, unless given")
@@ -75,7 +83,7 @@ struct SketchRequest {
             .within(core::from_to(0, 1 << 20)),
         core::field<&Request::stages>("also the picture after each stage"));
   }
-  /// Fails: bad_input for wishes where nothing is consolidated.
+  /// Fails: bad_input for wishes where nothing is consolidated, a rhythm for curvature smooth.
   static core::Result<void> check(const SketchRequest& request);
 };
 

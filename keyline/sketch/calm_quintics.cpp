@@ -6,17 +6,20 @@
 #include <numbers>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include "keyline/analysis/comb_figures.h"
+#include "keyline/core/polygon.h"
 #include "keyline/fit/quintic_chain.h"
 
 namespace keyline::sketch {
 namespace {
 
 using core::Point2;
+using core::Vector2;
 using Matrix = Eigen::SparseMatrix<double>;
 
 constexpr double kSmoothShare = 0.8;            ///< of what may be moved: by smoothing …
@@ -37,9 +40,10 @@ class Smoother {
     for (Index i = 0; i < rows; ++i)
       for (Index k = 0; k < 4; ++k)
         entries.emplace_back(i, (i + k) % n_, row[static_cast<std::size_t>(k)]);
-    Matrix difference(rows, n_);
-    difference.setFromTriplets(entries.begin(), entries.end());
-    penalty_ = difference.transpose() * difference;
+    difference_.resize(rows, n_);
+    difference_.setFromTriplets(entries.begin(), entries.end());
+    penalty_ = difference_.transpose() * difference_;
+    pull_ = Eigen::MatrixX2d::Zero(n_, 2);
     weight_ = Eigen::VectorXd::Ones(n_);
     if (!closed) weight_[0] = weight_[n_ - 1] = kHeldEnd;
     given_.resize(n_, 2);
@@ -50,10 +54,19 @@ class Smoother {
     solver_.analyzePattern(system(1));
   }
 
+  /// Third differences that are wanted, from the first point on; 0 unless set.
+  void want(const std::vector<Vector2>& third) {
+    Eigen::MatrixX2d all(difference_.rows(), 2);
+    for (Index i = 0; i < all.rows(); ++i)
+      all.row(i) << third[static_cast<std::size_t>(i)].x, third[static_cast<std::size_t>(i)].y;
+    pull_ = difference_.transpose() * all;
+  }
+
   /// Waves of that many points are halved.
   std::vector<Point2> smooth(double wavelength) {
-    solver_.factorize(system(std::pow(wavelength / (2 * std::numbers::pi), 6)));
-    const Eigen::MatrixX2d z = solver_.solve(weight_.asDiagonal() * given_);
+    const double lambda = std::pow(wavelength / (2 * std::numbers::pi), 6);
+    solver_.factorize(system(lambda));
+    const Eigen::MatrixX2d z = solver_.solve(weight_.asDiagonal() * given_ + lambda * pull_);
     std::vector<Point2> points;
     for (Index i = 0; i < n_; ++i) points.push_back({z(i, 0), z(i, 1)});
     return points;
@@ -68,7 +81,9 @@ class Smoother {
   }
 
   Index n_;
+  Matrix difference_;
   Matrix penalty_;
+  Eigen::MatrixX2d pull_;
   Eigen::VectorXd weight_;
   Eigen::MatrixX2d given_;
   Eigen::SimplicialLDLT<Matrix> solver_;
@@ -81,8 +96,7 @@ double largest_move(const std::vector<Point2>& a, const std::vector<Point2>& b) 
 }
 
 /// The smoothest points that lie within `most` of the given ones.
-std::vector<Point2> calmed(const std::vector<Point2>& points, bool closed, double most) {
-  Smoother smoother(points, closed);
+std::vector<Point2> calmed(const std::vector<Point2>& points, Smoother& smoother, double most) {
   std::vector<Point2> best = points;
   double low = std::log(kShortest);
   double high = std::log(4 * static_cast<double>(points.size()) + kShortest);
@@ -97,6 +111,27 @@ std::vector<Point2> calmed(const std::vector<Point2>& points, bool closed, doubl
     }
   }
   return best;
+}
+
+/// Third differences of a line that goes as the points do, with that curvature: by the length,
+/// p''' = κ' n - κ² t.
+std::vector<Vector2> third_differences(const std::vector<Point2>& points, bool closed,
+                                       const std::vector<double>& curvature) {
+  const std::size_t n = points.size();
+  const double step =
+      core::polygon_length(points, closed) / static_cast<double>(closed ? n : n - 1);
+  std::vector<Vector2> third;
+  for (std::size_t i = 0; i < (closed ? n : n - 3); ++i) {
+    const std::size_t b = (i + 1) % n;
+    const std::size_t c = (i + 2) % n;
+    const Vector2 way = points[(i + 3) % n] - points[i];
+    const Vector2 tangent = way / std::max(core::norm(way), 1e-300);
+    const double middle = 0.5 * step * (curvature[b] + curvature[c]);
+    third.push_back(step *
+                    ((step * (curvature[c] - curvature[b])) * core::perpendicular_left(tangent) -
+                     (middle * middle) * tangent));
+  }
+  return third;
 }
 
 analysis::CombFigures comb_of(const std::vector<curve::Bezier2>& pieces) {
@@ -123,7 +158,8 @@ std::tuple<int, double> unrest(const std::vector<curve::Bezier2>& pieces) {
 CalmQuintics calm_quintics(const std::vector<Point2>& points, bool closed, double most,
                            const std::vector<curve::Bezier2>& given) {
   if (points.size() < 8) return {};
-  CalmQuintics calm{{}, calmed(points, closed, kSmoothShare * most)};
+  Smoother smoother(points, closed);
+  CalmQuintics calm{{}, calmed(points, smoother, kSmoothShare * most)};
   auto least = unrest(given);
   for (const double share : kFitShares) {
     auto chain = fit::fit_quintic_chain(calm.line, closed, {share * most, kMostPieces});
@@ -135,6 +171,20 @@ CalmQuintics calm_quintics(const std::vector<Point2>& points, bool closed, doubl
   }
   if (calm.pieces.empty()) return {};
   return calm;
+}
+
+CalmQuintics quintics_towards(const std::vector<Point2>& points, bool closed, double most,
+                              const std::vector<double>& curvature) {
+  if (points.size() < 8) return {};
+  // directions are read where the hand's waves are gone
+  Smoother smoother(points, closed);
+  const auto calm = calmed(points, smoother, 0.5 * kSmoothShare * most);
+  smoother.want(third_differences(calm, closed, curvature));
+  CalmQuintics made{{}, calmed(points, smoother, kSmoothShare * most)};
+  auto chain = fit::fit_quintic_chain(made.line, closed, {kFitShares.back() * most, kMostPieces});
+  if (!chain.within_tolerance) return {};
+  made.pieces = std::move(chain.pieces);
+  return made;
 }
 
 int waves_of(const std::vector<curve::Bezier2>& pieces) { return comb_of(pieces).waves; }

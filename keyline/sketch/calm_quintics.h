@@ -24,6 +24,12 @@ struct CalmQuintics {
 CalmQuintics calm_quintics(const std::vector<core::Point2>& points, bool closed, double most,
                            const std::vector<curve::Bezier2>& given);
 
+/// The points moved, none by more than `most`, towards a curvature (of every point, 1 / their
+/// unit): as calm_quintics, with the third differences of a line of that curvature in place of 0.
+/// Empty where no chain of quintics follows them. Same preconditions; as many curvatures as points.
+CalmQuintics quintics_towards(const std::vector<core::Point2>& points, bool closed, double most,
+                              const std::vector<double>& curvature);
+
 /// Waves of the chain's curvature, as analysis::comb_figures counts them.
 int waves_of(const std::vector<curve::Bezier2>& pieces);
 

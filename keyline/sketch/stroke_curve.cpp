@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "keyline/curve/piecewise_bezier.h"
-#include "keyline/fit/curvature_target.h"
 #include "keyline/fit/quintic_chain.h"
 #include "keyline/sketch/calm_quintics.h"
 #include "keyline/sketch/quintics.h"
@@ -82,6 +81,7 @@ struct DrivenRun {
   std::vector<fit::CurvatureTarget> target;
   double before = 0;
   double after = 0;
+  std::size_t straight_ended = 0;  ///< stretches: see fit::RhythmTarget
 };
 
 /// Root mean square of the curvature less its target.
@@ -118,9 +118,9 @@ DrivenRun drive_part(const std::vector<curve::Bezier2>& all, std::size_t first, 
   const bool good = driven && driven->after <= kDriveGain * driven->before;
   const std::vector<curve::Bezier2>& pieces = good ? driven->chain.pieces : chain.pieces;
   driven_pieces.insert(driven_pieces.end(), pieces.begin(), pieces.end());
-  if (good) return {pieces.size(), driven->target, driven->before, driven->after};
+  if (good) return {pieces.size(), driven->target, driven->before, driven->after, 0};
   const double off = off_target(chain, target);
-  return {pieces.size(), target, off, off};
+  return {pieces.size(), target, off, off, 0};
 }
 
 /// Of the circle through three points, positive where they turn left.
@@ -167,17 +167,62 @@ std::vector<DrivenRun> drive_to(const std::vector<fit::CurvatureTarget>& target,
   return runs;
 }
 
+/// What a chain's targets come to at points that it follows, by shares of the length.
+std::vector<double> target_at_points(const std::vector<fit::CurvatureTarget>& target,
+                                     const std::vector<curve::Bezier2>& pieces,
+                                     const std::vector<Point2>& points) {
+  const curve::PiecewiseBezier chain{pieces, 0};
+  std::vector<Point2> places;
+  for (const fit::CurvatureTarget& t : target) places.push_back(evaluate(chain, t.t));
+  const auto lengths = [](const std::vector<Point2>& line, double before) {
+    std::vector<double> run{before};
+    for (std::size_t i = 1; i < line.size(); ++i)
+      run.push_back(run.back() + core::distance(line[i - 1], line[i]));
+    return run;
+  };
+  std::vector<double> at = lengths(places, core::distance(evaluate(chain, 0), places.front()));
+  const double whole = at.back() + core::distance(places.back(), evaluate(chain, 1));
+  const std::vector<double> own = lengths(points, 0);
+  std::vector<double> wanted;
+  std::size_t k = 0;
+  for (const double run : own) {
+    const double s = run / own.back() * whole;
+    while (k + 2 < at.size() && at[k + 1] < s) ++k;
+    const double u = std::clamp((s - at[k]) / (at[k + 1] - at[k]), 0.0, 1.0);
+    wanted.push_back(std::lerp(target[k].curvature, target[k + 1].curvature, u));
+  }
+  return wanted;
+}
+
+/// Gives a run the rhythm asked for, as far as `most` lets its points move.
+DrivenRun give_rhythm(const std::vector<Point2>& points, bool closed, double most,
+                      fit::WantedRhythm wanted, std::vector<curve::Bezier2>& pieces) {
+  const CalmQuintics calm = calm_quintics(points, closed, most, pieces);
+  const auto& from = calm.pieces.empty() ? pieces : calm.pieces;
+  const fit::RhythmTarget target = fit::rhythm_target({from, 0}, closed, wanted);
+  CalmQuintics given =
+      quintics_towards(points, closed, most, target_at_points(target.places, from, points));
+  const double before = off_target({pieces, 0}, target.places);
+  const double after = given.pieces.empty() ? before : off_target({given.pieces, 0}, target.places);
+  if (after < before) pieces = std::move(given.pieces);
+  return {pieces.size(), target.places, before, std::min(before, after), target.straight_ended};
+}
+
 /// Takes the waves out of a run's curvature; where asked for, gives what is left its rhythm, unless
 /// that brings waves back.
 void drive(const std::vector<Point2>& points, bool closed, double width,
            const StrokeCurveOptions& options, std::vector<curve::Bezier2>& pieces,
            std::vector<DrivenRun>& runs) {
   if (points.size() < kFewestDriven) {
-    runs.push_back({pieces.size(), {}, 0, 0});
+    runs.push_back({pieces.size(), {}, 0, 0, 0});
     return;
   }
   const bool rhythm = options.aim == CurvatureAim::rhythm;
   const double most = std::max(kDriveTolerances * options.tolerance, kDriveShare * width);
+  if (rhythm && options.rhythm != fit::WantedRhythm::own && options.tolerance > 0) {
+    runs.push_back(give_rhythm(points, closed, most, options.rhythm, pieces));
+    return;
+  }
   const double calming = rhythm ? 0.5 * most : most;
   CalmQuintics calm;
   if (options.tolerance > 0) calm = calm_quintics(points, closed, calming, pieces);
@@ -186,11 +231,12 @@ void drive(const std::vector<Point2>& points, bool closed, double width,
   if (rhythm || options.tolerance <= 0) {
     const curve::PiecewiseBezier chain{pieces, 0};
     auto driven = pieces;
-    auto done =
-        drive_to(rhythm ? fit::rhythm_target(chain, closed) : fit::smooth_target(chain, closed),
-                 closed, calming, driven);
+    const fit::RhythmTarget target = rhythm ? fit::rhythm_target(chain, closed, options.rhythm)
+                                            : fit::RhythmTarget{fit::smooth_target(chain, closed)};
+    auto done = drive_to(target.places, closed, calming, driven);
     if (options.tolerance <= 0 || waves_of(driven) <= waves_of(pieces)) {
       pieces = std::move(driven);
+      done.front().straight_ended = target.straight_ended;
       runs.insert(runs.end(), done.begin(), done.end());
       return;
     }
@@ -200,7 +246,7 @@ void drive(const std::vector<Point2>& points, bool closed, double width,
   const double after = off_target({pieces, 0}, target);
   const double before =
       calm.pieces.empty() ? after : off_target(given, targets_beside(given.pieces, line, closed));
-  runs.push_back({pieces.size(), target, before, after});
+  runs.push_back({pieces.size(), target, before, after, 0});
 }
 
 /// Targets and errors of all parts as those of the whole stroke.
@@ -214,6 +260,7 @@ void report_drive(const std::vector<DrivenRun>& runs, Stroke& stroke) {
       stroke.target.push_back(
           {(offset + t.t * count) / static_cast<double>(stroke.curve.size()), t.curvature});
     offset += count;
+    stroke.straight_ended += run.straight_ended;
     before += static_cast<double>(run.target.size()) * run.before * run.before;
     after += static_cast<double>(run.target.size()) * run.after * run.after;
   }

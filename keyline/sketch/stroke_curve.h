@@ -10,6 +10,7 @@
 #include "keyline/core/point.h"
 #include "keyline/curve/bezier.h"
 #include "keyline/fit/curvature_drive.h"
+#include "keyline/fit/curvature_target.h"
 #include "keyline/sketch/refine_stroke.h"
 
 namespace keyline::sketch {
@@ -32,6 +33,7 @@ struct StrokeCurveOptions {
   double width_share = 0.1;
   /// Curves keep within three times the tolerance, or 0.3 of the width, of where they were.
   CurvatureAim aim = CurvatureAim::none;
+  fit::WantedRhythm rhythm = fit::WantedRhythm::own;  ///< of aim rhythm
 };
 
 /// Root mean square of the curvature less its target, in 1 / pixel.
@@ -50,6 +52,7 @@ struct Stroke {
   std::vector<std::size_t> corners;               ///< pieces of `curve` that start with a corner
   std::vector<fit::CurvatureTarget> target;       ///< over all of `curve`; empty without an aim
   std::optional<DriveReport> driven;              ///< empty without an aim
+  std::size_t straight_ended = 0;                 ///< stretches: see fit::RhythmTarget
   bool closed = false;
   double width = 0;            ///< of the ink, median; 0 for outlines
   std::vector<double> widths;  ///< of the ink at every point

@@ -218,6 +218,11 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
   std::stable_sort(result.strokes.begin(), result.strokes.end(), [](const auto& a, const auto& b) {
     return core::polygon_length(a.points) > core::polygon_length(b.points);
   });
+  std::size_t straight_ended = 0;
+  for (const Stroke& s : result.strokes) straight_ended += s.straight_ended;
+  if (straight_ended > 0)
+    result.notes.push_back(core::counted(straight_ended, "stretch", "stretches") +
+                           " from or to a straight place can only be accelerating");
   return {};
 }
 

@@ -180,6 +180,29 @@ TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
   }
 }
 
+TEST(Sketch, FollowsACurvatureDrawnAsPoints) {
+  const Scratch s;
+  std::string stroke = "#200 200\n@2\n{\n#1 1\n";  // a spiral, its curvature growing evenly
+  for (double t = 0, x = 20, y = 20; t <= 1.2; t += 0.02) {
+    stroke += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    x += 3 * std::cos(0.4 * t + 0.5 * t * t);
+    y += 3 * std::sin(0.4 * t + 0.5 * t * t);
+  }
+  const std::string scap = s.write("a.scap", stroke + "}\n");
+  const Outcome o =
+      run_keyline("sketch " + scap + " --json --target 0,0,-0.004 0,0.5,-0.0067 0,1,-0.0094");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("line 0 moved by up to"), std::string::npos) << o.err;
+  const auto error = nlohmann::json::parse(o.out)["strokes"][0]["curvature_error"];
+  EXPECT_LT(error["after"], 0.5 * error["before"].get<double>());
+  expect_failure(run_keyline("sketch " + scap + " --target 0,0,0.01 3,1,0.01"), 2,
+                 "there are lines 0 to 0");
+  expect_failure(run_keyline("sketch " + scap + " --target 0,0,0.01 0,1.5,0.01"), 2, "0 to 1");
+  expect_failure(run_keyline("sketch " + scap + " --target 0,0,0.01"), 2, "a single place");
+  expect_failure(run_keyline("sketch " + scap + " --curvature smooth --rhythm stable"), 2,
+                 "leave one of them out");
+}
+
 TEST(Sketch, TakesWishesByNumberAndShowsTheNumbers) {
   const Scratch s;
   const std::string scap = s.write(

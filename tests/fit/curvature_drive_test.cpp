@@ -219,7 +219,8 @@ TEST(CurvatureDrive, WhatIsCertifiedMonotoneStaysCertified) {
     const double growth = 1.03 + 0.12 * unit(random);  // Class A while edges turn by less
     const PiecewiseBezier start =
         turning_chain(2, [&](int i, int k) { return std::pow(growth, 5 * i + k); });
-    const auto kept = drive_curvature(start, rhythm_target(start, false), {.keep_monotone = true});
+    const auto kept =
+        drive_curvature(start, rhythm_target(start, false).places, {.keep_monotone = true});
     ASSERT_TRUE(kept);
     ASSERT_EQ(kept->chain.pieces.size(), start.pieces.size());
     for (std::size_t i = 0; i < start.pieces.size(); ++i) {
@@ -282,8 +283,8 @@ TEST(CurvatureTarget, SmoothingTakesWavesOutAndKeepsTrends) {
   EXPECT_LT(driven->after, 0.5 * driven->before);
 }
 
-TEST(CurvatureTarget, RhythmOfAClothoidIsItsOwn) {
-  // quintics along a curve whose curvature grows evenly: the target is that curvature
+/// Quintics along a curve of length 4 whose curvature grows evenly from 0.1 to 0.5.
+PiecewiseBezier clothoid() {
   PiecewiseBezier chain;
   constexpr int kPieces = 4;
   const auto place = [](double s) {
@@ -315,10 +316,47 @@ TEST(CurvatureTarget, RhythmOfAClothoidIsItsOwn) {
           q - (2 * h) * t1 + (1.25 * k1 * h * h) * core::perpendicular_left(t1), q - h * t1, q},
          {}});
   }
+  return chain;
+}
+
+/// Largest distance of the targets' curvatures from what a share of the length is to have.
+template <class Wanted>
+double worst_target(const RhythmTarget& target, Wanted wanted) {
   double worst = 0;
-  for (const CurvatureTarget& t : rhythm_target(chain, false))
-    worst = std::max(worst, std::abs(t.curvature - (0.1 + 0.4 * t.t)));
-  EXPECT_LT(worst, 0.01);
+  for (const CurvatureTarget& t : target.places)
+    worst = std::max(worst, std::abs(t.curvature - wanted(t.t)));
+  return worst;
+}
+
+TEST(CurvatureTarget, RhythmOfAClothoidIsItsOwn) {
+  const RhythmTarget target = rhythm_target(clothoid(), false);
+  EXPECT_LT(worst_target(target, [](double v) { return 0.1 + 0.4 * v; }), 0.01);
+}
+
+// Closed forms of the general formula: slope 0 is the geometric mean of curvatures, and of a
+// clothoid the nearest accelerating curve is itself, the nearest decelerating one that of slope
+// 0.5.
+TEST(CurvatureTarget, GivesAClothoidWhatRhythmIsWanted) {
+  const PiecewiseBezier chain = clothoid();
+  EXPECT_LT(worst_target(rhythm_target(chain, false, WantedRhythm::accelerating),
+                         [](double v) { return 0.1 + 0.4 * v; }),
+            0.01);
+  EXPECT_LT(worst_target(rhythm_target(chain, false, WantedRhythm::stable),
+                         [](double v) { return 0.1 * std::pow(5, v); }),
+            0.01);
+  const auto half = [](double v) {
+    return std::pow((1 - v) / std::sqrt(0.1) + v / std::sqrt(0.5), -2);
+  };
+  EXPECT_LT(worst_target(rhythm_target(chain, false, WantedRhythm::decelerating), half), 0.01);
+}
+
+TEST(CurvatureTarget, StretchesFromAStraightPlaceKeepANegativeSlope) {
+  // an S: its curvature goes through 0 once
+  PiecewiseBezier chain;
+  chain.pieces.push_back({{{0, 0}, {1, 0.1}, {2, 0.6}, {3, 1.0}, {4, 1.5}, {5, 1.6}}, {}});
+  EXPECT_EQ(rhythm_target(chain, false, WantedRhythm::accelerating).straight_ended, 0U);
+  EXPECT_EQ(rhythm_target(chain, false).straight_ended, 0U);
+  EXPECT_GE(rhythm_target(chain, false, WantedRhythm::stable).straight_ended, 2U);
 }
 
 }  // namespace

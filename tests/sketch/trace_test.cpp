@@ -176,6 +176,47 @@ TEST(Trace, DrivenCurvesStayOnTheirLine) {
     }
 }
 
+/// Curvature halfway along a line less that of its ends' harmonic mean, their arithmetic mean's
+/// being 1: 0 of a logarithmic spiral, 1 of a clothoid.
+double halfway(const Stroke& stroke) {
+  const auto near = [&](double share) {
+    const curve::PiecewiseBezier chain{stroke.curve, 0};
+    double sum = 0;  // over a stretch: joints
+    for (int i = -4; i <= 4; ++i) sum += std::abs(curvature(jet(chain, share + 0.01 * i)));
+    return sum / 9;
+  };
+  const double a = near(0.05);
+  const double b = near(0.95);
+  const double harmonic = 2 / (1 / a + 1 / b);
+  return (near(0.5) - harmonic) / (0.5 * (a + b) - harmonic);
+}
+
+// A logarithmic spiral (slope 1) is asked to be accelerating (slope -0.5 and less).
+TEST(Trace, GivesLinesTheRhythmAskedFor) {
+  DrawnStroke spiral;
+  for (double turn = 0; turn <= 2; turn += 0.01)
+    spiral.points.push_back({100 * std::exp(-0.6 * turn) * std::cos(turn),
+                             100 * std::exp(-0.6 * turn) * std::sin(turn)});
+  TraceOptions options;
+  options.curve.tolerance = 0.5;  // widths
+  const auto plain = trace_strokes({spiral}, 0.5, options);
+  ASSERT_TRUE(plain);
+  options.curve.aim = CurvatureAim::rhythm;
+  options.curve.rhythm = fit::WantedRhythm::accelerating;
+  const auto given = trace_strokes({spiral}, 0.5, options);
+  ASSERT_TRUE(given);
+  ASSERT_TRUE(given->strokes[0].driven);
+  EXPECT_LT(given->strokes[0].driven->after, 0.5 * given->strokes[0].driven->before);
+  EXPECT_GT(halfway(given->strokes[0]), halfway(plain->strokes[0]) + 0.15);
+  for (const curve::Bezier2& piece : given->strokes[0].curve)
+    for (const double t : {0.0, 0.3, 0.7}) {
+      double least = HUGE_VAL;
+      for (const Point2 p : spiral.points)
+        least = std::min(least, core::distance(p, evaluate(piece, t)));
+      EXPECT_LT(least, 1.5);  // three tolerances, and half the way between points
+    }
+}
+
 TEST(Trace, SaysThatBlankPicturesHoldNoLine) {
   for (const std::uint16_t level : {0, 30000, 65535}) {
     for (const int size : {1, 2, 50}) {
