@@ -61,15 +61,28 @@ void set_numbers(const CurveAnalysis& a, const std::string& unit, report::Report
   detail::let_units_wrap(report.numbers);
 }
 
-report::Section curvature_section(const figure::SampledCurve& curve, const std::string& unit) {
+std::vector<std::string> pieces_told(const CurveAnalysis& a) {
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+    told.push_back(fmt::format("piece {}: {}", i, analysis::rhythm_name(a.pieces[i].rhythm)));
+    const std::string slopes = detail::slopes_text(a.pieces[i].slopes);
+    if (!slopes.empty()) told.back() += " " + slopes;
+  }
+  return told;
+}
+
+report::Section curvature_section(const CurveAnalysis& a, const figure::SampledCurve& curve,
+                                  const std::string& unit) {
   const figure::ChartOptions chart{.unit = unit, .largest_height = 480};
   report::Section section{"Curvature", {}, {}, {}};
   section.figures = {
       {figure::curvature_plot({curve}, chart),
-       "Curvature along the curve. Bands and numbers are the monotone pieces, counted from 0."},
-      {figure::curvature_comb(curve, chart), "Curvature comb."},
+       "Curvature along the curve. Bands and numbers are the monotone pieces, counted from 0.",
+       true},
+      {figure::curvature_comb(curve, chart), "Curvature comb.", true},
       {figure::evolute_chart(curve, chart),
        "Evolute, the locus of the centres of curvature. It runs to infinity at inflections."}};
+  section.linked = report::LinkedCurve{.curve = curve, .pieces = pieces_told(a), .unit = unit};
   return section;
 }
 
@@ -162,8 +175,9 @@ report::Report analyze_report(const CurveAnalysis& analysis, const document::Pat
   set_verdict(analysis, report);
   set_numbers(analysis, options.unit, report);
   const figure::SampledCurve curve = detail::path_samples(path, analysis.split.pieces);
-  report.sections = {curvature_section(curve, options.unit), piece_section(analysis, options.unit),
-                     graph_section(analysis), joint_section(path, options.unit)};
+  report.sections = {curvature_section(analysis, curve, options.unit),
+                     piece_section(analysis, options.unit), graph_section(analysis),
+                     joint_section(path, options.unit)};
   add_notes(analysis, options.unit, report);
   return report;
 }

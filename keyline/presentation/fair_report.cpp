@@ -135,27 +135,6 @@ report::Section overlay_section(const Material& m) {
   return section;
 }
 
-report::Section curvature_section(const Material& m) {
-  report::Section section{"Curvature", {}, {}, {}};
-  std::vector<SampledCurve> curves{m.faired};
-  if (!m.spline.points.empty()) curves.push_back(m.spline);
-  section.figures.push_back(
-      {figure::curvature_plot(curves, m.chart),
-       "Curvature along the faired curve and, for comparison, along the spline through the points "
-       "(stretched to the same length). Bands and numbers are the pieces, counted from 0."});
-  SampledCurve marked = m.faired;
-  detail::add_marks(marked, m.result, m.slopes);
-  section.figures.push_back(
-      {figure::curvature_comb(marked, m.chart),
-       std::string("Curvature comb of the faired curve: a wobble would show here. ") +
-           (marked.marks.empty() ? "" : detail::kMarksCaption)});
-  section.figures.push_back(
-      {figure::evolute_chart(m.faired, m.chart),
-       "Evolute of the faired curve, the locus of its centres of curvature. It runs to infinity at "
-       "inflections and has a point where curvature is largest or smallest."});
-  return section;
-}
-
 const lac::Piece* lac_piece(const FairResult& result, const FairPiece& piece) {
   const auto* chain =
       std::get_if<lac::Chain>(&result.curves[static_cast<std::size_t>(piece.curve)]);
@@ -167,6 +146,50 @@ std::string rhythm_text(const FairPiece& piece, const lac::Piece* shape) {
   if (shape && shape->curvature_start * shape->curvature_end < 0) text += ", S-shaped";
   if (piece.overridden) text += " (as asked)";
   return text;
+}
+
+/// What is said of the sampled curve's pieces, kept parts among them.
+std::vector<std::string> pieces_told(const Material& m) {
+  std::vector<std::string> told;
+  std::size_t next = 0;
+  for (const std::string& name : m.faired.piece_names) {
+    if (name == "kept" || next >= m.result.pieces.size()) {
+      told.emplace_back("kept as given");
+      continue;
+    }
+    const FairPiece& piece = m.result.pieces[next];
+    told.push_back(
+        fmt::format("piece {}: {}", next, rhythm_text(piece, lac_piece(m.result, piece))));
+    const std::string slopes = detail::slopes_text(piece.slopes);
+    if (!slopes.empty()) told.back() += " " + slopes;
+    if (piece.told) told.back() += ", " + std::string(fairing::impression(piece));
+    ++next;
+  }
+  return told;
+}
+
+report::Section curvature_section(const Material& m) {
+  report::Section section{"Curvature", {}, {}, {}};
+  std::vector<SampledCurve> curves{m.faired};
+  if (!m.spline.points.empty()) curves.push_back(m.spline);
+  section.figures.push_back(
+      {figure::curvature_plot(curves, m.chart),
+       "Curvature along the faired curve and, for comparison, along the spline through the points "
+       "(stretched to the same length). Bands and numbers are the pieces, counted from 0.",
+       true});
+  SampledCurve marked = m.faired;
+  detail::add_marks(marked, m.result, m.slopes);
+  section.figures.push_back(
+      {figure::curvature_comb(marked, m.chart),
+       std::string("Curvature comb of the faired curve: a wobble would show here. ") +
+           (marked.marks.empty() ? "" : detail::kMarksCaption),
+       true});
+  section.linked = report::LinkedCurve{m.faired, m.spline, pieces_told(m), m.options.unit};
+  section.figures.push_back(
+      {figure::evolute_chart(m.faired, m.chart),
+       "Evolute of the faired curve, the locus of its centres of curvature. It runs to infinity at "
+       "inflections and has a point where curvature is largest or smallest."});
+  return section;
 }
 
 /// Arc length of every piece's start along the whole, kept parts included.

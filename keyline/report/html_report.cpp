@@ -1,11 +1,14 @@
 #include "keyline/report/html_report.h"
 
+#include <algorithm>
 #include <initializer_list>
 #include <string_view>
 
 #include "keyline/core/markup.h"
 #include "keyline/figure/text.h"
+#include "keyline/report/html_script.h"
 #include "keyline/report/html_style.h"
+#include "keyline/report/linked_curve.h"
 
 namespace keyline::report {
 
@@ -19,12 +22,19 @@ void append(std::string& html, std::initializer_list<std::string_view> parts) {
   for (const std::string_view part : parts) html += part;
 }
 
+bool has_linked(const Report& report) {
+  return std::ranges::any_of(report.sections,
+                             [](const Section& s) { return s.linked.has_value(); });
+}
+
 void append_head(std::string& html, const Report& report) {
   append(html, {"<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n"
                 "<head>\n<meta charset=\"utf-8\"/>\n"
                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
                 "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-                "style-src 'unsafe-inline'; img-src data:\"/>\n"});
+                "style-src 'unsafe-inline'; img-src data:"});
+  if (has_linked(report)) append(html, {"; script-src 'sha256-", detail::kScriptHash, "'"});
+  html += "\"/>\n";
   if (!report.generator.empty())
     append(html, {"<meta name=\"generator\" content=\"", safe(report.generator), "\"/>\n"});
   append(html, {"<title>", safe(report.title), "</title>\n<style>", detail::kStyle,
@@ -59,7 +69,11 @@ void append_numbers(std::string& html, const std::vector<KeyNumber>& numbers) {
 void append_figure(std::string& html, const ReportFigure& item, int number) {
   const std::string count = std::to_string(number);
   const bool wide = item.drawing.width >= kNarrowFigure;
-  append(html, {"<figure id=\"figure-", count, "\"", wide ? " class=\"wide\"" : "", ">\n"});
+  const std::string_view look = wide && item.on_paper ? " class=\"wide still\""
+                                : wide                ? " class=\"wide\""
+                                : item.on_paper       ? " class=\"still\""
+                                                      : "";
+  append(html, {"<figure id=\"figure-", count, "\"", look, ">\n"});
   if (wide)
     append(html, {"<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Figure ",
                   count, "\">\n"});
@@ -95,6 +109,7 @@ void append_section(std::string& html, const Section& section, int number, int& 
                 "</h2>\n"});
   for (const std::string& paragraph : section.paragraphs)
     append(html, {"<p>", safe(paragraph), "</p>\n"});
+  if (section.linked) html += detail::linked_curve(*section.linked);
   bool paired = false;
   for (const ReportFigure& item : section.figures) {
     const bool narrow = item.drawing.width < kNarrowFigure;
@@ -151,6 +166,7 @@ std::string html_report(const Report& report) {
   html += "</main>\n";
   if (!report.generator.empty())
     append(html, {"<footer>Made by ", safe(report.generator), ".</footer>\n"});
+  if (has_linked(report)) append(html, {"<script>", detail::kScript, "</script>\n"});
   return html + "</body>\n</html>\n";
 }
 

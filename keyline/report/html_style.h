@@ -40,6 +40,20 @@ figcaption { color: #5a6268; font-size: 0.9rem; margin-top: 0.35rem; max-width: 
 .scroll:focus-visible { outline: 2px solid #0069aa; outline-offset: 2px; }
 svg { display: block; max-width: 100%; height: auto; }
 .wide svg { min-width: 35rem; width: 100%; max-width: 58rem; }
+.explorer { display: none; margin: 1rem 0 1.5rem; }
+.live .explorer { display: block; }
+.live .still { display: none; }
+.explorer canvas { display: block; width: 100%; touch-action: pan-y; cursor: crosshair; }
+.explorer canvas:focus-visible { outline: 2px solid #0069aa; outline-offset: 2px; }
+.explorer .comb { height: clamp(16rem, 52vh, 30rem); }
+.explorer .plot { height: 15rem; }
+.controls { display: flex; gap: 0.4rem; align-items: center; }
+.controls button { font: inherit; min-width: 2.2rem; min-height: 2rem; color: inherit;
+  background: #f5f7f9; border: 1px solid #adb5bd; border-radius: 4px; cursor: pointer; }
+.controls label { margin-left: auto; display: flex; gap: 0.5rem; align-items: center;
+  color: #5a6268; font-size: 0.9rem; }
+.explorer .told { max-width: none; min-height: 1.5em; color: #212529; font-size: 0.92rem;
+  font-variant-numeric: tabular-nums; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr));
   gap: 0.5rem 1rem; }
 .pair figure { margin: 0.5rem 0; }
@@ -68,6 +82,8 @@ footer { margin-top: 2.5rem; color: #5a6268; font-size: 0.83rem; }
   h1 { font-size: 18pt; }
   h2 { font-size: 13pt; margin-top: 14pt; break-after: avoid; }
   figure, .numbers div, .verdict, tr, pre { break-inside: avoid; }
+  .live .explorer { display: none; }
+  .live .still { display: block; }
   .scroll { overflow: visible; }
   .wide svg { min-width: 0; max-height: 200mm; }
   .pair { grid-template-columns: 1fr 1fr; }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "keyline/figure/curve_charts.h"
 #include "keyline/figure/drawing.h"
 
 namespace keyline::report {
@@ -24,6 +26,16 @@ struct KeyNumber {
 struct ReportFigure {
   figure::Drawing drawing = {};
   std::string caption = {};
+  bool on_paper = false;  ///< for paper and where no script runs: else a linked curve shows it
+};
+
+/// A curve that the page draws by itself: comb and curvature plot, linked and zoomed together.
+/// Lists of equal length (InvalidInput otherwise), all finite.
+struct LinkedCurve {
+  figure::SampledCurve curve = {};
+  figure::SampledCurve before = {};      ///< its curvature behind the curve's; may be empty
+  std::vector<std::string> pieces = {};  ///< what is said of each; empty: nothing
+  std::string unit = {};                 ///< of length
 };
 
 enum class Alignment { text, number };
@@ -46,6 +58,7 @@ struct Section {
   std::vector<std::string> paragraphs = {};
   std::vector<ReportFigure> figures = {};  ///< narrow ones (under 480 px) stand side by side
   std::vector<ReportTable> tables = {};
+  std::optional<LinkedCurve> linked = {};  ///< stands before the figures
 };
 
 enum class NoteKind { note, warning };

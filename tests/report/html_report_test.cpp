@@ -1,5 +1,6 @@
 #include "keyline/report/html_report.h"
 
+#include <limits>
 #include <pugixml.hpp>
 #include <set>
 
@@ -64,6 +65,39 @@ TEST(HtmlReport, NeedsNothingFromElsewhere) {
   EXPECT_EQ(html.find("@import"), std::string::npos);
   EXPECT_EQ(html.find("url(http"), std::string::npos);
   EXPECT_EQ(html, html_report(sample_report()));
+}
+
+LinkedCurve linked_arc() {
+  LinkedCurve linked{.pieces = {kHostile}, .unit = kHostile};
+  linked.curve.arc_length = {0, 1, 2};
+  linked.curve.points = {{5, 5}, {6, 5.5}, {7, 6.5}};
+  linked.curve.tangent_angle = {0, 0.5, 1};
+  linked.curve.curvature = {0.5, std::numeric_limits<double>::infinity(), 1.0 / 3};
+  linked.curve.joints = {1};
+  return linked;
+}
+
+TEST(HtmlReport, LetsOneScriptDrawALinkedCurve) {
+  Report report = sample_report();
+  report.sections[0].linked = linked_arc();
+  report.sections[0].figures[0].on_paper = true;
+  const std::string html = html_report(report);
+  const auto document = parsed(html);
+  EXPECT_STREQ(document.select_node("//div[@class='explorer']/ul/li").node().text().get(),
+               "\"'><script>alert(1)</script>&amp;\uFFFD");
+  EXPECT_STREQ(document.select_node("//script[@type]").node().text().get(),
+               R"({"s":[0,1,2],"k":[0.5,null,0.3333333],"x":[0,1,2],"y":[0,0.5,1.5],)"
+               R"("a":[0,0.5,1],"joints":[1],"before":{"s":[],"k":[]}})");
+  EXPECT_EQ(document.select_nodes("//script").size(), 2U);
+  EXPECT_EQ(document.select_nodes("//figure[@class='wide still']").size(), 1U);
+  EXPECT_NE(html.find("script-src 'sha256-"), std::string::npos);
+}
+
+TEST(HtmlReport, RefusesALinkedCurveWhosePartsDiffer) {
+  Report report;
+  report.sections.push_back({.title = "Curve", .linked = linked_arc()});
+  report.sections[0].linked->curve.curvature.pop_back();
+  EXPECT_THROW(html_report(report), core::InvalidInput);
 }
 
 TEST(HtmlReport, KeepsIdsApart) {

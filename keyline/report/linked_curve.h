@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "keyline/report/report.h"
+
+namespace keyline::report::detail {
+
+/// What the page's script draws the curve from: its numbers as JSON in a block that does not run,
+/// what is said of its pieces as a hidden list. Nothing is to be seen where no script runs.
+/// Numbers have seven digits, points from the first one on; what is not finite is null.
+/// Throws: InvalidInput for lists of unequal length.
+std::string linked_curve(const LinkedCurve& linked);
+
+}  // namespace keyline::report::detail
