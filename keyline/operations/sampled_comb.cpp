@@ -16,9 +16,9 @@ namespace {
 using core::Point2;
 using core::Result;
 
-constexpr int kLeastOfPiece = 8;  // samples, so that a short piece still shows how it turns
-constexpr int kDense = 2001;      // samples of the diagram and the measures
-constexpr double kFlat = 1e-9;    // curvature or its rate below this share of its largest: none
+constexpr int kLeastOfPiece = 24;  // samples, so that a short piece still shows how it turns
+constexpr int kDense = 2001;       // samples of the diagram and the measures
+constexpr double kFlat = 1e-9;     // curvature or its rate below this share of its largest: none
 
 /// Everything there is to say of places in order along the curve.
 struct Places {
@@ -236,6 +236,7 @@ CombGraphs graphs_of(const document::Path& path, const Places& shown, double len
   const analysis::CombFigures figures = analysis::comb_figures({dense.arc_length, dense.curvature});
   graphs.energy = figures.energy;
   graphs.jolt = figures.jolt;
+  graphs.waves = figures.waves;
   return graphs;
 }
 

@@ -56,6 +56,7 @@ struct CombGraphs {
   double energy = 0;
   double bending = 0;
   double jolt = 0;
+  int waves = 0;
   static constexpr auto describe() {
     using Graphs = CombGraphs;
     return core::fields(
@@ -71,7 +72,8 @@ struct CombGraphs {
             "length^3 times the integral of the squared curvature rate, from the samples"),
         core::field<&Graphs::bending>("length times the integral of the squared curvature"),
         core::field<&Graphs::jolt>(
-            "largest change of curvature within 0.5 % of the length, as a share of its range"));
+            "largest change of curvature within 0.5 % of the length, as a share of its range"),
+        core::field<&Graphs::waves>("extrema of curvature that rise above 2 % of its range"));
   }
 };
 
@@ -97,7 +99,7 @@ struct SampledComb {
 };
 
 /// Samples evenly spaced in arc length within every piece, both of its ends among them, at least
-/// eight to a piece. Polylines: their vertices, without curvature.
+/// 24 to a piece. Polylines: their vertices, without curvature.
 /// Fails: bad_input for a curve without length or whose numbers are not finite.
 core::Result<SampledComb> sampled_comb(const document::Path& path, const CombForm& form);
 
