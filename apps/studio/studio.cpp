@@ -9,6 +9,7 @@
 #include "keyline/presentation/output.h"
 
 #include "guard.h"
+#include "report.h"
 
 namespace keyline::studio {
 
@@ -122,17 +123,26 @@ std::string query_value(const std::string& query, const std::string& name) {
   return value;
 }
 
-/// Curves and surfaces as one file; pictures and pages where the extension means one.
-Result<operations::Written> written_as(const std::string& file, json request) {
+/// Curves and surfaces as one file; pictures and pages where the extension means one, of what
+/// "report" tells where that is there.
+Result<operations::Written> written_as(const std::string& file, json request, const Folder& folder,
+                                       const operations::Context& context) {
   request["file"] = file;
+  const json told = request.value("report", json());
+  request.erase("report");
   auto output = presentation::output_of(std::move(request));
   if (!output) return std::unexpected(std::move(output.error()));
   presentation::ReportOptions options;
   options.title = "Keyline Studio";
   options.unit = output->document.unit;
   options.generator = std::string("Keyline ") + core::version();
-  const auto pages = presentation::document_pages(output->document, options);
-  auto answer = presentation::write_files({file}, pages, *output);
+  Result<presentation::Pages> pages = presentation::document_pages(output->document, options);
+  if (!told.is_null()) {
+    options.title = "";
+    pages = report_pages(told, folder, options, context);
+  }
+  if (!pages) return std::unexpected(std::move(pages.error()));
+  auto answer = presentation::write_files({file}, *pages, *output);
   if (!answer) return std::unexpected(std::move(answer.error()));
   return answer->written.at(0);
 }
@@ -200,7 +210,7 @@ void Studio::serve(const RequestHead& head, std::string body, std::shared_ptr<Re
   }
   if (name == "cancel") return cancel(body, *back);
   if (name == "studio/upload") return upload(head, body, *back);
-  if (name == "studio/export") return export_document(std::move(body), back);
+  if (name == "studio/export") return export_document(head, std::move(body), back);
   if (name == "studio/recovery") {
     const auto kept = recovery_.keep(body);
     return back->reply(kept ? data(200, R"({"ok":true})") : failed(kept.error()));
@@ -309,8 +319,9 @@ void Studio::upload(const RequestHead& head, const std::string& body, Responder&
   back.reply(data(200, text_of({{"ok", true}, {"file", (folder / name).string()}})));
 }
 
-void Studio::export_document(std::string body, const std::shared_ptr<Responder>& back) {
-  const auto work = [body = std::move(body), back] {
+void Studio::export_document(const RequestHead& head, std::string body,
+                             const std::shared_ptr<Responder>& back) {
+  const auto work = [this, body = std::move(body), back] {
     auto request = request_in(body);
     if (!request) return back->reply(failed(request.error()));
     const auto named = request->find("file");
@@ -319,7 +330,8 @@ void Studio::export_document(std::string body, const std::shared_ptr<Responder>&
                                  "name the file; its extension chooses the format", "file"}));
     const Scratch scratch;
     const fs::path file = scratch.file(plain_name(named->get<std::string>()));
-    const auto written = written_as(file.string(), std::move(*request));
+    const operations::Context context{settings_.threads, {nullptr, back->gone()}};
+    const auto written = written_as(file.string(), std::move(*request), folder_, context);
     if (!written) return back->reply(failed(written.error()));
     const json deviation = written->deviation;
     const json notes = written->notes;
@@ -330,7 +342,9 @@ void Studio::export_document(std::string body, const std::shared_ptr<Responder>&
                                notes.dump(-1, ' ', true, json::error_handler_t::replace));
     back->reply(std::move(reply));
   };
-  if (!hand_.take(work)) back->reply(too_busy());
+  Lane& lane =
+      query_value(head.query, "report").empty() ? hand_ : work_;  // reports take their time
+  if (!lane.take(work)) back->reply(too_busy());
 }
 
 void Studio::send_asset(const std::string& path, Responder& back) const {

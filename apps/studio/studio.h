@@ -47,7 +47,8 @@ class Studio {
   void forget(const std::string& job);
   void cancel(const std::string& body, Responder& back);
   void upload(const RequestHead& head, const std::string& body, Responder& back);
-  void export_document(std::string body, const std::shared_ptr<Responder>& back);
+  void export_document(const RequestHead& head, std::string body,
+                       const std::shared_ptr<Responder>& back);
   void send_asset(const std::string& path, Responder& back) const;
   std::string session() const;
 

@@ -245,6 +245,29 @@ class StudioServer(unittest.TestCase):
             self.assertEqual(status, 400, (wrong, body[:300]))
         self.well()
 
+    def test_exports_the_report_of_what_was_done(self):
+        points = [[i, (i - 30) ** 2 / 60 + 0.01 * ((i * 7919) % 13)] for i in range(61)]
+        told = [{"op": "fair", "name": "bow", "request": {"points": points}}]
+        _, body, _ = self.ask("POST", "/api/v1/fair", {"points": points})
+        fair = json.loads(body)["result"]
+        status, body, _ = self.ask("POST", "/api/v1/studio/export?report=1",
+                                   {"file": "x.html", "unit": "mm", "report": told})
+        self.assertEqual(status, 200, body[:300])
+        page = body.decode()
+        self.assertTrue("class=\"explorer\"" in page)
+        self.assertTrue(f"<dd class=\"value\">{len(fair['pieces'])}</dd>" in page)
+        curve = fair["curve"]
+        status, body, _ = self.ask("POST", "/api/v1/studio/export", {
+            "file": "x.html", "report": [{"op": "curve.analyze", "request": {"curve": curve}}]})
+        self.assertEqual(status, 200, body[:300])
+        self.assertTrue(b"<h1>Curve analysis</h1>" in body)
+        for wrong in (3, [], [3], [{}], [{"op": "convert"}], [{"op": "document.read"}], told + [{}],
+                      [{"op": "fair", "request": {"points": 3}}], [{"op": "fair", "name": 3}]):
+            status, body, _ = self.ask("POST", "/api/v1/studio/export",
+                                       {"file": "x.html", "report": wrong})
+            self.assertEqual(status, 400, (wrong, body[:300]))
+        self.well()
+
     def test_refuses_who_may_not_ask(self):
         refused = [
             ({"Host": "evil.example"}, 421), ({"Origin": "http://evil.example"}, 403),
