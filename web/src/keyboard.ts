@@ -5,6 +5,10 @@ import { tools } from "./panels/toolbar.ts";
 import type { Studio } from "./studio.ts";
 
 const kPan = 40; // pixels
+const kStep = 10;
+const kFarStep = 50;
+const kFineStep = 1;
+const kWipeStep = 0.01;
 const arrows: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class Keyboard {
@@ -54,6 +58,7 @@ export class Keyboard {
     const { looks } = store.state;
     if (["Escape", "Enter", "Backspace"].includes(e.key) && canvas.key(e.key)) return true;
     const onBoard = document.activeElement === canvas.element || document.activeElement === document.body;
+    if (onBoard && store.state.tool !== "select" && this.pointing(e)) return true;
     if (onBoard && arrows[e.key]) return this.arrow(arrows[e.key] as Point, e.shiftKey, e.altKey);
     const tool = tools.find((t) => t.key.toLowerCase() === e.key.toLowerCase());
     if (tool) {
@@ -69,6 +74,9 @@ export class Keyboard {
       g: () => store.look({ grid: !looks.grid }),
       n: () => store.look({ snap: !looks.snap }),
       w: () => store.look({ wipe: looks.wipe === null ? 0.5 : null }),
+      o: () => store.look({ circle: !looks.circle }),
+      ",": () => this.wipe(-kWipeStep),
+      ".": () => this.wipe(kWipeStep),
       x: () => this.studio.splitHere(),
       h: () => this.nextHandle(),
       delete: () => this.studio.removeSelected(),
@@ -82,6 +90,23 @@ export class Keyboard {
     const done = act[e.key.toLowerCase()];
     done?.();
     return done !== undefined;
+  }
+
+  /** With a tool, arrows move the pointer and the space bar clicks: everything drawn can be drawn by keys. */
+  private pointing(e: KeyboardEvent): boolean {
+    const { canvas } = this.studio;
+    const by = arrows[e.key];
+    const step = e.shiftKey ? kFarStep : e.altKey ? kFineStep : kStep;
+    if (by) canvas.step([by[0] * step, -by[1] * step]);
+    else if (e.key === " ") canvas.press();
+    return by !== undefined || e.key === " ";
+  }
+
+  /** The line between before and after, by a hundredth of the width. */
+  private wipe(by: number): void {
+    const { store } = this.studio;
+    const { wipe } = store.state.looks;
+    if (wipe !== null) store.look({ wipe: Math.min(1, Math.max(0, wipe + by)) });
   }
 
   private zoom(factor: number): void {

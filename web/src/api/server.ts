@@ -83,7 +83,8 @@ export class ServerClient implements Client {
   }
 
   async export(request: object): Promise<Answer<Exported>> {
-    const reply = await this.ask("studio/export", this.posting(JSON.stringify(request), "application/json"));
+    const report = "report" in request ? "?report=1" : ""; // on the lane of what takes long
+    const reply = await this.ask(`studio/export${report}`, this.posting(JSON.stringify(request), "application/json"));
     if (!reply) return { ok: false, error: kLost };
     if (!reply.ok) return (await reply.json()) as Answer<never>;
     return {

@@ -2,10 +2,10 @@
 import type { Gesture, Pointer, Table } from "../gestures/gesture.ts";
 import { gestureFor } from "../gestures/draw.ts";
 import { handleAt } from "../gestures/pick.ts";
+import { snapped } from "../gestures/snap.ts";
 import type { Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
 import { h } from "../ui/dom.ts";
-import { gridStep } from "./grid.ts";
 import { Latency } from "./latency.ts";
 import { paintScene, type Scene } from "./scene.ts";
 
@@ -16,6 +16,7 @@ export class Canvas {
   private gesture: Gesture;
   private tool: ToolName = "select";
   private cursor: Pointer | null = null;
+  private byKeys = false;
   private readonly touches = new Map<number, Point>();
   private scheduled = false;
   private readonly images = new Map<string, HTMLImageElement>();
@@ -36,7 +37,8 @@ export class Canvas {
   }
 
   get hint(): string {
-    return this.gesture.hint ?? "";
+    const { snappedTo } = this.table.store.state;
+    return `${this.gesture.hint ?? ""}${snappedTo ? ` \u2013 at the ${snappedTo}` : ""}`;
   }
 
   get place(): Point | null {
@@ -47,6 +49,7 @@ export class Canvas {
     if (tool === this.tool) return;
     this.tool = tool;
     this.gesture = gestureFor(this.table, tool);
+    if (tool !== "select") this.table.store.set({ hover: null });
     this.after();
   }
 
@@ -58,6 +61,7 @@ export class Canvas {
       state: store.state, live, view, ...this.extras,
       hot: this.cursor ? handleAt(this.table, this.cursor.at) : null,
       cursor: this.cursor?.place ?? null,
+      crosshair: this.byKeys && this.tool !== "select",
       started: this.gesture.started ?? [],
       underlay: underlay ? this.image(underlay.stages.find((s) => s.name === underlay.stage)?.url ?? underlay.url) : null,
     });
@@ -80,6 +84,24 @@ export class Canvas {
     if (!next) return false;
     this.follow(next);
     return true;
+  }
+
+  /** The pointer moved by keys, in pixels: from where it is, else from the middle. */
+  step(by: Point): void {
+    const { view } = this.table;
+    const at = this.cursor?.at ?? [view.width / 2, view.height / 2];
+    const within = (v: number, most: number) => Math.min(Math.max(v, 0), most);
+    this.cursor = this.pointerAt([within(at[0] + by[0], view.width), within(at[1] + by[1], view.height)]);
+    this.byKeys = true;
+    this.follow(this.gesture.move?.(this.cursor) ?? this.gesture);
+  }
+
+  /** A click where the pointer is. */
+  press(): void {
+    this.cursor ??= this.pointerAt([this.table.view.width / 2, this.table.view.height / 2]);
+    this.byKeys = true;
+    this.follow(this.gesture.down?.(this.cursor) ?? this.gesture);
+    this.follow(this.gesture.up?.(this.cursor) ?? this.gesture);
   }
 
   private image(url: string): HTMLImageElement {
@@ -108,13 +130,17 @@ export class Canvas {
 
   private pointer(event: PointerEvent | MouseEvent): Pointer {
     const box = this.element.getBoundingClientRect();
-    const at: Point = [event.clientX - box.left, event.clientY - box.top];
-    let place = this.table.view.toModel(at);
-    if (this.table.store.state.looks.snap !== event.ctrlKey) {
-      const step = gridStep(this.table.view);
-      place = [Math.round(place[0] / step) * step, Math.round(place[1] / step) * step];
-    }
-    return { at, place, shift: event.shiftKey, alt: event.altKey, button: event.button, time: event.timeStamp };
+    const { shiftKey: shift, altKey: alt, button, timeStamp: time } = event;
+    this.byKeys = false;
+    return { ...this.pointerAt([event.clientX - box.left, event.clientY - box.top], event.ctrlKey), shift, alt, button, time };
+  }
+
+  /** Control does the opposite of what the snap is set to. */
+  private pointerAt(at: Point, otherwise = false): Pointer {
+    const snaps = this.table.store.state.looks.snap !== otherwise;
+    const { place, to } = snaps ? snapped(this.table, at) : { place: this.table.view.toModel(at), to: "" };
+    if (to !== this.table.store.state.snappedTo) this.table.store.set({ snappedTo: to });
+    return { at, place, shift: false, alt: false, button: 0, time: performance.now() };
   }
 
   private follow(next: Gesture): void {

@@ -4,13 +4,15 @@ import { type Comb, type Entity, entityOf, isHeld, isShown, lineOf, type Point }
 import type { DeviationTold } from "../model/deviation.ts";
 import type { Live } from "../model/live.ts";
 import type { DrawableRegion } from "../model/region.ts";
-import { docOf, type State } from "../model/state.ts";
+import { docOf, type Hover, type State } from "../model/state.ts";
 import type { Viewport } from "../view/viewport.ts";
 import {
   paintComb, paintCurve, paintDeviation, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints, paintStrays, paintStretch,
 } from "./curves.ts";
 import { kRuler, paintGrid, paintRulers } from "./grid.ts";
 import { paintHandles } from "./handles.ts";
+import { paintCard, paintCircle } from "./reading.ts";
+import { readings } from "../panels/measures.ts";
 import { dark, light, type Palette } from "./palette.ts";
 
 export interface Scene {
@@ -22,6 +24,8 @@ export interface Scene {
   /** a handle under the pointer */
   hot: { entity: number; handle: number } | null;
   cursor: Point | null;
+  /** keys move the pointer: it has to be seen */
+  crosshair: boolean;
   /** points clicked so far by a drawing tool, and where the next one would be */
   started: readonly Point[];
   underlay: HTMLImageElement | null;
@@ -102,9 +106,17 @@ function clipped(g: CanvasRenderingContext2D, scene: Scene, left: boolean, paint
   g.restore();
 }
 
+/** Of two chosen curves that have nothing before them, the one the wipe shows on its left. */
+function wipedAway({ state, before }: Scene): number | null {
+  if (state.looks.wipe === null || state.selection.length < 2) return null;
+  return state.selection.some((id) => before(id)) ? null : state.selection[0] ?? null;
+}
+
 function paintWipe(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
   const { wipe } = scene.state.looks;
   if (wipe === null) return;
+  const away = wipedAway(scene);
+  const nameOf = (id: number | null | undefined) => entityOf(docOf(scene.state), id ?? null)?.name ?? "";
   const at = Math.round(wipe * scene.view.width) + 0.5;
   g.strokeStyle = colors.handle;
   g.lineWidth = 1;
@@ -116,9 +128,9 @@ function paintWipe(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): 
   g.font = "11px system-ui, sans-serif";
   g.textBaseline = "top";
   g.textAlign = "right";
-  g.fillText("before", at - 8, kRuler + 8);
+  g.fillText(away === null ? "before" : nameOf(away), at - 8, kRuler + 8);
   g.textAlign = "left";
-  g.fillText("after", at + 8, kRuler + 8);
+  g.fillText(away === null ? "after" : nameOf(scene.state.selection.at(-1)), at + 8, kRuler + 8);
 }
 
 /** Where the handle in hand may stand; the nearest curve that can be drawn, where it stands elsewhere. */
@@ -136,6 +148,38 @@ function paintRegion(g: CanvasRenderingContext2D, scene: Scene, colors: Palette)
   g.setLineDash([6, 4]);
   paintCurve(g, view, region.nearest, colors.handle, 1.75);
   g.setLineDash([]);
+}
+
+/** The line that the chosen faired curve mirrors in: dashed where only the points nearly do. */
+function paintSymmetry(g: CanvasRenderingContext2D, { state, view }: Scene, colors: Palette): void {
+  const e = entityOf(docOf(state), state.selection.at(-1) ?? null);
+  const found = e?.kind === "faired" ? e.told.symmetry : null;
+  if (!found?.point) return;
+  const [x, y] = view.toScreen(found.point as Point);
+  const far = view.width + view.height + Math.hypot(x, y);
+  const along: Point = [Math.cos(found.direction ?? 0) * far, -Math.sin(found.direction ?? 0) * far];
+  g.strokeStyle = colors.evolute;
+  g.lineWidth = found.exact ? 1.25 : 1;
+  g.setLineDash(found.exact ? [14, 4, 3, 4] : [3, 5]);
+  g.beginPath();
+  g.moveTo(x - along[0], y - along[1]);
+  g.lineTo(x + along[0], y + along[1]);
+  g.stroke();
+  g.setLineDash([]);
+}
+
+function paintHover(g: CanvasRenderingContext2D, scene: Scene, hover: Hover, colors: Palette): void {
+  const { state, view } = scene;
+  const shown = scene.live.of(hover.entity);
+  const at = shown?.comb.points[hover.sample] as Point | undefined;
+  if (!shown || !at) return;
+  const { comb } = shown;
+  if (state.looks.circle) paintCircle(g, view, comb, hover.sample, colors);
+  paintMark(g, view, comb, hover.sample, state.looks.comb ? state.looks.combScale : 0, colors);
+  const [nx, ny] = comb.normals[hover.sample] as Point;
+  const side = (comb.curvature[hover.sample] ?? 0) > 0 ? -1 : 1;
+  const doc = docOf(state);
+  paintCard(g, view, at, [side * nx, side * ny], readings(entityOf(doc, hover.entity), shown, hover.sample, doc.unit), colors);
 }
 
 function paintStarted(g: CanvasRenderingContext2D, scene: Scene, colors: Palette): void {
@@ -158,6 +202,19 @@ function paintStarted(g: CanvasRenderingContext2D, scene: Scene, colors: Palette
   }
 }
 
+function paintCrosshair(g: CanvasRenderingContext2D, { crosshair, cursor, view }: Scene, colors: Palette): void {
+  if (!crosshair || !cursor) return;
+  const [x, y] = view.toScreen(cursor);
+  g.strokeStyle = colors.handle;
+  g.lineWidth = 1;
+  g.beginPath();
+  for (const [dx, dy] of [[1, 0], [0, 1]] as const) {
+    g.moveTo(x - 14 * dx, y - 14 * dy);
+    g.lineTo(x + 14 * dx, y + 14 * dy);
+  }
+  g.stroke();
+}
+
 export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
   const { state, view } = scene;
   const doc = docOf(state);
@@ -169,10 +226,15 @@ export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
   const visible = doc.entities.filter((e) => isShown(doc, e));
   paintRegion(g, scene, colors);
   for (const e of visible) if (e.kind === "scan") paintEntity(g, scene, e, colors);
-  clipped(g, scene, true, () => paintBefore(g, scene, colors));
-  clipped(g, scene, false, () => {
-    for (const e of visible) if (e.kind !== "scan") paintEntity(g, scene, e, colors);
+  const away = wipedAway(scene);
+  clipped(g, scene, true, () => {
+    paintBefore(g, scene, colors);
+    for (const e of visible) if (e.id === away) paintEntity(g, scene, e, colors);
   });
+  clipped(g, scene, false, () => {
+    for (const e of visible) if (e.kind !== "scan" && e.id !== away) paintEntity(g, scene, e, colors);
+  });
+  paintSymmetry(g, scene, colors);
   for (const id of state.selection) {
     const e = entityOf(doc, id);
     if (!e || !isShown(doc, e) || isHeld(doc, e)) continue;
@@ -183,10 +245,10 @@ export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
     if (comb) paintStretch(g, view, comb, state.stretch, colors.handle);
   }
   if (state.hover) {
-    const comb = scene.live.of(state.hover.entity)?.comb;
-    if (comb) paintMark(g, view, comb, state.hover.sample, state.looks.comb ? state.looks.combScale : 0, colors);
+    paintHover(g, scene, state.hover, colors);
   }
   paintStarted(g, scene, colors);
+  paintCrosshair(g, scene, colors);
   paintWipe(g, scene, colors);
   paintRulers(g, view, colors, doc.unit, scene.cursor ? view.toScreen(scene.cursor) : null);
 }

@@ -1,10 +1,12 @@
 /** Drawing tools: so many clicks make a thing. */
-import { added, type Fresh, type Point } from "../model/document.ts";
+import { added, type Doc, type Fresh, type Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Measuring } from "./measure.ts";
 import { Idle, Panning } from "./select.ts";
 import { ClickingStrays } from "./stray.ts";
+
+const kSplineShows = 2; // points of a spline that make a curve
 
 interface Recipe {
   /** clicks that complete it; Infinity: until it is ended */
@@ -57,6 +59,18 @@ export class Drawing implements Gesture {
     this.hint = recipe.hints[Math.min(started.length, recipe.hints.length - 1)] ?? "";
   }
 
+  /** As soon as one click more would complete it, the curve is there and follows. */
+  move(p: Pointer): Gesture {
+    const { store } = this.table;
+    const points = [...this.started, p.place];
+    const last = this.started.at(-1);
+    const stands = last && last[0] === p.place[0] && last[1] === p.place[1];
+    if (points.length < (this.recipe.clicks === Infinity ? kSplineShows : this.recipe.clicks) || stands) return this;
+    const { doc, id } = this.made(points);
+    store.set({ draft: doc, selection: [id] });
+    return this;
+  }
+
   down(p: Pointer): Gesture {
     if (p.button === 1 || p.button === 2) return new PanningWithin(this.table, p.at, this);
     const last = this.started.at(-1);
@@ -72,12 +86,15 @@ export class Drawing implements Gesture {
 
   key(name: string): Gesture | null {
     if (name === "Enter") return this.doubled();
-    if (name === "Backspace" && this.started.length > 0)
+    if (name === "Backspace" && this.started.length > 0) {
+      this.table.store.set({ draft: null });
       return new Drawing(this.table, this.tool, this.recipe, this.started.slice(0, -1));
+    }
     return null;
   }
 
   cancel(): Gesture {
+    if (this.table.store.state.draft) this.table.store.set({ draft: null, selection: [] });
     if (this.started.length > 0) return new Drawing(this.table, this.tool, this.recipe);
     this.table.store.set({ tool: "select" });
     return new Idle(this.table);
@@ -85,9 +102,14 @@ export class Drawing implements Gesture {
 
   private complete(points: Point[]): Gesture {
     const { store } = this.table;
-    const { doc, id } = added(store.state.history.now, this.recipe.make(points, store.state.history.now.next));
+    const { doc, id } = this.made(points);
     store.commit(`Draw ${this.tool}`, doc, { selection: [id], tool: "select" });
     return new Idle(this.table);
+  }
+
+  private made(points: Point[]): { doc: Doc; id: number } {
+    const { now } = this.table.store.state.history;
+    return added(now, this.recipe.make(points, now.next));
   }
 }
 

@@ -17,6 +17,7 @@ const kLeft = 52;
 const kRight = 12;
 const kTop = 24;
 const kBottom = 22;
+const kRounding = 1e-9; // of a value: a range below that is none
 const kTickX = 58; // least pixels between numbers
 const kTickY = 28;
 
@@ -28,7 +29,8 @@ export function rangeOf(values: Iterable<number>, margin = 0.06): Range | null {
     if (v > high) high = v;
   }
   if (low > high) return null;
-  const size = high - low || Math.max(Math.abs(high), 1e-12) * 0.1;
+  const most = Math.max(Math.abs(low), Math.abs(high));
+  const size = high - low > kRounding * most ? high - low : Math.max(most, 1e-12) * 0.1;
   return { low: low - margin * size, high: high + margin * size };
 }
 

@@ -1,6 +1,6 @@
 /** What is being worked on: plain values, never changed in place. */
 import type {
-  Curve, CurveCondition, CurveEditRequest, FairedPiece, FairFigures, FairRequest, KeyLine, SampledComb, Surface,
+  Curve, CurveCondition, CurveEditRequest, FairedPiece, FairFigures, FairRequest, FoundSymmetry, KeyLine, SampledComb, Surface,
   SurfaceEditRequest,
 } from "../../generated/operations.ts";
 
@@ -109,6 +109,9 @@ export type End = "start" | "end";
 export interface FairTold {
   request: FairRequest;
   spline: Curve;
+  bic: number | null;
+  /** stretches of monotone curvature that the spline has */
+  monotone: number;
   pieces: FairedPiece[];
   length: number;
   noise: number;
@@ -118,6 +121,9 @@ export interface FairTold {
   within: boolean;
   cancelled: boolean;
   fairness: FairFigures | null;
+  /** fastest that curvature changes; null: without bound */
+  rate: number | null;
+  symmetry: FoundSymmetry | null;
   notes: string[];
 }
 

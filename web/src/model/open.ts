@@ -1,7 +1,7 @@
 /** Files into the document and out of it. */
 import type { Curve, DocumentReadResult, KeyLine, NamedCurve, Surface } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
-import { added, type Doc, type Fresh, isShown, lineOf } from "./document.ts";
+import { added, type Doc, entityOf, type Fresh, isShown, lineOf } from "./document.ts";
 import type { Live } from "./live.ts";
 import type { Store } from "./state.ts";
 
@@ -38,7 +38,7 @@ export const isImage = (name: string): boolean => /\.(png|jpe?g|tiff?|webp)$/i.t
 /** Reads the file the server knows by that name. */
 export async function openNamed(client: Client, store: Store, file: string): Promise<number[]> {
   const work = client.long<DocumentReadResult>("document.read", { file, planar: true }, () => {});
-  store.set({ work: { doing: `reading ${baseOf(file)}`, fraction: 0, cancel: work.cancel } });
+  store.set({ work: { doing: `reading ${baseOf(file)}`, fraction: 0, trace: [], cancel: work.cancel } });
   const answer = await work.answer;
   store.set({ work: null });
   if (!answer.ok) {
@@ -50,6 +50,28 @@ export async function openNamed(client: Client, store: Store, file: string): Pro
   const skipped = answer.result.skipped ?? [];
   if (skipped.length > 0) store.say(skipped.join("; "));
   return ids;
+}
+
+interface Told {
+  op: "fair" | "curve.analyze";
+  name: string;
+  request: object;
+}
+
+/** A page tells how curves were faired; where none was, what they are. */
+function reportOf(doc: Doc, live: Live): Told[] {
+  const shown = doc.entities.filter((e) => isShown(doc, e));
+  const faired = shown.flatMap((e): Told[] => {
+    const of = e.kind === "faired" ? entityOf(doc, e.of) : undefined;
+    if (e.kind !== "faired" || !of) return [];
+    const subject = of.kind === "scan" ? { line: lineOf(of) } : { curve: live.of(of.id)?.curve };
+    return [{ op: "fair", name: e.name, request: { ...e.told.request, ...subject } }];
+  });
+  if (faired.length > 0) return faired;
+  return shown.flatMap((e): Told[] => {
+    const curve = live.of(e.id)?.curve;
+    return curve ? [{ op: "curve.analyze", name: e.name, request: { curve } }] : [];
+  });
 }
 
 /** What is shown, as a file of that format; says what could not be held and how far it is off. */
@@ -65,7 +87,8 @@ export async function exportAs(client: Client, store: Store, live: Live, format:
   const surfaces = doc.entities.flatMap((e) =>
     e.kind === "surface" && isShown(doc, e) ? [{ name: e.name, layer: e.layer, surface: e.surface }] : []);
   const file = `keyline.${format}`;
-  const answer = await client.export({ file, unit: doc.unit, curves, surfaces });
+  const report = format === "html" ? reportOf(doc, live) : [];
+  const answer = await client.export({ file, unit: doc.unit, curves, surfaces, ...(report.length > 0 ? { report } : {}) });
   if (!answer.ok) return store.say(`${format}: ${answer.error.message}`, answer.error.hint ?? "", true);
   save(file, answer.result.content);
   const { deviation, notes } = answer.result;

@@ -31,6 +31,8 @@ export interface Looks {
   events: boolean;
   before: boolean;
   deviation: boolean;
+  /** the osculating circle at the place that is read */
+  circle: boolean;
   grid: boolean;
   snap: boolean;
   theme: "dark" | "light";
@@ -41,6 +43,8 @@ export interface Looks {
 export interface Work {
   doing: string;
   fraction: number;
+  /** what a search has come to so far, number by number */
+  trace: readonly number[];
   cancel: () => void;
 }
 
@@ -70,6 +74,8 @@ export interface State {
   stretch: Stretch | null;
   /** the handle a hand holds */
   dragged: { entity: number; handle: number } | null;
+  /** what the hand has been drawn to: "end of Segment 1" */
+  snappedTo: string;
   looks: Looks;
   work: Work | null;
   message: { text: string; hint: string; bad: boolean } | null;
@@ -89,9 +95,10 @@ export const startState = (theme: "dark" | "light"): State => ({
   hover: null,
   stretch: null,
   dragged: null,
+  snappedTo: "",
   looks: {
     comb: true, combOfAll: false, combScale: 0, combOwn: false, combDensity: 2, evolute: false, events: true, before: true,
-    deviation: false, grid: true, snap: false, theme, wipe: null,
+    deviation: false, circle: false, grid: true, snap: false, theme, wipe: null,
   },
   work: null,
   message: null,
@@ -101,7 +108,18 @@ export const startState = (theme: "dark" | "light"): State => ({
   targeting: false,
 });
 
+const kTraced = 2000; // steps of a search that are kept to be drawn
+
 export const docOf = (s: State): Doc => s.draft ?? s.history.now;
+
+/** How far the work is; a search that names its best value leaves a line of them. */
+export function workTold(store: Store, fraction: number, doing: string): void {
+  const { work } = store.state;
+  if (!work) return;
+  const best = /\bbest \w+ (-?[\d.]+)$/.exec(doing)?.[1];
+  const trace = best === undefined ? work.trace : [...work.trace, Number(best)].slice(-kTraced);
+  store.set({ work: { ...work, fraction, doing, trace } });
+}
 
 type Listener = (now: State, before: State) => void;
 

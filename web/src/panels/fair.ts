@@ -1,208 +1,154 @@
-/** Fairing as steps one can look into. */
-import {
-  type Curve, defaultsOfFair, type FairedPiece, type FairRequest, type FairResult,
-} from "../../generated/operations.ts";
+/** Fairing as steps one can look into: what is asked for, and an answer that follows it. */
+import type { FairRequest, FairResult } from "../../generated/operations.ts";
 import type { Client, LongWork } from "../api/client.ts";
-import { added, type Entity, entityOf, type Faired, type FairTold, type Fresh, lineOf } from "../model/document.ts";
+import { type Entity, entityOf, type FairTold } from "../model/document.ts";
+import { type Criterion, type FairWishes, noWishes, putFaired, requestOf, toldOf, wishesOf } from "../model/fairing.ts";
 import type { Live } from "../model/live.ts";
-import type { Store, Stretch } from "../model/state.ts";
-import { button, choice, fact, section, slider } from "../ui/controls.ts";
+import { type Store, workTold } from "../model/state.ts";
+import { button, choice, section, slider } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
 import { measure } from "../view/ticks.ts";
-import { verdict } from "./verdict.ts";
-
-type Criterion = NonNullable<FairRequest["criterion"]>;
-
-export interface FairWishes {
-  /** 0: by the default rule */
-  tolerance: number;
-  smoothness: number;
-  criterion: Criterion;
-  /** what the curve may not pass, as `fair --keep-inside` has it: y>=0 */
-  inside: string;
-}
+import { FairSteps } from "./fairsteps.ts";
 
 const kCriteria: Record<Criterion, string> = { "least-variation": "calmest curvature", "fewest-pieces": "fewest pieces" };
-
-function requestOf(e: Entity, live: Live, wishes: FairWishes): FairRequest {
-  const curve = live.of(e.id)?.curve;
-  const calm = wishes.criterion === "least-variation" ? { smoothness: wishes.smoothness } : {};
-  return {
-    ...(e.kind === "scan" ? { line: lineOf(e) } : curve ? { curve } : {}),
-    criterion: wishes.criterion,
-    ...(wishes.smoothness === defaultsOfFair.smoothness ? {} : calm),
-    ...(wishes.tolerance > 0 ? { tolerance: wishes.tolerance } : {}),
-    ...(wishes.inside ? { keep_inside: wishes.inside } : {}),
-  };
-}
-
-function toldOf(r: FairResult, request: FairRequest): FairTold {
-  const { line: _line, curve: _curve, ...wishes } = request;
-  return {
-    request: wishes,
-    spline: r.spline as Curve,
-    pieces: r.pieces ?? [],
-    length: r.length ?? 0,
-    noise: r.noise ?? 0,
-    tolerance: r.tolerance ?? 0,
-    max: r.deviation?.max ?? 0,
-    rms: r.deviation?.rms ?? 0,
-    within: r.within_tolerance ?? false,
-    cancelled: r.cancelled ?? false,
-    fairness: r.fairness ?? null,
-    notes: r.report ?? [],
-  };
-}
-
-/** The work, its progress told, its answer put into the document as one step. */
-export async function fairIt(client: Client, store: Store, live: Live, e: Entity, wishes: FairWishes,
-                             more: FairRequest = {}): Promise<void> {
-  const subject = e.kind === "faired" ? store.doc.entities.find((x) => x.id === e.of) ?? e : e;
-  const request = { ...requestOf(subject, live, wishes), ...more };
-  const work: LongWork<FairResult> = client.long("fair", request, (fraction, doing) => {
-    if (store.state.work) store.set({ work: { ...store.state.work, fraction, doing } });
-  });
-  store.set({ work: { doing: "reading the points", fraction: 0, cancel: () => work.cancel() }, message: null });
-  const answer = await work.answer;
-  store.set({ work: null });
-  if (!answer.ok) {
-    store.say(answer.error.message, answer.error.hint ?? "", answer.error.code !== "cancelled");
-    return;
-  }
-  const told = toldOf(answer.result, request);
-  const curve = answer.result.curve;
-  const doc = store.state.history.now;
-  const old = doc.entities.find((x) => x.kind === "faired" && x.of === subject.id);
-  if (old) {
-    const entities = doc.entities.map((x) => (x.id === old.id ? ({ ...x, curve, told } as Faired) : x));
-    store.commit("Fair", { ...doc, entities }, { selection: [old.id] });
-    return;
-  }
-  const fresh: Fresh<Faired> = { kind: "faired", name: `${subject.name}, faired`, layer: subject.layer, curve, of: subject.id, told };
-  const made = added(doc, fresh);
-  store.commit("Fair", made.doc, { selection: [made.id] });
-}
+const kStill = 250; // ms that a hand rests before the answer follows it
+const kOwnLine = "line";
+const kSymmetries = [
+  { value: "off", name: "as measured" }, { value: "auto", name: "exact where it is found" }, { value: kOwnLine, name: "about a line" },
+] as const;
 
 export class FairPanel {
-  private wishes: FairWishes = {
-    tolerance: 0, smoothness: defaultsOfFair.smoothness, criterion: defaultsOfFair.criterion, inside: "",
-  };
+  private wishes: FairWishes = noWishes();
+  /** of what the wishes are */
+  private subject = 0;
+  private work: LongWork<FairResult> | null = null;
+  /** the newest start: answers of those before it are not waited for */
+  private turn = 0;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  /** the hand chose a line, and has yet to write it */
+  private ownLine = false;
+  private readonly steps: FairSteps;
 
-  constructor(private readonly client: Client, private readonly store: Store, private readonly live: Live) {}
-
-  private start(e: Entity, more: FairRequest = {}): void {
-    if (!this.store.state.work) void fairIt(this.client, this.store, this.live, e, this.wishes, more);
+  constructor(private readonly client: Client, private readonly store: Store, private readonly live: Live) {
+    this.steps = new FairSteps(store, (e, more) => void this.start(e, more));
   }
 
   element(e: Entity): HTMLElement {
     const told = e.kind === "faired" ? e.told : null;
-    return section("Fair", ...this.wishing(e, told), ...(told ? this.steps(e as Faired, told) : this.points(e)));
+    const subject = e.kind === "faired" ? e.of : e.id;
+    if (subject !== this.subject) {
+      this.wishes = told ? wishesOf(told.request) : noWishes();
+      this.ownLine = false;
+    }
+    this.subject = subject;
+    return section("Fair", ...(told ? this.steps.outcome(told) : []), ...this.wishing(e, told), ...this.steps.elements(e));
   }
 
-  private points(e: Entity): (HTMLElement | null)[] {
-    if (e.kind !== "scan") return [];
-    return [h("dl", { class: "facts" },
-      fact("Points", String(lineOf(e).points.length)),
-      fact("Noise", measure(e.line.noise ?? 0, 3)),
-      fact("Length", measure(e.line.length ?? 0))),
-    notes(e.line.notes ?? [])];
+  /** The work, its progress told, its answer put into the document. A newer wish takes its place. */
+  private async start(e: Entity, more: FairRequest = {}): Promise<void> {
+    clearTimeout(this.timer);
+    if (this.store.state.work && !this.work) return; // something else is being worked at
+    const turn = ++this.turn;
+    this.work?.cancel();
+    const subject = e.kind === "faired" ? entityOf(this.store.doc, e.of) ?? e : e;
+    const request = { ...requestOf(subject, this.live, this.wishes), ...more };
+    const work: LongWork<FairResult> = this.client.long("fair", request, (fraction, doing) => {
+      if (turn === this.turn) workTold(this.store, fraction, doing);
+    });
+    this.work = work;
+    this.store.set({ work: { doing: "reading the points", fraction: 0, trace: [], cancel: () => work.cancel() }, message: null });
+    const answer = await work.answer;
+    if (turn !== this.turn) return;
+    this.work = null;
+    this.store.set({ work: null });
+    if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", answer.error.code !== "cancelled");
+    if (answer.result.curve) putFaired(this.store, subject, answer.result.curve, toldOf(answer.result, request));
+  }
+
+  /** What has been faired follows the hand as soon as that rests. */
+  private follow(e: Entity): void {
+    clearTimeout(this.timer);
+    if (e.kind !== "faired") return;
+    this.timer = setTimeout(() => {
+      if (entityOf(this.store.doc, e.id)) void this.start(e); // it may have been undone meanwhile
+    }, kStill);
   }
 
   private wishing(e: Entity, told: FairTold | null): (HTMLElement | false)[] {
     const unit = this.store.doc.unit;
     const size = told?.length ?? (e.kind === "scan" ? e.line.length ?? 1 : this.live.of(e.id)?.comb.length ?? 1);
     const now = this.wishes.tolerance || told?.tolerance || 5e-4 * size;
-    const again = () => {
-      if (told) this.start(e);
+    const put = (change: Partial<FairWishes>) => {
+      this.wishes = { ...this.wishes, ...change };
+      this.follow(e);
     };
+    const calmest = this.wishes.criterion === "least-variation";
     return [
       slider({
         id: "tolerance", label: `Tolerance${unit ? `, ${unit}` : ""}`, value: Math.log10(now / size), min: -5, max: -1.5,
-        show: (v) => measure(size * 10 ** v, 3),
-        onInput: (v) => { this.wishes.tolerance = size * 10 ** v; },
-        onDone: again,
+        show: (v) => measure(size * 10 ** v, 3), read: (typed) => Math.log10(typed / size),
+        onInput: (v) => put({ tolerance: size * 10 ** v }), onDone: () => {},
       }),
       choice({
         id: "criterion", label: "Looks for", value: this.wishes.criterion,
         options: Object.entries(kCriteria).map(([value, name]) => ({ value: value as Criterion, name })),
         onChoose: (criterion) => {
-          this.wishes.criterion = criterion;
-          again();
+          put({ criterion });
+          this.renew();
         },
       }),
-      this.wishes.criterion === "least-variation" && slider({
+      calmest && slider({
         id: "smoothness", label: "Smoothness", value: this.wishes.smoothness, min: 0, max: 1,
         stops: [{ at: 0, name: "as measured" }, { at: 1, name: "calmest" }], show: (v) => v.toFixed(2),
-        onInput: (smoothness) => { this.wishes.smoothness = smoothness; },
-        onDone: again,
+        onInput: (smoothness) => put({ smoothness }), onDone: () => {},
       }),
-      this.keeping(again),
-      this.leaving(e),
+      calmest && this.rate(unit, put),
+      this.field("keep-inside", "Not past", this.wishes.inside, "y>=0", (inside) => put({ inside })),
+      ...this.symmetry(told, put),
       h("div", { class: "row" },
-        button(told ? "Fair again" : "Fair", () => this.start(e), { class: "primary", id: "fair", disabled: this.store.state.work !== null }),
+        button(told ? "Fair again" : "Fair", () => void this.start(e), { class: "primary", id: "fair", disabled: this.store.state.work !== null }),
         h("span", { class: "quiet" }, this.wishes.tolerance > 0 ? "" : "tolerance by the noise")),
     ];
   }
 
-  private keeping(again: () => void): HTMLElement {
-    const field = h("input", { type: "text", id: "keep-inside", value: this.wishes.inside, placeholder: "y>=0", "aria-label": "Not past" });
-    field.addEventListener("change", () => {
-      this.wishes.inside = field.value.trim();
-      again();
+  private rate(unit: string, put: (change: Partial<FairWishes>) => void): HTMLElement {
+    const label = `Curvature changes by at most${unit ? `, 1/${unit}\u00b2` : ""}`;
+    return this.field("max-rate", label, this.wishes.rate > 0 ? String(this.wishes.rate) : "", "any", (text) => {
+      const rate = text === "" ? 0 : Number(text.replace(",", "."));
+      if (rate >= 0) put({ rate });
+      else this.renew();
     });
-    return h("div", { class: "row" }, h("label", { for: "keep-inside" }, "Not past"), field);
   }
 
-  /** Points that a click leaves out. */
-  private leaving(e: Entity): HTMLElement | false {
-    const scan = e.kind === "faired" ? entityOf(this.store.doc, e.of) : e;
-    if (scan?.kind !== "scan") return false;
-    const count = scan.strays?.length ?? 0;
-    const clicking = this.store.state.tool === "strays";
-    return h("div", { class: "row" },
-      button(clicking ? "Done" : "Leave points out", () => this.store.set({ tool: clicking ? "select" : "strays" }),
-        { id: "strays", "aria-pressed": String(clicking) }),
-      h("span", { class: "quiet" }, count > 0 ? `${count} left out` : clicking ? "click them" : ""));
-  }
-
-  private steps(e: Faired, told: FairTold): (HTMLElement | null)[] {
-    const unit = this.store.doc.unit ? ` ${this.store.doc.unit}` : "";
+  /** Exactly the same on both sides of a line: of the one that is found, or of a given one. */
+  private symmetry(told: FairTold | null, put: (change: Partial<FairWishes>) => void): (HTMLElement | false)[] {
+    const { symmetric } = this.wishes;
+    const own = this.ownLine || !["off", "auto"].includes(symmetric);
+    const found = told?.symmetry;
     return [
-      ...verdict(told),
-      h("dl", { class: "facts" },
-        fact("Largest deviation", measure(told.max, 3) + unit),
-        fact("Root mean square", measure(told.rms, 3) + unit),
-        fact("Tolerance", measure(told.tolerance, 3) + unit),
-        fact("Noise", measure(told.noise, 3) + unit)),
-      h("h3", {}, `Pieces (${told.pieces.length})`),
-      h("ol", { class: "pieces" }, ...told.pieces.map((p, i) => this.piece(e, p, i))),
-      notes(told.notes),
+      choice({
+        id: "symmetric", label: "Symmetry", value: own ? kOwnLine : (symmetric as "off" | "auto"), options: kSymmetries,
+        onChoose: (value) => {
+          this.ownLine = value === kOwnLine;
+          if (value !== kOwnLine) put({ symmetric: value });
+          this.renew();
+        },
+      }),
+      own && this.field("symmetry-line", "Line", ["off", "auto"].includes(symmetric) ? "" : symmetric, "x=0, or 0,0:90", (line) => {
+        if (line) put({ symmetric: line });
+      }),
+      !own && !!found && !found.exact && h("p", { class: "quiet" }, "The points are symmetric within their noise."),
     ];
   }
 
-  private piece(e: Faired, p: FairedPiece, index: number): HTMLElement {
-    const readings = (p.interpretations ?? []).slice(0, 5);
-    const select = h("select", { id: `reading-${index}`, "aria-label": `Reading of piece ${index}` },
-      h("option", { value: "", selected: true }, `${p.rhythm} ${slopes(p.slopes)}`),
-      ...readings.filter((r) => r.rhythm !== p.rhythm).map((r) =>
-        h("option", { value: r.rhythm }, `as ${r.rhythm} ${slopes(r.slopes)} \u2013 ${(100 * (r.plausibility ?? 0)).toFixed(0)} %`)));
-    select.addEventListener("change", () => {
-      const rhythm = readings.find((r) => r.rhythm === select.value)?.rhythm;
-      if (rhythm) this.start(e, { interpretation: [{ piece: index, rhythm }] });
-    });
-    const from = p.start ?? 0;
-    const point = (stretch: Stretch | null) => this.store.set({ stretch });
-    const here = { entity: e.id, from, to: from + (p.length ?? 0) };
-    return h("li", {
-      pointerenter: () => point(here), pointerleave: () => point(null), focusin: () => point(here), focusout: () => point(null),
-    },
-      h("span", {}, measure(p.length ?? 0, 3)), select, h("span", { class: "quiet" }, p.impression ?? ""));
+  /** Other controls for other wishes. */
+  private renew(): void {
+    this.store.set({ selection: [...this.store.state.selection] });
+  }
+
+  private field(id: string, label: string, value: string, placeholder: string, done: (text: string) => void): HTMLElement {
+    const input = h("input", { type: "text", id, value, placeholder });
+    input.addEventListener("change", () => done(input.value.trim()));
+    return h("div", { class: "row" }, h("label", { for: id }, label), input);
   }
 }
-
-const slopes = (list: number[] = []) => list.map((s) => s.toFixed(2).replace("-", "\u2212")).join(", ");
-
-const notes = (list: readonly string[]) =>
-  list.length === 0 ? null
-    : h("details", {}, h("summary", {}, `${list.length} note${list.length > 1 ? "s" : ""}`),
-      h("ul", {}, ...list.map((n) => h("li", {}, n))));

@@ -1,7 +1,7 @@
 /** The document: what is there, on which layer, shown, held. */
 import { type Doc, type Entity, type Layer, without } from "../model/document.ts";
 import type { Store } from "../model/state.ts";
-import { iconButton, section } from "../ui/controls.ts";
+import { choice, iconButton, section } from "../ui/controls.ts";
 import { h, svg } from "../ui/dom.ts";
 import { icons } from "../ui/icons.ts";
 
@@ -21,13 +21,16 @@ function row(store: Store, e: Entity): HTMLElement {
     change(store, label, { ...doc, entities: doc.entities.map((x) => (x.id === e.id ? ({ ...x, ...part } as Entity) : x)) });
   const name = h("button", {
     type: "button", class: "name", id: `entity-${e.id}`, "aria-pressed": String(state.selection.includes(e.id)),
-    title: "Click to choose, Shift adds, double click renames",
+    title: "Click to choose, Shift adds, double click or F2 renames",
     click: (event: MouseEvent) => {
       const others = state.selection.filter((id) => id !== e.id);
       const added = others.length < state.selection.length ? others : [...others, e.id];
       store.set({ selection: event.shiftKey ? added : [e.id] });
     },
     dblclick: () => rename(name, e.name, (to) => put("Rename", { name: to })),
+    keydown: (event: KeyboardEvent) => {
+      if (event.key === "F2") rename(name, e.name, (to) => put("Rename", { name: to }));
+    },
   }, svg(iconOf[e.kind], 16), h("span", {}, e.name));
   return h("li", { class: state.selection.includes(e.id) ? "chosen" : "" },
     name,
@@ -71,8 +74,23 @@ function layerRow(store: Store, layer: Layer): HTMLElement {
     change(store, label, {
       ...store.doc, layers: store.doc.layers.map((l) => (l.name === layer.name ? { ...l, ...part } : l)),
     });
+  const called = (to: string) => {
+    if (store.doc.layers.some((l) => l.name === to)) return store.say(`There is a layer ${to}`, "give another name", true);
+    change(store, "Rename layer", {
+      ...store.doc, layers: store.doc.layers.map((l) => (l.name === layer.name ? { ...l, name: to } : l)),
+      entities: store.doc.entities.map((e) => (e.layer === layer.name ? { ...e, layer: to } : e)),
+    });
+  };
+  const name = h("button", {
+    type: "button", class: "name", title: "Double click, or Enter, renames", dblclick: () => rename(name, layer.name, called),
+    keydown: (e: KeyboardEvent) => {
+      if (e.key !== "Enter") return;
+      e.preventDefault();
+      rename(name, layer.name, called);
+    },
+  }, layer.name);
   return h("div", { class: "layer" },
-    h("h3", {}, layer.name),
+    h("h3", {}, name),
     iconButton({
       icon: layer.visible ? icons.eye : icons.hidden,
       label: `${layer.visible ? "Hide" : "Show"} layer ${layer.name}`,
@@ -85,6 +103,29 @@ function layerRow(store: Store, layer: Layer): HTMLElement {
     }));
 }
 
+const kNew = "\u0000"; // no layer's name
+
+/** Where the chosen things stand. */
+function layerOfChosen(store: Store): HTMLElement | null {
+  const { doc, state } = store;
+  const ids = new Set(state.selection);
+  const first = doc.entities.find((e) => ids.has(e.id));
+  if (!first) return null;
+  const to = (layer: string, more: readonly Layer[] = []) => change(store, "Layer", {
+    ...doc, layers: [...doc.layers, ...more], entities: doc.entities.map((e) => (ids.has(e.id) ? { ...e, layer } : e)),
+  });
+  return choice({
+    id: "entity-layer", label: "Layer", value: first.layer,
+    options: [...doc.layers.map((l) => ({ value: l.name, name: l.name })), { value: kNew, name: "a new one" }],
+    onChoose: (layer) => {
+      if (layer !== kNew) return to(layer);
+      let number = doc.layers.length + 1;
+      while (doc.layers.some((l) => l.name === `Layer ${number}`)) ++number;
+      to(`Layer ${number}`, [{ name: `Layer ${number}`, visible: true, locked: false }]);
+    },
+  });
+}
+
 export function listPanel(store: Store): HTMLElement {
   const { doc } = store;
   const used = doc.layers.filter((l) => doc.entities.some((e) => e.layer === l.name));
@@ -93,5 +134,6 @@ export function listPanel(store: Store): HTMLElement {
       used.length > 1 || !layer.visible || layer.locked ? layerRow(store, layer) : null,
       h("ul", { class: "things" }, ...doc.entities.filter((e) => e.layer === layer.name).map((e) => row(store, e))),
     ]),
+    layerOfChosen(store),
     doc.entities.length === 0 && h("p", { class: "quiet" }, "Nothing drawn yet. Choose a tool on the left, or drop a file here."));
 }

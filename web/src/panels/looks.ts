@@ -19,7 +19,7 @@ export class LooksBar {
   private render(): void {
     const { store } = this;
     const { looks } = store.state;
-    const flip = (id: string, icon: string, label: string, name: "comb" | "combOfAll" | "evolute" | "deviation" | "grid" | "snap", key?: string) =>
+    const flip = (id: string, icon: string, label: string, name: "comb" | "combOfAll" | "evolute" | "circle" | "deviation" | "grid" | "snap", key?: string) =>
       iconButton({
         id: `look-${id}`, icon, label, pressed: looks[name], ...(key ? { key } : {}),
         onClick: () => store.look({ [name]: !looks[name] }),
@@ -28,13 +28,14 @@ export class LooksBar {
       flip("comb", icons.comb, "Comb", "comb", "K"),
       flip("combs", icons.combs, "Combs of all curves", "combOfAll", "J"),
       flip("evolute", icons.evolute, "Evolute", "evolute", "E"),
+      flip("circle", icons.circle, "Osculating circle where the pointer reads", "circle", "O"),
       flip("deviation", icons.deviation, "Deviation of measured points", "deviation", "D"),
       iconButton({
         id: "look-wipe", icon: icons.wipe, label: "Wipe between before and after", key: "W", pressed: looks.wipe !== null,
         onClick: () => store.look({ wipe: looks.wipe === null ? 0.5 : null }),
       }),
       flip("grid", icons.grid, "Grid", "grid", "G"),
-      flip("snap", icons.snap, "Snap to the grid", "snap", "N"),
+      flip("snap", icons.snap, "Snap to ends, handles, joints and the grid", "snap", "N"),
       iconButton({
         id: "look-theme", icon: icons.sun, label: "Light or dark", pressed: looks.theme === "light",
         onClick: () => store.look({ theme: looks.theme === "dark" ? "light" : "dark" }),
@@ -47,7 +48,7 @@ export class LooksBar {
     const first = store.state.looks.combScale || 1;
     return h("div", { class: "comb-controls" },
       slider({
-        id: "comb-scale", label: "Comb length", value: 0, min: -2, max: 2, show: (v) => `\u00d7${(10 ** v).toFixed(2)}`,
+        id: "comb-scale", label: "Comb length", value: 0, min: -2, max: 2, show: (v) => `\u00d7${(10 ** v).toFixed(2)}`, read: Math.log10,
         onInput: (v) => store.scaleComb(first * 10 ** v), onDone: () => {},
       }),
       slider({

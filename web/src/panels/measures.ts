@@ -20,22 +20,25 @@ export function pieceAt(shown: Shown, sample: number): number {
   return shown.comb.joints.filter((joint) => joint <= sample).length;
 }
 
-/** "s 45.20 mm · ρ 124.3 mm · κ 0.008 · α −1" of a sample. */
-export function reading(e: Entity | undefined, shown: Shown, sample: number, unit: string): string {
+/** The numbers of a sample, one to a line. */
+export function readings(e: Entity | undefined, shown: Shown, sample: number, unit: string): string[] {
   const { comb } = shown;
   const piece = e?.kind === "faired" ? e.told.pieces[pieceAt(shown, sample)] : undefined;
   const k = comb.curvature[sample] ?? 0;
   const slope = slopesOf(shown)[pieceAt(shown, sample)];
   const behind = unit ? ` ${unit}` : "";
-  const parts = [
+  return [
     `s ${measure(comb.arc_length[sample] ?? 0)}${behind}`,
     `\u03c1 ${k === 0 ? "\u221e" : measure(1 / Math.abs(k)) + behind}`,
     `\u03ba ${measure(k, 3)}`,
+    ...(typeof slope === "number" ? [`\u03b1 ${measure(slope, 3)}`] : []),
+    ...(piece ? [`${piece.rhythm}: ${piece.impression}`] : []),
   ];
-  if (typeof slope === "number") parts.push(`\u03b1 ${measure(slope, 3)}`);
-  if (piece) parts.push(`${piece.rhythm}: ${piece.impression}`);
-  return parts.join("  \u00b7  ");
 }
+
+/** "s 45.20 mm · ρ 124.3 mm · κ 0.008 · α −1" of a sample. */
+export const reading = (e: Entity | undefined, shown: Shown, sample: number, unit: string): string =>
+  readings(e, shown, sample, unit).join("  \u00b7  ");
 
 export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined, beside: string, unit: string): HTMLElement {
   const { comb } = shown;
@@ -57,6 +60,7 @@ export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined
       pair("Pieces", (s) => String(s.comb.joints.length + 1)),
       pair("Extrema", (s) => String(s.comb.graphs?.events?.filter((x) => x.kind === "maximum" || x.kind === "minimum").length ?? 0)),
       fact("Inflections", String(inflections)),
+      pair("Waves", (s) => String(s.comb.graphs?.waves ?? 0)),
       pair("Energy", (s) => measure(s.comb.graphs?.energy ?? 0, 3)),
       pair("Bending", (s) => measure(s.comb.graphs?.bending ?? 0, 3)),
       pair("Jolt", (s) => measure(s.comb.graphs?.jolt ?? 0, 3))));

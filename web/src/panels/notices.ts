@@ -10,6 +10,7 @@ const kGone = {
 
 export class Notices {
   readonly work = h("div", { class: "work" });
+  private readonly trace = h("canvas", { class: "trace", width: 120, height: 40, hidden: true, role: "img", "aria-label": "What the search has come to" });
   readonly toast = h("div", { class: "toast", role: "alert" });
 
   constructor(private readonly store: Store) {
@@ -22,13 +23,30 @@ export class Notices {
   private renderWork(): void {
     const { work } = this.store.state;
     if (!work || !this.work.firstElementChild)
-      fill(this.work, work && h("div", { class: "progress" }, h("span"), h("progress", { max: 1, value: 0 }),
+      fill(this.work, work && h("div", { class: "progress" }, h("span"), this.trace, h("progress", { max: 1, value: 0 }),
         h("button", { type: "button", id: "cancel", click: () => this.store.state.work?.cancel() }, "Stop")));
     if (!work) return;
     const bar = this.work.querySelector("progress") as HTMLProgressElement; // stays while a hand moves towards the button
     bar.value = work.fraction;
     bar.ariaLabel = work.doing;
     (this.work.querySelector("span") as HTMLElement).textContent = work.doing;
+    this.renderTrace(work.trace);
+  }
+
+  /** What the search has come to, step by step: it falls fast, then slowly, then no more. */
+  private renderTrace(trace: readonly number[]): void {
+    this.trace.hidden = trace.length < 2;
+    const g = this.trace.getContext("2d");
+    if (!g || trace.length < 2) return;
+    const { width, height } = this.trace;
+    const low = Math.min(...trace);
+    const size = Math.max(...trace) - low || 1;
+    g.clearRect(0, 0, width, height);
+    g.strokeStyle = getComputedStyle(this.trace).color;
+    g.lineWidth = 2;
+    g.beginPath();
+    trace.forEach((v, i) => g.lineTo((i / (trace.length - 1)) * (width - 4) + 2, 3 + (1 - (v - low) / size) * (height - 6)));
+    g.stroke();
   }
 
   private renderToast(): void {

@@ -4,7 +4,7 @@ import {
 } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
 import { added, type Doc } from "../model/document.ts";
-import type { Store, Underlay } from "../model/state.ts";
+import { type Store, type Underlay, workTold } from "../model/state.ts";
 import { button, choice, section, slider, toggle } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
 import { Regions } from "./regions.ts";
@@ -68,10 +68,8 @@ export class SketchPanel {
       ...(underlay.scale === 1 ? {} : { scale: underlay.scale }),
       ...(this.regions.any ? { thresholds: [...this.regions.values] } : {}),
     };
-    const work = this.client.long<SketchTraceResult>("sketch.trace", request, (fraction, doing) => {
-      if (this.store.state.work) this.store.set({ work: { ...this.store.state.work, fraction, doing } });
-    });
-    this.store.set({ work: { doing: "looking at the picture", fraction: 0, cancel: work.cancel } });
+    const work = this.client.long<SketchTraceResult>("sketch.trace", request, (fraction, doing) => workTold(this.store, fraction, doing));
+    this.store.set({ work: { doing: "looking at the picture", fraction: 0, trace: [], cancel: work.cancel } });
     const answer = await work.answer;
     const stages = answer.ok ? await Promise.all((answer.result.stages ?? []).map(async (stage) =>
       ({ name: stage.name ?? "", url: await pictureOf(stage) }))) : [];

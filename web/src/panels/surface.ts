@@ -4,13 +4,15 @@ import {
   type SurfaceEditResult, type SurfaceSavResult, type SurfaceValueShown,
 } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
+import { paletteOf } from "../canvas/scene.ts";
 import { entityOf, type SurfaceEntity, type SurfaceWishes, withEntity } from "../model/document.ts";
-import type { Store } from "../model/state.ts";
+import { type Store, workTold } from "../model/state.ts";
 import { legend, type SurfaceLook } from "../surfaces/mesh.ts";
-import type { SurfaceLooks, SurfaceStage } from "../surfaces/stage.ts";
+import { networkOf, type SurfaceLooks, type SurfaceStage } from "../surfaces/stage.ts";
 import { button, choice, fact, section, slider, toggle } from "../ui/controls.ts";
 import { fill, h } from "../ui/dom.ts";
 import { measure } from "../view/ticks.ts";
+import { NetworkPlane } from "./networkplane.ts";
 
 const kLooks: readonly { value: SurfaceLook; name: string }[] = [
   { value: "zebra", name: "zebra" }, { value: "reflection", name: "reflection lines" }, { value: "isophotes", name: "isophotes" },
@@ -33,9 +35,11 @@ export class SurfacePanel {
   private wishes: SurfaceWishes = { keep: "corners", amount: 1, conditions: [] };
   private readonly table = h("div", { id: "sav" });
   private readonly scale = h("div", { class: "scale" });
+  private readonly plane: NetworkPlane;
   private entity = 0;
 
   constructor(private readonly client: Client, private readonly store: Store, private readonly stage: SurfaceStage) {
+    this.plane = new NetworkPlane(client);
     stage.onRange = () => this.renderScale();
   }
 
@@ -96,7 +100,7 @@ export class SurfacePanel {
         onInput: (amount) => { this.wishes = { ...this.wishes, amount }; },
         onDone: () => { if (e.given) void this.edit(e); },
       }),
-      this.condition(),
+      this.condition(e),
       h("div", { class: "row" },
         button("Edit", () => void this.edit(e), { id: "edit-surface", class: "primary" }),
         e.given && button("As it was", () => this.restore(e), { id: "restore-surface" })),
@@ -104,7 +108,7 @@ export class SurfacePanel {
   }
 
   /** Where the chosen network curve may go in the plane. */
-  private condition(): HTMLElement | null {
+  private condition(e: SurfaceEntity): HTMLElement | null {
     const name = this.stage.looks.chosen;
     if (!name) return h("p", { class: "quiet" }, "Click a curve of the table to say where its \u03b1 and s may lie.");
     const now = this.wishes.conditions.find((c) => c.curve === name) ?? { curve: name };
@@ -112,6 +116,14 @@ export class SurfacePanel {
       const others = this.wishes.conditions.filter((c) => c.curve !== name);
       this.wishes = { ...this.wishes, conditions: [...others, { ...now, ...change }] };
     };
+    const given = e.given ?? e.surface;
+    const points = given.type === "bezier-surface" ? networkOf(given).get(name) : undefined;
+    this.plane.onPlace = (alpha, s) => {
+      put({ alpha: [alpha, alpha], s: [s, s] });
+      void this.edit(e);
+    };
+    queueMicrotask(() => points && this.plane.show(given, name, points,
+      now.alpha && now.s ? [now.alpha[0], now.s[0]] : null, () => paletteOf(this.store.state)));
     const range = (id: "alpha" | "s", label: string) => {
       const field = h("input", {
         type: "text", class: "number", id: `condition-${id}`, value: now[id]?.join(" \u2026 ") ?? "", placeholder: "any",
@@ -125,7 +137,7 @@ export class SurfacePanel {
       });
       return h("div", { class: "row" }, h("label", { for: `condition-${id}` }, `${name}: ${label} from \u2026 to`), field);
     };
-    return h("div", {}, range("alpha", "\u03b1"), range("s", "s"));
+    return h("div", {}, points ? this.plane.element : null, range("alpha", "\u03b1"), range("s", "s"));
   }
 
   private outcome(told: SurfaceEditResult): HTMLElement {
@@ -154,10 +166,8 @@ export class SurfacePanel {
 
   private async edit(e: SurfaceEntity): Promise<void> {
     if (this.store.state.work) return;
-    const work = this.client.long<SurfaceEditResult>("surface.edit", this.request(e), (fraction, doing) => {
-      if (this.store.state.work) this.store.set({ work: { ...this.store.state.work, fraction, doing } });
-    });
-    this.store.set({ work: { doing: "editing the patch", fraction: 0, cancel: () => work.cancel() } });
+    const work = this.client.long<SurfaceEditResult>("surface.edit", this.request(e), (fraction, doing) => workTold(this.store, fraction, doing));
+    this.store.set({ work: { doing: "editing the patch", fraction: 0, trace: [], cancel: () => work.cancel() } });
     const answer = await work.answer;
     this.store.set({ work: null });
     if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", true);

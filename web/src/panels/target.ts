@@ -4,7 +4,7 @@ import type { Client } from "../api/client.ts";
 import type { CurvaturePlot } from "../graphs/curvature.ts";
 import { type Entity, entityOf, type Fixed, withEntity } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
-import type { Store } from "../model/state.ts";
+import { type Store, workTold } from "../model/state.ts";
 import { button, section, toggle } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
 import { measure } from "../view/ticks.ts";
@@ -56,10 +56,8 @@ export class TargetPanel {
     const e = this.subject();
     if (!e || this.store.state.work) return;
     const work = this.client.long<FitCurvatureResult>("fit.curvature", { curve: e.curve, target, hold_end: this.holdEnd },
-      (fraction, doing) => {
-        if (this.store.state.work) this.store.set({ work: { ...this.store.state.work, fraction, doing } });
-      });
-    this.store.set({ work: { doing: "following the curvature", fraction: 0, cancel: () => work.cancel() } });
+      (fraction, doing) => workTold(this.store, fraction, doing));
+    this.store.set({ work: { doing: "following the curvature", fraction: 0, trace: [], cancel: () => work.cancel() } });
     const answer = await work.answer;
     this.store.set({ work: null });
     if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", true);

@@ -26,6 +26,12 @@ export interface SurfaceLooks {
 const jointColor = (order: SurfaceJoint["order"], colors: Palette): string =>
   order === "G0" ? colors.bad : order === "G1" ? colors.comb : colors.inflection;
 
+/** Rows and columns of a patch's net, as the table names them. */
+export function networkOf({ points: net }: SurfaceEntity["surface"]): Map<string, readonly (readonly number[])[]> {
+  const columns = (net[0] ?? []).map((_, j) => net.map((row) => row[j] as number[]));
+  return new Map([...net, ...columns].map((points, i) => [`A${i + 1}`, points]));
+}
+
 export class SurfaceStage {
   readonly element = h("div", { class: "surface-stage", hidden: true });
   readonly looks: SurfaceLooks = {
@@ -113,14 +119,8 @@ export class SurfaceStage {
     this.view?.frame(there.filter((s): s is Sampled => s !== null));
   }
 
-  /** Rows and columns of a patch's net, as the table names them. */
   private network(surface: SurfaceEntity["surface"], colors: Palette): NetworkLine[] {
-    const net = surface.points;
-    const rows = net.map((points, i) => ({ name: `A${i + 1}`, points }));
-    const columns = (net[0] ?? []).map((_, j) => ({
-      name: `A${net.length + j + 1}`, points: net.map((row) => row[j] as number[]),
-    }));
-    return [...rows, ...columns].map(({ name, points }) => {
+    return [...networkOf(surface)].map(([name, points]) => {
       const type = this.types.get(name);
       const color = type === undefined ? colors.faint : type <= 2 ? colors.inflection : type === 3 ? colors.comb : colors.bad;
       return { name, points, color, chosen: name === this.looks.chosen };

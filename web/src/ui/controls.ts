@@ -12,6 +12,8 @@ export interface SliderOptions {
   stops?: readonly { at: number; name: string }[];
   /** the number beside it */
   show?: (value: number) => string;
+  /** the slider's place of a typed number, where they differ */
+  read?: (typed: number) => number;
   onInput: (value: number) => void;
   onDone: () => void;
 }
@@ -37,7 +39,8 @@ export function slider(o: SliderOptions): HTMLElement {
   });
   track.addEventListener("change", o.onDone);
   number.addEventListener("change", () => {
-    const value = Number(number.value.replace("\u2212", "-").replace(",", "."));
+    const typed = Number(number.value.replace("\u2212", "-").replace(",", ".").replace("\u00d7", ""));
+    const value = o.read ? o.read(typed) : typed;
     if (Number.isFinite(value) && number.value.trim() !== "") {
       track.valueAsNumber = value;
       put(value);

@@ -7,11 +7,14 @@ export function roundStep(least: number): number {
   return 10 * power;
 }
 
-/** Multiples of the step in [low, high]. */
+const kMostTicks = 4000; // more than pixels
+
+/** Multiples of the step in [low, high]; none where they could not be told from one another. */
 export function ticks(low: number, high: number, step: number): number[] {
-  const list: number[] = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) list.push(i * step);
-  return list;
+  const first = Math.ceil(low / step - 1e-9);
+  const count = Math.floor(high / step + 1e-9) - first + 1;
+  if (!(count > 0 && count <= kMostTicks && first + 1 > first)) return [];
+  return Array.from({ length: count }, (_, i) => (first + i) * step);
 }
 
 /** A tick's number with no more digits than its step has. */

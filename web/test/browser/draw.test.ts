@@ -102,6 +102,97 @@ onStage("drawing", [], (stage) => {
     await stage.at.page.keyboard.press("Control+z");
   });
 
+  it("shows the curve before the last click, and draws by keys alone", async () => {
+    const { page } = stage.at;
+    const count = () => page.evaluate(() => window.keyline.store.state.history.now.entities.length);
+    const before = await count();
+    await page.locator(".board").focus();
+    await page.keyboard.press("l");
+    for (const corner of [[20, 160], [60, 230]] as const) {
+      const { x, y } = await onPage(page, corner);
+      await page.mouse.click(x, y);
+    }
+    const to = await onPage(page, [150, 200]);
+    await page.mouse.move(to.x, to.y);
+    await settled(page);
+    const shown = await page.evaluate(() => {
+      const { store, live } = window.keyline;
+      const id = store.state.selection[0] ?? 0;
+      return { drafted: store.state.draft?.entities.length, end: live.of(id)?.comb.points.at(-1) };
+    });
+    expect(shown.drafted).toBe(before + 1);
+    expect(Math.hypot((shown.end?.[0] ?? 0) - 150, (shown.end?.[1] ?? 0) - 200)).toBeLessThan(2);
+    expect(await count()).toBe(before);
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("Escape");
+    expect(await page.evaluate(() => window.keyline.store.state.draft)).toBeNull();
+    const board = await page.locator(".board").boundingBox();
+    await page.mouse.move((board?.x ?? 0) + 0.4 * (board?.width ?? 0), (board?.y ?? 0) + 0.7 * (board?.height ?? 0));
+    await page.keyboard.press("l");
+    for (const way of ["ArrowRight", "ArrowUp", "ArrowLeft"]) {
+      await page.keyboard.press("Space");
+      for (let i = 0; i < 3; ++i) await page.keyboard.press(`Shift+${way}`);
+      if (way === "ArrowUp") await page.keyboard.press("Space");
+    }
+    await settled(page);
+    expect(await count()).toBe(before + 1);
+    const drawn = await page.evaluate(() => (window.keyline.store.doc.entities.at(-1) as { points: [number, number][] }).points);
+    const scale = await page.evaluate(() => window.keyline.view.scale);
+    expect(((drawn[1]?.[0] ?? 0) - (drawn[0]?.[0] ?? 0)) * scale).toBeCloseTo(150, 6);
+    expect(((drawn[2]?.[1] ?? 0) - (drawn[1]?.[1] ?? 0)) * scale).toBeCloseTo(150, 6);
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("v");
+  });
+
+  it("snaps to the end of another curve", async () => {
+    const { page } = stage.at;
+    const end = await page.evaluate(() => window.keyline.live.of(1)?.comb.points.at(-1) as [number, number]);
+    await page.evaluate(() => window.keyline.store.look({ snap: true }));
+    await page.keyboard.press("l");
+    const near = await onPage(page, end);
+    await page.mouse.move(near.x + 5, near.y - 4);
+    await page.mouse.down();
+    await page.mouse.up();
+    expect(await page.locator("#reading").textContent()).toContain("end of");
+    for (const [dx, dy] of [[60, -40], [120, 10]] as const) await page.mouse.click(near.x + dx, near.y + dy);
+    await settled(page);
+    const start = await page.evaluate(() => (window.keyline.store.doc.entities.at(-1) as { points: [number, number][] }).points[0]);
+    expect(start).toEqual(end);
+    await page.keyboard.press("Control+z");
+    await page.evaluate(() => window.keyline.store.look({ snap: false }));
+  });
+
+  it("wipes between two curves", async () => {
+    const { page } = stage.at;
+    await page.evaluate(() => {
+      const { store } = window.keyline;
+      const [e] = store.doc.entities;
+      const line = (id: number, y: number) => ({ ...e, id, kind: "segment", alpha: -1, points: [[0, y], [100, y + 60], [200, y]] });
+      store.commit("Test", { ...store.doc, next: 99, entities: [line(90, 90), line(91, 0)] as never }, { selection: [90, 91], hover: null });
+      store.look({ comb: false, grid: false, wipe: 0.5 });
+      window.keyline.fit();
+    });
+    await settled(page);
+    /** Whether the curve is painted there: its handles' lines lie elsewhere. */
+    const painted = async (id: number, x: number) => page.evaluate(async (of) => {
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      const board = document.querySelector(".board") as HTMLCanvasElement;
+      const points = window.keyline.live.of(of.id)?.comb.points as [number, number][];
+      const at = points.reduce((best, p) => (Math.abs(p[0] - of.x) < Math.abs(best[0] - of.x) ? p : best));
+      const [px, py] = window.keyline.view.toScreen(at);
+      const { data } = (board.getContext("2d") as CanvasRenderingContext2D)
+        .getImageData((px - 3) * devicePixelRatio, (py - 3) * devicePixelRatio, 6 * devicePixelRatio, 6 * devicePixelRatio);
+      return new Set(data.filter((_, i) => i % 4 === 0)).size > 1;
+    }, { id, x });
+    expect([await painted(90, 60), await painted(91, 60), await painted(90, 140), await painted(91, 140)])
+      .toEqual([true, false, false, true]);
+    await page.keyboard.press(".");
+    expect(await page.evaluate(() => window.keyline.store.state.looks.wipe)).toBeCloseTo(0.51, 9);
+    await page.evaluate(() => window.keyline.store.look({ comb: true, grid: true, wipe: null }));
+    await page.keyboard.press("Control+z");
+    await settled(page);
+  });
+
   it("slides a compound's joint along the curve", async () => {
     const { page } = stage.at;
     const id = await page.evaluate(() => {

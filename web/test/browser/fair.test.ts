@@ -50,8 +50,10 @@ onStage("fairing a scan", ["examples/bonnet-scan.csv"], (stage) => {
     expect(request.keep_inside).toBe("y>=-1000000");
     await page.waitForSelector("#verdict");
     await settled(page);
+    const again = page.waitForRequest("**/api/v1/fair");
     await page.fill("#keep-inside", "");
     await page.press("#keep-inside", "Enter");
+    await again;
     await settled(page);
     while ((await kinds()).length > 1 || ((await scan())?.strays.length ?? 0) > 0) await page.keyboard.press("Control+z");
   });
@@ -117,3 +119,76 @@ onStage("fairing a scan", ["examples/bonnet-scan.csv"], (stage) => {
     expect(again.errors).toEqual([]);
   });
 }, /ERR_CONNECTION|WebSocket/); // the server was killed
+
+onStage("fairing what is symmetric", [], (stage) => {
+  const told = () => stage.at.page.evaluate(() => {
+    const e = window.keyline.store.doc.entities.find((x) => x.kind === "faired");
+    return e?.kind === "faired" ? { ...e.told, id: e.id } : null;
+  });
+
+  it("is exact about the line that is found", async () => {
+    const { page } = stage.at;
+    // y = x^2 / 80 about x = 30, every point off by up to 0.05 of its own
+    const points = Array.from({ length: 161 }, (_, i) => {
+      const x = i - 80;
+      const off = Math.sin(12.9898 * i) * 43758.5453;
+      return `${30 + x},${(x * x) / 80 + 0.1 * (off - Math.floor(off) - 0.5)}`;
+    });
+    const choosing = page.waitForEvent("filechooser");
+    await page.click("#open");
+    await (await choosing).setFiles({ name: "bow.csv", mimeType: "text/csv", buffer: Buffer.from(points.join("\n")) });
+    await page.waitForSelector("#symmetric");
+    await page.selectOption("#symmetric", "auto");
+    await page.click("#fair");
+    await page.waitForSelector("#verdict");
+    await settled(page);
+    const { symmetry, id } = (await told()) ?? { symmetry: null, id: 0 };
+    expect(symmetry?.exact).toBe(true);
+    expect(await page.locator(".fact.symmetry").textContent()).toContain("Symmetric about");
+    const line = symmetry?.point?.[0] ?? 0;
+    expect(line).toBeCloseTo(30, 1);
+    const ends = await page.evaluate((i) => {
+      const comb = window.keyline.live.of(i)?.comb.points as [number, number][];
+      return [comb[0], comb.at(-1)];
+    }, id);
+    const direction = symmetry?.direction ?? 0;
+    // the end's image in the line is the other end
+    const [p, q] = ends as [[number, number], [number, number]];
+    const [px, py] = [p[0] - line, p[1] - (symmetry?.point?.[1] ?? 0)];
+    const image = [line + Math.cos(2 * direction) * px + Math.sin(2 * direction) * py,
+      (symmetry?.point?.[1] ?? 0) + Math.sin(2 * direction) * px - Math.cos(2 * direction) * py] as const;
+    expect(Math.hypot(image[0] - q[0], image[1] - q[1])).toBeLessThan(1e-6);
+  });
+
+  it("follows the hand without being asked again, the newest wish alone", async () => {
+    const { page } = stage.at;
+    const steps = () => page.evaluate(() => window.keyline.store.state.history.past.length);
+    const before = await steps();
+    await page.evaluate(() => {
+      const slider = document.querySelector("#smoothness") as HTMLInputElement;
+      for (const value of [0.1, 0.6, 0.9]) {
+        slider.valueAsNumber = value;
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+      }
+    });
+    await page.waitForFunction((n) => window.keyline.store.state.history.past.length > n, before);
+    await settled(page);
+    expect((await told())?.request.smoothness).toBe(0.9);
+    expect(await steps()).toBe(before + 1);
+    await page.fill("#tolerance-number", "0.15");
+    await page.press("#tolerance-number", "Enter");
+    await page.waitForFunction((n) => window.keyline.store.state.history.past.length > n, before + 1);
+    await settled(page);
+    expect((await told())?.request.tolerance).toBeCloseTo(0.15, 9);
+    await page.selectOption("#symmetric", "line");
+    await page.fill("#symmetry-line", "x=30");
+    await page.press("#symmetry-line", "Enter");
+    await page.waitForFunction((n) => window.keyline.store.state.history.past.length > n, before + 2);
+    await settled(page);
+    const asked = await told();
+    expect(asked?.request.symmetric).toBe("x=30");
+    expect(asked?.symmetry?.point?.[0]).toBe(30);
+    const pictures = process.env["KEYLINE_PICTURES"];
+    if (pictures) await page.screenshot({ path: `${pictures}/symmetric.png` });
+  });
+});

@@ -38,6 +38,11 @@ describe("viewport", () => {
 });
 
 describe("ticks", () => {
+  it("end where steps are lost in rounding", () => {
+    expect(ticks(1e17, 1e17 + 64, 1)).toEqual([]);
+    expect(ticks(0, 1, NaN)).toEqual([]);
+    expect(ticks(0, 1, 1e-9)).toEqual([]);
+  });
   it("takes steps of 1, 2 and 5", () => {
     expect([0.9, 1, 1.1, 2.5, 6, 0.03].map(roundStep)).toEqual([1, 1, 2, 5, 10, 0.05].map((v) => expect.closeTo(v, 12)));
     expect(ticks(-1, 1, 0.5)).toEqual([-1, -0.5, 0, 0.5, 1].map((v) => expect.closeTo(v, 12)));
