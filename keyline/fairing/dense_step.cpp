@@ -6,8 +6,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kInflectionSlope = -0.25;  // steeper slopes alone may meet an inflection
-constexpr double kSide = 0.8;               // of a curvature that may go in a step
+constexpr double kSide = 0.8;  // of a curvature that may go in a step
 
 bool line(const DenseCurve& curve, std::size_t p) {
   return !curve.kind.empty() && curve.kind[p] == PieceKind::line;
@@ -43,7 +42,7 @@ std::vector<double> meant_rises(const DenseCurve& curve, const DenseStep& step) 
 double keeps_side(const DenseCurve& curve, const DenseStep& step) {
   double share = 1;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
-    if (curve.alpha[p] <= kInflectionSlope) continue;
+    if (passes_inflection(curve.alpha[p])) continue;
     const Vector6& by = step.state[curve.cut[p]];
     for (const int end : {0, 1}) {
       const double now = curve.value[p + end];

@@ -16,7 +16,11 @@ struct PieceEnergy {
 /// (b^(2 - p) - a^(2 - p)) / (2 - p); powers with the sign of their base. Of slopes of -2 and
 /// steeper it diverges where an end's curvature vanishes, of 0 and flatter the piece itself does.
 ///
-/// Precondition: finite curvatures; -2 < alpha < 0 where their signs differ or one is 0.
+/// Precondition: finite curvatures; where their signs differ or one is 0, -2 < alpha < 0.
 PieceEnergy piece_energy(double curvature_start, double curvature_end, double alpha);
+
+/// Whether a piece of that slope may run through zero or into it: its variation is finite, and the
+/// slope not so flat that the curvature clings to zero.
+constexpr bool passes_inflection(double alpha) { return alpha > -2 && alpha <= -0.25; }
 
 }  // namespace keyline::fairing::detail

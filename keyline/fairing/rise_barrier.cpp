@@ -171,6 +171,13 @@ void keep_senses(DenseCurve& curve) {
   }
 }
 
+/// Pieces that were moved across zero get a slope that passes an inflection.
+void let_pass(DenseCurve& curve) {
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p)
+    if (curve.value[p] * curve.value[p + 1] <= 0 && !passes_inflection(curve.alpha[p]))
+      curve.alpha[p] = -1;
+}
+
 }  // namespace
 
 void keep_rises(DenseCurve& curve) {
@@ -178,6 +185,7 @@ void keep_rises(DenseCurve& curve) {
   if (std::isfinite(curve.most_rate) && too_fast(curve) > kSlower) slow_down(curve);
   keep_senses(curve);
   put_back(curve, before);
+  if (curve.value != before) let_pass(curve);
 }
 
 void ease(DenseCurve& curve) {
