@@ -11,9 +11,9 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kLeastCells = 240;    // a hundredth of the energy is lost to half as many
-constexpr double kForPieces = 0.2;  // of the energy, given for having few pieces
-constexpr double kWorth = 2;        // a wave less is worth so much energy: waves come first
+constexpr int kLeastCells = 240;     // a hundredth of the energy is lost to half as many
+constexpr double kForPieces = 0.05;  // of the energy, given for having few pieces
+constexpr double kWorth = 2;         // a wave less is worth so much energy: waves come first
 // Standard errors of the offsets' mean square that having fewer waves, fewer pieces, or a line may
 // cost. Four: by chance a root of a mean square is hardly ever that large, so points that a wave
 // would serve keep it; a line is a claim of its own and has to be as near as the noise.

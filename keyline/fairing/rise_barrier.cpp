@@ -8,31 +8,48 @@ namespace {
 
 constexpr double kBoundary = 0.995;  // share of the way to zero that room or multiplier may go
 constexpr double kCentred = 1e4;     // products of room and multiplier stay this near the barrier
-constexpr double kTilt = 1e-2;       // of the curvature's range, over the whole length
+constexpr double kTilt = 1e-2;       // of the curvature's range: how far level values are tilted
+constexpr double kClear = 0.25;      // of the way to the neighbours that a tilt may take
 constexpr double kSlower = 0.9;      // of the fastest rate: where the solver starts
 
-/// Weighted means of neighbours until they rise: pooling adjacent violators.
+/// Neighbours with one mean: from, how many, and how far apart their values were.
+struct Block {
+  double mean = 0;
+  std::size_t count = 1;
+  double low = 0;
+  double high = 0;
+};
+
+/// Means of neighbours until they rise: pooling adjacent violators.
 ///
 /// Source: [Barlow 1972], section 1.2 (pooling adjacent violators).
-std::vector<double> rising(const std::vector<double>& value) {
-  struct Block {
-    double mean;
-    int count;
-  };
+std::vector<Block> pooled(const std::vector<double>& value) {
   std::vector<Block> blocks;
   for (const double v : value) {
-    blocks.push_back({v, 1});
-    while (blocks.size() > 1 && blocks.end()[-2].mean > blocks.back().mean) {
+    blocks.push_back({v, 1, v, v});
+    while (blocks.size() > 1 && blocks.end()[-2].mean >= blocks.back().mean) {
       const Block last = blocks.back();
       blocks.pop_back();
       Block& one = blocks.back();
-      one.mean = (one.mean * one.count + last.mean * last.count) / (one.count + last.count);
+      const double sum =
+          one.mean * static_cast<double>(one.count) + last.mean * static_cast<double>(last.count);
       one.count += last.count;
+      one.mean = sum / static_cast<double>(one.count);
+      one.low = std::min(one.low, last.low);
+      one.high = std::max(one.high, last.high);
     }
   }
-  std::vector<double> out;
-  for (const Block& b : blocks) out.insert(out.end(), b.count, b.mean);
-  return out;
+  return blocks;
+}
+
+/// How far the values of a block may rise about their mean: as far apart as they were (`most`,
+/// where they were equal), and clear of the neighbours.
+double tilt_of(const std::vector<Block>& blocks, std::size_t b, double most) {
+  const Block& block = blocks[b];
+  double tilt = block.high > block.low ? std::min(block.high - block.low, most) : most;
+  if (b > 0) tilt = std::min(tilt, kClear * (block.mean - blocks[b - 1].mean));
+  if (b + 1 < blocks.size()) tilt = std::min(tilt, kClear * (blocks[b + 1].mean - block.mean));
+  return tilt;
 }
 
 /// The values of one stretch of pieces of the same sense, and how they are to run.
@@ -67,19 +84,24 @@ std::vector<Stretch> stretches_of(const DenseCurve& curve) {
 double along(const DenseCurve& curve, std::size_t node) { return curve.at[curve.cut[node]]; }
 
 /// The stretch's values, strictly running as they should.
-void straighten(const DenseCurve& curve, Stretch& stretch, double tilt) {
+void straighten(const DenseCurve& curve, Stretch& stretch, double most_tilt) {
   for (double& v : stretch.value) v *= stretch.sense;
-  const auto falls = std::adjacent_find(stretch.value.begin(), stretch.value.end(),
-                                        [](double a, double b) { return !(a < b); });
-  if (falls == stretch.value.end()) tilt = 0;
-  stretch.value = rising(stretch.value);
-  double way = 0;
-  for (std::size_t i = 0; i < stretch.value.size(); ++i) {
-    if (i > 0) {
-      const double step = along(curve, stretch.node[i]) - along(curve, stretch.node[i - 1]);
-      way += step - std::floor(step);
+  std::vector<double> way{0};
+  for (std::size_t i = 1; i < stretch.node.size(); ++i) {
+    const double step = along(curve, stretch.node[i]) - along(curve, stretch.node[i - 1]);
+    way.push_back(way.back() + step - std::floor(step));
+  }
+  const std::vector<Block> blocks = pooled(stretch.value);
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::size_t last = first + blocks[b].count - 1;
+    const double tilt = first == last ? 0 : tilt_of(blocks, b, most_tilt);
+    const double length = first == last ? 1 : way[last] - way[first];
+    for (std::size_t i = first; i <= last; ++i) {
+      const double share = 2 * (way[i] - way[first]) / length - 1;
+      stretch.value[i] = stretch.sense * (blocks[b].mean + tilt * share);
     }
-    stretch.value[i] = stretch.sense * (stretch.value[i] + tilt * way);
+    first = last + 1;
   }
 }
 
