@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/acquire/acquire.h"
+#include "keyline/analysis/comb_figures.h"
+#include "keyline/core/angle.h"
+#include "keyline/core/polygon.h"
+#include "keyline/fairing/fair.h"
+#include "keyline/lac/chain/chain_graph.h"
+
+#include "truth.h"
+
+/// Outlines whose curvature jumps: rounded corners, traced pixels.
+namespace keyline::fairing {
+namespace {
+
+using testing::line_through;
+
+/// NACA 23012 at an angle from the leading edge, -pi (lower trailing edge) to pi. Source: Jacobs
+/// and Pinkerton, NACA Report 537 (1935).
+core::Point2 naca_23012(double angle) {
+  constexpr double kThickness = 0.12;
+  constexpr double kReach = 0.2025;
+  constexpr double kCamber = 15.957;
+  const double x = 0.5 * (1 - std::cos(angle));
+  const double side = angle < 0 ? -1 : 1;
+  const double even = x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1015 * x)));
+  const double half = 5 * kThickness * (0.2969 * std::sin(angle / 2) + side * even);
+  const double r = kReach;
+  const bool fore = x < r;
+  const double mean = fore ? x * x * x - 3 * r * x * x + r * r * (3 - r) * x : r * r * r * (1 - x);
+  const double rise = fore ? 3 * x * x - 6 * r * x + r * r * (3 - r) : -r * r * r;
+  const double slope = std::atan(kCamber / 6 * rise);
+  return {x - half * std::sin(slope), kCamber / 6 * mean + half * std::cos(slope)};
+}
+
+/// L^3 times the integral of (d curvature / ds)^2 of the aerofoil, by differences.
+double energy_of_naca_23012() {
+  constexpr int kSteps = 40000;
+  std::vector<core::Point2> p;
+  for (int i = 0; i <= kSteps; ++i) p.push_back(naca_23012(core::kPi * (2.0 * i / kSteps - 1)));
+  double length = 0;
+  double sum = 0;
+  double before = 0;
+  for (int i = 1; i < kSteps; ++i) {
+    const core::Vector2 in = p[i] - p[i - 1];
+    const core::Vector2 out = p[i + 1] - p[i];
+    const double step = 0.5 * (core::norm(in) + core::norm(out));
+    const double bend = core::angle_between(in, out) / step;
+    if (i > 1) sum += (bend - before) * (bend - before) / core::norm(in);
+    before = bend;
+    length += core::norm(in);
+  }
+  return length * length * length * sum;
+}
+
+/// Corners rounded by the radius given, the polygon closed, in `count` steps of one length.
+std::vector<core::Point2> rounded_polygon(const std::vector<core::Point2>& corners, double radius,
+                                          int count) {
+  std::vector<core::Point2> outline;
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const core::Point2 b = corners[i];
+    const core::Vector2 in = b - corners[(i + n - 1) % n];
+    const core::Vector2 out = corners[(i + 1) % n] - b;
+    const double turn = core::angle_between(in, out);
+    const core::Vector2 along = in / core::norm(in);
+    core::Point2 at = b - radius * std::tan(turn / 2) * along;
+    for (int k = 0; k < 12; ++k) {
+      outline.push_back(at);
+      const double chord = 2 * radius * std::sin(turn / 24);
+      at = at + chord * core::rotate_ccw(along, turn * (k + 0.5) / 12);
+    }
+    outline.push_back(at);
+  }
+  outline.push_back(outline.front());
+  std::vector<core::Point2> points;
+  const double whole = core::polygon_length(outline, false);
+  double gone = 0;
+  std::size_t at = 0;
+  for (int i = 0; i < count; ++i) {
+    const double s = whole * i / count;
+    while (gone + core::distance(outline[at], outline[at + 1]) < s) {
+      gone += core::distance(outline[at], outline[at + 1]);
+      ++at;
+    }
+    const double step = core::distance(outline[at], outline[at + 1]);
+    points.push_back(outline[at] + (s - gone) / step * (outline[at + 1] - outline[at]));
+  }
+  return points;
+}
+
+/// Long straights between tight roundings: slopes that lose all bend at one end of a piece would
+/// leave the seam unclosed.
+TEST(FairOutlines, RoundedPolygonsClose) {
+  const FairResult result = fair(line_through(rounded_polygon({{78.832748, 13.026724},
+                                                               {-26.965108, 93.988084},
+                                                               {-77.779475, 6.007919},
+                                                               {13.653516, -97.257194}},
+                                                              5, 700)))
+                                .value();
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_LE(result.pieces.size(), 32U);
+  for (const auto& joint : result.joints) EXPECT_LE(joint.gap, 1e-9 * result.length);
+}
+
+/// A flat flank beside a nose of four hundred times its curvature. The curve itself lies within the
+/// tolerance of its points, so the calmest is no wilder.
+TEST(FairOutlines, FlatFlanksBesideATightNoseStayCalm) {
+  const double most = energy_of_naca_23012();
+  for (const int side : {30, 45, 60, 75, 90}) {
+    std::vector<core::Point2> points;
+    for (int i = -side; i <= side; ++i) {
+      const core::Point2 p = naca_23012(core::kPi * i / side);
+      points.push_back({std::round(1e6 * p.x) / 1e6, std::round(1e6 * p.y) / 1e6});
+    }
+    const FairResult result = fair(line_through(points)).value();
+    EXPECT_TRUE(result.within_tolerance) << side;
+    EXPECT_THAT(result.notes, ::testing::Contains(::testing::HasSubstr("read off the graph")))
+        << side;
+    const auto comb =
+        analysis::comb_figures(lac::curvature_graph(std::get<lac::Chain>(result.curves.at(0))));
+    EXPECT_LT(comb.energy, 1.1 * most) << side;
+    EXPECT_EQ(comb.waves, 1) << side;
+  }
+}
+
+/// A thin ring about a neck, traced in whole pixels: a bump of two points on either side.
+TEST(FairOutlines, BumpsOfTracedOutlinesAreMet) {
+  std::vector<core::Point2> points;
+  const auto trace = [&](double x0, double y0, double x1, double y1) {
+    const int steps = std::max(1, static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 12));
+    for (int i = 0; i < steps; ++i)
+      points.push_back({std::floor(x0 + (x1 - x0) * i / steps + 0.3),
+                        std::floor(y0 + (y1 - y0) * i / steps + 0.7)});
+  };
+  trace(60, 330, 60, 60), trace(60, 60, 100, 30), trace(100, 30, 240, 30);
+  trace(240, 30, 280, 60), trace(280, 60, 280, 400), trace(280, 400, 210, 520);
+  trace(210, 520, 207, 630), trace(212, 640, 212, 652), trace(207, 664, 190, 680);
+  trace(190, 680, 150, 680), trace(150, 680, 133, 664), trace(128, 652, 128, 640);
+  trace(133, 630, 130, 520), trace(130, 520, 60, 400), trace(60, 400, 60, 330);
+  const FairResult result = fair(line_through(points)).value();
+  EXPECT_TRUE(result.within_tolerance);
+  EXPECT_LE(result.pieces.size(), points.size() / 2);
+}
+
+}  // namespace
+}  // namespace keyline::fairing
