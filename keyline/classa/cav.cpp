@@ -202,6 +202,15 @@ core::Result<CurveReading> read_curve(const curve::Bezier2& c, const CavOptions&
   return read(c.control, options);
 }
 
+core::Result<CurveReading> read_curve(const curve::Bezier3& c, const CavOptions& options) {
+  if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
+  detail::Flattened flat = detail::flatten(c.control);
+  if (flat.off_plane <= options.tolerance * flat.size)
+    return read_curve(curve::Bezier2{std::move(flat.points), {}}, options);
+  const detail::SpaceReading r = detail::read_in_space(c.control, options);
+  return CurveReading{{}, r.reversed, {}, r.conditions};
+}
+
 core::Result<CurveValue> cav(const curve::Bezier2& c, const CavOptions& options) {
   if (auto checked = check_curve(c, options); !checked) return std::unexpected(checked.error());
   return value_of(c, options);

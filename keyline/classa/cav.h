@@ -127,5 +127,8 @@ struct CurveReading {
 };
 /// Errors as of cav(), those of the minimum apart.
 core::Result<CurveReading> read_curve(const curve::Bezier2& c, const CavOptions& options);
+/// In the plane of the curve; where it lies in none, in that of cav(): there are then no control
+/// points, and the conditions alone are the curve's.
+core::Result<CurveReading> read_curve(const curve::Bezier3& c, const CavOptions& options);
 
 }  // namespace keyline::classa

@@ -43,27 +43,47 @@ core::Interval scales(const EvaluationShown& e) {
   return s;
 }
 
+struct Placed {
+  EvaluationShown value;
+  classa::CurveReading reading;
+};
+
+Result<Placed> placed_in_space(const curve::Bezier3& curve, const classa::CavOptions& options) {
+  const auto value = classa::cav(curve, options);
+  if (!value) return std::unexpected(value.error());
+  auto reading = classa::read_curve(curve, options);
+  if (!reading) return std::unexpected(reading.error());
+  Placed placed{{}, std::move(*reading)};
+  placed.value.value = shown(*value);
+  return placed;
+}
+
+Result<Placed> placed(const ClassASubject& subject, const classa::CavOptions& options) {
+  if (!subject.planar) return placed_in_space(*subject.space, options);
+  const auto evaluation = classa::evaluate_curve(*subject.planar, options);
+  if (!evaluation) return std::unexpected(evaluation.error());
+  auto reading = classa::read_curve(evaluation->approximation.curve, options);
+  if (!reading) return std::unexpected(reading.error());
+  return Placed{shown(*evaluation), std::move(*reading)};
+}
+
 Result<PlaneAnswer> run(const PlaneRequest& request, const Context&) {
   const classa::CavOptions options = cav_options(request.curve.options);
   const auto subject = class_a_subject(request.curve);
   if (!subject) return std::unexpected(subject.error());
-  if (!subject->planar)
-    return core::fail(core::ErrorCode::unsupported, "a curve in space has no such plane",
-                      "give a planar curve", "curve");
-  const auto evaluation = classa::evaluate_curve(*subject->planar, options);
-  if (!evaluation) return std::unexpected(evaluation.error());
-  const auto reading = classa::read_curve(evaluation->approximation.curve, options);
-  if (!reading) return std::unexpected(reading.error());
-  if (evaluation->value.degree < 2 || !(norm(reading->conditions.chord) > 0))
+  auto found = placed(*subject, options);
+  if (!found) return std::unexpected(found.error());
+  const classa::CurveReading& reading = found->reading;
+  if (found->value.value.degree < 2 || !(norm(reading.conditions.chord) > 0))
     return core::fail(core::ErrorCode::undrawable, "the curve has no energy to compare with",
                       "give a curve of degree 2 or more whose ends are apart", "curve");
   PlaneAnswer answer;
-  answer.value = shown(*evaluation);
+  answer.value = std::move(found->value);
   const core::Interval s = request.shown.value_or(scales(answer.value));
   if (!(s.low > 0))
     return core::fail(core::ErrorCode::bad_input, "s is a scale: it is above 0",
                       "give a range as [0.4, 2.4]", "show");
-  answer.plane = class_a_plane(*reading, options.alpha_max, s);
+  answer.plane = class_a_plane(reading, options.alpha_max, s);
   return answer;
 }
 
@@ -72,8 +92,10 @@ Result<PlaneAnswer> run(const PlaneRequest& request, const Context&) {
 Operation curve_plane_operation() {
   return declare<run>(
       {.name = "curve.plane",
-       .summary = "The alpha-s plane about a curve: where Class A begins, strain energy of curves "
-                  "of its degree, places that keep its ends and start tangent, and its own value.",
+       .summary =
+           "The alpha-s plane about a curve: where Class A begins, strain energy of curves "
+           "of its degree, places that keep its ends and start tangent, and its own value. Of a "
+           "curve in space: in its plane, else in that of its start tangent and chord.",
        .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[1,2],[0,4],[-2,5]]}})"}});
 }
 

@@ -66,6 +66,33 @@ TEST(CurvePlane, ShowsWhatEditingMeets) {
   EXPECT_EQ(code_of("curve.plane", narrow), "bad-input");
 }
 
+/// The paper's curve laid into a slanted plane of space has the same plane about it; with one point
+/// lifted out it lies in none, and only what the ends and the start tangent say is left.
+TEST(CurvePlane, ShowsACurveInSpaceInItsPlane) {
+  const json flat = perform_well(
+      "curve.plane",
+      {{"curve", {{"type", "bezier"}, {"points", {{0, 0}, {1, 2}, {0, 4}, {-2, 5}}}}}});
+  const auto laid = [](double x, double y) {  // unit axes (2, 1, 2)/3 and (-2, 2, 1)/3
+    return json{(2 * x - 2 * y) / 3 + 7, (x + 2 * y) / 3 - 3, (2 * x + y) / 3 + 1};
+  };
+  json points{laid(0, 0), laid(1, 2), laid(0, 4), laid(-2, 5)};
+  const json given{{"type", "bezier"}, {"points", points}};
+  const json space = perform_well("curve.plane", {{"curve", given}});
+  EXPECT_NEAR(space["value"]["cav"].get<double>(), flat["value"]["cav"].get<double>(), 1e-9);
+  ASSERT_EQ(space["reach"].size(), flat["reach"].size());
+  for (std::size_t i = 0; i < flat["reach"].size(); ++i)
+    EXPECT_NEAR(space["reach"][i][1].get<double>(), flat["reach"][i][1].get<double>(), 1e-9);
+  EXPECT_NEAR(space["energy"][40][40].get<double>(), flat["energy"][40][40].get<double>(), 1e-9);
+
+  points[2][2] = points[2][2].get<double>() + 1;
+  const json bent{{"type", "bezier"}, {"points", points}};
+  const json off = perform_well("curve.plane", {{"curve", bent}});
+  EXPECT_EQ(off["value"]["type"], 5);
+  ASSERT_EQ(off["reach"].size(), flat["reach"].size());
+  for (std::size_t i = 0; i < flat["reach"].size(); ++i)
+    EXPECT_NEAR(off["reach"][i][1].get<double>(), flat["reach"][i][1].get<double>(), 1e-9);
+}
+
 TEST(CurveDeviation, TellsPlaceAndSideOfPoints) {
   const json line{{"type", "bezier"}, {"points", {{0, 0}, {5, 0}, {10, 0}}}};
   const json told =
