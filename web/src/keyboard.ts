@@ -2,6 +2,7 @@
 import type { Table } from "./gestures/gesture.ts";
 import { entityOf, handlesOf, isHeld, moved, type Point, withEntity, withHandle } from "./model/document.ts";
 import { tools } from "./panels/toolbar.ts";
+import { h } from "./ui/dom.ts";
 import type { Studio } from "./studio.ts";
 
 const kPan = 40; // pixels
@@ -11,11 +12,27 @@ const kFineStep = 1;
 const kWipeStep = 0.01;
 const arrows: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
+interface Command {
+  keys: readonly string[];
+  says: string;
+  act: () => void;
+}
+
+/** Keys pressed together, and those that mean more than one thing. */
+const kChords = [
+  ["Ctrl Z", "undo"], ["Ctrl Shift Z", "redo"], ["Ctrl O", "open a file"], ["Ctrl S", "save the document"], ["Ctrl A", "choose all"],
+  ["Arrows", "pan; with a tool move the pointer; with a handle move that (Shift: far)"], ["Space", "with a tool: click"],
+  ["Alt Arrows", "move what is chosen"], ["Enter", "end a spline"], ["Escape", "leave off"],
+] as const;
+
 export class Keyboard {
   /** the handle that arrows move; null: the whole thing */
   private handle: number | null = null;
+  /** single keys, as the help lists them */
+  private readonly commands: readonly Command[];
 
   constructor(private readonly studio: Studio, private readonly table: Table) {
+    this.commands = this.singles();
     addEventListener("keydown", (e) => {
       if (this.typing(e)) return;
       if (this.command(e) || (!e.ctrlKey && !e.metaKey && this.single(e))) e.preventDefault();
@@ -26,6 +43,49 @@ export class Keyboard {
     const at = e.target as HTMLElement;
     if (at.tagName === "INPUT" && (at as HTMLInputElement).type !== "text") return arrows[e.key] !== undefined;
     return ["INPUT", "SELECT", "TEXTAREA"].includes(at.tagName) && !e.ctrlKey && !e.metaKey;
+  }
+
+  private singles(): Command[] {
+    const { studio } = this;
+    const { store } = studio;
+    const looks = () => store.state.looks;
+    const flip = (name: "comb" | "evolute" | "circle" | "deviation" | "combOfAll" | "grid" | "snap") => () =>
+      store.look({ [name]: !looks()[name] });
+    return [
+      { keys: ["f"], says: "fit all", act: () => studio.fit() },
+      { keys: ["k"], says: "comb", act: flip("comb") },
+      { keys: ["j"], says: "combs of all curves", act: flip("combOfAll") },
+      { keys: ["["], says: "shorter comb", act: () => store.scaleComb(looks().combScale / 1.2) },
+      { keys: ["]"], says: "longer comb", act: () => store.scaleComb(looks().combScale * 1.2) },
+      { keys: ["e"], says: "evolute", act: flip("evolute") },
+      { keys: ["o"], says: "osculating circle", act: flip("circle") },
+      { keys: ["d"], says: "deviation of measured points", act: flip("deviation") },
+      { keys: ["w"], says: "wipe between before and after", act: () => store.look({ wipe: looks().wipe === null ? 0.5 : null }) },
+      { keys: [","], says: "wipe to the left", act: () => this.wipe(-kWipeStep) },
+      { keys: ["."], says: "wipe to the right", act: () => this.wipe(kWipeStep) },
+      { keys: ["g"], says: "grid", act: flip("grid") },
+      { keys: ["n"], says: "snapping", act: flip("snap") },
+      { keys: ["x"], says: "split where the pointer reads", act: () => studio.splitHere() },
+      { keys: ["h"], says: "next handle, for the arrows to move", act: () => this.nextHandle() },
+      { keys: ["delete", "backspace"], says: "remove", act: () => studio.removeSelected() },
+      { keys: ["+", "="], says: "zoom in", act: () => this.zoom(1.25) },
+      { keys: ["-"], says: "zoom out", act: () => this.zoom(0.8) },
+      { keys: ["?"], says: "this list", act: () => this.help() },
+    ];
+  }
+
+  help(): void {
+    const row = (keys: string, says: string) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, keys)), h("td", {}, says));
+    const dialog = h("dialog", { class: "help", "aria-label": "Keys" },
+      h("h2", {}, "Keys"),
+      h("table", {}, h("tbody", {},
+        ...tools.map((t) => row(t.key, t.label)),
+        ...this.commands.map((c) => row(c.keys.map((k) => (k.length > 1 ? `${k[0]?.toUpperCase()}${k.slice(1)}` : k.toUpperCase())).join(" "), c.says)),
+        ...kChords.map(([keys, says]) => row(keys, says)))),
+      h("form", { method: "dialog" }, h("button", { class: "primary", type: "submit" }, "Close")));
+    dialog.addEventListener("close", () => dialog.remove());
+    document.body.append(dialog);
+    dialog.showModal();
   }
 
   private command(e: KeyboardEvent): boolean {
@@ -55,7 +115,7 @@ export class Keyboard {
 
   private single(e: KeyboardEvent): boolean {
     const { store, canvas } = this.studio;
-    const { looks } = store.state;
+    if (document.querySelector("dialog[open]")) return false;
     if (["Escape", "Enter", "Backspace"].includes(e.key) && canvas.key(e.key)) return true;
     const onBoard = document.activeElement === canvas.element || document.activeElement === document.body;
     if (onBoard && store.state.tool !== "select" && this.pointing(e)) return true;
@@ -65,31 +125,9 @@ export class Keyboard {
       store.set({ tool: tool.name });
       return true;
     }
-    const act: Record<string, () => void> = {
-      f: () => this.studio.fit(),
-      k: () => store.look({ comb: !looks.comb }),
-      e: () => store.look({ evolute: !looks.evolute }),
-      d: () => store.look({ deviation: !looks.deviation }),
-      j: () => store.look({ combOfAll: !looks.combOfAll }),
-      g: () => store.look({ grid: !looks.grid }),
-      n: () => store.look({ snap: !looks.snap }),
-      w: () => store.look({ wipe: looks.wipe === null ? 0.5 : null }),
-      o: () => store.look({ circle: !looks.circle }),
-      ",": () => this.wipe(-kWipeStep),
-      ".": () => this.wipe(kWipeStep),
-      x: () => this.studio.splitHere(),
-      h: () => this.nextHandle(),
-      delete: () => this.studio.removeSelected(),
-      backspace: () => this.studio.removeSelected(),
-      "+": () => this.zoom(1.25),
-      "=": () => this.zoom(1.25),
-      "-": () => this.zoom(0.8),
-      "[": () => store.scaleComb(looks.combScale / 1.2),
-      "]": () => store.scaleComb(looks.combScale * 1.2),
-    };
-    const done = act[e.key.toLowerCase()];
-    done?.();
-    return done !== undefined;
+    const command = this.commands.find((c) => c.keys.includes(e.key.toLowerCase()));
+    command?.act();
+    return command !== undefined;
   }
 
   /** With a tool, arrows move the pointer and the space bar clicks: everything drawn can be drawn by keys. */

@@ -12,7 +12,7 @@ import { added, emptyDoc, entityOf, isShown, type Point, without } from "./model
 import { Live, type Shown } from "./model/live.ts";
 import { exportAs, isImage, openNamed } from "./model/open.ts";
 import { DrawableRegion } from "./model/region.ts";
-import { startState, Store } from "./model/state.ts";
+import { kExample, startState, Store } from "./model/state.ts";
 import { actionsPanel, split } from "./panels/actions.ts";
 import { ClassAPanel } from "./panels/classa.ts";
 import { FairPanel } from "./panels/fair.ts";
@@ -30,7 +30,7 @@ import { SurfaceStage } from "./surfaces/stage.ts";
 import { section } from "./ui/controls.ts";
 import { fill, h } from "./ui/dom.ts";
 import { boxOf, Viewport } from "./view/viewport.ts";
-import { label, roundStep } from "./view/ticks.ts";
+import { label, readable, roundStep } from "./view/ticks.ts";
 
 // A comb that fits: nine teeth of ten within this share of the canvas' smaller side, so that one tight
 // corner does not press the rest flat; none longer than the second.
@@ -38,6 +38,8 @@ const kMostTeeth = 0.9;
 const kToothShare = 0.16;
 const kLongestTooth = 0.55;
 const kSameComb = Math.log(2.5); // combs whose scales differ by less stay comparable
+
+const kSpaceHint = "Drag turns, wheel comes nearer, the right button moves; arrows, plus and minus do too";
 
 /** When the first curve stood there, to be touched. */
 export const kFirstCurve = "first-curve";
@@ -94,7 +96,8 @@ export class Studio {
       h("main", {}, h("div", { class: "stage" }, this.canvas.element, this.surfaces.element, notices.work, notices.toast), this.dock.element),
       this.panel, this.status));
     this.listen();
-    new Keyboard(this, table);
+    const keyboard = new Keyboard(this, table);
+    this.looks.onHelp = () => keyboard.help();
     this.render();
   }
 
@@ -324,7 +327,7 @@ export class Studio {
     const failure = e && this.live.failureOf(e.id);
     if (slot)
       fill(slot,
-        failure && section("Cannot be drawn", h("p", { class: "bad", id: "failure" }, failure.message), h("p", { class: "quiet" }, failure.hint ?? "")),
+        failure && section("Cannot be drawn", h("p", { class: "bad", id: "failure" }, readable(failure.message)), h("p", { class: "quiet" }, readable(failure.hint ?? ""))),
         e && measuresPanel(e, subject.shown, subject.before, subject.beside, this.store.doc.unit));
   }
 
@@ -334,7 +337,8 @@ export class Studio {
     const place = this.canvas.place;
     const { latency } = this.canvas;
     fill(this.status,
-      h("span", { class: "reading", id: "reading" }, shown ? reading(entityOf(this.store.doc, hover.entity), shown, hover.sample, this.store.doc.unit) : this.canvas.hint),
+      h("span", { class: "reading", id: "reading" }, shown ? reading(entityOf(this.store.doc, hover.entity), shown, hover.sample, this.store.doc.unit)
+        : this.surfaces.subject() ? kSpaceHint : this.canvas.hint),
       h("span", { class: "place" }, place ? place.map((v) => label(v, roundStep(1 / this.view.scale))).join(", ") : ""),
       h("span", { class: "speed", title: "from the hand's move to the painted curve: half within, 95 % within" },
         latency.count > 10 ? `${latency.within(0.5).toFixed(1)} / ${latency.within(0.95).toFixed(1)} ms` : ""));
@@ -360,7 +364,7 @@ export class Studio {
     } else if (session.files.length > 0) {
       for (const file of session.files) await openNamed(this.client, this.store, file);
     } else {
-      this.store.commit("Example", example(), { selection: [1] });
+      this.store.commit(kExample, example(), { selection: [1] });
     }
     this.fit();
   }

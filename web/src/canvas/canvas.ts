@@ -132,7 +132,8 @@ export class Canvas {
     const box = this.element.getBoundingClientRect();
     const { shiftKey: shift, altKey: alt, button, timeStamp: time } = event;
     this.byKeys = false;
-    return { ...this.pointerAt([event.clientX - box.left, event.clientY - box.top], event.ctrlKey), shift, alt, button, time };
+    const coarse = event instanceof PointerEvent && event.pointerType === "touch";
+    return { ...this.pointerAt([event.clientX - box.left, event.clientY - box.top], event.ctrlKey), shift, alt, button, coarse, time };
   }
 
   /** Control does the opposite of what the snap is set to. */
@@ -140,7 +141,7 @@ export class Canvas {
     const snaps = this.table.store.state.looks.snap !== otherwise;
     const { place, to } = snaps ? snapped(this.table, at) : { place: this.table.view.toModel(at), to: "" };
     if (to !== this.table.store.state.snappedTo) this.table.store.set({ snappedTo: to });
-    return { at, place, shift: false, alt: false, button: 0, time: performance.now() };
+    return { at, place, shift: false, alt: false, button: 0, coarse: false, time: performance.now() };
   }
 
   private follow(next: Gesture): void {

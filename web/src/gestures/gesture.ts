@@ -16,6 +16,8 @@ export interface Pointer {
   shift: boolean;
   alt: boolean;
   button: number;
+  /** a finger: it hides what it points at */
+  coarse: boolean;
   /** the event's own time */
   time: number;
 }

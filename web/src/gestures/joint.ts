@@ -5,6 +5,7 @@ import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Idle } from "./select.ts";
 
 const kReach = 11; // pixels
+const kFinger = 26;
 const kLeast = 0.02; // of the turning, on either side
 
 /** Where the operation says that the pieces meet. */
@@ -13,14 +14,14 @@ export function jointOf(table: Pick<Table, "live">, e: Entity): Point | null {
   return Array.isArray(joint) ? (joint as Point) : null;
 }
 
-export function jointAt(table: Table, at: Point): Compound | null {
+export function jointAt(table: Table, at: Point, coarse = false): Compound | null {
   const { store, view } = table;
   for (const id of store.state.selection) {
     const e = entityOf(store.doc, id);
     const joint = e && isShown(store.doc, e) && !isHeld(store.doc, e) ? jointOf(table, e) : null;
     if (!joint || e?.kind !== "compound") continue;
     const [x, y] = view.toScreen(joint);
-    if (Math.hypot(x - at[0], y - at[1]) <= kReach) return e;
+    if (Math.hypot(x - at[0], y - at[1]) <= (coarse ? kFinger : kReach)) return e;
   }
   return null;
 }

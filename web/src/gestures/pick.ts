@@ -4,6 +4,7 @@ import { nearestSample } from "../view/nearest.ts";
 import type { Table } from "./gesture.ts";
 
 const kHandle = 11; // pixels
+const kFinger = 26; // about a handle, for a finger
 const kCurve = 8;
 const kHover = 26;
 
@@ -12,7 +13,8 @@ export interface HandleHit {
   handle: number;
 }
 
-export function handleAt(table: Table, at: Point): HandleHit | null {
+export function handleAt(table: Table, at: Point, coarse = false): HandleHit | null {
+  const reach = coarse ? kFinger : kHandle;
   const { store, view } = table;
   const doc = store.doc;
   let best: (HandleHit & { distance: number }) | null = null;
@@ -21,7 +23,7 @@ export function handleAt(table: Table, at: Point): HandleHit | null {
     handlesOf(e).forEach((p, handle) => {
       const [x, y] = view.toScreen(p);
       const distance = Math.hypot(x - at[0], y - at[1]);
-      if (distance <= kHandle && (!best || distance < best.distance)) best = { entity: e.id, handle, distance };
+      if (distance <= reach && (!best || distance < best.distance)) best = { entity: e.id, handle, distance };
     });
   }
   return best;
@@ -44,16 +46,17 @@ function nearestOf(table: Table, entities: readonly Entity[], at: Point, within:
   return best;
 }
 
-export function entityAt(table: Table, at: Point): number | null {
+export function entityAt(table: Table, at: Point, coarse = false): number | null {
+  const reach = coarse ? kFinger : kCurve;
   const doc = table.store.doc;
   const visible = doc.entities.filter((e) => isShown(doc, e));
-  const curve = nearestOf(table, visible, at, kCurve);
+  const curve = nearestOf(table, visible, at, reach);
   if (curve) return curve.entity;
   for (const e of visible) {
     if (e.kind !== "scan") continue;
     for (const p of e.line.points as Point[]) {
       const [x, y] = table.view.toScreen(p);
-      if (Math.hypot(x - at[0], y - at[1]) <= kCurve) return e.id;
+      if (Math.hypot(x - at[0], y - at[1]) <= reach) return e.id;
     }
   }
   return null;

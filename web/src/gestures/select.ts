@@ -29,11 +29,11 @@ export class Idle implements Gesture {
     if (p.button !== 0) return new Panning(this.table, p.at);
     const { wipe } = this.table.store.state.looks;
     if (wipe !== null && Math.abs(p.at[0] - wipe * this.table.view.width) < kWipe) return new Wiping(this.table);
-    const handle = handleAt(this.table, p.at);
+    const handle = handleAt(this.table, p.at, p.coarse);
     if (handle) return new DraggingHandle(this.table, handle.entity, handle.handle);
-    const joined = jointAt(this.table, p.at);
+    const joined = jointAt(this.table, p.at, p.coarse);
     if (joined) return new DraggingJoint(this.table, joined.id);
-    const entity = entityAt(this.table, p.at);
+    const entity = entityAt(this.table, p.at, p.coarse);
     if (entity !== null) return new Pressed(this.table, entity, p);
     return new PressedGround(this.table, p);
   }

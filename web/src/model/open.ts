@@ -45,7 +45,7 @@ export async function openNamed(client: Client, store: Store, file: string): Pro
     store.say(`${baseOf(file)}: ${answer.error.message}`, answer.error.hint ?? "", true);
     return [];
   }
-  const { doc, ids } = withFile(store.state.history.now, file, answer.result);
+  const { doc, ids } = withFile(store.opened, file, answer.result);
   store.commit(`Open ${baseOf(file)}`, doc, { selection: ids.slice(0, 1) });
   const skipped = answer.result.skipped ?? [];
   if (skipped.length > 0) store.say(skipped.join("; "));

@@ -108,6 +108,9 @@ export const startState = (theme: "dark" | "light"): State => ({
   targeting: false,
 });
 
+/** The label of the step that put an example there. */
+export const kExample = "Example";
+
 const kTraced = 2000; // steps of a search that are kept to be drawn
 
 export const docOf = (s: State): Doc => s.draft ?? s.history.now;
@@ -148,6 +151,12 @@ export class Store {
   /** A comb as long as the hand wants it. */
   scaleComb(combScale: number): void {
     this.look({ combScale, combOwn: true });
+  }
+
+  /** What files are opened into: an example nobody has touched gives way. */
+  get opened(): Doc {
+    const { past, now } = this.current.history;
+    return past.length === 1 && past[0]?.label === kExample ? emptyDoc() : now;
   }
 
   /** The document as a gesture would leave it; nothing is remembered yet. */

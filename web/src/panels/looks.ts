@@ -5,6 +5,7 @@ import { fill, h } from "../ui/dom.ts";
 import { icons } from "../ui/icons.ts";
 
 export class LooksBar {
+  onHelp: () => void = () => {};
   readonly element = h("div", { class: "looks", role: "toolbar", "aria-label": "How curves are shown" });
 
   constructor(private readonly store: Store, private readonly autoScale: () => void) {
@@ -39,7 +40,8 @@ export class LooksBar {
       iconButton({
         id: "look-theme", icon: icons.sun, label: "Light or dark", pressed: looks.theme === "light",
         onClick: () => store.look({ theme: looks.theme === "dark" ? "light" : "dark" }),
-      }));
+      }),
+      iconButton({ id: "help", icon: icons.help, label: "Keys", key: "?", onClick: () => this.onHelp() }));
   }
 
   /** The comb's own sliders, for the panel. */

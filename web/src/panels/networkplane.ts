@@ -1,5 +1,5 @@
 /** The alpha-s plane of one network curve of a patch: its place is a point one drags. */
-import type { Curve, CurvePlaneResult, EvaluationShown, Surface } from "../../generated/operations.ts";
+import type { Curve, CurvePlaneResult, NetworkCurveShown, Surface } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
 import type { Palette } from "../canvas/palette.ts";
 import { PlanePlot } from "../graphs/plane.ts";
@@ -8,8 +8,11 @@ import { h } from "../ui/dom.ts";
 
 const kNudge = 0.01; // of the plane, by an arrow
 
-const placeOf = (e: EvaluationShown | undefined): Point | null =>
-  typeof e?.alpha === "number" && typeof e.s === "number" ? [e.alpha, e.s] : null;
+/** Where the curve stands in the plane; of several matrices, where the nearest of one does. */
+export function placeOf(c: NetworkCurveShown | undefined): Point | null {
+  if (typeof c?.alpha === "number") return [c.alpha, c.s ?? 1];
+  return typeof c?.nearest?.alpha === "number" ? [c.nearest.alpha, c.nearest.s ?? 1] : null;
+}
 
 export class NetworkPlane {
   private readonly plot = new PlanePlot();
@@ -17,6 +20,7 @@ export class NetworkPlane {
   private readonly known = new WeakMap<Surface, Map<string, CurvePlaneResult | null>>();
   private plane: CurvePlaneResult | null = null;
   private wanted: Point | null = null;
+  private value: NetworkCurveShown | undefined;
   private colors: (() => Palette) | null = null;
   /** Where a hand has put the curve. */
   onPlace: (alpha: number, s: number) => void = () => {};
@@ -35,9 +39,11 @@ export class NetworkPlane {
     canvas.addEventListener("keydown", (e) => this.key(e));
   }
 
-  /** `wanted`: where the curve has been asked to go. */
-  show(surface: Surface, name: string, points: readonly (readonly number[])[], wanted: Point | null, colors: () => Palette): void {
+  /** `value`: of the curve as it was given; `wanted`: where it has been asked to go. */
+  show(surface: Surface, name: string, points: readonly (readonly number[])[], value: NetworkCurveShown | undefined,
+       wanted: Point | null, colors: () => Palette): void {
     this.colors = colors;
+    this.value = value;
     this.wanted = wanted;
     const all = this.known.get(surface) ?? new Map<string, CurvePlaneResult | null>();
     this.known.set(surface, all);
@@ -69,7 +75,7 @@ export class NetworkPlane {
     event.preventDefault();
     event.stopPropagation();
     if (!step) return void (this.wanted && this.onPlace(...this.wanted));
-    const now = this.wanted ?? placeOf(plane.value) ?? [0.3, 1.2];
+    const now = this.wanted ?? placeOf(this.value) ?? [0.3, 1.2];
     const wide = event.shiftKey ? 10 : 1;
     const [low, high] = plane.s as Point;
     const widest = (plane.alpha as Point)[1];
@@ -87,10 +93,9 @@ export class NetworkPlane {
     const colors = this.colors();
     if (!plane) return this.plot.paint(null, colors);
     const { value } = plane;
-    const near: Point | null = typeof value?.nearest?.alpha === "number" ? [value.nearest.alpha, value.nearest.s ?? 1] : null;
-    const given = placeOf(value) ?? near;
+    const given = placeOf(this.value);
     this.plot.paint({
-      plane, given: this.wanted ? given : null, now: this.wanted ?? given, near: !this.wanted && placeOf(value) === null,
+      plane, given: this.wanted ? given : null, now: this.wanted ?? given, near: !this.wanted && typeof this.value?.alpha !== "number",
       minimum: value?.minimum ? [value.minimum.alpha ?? 0, value.minimum.s ?? 1] : null, path: [],
     }, colors);
   }

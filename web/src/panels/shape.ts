@@ -1,5 +1,5 @@
 /** What a drawn curve is made of: slopes, ratio, form. Every slider is followed at once. */
-import { type Entity, withEntity } from "../model/document.ts";
+import { type Blend, type End, type Entity, entityOf, withEntity } from "../model/document.ts";
 import type { Store } from "../model/state.ts";
 import { button, choice, section, slider, toggle } from "../ui/controls.ts";
 
@@ -41,7 +41,8 @@ export function shapePanel(store: Store, e: Entity): HTMLElement | null {
           options: [{ value: "G1", name: "G1 tangent" }, { value: "G2", name: "G2 curvature" },
             { value: "G3", name: "G3 its rate" }] as const,
           onChoose: (order) => put("Continuity")({ order }, true),
-        }));
+        }),
+        ...(e.kind === "blend" ? blendEnds(store, e, (ends) => put("Ends")({ ends }, true)) : []));
     case "compound":
       return section("Compound rhythm",
         alpha("alpha0", "Slope at the tighter end", e.alpha[0], (v) => ({ alpha: [v, currentOf(store, e).alpha[1]] })),
@@ -70,6 +71,15 @@ export function shapePanel(store: Store, e: Entity): HTMLElement | null {
     default:
       return null;
   }
+}
+
+/** Where on its two curves the blend begins and ends. */
+function blendEnds(store: Store, e: Blend, done: (ends: [End, End]) => void): HTMLElement[] {
+  const options = [{ value: "start", name: "start" }, { value: "end", name: "end" }] as const;
+  return e.of.map((id, i) => choice({
+    id: `blend-end-${i}`, label: `${i === 0 ? "Leaves" : "Meets"} ${entityOf(store.doc, id)?.name ?? ""} at its`, value: e.ends[i] as End, options,
+    onChoose: (end) => done(i === 0 ? [end, e.ends[1]] : [e.ends[0], end]),
+  }));
 }
 
 function currentOf<E extends Entity>(store: Store, e: E): E {

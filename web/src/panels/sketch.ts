@@ -75,7 +75,7 @@ export class SketchPanel {
       ({ name: stage.name ?? "", url: await pictureOf(stage) }))) : [];
     this.store.set({ work: null });
     if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", true);
-    const { doc, ids } = withStrokes(this.store.state.history.now, answer.result, underlay);
+    const { doc, ids } = withStrokes(this.store.opened, answer.result, underlay);
     for (const old of underlay.stages) URL.revokeObjectURL(old.url);
     this.put({ stages, stage: stages.some((s) => s.name === underlay.stage) ? underlay.stage : "" });
     this.store.commit("Trace", doc, { selection: ids.slice(0, 1) });

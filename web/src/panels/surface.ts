@@ -12,7 +12,7 @@ import { networkOf, type SurfaceLooks, type SurfaceStage } from "../surfaces/sta
 import { button, choice, fact, section, slider, toggle } from "../ui/controls.ts";
 import { fill, h } from "../ui/dom.ts";
 import { measure } from "../view/ticks.ts";
-import { NetworkPlane } from "./networkplane.ts";
+import { NetworkPlane, placeOf } from "./networkplane.ts";
 
 const kLooks: readonly { value: SurfaceLook; name: string }[] = [
   { value: "zebra", name: "zebra" }, { value: "reflection", name: "reflection lines" }, { value: "isophotes", name: "isophotes" },
@@ -122,7 +122,7 @@ export class SurfacePanel {
       put({ alpha: [alpha, alpha], s: [s, s] });
       void this.edit(e);
     };
-    queueMicrotask(() => points && this.plane.show(given, name, points,
+    queueMicrotask(() => points && this.plane.show(given, name, points, this.value(given)?.curves?.find((c) => c.name === name),
       now.alpha && now.s ? [now.alpha[0], now.s[0]] : null, () => paletteOf(this.store.state)));
     const range = (id: "alpha" | "s", label: string) => {
       const field = h("input", {
@@ -223,7 +223,7 @@ export class SurfacePanel {
   private row(c: NetworkCurveShown): HTMLElement {
     const chosen = this.stage.looks.chosen === c.name;
     const type = c.type ?? 5;
-    const place = typeof c.alpha === "number" ? [c.alpha, c.s ?? 1] : c.nearest ? [c.nearest.alpha ?? 0, c.nearest.s ?? 1] : null;
+    const place = placeOf(c);
     const choose = button(c.name ?? "", () => {
       this.choose({ chosen: chosen ? null : c.name ?? null });
     }, { class: "link", "aria-pressed": String(chosen), id: `network-${c.name}` });

@@ -34,3 +34,7 @@ export function measure(value: number, digits = 4): string {
     : value.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(size))));
   return text.replace("-", "\u2212");
 }
+
+/** A sentence with no more than four digits that count in its numbers. */
+export const readable = (text: string): string =>
+  text.replace(/-?\d+\.\d{4,}(e[-+]?\d+)?/gi, (number) => measure(Number(number)));

@@ -54,6 +54,33 @@ onStage("a patch", ["examples/panel-b.json"], (stage) => {
     expect(await surface()).toEqual(given);
   });
 
+  it("puts a network curve where a hand puts it in its plane", async () => {
+    const { page } = stage.at;
+    await page.waitForSelector("#network-A1");
+    if ((await page.locator("#network-A1").getAttribute("aria-pressed")) !== "true") await page.click("#network-A1");
+    const plane = page.locator("#network-plane canvas");
+    await plane.scrollIntoViewIfNeeded();
+    await page.waitForFunction(() => {
+      const canvas = document.querySelector<HTMLCanvasElement>("#network-plane canvas");
+      const pixels = canvas?.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+      return new Set(pixels).size > 40; // contours are there
+    });
+    const box = await plane.boundingBox();
+    if (!box) throw new Error("no plane");
+    const asked = page.waitForRequest("**/api/v1/surface.edit");
+    await page.mouse.move(box.x + 0.45 * box.width, box.y + 0.45 * box.height);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.4 * box.height, { steps: 3 });
+    await page.mouse.up();
+    const { conditions } = (await asked).postDataJSON() as { conditions: { curve: string; alpha: [number, number]; s: [number, number] }[] };
+    const [condition] = conditions.filter((c) => c.curve === "A1");
+    expect(condition?.alpha[0]).toBeGreaterThan(0.3);
+    expect(condition?.alpha[0]).toBe(condition?.alpha[1]);
+    await page.waitForSelector("#surface-outcome");
+    await settled(page);
+    await page.keyboard.press("Control+z");
+  });
+
   it("draws where patches meet, and how well", async () => {
     const { page } = stage.at;
     // another patch that goes on over the first row: mirrored at each of its points, so that no fold is there

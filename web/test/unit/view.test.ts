@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Comb, Point } from "../../src/model/document.ts";
 import { nearestIndex, nearestSample } from "../../src/view/nearest.ts";
-import { label, measure, roundStep, ticks } from "../../src/view/ticks.ts";
+import { label, measure, readable, roundStep, ticks } from "../../src/view/ticks.ts";
 import { boxOf, Viewport } from "../../src/view/viewport.ts";
 
 describe("viewport", () => {
@@ -35,6 +35,13 @@ describe("viewport", () => {
   });
 
   it("has no box around nothing", () => expect(boxOf([])).toBeNull());
+});
+
+describe("a sentence", () => {
+  it("has no more digits than one reads", () => {
+    expect(readable("slope 1.6 turning by 0.457550099 rad, -1.2092487e-7 off")).toBe("slope 1.6 turning by 0.4576 rad, \u22121.209e-7 off");
+    expect(readable("no more than 3 of 12.25 mm")).toBe("no more than 3 of 12.25 mm");
+  });
 });
 
 describe("ticks", () => {
