@@ -55,6 +55,36 @@ Curve image(Curve c, const core::Pose2& axis) {
   return c;
 }
 
+bool is_zero(const Vector2& v) { return v.x == 0 && v.y == 0; }
+
+/// At a place where the parameter rests (two control points in one place): the point there, all
+/// else from next to it, the direction continued from two places.
+curve::Jet2 resting_jet(const PlanarCurve& c, double t, Point2 point) {
+  constexpr double kBeside = 1e-5;
+  const double inwards = t < 0.5 ? kBeside : -kBeside;
+  curve::Jet2 beside = jet(c, t + inwards);
+  const double near = curve::tangent_angle(beside);
+  const double far = curve::tangent_angle(jet(c, t + 2 * inwards));
+  beside.first = norm(beside.first) * core::unit_vector(near + core::wrap_angle(near - far));
+  beside.point = point;
+  return beside;
+}
+
+/// Places of a stretch to look at curvature, from inside its ends, where it may jump; farther from
+/// one at which the parameter rests: nearest to that, curvature is rounding.
+std::vector<double> places_to_check(const PlanarCurve& c, double low, double high) {
+  const auto inset = [&](double end, double other) {
+    const double moving = norm(jet(c, std::lerp(end, other, 0.01)).first);
+    return norm(jet(c, std::lerp(end, other, 1e-9)).first) > 1e-5 * moving ? 1e-9 : 1e-4;
+  };
+  std::vector<double> places;
+  const double least = inset(low, high), most = 1 - inset(high, low);
+  for (int k = 0; k <= kChecks; ++k)
+    places.push_back(
+        std::lerp(low, high, std::clamp(static_cast<double>(k) / kChecks, least, most)));
+  return places;
+}
+
 /// A member's offset as a planar curve of its own; the third derivative lacks the second derivative
 /// of curvature, which no fit looks at.
 struct OffsetView {
@@ -62,7 +92,8 @@ struct OffsetView {
   double distance;
 };
 curve::Jet2 jet(const OffsetView& c, double t) {
-  const curve::Jet2 j = document::jet(*c.base, t);
+  curve::Jet2 j = document::jet(*c.base, t);
+  if (is_zero(j.first)) j = resting_jet(*c.base, t, j.point);
   const double speed = norm(j.first);
   const double bend = cross(j.first, j.second) / std::pow(speed, 3);
   const double rate = cross(j.first, j.third) / std::pow(speed, 3) -
@@ -84,10 +115,7 @@ Result<void> room_for(const PlanarCurve& c, double distance) {
   double tightest = 0;
   double at = 0;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-    for (int k = 0; k <= kChecks; ++k) {
-      // from inside the stretch at its ends, where curvature may jump
-      const double u = std::clamp(static_cast<double>(k) / kChecks, 1e-9, 1 - 1e-9);
-      const double t = (1 - u) * breaks[i] + u * breaks[i + 1];
+    for (const double t : places_to_check(c, breaks[i], breaks[i + 1])) {
       const double bend = curve::curvature(document::jet(c, t));
       if (!(bend * distance > tightest * distance)) continue;
       tightest = bend;
@@ -198,6 +226,7 @@ Path mirrored(const Path& path, const core::Pose2& axis) {
 }
 
 Result<Offset> offset(const Path& path, double distance, double tolerance) {
+  if (distance == 0) return Offset{path, 0, 0};
   const std::vector<PlanarCurve> members = smooth_members(path);
   Offset made;
   made.path.closed = path.closed;

@@ -30,6 +30,27 @@ SplineData with_both_ends(SplineData data) {
   return data;
 }
 
+/// A periodic spline of one knot is a point, one of two runs to and fro.
+constexpr std::size_t kLoop = 3;
+
+/// So many knots at least, in the middle of the widest gaps.
+void add_to_a_loop(std::vector<double>& knots) {
+  if (knots.empty()) knots.push_back(0);
+  while (knots.size() < kLoop) {
+    std::size_t widest = 0;
+    double width = 0;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      const double next = i + 1 < knots.size() ? knots[i + 1] : knots[0] + 1;
+      if (!(next - knots[i] > width)) continue;
+      width = next - knots[i];
+      widest = i;
+    }
+    const double middle = knots[widest] + width / 2;
+    knots.push_back(middle < 1 ? middle : middle - 1);
+    std::sort(knots.begin(), knots.end());
+  }
+}
+
 }  // namespace
 
 double sum_of_weights(const SplineData& data) {
@@ -59,11 +80,12 @@ std::optional<LeastSquaresSpline> final_fit(const SplineData& data, core::Interv
 std::optional<LeastSquaresSpline> closed_fit(const SplineData& open, std::vector<double> knots,
                                              int order) {
   const SplineData data = with_both_ends(open);
-  while (!knots.empty()) {
+  add_to_a_loop(knots);
+  while (knots.size() >= kLoop) {
     if (auto spline = periodic_spline(data, knots, order)) return spline;
     remove_closest(knots);
   }
-  return periodic_spline(data, {0}, order);
+  return std::nullopt;
 }
 
 Misfit misfit(const LeastSquaresSpline& spline, const SplineData& data) {

@@ -16,8 +16,9 @@ double sum_of_weights(const SplineData& data);
 std::optional<LeastSquaresSpline> final_fit(const SplineData& data, core::Interval domain,
                                             std::vector<double> knots, int order);
 
-/// The closed curve of the knots, all in [0, 1), without some of them where data are too few. The
-/// parameters of the data lie in [0, 1), too: the first point stands at both ends.
+/// The closed curve of the knots, all in [0, 1), without some of them where data are too few, with
+/// some between them where they are less than the three a loop needs; empty where the data do not
+/// carry three. The parameters of the data lie in [0, 1), too: the first point stands at both ends.
 std::optional<LeastSquaresSpline> closed_fit(const SplineData& open, std::vector<double> knots,
                                              int order);
 

@@ -278,7 +278,7 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
   fit.deviation = m.largest;
   BayesCriterion criterion = found->criterion;
   criterion.count = static_cast<double>(points.size());
-  fit.bic = criterion(fit.sse, fit.interior_knots.size());
+  fit.bic = criterion.value(fit.sse, fit.interior_knots.size());
   fit.report = found->report;
   return fit;
 }

@@ -201,6 +201,11 @@ double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_kn
   if (!std::isfinite(sum_of_squares)) return kInfinity;
   const double parameters = 2 * static_cast<double>(interior_knots) + order;
   if (interior_knots > 0 && parameters > count) return kInfinity;
+  return value(sum_of_squares, interior_knots);
+}
+
+double BayesCriterion::value(double sum_of_squares, std::size_t interior_knots) const {
+  const double parameters = 2 * static_cast<double>(interior_knots) + order;
   return count * std::log(std::max(floor, sum_of_squares + hidden)) + std::log(count) * parameters;
 }
 

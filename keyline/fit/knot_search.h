@@ -22,6 +22,8 @@ struct BayesCriterion {
   /// Infinite where sum_of_squares is, and where there are more parameters than data, 2n + m > N:
   /// the criterion is meaningless near interpolation, where Q vanishes.
   double operator()(double sum_of_squares, std::size_t interior_knots) const;
+  /// The criterion's number whatever there are of parameters: of knots that were not searched for.
+  double value(double sum_of_squares, std::size_t interior_knots) const;
 };
 
 enum class KnotPlacement {

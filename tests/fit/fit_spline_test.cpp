@@ -265,6 +265,26 @@ TEST(FitSpline, ClosedCurvesCloseSmoothly) {
   }
 }
 
+/// Points too few for knots by the criterion still make a loop, and the criterion is a number.
+TEST(FitSpline, FewPointsOfALoopMakeALoop) {
+  SplineFitOptions options = SplineFitOptions::for_fairing();
+  options.closed = true;
+  std::vector<Point2> circle;
+  for (int i = 0; i < 8; ++i) circle.push_back({std::cos(0.785398 * i), std::sin(0.785398 * i)});
+  for (const int order : {4, 5, 6}) {
+    options.order = order;
+    const auto fit = fit_spline(circle, {}, options);
+    ASSERT_TRUE(fit) << order;
+    EXPECT_TRUE(std::isfinite(fit->bic)) << order;
+    EXPECT_LT(fit->deviation, 0.3) << order;
+    EXPECT_GT(distance(evaluate(fit->curve, 0.0), evaluate(fit->curve, 0.5)), 1.5) << order;
+  }
+  options.order = 7;
+  const auto none = fit_spline(circle, {}, options);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, core::ErrorCode::bad_input);
+}
+
 TEST(FitSpline, CancellationKeepsTheBestFound) {
   SplineFitOptions options;
   options.generations = 100000;

@@ -425,6 +425,10 @@ TEST(RandomCurves, OffsetsLieAtTheirDistance) {
   int drawn = 0;
   for (int n = 0; n < requests(0.04); ++n) {
     json curve = one_or_more(random);
+    if (n % 4 == 0) {  // a handle drawn in
+      curve = any_bezier(random, 3, 3);
+      curve["points"][random() % 2 == 0 ? 1 : 2] = curve["points"][n % 8 == 0 ? 0 : 3];
+    }
     const auto beziers = beziers_of(curve);
     const double length = length_of(beziers);
     const double d = sign(random) * length * power_of_ten(random, -3, -0.7);
@@ -433,12 +437,14 @@ TEST(RandomCurves, OffsetsLieAtTheirDistance) {
         {"op", "curve.offset"}, {"curve", curve}, {"distance", d}, {"tolerance", tolerance}};
     SCOPED_TRACE(digest(request));
     const json answer = answered(request);
-    const auto k = curvatures(beziers, 500);
+    auto k = curvatures(beziers, 500);
+    std::erase_if(k, [](double x) { return !std::isfinite(x); });
     const auto [least, most] = std::ranges::minmax(k);
     const bool turns_back = d > 0 ? most * d >= 1 : least * d >= 1;
     if (answer["ok"] == false) {
       EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
-      EXPECT_GT(std::max(most * d, least * d), 1 - 1e-3) << answer;
+      // Next to a drawn-in handle curvature grows without end, past all places looked at here.
+      EXPECT_GT(std::max(most * d, least * d), n % 4 == 0 ? 0 : 1 - 1e-3) << answer;
       continue;
     }
     EXPECT_FALSE(turns_back);
@@ -449,6 +455,7 @@ TEST(RandomCurves, OffsetsLieAtTheirDistance) {
     std::vector<Vec> exact;
     for (const Spot& s : spots(beziers, 100 / static_cast<int>(beziers.size()))) {
       const double v = size(s.first);
+      if (v == 0) continue;
       exact.push_back(s.place + (d / v) * Vec{-s.first[1], s.first[0], 0});
     }
     EXPECT_LE(farthest_from(made, exact), told + 1e-12 * length + 1e-14 * farthest(curve));

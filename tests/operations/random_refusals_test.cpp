@@ -44,11 +44,13 @@ std::optional<double> compound_chord_angle(double a0, double a1, double ratio, d
                                            double rate) {
   const auto joint = radius(a0, 1, rate, ratio * theta);
   if (!joint || !std::isfinite(*joint) || !(*joint > 0)) return std::nullopt;
-  const double slope = rate * std::pow(*joint, 2 - a0);
-  const double second = slope * std::pow(*joint, a1 - 2);  // the same rate, the other law
-  const auto at = [&](double turned) {
-    return turned <= ratio * theta ? radius(a0, 1, rate, turned)
-                                   : radius(a1, *joint, second, turned - ratio * theta);
+  // The same rate, the other law; in the joint's radius, so that no power leaves the doubles.
+  const double second = rate * std::pow(*joint, 1 - a0);
+  const auto at = [&](double turned) -> std::optional<double> {
+    if (turned <= ratio * theta) return radius(a0, 1, rate, turned);
+    const auto relative = radius(a1, 1, second, turned - ratio * theta);
+    if (!relative) return std::nullopt;
+    return *joint * *relative;
   };
   const auto last = at(theta);
   if (!last || !std::isfinite(*last)) return std::nullopt;
