@@ -11,7 +11,7 @@ struct FlatOptions {
   BandOptions band;            ///< warm
   double most_rms = HUGE_VAL;  ///< of the offsets
   double noise = 0;            ///< of the points, above 0
-  double worth = 1.5;          ///< so many times the energy is the most that they may cost
+  double worth = 1.25;         ///< so many times the energy is the most that they may cost
 };
 
 /// Energy below which nothing is to be seen: of curvature that changes so little that the curve
