@@ -50,11 +50,8 @@ Vector2 direction(const PointAt& point, std::size_t i, std::size_t j) {
 /// Goes through all ways to pair branches, giving up where they cost more than the best so far.
 class Pairing {
  public:
-  Pairing(const std::vector<Branch>& branches, double turn)
-      : branches_(branches),
-        turn_(turn),
-        mate_(branches.size(), kOpen),
-        best_(branches.size(), -1) {
+  Pairing(const std::vector<std::vector<double>>& costs, double alone)
+      : costs_(costs), alone_(alone), mate_(costs.size(), kOpen), best_(costs.size(), -1) {
     search(0, 0);
   }
   std::vector<int> best() const { return best_; }
@@ -72,20 +69,19 @@ class Pairing {
     }
     for (std::size_t k = first + 1; k < mate_.size(); ++k) {
       if (mate_[k] != kOpen) continue;
-      const double bend = bend_between(branches_[first], branches_[k]);
-      if (bend > turn_) continue;
+      if (!std::isfinite(costs_[first][k])) continue;
       mate_[first] = static_cast<int>(k);
       mate_[k] = static_cast<int>(first);
-      search(first + 1, spent + bend);
+      search(first + 1, spent + costs_[first][k]);
       mate_[k] = kOpen;
     }
     mate_[first] = -1;
-    search(first + 1, spent + 0.5 * turn_);
+    search(first + 1, spent + alone_);
     mate_[first] = kOpen;
   }
 
-  const std::vector<Branch>& branches_;
-  double turn_;
+  const std::vector<std::vector<double>>& costs_;
+  double alone_;
   std::vector<int> mate_;
   std::vector<int> best_;
   double least_ = std::numeric_limits<double>::infinity();
@@ -112,6 +108,23 @@ Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip)
   return b;
 }
 
+std::vector<Point2> arm_of(const StrokeGraph& graph, const Branch& branch, double reach) {
+  const GraphEdge& line = graph.edges[static_cast<std::size_t>(branch.edge)];
+  const std::size_t n = line.points.size();
+  std::vector<Point2> points;
+  double run = 0;
+  for (std::size_t i = branch.anchor; run <= reach; i += branch.at_end ? -1 : 1) {
+    points.push_back(line.points[i]);
+    if (i == (branch.at_end ? 0 : n - 1)) break;
+    run += distance(line.points[i], line.points[branch.at_end ? i - 1 : i + 1]);
+  }
+  return points;
+}
+
+Vector2 direction_of(const std::vector<Point2>& points) {
+  return direction([&](std::size_t i) { return points[i]; }, 0, points.size() - 1);
+}
+
 double bend_between(const Branch& a, const Branch& b) {
   const Vector2 chord = b.place - a.place;
   if (core::norm(chord) < 1.0) return std::abs(core::angle_between(-a.outward, b.outward));
@@ -120,40 +133,73 @@ double bend_between(const Branch& a, const Branch& b) {
   return 0.5 * std::abs(first + second) + std::abs(first - second);
 }
 
-double off_parabola(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach) {
-  std::vector<Point2> points;
-  for (const Branch* branch : {&a, &b}) {
-    const GraphEdge& line = graph.edges[static_cast<std::size_t>(branch->edge)];
-    const std::size_t n = line.points.size();
-    double run = 0;
-    for (std::size_t i = branch->anchor; run <= std::max(reach, 16.0);
-         i += branch->at_end ? -1 : 1) {
-      points.push_back(line.points[i]);
-      if (i == (branch->at_end ? 0 : n - 1)) break;
-      run += distance(line.points[i], line.points[branch->at_end ? i - 1 : i + 1]);
-    }
-  }
-  const Vector2 chord = b.place - a.place;
+namespace {
+
+/// Distance of (x, y) to the left of the circle through the origin that goes along x there.
+double left_of_circle(double x, double y, double curvature) {
+  const double q = x * x + y * y;
+  const double root = std::sqrt(std::max(0.0, 1 - 2 * curvature * y + curvature * curvature * q));
+  return (2 * y - curvature * q) / (1 + root);
+}
+
+}  // namespace
+
+CommonArc common_arc(const std::vector<Point2>& a, const std::vector<Point2>& b) {
+  constexpr int kSteps = 5;  // of Gauss and Newton; the start is a few degrees off at most
+  std::vector<Point2> points = a;
+  points.insert(points.end(), b.begin(), b.end());
+  const Vector2 chord = b.front() - a.front();
   const double length = std::max(core::norm(chord), 1e-9);
-  Eigen::MatrixX3d rows(static_cast<Eigen::Index>(points.size()), 3);
-  Eigen::VectorXd across(rows.rows());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const Vector2 d = points[static_cast<std::size_t>(i)] - a.place;
-    const double x = core::dot(chord, d) / (length * length) - 0.5;
-    rows.row(i) << 1, x, x * x;
-    across[i] = core::cross(chord, d) / length;
+  const Vector2 along = chord / length;
+  const Point2 middle = core::mix(a.front(), b.front(), 0.5);
+  double far = length;
+  for (const Point2 p : points) far = std::max(far, distance(p, middle));
+  Eigen::Vector4d fit = Eigen::Vector4d::Zero();  // place, direction, curvature and its change
+  Eigen::MatrixX4d rows(static_cast<Eigen::Index>(points.size()), 4);
+  Eigen::VectorXd rest(rows.rows());
+  for (int step = 0; step <= kSteps; ++step) {
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const Vector2 d = points[static_cast<std::size_t>(i)] - middle;
+      const double across = core::cross(along, d) - fit[0] * far;
+      const double x = std::cos(fit[1]) * core::dot(along, d) + std::sin(fit[1]) * across;
+      const double y = std::cos(fit[1]) * across - std::sin(fit[1]) * core::dot(along, d);
+      const double u = x / far;
+      rest[i] = left_of_circle(x, y, fit[2] / far) / far - fit[3] * u * u * u;
+      rows.row(i) << 1, u, 0.5 * u * u, u * u * u;
+    }
+    if (step < kSteps) fit += rows.householderQr().solve(rest);
   }
-  const Eigen::VectorXd rest = rows * rows.householderQr().solve(across) - across;
-  return rest.norm() / std::sqrt(static_cast<double>(points.size()));
+  CommonArc arc{far * rest.norm() / std::sqrt(static_cast<double>(points.size())), {}};
+  for (double x = 1 - 0.5 * length; x < 0.5 * length; ++x) {
+    const double u = x / far;
+    const double y =
+        far * (fit[2] * u * u / (1 + std::sqrt(std::max(0.0, 1 - fit[2] * fit[2] * u * u))) +
+               fit[3] * u * u * u);
+    const double ahead = std::cos(fit[1]) * x - std::sin(fit[1]) * y;
+    const double across = std::sin(fit[1]) * x + std::cos(fit[1]) * y + fit[0] * far;
+    arc.gap.push_back(middle + ahead * along + across * core::perpendicular_left(along));
+  }
+  return arc;
+}
+
+std::vector<int> pair_up(const std::vector<std::vector<double>>& costs, double alone) {
+  if (costs.size() <= kMostBranches) return Pairing(costs, alone).best();
+  std::vector<std::vector<double>> first(costs.begin(),
+                                         costs.begin() + static_cast<long>(kMostBranches));
+  for (std::vector<double>& row : first) row.resize(kMostBranches);
+  std::vector<int> mates = Pairing(first, alone).best();
+  mates.resize(costs.size(), -1);
+  return mates;
 }
 
 std::vector<int> pair_up(const std::vector<Branch>& branches, double turn) {
-  if (branches.size() <= kMostBranches) return Pairing(branches, turn).best();
-  const std::vector<Branch> first(branches.begin(),
-                                  branches.begin() + static_cast<long>(kMostBranches));
-  std::vector<int> mates = Pairing(first, turn).best();
-  mates.resize(branches.size(), -1);
-  return mates;
+  std::vector<std::vector<double>> bends(branches.size(), std::vector<double>(branches.size()));
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+      const double bend = i == k ? HUGE_VAL : bend_between(branches[i], branches[k]);
+      bends[i][k] = bend > turn ? HUGE_VAL : bend;
+    }
+  return pair_up(bends, 0.5 * turn);
 }
 
 }  // namespace keyline::sketch

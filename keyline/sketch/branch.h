@@ -17,22 +17,35 @@ struct Branch {
   core::Vector2 outward{1, 0};  ///< unit, away from the junction
   int mate = -1;                ///< branch it goes on with
   bool free = false;            ///< ends in paper
+  double tail = 0;              ///< without a mate: how far it goes on into its junction
 };
 
 /// The branch of an edge at one of its ends, `skip` pixels clear of it (at most two fifths of the
 /// edge); its direction is that of a parabola through the next few widths of line.
 Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip);
 
+/// The edge's points from where it is clear of the junction, up to `reach` out.
+std::vector<core::Point2> arm_of(const StrokeGraph& graph, const Branch& branch, double reach);
+
+/// The way a line of points leaves its first one: that of the parabola through them all.
+core::Vector2 direction_of(const std::vector<core::Point2>& points);
+
 /// How much a line has to bend that comes in on one branch and leaves on the other: half its turn,
 /// as a plain arc makes it, and all that an arc does not explain. Radians.
 double bend_between(const Branch& a, const Branch& b);
 
-/// Root mean square distance of the points of two branches, up to `reach` out from where they are
-/// clear of the junction, from the parabola that fits both best.
-double off_parabola(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach);
+/// The arc (with a curvature that changes evenly) nearest to the points of two lines.
+struct CommonArc {
+  double off = 0;                 ///< root mean square distance of the points
+  std::vector<core::Point2> gap;  ///< along it between the first points, about a pixel apart
+};
+CommonArc common_arc(const std::vector<core::Point2>& a, const std::vector<core::Point2>& b);
 
 /// Who goes on with whom, of least sum of bends, a branch left over counting half `turn`; -1 for
 /// those. Pairs that bend more than `turn` are not made. At most ten branches (more are left over).
 std::vector<int> pair_up(const std::vector<Branch>& branches, double turn);
+
+/// The same for costs given: of every pair (a row each, infinite: never), and of one left over.
+std::vector<int> pair_up(const std::vector<std::vector<double>>& costs, double alone);
 
 }  // namespace keyline::sketch

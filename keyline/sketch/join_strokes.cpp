@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
+#include <optional>
 
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/branch.h"
+#include "keyline/sketch/knot.h"
 
 namespace keyline::sketch {
 namespace {
@@ -17,12 +18,9 @@ using core::distance;
 using core::Point2;
 using core::Vector2;
 
-/// Two lines that cross at 10 degrees share about 23 half widths, 1 / tan 5 degrees twice; only
-/// nearly straight ones are believed where it is that long.
-constexpr double kShortShared = 8;  // half widths: up to it directions beside the stretch tell
+/// Two lines that cross at 10 degrees share about 23 half widths, 1 / tan 5 degrees twice.
+constexpr double kShortShared = 4;  // half widths: up to it directions beside the stretch tell
 constexpr double kLongestShared = 24;
-constexpr double kBendOfLong = 0.3;
-constexpr double kOffOfLong = 0.5;  // half widths: as far as ends lie off their common parabola
 
 class Joiner {
  public:
@@ -84,52 +82,37 @@ class Joiner {
         merge(line.from, line.to);
       }
     }
-    join_knots();
+    for (const double times : {1.0, 2.0, 4.0}) join_knots(times);
     members_.assign(graph_.nodes.size(), {});
   }
 
-  /// Where several lines cross in nearly one place the edges between the crossings are too short
-  /// to tell a direction: such a knot is one cluster if all lines that come out of it pair up.
-  void join_knots() {
-    core::DisjointSets knots(graph_.nodes.size());
+  /// Where several lines cross near each other the edges between the crossings are too short to
+  /// tell a direction: such knots are one cluster. Short are edges of so many times their usual
+  /// length.
+  void join_knots(double times) {
+    core::DisjointSets near(graph_.nodes.size());
     std::vector<int> shorts;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       const GraphEdge& line = graph_.edges[e];
       if (!line.alive || !is_junction(line.from) || !is_junction(line.to)) continue;
       const double radius = std::max(node(line.from).radius, node(line.to).radius);
-      if (length_of(line) > 4 * radius + 5) continue;
+      if (!bridge_[e] && length_of(line) > times * (4 * radius + 5)) continue;
       shorts.push_back(static_cast<int>(e));
-      knots.join(static_cast<std::size_t>(line.from), static_cast<std::size_t>(line.to));
+      near.join(static_cast<std::size_t>(line.from), static_cast<std::size_t>(line.to));
     }
     std::map<std::size_t, std::vector<int>> inner;
     for (const int e : shorts)
-      inner[knots.find(static_cast<std::size_t>(edge(e).from))].push_back(e);
-    for (const auto& [name, edges] : inner)
-      if (edges.size() >= 2 && all_pair_up(edges))
-        for (const int e : edges) {
-          bridge_[static_cast<std::size_t>(e)] = true;
-          merge(edge(e).from, edge(e).to);
-        }
-  }
-
-  bool all_pair_up(const std::vector<int>& inner) const {
-    double radius = 0;
-    std::set<int> nodes;
-    for (const int e : inner)
-      for (const int n : {edge(e).from, edge(e).to}) {
-        nodes.insert(n);
-        radius = std::max(radius, node(n).radius);
+      inner[near.find(static_cast<std::size_t>(edge(e).from))].push_back(e);
+    for (const auto& [name, edges] : inner) {
+      if (edges.size() < 2) continue;
+      std::optional<Knot> knot = untie(graph_, edges);
+      if (!knot) continue;
+      for (const int e : edges) {
+        bridge_[static_cast<std::size_t>(e)] = true;
+        merge(edge(e).from, edge(e).to);
       }
-    std::vector<Branch> out;
-    for (const int n : nodes)
-      for (const int e : node(n).edges)
-        if (std::find(inner.begin(), inner.end(), e) == inner.end()) {
-          if (edge(e).from == edge(e).to || length_of(edge(e)) < 2 * radius) return false;
-          out.push_back(sketch::make_branch(graph_, e, edge(e).to == n, 1.2 * radius + 1));
-        }
-    if (out.size() < 4 || out.size() > 10) return false;
-    const std::vector<int> mates = pair_up(out, 0.6);
-    return std::find(mates.begin(), mates.end(), -1) == mates.end();
+      knots_.push_back(std::move(*knot));
+    }
   }
 
   /// True where two lines cross at a small angle along this edge: its four neighbours pair up
@@ -150,24 +133,18 @@ class Joiner {
       }
     if (left.size() != 2 || right.size() != 2) return false;
     if (rejoin(left, line.from, 6 * wide) || rejoin(right, line.to, 6 * wide)) return false;
-    const double straight =
-        std::max(bend_between(left[0], right[0]), bend_between(left[1], right[1]));
-    const double crossed =
-        std::max(bend_between(left[0], right[1]), bend_between(left[1], right[0]));
-    const double most = length > kShortShared * wide ? kBendOfLong : length > 4 * wide ? 0.6 : 0.9;
-    if (std::min(straight, crossed) >= most) return false;
-    return length <= kShortShared * wide ||
-           both_far_out(left, right, 2 * length, kOffOfLong * wide);
-  }
-
-  /// Whether the ends on either side lie on two parabolas far out, one way or the other: then two
-  /// lines run through the stretch between, else it is a line of its own.
-  bool both_far_out(const std::vector<Branch>& left, const std::vector<Branch>& right, double reach,
-                    double most) const {
-    const auto off = [&](std::size_t a, std::size_t b) {
-      return off_parabola(graph_, left[a], right[b], reach);
+    const double reach = arc_reach(length, wide);
+    const auto cost = [&](std::size_t l, std::size_t r) {
+      return going_on(graph_, left[l], right[r], reach);
     };
-    return std::max(off(0, 0), off(1, 1)) <= most || std::max(off(0, 1), off(1, 0)) <= most;
+    const std::size_t mate = cost(0, 1) + cost(1, 0) < cost(0, 0) + cost(1, 1) ? 1 : 0;
+    for (const std::size_t l : {0U, 1U}) {
+      const Branch& other = right[l == 0 ? mate : 1 - mate];
+      if (bend_between(left[l], other) >= kMostBend) return false;
+      if (length > kShortShared * wide && !on_one_arc(graph_, left[l], other, reach, wide))
+        return false;
+    }
+    return true;
   }
 
   /// Two branches out of a node that soon meet again at their other ends: the sides of a hole.
@@ -213,12 +190,12 @@ class Joiner {
   }
 
   /// Of two lines that share a long stretch the directions beside it tell little: those go on with
-  /// each other that lie on one parabola, far out.
+  /// each other that lie on one arc, far out.
   bool match_far_out(const std::vector<int>& list, double shared) {
     std::array<std::array<double, 4>, 4> off{};
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < a; ++b)
-        off[a][b] = off[b][a] = off_parabola(graph_, at(list[a]), at(list[b]), 2 * shared);
+        off[a][b] = off[b][a] = going_on(graph_, at(list[a]), at(list[b]), arc_reach(shared, 0));
     std::size_t best = 1;
     for (const std::size_t mate : {2, 3}) {
       const auto sum = [&](std::size_t m) {
@@ -235,12 +212,35 @@ class Joiner {
     return true;
   }
 
+  /// The knot that a cluster's branches come out of: the largest, which was found last.
+  const Knot* knot_of(const std::vector<int>& list) {
+    if (list.empty() || at(list[0]).free) return nullptr;
+    const GraphEdge& line = edge(at(list[0]).edge);
+    const int cluster = root(at(list[0]).at_end ? line.to : line.from);
+    for (auto k = knots_.rbegin(); k != knots_.rend(); ++k)
+      if (root(edge(k->edges.front()).from) == cluster) return &*k;
+    return nullptr;
+  }
+
+  void match_knot(const Knot& knot, const std::vector<int>& list) {
+    for (std::size_t i = 0; i < knot.exits.size(); ++i) {
+      const Branch& out = knot.exits[i];
+      const int id = branch_of(out.edge, out.at_end);
+      if (std::find(list.begin(), list.end(), id) == list.end()) continue;
+      at(id) = out;
+      if (knot.mates[i] < 0) continue;
+      const Branch& mate = knot.exits[static_cast<std::size_t>(knot.mates[i])];
+      at(id).mate = branch_of(mate.edge, mate.at_end);
+    }
+  }
+
   void match(const std::vector<int>& list, double shared) {
     if (list.size() == 2) {  // no junction at all
       at(list[0]).mate = list[1];
       at(list[1]).mate = list[0];
       return;
     }
+    if (const Knot* knot = knot_of(list)) return match_knot(*knot, list);
     if (list.size() == 4 && shared > 0 && match_far_out(list, shared)) return;
     std::vector<Branch> branches;
     for (const int id : list) branches.push_back(at(id));
@@ -320,7 +320,7 @@ class Joiner {
     if (b.free) return;
     const GraphEdge& line = edge(b.edge);
     const Point2 foot = b.at_end ? line.points.back() : line.points.front();
-    const double reach = std::max(0.0, core::dot(b.place - foot, b.outward));
+    const double reach = b.tail > 0 ? b.tail : std::max(0.0, core::dot(b.place - foot, b.outward));
     const Point2 end = b.place - reach * b.outward;
     const float r = line.radii[b.anchor];
     if (before) {
@@ -377,6 +377,7 @@ class Joiner {
   core::DisjointSets clusters_;
   std::vector<bool> bridge_;
   std::vector<std::vector<int>> members_;
+  std::vector<Knot> knots_;
   std::vector<double> shared_;  ///< longest stretch two lines share, by cluster; 0: short
   std::vector<Branch> branches_;
 };
