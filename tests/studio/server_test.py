@@ -320,6 +320,31 @@ class StudioServer(unittest.TestCase):
         for s in slow:
             s.close()
 
+    def test_shows_slow_clients_out(self):
+        """Bytes that come one by one do not hold a connection: 20 s for a request's first lines,
+        60 s for its body. In the full tier alone: it waits for both."""
+        if not os.environ.get("KEYLINE_FULL"):
+            self.skipTest("KEYLINE_FULL is not set")
+        head = (f"POST /api/v1/lac.segment HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n"
+                f"Authorization: Bearer {TOKEN}\r\nContent-Type: application/json\r\n")
+        for started, least, most in ((head, 15, 30), (head + "Content-Length: 1000\r\n\r\n{", 50, 75)):
+            with socket.create_connection(("127.0.0.1", self.server.port), timeout=0.5) as s:
+                s.sendall(started.encode())
+                began, ended = time.time(), None
+                while ended is None and time.time() - began < most + 5:
+                    try:
+                        s.sendall(b" ")
+                        s.recv(1000)  # a refusal, or the end
+                        ended = time.time()
+                    except socket.timeout:
+                        pass
+                    except OSError:
+                        ended = time.time()
+                self.assertIsNotNone(ended)
+                self.assertGreater(ended - began, least)
+                self.assertLess(ended - began, most)
+        self.well()
+
     def test_keeps_the_work(self):
         text = json.dumps({"format": "keyline-studio", "x": "\u00e4"})
         self.assertEqual(self.ask("POST", "/api/v1/studio/recovery", text)[0], 200)

@@ -1,3 +1,4 @@
+import { gzipSync } from "node:zlib";
 import { expect, it } from "vitest";
 import { isQuiet, onPage, onStage, settled } from "./studio.ts";
 
@@ -20,6 +21,18 @@ onStage("drawing", [], (stage) => {
     expect(curve).toBeGreaterThan(0);
     if (isQuiet()) expect(curve).toBeLessThan(1000);
     expect(await stage.at.page.evaluate(() => window.keyline.store.state.looks.combScale)).toBeGreaterThan(0);
+  });
+
+  it("comes in less than 300 kB, compressed, and without what surfaces need", async () => {
+    const { page } = stage.at;
+    const names = await page.evaluate(() => [location.href,
+      ...performance.getEntriesByType("resource").map((r) => r.name).filter((name) => /\.(js|css|svg)$/.test(name))]);
+    const contents = await Promise.all(names.map(async (name) => Buffer.from(await (await fetch(name)).arrayBuffer())));
+    const size = contents.reduce((sum, content) => sum + gzipSync(content).length, 0);
+    console.log(`${names.length} files, ${(size / 1000).toFixed(1)} kB compressed`);
+    expect(names.length).toBeGreaterThan(2);
+    expect(size).toBeLessThan(300_000);
+    expect(contents.some((content) => content.includes("WebGLRenderer"))).toBe(false);
   });
 
   it("follows a dragged handle, with the numbers of the operation", async () => {
