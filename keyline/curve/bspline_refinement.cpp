@@ -55,30 +55,57 @@ int multiplicity(const Net<V>& net, double u) {
   return static_cast<int>(last - first);
 }
 
-/// Boehm's insertion of u, which lies in the domain, once.
+/// Boehm's insertion of u, which lies in the domain, once. `beyond`: values of the net that stand
+/// behind those given, which are all that u concerns.
 template <class V>
-void insert_once(Net<V>& net, double u) {
+void insert_once(Net<V>& net, double u, std::size_t beyond = 0) {
   const int p = net.degree;
-  const int n = static_cast<int>(net.d.size());
+  const int n = static_cast<int>(net.d.size() + beyond);
   int k = static_cast<int>(std::upper_bound(net.knots.begin(), net.knots.end(), u) -
                            net.knots.begin()) -
           1;
   if (k >= n) k = n - 1;
   while (!(net.knots[k] < net.knots[k + 1])) --k;
-  std::vector<V> d(net.d.begin(), net.d.begin() + (k - p + 1));
-  d.reserve(n + 1);
+  std::array<V, kMaxBezierDegree> d;
   for (int i = k - p + 1; i <= k; ++i) {
     const double a = (u - net.knots[i]) / (net.knots[i + p] - net.knots[i]);
-    d.push_back((1 - a) * net.d[i - 1] + a * net.d[i]);
+    d[i - (k - p + 1)] = (1 - a) * net.d[i - 1] + a * net.d[i];
   }
-  d.insert(d.end(), net.d.begin() + k, net.d.end());
-  net.d = std::move(d);
+  net.d.insert(net.d.begin() + k, V{});
+  std::copy(d.begin(), d.begin() + p, net.d.begin() + (k - p + 1));
   net.knots.insert(net.knots.begin() + k + 1, u);
 }
 
 template <class V>
 void insert_up_to(Net<V>& net, double u, int wanted) {
   for (int m = multiplicity(net, u); m < wanted; ++m) insert_once(net, u);
+}
+
+/// Every knot of [from, to] as often as the degree, in time that grows as the net: what stands
+/// behind a knot waits until it is that knot's turn.
+template <class V>
+Net<V> with_full_knots(const Net<V>& net, double from, double to) {
+  const auto p = static_cast<std::size_t>(net.degree);
+  Net<V> done{net.degree, {}, {}};
+  std::size_t knots = 0;  // taken over so far, and control values
+  std::size_t values = 0;
+  const auto take = [&](std::size_t wanted) {
+    for (; done.knots.size() < wanted && knots < net.knots.size(); ++knots)
+      done.knots.push_back(net.knots[knots]);
+    for (; done.d.size() < wanted && values < net.d.size(); ++values)
+      done.d.push_back(net.d[values]);
+  };
+  for (const double u : net.knots) {
+    if (u < from || u > to) continue;
+    while (knots < net.knots.size() && net.knots[knots] <= u) take(done.knots.size() + 1);
+    for (auto m = static_cast<std::size_t>(multiplicity(done, u)); m < p; ++m) {
+      const auto behind = std::upper_bound(done.knots.begin(), done.knots.end(), u);
+      take(static_cast<std::size_t>(behind - done.knots.begin()) + p + 1);
+      insert_once(done, u, net.d.size() - values);
+    }
+  }
+  take(net.knots.size() + done.knots.size());
+  return done;
 }
 
 /// The curve over [from, to] with clamped ends.
@@ -198,10 +225,7 @@ std::vector<Bezier<P>> to_beziers(const BSpline<P>& c) {
   const core::Interval range = domain(c);
   const int p = c.degree;
   const BSpline<P> fine = through_net(c, [&](auto net) {
-    const auto knots = net.knots;
-    for (const double u : knots)
-      if (u >= range.low && u <= range.high) insert_up_to(net, u, p);
-    return extract(std::move(net), range.low, range.high);
+    return extract(with_full_knots(net, range.low, range.high), range.low, range.high);
   });
   std::vector<Bezier<P>> pieces;
   for (std::size_t k = p; k < fine.control.size(); ++k) {

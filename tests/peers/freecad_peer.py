@@ -36,6 +36,11 @@ def counts(file):
     return tuple(inside("count", file))
 
 
+def extent(file):
+    """Number of things (wires, and edges of none), of closed ones, and the size of all of them."""
+    return inside("extent", file)
+
+
 def read(file):
     import numpy as np
     from plain_svg import Curve
@@ -87,7 +92,19 @@ def count():
     return [sum(len(shape.Edges) for shape in found) - bound, faces]
 
 
+def extent_inside():
+    things, box = [], None
+    for _, shape in shapes(os.environ["KEYLINE_IN"]):
+        chained = {e.hashCode() for w in shape.Wires for e in w.Edges}
+        things += shape.Wires + [e for e in shape.Edges if e.hashCode() not in chained]
+        own = shape.BoundBox
+        corners = [own.XMin, own.YMin, own.XMax, own.YMax]
+        box = corners if box is None else [*map(min, box[:2], corners[:2]),
+                                           *map(max, box[2:], corners[2:])]
+    return [len(things), sum(t.isClosed() for t in things), box[2] - box[0], box[3] - box[1]]
+
+
 if "KEYLINE_OUT" in os.environ:
-    answer = {"sample": sample, "count": count}[os.environ["KEYLINE_TASK"]]()
+    answer = {"sample": sample, "count": count, "extent": extent_inside}[os.environ["KEYLINE_TASK"]]()
     with open(os.environ["KEYLINE_OUT"], "w") as out_file:
         json.dump(answer, out_file)

@@ -3,13 +3,17 @@
 
 For every SVG of ../shared/data (or those named): the curves, closed ones and names before and after,
 the size in millimetres, and the largest distance between each curve and what became of it, in both
-directions, as polygons that hold the ends of all pieces. Where Inkscape is installed, what it sees of the first and
-the last file stands beside: shapes and the size of what is drawn, line widths and all.
+directions, as polygons that hold the ends of all pieces. The last SVG is read as it is drawn, without
+the exact curves that it carries too. A path that ends where it began counts as closed: STEP and IGES
+have no other mark of it. Where they are installed, what others see stands beside: Inkscape in the
+first and the last file (shapes and the size of what is drawn, line widths and all), FreeCAD in the
+STEP file (things, closed ones, size).
 
 Exit status 1 where a curve is lost or made, a closed one opened, the size off by more than the
 tolerance or a curve further off than the conversions tell in sum; 77 without NumPy.
 """
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -21,13 +25,14 @@ try:
 except ImportError as missing:
     print(f"{missing}: skipped; ./dev setup peers installs it")
     sys.exit(77)
+import freecad_peer
 
 TOLERANCE = 1e-2  # mm, of each of the four conversions
-SAG = 1e-3  # mm: polygons of so many places stray from their curves too
+SAG = 1e-3  # mm: polygons stray from their curves too, each at most half as much
 CHAIN = ("dxf", "step", "iges", "svg")
 MILLIMETRES = {"mm": 1, "cm": 10, "m": 1000, "in": 25.4, "ft": 304.8, "pt": 25.4 / 72,
                "px": 25.4 / 96, "": 1}
-BETWEEN = 25  # places of a Bezier or of a span
+BETWEEN = 25  # places of a Bezier or of a span, at first
 PLACES = 401  # of a curve whose distance is looked at
 
 
@@ -36,6 +41,17 @@ def keyline(program, *words):
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
     return done.stdout
+
+
+def close_places(places_at, low, high, sag):
+    """Places between two parameters, so many that the polygon through them strays by no more."""
+    count = BETWEEN
+    while True:
+        finer = places_at(np.linspace(low, high, 2 * count - 1))
+        off = finer[1::2] - 0.5 * (finer[:-1:2] + finer[2::2])
+        if count > 3000 or np.sqrt((off**2).sum(axis=1)).max() <= sag:
+            return finer
+        count *= 2
 
 
 def bezier_places(control, weights, t):
@@ -47,15 +63,16 @@ def bezier_places(control, weights, t):
     return p[:, 0, :2] / p[:, 0, 2:]
 
 
-def bspline_places(curve):
+def bspline_places(curve, sag):
     """De Boor's, at places between all knots, knots included."""
     n, knots = curve["degree"], np.array(curve["knots"])
     w = np.array(curve.get("weights") or np.ones(len(curve["points"])))
     control = np.column_stack([np.array(curve["points"]) * w[:, None], w])
     spans = [k for k in range(n, len(control)) if knots[k + 1] > knots[k]]
-    places = []
-    for k in spans:
-        for t in np.linspace(knots[k], knots[k + 1], BETWEEN):
+
+    def at(k, parameters):
+        places = []
+        for t in parameters:
             d = control[k - n:k + 1].copy()
             for r in range(1, n + 1):
                 for j in range(n, r - 1, -1):
@@ -63,7 +80,10 @@ def bspline_places(curve):
                     a = (t - low) / (high - low)
                     d[j] = (1 - a) * d[j - 1] + a * d[j]
             places.append(d[n, :2] / d[n, 2])
-    return np.array(places)
+        return np.array(places)
+
+    return np.concatenate([close_places(lambda t, k=k: at(k, t), knots[k], knots[k + 1], sag)
+                           for k in spans])
 
 
 def chain_places(chain):
@@ -82,15 +102,16 @@ def chain_places(chain):
     return np.column_stack([z.real, z.imag])
 
 
-def places_of(curve):
+def places_of(curve, sag):
     kind = curve["type"]
     if kind == "path":
-        return np.concatenate([places_of(c) for c in curve["curves"]])
+        return np.concatenate([places_of(c, sag) for c in curve["curves"]])
     if kind == "polyline":
         return np.array(curve["points"])
     if kind == "bezier":
-        return bezier_places(curve["points"], curve.get("weights"), np.linspace(0, 1, BETWEEN))
-    return bspline_places(curve) if kind == "bspline" else chain_places(curve)
+        return close_places(lambda t: bezier_places(curve["points"], curve.get("weights"), t),
+                            0, 1, sag)
+    return bspline_places(curve, sag) if kind == "bspline" else chain_places(curve)
 
 
 def polygons(program, file):
@@ -102,10 +123,13 @@ def polygons(program, file):
     for thing, held in zip(listed["things"], read["curves"]):
         if thing["kind"] != "curve":
             continue
-        curves.append({"name": thing["name"], "closed": thing["closed"],
+        curves.append({"name": thing["name"], "marked": thing["closed"],
                        "low": factor * np.array(thing["box"]["low"][:2]),
                        "high": factor * np.array(thing["box"]["high"][:2]),
-                       "points": factor * places_of(held["curve"])})
+                       "points": factor * places_of(held["curve"], 0.5 * SAG / factor)})
+    for curve in curves:
+        gap = np.sqrt(((curve["points"][0] - curve["points"][-1])**2).sum())
+        curve["closed"] = curve["marked"] or gap <= 1e-9 * (1 + np.abs(curve["points"]).max())
     return curves, len(listed["things"]) - len(curves)
 
 
@@ -122,6 +146,20 @@ def distance(points, polygon):
 
 def apart(one, other):
     return max(distance(one["points"], other["points"]), distance(other["points"], one["points"]))
+
+
+def paired(before, after):
+    """What each curve became: that of the nearest box, of its name where several are as near. Layers
+    are drawn one after the other, so the order may be another."""
+    rest = list(after)
+    pairs = []
+    for curve in before:
+        def cost(other, curve=curve):
+            off = np.abs(np.concatenate([curve["low"] - other["low"], curve["high"] - other["high"]]))
+            return round(off.max() / (2 * TOLERANCE)), curve["name"] != other["name"], off.max()
+        if rest:
+            pairs.append((curve, rest.pop(min(range(len(rest)), key=lambda i: cost(rest[i])))))
+    return pairs
 
 
 def size(curves):
@@ -142,6 +180,11 @@ def seen_by_inkscape(file):
     shapes = [r for r in rows[1:] if r[0].startswith(("path", "layer")) and "-path" in r[0]
               or r[0].startswith("path")]
     return len(shapes), whole
+
+
+def seen_by_freecad(file):
+    """Things, closed ones and the size in mm."""
+    return freecad_peer.extent(file) if shutil.which("freecadcmd") else None
 
 
 def converted(program, file, folder):
@@ -165,6 +208,8 @@ def trip(program, svg):
         folder = Path(name)
         before, _ = polygons(program, svg)
         last, deviation = converted(program, svg, folder)
+        text = last.read_text()
+        last.write_text(re.sub("<metadata>.*?</metadata>", "", text, flags=re.S))
         after, rest = polygons(program, last)
         faults = []
         if len(before) != len(after) or rest:
@@ -172,16 +217,17 @@ def trip(program, svg):
         closed = [sum(c["closed"] for c in curves) for curves in (before, after)]
         if closed[0] != closed[1]:
             faults.append(f"{closed[1]} closed of {closed[0]}")
-        named = sum(a["name"] == b["name"] for a, b in zip(before, after) if a["name"])
-        worst = max((apart(a, b) for a, b in zip(before, after)), default=0)
+        pairs = paired(before, after)
+        named = sum(a["name"] == b["name"] for a, b in pairs if a["name"])
+        worst = max((apart(a, b) for a, b in pairs), default=0)
         sizes = [size(before), size(after)]
         off = float(np.abs(sizes[0] - sizes[1]).max())
         if off > 2 * TOLERANCE:
             faults.append(f"size off by {off:.3g} mm")
         if worst > deviation + SAG:
             faults.append(f"{worst:.3g} mm off, {deviation:.3g} told")
-        ink = [seen_by_inkscape(f) for f in (svg, last)]
-        return before, after, closed, named, sizes, worst, deviation, ink, faults
+        seen = [*(seen_by_inkscape(f) for f in (svg, last)), seen_by_freecad(folder / "1.step")]
+        return before, after, closed, named, sizes, worst, deviation, seen, faults
 
 
 def main():
@@ -189,21 +235,23 @@ def main():
     here = Path(__file__).resolve().parents[2]
     files = [Path(f) for f in sys.argv[2:]] or sorted((here / "../shared/data").rglob("*.svg"))
     print("| file | curves | closed | names kept | size (mm) | size after | apart (mm) | told (mm) "
-          "| Inkscape before, after |")
-    print("|---|---|---|---|---|---|---|---|---|")
+          "| Inkscape before, after | FreeCAD, the STEP |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     status = 0
     for svg in files:
         try:
-            before, after, closed, named, sizes, worst, deviation, ink, faults = trip(program, svg)
+            before, after, closed, named, sizes, worst, deviation, others, faults = trip(program, svg)
         except RuntimeError as why:
             print(f"| `{svg.name}` | {why} |", flush=True)
             status = 1
             continue
-        seen = "; ".join(f"{i[0]} shapes {i[1][0]:.2f} x {i[1][1]:.2f}" if i else "-" for i in ink)
+        seen = "; ".join(f"{i[0]}, {i[1][0]:.2f} x {i[1][1]:.2f}" if i else "-" for i in others[:2])
+        cad = others[2]
+        free = f"{cad[0]}, {cad[1]} closed, {cad[2]:.4f} x {cad[3]:.4f}" if cad else "-"
         names = sum(1 for c in before if c["name"])
         print(f"| `{svg.name}` | {len(before)} > {len(after)} | {closed[0]} > {closed[1]} | "
               f"{named} of {names} | {sizes[0][0]:.4f} x {sizes[0][1]:.4f} | "
-              f"{sizes[1][0]:.4f} x {sizes[1][1]:.4f} | {worst:.2g} | {deviation:.2g} | {seen} |"
+              f"{sizes[1][0]:.4f} x {sizes[1][1]:.4f} | {worst:.2g} | {deviation:.2g} | {seen} | {free} |"
               + "".join(f" **{f}**" for f in faults), flush=True)
         status = status or int(bool(faults))
     return status

@@ -81,7 +81,8 @@ std::string filled(std::string_view text, const PointLists& lists, int indent) {
     const std::size_t key = text.find(mark, from);
     const std::size_t close = key + mark.size() - 1;
     whole += text.substr(from, close - from);
-    const std::size_t line = text.rfind('\n', key);
+    // without indents all is one line, which would be gone through for every list
+    const std::size_t line = indent < 0 ? std::string_view::npos : text.rfind('\n', key);
     filler.set_depth(key - (line == std::string_view::npos ? 0 : line + 1));
     std::visit(filler, list);
     from = close;
