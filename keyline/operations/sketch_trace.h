@@ -48,6 +48,12 @@ struct SketchRequest {
             "dark lines on light paper, or light ones on dark"),
         core::field<&Request::options, &Trace::edge>("the middle of the lines, or the ink's outer "
                                                      "border"),
+        core::field<&Request::options, &Trace::smoothing>(
+            "passes of erosion and dilation over the ink's edges")
+            .within(core::from_to(0, 100)),
+        core::field<&Request::options, &Trace::smoothing_by>(
+            "features: bumps and dents of a pixel alone; pixels: every edge, which rounds corners "
+            "and loses thin lines, to compare with ([Sketch] Fig. 6b)"),
         core::field<&Request::scale>("mm per pixel; else lengths are pixels")
             .within(core::kPositive),
         core::field<&Request::dpi>("pixels per inch, in place of scale: lengths are mm then")

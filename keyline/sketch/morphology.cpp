@@ -139,6 +139,12 @@ int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
 void erode(Binary& ink) { grow(ink, 0); }
 void dilate(Binary& ink) { grow(ink, 1); }
 
+void smooth_pixels(Binary& ink, int times) {
+  for (int i = 0; i < times; ++i) erode(ink);
+  for (int i = 0; i < 2 * times; ++i) dilate(ink);
+  for (int i = 0; i < times; ++i) erode(ink);
+}
+
 long smooth_edges(Binary& ink, int times) {
   long changed = 0;
   for (int i = 0; i < times; ++i) changed += flip_features(ink, 1) + flip_features(ink, 0);

@@ -4,10 +4,14 @@
 
 namespace keyline::sketch {
 
-/// One step of plain erosion (ink with paper beside or above or below it goes) or dilation: what
-/// the feature-based kind is compared with.
+/// One step of plain erosion (ink with paper beside or above or below it goes) or dilation.
 void erode(Binary& ink);
 void dilate(Binary& ink);
+
+/// Plain smoothing, [Sketch] Fig. 6b, what the feature-based kind is compared with: `times`
+/// erosions, twice as many dilations, and as many erosions again. Corners are rounded by it and
+/// lines thinner than twice `times` are lost.
+void smooth_pixels(Binary& ink, int times);
 
 /// Feature-based erosion and dilation, `times` of each in turn: only features that stand out of an
 /// edge by a pixel (bumps on a flat base) or lie in it (dents), and single pixels, are taken away

@@ -104,7 +104,11 @@ Ink ink_of(const Tone& tone, const TraceOptions& options) {
   show(options, "binary", ink.picture);
   const InkMeasure measured = measure(ink.picture);
   ink.width = measured.width;
-  const long ragged = smooth_edges(ink.picture, options.smoothing);
+  long ragged = 0;
+  if (options.smoothing_by == Smoothing::pixels)
+    smooth_pixels(ink.picture, options.smoothing);
+  else
+    ragged = smooth_edges(ink.picture, options.smoothing);
   const int specks =
       options.specks.value_or(static_cast<int>(std::lround(6 + 1.5 * ink.width * ink.width)));
   const Removed removed =

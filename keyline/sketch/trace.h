@@ -30,6 +30,15 @@ constexpr auto choices(const Edge*) {
   return core::words<Edge>({{Edge::center, "center"}, {Edge::outer, "outer"}});
 }
 
+/// How the ink's edges are smoothed, morphology.h.
+enum class Smoothing {
+  features,  ///< bumps and dents of a pixel alone
+  pixels     ///< every edge, by plain erosion and dilation: [Sketch] Fig. 6b, to compare with
+};
+constexpr auto choices(const Smoothing*) {
+  return core::words<Smoothing>({{Smoothing::features, "features"}, {Smoothing::pixels, "pixels"}});
+}
+
 /// The picture after one stage of the way, for those who want to see where it went wrong.
 struct Stage {
   std::string name;              ///< "log", "binary", "smoothed", "edges", "lines"
@@ -40,7 +49,8 @@ struct TraceOptions {
   ToneOptions tone;
   BinarizeOptions binarize;
   Edge edge = Edge::center;
-  int smoothing = 2;          ///< rounds of feature-based erosion and dilation
+  int smoothing = 2;  ///< passes of erosion and dilation, 0 … 100
+  Smoothing smoothing_by = Smoothing::features;
   std::optional<int> specks;  ///< pieces of ink of fewer pixels go; empty: by the stroke width
   std::optional<double> gap;  ///< longest gap bridged, pixels; empty: by the stroke width
   bool consolidate = false;   ///< lines drawn several times become one

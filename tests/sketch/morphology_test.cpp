@@ -65,9 +65,7 @@ TEST(Morphology, FeatureBasedSmoothingKeepsCornersWherePlainDoesNot) {
   const Binary truth = house();
   const Binary sample = noisy(truth, 0.02);
   Binary plain = sample;
-  for (int i = 0; i < 10; ++i) erode(plain);
-  for (int i = 0; i < 20; ++i) dilate(plain);
-  for (int i = 0; i < 10; ++i) erode(plain);
+  smooth_pixels(plain, 10);
   Binary ours = sample;
   smooth_edges(ours, 10);
   remove_specks(ours, 6, 6);

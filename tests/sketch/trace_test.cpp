@@ -84,6 +84,41 @@ TEST(Trace, HairlinesStayWhole) {
   }
 }
 
+// Passes as asked for, and of the other kind: plain erosion loses what is thinner than its passes.
+TEST(Trace, SmoothsInAsManyPassesAsAskedFor) {
+  Image page = blank_page(300, 260);
+  draw_line(page, {20, 20}, {270, 90}, 0.9);
+  draw_line(page, {40, 240}, {280, 245}, 8);
+  for (int x = 60; x < 260; x += 20) draw_line(page, {x + 0.4, 236}, {x + 0.6, 236}, 1);
+  std::vector<long> flipped;
+  for (const int passes : {0, 1, 2}) {
+    TraceOptions options;
+    options.smoothing = passes;
+    options.specks = 0;
+    Raster<std::uint8_t> before;
+    options.stage = [&](const Stage& stage) {
+      if (stage.name == "binary") before = stage.picture;
+      if (stage.name != "smoothed") return;
+      long count = 0;
+      for (std::size_t i = 0; i < before.data.size(); ++i)
+        count += before.data[i] != stage.picture.data[i];
+      flipped.push_back(count);
+    };
+    const auto result = trace(page, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), 2U);
+  }
+  ASSERT_EQ(flipped.size(), 3U);
+  EXPECT_EQ(flipped[0], 0);
+  EXPECT_GT(flipped[1], 0);
+  EXPECT_GE(flipped[2], flipped[1]);
+  TraceOptions plain;
+  plain.smoothing_by = Smoothing::pixels;
+  const auto result = trace(page, plain);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->strokes.size(), 1U);
+}
+
 // A line that ends at another one ends there: within its width, on its own way.
 TEST(Trace, StemsEndAtTheLineTheyMeet) {
   for (const double angle : {1.57, 1.2, 0.9, 0.6}) {
