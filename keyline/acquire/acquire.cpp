@@ -71,7 +71,7 @@ void merge(Working& work, KeyLine& line) {
 
 /// Closes the outline as its ends ask for: drops the repeated first point, or adds it at a corner.
 void settle_ends(Working& work, std::size_t stride, const AcquireOptions& options, KeyLine& line) {
-  Ends ends = recognise_ends(work.points, stride, line.report.reordered);
+  Ends ends = recognise_ends(work.points, stride, line.report.reordered || work.scattered);
   if (options.closed) {
     const bool repeated = ends == Ends::closed_repeated || ends == Ends::corner_repeated;
     ends = *options.closed ? (repeated ? Ends::closed_repeated : Ends::closed) : Ends::apart;

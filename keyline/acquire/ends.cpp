@@ -10,6 +10,7 @@ namespace keyline::acquire {
 namespace {
 
 constexpr double kAcross = 0.8;      // radians
+constexpr double kOften = 4.6;       // -ln(0.01): one loop in a hundred has a wider gap
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
 
 /// Largest of the steps near both ends.
@@ -47,6 +48,13 @@ bool runs_across(std::span<const core::Point2> points) {
          std::abs(core::angle_between(chord, inwards(points, true, gap))) < kAcross;
 }
 
+/// The widest gap that points scattered evenly over a loop leave, as a share of its length: of n it
+/// passes (ln n + x) / n in a share 1 - exp(-exp(-x)) of all cases (Lévy 1939; Holst 1980).
+double widest_gap_by_chance(std::size_t n) {
+  const auto count = static_cast<double>(n);
+  return std::min((std::log(count) + kOften) / count, 0.2);
+}
+
 }  // namespace
 
 Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bool scattered) {
@@ -59,7 +67,8 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bo
   const double spacing = spacing_at_ends(points, s);
   const bool near = n >= 8 && gap <= 1.75 * spacing && gap <= 0.2 * length;
   // A wider gap still belongs to an outline if the curve runs straight across it.
-  const double widest = scattered ? 0.05 * length : std::min(4 * spacing, 0.05 * length);
+  const double widest = scattered ? std::max(0.05, widest_gap_by_chance(n)) * (length + gap)
+                                  : std::min(4 * spacing, 0.05 * length);
   const bool facing = n >= 8 && gap <= widest && runs_across(points);
   if (!repeated && !near && !facing) return Ends::apart;
 

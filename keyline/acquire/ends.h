@@ -20,8 +20,9 @@ enum class Ends {
 /// Recognises closed outlines from the gap between the ends against the spacing beside it
 /// (`stride` points apart where points are denser than their noise). Fewer than 8 points are
 /// closed only where the first is repeated. scattered: the points were drawn without regard to
-/// spacing (a random sample), so that a gap of a twentieth of the length still closes where the
-/// curve runs straight across it.
+/// spacing (a random sample), so that a gap of a twentieth of the length, or one as wide as a loop
+/// of so many points has by chance in one case of a hundred, still closes where the curve runs
+/// straight across it.
 Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride,
                     bool scattered = false);
 

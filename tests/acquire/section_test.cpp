@@ -109,6 +109,39 @@ TEST(Section, PartsAndClumpsAreToldApart) {
   }
 }
 
+// Points drawn wholly by chance leave gaps many usual steps wide: two loops are two closed curves
+// all the same, but for one in a hundred or so, and a loop with a fifth cut out stays open.
+TEST(Section, LoopsOfARandomSampleClose) {
+  int closed = 0;
+  int loops = 0;
+  int open = 0;
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    Random random(seed);
+    for (const int count : {100, 200, 400}) {
+      RawCurve two = empty_cloud();
+      RawCurve cut_open = empty_cloud();
+      for (int i = 0; i < count; ++i) {
+        const double angle = random.uniform(0, 2 * core::kPi);
+        two.points.push_back({1, 5 * std::cos(angle), 5 * std::sin(angle)});
+        two.points.push_back({1, 20 + 4 * std::sin(2 * angle), 4 * std::cos(2 * angle)});
+        cut_open.points.push_back({1, 5 * std::cos(0.8 * angle), 5 * std::sin(0.8 * angle)});
+      }
+      for (const RawCurve& part :
+           section_curves(section_plane(two, kAcross, 0.03).value(), kAcross)) {
+        const KeyLine line = acquire_key_line(part).value();
+        ++loops;
+        closed += line.closed && std::abs(line.length - 10 * core::kPi) < 0.1 * 10 * core::kPi;
+        closed += line.closed && std::abs(line.length - 8 * core::kPi) < 0.1 * 8 * core::kPi;
+      }
+      const auto arcs = section_curves(section_plane(cut_open, kAcross, 0.03).value(), kAcross);
+      open += arcs.size() == 1 && !acquire_key_line(arcs[0]).value().closed;
+    }
+  }
+  EXPECT_EQ(loops, 150);
+  EXPECT_GE(closed, 144);
+  EXPECT_EQ(open, 75);
+}
+
 TEST(Section, OneCurveComesBackAsItIs) {
   Random random(6);
   RawCurve cloud = empty_cloud();

@@ -92,7 +92,7 @@ class Copy:
         self.root = root
         self.jobs = jobs
         self.tree = root / "build" / "mutate" / "tree"
-        self.build = root / "build" / "mutate" / "build"
+        self.build = self.tree / "build" / "release"  # as in every tree: a compiler's cache knows it
 
     def refresh(self):
         self.tree.mkdir(parents=True, exist_ok=True)
@@ -114,8 +114,8 @@ class Copy:
         if (self.build / "build.ninja").exists():
             return
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja",
-                        "-DCMAKE_BUILD_TYPE=Release", *launcher], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "release", *launcher], cwd=self.tree, check=True,
+                       stdout=subprocess.DEVNULL)
 
     def make(self, target):
         return subprocess.run(["ninja", "-C", self.build, "-j", str(self.jobs), target],
