@@ -1,6 +1,6 @@
 /** Every command by keyboard. */
 import type { Table } from "./gestures/gesture.ts";
-import { entityOf, handlesOf, isHeld, moved, type Point, withEntity, withHandle } from "./model/document.ts";
+import { entityOf, handlesOf, isHeld, moved, type Point, withEntity, withHandle, withoutPoint } from "./model/document.ts";
 import { tools } from "./panels/toolbar.ts";
 import { h } from "./ui/dom.ts";
 import type { Studio } from "./studio.ts";
@@ -67,7 +67,7 @@ export class Keyboard {
       { keys: ["n"], says: "snapping", act: flip("snap") },
       { keys: ["x"], says: "split where the pointer reads", act: () => studio.splitHere() },
       { keys: ["h"], says: "next handle, for the arrows to move", act: () => this.nextHandle() },
-      { keys: ["delete", "backspace"], says: "remove", act: () => studio.removeSelected() },
+      { keys: ["delete", "backspace"], says: "remove; of a spline the point under the pointer, or that H has chosen", act: () => this.remove() },
       { keys: ["+", "="], says: "zoom in", act: () => this.zoom(1.25) },
       { keys: ["-"], says: "zoom out", act: () => this.zoom(0.8) },
       { keys: ["?"], says: "this list", act: () => this.help() },
@@ -138,6 +138,18 @@ export class Keyboard {
     if (by) canvas.step([by[0] * step, -by[1] * step]);
     else if (e.key === " ") canvas.press();
     return by !== undefined || e.key === " ";
+  }
+
+  private remove(): void {
+    const { store, canvas } = this.studio;
+    const e = entityOf(store.doc, store.state.selection.at(-1) ?? null);
+    const hot = canvas.hot;
+    const handle = hot && hot.entity === e?.id ? hot.handle : this.handle;
+    if (e?.kind !== "spline" || handle === null) return this.studio.removeSelected();
+    const less = withoutPoint(e, handle);
+    if (less === e) return store.say("No point less", "a curve needs two, a closed one three", true);
+    this.handle = null;
+    store.commit("Remove a point", withEntity(store.doc, less));
   }
 
   /** The line between before and after, by a hundredth of the width. */

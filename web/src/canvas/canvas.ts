@@ -1,7 +1,7 @@
 /** The canvas: what the pointer does goes to the gesture, what it shows comes from the scene. */
 import type { Gesture, Pointer, Table } from "../gestures/gesture.ts";
 import { gestureFor } from "../gestures/draw.ts";
-import { handleAt } from "../gestures/pick.ts";
+import { handleAt, type HandleHit } from "../gestures/pick.ts";
 import { snapped } from "../gestures/snap.ts";
 import type { Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
@@ -41,6 +41,11 @@ export class Canvas {
     return `${this.gesture.hint ?? ""}${snappedTo ? ` \u2013 at the ${snappedTo}` : ""}`;
   }
 
+  /** The handle under the pointer. */
+  get hot(): HandleHit | null {
+    return this.cursor ? handleAt(this.table, this.cursor.at) : null;
+  }
+
   get place(): Point | null {
     return this.cursor?.place ?? null;
   }
@@ -59,7 +64,7 @@ export class Canvas {
     const { underlay } = store.state;
     paintScene(this.pen, {
       state: store.state, live, view, ...this.extras,
-      hot: this.cursor ? handleAt(this.table, this.cursor.at) : null,
+      hot: this.hot,
       cursor: this.cursor?.place ?? null,
       crosshair: this.byKeys && this.tool !== "select",
       started: this.gesture.started ?? [],

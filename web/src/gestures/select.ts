@@ -1,5 +1,6 @@
 /** Select: hover, take hold of a handle, pick, move, pan. */
-import { type Doc, entityOf, isHeld, moved, type Point, withEntity, withHandle } from "../model/document.ts";
+import { type Doc, entityOf, isHeld, moved, type Point, withEntity, withHandle, withPoint } from "../model/document.ts";
+import { nearestSample } from "../view/nearest.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { DraggingJoint, jointAt } from "./joint.ts";
 import { entityAt, handleAt, hoverAt } from "./pick.ts";
@@ -39,9 +40,26 @@ export class Idle implements Gesture {
   }
 
   doubled(p: Pointer): Gesture {
+    if (handleAt(this.table, p.at, p.coarse)) return this;
     const entity = entityAt(this.table, p.at);
+    if (entity !== null && this.inserted(entity, p)) return this;
     if (entity !== null) this.table.store.set({ selection: [entity] });
     return this;
+  }
+
+  /** A chosen spline passes the place from now on, between the points it lies between. */
+  private inserted(entity: number, p: Pointer): boolean {
+    const { store, live, view } = this.table;
+    const e = entityOf(store.doc, entity);
+    const comb = live.of(entity)?.comb;
+    if (e?.kind !== "spline" || !comb || isHeld(store.doc, e) || !store.state.selection.includes(entity)) return false;
+    const sampleAt = (at: Point) => nearestSample(view, comb, at)?.sample ?? 0;
+    const here = sampleAt(p.at);
+    const places = e.points.map((point) => sampleAt(view.toScreen(point)));
+    if (e.closed) places[0] = 0; // the start is the end, too
+    const index = places.filter((place) => place <= here).length;
+    store.commit("Add a point", withEntity(store.doc, withPoint(e, index, p.place)));
+    return true;
   }
 }
 

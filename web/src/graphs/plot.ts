@@ -108,11 +108,13 @@ export abstract class Plot {
     g.beginPath();
     g.textAlign = "center";
     g.textBaseline = "top";
+    const free = this.width - kRight - g.measureText(this.xName).width - 6; // left of the axis' name
     for (const v of ticks(x.low, x.high, stepX)) {
       const at = Math.round(this.x(v)) + 0.5;
       g.moveTo(at, kTop);
       g.lineTo(at, this.height - kBottom);
-      if (at < this.width - kRight - 44) g.fillText(label(v, stepX), at, this.height - kBottom + 6);
+      const text = label(v, stepX);
+      if (at + g.measureText(text).width / 2 < free) g.fillText(text, at, this.height - kBottom + 6);
     }
     g.textAlign = "right";
     g.textBaseline = "middle";

@@ -245,6 +245,16 @@ export function withHandle(e: Entity, index: number, at: Point): Entity {
   }
 }
 
+/** A spline that passes one point more, before the one of that index. */
+export const withPoint = (e: Spline, index: number, at: Point): Spline =>
+  ({ ...e, points: [...e.points.slice(0, index), at, ...e.points.slice(index)] });
+
+/** A spline without the point; itself where too few would be left. */
+export function withoutPoint(e: Spline, index: number): Spline {
+  const points = e.points.filter((_, i) => i !== index);
+  return points.length < (e.closed ? 3 : 2) ? e : { ...e, points };
+}
+
 /** All of it moved; things made of others move with them. */
 export function moved(e: Entity, by: Point): Entity {
   return handlesOf(e).reduce<Entity>(

@@ -115,6 +115,35 @@ onStage("drawing", [], (stage) => {
     await stage.at.page.keyboard.press("Control+z");
   });
 
+  it("gives a spline a point more and takes it away", async () => {
+    const { page } = stage.at;
+    const id = await page.evaluate(() => {
+      const { store } = window.keyline;
+      const e = store.doc.entities.find((x) => x.kind === "spline");
+      store.set({ selection: e ? [e.id] : [] });
+      return e?.id ?? 0;
+    });
+    const passed = () => page.evaluate((i) => (window.keyline.store.doc.entities.find((e) => e.id === i) as { points: [number, number][] }).points, id);
+    const before = await passed();
+    // between its second and its third point: half way along the curve there
+    const place = await page.evaluate(({ i, from, to }) => {
+      const points = window.keyline.live.of(i)?.comb.points as [number, number][];
+      const nearest = (at: [number, number]) => points.reduce((best, p, k) =>
+        (Math.hypot(p[0] - at[0], p[1] - at[1]) < Math.hypot((points[best]?.[0] ?? 0) - at[0], (points[best]?.[1] ?? 0) - at[1]) ? k : best), 0);
+      return points[Math.round((nearest(from) + nearest(to)) / 2)] as [number, number];
+    }, { i: id, from: before[1] as [number, number], to: before[2] as [number, number] });
+    const at = await onPage(page, place);
+    await page.mouse.dblclick(at.x, at.y);
+    await settled(page);
+    const more = await passed();
+    expect(more.length).toBe(before.length + 1);
+    expect([more[0], more[1], more[3], more[4]]).toEqual(before);
+    expect(Math.hypot((more[2]?.[0] ?? 0) - place[0], (more[2]?.[1] ?? 0) - place[1])).toBeLessThan(1);
+    await page.keyboard.press("Delete");
+    await settled(page);
+    expect(await passed()).toEqual(before);
+  });
+
   it("shows the curve before the last click, and draws by keys alone", async () => {
     const { page } = stage.at;
     const count = () => page.evaluate(() => window.keyline.store.state.history.now.entities.length);
@@ -183,7 +212,7 @@ onStage("drawing", [], (stage) => {
       const line = (id: number, y: number) => ({ ...e, id, kind: "segment", alpha: -1, points: [[0, y], [100, y + 60], [200, y]] });
       store.commit("Test", { ...store.doc, next: 99, entities: [line(90, 90), line(91, 0)] as never }, { selection: [90, 91], hover: null });
       store.look({ comb: false, grid: false, wipe: 0.5 });
-      window.keyline.fit();
+      window.keyline.view.fit({ low: [0, -100], high: [240, 260] }, { left: 30, top: 30, right: 30, bottom: 30 });
     });
     await settled(page);
     /** Whether the curve is painted there: its handles' lines lie elsewhere. */

@@ -7,7 +7,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { expect, it } from "vitest";
-import { onStage, settled, type Stage } from "./studio.ts";
+import { onStage, settled, source, type Stage } from "./studio.ts";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const pictures = process.env["KEYLINE_PICTURES"];
@@ -73,4 +73,20 @@ panel("surface", ["examples/panel-c.json"], async ({ at: { page } }) => {
   await page.waitForSelector("#network-A1");
   await page.click("#network-A1");
   await page.waitForFunction(() => Number(document.querySelector<HTMLElement>(".space")?.dataset["painted"] ?? 0) > 0);
+});
+panel("a sketch", [], async ({ at: { page } }) => {
+  const choosing = page.waitForEvent("filechooser");
+  await page.click("#open");
+  await (await choosing).setFiles(join(source, "examples/sketch.png"));
+  await page.waitForSelector("#trace");
+  await page.click("#regions summary");
+  await page.click(".cell");
+});
+panel("symmetry", ["examples/bonnet-scan.csv"], async ({ at: { page } }) => {
+  await page.selectOption("#symmetric", "line");
+  await page.waitForSelector("#symmetry-line");
+});
+panel("the keys", [], async ({ at: { page } }) => {
+  await page.keyboard.press("?");
+  await page.waitForSelector("dialog[open]");
 });

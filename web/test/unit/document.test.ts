@@ -1,5 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { added, emptyDoc, type Entity, handlesOf, lineOf, moved, type Point, type Scan, toggledStray, withHandle, without } from "../../src/model/document.ts";
+import {
+  added, emptyDoc, type Entity, handlesOf, lineOf, moved, type Point, type Scan, type Spline, toggledStray, withHandle, without, withoutPoint,
+  withPoint,
+} from "../../src/model/document.ts";
 import { recipeOf } from "../../src/model/recipe.ts";
 import { isKept, ownDocument } from "../../src/model/autosave.ts";
 
@@ -9,6 +12,18 @@ function two() {
   const one = added(emptyDoc(), { kind: "segment", name: "a", points, alpha: -1 });
   return added(one.doc, { kind: "mirror", name: "b", of: one.id, axis: [[0, 0], [0, 1]] });
 }
+
+describe("a spline's points", () => {
+  const spline = { kind: "spline", points: [[0, 0], [1, 1], [2, 0]], closed: false } as unknown as Spline;
+  it("come and go, but not the last two", () => {
+    expect(withPoint(spline, 1, [0.5, 0.7]).points).toEqual([[0, 0], [0.5, 0.7], [1, 1], [2, 0]]);
+    expect(withoutPoint(withPoint(spline, 1, [0.5, 0.7]), 1)).toEqual(spline);
+    const two = withoutPoint(spline, 0);
+    expect(two.points).toEqual([[1, 1], [2, 0]]);
+    expect(withoutPoint(two, 1)).toBe(two);
+    expect(withoutPoint({ ...spline, closed: true }, 1).points).toHaveLength(3);
+  });
+});
 
 describe("document", () => {
   it("numbers things and never twice", () => {
