@@ -169,5 +169,13 @@ TEST(ToBSpline, SaysWhereItBreaks) {
   EXPECT_FALSE(to_bspline(Polyline2{{{1, 0}, {1, 0}}}));
 }
 
+TEST(PiecewiseBezier, ParametersBeyondTheEndsAreTheEnds) {
+  const PiecewiseBezier two{{{{{1, 2}, {3, 4}}, {}}, {{{3, 4}, {7, 5}}, {}}}, 0};
+  for (const double t : {-3.0, -1e-300, std::nan("")})
+    EXPECT_EQ(evaluate(two, t), (core::Point2{1, 2})) << t;
+  EXPECT_EQ(evaluate(two, 2), (core::Point2{7, 5}));
+  EXPECT_EQ(evaluate(two, 0.25), (core::Point2{2, 3}));
+}
+
 }  // namespace
 }  // namespace keyline::curve
