@@ -27,8 +27,10 @@ struct Effort {
 };
 constexpr Effort kSmallData{40, 4, 15, 30, 12, 6};
 constexpr Effort kLargeData{6, 2, 5, 8, 6, 6};
-constexpr std::size_t kSmall = 300;      // data times columns
-constexpr std::size_t kPairPlaces = 40;  // 820 pairs: some milliseconds
+constexpr std::size_t kSmall = 300;       // data times columns
+constexpr std::size_t kPairPlaces = 40;   // 820 pairs: some milliseconds
+constexpr std::size_t kMovedPlaces = 20;  // for each two neighbours put elsewhere, and of their
+constexpr std::size_t kMovedPairs = 2;    // pairs so many are optimised
 
 /// Places where a knot may be inserted: between data, at most 200.
 Knots insertion_sites(const SplineSolver& solver) {
@@ -214,25 +216,37 @@ class Polisher {
     }
   }
 
-  /// Two knots inserted at once where one alone does not pay: at any two of the better places, the
-  /// most promising pairs optimised.
+  /// Two knots inserted at once where one alone does not pay, or two neighbours put elsewhere: at
+  /// any two of the better places, the most promising pairs of either kind optimised.
   ScoredKnots paired(const Knots& knots) {
+    std::vector<Candidate> candidates;
+    add_pairs(knots, kPairPlaces, 2 * effort_.merges, candidates);
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+      Knots others = knots;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i),
+                   others.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+      add_pairs(others, kMovedPlaces, kMovedPairs, candidates);
+    }
+    return best_of(candidates);
+  }
+
+  /// The knots with two more, as the best `keep` of all pairs of the best places.
+  void add_pairs(const Knots& knots, std::size_t best_places, std::size_t keep,
+                 std::vector<Candidate>& candidates) {
     std::vector<Move> places;
     for (const double t : sites_) places.push_back({0, -1, t, true});
     for (const double t : knots) places.push_back({0, -1, t, true});
-    rank(knots, places, kPairPlaces);
+    rank(knots, places, best_places);
     std::vector<std::pair<double, Knots>> pairs;
     for (std::size_t i = 0; i < places.size(); ++i)
       for (std::size_t j = i; j < places.size(); ++j)
         pairs.emplace_back(0, apply(apply(knots, places[i]), places[j]));
     for_all(pairs.size(),
             [&](std::size_t i, int worker) { pairs[i].first = score(pairs[i].second, worker); });
-    const std::size_t kept = std::min(pairs.size(), 2 * effort_.merges);
+    const std::size_t kept = std::min(pairs.size(), keep);
     std::partial_sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(kept),
                       pairs.end());
-    std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < kept; ++i) candidates.push_back({pairs[i].second, 0});
-    return best_of(candidates);
   }
 
   /// Scores the moves and keeps the best `keep`, best first.
