@@ -75,13 +75,15 @@ export class Keyboard {
   }
 
   help(): void {
-    const row = (keys: string, says: string) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, keys)), h("td", {}, says));
+    const row = (keys: readonly string[], says: string) =>
+      h("tr", {}, h("th", { scope: "row" }, ...keys.map((key) => h("kbd", {}, key))), h("td", {}, says));
+    const written = (key: string) => (key.length > 1 ? `${key[0]?.toUpperCase()}${key.slice(1)}` : key.toUpperCase());
     const dialog = h("dialog", { class: "help", "aria-label": "Keys" },
       h("h2", {}, "Keys"),
       h("table", {}, h("tbody", {},
-        ...tools.map((t) => row(t.key, t.label)),
-        ...this.commands.map((c) => row(c.keys.map((k) => (k.length > 1 ? `${k[0]?.toUpperCase()}${k.slice(1)}` : k.toUpperCase())).join(" "), c.says)),
-        ...kChords.map(([keys, says]) => row(keys, says)))),
+        ...tools.map((t) => row([t.key], t.label)),
+        ...this.commands.map((c) => row(c.keys.map(written), c.says)),
+        ...kChords.map(([keys, says]) => row([keys], says)))),
       h("form", { method: "dialog" }, h("button", { class: "primary", type: "submit" }, "Close")));
     dialog.addEventListener("close", () => dialog.remove());
     document.body.append(dialog);

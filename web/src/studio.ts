@@ -196,6 +196,7 @@ export class Studio {
     const margin = Math.min(this.view.width, this.view.height) * 0.16;
     this.view.fit(box, { left: margin, right: margin, top: margin, bottom: margin });
     this.fitted = true;
+    if (!this.store.state.looks.combOwn && this.store.state.looks.combScale > 0) this.fitComb();
     this.canvas.schedule();
   }
 

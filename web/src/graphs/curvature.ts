@@ -55,10 +55,8 @@ export class CurvaturePlot extends Plot {
 
   paint(graphed: Graphed | null, colors: Palette): void {
     if (!graphed) {
-      this.say("");
-      this.begin(colors);
-      this.end();
-      return;
+      this.steps = [];
+      return this.blank(colors, "No curve is chosen");
     }
     const { comb, before } = graphed;
     this.length = comb.length;

@@ -16,10 +16,7 @@ export class DeviationPlot extends Plot {
     const told = graphed?.deviation;
     this.steps = graphed?.comb.arc_length ?? [];
     if (!graphed || !told) {
-      this.say("");
-      this.begin(colors);
-      this.end();
-      return;
+      return this.blank(colors, graphed ? "Of curves made of measured points" : "");
     }
     const places = told.places.arc_length ?? [];
     const distances = told.places.distance ?? [];

@@ -31,11 +31,9 @@ abstract class LogPlot extends Plot {
     return best && best.distance < 60 ? best.sample : null;
   }
 
-  protected empty(colors: Palette): void {
+  protected empty(colors: Palette, graphed: Graphed | null): void {
     this.places = [];
-    this.say("");
-    this.begin(colors);
-    this.end();
+    this.blank(colors, graphed ? "The radius does not change" : "");
   }
 }
 
@@ -48,7 +46,7 @@ export class LcgPlot extends LogPlot {
   paint(graphed: Graphed | null, colors: Palette): void {
     const graphs = graphed?.comb.graphs;
     const lcg = (graphs?.lcg ?? []) as [number, number][];
-    if (!graphed || !graphs || lcg.length === 0) return this.empty(colors);
+    if (!graphed || !graphs || lcg.length === 0) return this.empty(colors, graphed);
     const samples = graphs.samples ?? [];
     const xs = lcg.map((p) => p[0]);
     const ys = lcg.map((p) => p[1]);
@@ -80,7 +78,7 @@ export class LddcPlot extends LogPlot {
   paint(graphed: Graphed | null, colors: Palette): void {
     const graphs = graphed?.comb.graphs;
     const tops = (graphs?.lddc ?? []) as [number, number][];
-    if (!graphed || !graphs || tops.length === 0) return this.empty(colors);
+    if (!graphed || !graphs || tops.length === 0) return this.empty(colors, graphed);
     const x = rangeOf(tops.map((t) => t[0]), 0.1) ?? { low: -1, high: 1 };
     const y = rangeOf([...tops.map((t) => t[1]), -3], 0.1) ?? { low: -3, high: 0 };
     this.axes = { x: { low: x.low - 0.05, high: x.high + 0.05 }, y: { low: -3.1, high: y.high } };

@@ -38,11 +38,7 @@ export class PlanePlot extends Plot {
   }
 
   paint(placed: Placed | null, colors: Palette): void {
-    if (!placed) {
-      this.begin(colors);
-      this.end();
-      return;
-    }
+    if (!placed) return this.blank(colors, "\u2026");
     const { plane } = placed;
     const [low, high] = plane.s as [number, number];
     this.axes = { x: { low: 0, high: (plane.alpha as [number, number])[1] }, y: { low, high } };

@@ -143,6 +143,19 @@ export abstract class Plot {
     g.clip();
   }
 
+  /** Nothing to draw: no axes of nothing either. */
+  protected blank(colors: Palette, why: string): void {
+    const g = this.pen;
+    this.say("");
+    g.fillStyle = colors.ground;
+    g.fillRect(0, 0, this.width, this.height);
+    g.fillStyle = colors.faint;
+    g.font = "11px system-ui, sans-serif";
+    g.textAlign = "center";
+    g.textBaseline = "middle";
+    g.fillText(why, this.width / 2, (this.height + kTop) / 2, this.width - 16);
+  }
+
   protected end(): void {
     this.pen.restore();
   }

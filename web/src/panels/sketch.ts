@@ -96,7 +96,7 @@ export class SketchPanel {
       underlay.stages.length > 0 && choice({
         id: "stage", label: "Shows", value: underlay.stage, options: stages, onChoose: (stage) => this.put({ stage }),
       }),
-      h("div", { class: "row" }, button("Scale by two points", () => this.store.set({ tool: "measure" }), { id: "scale-picture" }),
+      h("div", { class: "row wrap" }, button("Scale by two points", () => this.store.set({ tool: "measure" }), { id: "scale-picture" }),
         button("Remove", () => this.store.set({ underlay: null }))),
       this.scaling(underlay),
       ...(this.client.can("sketch.trace") ? this.tracing(underlay) : []));

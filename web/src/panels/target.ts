@@ -28,7 +28,7 @@ export class TargetPanel {
     if (e.kind !== "fixed" || !canFollow(e.curve)) return null;
     const drawing = this.store.state.targeting;
     return section("Curvature target",
-      h("div", { class: "row" },
+      h("div", { class: "row wrap" },
         button(drawing ? "Draw it in the graph\u2026" : "Draw it", () => this.store.set({ targeting: !drawing }), {
           id: "draw-target", "aria-pressed": String(drawing),
         }),

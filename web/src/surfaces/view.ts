@@ -152,7 +152,9 @@ export class SurfaceView {
     const points = surfaces.flatMap((s) => Array.from({ length: s.points.length / 3 }, (_, i) =>
       new Vector3(s.points[3 * i], s.points[3 * i + 1], s.points[3 * i + 2])));
     const sphere = new Sphere().setFromPoints(points);
-    const away = sphere.radius / Math.sin((this.camera.fov * Math.PI) / 360);
+    // as far as the narrower side of the view needs
+    const half = Math.atan(Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
+    const away = sphere.radius / Math.sin(half);
     this.camera.near = away / 100;
     this.camera.far = away * 10;
     this.camera.position.copy(sphere.center).add(new Vector3(-0.55, -0.75, 0.75).normalize().multiplyScalar(0.95 * away));
