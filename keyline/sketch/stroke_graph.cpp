@@ -5,12 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <opencv2/imgproc.hpp>
 #include <unordered_map>
 #include <utility>
 
 #include "keyline/core/polygon.h"
 #include "keyline/core/quantile.h"
+#include "keyline/sketch/ink_radius.h"
 
 namespace keyline::sketch {
 namespace {
@@ -43,12 +43,7 @@ std::array<Pixel, 8> next_pixels(const Binary& lines, Pixel p, int& count) {
 class Builder {
  public:
   Builder(const Binary& lines, const Binary& ink)
-      : lines_(lines), visited_(lines.width, lines.height) {
-    const cv::Mat mask(ink.height, ink.width, CV_8U, const_cast<std::uint8_t*>(ink.data.data()));
-    cv::Mat padded;
-    cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
-    cv::distanceTransform(padded, distance_, cv::DIST_L2, cv::DIST_MASK_5);
-  }
+      : lines_(lines), visited_(lines.width, lines.height), radius_(lines, ink) {}
 
   StrokeGraph build() {
     find_nodes();
@@ -62,10 +57,7 @@ class Builder {
 
  private:
   static Point2 centre(Pixel p) { return {p.x + 0.5, p.y + 0.5}; }
-  float radius(Pixel p) const {
-    // the transform counts from the centre of the next pixel of paper; ink ends half a pixel before
-    return std::max(0.5F, distance_.at<float>(p.y + 1, p.x + 1) - 0.5F);
-  }
+  float radius(Pixel p) const { return radius_.at(p.x, p.y); }
   long key(Pixel p) const { return static_cast<long>(lines_.index(p.x, p.y)); }
 
   int degree(Pixel p) const {
@@ -190,7 +182,7 @@ class Builder {
 
   const Binary& lines_;
   Binary visited_;
-  cv::Mat distance_;
+  InkRadius radius_;
   StrokeGraph graph_;
   std::vector<std::vector<Pixel>> members_;
   std::unordered_map<long, int> node_of_;

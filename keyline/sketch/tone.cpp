@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "keyline/core/quantile.h"
@@ -105,11 +106,11 @@ double darkness_of(double y, double gain) {
   return std::clamp(1 - std::exp((y - 1) / gain), 0.0, 1.0);
 }
 
-Tone transform_intensity(const Image& image, const ToneOptions& options) {
+Tone transform_intensity(Image image, const ToneOptions& options) {
   Tone tone;
   tone.light_on_dark = options.polarity == Polarity::light_on_dark ||
                        (options.polarity == Polarity::automatic && is_light_on_dark(image));
-  tone.level = image.luminance;
+  tone.level = std::move(image.luminance);
   if (tone.light_on_dark)
     for (std::uint16_t& v : tone.level.data) v = static_cast<std::uint16_t>(65535 - v);
   remove_impulses(tone.level);

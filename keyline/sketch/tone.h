@@ -48,7 +48,7 @@ double darkness_of(double y, double gain);
 /// Light intensity transformation y = a·log x ([Sketch] Eq. 11), after single stray pixels (salt
 /// and pepper) were taken out; on request or need the paper's own brightness, estimated from
 /// blocks, is divided out.
-Tone transform_intensity(const Image& image, const ToneOptions& options = {});
+Tone transform_intensity(Image image, const ToneOptions& options = {});
 
 /// Blurs the levels (sigma in pixels), which closes the grain of a pencil, and measures the noise
 /// that is left.

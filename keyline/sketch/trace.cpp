@@ -268,8 +268,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   result.width = image.width();
   result.height = image.height();
   options.progress.report(0, "reading grey values");
-  Tone tone = transform_intensity(image, options.tone);
-  image = {};
+  Tone tone = transform_intensity(std::move(image), options.tone);
   show(options, tone);
   if (tone.light_on_dark) result.notes.push_back("light lines on dark ground");
   if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
