@@ -28,7 +28,7 @@ def row(keyline, file, options):
     before, after = joints["before"], joints["after"]
     patches = sum(len(s.get("patch_edits", [s])) for s in surfaces)
     orders = " | ".join(f"{before[g]} to {after[g]}" for g in ("G0", "G1", "G2"))
-    departure = max(s["departure"] for s in surfaces if "departure" in s)
+    departure = max((s["departure"] for s in surfaces if "departure" in s), default=0)
     return (f"| `{name}` | {patches} | {before['joints']} | {total(surfaces, 'before'):.5g} | "
             f"{total(surfaces, 'after'):.5g} | {departure:.3g} | {orders} | {joints['lost']} | {seconds:.1f} |")
 

@@ -68,19 +68,18 @@ Result<SurfaceEdit> alone(const TogetherRequest& request, std::size_t i, const C
 }
 
 /// Joints between all patches that were edited.
-JointsChange joints_between(const std::vector<OneOfSurfaces>& all) {
+JointsChange joints_between(const std::vector<OneOfSurfaces>& all, surface::HoldJoints hold) {
   std::vector<surface::BezierSurface> given;
   std::vector<surface::BezierSurface> edited;
-  std::size_t lost = 0;
   for (const OneOfSurfaces& one : all) {
     if (!one.edit) continue;
     const SurfaceEdit& e = *one.edit->edit;
     given.insert(given.end(), e.grid.patches.begin(), e.grid.patches.end());
     edited.insert(edited.end(), e.edited.surfaces.begin(), e.edited.surfaces.end());
-    lost += e.edited.lost;
   }
   const auto joints = surface::joints_of(given, 10 * surface::EdgeTolerance{}.gap);
-  return {shown(measure_joints(joints, given)), shown(measure_joints(joints, edited)), lost};
+  return {shown(measure_joints(joints, given)), shown(measure_joints(joints, edited)),
+          lost_orders(joints, given, edited, order_of(hold))};
 }
 
 /// One that cannot be edited stays as given among others; alone it is a failure.
@@ -104,7 +103,7 @@ Result<SurfacesEditAnswer> run(const TogetherRequest& request, const Context& co
     answer.surfaces.push_back(std::move(one));
   }
   if (!any) return std::unexpected(*failure);
-  answer.joints = joints_between(answer.surfaces);
+  answer.joints = joints_between(answer.surfaces, held(request.joints));
   return answer;
 }
 

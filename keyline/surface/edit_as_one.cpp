@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -74,10 +75,10 @@ class AsOne {
         fixed_(fixed_points(given_, all.patches, options_.keep)),
         stiff_(joints_.size(), false),
         best_(given_.begin(), given_.end()),
-        least_(all.sav_before) {
-    const int most = task.hold == HoldJoints::G2 ? 2 : 1;
+        least_(all.sav_before),
+        most_(order_of(task.hold)) {
     for (const int order : joint_orders(joints_, given_, task.tolerance))
-      orders_.push_back(std::min(order, most));
+      orders_.push_back(std::min(order, most_));
   }
 
   /// The least SAV of what rounds of editing and holding come to, and of nets whose curves take one
@@ -109,7 +110,7 @@ class AsOne {
       for (const double share : {1.0, 0.6, 0.3}) {
         auto moved = within_limit(held, share);
         const double sav = total(moved);
-        if (sav >= least_ * (1 - kWorthIt)) continue;
+        if (sav >= least_ * (1 - kWorthIt) || loses_a_joint(moved)) continue;
         accept("", std::move(moved), sav);
         better = true;
         break;
@@ -133,6 +134,7 @@ class AsOne {
           lost = true;
           continue;
         }
+        if (loses_a_joint(moved)) continue;  // stiff ones cannot be held by less
         const double away = farthest(moved);
         const double sav = total(moved);
         all_.tradeoff.push_back({nets.name, away, sav});
@@ -163,6 +165,11 @@ class AsOne {
     for (std::size_t i = 0; i < joints_.size(); ++i)
       if (now[i] < orders_[i] && !stiff_[i]) any = stiff_[i] = true;
     return any;
+  }
+
+  bool loses_a_joint(const std::vector<BezierSurface>& moved) const {
+    const auto now = joint_orders(joints_, moved, task_.tolerance);
+    return !std::ranges::equal(now, orders_, std::greater_equal<>());
   }
 
   /// Nets nearest to the wanted ones that hold the joints; those that fail are made stiff.
@@ -251,9 +258,7 @@ class AsOne {
       }
     });
     all_.surfaces = best_;
-    const auto now = joint_orders(joints_, best_, task_.tolerance);
-    all_.lost = 0;
-    for (std::size_t i = 0; i < now.size(); ++i) all_.lost += now[i] < orders_[i];
+    all_.lost = lost_orders(joints_, given_, best_, most_, task_.tolerance);
   }
 
   std::span<const BezierSurface> given_;
@@ -266,6 +271,7 @@ class AsOne {
   std::vector<bool> stiff_;
   std::vector<BezierSurface> best_;
   double least_ = 0;  ///< SAV of the best
+  int most_ = 1;      ///< order that is held
   std::string name_;  ///< of the best among nets of one matrix; empty: of a round
 };
 

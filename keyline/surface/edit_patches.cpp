@@ -21,6 +21,18 @@ double sum_of(const std::vector<PatchEdit>& patches, SurfaceValue EditResult::* 
 
 }  // namespace
 
+int order_of(HoldJoints hold) {
+  switch (hold) {
+    case HoldJoints::free:
+      return -1;
+    case HoldJoints::G1:
+      return 1;
+    case HoldJoints::G2:
+      break;
+  }
+  return 2;
+}
+
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options, int threads,
                                        const EdgeTolerance& tolerance, HoldJoints hold) {
@@ -83,7 +95,7 @@ namespace {
 
 /// What the patches [first, first + count) of an edit are by themselves.
 PatchesEdit part_of_edit(const PatchesEdit& all, std::span<const BezierSurface> given,
-                         std::size_t first, const EdgeTolerance& tolerance) {
+                         std::size_t first, const EdgeTolerance& tolerance, HoldJoints hold) {
   const std::size_t count = given.size();
   PatchesEdit part;
   const auto from = static_cast<std::ptrdiff_t>(first);
@@ -99,6 +111,7 @@ PatchesEdit part_of_edit(const PatchesEdit& all, std::span<const BezierSurface> 
   }
   part.before = measure_joints(part.joints, given, tolerance);
   part.after = measure_joints(part.joints, part.surfaces, tolerance);
+  part.lost = lost_orders(part.joints, given, part.surfaces, order_of(hold), tolerance);
   part.sav_before = sum_of(part.patches, &EditResult::before);
   part.sav_after = sum_of(part.patches, &EditResult::after);
   part.sav_apart = part.sav_after;
@@ -124,7 +137,7 @@ core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> su
   if (!all) return std::unexpected(all.error());
   std::size_t first = 0;
   for (std::size_t i = 0; i < edits.size(); ++i) {
-    edits[i].edited = part_of_edit(*all, edits[i].grid.patches, first, tolerance);
+    edits[i].edited = part_of_edit(*all, edits[i].grid.patches, first, tolerance, hold);
     first += edits[i].grid.patches.size();
     make_whole(surfaces[i], edits[i]);
   }

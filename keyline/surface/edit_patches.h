@@ -19,6 +19,9 @@ struct PatchEdit {
 /// in common; their curvature too.
 enum class HoldJoints { free, G1, G2 };
 
+/// Order of joints that is held at most; -1: none.
+int order_of(HoldJoints hold);
+
 /// Several patches edited as one problem, and what that does to their joints.
 struct PatchesEdit {
   std::vector<PatchEdit> patches;       ///< in the order given
@@ -41,14 +44,14 @@ struct PatchesEdit {
 /// have one matrix each while all joints hold (`tradeoff`; not where single curves have
 /// conditions); with Keep::joints corners in which patches meet may move with them there. The least
 /// SAV within the limit is taken. Where a joint could not be held otherwise it stays where it is;
-/// one that is lower all the same counts as lost. Patches of which the SAV cannot be lowered that
-/// way may rise for the others' sake. HoldJoints::free: patches do not know of one another: with
-/// Keep::boundary joints stay where they are to the last digit, with Keep::joints they move and
-/// stay closed (unless conditions of single curves say otherwise), with less kept they may open;
-/// tangent planes across them change. Keep::start keeps the corner b00 of every patch, its tangents
-/// as far as the joints let it. `before` and `after` say by how much. Joints are edges that lie
-/// within ten times tolerance.gap of one another. Errors: the first patch's where no patch could be
-/// edited; unsupported for a rational patch; cancelled.
+/// nets in which one is lower all the same are not taken. Patches of which the SAV cannot be
+/// lowered that way may rise for the others' sake. HoldJoints::free: patches do not know of one
+/// another: with Keep::boundary joints stay where they are to the last digit, with Keep::joints
+/// they move and stay closed (unless conditions of single curves say otherwise), with less kept
+/// they may open; tangent planes across them change. Keep::start keeps the corner b00 of every
+/// patch, its tangents as far as the joints let it. `before` and `after` say by how much. Joints
+/// are edges that lie within ten times tolerance.gap of one another. Errors: the first patch's
+/// where no patch could be edited; unsupported for a rational patch; cancelled.
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options = {}, int threads = 1,
                                        const EdgeTolerance& tolerance = {},

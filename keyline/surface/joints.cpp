@@ -65,6 +65,16 @@ std::vector<int> joint_orders(std::span<const PatchJoint> joints,
   return orders;
 }
 
+std::size_t lost_orders(std::span<const PatchJoint> joints, std::span<const BezierSurface> before,
+                        std::span<const BezierSurface> after, int most,
+                        const EdgeTolerance& tolerance) {
+  const std::vector<int> was = joint_orders(joints, before, tolerance);
+  const std::vector<int> is = joint_orders(joints, after, tolerance);
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < was.size(); ++i) lost += is[i] < std::min(was[i], most) ? 1 : 0;
+  return lost;
+}
+
 JointSummary measure_joints(std::span<const PatchJoint> joints,
                             std::span<const BezierSurface> patches,
                             const EdgeTolerance& tolerance) {

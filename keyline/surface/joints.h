@@ -36,6 +36,12 @@ std::vector<int> joint_orders(std::span<const PatchJoint> joints,
                               std::span<const BezierSurface> patches,
                               const EdgeTolerance& tolerance = {});
 
+/// Joints whose order is lower in the patches `after` than in those `before`, of orders up to
+/// `most`.
+std::size_t lost_orders(std::span<const PatchJoint> joints, std::span<const BezierSurface> before,
+                        std::span<const BezierSurface> after, int most,
+                        const EdgeTolerance& tolerance = {});
+
 /// The same places of every joint.
 JointSummary measure_joints(std::span<const PatchJoint> joints,
                             std::span<const BezierSurface> patches,

@@ -38,6 +38,20 @@ TEST(Joints, FindsThePatchesOfASplineTogether) {
   EXPECT_NEAR(torn.gap, 0.5, 0.1);
 }
 
+TEST(Joints, LostOrdersAreThoseThatWereToBeHeld) {
+  const auto patches = to_beziers(four_patches()).patches;
+  const auto joints = joints_of(patches, 1e-6);
+  EXPECT_EQ(lost_orders(joints, patches, patches, 2), 0U);
+  auto folded = patches;
+  folded[3].net.at(1, 2).z += 0.5;  // beside the edge to patch 1 alone
+  EXPECT_EQ(lost_orders(joints, patches, folded, 1), 1U);
+  EXPECT_EQ(lost_orders(joints, patches, folded, 0), 0U);
+  EXPECT_EQ(lost_orders(joints, folded, folded, 2), 0U);
+  auto torn = patches;
+  for (core::Point3& p : torn[3].net.points) p.z += 0.5;
+  EXPECT_EQ(lost_orders(joints, patches, torn, 0), 2U);
+}
+
 TEST(Joints, SecondEdgeMayRunTheOtherWay) {
   const auto [low, high] = halves_u(crowned_patch());
   BezierSurface turned = high;  // v run backwards
