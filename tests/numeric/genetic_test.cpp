@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,23 @@ TEST(Genetic, DoesNotDependOnThreads) {
       }
     }
   }
+}
+
+// An odd population is made even; without generations each of it is made and looked at once.
+TEST(Genetic, EveryMemberIsMadeAndLookedAt) {
+  struct Counted : Switches {
+    std::vector<std::size_t> made;
+    Genome create(Random& random, std::size_t i) {
+      made.push_back(i);
+      return Switches::create(random, i);
+    }
+  } problem;
+  GeneticOptions options = small(1, 1);
+  options.population = 7;
+  options.generations = 0;
+  const auto result = evolve_trials(problem, options);
+  EXPECT_EQ(problem.made, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(result[0].evaluations, 8U);
 }
 
 TEST(Genetic, BestNeverGetsWorseAndTheObserverStops) {
