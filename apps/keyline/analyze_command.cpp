@@ -113,7 +113,8 @@ Result<void> analyze_one(Session& session, const json& thing, const core::Progre
 
 /// The result in .json; pictures and drawings in the other formats.
 void add_json(presentation::Pages& pages, const json& shown) {
-  pages[".json"] = [text = shown.dump(1) + "\n"]() -> Result<std::string> { return text; };
+  pages[".json"] = [text = shown.dump(1, ' ', false, json::error_handler_t::replace) +
+                           "\n"]() -> Result<std::string> { return text; };
 }
 
 int analyze_curves(Session& session, const ReadFiles& read) {

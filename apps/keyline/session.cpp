@@ -163,7 +163,7 @@ Result<json> Session::write(const presentation::Pages& pages, json document, End
 
 void Session::print(const json& shown, const std::string& text) const {
   if (door_.json)
-    fmt::print("{}\n", shown.dump());
+    fmt::print("{}\n", shown.dump(-1, ' ', false, json::error_handler_t::replace));
   else if (!door_.quiet)
     fmt::print("{}", text);
 }

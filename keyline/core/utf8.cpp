@@ -1,5 +1,7 @@
 #include "keyline/core/utf8.h"
 
+#include <array>
+
 namespace keyline::core {
 
 bool is_utf8(std::string_view bytes) {
@@ -52,6 +54,25 @@ void append_utf8(std::string& text, unsigned code) {
     tail(6);
     tail(0);
   }
+}
+
+std::string_view whole_characters(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most;
+  return text.substr(0, most);
+}
+
+std::string from_windows_1252(std::string_view bytes) {
+  static constexpr std::array<unsigned, 32> kHigh = {
+      0x20ac, 0x81,   0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021, 0x2c6,  0x2030, 0x160,
+      0x2039, 0x152,  0x8d,   0x17d,  0x8f,   0x90,   0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
+      0x2013, 0x2014, 0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0x9d,   0x17e,  0x178};
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    append_utf8(text, byte >= 0x80 && byte < 0xa0 ? kHigh[byte - 0x80U] : byte);
+  }
+  return text;
 }
 
 }  // namespace keyline::core

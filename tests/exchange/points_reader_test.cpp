@@ -193,6 +193,16 @@ TEST(ReadPoints, RealFilesAreReadAsAPersonReadsThem) {
   }
 }
 
+// Names are UTF-8 whatever the file's encoding was, and are not cut within a character.
+TEST(ReadPoints, NamesAreUtf8) {
+  const std::string rows = "1 0\n0.5 0.06\n0 0\n";
+  EXPECT_EQ(parse("Profil G\xf6ttingen 387\n" + rows)->front().id, "Profil G\u00f6ttingen 387");
+  EXPECT_EQ(parse("Profil G\u00f6ttingen 387\n" + rows)->front().id, "Profil G\u00f6ttingen 387");
+  EXPECT_EQ(parse("\x80 100\n" + rows)->front().id, "\u20ac 100");  // Windows-1252
+  const std::string most(39, 'a');
+  EXPECT_EQ(parse(most + "\u00f6\n" + rows)->front().id, most + "...");
+}
+
 TEST(ReadPoints, PointsAt999BelongToLargeDrawings) {
   const auto curves = parse("0 0\n500 500\n999 999\n1500 1400\n");
   ASSERT_TRUE(curves);

@@ -10,6 +10,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
+#include "keyline/core/utf8.h"
 #include "keyline/document/units.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
@@ -217,7 +218,7 @@ class DxfReader {
     const bool insert = entity.type == "INSERT";
     if (!insert && !detail::is_dxf_curve(entity.type)) {
       if (entity.type != "SEQEND" && entity.type != "VIEWPORT" && entity.type != "VERTEX")
-        ++ignored_[std::string(entity.type.substr(0, 40))];
+        ++ignored_[std::string(core::whole_characters(entity.type, 40))];
       return;
     }
     if (!block_ && detail::integer(entity.tags, 67) == 1) {
@@ -245,7 +246,8 @@ class DxfReader {
   bool is_readable(const DxfEntity& entity) {
     const DxfTag* tag = detail::unreadable(entity);
     if (!tag) return true;
-    problem(describe(entity) + ": \"" + detail::text_of(*tag).substr(0, 40) + "\" at " +
+    problem(describe(entity) + ": \"" +
+            std::string(core::whole_characters(detail::text_of(*tag), 40)) + "\" at " +
             tags_.place(*tag) + " is no number");
     return false;
   }

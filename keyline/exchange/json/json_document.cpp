@@ -220,7 +220,8 @@ std::string json_text(const Document& document, int indent, const json& further)
   detail::PointLists lists;
   json tree = tree_of(document, &lists);
   tree.update(further);
-  return detail::filled(tree.dump(indent), lists, indent);
+  return detail::filled(tree.dump(indent, ' ', false, json::error_handler_t::replace), lists,
+                        indent);
 }
 
 std::string json_text(const Document& document, int indent) {

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "keyline/core/text.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/text/byte_lines.h"
 
@@ -65,7 +66,8 @@ class ObjReader {
       if (!number && word.find_first_of("0123456789") == word.npos)
         return core::fail(ErrorCode::bad_input, "a vertex needs three numbers", "mend the line",
                           lines_.place());
-      if (!number) note("the vertex: \"" + std::string(word.substr(0, 30)) + "\" is no number");
+      if (!number)
+        note("the vertex: \"" + std::string(core::whole_characters(word, 30)) + "\" is no number");
       value = number.value_or(std::numeric_limits<double>::quiet_NaN());
     }
     if (mesh_.points.size() >= std::numeric_limits<std::uint32_t>::max() / 2)
@@ -82,7 +84,8 @@ class ObjReader {
       const double count = static_cast<double>(mesh_.points.size());
       const double index = !number ? -1 : *number < 0 ? count + *number : *number - 1;
       if (!(index >= 0 && index < count))
-        return note("\"" + std::string(word.substr(0, 30)) + "\" is none of the vertices");
+        return note("\"" + std::string(core::whole_characters(word, 30)) +
+                    "\" is none of the vertices");
       indices_.push_back(static_cast<std::uint32_t>(index));
     }
     if (indices_.size() < (face ? 3 : 2)) return note("too few vertices");

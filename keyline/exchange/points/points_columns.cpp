@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "keyline/core/utf8.h"
+
 namespace keyline::exchange::detail {
 namespace {
 
@@ -101,7 +103,7 @@ Result<PointsColumns> choose_columns(const Names& names, const PointsOptions& op
 
 std::string shortened(std::string_view text) {
   std::string out;
-  for (const char c : text.substr(0, 40)) {
+  for (const char c : core::whole_characters(text, 40)) {
     out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   }
   return text.size() > 40 ? out + "..." : out;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "keyline/core/text.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/svg/svg_shapes.h"
 #include "keyline/exchange/svg/svg_style.h"
 #include "keyline/exchange/svg/svg_text.h"
@@ -101,7 +102,7 @@ class SvgReader {
     const auto length = detail::parse_svg_length(text);
     if (!length && !text.empty() && text != "auto" && !text.ends_with('%'))
       skip(line(root), std::string("the ") + name + " of the page, which is no length: \"" +
-                           std::string(text.substr(0, 40)) + "\"");
+                           std::string(core::whole_characters(text, 40)) + "\"");
     return length;
   }
 

@@ -64,20 +64,6 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return text;
 }
 
-/// Windows-1252, which agrees with ISO 8859-1 but for control characters.
-std::string from_western(std::string_view bytes) {
-  static constexpr std::array<unsigned, 32> kHigh = {
-      0x20ac, 0x81,   0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021, 0x2c6,  0x2030, 0x160,
-      0x2039, 0x152,  0x8d,   0x17d,  0x8f,   0x90,   0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
-      0x2013, 0x2014, 0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0x9d,   0x17e,  0x178};
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    core::append_utf8(text, byte >= 0x80 && byte < 0xa0 ? kHigh[byte - 0x80U] : byte);
-  }
-  return text;
-}
-
 /// The encoding an XML declaration states, in lower case.
 std::string declared_encoding(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 300));
@@ -114,7 +100,7 @@ Result<void> to_utf8(SvgText& text, std::string_view bytes) {
     if (!agrees_with_ascii(name))
       return fail(ErrorCode::unsupported, "the SVG file is not in UTF-8 but in " + name,
                   "save it with the encoding UTF-8");
-    text.own = from_western(given);
+    text.own = core::from_windows_1252(given);
     if (name != "iso-8859-1" && name != "latin1" && name != "windows-1252")
       text.notes.push_back("names in " + name + ": only their ASCII letters are right");
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "keyline/core/utf8.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -38,6 +40,13 @@ core::Result<void> LineReader::check_start() {
   }
   if (start.starts_with("\xef\xbb\xbf")) position_ = 3;
   return {};
+}
+
+std::string_view LineReader::in_utf8() {
+  const bool plain = std::none_of(line_.begin(), line_.end(),
+                                  [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  if (!plain && !core::is_utf8(line_)) line_ = core::from_windows_1252(line_);
+  return line_;
 }
 
 core::Result<std::string_view> LineReader::next(bool& end) {
@@ -83,7 +92,7 @@ core::Result<std::string_view> LineReader::next(bool& end) {
     if (stop != to) {
       after_return_ = *stop == '\r';
       ++position_;
-      return std::string_view(line_);
+      return in_utf8();
     }
   }
   if (in_.bad()) {
@@ -91,7 +100,7 @@ core::Result<std::string_view> LineReader::next(bool& end) {
                       name_);
   }
   end = !any;
-  return std::string_view(line_);
+  return in_utf8();
 }
 
 }  // namespace keyline::exchange

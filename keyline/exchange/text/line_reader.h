@@ -11,9 +11,9 @@
 namespace keyline::exchange {
 
 /// Reads text line by line in bounded memory: lines end with \n, \r\n or \r; a UTF-8 byte order
-/// mark is skipped. A ^Z (the end mark of CP/M and DOS) is white space, and what is no text behind
-/// one ends the input. Binary content, UTF-16 and overlong lines are failures with the place
-/// "name:line".
+/// mark is skipped, and a line that is no UTF-8 is taken for Windows-1252. A ^Z (the end mark of
+/// CP/M and DOS) is white space, and what is no text behind one ends the input. Binary content,
+/// UTF-16 and overlong lines are failures with the place "name:line".
 class LineReader {
  public:
   /// name: what failures call the input. longest: largest number of bytes in a line.
@@ -35,6 +35,7 @@ class LineReader {
  private:
   bool fill();
   core::Result<void> check_start();
+  std::string_view in_utf8();
   std::unexpected<core::Failure> failure(std::string message, std::string hint) const;
 
   std::istream& in_;
