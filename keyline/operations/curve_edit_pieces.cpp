@@ -22,6 +22,10 @@ using document::PlanarCurve;
 
 constexpr int kHighestDegree = 8;  ///< as of the approximation by one Bezier
 
+/// Of the chord, first and last control edge of a target: at coordinates of a thousand chords
+/// rounding still leaves their direction to 2e-9, far below what a joint shows.
+constexpr double kLeastEdge = 1e-4;
+
 struct PiecesRequest {
   Path curve;
   double amount = 1;
@@ -166,10 +170,20 @@ std::optional<Bezier2> target_of(const Bezier2& c, double alpha_max) {
   range.lowest_degree = std::max(3, degree);
   range.highest_degree = kHighestDegree;
   range.alpha_max = alpha_max;
-  const auto found = classa::class_a_between({c.control.front(), curve::unit_tangent(jet(c, 0)),
-                                              c.control.back(), curve::unit_tangent(jet(c, 1))},
-                                             range);
-  return found ? std::optional(classa::to_bezier(*found)) : std::nullopt;
+  const core::Vector2 arriving = curve::unit_tangent(jet(c, 1));
+  const auto found = classa::class_a_between(
+      {c.control.front(), curve::unit_tangent(jet(c, 0)), c.control.back(), arriving}, range);
+  if (!found) return std::nullopt;
+  Bezier2 target = classa::to_bezier(*found);
+  auto& points = target.control;
+  const double first = core::distance(points[0], points[1]);
+  const double edge = core::distance(points[points.size() - 2], points.back());
+  if (std::min(first, edge) < kLeastEdge * core::distance(points.front(), points.back()))
+    return std::nullopt;
+  // What the end misses by would turn a short edge: it is set along its tangent.
+  points.back() = c.control.back();
+  points[points.size() - 2] = points.back() - edge * arriving;
+  return target;
 }
 
 /// Edits one piece in place.
@@ -184,7 +198,9 @@ EditedPiece edit_piece(Bezier2& c, const PiecesRequest& request) {
   shown.before = shown.after = place_of(c, request.alpha_max);
   const auto target = target_of(c, request.alpha_max);
   if (!target) {
-    shown.why = "no Class A curve of degree 3 to 8 between its tangents";
+    shown.why =
+        "no Class A curve of degree 3 to 8 between its tangents, with edges of 1e-4 of the chord "
+        "or more";
     return shown;
   }
   Bezier2 moved = mixed(c, *target, request.amount);
