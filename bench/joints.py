@@ -23,7 +23,7 @@ def row(keyline, file, options):
     if run.returncode != 0:
         return f"| `{name}` | {run.stderr.strip().splitlines()[-1].removeprefix('keyline: ')} |"
     answer = json.loads(run.stdout)
-    surfaces = answer.get("surfaces", [answer])
+    surfaces = [answer] if "before" in answer else answer["surfaces"]
     joints = answer["joints"]
     before, after = joints["before"], joints["after"]
     patches = sum(len(s.get("patch_edits", [s])) for s in surfaces)

@@ -63,20 +63,38 @@ std::vector<std::vector<std::size_t>> groups_among(const std::vector<std::size_t
   return groups;
 }
 
+/// Strokes and what speaks for or against their being passes of one line.
+struct Passes {
+  Pen pen;
+  PassModel model;
+  std::vector<SampledStroke> sampled;
+  PassEvidence evidence;
+};
+
+Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptions& options) {
+  Passes all;
+  all.pen =
+      options.measured ? Pen{options.width, options.width} : plausible_pen(strokes, options.width);
+  all.model = {all.pen.counted, options.apart, options.hand, options.angle};
+  for (const DrawnStroke& s : strokes) {
+    if (s.points.size() < 2) throw core::InvalidInput("consolidate needs two points per stroke");
+    all.sampled.push_back(sample_stroke(s.points, s.closed, std::max(all.model.width, 1e-12)));
+  }
+  all.evidence = pass_evidence(all.sampled, all.model);
+  wish(options.wishes, all.evidence);
+  return all;
+}
+
 }  // namespace
+
+std::size_t count_lines(const std::vector<DrawnStroke>& strokes,
+                        const ConsolidateOptions& options) {
+  return group_by_evidence(passes_of(strokes, options).evidence).size();
+}
 
 std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
                                    const ConsolidateOptions& options) {
-  const Pen pen =
-      options.measured ? Pen{options.width, options.width} : plausible_pen(strokes, options.width);
-  const PassModel model{pen.counted, options.apart, options.hand, options.angle};
-  std::vector<SampledStroke> sampled;
-  for (const DrawnStroke& s : strokes) {
-    if (s.points.size() < 2) throw core::InvalidInput("consolidate needs two points per stroke");
-    sampled.push_back(sample_stroke(s.points, s.closed, std::max(model.width, 1e-12)));
-  }
-  PassEvidence evidence = pass_evidence(sampled, model);
-  wish(options.wishes, evidence);
+  const auto [pen, model, sampled, evidence] = passes_of(strokes, options);
   std::vector<std::vector<std::size_t>> open = group_by_evidence(evidence);
   std::vector<MeantLine> lines;
   std::vector<std::size_t> strays;

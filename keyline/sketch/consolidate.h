@@ -44,4 +44,8 @@ struct MeantLine {
 std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
                                    const ConsolidateOptions& options = {});
 
+/// About how many lines consolidate() would make of the strokes: groups before their lines are
+/// looked for. Same preconditions.
+std::size_t count_lines(const std::vector<DrawnStroke>& strokes, const ConsolidateOptions& options);
+
 }  // namespace keyline::sketch

@@ -32,6 +32,7 @@ constexpr double kStub = 1.2;
 constexpr double kLongestStub = 5;
 
 constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
+constexpr double kManyPasses = 0.75;       ///< lines per stroke from which passes are told
 
 constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
 constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
@@ -201,6 +202,19 @@ void number_lines(std::vector<FineStroke>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i].members = {i};
 }
 
+/// Strokes of which many are passes of one line are told, where they were not made one.
+void tell_passes(const std::vector<FineStroke>& strokes, const ConsolidateOptions& passes,
+                 TraceResult& result) {
+  std::vector<DrawnStroke> drawn;
+  for (const FineStroke& s : strokes)
+    if (s.points.size() >= 2) drawn.push_back({s.points, s.closed});
+  if (drawn.size() < 2) return;
+  const std::size_t lines = count_lines(drawn, passes);
+  if (static_cast<double>(lines) > kManyPasses * static_cast<double>(drawn.size())) return;
+  result.notes.push_back(core::counted(drawn.size(), "stroke") + " look like passes of about " +
+                         core::counted(lines, "line") + ": consolidate makes one curve of each");
+}
+
 /// What little is explained is told.
 void tell_explained(const char* of_what, TraceResult& result) {
   if (result.explained < kEnoughExplained)
@@ -281,13 +295,16 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
+  const ConsolidateOptions passes{
+      .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
   if (options.consolidate) {
     number_lines(lines);
     for (const FineStroke& s : lines) result.passes.push_back({s.points, s.closed});
     if (auto sound = check_wishes(options.wishes, lines.size()); !sound)
       return std::unexpected(sound.error());
-    merge(lines, width, {.width = width, .measured = true, .apart = kPictureApart, .hand = 0},
-          options.wishes, result.notes);
+    merge(lines, width, passes, options.wishes, result.notes);
+  } else if (options.edge == Edge::center) {
+    tell_passes(lines, passes, result);
   }
   TraceOptions curves = options;
   if (found.grainy) {
@@ -341,6 +358,8 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   double explained = drawn;
   if (options.consolidate)
     explained = merge(lines, width, {.width = width}, options.wishes, result.notes);
+  else
+    tell_passes(lines, {.width = width}, result);
   result.explained = std::min(1.0, explained / drawn);
   tell_explained("strokes", result);
   TraceOptions scaled = options;

@@ -269,6 +269,11 @@ TEST(Trace, DrawnStrokesSayWhoStandsForThem) {
   for (int k = 0; k < 3; ++k) strokes.push_back({{{0, 0.5 * k}, {40, 0.5 * k}, {100, 0.5 * k}}});
   strokes.push_back({{{50, 60}, {50.2, 60}}});  // a dot
   strokes.push_back({{{0, 80}, {100, 80}}});
+  const auto plain = trace_strokes(strokes, 1, {});
+  ASSERT_TRUE(plain);
+  ASSERT_EQ(plain->notes.size(), 1U);
+  EXPECT_EQ(plain->notes[0],
+            "4 strokes look like passes of about 2 lines: consolidate makes one curve of each");
   TraceOptions options;
   options.consolidate = true;
   const auto result = trace_strokes(strokes, 1, options);
