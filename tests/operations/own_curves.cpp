@@ -197,45 +197,65 @@ std::vector<Spot> spots(const std::vector<Bezier>& curve, int each) {
 
 namespace {
 
-/// Newton's steps from a parameter near the nearest one.
+/// Newton's steps from a parameter near the nearest one, halved until they help.
 double closed_in(const Bezier& c, const Vec& point, double t) {
-  for (int n = 0; n < 4; ++n) {
+  const auto off = [&](double at) {
+    const Four p = casteljau(c, at);
+    return distance((1 / p[3]) * front(p), point);
+  };
+  double best = off(t);
+  for (int n = 0; n < 20; ++n) {
     const Spot s = spot(c, t);
     const Vec away = s.place - point;
-    const double slope = dot(away, s.first), bend = dot(s.first, s.first) + dot(away, s.second);
+    const double slope = dot(away, s.first), speed = dot(s.first, s.first);
+    const double bend = std::max(speed + dot(away, s.second), 1e-3 * speed);
     if (!(bend > 0)) break;
-    t = std::clamp(t - slope / bend, 0.0, 1.0);
+    bool better = false;
+    for (double step = -slope / bend; !better && std::abs(step) > 1e-16; step /= 4) {
+      const double at = std::clamp(t + step, 0.0, 1.0), here = off(at);
+      better = here < best;
+      if (better) t = at;
+      best = std::min(best, here);
+    }
+    if (!better) break;
   }
-  const Four p = casteljau(c, t);
-  return distance((1 / p[3]) * front(p), point);
+  return best;
 }
 
 }  // namespace
 
 double distance_from(const std::vector<Bezier>& curve, const Vec& point) {
-  constexpr int kPlaces = 40;
+  constexpr int kPlaces = 40, kFiner = 16;
   double best = INFINITY;
   for (const Bezier& c : curve) {
-    const auto off = [&](double t) {
+    const auto at = [&](double t) {
       const Four p = casteljau(c, t);
-      return distance((1 / p[3]) * front(p), point);
+      return (1 / p[3]) * front(p);
     };
-    std::array<double, kPlaces + 1> at{};
-    for (int k = 0; k <= kPlaces; ++k) at[static_cast<std::size_t>(k)] = off(k / double{kPlaces});
+    std::vector<Vec> places;
+    for (int k = 0; k <= kPlaces; ++k) places.push_back(at(k / double{kPlaces}));
     for (int k = 0; k <= kPlaces; ++k) {
-      const double here = at[static_cast<std::size_t>(k)];
-      best = std::min(best, here);
-      const double before = k > 0 ? at[static_cast<std::size_t>(k) - 1] : INFINITY;
-      const double after = k < kPlaces ? at[static_cast<std::size_t>(k) + 1] : INFINITY;
-      const double step = std::max(k > 0 ? before : 0, k < kPlaces ? after : 0) - here;
-      if (here > before || here > after || here > best + 2 * step) continue;
-      double low = std::max(0, k - 1) / double{kPlaces};
-      double high = std::min(kPlaces, k + 1) / double{kPlaces};
-      for (int n = 0; n < 16; ++n) {
-        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-        (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;
-      }
-      best = std::min(best, closed_in(c, point, (low + high) / 2));
+      const auto off = [&](int i) {
+        return i < 0 || i > kPlaces ? INFINITY
+                                    : distance(places[static_cast<std::size_t>(i)], point);
+      };
+      best = std::min(best, off(k));
+      double spacing = 0;  // of the places around: next to a cusp they crowd
+      for (int i = std::max(1, k - 2); i <= std::min(kPlaces, k + 3); ++i)
+        spacing = std::max(spacing, distance(places[static_cast<std::size_t>(i)],
+                                             places[static_cast<std::size_t>(i) - 1]));
+      if (off(k) > off(k - 1) || off(k) > off(k + 1) || off(k) > best + 2 * spacing) continue;
+      // Both branches of a hairpin may pass there: from every finer place nearer than its own.
+      std::array<double, 2 * kFiner + 3> finer{};
+      finer.fill(INFINITY);
+      const auto finer_t = [&](int i) {
+        return std::clamp((k + (i - 1 - kFiner) / double{kFiner}) / kPlaces, 0.0, 1.0);
+      };
+      for (int i = 1; i <= 2 * kFiner + 1; ++i)
+        finer[static_cast<std::size_t>(i)] = distance(at(finer_t(i)), point);
+      for (std::size_t i = 1; i + 1 < finer.size(); ++i)
+        if (finer[i] <= finer[i - 1] && finer[i] <= finer[i + 1])
+          best = std::min(best, closed_in(c, point, finer_t(static_cast<int>(i))));
     }
   }
   return best;
