@@ -11,13 +11,14 @@ namespace keyline::sketch {
 /// One end of an edge: where the line is itself again, and which way it leaves.
 struct Branch {
   int edge = 0;
-  bool at_end = false;          ///< the edge's `to` rather than its `from`
-  std::size_t anchor = 0;       ///< index of the first point clear of the junction
-  core::Point2 place;           ///< that point
-  core::Vector2 outward{1, 0};  ///< unit, away from the junction
-  int mate = -1;                ///< branch it goes on with
-  bool free = false;            ///< ends in paper
-  double tail = 0;              ///< without a mate: how far it goes on into its junction
+  bool at_end = false;            ///< the edge's `to` rather than its `from`
+  std::size_t anchor = 0;         ///< index of the first point clear of the junction
+  core::Point2 place;             ///< that point
+  core::Vector2 outward{1, 0};    ///< unit, away from the junction
+  int mate = -1;                  ///< branch it goes on with
+  bool free = false;              ///< ends in paper
+  std::vector<core::Point2> way;  ///< to its mate through a knot, about a pixel apart
+  double tail = 0;                ///< without a mate: how far it goes on into its junction
 };
 
 /// The branch of an edge at one of its ends, `skip` pixels clear of it (at most two fifths of the

@@ -363,7 +363,11 @@ class Joiner {
         return s;
       }
       const float r = edge(entry.edge).radii[at(out).anchor];
-      add_guess(s, at(out).place, at(next).place, r);
+      if (at(out).way.empty()) add_guess(s, at(out).place, at(next).place, r);
+      for (const Point2 p : at(out).way) {
+        add_point(s, p, r, true);
+        s.sure.back() = 2;
+      }
       if (used[static_cast<std::size_t>(at(next).edge)]) {
         s.closed = true;
         return s;

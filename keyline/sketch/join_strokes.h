@@ -12,7 +12,9 @@ namespace keyline::sketch {
 struct RawStroke {
   std::vector<core::Point2> points;  ///< about a pixel apart
   std::vector<float> radii;          ///< half the ink's width
-  std::vector<std::uint8_t> sure;    ///< 0 where the place is a guess: in junctions and gaps
+  /// 0 where the place is a guess: in junctions and gaps; 2 on the ink of a knot, where other lines
+  /// may run into it.
+  std::vector<std::uint8_t> sure;
   bool closed = false;
   bool free_start = false;  ///< ends in paper, not at another line
   bool free_end = false;

@@ -85,10 +85,12 @@ class Untying {
     return std::any_of(knot_.edges.begin(), knot_.edges.end(), [&](int e) { return on_ink(p, e); });
   }
 
-  void add_way(const Branch& a, const Branch& b) {
+  void add_way(Branch& a, Branch& b) {
     const double reach = arc_reach(distance(a.place, b.place), half_width_);
     const CommonArc arc = common_arc(arm_of(graph_, a, reach), arm_of(graph_, b, reach));
     way_.insert(way_.end(), arc.gap.begin(), arc.gap.end());
+    a.way = arc.gap;
+    b.way.assign(arc.gap.rbegin(), arc.gap.rend());
     way_.push_back(a.place);
     way_.push_back(b.place);
   }

@@ -16,7 +16,10 @@ using core::norm;
 using core::Point2;
 using core::Vector2;
 
-constexpr double kStep = 0.25;        ///< of a profile, pixels
+constexpr double kStep = 0.25;  ///< of a profile, pixels
+/// Half widths, and pixels for their rounding: in a knot wider ink is that of two lines.
+constexpr double kAloneWidth = 2.2;
+constexpr double kAloneRounding = 0.6;
 constexpr double kGuessWeight = 0.1;  ///< of a guessed place, where a measured one has 1
 
 /// Index clamped, or wrapped round.
@@ -205,8 +208,10 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
       const auto reach = static_cast<long>(2 + usual[i]);
       const Vector2 normal = core::perpendicular_left(tangent_at(line, i, reach, raw.closed));
       const Profile found = profile(line[i], normal, usual[i]);
-      if (!found.good || std::abs(found.centre) > 0.6 * usual[i] + 1 ||
-          found.width > 3 * usual[i] + 1.5 || found.width < 0.8 * usual[i])
+      const double most =
+          raw.sure[i] == 2 ? kAloneWidth * usual[i] + kAloneRounding : 3 * usual[i] + 1.5;
+      if (!found.good || std::abs(found.centre) > 0.6 * usual[i] + 1 || found.width > most ||
+          found.width < 0.8 * usual[i])
         continue;
       centres[i] = line[i] + found.centre * normal;
       // of a grainy line, the ink's
