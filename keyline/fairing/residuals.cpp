@@ -31,14 +31,15 @@ double Residuals::most(double errors) const {
 Residuals allowed_residuals(const std::vector<FitPoint>& points, bool closed, std::size_t n,
                             double noise, double tolerance, double smoothness) {
   const double own = noise_of(points, closed, n, noise);
+  const double error = 1 / std::sqrt(2.0 * static_cast<double>(points.size()));
   const double left = std::max(0.0, tolerance - noise_factor(n) * noise);
-  const double spare = std::min(1.0, 2 * smoothness) * left;
+  const double calm = std::min(1.0, 2 * smoothness);
   // Offsets spread evenly over the tolerance have this root of their mean square.
   const double most = tolerance / std::numbers::sqrt3;
-  double rms = std::max(std::hypot(own, spare), kLeastRms * tolerance);
+  double rms = std::max(std::hypot(own * (1 + calm * error), calm * left), kLeastRms * tolerance);
   if (smoothness > 0.5 && rms < most) rms *= std::pow(most / rms, 2 * smoothness - 1);
   if (rms >= most) return {0, own, 0};
-  return {rms, own, 1 / std::sqrt(2.0 * static_cast<double>(points.size()))};
+  return {rms, own, error};
 }
 
 }  // namespace keyline::fairing::detail

@@ -20,8 +20,12 @@ struct Residuals {
 /// tolerance made for the noise nothing is left to spare, with a wide one nothing but the tolerance
 /// counts.
 ///
-/// Smoothness below 0.5 takes that share, twice, of what is left; above it the mean square goes on
-/// to what the tolerance alone leaves.
+/// The root of the mean square of n errors is the noise to within a standard error, and that is
+/// allowed beside it: a curve that has to come nearer than its points are right bends after single
+/// ones (the discrepancy principle, [Morozov 1966]).
+///
+/// Smoothness below 0.5 takes that share, twice, of what is left and of that allowance; above it
+/// the mean square goes on to what the tolerance alone leaves.
 ///
 /// points: as they are fitted, means of several where there are many; noise: of one measured point.
 Residuals allowed_residuals(const std::vector<FitPoint>& points, bool closed, std::size_t n,

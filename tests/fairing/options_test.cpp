@@ -124,7 +124,7 @@ TEST(FairOptions, CurvatureChangesNoFasterThanAskedFor) {
   const FairResult plain = fair(bow()).value();
   EXPECT_NEAR(plain.rate, measured_rate(plain), 1e-3 * plain.rate);
   FairOptions options;
-  options.max_rate = 0.36 * plain.rate;
+  options.max_rate = 0.5 * plain.rate;
   const FairResult slow = fair(bow(), options).value();
   EXPECT_LE(measured_rate(slow), *options.max_rate);
   EXPECT_GT(slow.rate, 0.98 * *options.max_rate);
