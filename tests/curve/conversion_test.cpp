@@ -169,6 +169,11 @@ TEST(ToBSpline, SaysWhereItBreaks) {
   EXPECT_FALSE(to_bspline(Polyline2{{{1, 0}, {1, 0}}}));
 }
 
+TEST(Polyline, OfTwoPointsIsMeasured) {
+  const Polyline2 edge{{{1, 0}, {5, 3}}};
+  EXPECT_DOUBLE_EQ(parameter_at_length(edge, 1.25), 0.25);
+}
+
 TEST(PiecewiseBezier, ParametersBeyondTheEndsAreTheEnds) {
   const PiecewiseBezier two{{{{{1, 2}, {3, 4}}, {}}, {{{3, 4}, {7, 5}}, {}}}, 0};
   for (const double t : {-3.0, -1e-300, std::nan("")})

@@ -88,6 +88,10 @@ TEST(Genetic, EveryMemberIsMadeAndLookedAt) {
   const auto result = evolve_trials(problem, options);
   EXPECT_EQ(problem.made, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(result[0].evaluations, 8U);
+  problem.made.clear();
+  options.population = 1;
+  EXPECT_EQ(evolve_trials(problem, options)[0].evaluations, 2U);
+  EXPECT_EQ(problem.made, (std::vector<std::size_t>{0, 1}));
 }
 
 TEST(Genetic, BestNeverGetsWorseAndTheObserverStops) {

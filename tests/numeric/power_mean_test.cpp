@@ -14,6 +14,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// The geometric mean of values whose ratio no double holds.
+TEST(PowerMean, RatiosMayBeAnySize) {
+  EXPECT_NEAR(power_mean(1e-200, 1e200, 0, 0.5), 1, 1e-12);
+  EXPECT_NEAR(power_mean(1e200, 1e-200, 0, 0.5), 1, 1e-12);
+}
+
+// The arithmetic mean with an end of 0 is a straight line: half of base times height.
+TEST(PowerMean, IntegralOfALineFromZero) {
+  EXPECT_NEAR(power_mean_integral(0, 3, 1, 0.5), 0.375, 1e-15);
+  EXPECT_NEAR(power_mean_integral(3, 0, 1, 0.5), 1.125, 1e-15);
+}
+
 TEST(PowerMean, KnownMeans) {
   EXPECT_NEAR(power_mean(1, 4, 1, 0.5), 2.5, 1e-15);
   EXPECT_NEAR(power_mean(1, 4, 0, 0.5), 2.0, 1e-15);
