@@ -24,6 +24,7 @@ TEST(PowerMean, RatiosMayBeAnySize) {
 TEST(PowerMean, IntegralOfALineFromZero) {
   EXPECT_NEAR(power_mean_integral(0, 3, 1, 0.5), 0.375, 1e-15);
   EXPECT_NEAR(power_mean_integral(3, 0, 1, 0.5), 1.125, 1e-15);
+  EXPECT_NEAR(power_mean_integral(0, 3, 0.5, 1), 1, 1e-15);  // of slope 1/2: 3 u^2
 }
 
 TEST(PowerMean, KnownMeans) {
