@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/evaluation.h"
+#include "keyline/fairing/piece_energy.h"
 #include "keyline/numeric/damped_descent.h"
 
 namespace keyline::fairing {
@@ -14,12 +15,12 @@ using detail::Boundary;
 using detail::Evaluation;
 using detail::kAlphaAt;
 using detail::kCurvature;
+using detail::kInflectionSlope;
 using detail::kLengthAt;
 using detail::kNextCurvature;
 using detail::Model;
 using detail::Stage;
 
-constexpr double kInflectionSlope = -0.25;  // upper limit where curvature reaches zero
 constexpr double kSmall = 0.3;  // curvature beside that of the other end: an inflection is near
 constexpr double kEndWeight = 1e9;
 

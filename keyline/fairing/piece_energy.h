@@ -19,8 +19,11 @@ struct PieceEnergy {
 /// Precondition: finite curvatures; where their signs differ or one is 0, -2 < alpha < 0.
 PieceEnergy piece_energy(double curvature_start, double curvature_end, double alpha);
 
-/// Whether a piece of that slope may run through zero or into it: its variation is finite, and the
-/// slope not so flat that the curvature clings to zero.
-constexpr bool passes_inflection(double alpha) { return alpha > -2 && alpha <= -0.25; }
+/// The flattest slope of a piece that runs through zero or into it: of flatter ones the curvature
+/// clings to zero.
+inline constexpr double kInflectionSlope = -0.25;
+
+/// Whether a piece of that slope may run through zero or into it with a finite variation.
+constexpr bool passes_inflection(double alpha) { return alpha > -2 && alpha <= kInflectionSlope; }
 
 }  // namespace keyline::fairing::detail

@@ -12,7 +12,7 @@ constexpr double kTilt = 1e-2;       // of the curvature's range: how far level 
 constexpr double kClear = 0.25;      // of the way to the neighbours that a tilt may take
 constexpr double kSlower = 0.9;      // of the fastest rate: where the solver starts
 
-/// Neighbours with one mean: from, how many, and how far apart their values were.
+/// Neighbours with one mean: how many, and the least and the greatest of their values.
 struct Block {
   double mean = 0;
   std::size_t count = 1;

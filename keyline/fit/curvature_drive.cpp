@@ -412,8 +412,7 @@ Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
   if (solution.held)
     result.notes.push_back(
         "control edges were held between a hundredth and a hundredfold of their lengths: the "
-        "target "
-        "is met best by none that are");
+        "target is met best by none that are");
   if (result.share < 1)
     result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");
   return result;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/analysis/comb_figures.h"
 #include "keyline/analysis/lddc.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/analysis/split.h"
@@ -233,10 +232,7 @@ CombGraphs graphs_of(const document::Path& path, const Places& shown, double len
   add_diagram(graphs, shown, dense, length);
   graphs.events = events_of(path);
   graphs.bending = length * integral_of_squares(dense.arc_length, dense.curvature);
-  const analysis::CombFigures figures = analysis::comb_figures({dense.arc_length, dense.curvature});
-  graphs.energy = figures.energy;
-  graphs.jolt = figures.jolt;
-  graphs.waves = figures.waves;
+  graphs.figures = analysis::comb_figures({dense.arc_length, dense.curvature});
   return graphs;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "keyline/analysis/comb_figures.h"
 #include "keyline/core/describe.h"
 #include "keyline/document/planar_curve.h"
 
@@ -53,10 +54,8 @@ struct CombGraphs {
   std::vector<std::array<double, 2>> lddc;
   std::optional<double> lddc_gradient;
   std::vector<CombEvent> events;
-  double energy = 0;
+  analysis::CombFigures figures;
   double bending = 0;
-  double jolt = 0;
-  int waves = 0;
   static constexpr auto describe() {
     using Graphs = CombGraphs;
     return core::fields(
@@ -68,12 +67,8 @@ struct CombGraphs {
         core::field<&Graphs::lddc_gradient>("of the line through those that are not noise")
             .null_if_empty(),
         core::field<&Graphs::events>("extrema, inflections and corners, in order"),
-        core::field<&Graphs::energy>(
-            "length^3 times the integral of the squared curvature rate, from the samples"),
-        core::field<&Graphs::bending>("length times the integral of the squared curvature"),
-        core::field<&Graphs::jolt>(
-            "largest change of curvature within 0.5 % of the length, as a share of its range"),
-        core::field<&Graphs::waves>("extrema of curvature that rise above 2 % of its range"));
+        core::flattened<&Graphs::figures>(),
+        core::field<&Graphs::bending>("length times the integral of the squared curvature"));
   }
 };
 

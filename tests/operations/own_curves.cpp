@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "own_gauss.h"
+
 namespace keyline::own {
 namespace {
 
@@ -78,22 +80,6 @@ std::vector<Bezier> cut(const Bezier& control, const std::vector<double>& knots,
 }
 
 double speed(const Bezier& c, double t) { return size(spot(c, t).first); }
-
-constexpr std::array<double, 5> kNodes{0.148874338981631211, 0.433395394129247191,
-                                       0.679409568299024406, 0.865063366688984511,
-                                       0.973906528517171720};
-constexpr std::array<double, 5> kWeights{0.295524224714752870, 0.269266719309996355,
-                                         0.219086362515982044, 0.149451349150580593,
-                                         0.066671344308688138};
-
-template <class F>
-double gauss(const F& f, double from, double to) {
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  double sum = 0;
-  for (std::size_t i = 0; i < kNodes.size(); ++i)
-    sum += kWeights[i] * (f(middle - half * kNodes[i]) + f(middle + half * kNodes[i]));
-  return half * sum;
-}
 
 template <class F>
 double adaptive(const F& f, double from, double to, double whole, double allowed, int depth) {

@@ -11,25 +11,10 @@
 
 #include "keyline/operations/perform.h"
 
+#include "own_gauss.h"
+
 namespace keyline::own {
 namespace {
-
-// Gauss and Legendre's rule with 10 nodes on [-1, 1] (Abramowitz & Stegun, table 25.4).
-constexpr std::array<double, 5> kNodes{0.148874338981631211, 0.433395394129247191,
-                                       0.679409568299024406, 0.865063366688984511,
-                                       0.973906528517171720};
-constexpr std::array<double, 5> kWeights{0.295524224714752870, 0.269266719309996355,
-                                         0.219086362515982044, 0.149451349150580593,
-                                         0.066671344308688138};
-
-template <class F>
-auto gauss(F&& f, double from, double to) {
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  auto sum = 0.0 * f(middle);
-  for (std::size_t i = 0; i < kNodes.size(); ++i)
-    sum += kWeights[i] * (f(middle - half * kNodes[i]) + f(middle + half * kNodes[i]));
-  return half * sum;
-}
 
 using Function = std::function<double(double)>;
 using Complex = std::complex<double>;

@@ -1,10 +1,11 @@
+#include "random_curves.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "own_curves.h"
-#include "random_values.h"
 #include "worst.h"
 
 /// Requests to curve.* drawn at random, their answers judged by numerics of the tests' own
@@ -14,20 +15,6 @@ namespace keyline::operations {
 namespace {
 
 using namespace own;
-
-std::string digest(const json& request) { return request.dump().substr(0, 1200); }
-
-json one_or_more(Random& random) {
-  if (random() % 3 == 0) return any_bspline(random);
-  return any_bezier(random);
-}
-
-/// Curvature at many places of a planar curve; those next to a cusp too.
-std::vector<double> curvatures(const std::vector<Bezier>& curve, int each) {
-  std::vector<double> all;
-  for (const Spot& s : spots(curve, each)) all.push_back(curvature(s));
-  return all;
-}
 
 /// The share of the range by which curvature turns back: 0 where it is monotone.
 double turned_back(const std::vector<double>& k) {
@@ -72,18 +59,6 @@ std::size_t sign_changes(const std::vector<double>& k) {
     if (x != 0) before = x;
   }
   return count;
-}
-
-/// The largest distance of the places from the curve.
-double farthest_from(const std::vector<Bezier>& curve, const std::vector<Vec>& places) {
-  double most = 0;
-  for (const Vec& p : places) most = std::max(most, distance_from(curve, p));
-  return most;
-}
-std::vector<Vec> places_of(const std::vector<Bezier>& curve, int each) {
-  std::vector<Vec> all;
-  for (const Spot& s : spots(curve, each)) all.push_back(s.place);
-  return all;
 }
 
 /// What of an analysis must be the same of the curve reversed, in a mirror or of another size.
@@ -248,23 +223,6 @@ TEST(RandomCurves, AreEditedToTheirMinimum) {
   EXPECT_GT(edited, requests(0.03) / 10);
 }
 
-json any_path(Random& random) {
-  const Frame2 frame = any_frame(random);
-  json path{{"type", "path"}, {"curves", json::array()}, {"closed", false}};
-  json at = frame(0, 0);
-  const std::size_t count = 2 + random() % 3;
-  for (std::size_t i = 0; i < count; ++i) {
-    json points = any_points(random, 3 + random() % 3, frame, random() % 2 == 0);
-    const double dx = at[0].get<double>() - points[0][0].get<double>();
-    const double dy = at[1].get<double>() - points[0][1].get<double>();
-    for (json& p : points) p = {p[0].get<double>() + dx, p[1].get<double>() + dy};
-    points[0] = at;
-    at = points.back();
-    path["curves"].push_back({{"type", "bezier"}, {"points", points}});
-  }
-  return path;
-}
-
 TEST(RandomCurves, PiecesAreEditedWithinWhatIsSaid) {
   Random random(14);
   for (int n = 0; n < requests(0.02); ++n) {
@@ -279,8 +237,8 @@ TEST(RandomCurves, PiecesAreEditedWithinWhatIsSaid) {
     ASSERT_EQ(given.size(), edited.size());
     for (std::size_t i = 0; i < given.size(); ++i) {
       const double told = result["pieces"][i]["departure"];
-      EXPECT_LE(farthest_from({edited[i]}, places_of({given[i]}, 50)), told + rounding);
-      EXPECT_LE(farthest_from({given[i]}, places_of({edited[i]}, 50)), told + rounding);
+      EXPECT_LE(farthest_from({edited[i]}, places_along({given[i]}, 50)), told + rounding);
+      EXPECT_LE(farthest_from({given[i]}, places_along({edited[i]}, 50)), told + rounding);
       for (const double t : {0.0, 1.0}) {
         const Spot a = spot(given[i], t), b = spot(edited[i], t);
         EXPECT_LT(distance(a.place, b.place), 1e-12 * length);
@@ -289,240 +247,6 @@ TEST(RandomCurves, PiecesAreEditedWithinWhatIsSaid) {
       if (request.contains("limit")) {
         EXPECT_LE(told, request["limit"].get<double>());
       }
-    }
-  }
-}
-
-json any_log_aesthetic(Random& random) {
-  const Frame2 frame = any_frame(random);
-  json curve{{"type", "log-aesthetic"},
-             {"start", frame(0, 0)},
-             {"direction", frame.angle},
-             {"pieces", json::array()}};
-  double k = uniform(random, 0.1, 2);
-  const std::size_t count = 1 + random() % 3;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double next = k * power_of_ten(random, -0.7, 0.7);
-    curve["pieces"].push_back({{"alpha", uniform(random, -2, 2)},
-                               {"length", frame.size * uniform(random, 0.3, 1)},
-                               {"curvature", {k / frame.size, next / frame.size}}});
-    k = next;
-  }
-  return curve;
-}
-
-json any_curve(Random& random) {
-  switch (random() % 4) {
-    case 0:
-      return any_bspline(random);
-    case 1:
-      return any_log_aesthetic(random);
-    case 2:
-      return any_path(random);
-    default:
-      return any_bezier(random);
-  }
-}
-
-/// Places of either within so much of the other.
-void expect_together(const json& a, const json& b, double allowed) {
-  const auto pa = beziers_of(a), pb = beziers_of(b);
-  EXPECT_LE(farthest_from(pb, own::places_of(a, 60)), allowed);
-  EXPECT_LE(farthest_from(pa, own::places_of(b, 60)), allowed);
-}
-
-double extent(const json& curve) {
-  double most = 0;
-  const auto all = own::places_of(curve, 40);
-  for (const Vec& p : all) most = std::max(most, distance(p, all[0]));
-  return most;
-}
-
-double farthest(const json& curve) {
-  double most = 0;
-  for (const Vec& p : own::places_of(curve, 40)) most = std::max(most, size(p));
-  return most;
-}
-
-TEST(RandomCurves, FormsKeepWithinTheDeviationTheyTell) {
-  Random random(15);
-  for (int n = 0; n < requests(0.05); ++n) {
-    const json curve = any_curve(random);
-    const double size = extent(curve);
-    const double tolerance = size * power_of_ten(random, -6, -2);
-    const int degree = 3 + static_cast<int>(random() % 4);
-    const json request{{"op", "curve.show"},
-                       {"curve", curve},
-                       {"samples", 20},
-                       {"bezier", {{"degree", degree}, {"tolerance", tolerance}}},
-                       {"nurbs", {{"degree", degree}, {"tolerance", tolerance}}}};
-    SCOPED_TRACE(digest(request));
-    const json result = result_of(request);
-    const double rounding = 1e-14 * farthest(curve) + 1e-13 * size;
-    for (const char* form : {"bezier", "nurbs"}) {
-      const double told = result[form]["deviation"];
-      EXPECT_LE(told, tolerance);
-      const auto made = beziers_of(result[form]);
-      EXPECT_LE(farthest_from(made, own::places_of(curve, 100)), told + rounding) << form;
-      if (curve["type"] == "log-aesthetic") continue;
-      const auto given = beziers_of(curve);
-      EXPECT_LE(farthest_from(given, places_of(made, 1 + 100 / static_cast<int>(made.size()))),
-                told + rounding)
-          << form;
-    }
-    EXPECT_EQ(result["polyline"]["points"].size(), 20U);
-    if (curve["type"] == "log-aesthetic") continue;
-    const auto given = beziers_of(curve);
-    for (const json& p : result["polyline"]["points"])
-      EXPECT_LT(distance_from(given, vec(p)), 1e-10 * size + rounding);
-  }
-}
-
-TEST(RandomCurves, AreWorkedOnAsTheyStand) {
-  Random random(16);
-  for (int n = 0; n < requests(0.04); ++n) {
-    json curve = any_curve(random);
-    while (curve["type"] == "log-aesthetic") curve = any_curve(random);
-    SCOPED_TRACE(digest(curve));
-    const double allowed = 1e-11 * extent(curve) + 1e-14 * farthest(curve);
-    const auto beziers = beziers_of(curve);
-    const double length = length_of(beziers);
-    const json back = result_of({{"op", "curve.reverse"}, {"curve", curve}})["curve"];
-    EXPECT_LT(distance(spot(beziers_of(back).front(), 0).place, spot(beziers.back(), 1).place),
-              allowed);
-    expect_together(back, curve, allowed);
-    // Twice in the same mirror.
-    json mirror{{"op", "curve.mirror"},
-                {"curve", curve},
-                {"point", {uniform(random, -1, 1), 2}},
-                {"direction", uniform(random, -3, 3)}};
-    mirror["curve"] = result_of(mirror)["curve"];
-    EXPECT_NEAR(length_of(beziers_of(mirror["curve"])) / length, 1, 1e-9);
-    expect_together(result_of(mirror)["curve"], curve, allowed);
-    const double from = uniform(random, 0, 0.5), to = uniform(random, 0.5, 1);
-    const json part =
-        result_of({{"op", "curve.trim"}, {"curve", curve}, {"from", from}, {"to", to}})["curve"];
-    EXPECT_NEAR(length_of(beziers_of(part)) / length, to - from, 1e-8);
-    EXPECT_LT(farthest_from(beziers, own::places_of(part, 40)), allowed);
-    const json parts =
-        result_of({{"op", "curve.split"}, {"curve", curve}, {"at", {from, to}}})["parts"];
-    ASSERT_EQ(parts.size(), 3U);
-    double sum = 0;
-    for (const json& p : parts) sum += length_of(beziers_of(p["curve"]));
-    EXPECT_NEAR(sum / length, 1, 1e-9);
-    EXPECT_NEAR(length_of(beziers_of(parts[0]["curve"])) / length, from, 1e-8);
-    // Put together again, in any order.
-    const json joined =
-        result_of({{"op", "curve.join"},
-                   {"tolerance", 10 * allowed},
-                   {"curves", {parts[0]["curve"], parts[2]["curve"], parts[1]["curve"]}}});
-    EXPECT_NEAR(length_of(beziers_of(joined["curve"])) / length, 1, 1e-9);
-  }
-}
-
-TEST(RandomCurves, OffsetsLieAtTheirDistance) {
-  Random random(17);
-  int drawn = 0;
-  for (int n = 0; n < requests(0.04); ++n) {
-    json curve = one_or_more(random);
-    if (n % 4 == 0) {  // a handle drawn in
-      curve = any_bezier(random, 3, 3);
-      curve["points"][random() % 2 == 0 ? 1 : 2] = curve["points"][n % 8 == 0 ? 0 : 3];
-    }
-    const auto beziers = beziers_of(curve);
-    const double length = length_of(beziers);
-    const double d = sign(random) * length * power_of_ten(random, -3, -0.7);
-    const double tolerance = length * power_of_ten(random, -6, -3);
-    const json request{
-        {"op", "curve.offset"}, {"curve", curve}, {"distance", d}, {"tolerance", tolerance}};
-    SCOPED_TRACE(digest(request));
-    const json answer = answered(request);
-    auto k = curvatures(beziers, 500);
-    std::erase_if(k, [](double x) { return !std::isfinite(x); });
-    const auto [least, most] = std::ranges::minmax(k);
-    const bool turns_back = d > 0 ? most * d >= 1 : least * d >= 1;
-    if (answer["ok"] == false) {
-      EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
-      // Next to a drawn-in handle curvature grows without end, past all places looked at here.
-      EXPECT_GT(std::max(most * d, least * d), n % 4 == 0 ? 0 : 1 - 1e-3) << answer;
-      continue;
-    }
-    EXPECT_FALSE(turns_back);
-    ++drawn;
-    const double told = answer["result"]["deviation"];
-    EXPECT_LE(told, tolerance);
-    const auto made = beziers_of(answer["result"]["curve"]);
-    std::vector<Vec> exact;
-    for (const Spot& s : spots(beziers, 100 / static_cast<int>(beziers.size()))) {
-      const double v = size(s.first);
-      if (v == 0) continue;
-      exact.push_back(s.place + (d / v) * Vec{-s.first[1], s.first[0], 0});
-    }
-    EXPECT_LE(farthest_from(made, exact), told + 1e-12 * length + 1e-14 * farthest(curve));
-  }
-  EXPECT_GT(drawn, requests(0.04) / 5);
-}
-
-TEST(RandomCurves, AreComparedAndMeasuredAgainstPoints) {
-  Random random(18);
-  for (int n = 0; n < requests(0.03); ++n) {
-    json a = one_or_more(random);
-    const double size = extent(a);
-    json b = with_points(a, [&](json p) {
-      for (json& x : p) x = x.get<double>() + size * uniform(random, -0.1, 0.1);
-      return p;
-    });
-    const json request{{"op", "curve.compare"}, {"curves", {a, b}}, {"places", 33}};
-    SCOPED_TRACE(digest(request));
-    const json result = result_of(request);
-    const auto pa = beziers_of(a), pb = beziers_of(b);
-    for (const std::size_t i : {0, 1}) {
-      const json& d = result["deviation"][i];
-      const double there = distance_from(i == 0 ? pb : pa, vec(d["at"]));
-      EXPECT_NEAR(d["max"], there, 1e-9 * size);
-      EXPECT_NEAR(result["combs"][i]["length"].get<double>() / length_of(i == 0 ? pa : pb), 1,
-                  1e-9);
-      // Seen from no place is the other curve much farther than the largest that was told.
-      for (const Spot& s : spots(i == 0 ? pa : pb, 20))
-        EXPECT_LE(distance_from(i == 0 ? pb : pa, s.place),
-                  d["max"].get<double>() + length_of(i == 0 ? pa : pb) / 32);
-    }
-    json points = json::array();
-    for (int k = 0; k < 20; ++k)
-      points.push_back({pa[0][0][0] + size * uniform(random, -1, 1),
-                        pa[0][0][1] + size * uniform(random, -1, 1)});
-    const json away = result_of({{"op", "curve.deviation"}, {"curve", a}, {"points", points}});
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      EXPECT_NEAR(std::abs(away["distance"][k].get<double>()), distance_from(pa, vec(points[k])),
-                  1e-9 * size);
-      EXPECT_NEAR(distance(vec(away["feet"][k]), vec(points[k])),
-                  std::abs(away["distance"][k].get<double>()), 1e-12 * size + 1e-15 * farthest(a));
-    }
-  }
-}
-
-TEST(RandomCurves, JointsAreWhatTheyAreMade) {
-  Random random(19);
-  Worst worst("curvature jump");
-  for (int n = 0; n < requests(0.03); ++n) {
-    const json a = one_or_more(random), b = one_or_more(random);
-    const json request{{"op", "curve.continuity"}, {"curves", {a, b}}, {"closed", true}};
-    SCOPED_TRACE(digest(request));
-    const json joints = result_of(request)["joints"];
-    ASSERT_EQ(joints.size(), 2U);
-    const auto pa = beziers_of(a), pb = beziers_of(b);
-    for (const std::size_t i : {0, 1}) {
-      const Spot end = spot((i == 0 ? pa : pb).back(), 1);
-      const Spot start = spot((i == 0 ? pb : pa).front(), 0);
-      const double far = size(end.place) + size(start.place);
-      EXPECT_NEAR(joints[i]["gap"], distance(end.place, start.place), 1e-14 * far);
-      EXPECT_LT(
-          std::abs(wrapped(joints[i]["angle"].get<double>() - direction(start) + direction(end))),
-          1e-9);
-      const double jump = curvature(start) - curvature(end);
-      worst.expect_below(std::abs(joints[i]["curvature_jump"].get<double>() - jump) /
-                             (std::abs(curvature(start)) + std::abs(curvature(end))),
-                         1e-9);
     }
   }
 }

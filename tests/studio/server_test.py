@@ -1,9 +1,7 @@
 """server_test.py KEYLINE SOURCE: Keyline Studio's server as seen from outside."""
-import concurrent.futures
 import http.client
 import json
 import os
-import signal
 import socket
 import subprocess
 import sys
@@ -12,95 +10,10 @@ import threading
 import time
 import unittest
 
-KEYLINE, SOURCE = sys.argv[1], sys.argv[2]
-TOKEN = "0123456789abcdef"
-PATIENCE = 300  # seconds: how fast the machine is, is not what is asked
-SEGMENT = {"points": [[0, 0], [2, 0], [3, 1.5]], "alpha": -1}
+from studio_server import KEYLINE, PATIENCE, SEGMENT, SOURCE, TOKEN, Server, ServerTest
 
 
-class Server:
-    def __init__(self, *arguments, folder=SOURCE):
-        self.state = tempfile.TemporaryDirectory()
-        page = os.path.join(self.state.name, "page")
-        os.mkdir(page)
-        with open(os.path.join(page, "index.html"), "w") as f:
-            f.write("<!doctype html><title>page</title>")
-        environment = dict(os.environ, XDG_STATE_HOME=self.state.name, KEYLINE_STUDIO_PAGE=page)
-        self.log = open(os.path.join(self.state.name, "log"), "w+")
-        self.process = subprocess.Popen(
-            [KEYLINE, "studio", "--no-browser", "--token", TOKEN, *arguments], cwd=folder,
-            stdout=subprocess.PIPE, stderr=self.log, text=True, env=environment)
-        self.url = self.process.stdout.readline().split()[-1]
-        self.port = int(self.url.split(":")[2].split("/")[0])
-
-    def connection(self):
-        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
-
-    def ask(self, method, path, body=None, connection=None, **headers):
-        c = connection or self.connection()
-        headers = {"Authorization": "Bearer " + TOKEN, "Content-Type": "application/json",
-                   **{k.replace("_", "-"): v for k, v in headers.items()}}
-        c.request(method, path, body if body is None or isinstance(body, (bytes, str))
-                  else json.dumps(body), {k: v for k, v in headers.items() if v is not None})
-        reply = c.getresponse()
-        body = reply.read()
-        if connection is None:
-            c.close()
-        return reply.status, body, reply
-
-    def raw(self, data, wait=5.0):
-        with socket.create_connection(("127.0.0.1", self.port), timeout=wait) as s:
-            s.sendall(data)
-            s.shutdown(socket.SHUT_WR)
-            received = b""
-            try:
-                while chunk := s.recv(65536):
-                    received += chunk
-            except (ConnectionResetError, socket.timeout):
-                pass
-            return received
-
-    def memory(self):
-        with open(f"/proc/{self.process.pid}/status") as f:
-            return next(int(line.split()[1]) for line in f if line.startswith("VmRSS"))
-
-    def busy(self):
-        with open(f"/proc/{self.process.pid}/stat") as f:
-            fields = f.read().rsplit(")", 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-    def logged(self):
-        self.log.flush()
-        with open(self.log.name) as f:
-            return f.read()
-
-    def stop(self):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGTERM)
-        status = self.process.wait(timeout=20)
-        self.process.stdout.close()
-        self.log.close()
-        self.state.cleanup()
-        return status
-
-
-class StudioServer(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = Server()
-
-    @classmethod
-    def tearDownClass(cls):
-        assert cls.server.stop() == 0
-
-    def ask(self, *arguments, **headers):
-        return self.server.ask(*arguments, **headers)
-
-    def well(self):
-        status, body, _ = self.ask("POST", "/api/v1/lac.segment", SEGMENT)
-        self.assertEqual(status, 200)
-        self.assertTrue(json.loads(body)["ok"])
-
+class StudioServer(ServerTest):
     def test_answers_as_the_command_line_does(self):
         lines = [{"op": "lac.segment", **SEGMENT},
                  {"op": "lac.region", "theta": 1, "alpha": -1},
@@ -309,42 +222,6 @@ class StudioServer(unittest.TestCase):
         self.assertIn(b" 413 ", self.server.raw(head + b"x" * 1000)[:40])
         self.well()
 
-    def test_is_unharmed_by_slow_clients(self):
-        slow = [socket.create_connection(("127.0.0.1", self.server.port)) for _ in range(300)]
-        for s in slow:
-            s.sendall(b"POST /api/v1/lac.segment HTTP/1.1\r\nHost: 127")
-        began = time.time()
-        for _ in range(20):
-            self.well()
-        self.assertLess(time.time() - began, 5)
-        for s in slow:
-            s.close()
-
-    def test_shows_slow_clients_out(self):
-        """Bytes that come one by one do not hold a connection: 20 s for a request's first lines,
-        60 s for its body. In the full tier alone: it waits for both."""
-        if not os.environ.get("KEYLINE_FULL"):
-            self.skipTest("KEYLINE_FULL is not set")
-        head = (f"POST /api/v1/lac.segment HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n"
-                f"Authorization: Bearer {TOKEN}\r\nContent-Type: application/json\r\n")
-        for started, least, most in ((head, 15, 30), (head + "Content-Length: 1000\r\n\r\n{", 50, 75)):
-            with socket.create_connection(("127.0.0.1", self.server.port), timeout=0.5) as s:
-                s.sendall(started.encode())
-                began, ended = time.time(), None
-                while ended is None and time.time() - began < most + 5:
-                    try:
-                        s.sendall(b" ")
-                        s.recv(1000)  # a refusal, or the end
-                        ended = time.time()
-                    except socket.timeout:
-                        pass
-                    except OSError:
-                        ended = time.time()
-                self.assertIsNotNone(ended)
-                self.assertGreater(ended - began, least)
-                self.assertLess(ended - began, most)
-        self.well()
-
     def test_keeps_the_work(self):
         text = json.dumps({"format": "keyline-studio", "x": "\u00e4"})
         self.assertEqual(self.ask("POST", "/api/v1/studio/recovery", text)[0], 200)
@@ -357,87 +234,6 @@ class StudioServer(unittest.TestCase):
         policy = reply.getheader("Content-Security-Policy")
         self.assertIn("default-src 'none'", policy)
         self.assertNotIn("unsafe", policy)
-
-    def test_zz_bears_a_crowd(self):
-        """100 clients of many requests each: none lost, memory flat."""
-        clients, requests = 100, 1000 if os.environ.get("KEYLINE_FULL") else 60
-
-        def client(number):
-            connection, waits = self.server.connection(), []
-            for i in range(requests):
-                asked = dict(SEGMENT, alpha=-1 + (number + i) % 5 / 10)
-                began = time.time()
-                status, body, _ = self.server.ask("POST", "/api/v1/lac.segment", asked,
-                                                  connection=connection)
-                waits.append(time.time() - began)
-                if status != 200 or not json.loads(body)["ok"]:
-                    return None
-            connection.close()
-            return waits
-
-        def crowd():
-            with concurrent.futures.ThreadPoolExecutor(clients) as pool:
-                return list(pool.map(client, range(clients)))
-
-        crowd()
-        before = self.server.memory()
-        answered = crowd()
-        self.assertNotIn(None, answered)
-        waits = sorted(w for list_ in answered for w in list_)
-        after = self.server.memory()
-        print(f"{len(waits)} requests of {clients} clients: p50 {1e3 * waits[len(waits) // 2]:.1f} "
-              f"ms, p99 {1e3 * waits[len(waits) * 99 // 100]:.1f} ms, memory {before} -> {after} kB",
-              file=sys.stderr)
-        self.assertLess(after, before + 20000)
-
-
-    def test_zz_works_for_an_hour(self):
-        """Random operations, right and wrong, one after the other: none ends the server, no leak.
-        An hour's worth (6,000 at a hand's pace) in the full tier, a minute's in the default one."""
-        import random
-        dice = random.Random(5)
-        examples = self.examples()
-        connection = self.server.connection()
-        rounds = 6000 if os.environ.get("KEYLINE_FULL") else 150
-
-        def ask_some(count):
-            for _ in range(count):
-                name, request = dice.choice(examples)
-                request = dict(request)
-                if dice.random() < 0.3 and request:  # spoilt
-                    key = dice.choice(list(request))
-                    request[key] = dice.choice([None, -1, "x", [], {}, 1e308, [[0, 0]]])
-                status, body, _ = self.server.ask("POST", "/api/v1/" + name, request,
-                                                  connection=connection)
-                answered = json.loads(body)
-                self.assertEqual(answered["ok"], status == 200, body[:200])
-                if not answered["ok"]:
-                    self.assertNotEqual(answered["error"]["code"], "internal", (name, request))
-
-        ask_some(rounds // 2)
-        before = self.server.memory()
-        ask_some(rounds // 2)
-        after = self.server.memory()
-        connection.close()
-        print(f"{rounds} random operations: memory {before} -> {after} kB", file=sys.stderr)
-        self.assertLess(after, before + 40000)
-        self.well()
-
-    def examples(self):
-        """Of every operation that reads and writes no files and is quick."""
-        _, body, _ = self.ask("GET", "/api/v1/operations")
-        listed = json.loads(body)["operations"]
-        found = []
-        for operation in listed:
-            if operation["reads_files"] or operation["writes_files"] or operation["name"] == "fit.spline":
-                continue
-            schema = subprocess.run([KEYLINE, "operations", operation["name"]], capture_output=True,
-                                    text=True)
-            for example in json.loads(schema.stdout).get("examples", []):
-                example.pop("op", None)
-                found.append((operation["name"], example))
-        return found
-
 
 class StudioStart(unittest.TestCase):
     def refused(self, *arguments):
