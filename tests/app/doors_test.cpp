@@ -414,8 +414,9 @@ TEST(Tools, WorkOnCurvesOfAFile) {
   EXPECT_EQ(json::parse(listed.out)["things"].size(), 2U) << listed.err;
   const Outcome joined = run_keyline("join --json --tolerance 1e-6 " + halves);
   EXPECT_EQ(joined.status, 0) << joined.err;
-  for (const char* command : {"trim --from 0.2 --to 0.6 ", "mirror --point 0,0 --direction 0 ",
-                              "offset --distance=-0.01 "}) {
+  for (const char* command :
+       {"trim --from 0.2 --to 0.6 ", "mirror --point 0,0 --direction 0 ",
+        "transform --about 1,0 --turn 0.5 --scale 2 --shift 3,-1 ", "offset --distance=-0.01 "}) {
     const std::string out = s.path("out.svg");
     const Outcome done = run_keyline(std::string(command) + "--quiet " + file + " -o " + out);
     EXPECT_EQ(done.status, 0) << command << done.err;

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +51,60 @@ TEST(RandomCurves, FormsKeepWithinTheDeviationTheyTell) {
   }
 }
 
+/// The curve put elsewhere by the operation, and by complex numbers: point by point
+/// about + scale e^(i turn) (z - about) + shift.
+json curve_moved(Random& random, const json& curve) {
+  using C = std::complex<double>;
+  const double size = extent(curve), turn = uniform(random, -7, 7);
+  const double scale = power_of_ten(random, -2, 2);
+  const auto any = [&] { return C{uniform(random, -2, 2) * size, uniform(random, -2, 2) * size}; };
+  const C about = any(), shift = any();
+  const json expected = with_points(curve, [&](const json& p) {
+    const C z = about + std::polar(scale, turn) * (C{p[0], p[1]} - about) + shift;
+    return json{z.real(), z.imag()};
+  });
+  const json result = result_of({{"op", "curve.transform"},
+                                 {"curve", curve},
+                                 {"about", {about.real(), about.imag()}},
+                                 {"turn", turn},
+                                 {"scale", scale},
+                                 {"shift", {shift.real(), shift.imag()}}});
+  return {{"result", result}, {"expected", expected}};
+}
+
+/// Largest difference of any number of two values of one shape; infinite where shapes differ.
+double farthest_number(const json& a, const json& b) {
+  if (a.is_number() && b.is_number()) return std::abs(a.get<double>() - b.get<double>());
+  if (a.type() != b.type() || a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  if (!a.is_structured()) return a == b ? 0 : std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const auto& [key, value] : a.items())
+    most = std::max(most, farthest_number(value, a.is_array() ? b[std::stoul(key)] : b[key]));
+  return most;
+}
+
+// A log-aesthetic chain has no control points: its start, direction, lengths and curvatures by
+// hand.
+TEST(CurveTransform, MovesAChainByWhatItIsMadeOf) {
+  const json chain = json::parse(
+      R"({"type":"log-aesthetic","start":[3,1],"direction":0.25,
+          "pieces":[{"alpha":-1,"length":4,"curvature":[0.5,0.125]}]})");
+  const json moved = result_of({{"op", "curve.transform"},
+                                {"curve", chain},
+                                {"about", {1, 1}},
+                                {"turn", std::numbers::pi / 2},
+                                {"scale", 2},
+                                {"shift", {10, -1}}})["curve"];
+  EXPECT_NEAR(moved["start"][0].get<double>(), 11, 1e-14);  // (2, 0) of the point becomes (0, 4)
+  EXPECT_NEAR(moved["start"][1].get<double>(), 4, 1e-14);
+  EXPECT_NEAR(moved["direction"].get<double>(), 0.25 + std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(moved["pieces"][0]["length"], 8);
+  EXPECT_EQ(moved["pieces"][0]["curvature"], json({0.25, 0.0625}));
+  EXPECT_EQ(moved["pieces"][0]["alpha"], -1);
+  const json answer = answered({{"op", "curve.transform"}, {"curve", chain}, {"scale", 0}});
+  EXPECT_EQ(answer["error"]["path"], "scale") << answer;
+}
+
 TEST(RandomCurves, AreWorkedOnAsTheyStand) {
   Random random(16);
   for (int n = 0; n < requests(0.04); ++n) {
@@ -69,6 +126,9 @@ TEST(RandomCurves, AreWorkedOnAsTheyStand) {
     mirror["curve"] = result_of(mirror)["curve"];
     EXPECT_NEAR(length_of(beziers_of(mirror["curve"])) / length, 1, 1e-9);
     expect_together(result_of(mirror)["curve"], curve, allowed);
+    const json moved = curve_moved(random, curve);
+    EXPECT_LT(farthest_number(moved["result"]["curve"], moved["expected"]),
+              1e-11 * extent(moved["expected"]) + 1e-14 * farthest(moved["expected"]));
     const double from = uniform(random, 0, 0.5), to = uniform(random, 0.5, 1);
     const json part =
         result_of({{"op", "curve.trim"}, {"curve", curve}, {"from", from}, {"to", to}})["curve"];

@@ -1,6 +1,9 @@
 /** Every command by keyboard. */
 import type { Table } from "./gestures/gesture.ts";
-import { entityOf, handlesOf, isHeld, moved, type Point, withEntity, withHandle, withoutPoint } from "./model/document.ts";
+import { movable } from "./gestures/box.ts";
+import { carriedDoc } from "./gestures/carry.ts";
+import { entityOf, handlesOf, isHeld, type Point, withEntity, withHandle, withoutPoint } from "./model/document.ts";
+import { shiftedBy } from "./model/placement.ts";
 import { tools } from "./panels/toolbar.ts";
 import { h } from "./ui/dom.ts";
 import type { Studio } from "./studio.ts";
@@ -9,6 +12,8 @@ const kPan = 40; // pixels
 const kStep = 10;
 const kFarStep = 50;
 const kFineStep = 1;
+const kWide = 10; // times as far, with Shift
+const kNudge = "Nudge";
 const kWipeStep = 0.01;
 const arrows: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
@@ -22,7 +27,7 @@ interface Command {
 const kChords = [
   ["Ctrl Z", "undo"], ["Ctrl Shift Z", "redo"], ["Ctrl O", "open a file"], ["Ctrl S", "save the document"], ["Ctrl A", "choose all"],
   ["Arrows", "pan; with a tool move the pointer; with a handle move that (Shift: far)"], ["Space", "with a tool: click"],
-  ["Alt Arrows", "move what is chosen"], ["Enter", "end a spline"], ["Escape", "leave off"],
+  ["Alt Arrows", "move what is chosen by a pixel (Shift: ten)"], ["Space drag", "pan"], ["Enter", "end a spline"], ["Escape", "leave off"],
 ] as const;
 
 export class Keyboard {
@@ -49,7 +54,7 @@ export class Keyboard {
     const { studio } = this;
     const { store } = studio;
     const looks = () => store.state.looks;
-    const flip = (name: "comb" | "evolute" | "circle" | "deviation" | "combOfAll" | "grid" | "snap") => () =>
+    const flip = (name: "comb" | "evolute" | "circle" | "deviation" | "combOfAll" | "box" | "grid" | "snap") => () =>
       store.look({ [name]: !looks()[name] });
     return [
       { keys: ["f"], says: "fit all", act: () => studio.fit() },
@@ -63,6 +68,7 @@ export class Keyboard {
       { keys: ["w"], says: "wipe between before and after", act: () => store.look({ wipe: looks().wipe === null ? 0.5 : null }) },
       { keys: [","], says: "wipe to the left", act: () => this.wipe(-kWipeStep) },
       { keys: ["."], says: "wipe to the right", act: () => this.wipe(kWipeStep) },
+      { keys: ["b"], says: "the box that turns and scales what is chosen", act: flip("box") },
       { keys: ["g"], says: "grid", act: flip("grid") },
       { keys: ["n"], says: "snapping", act: flip("snap") },
       { keys: ["x"], says: "split where the pointer reads", act: () => studio.splitHere() },
@@ -121,7 +127,10 @@ export class Keyboard {
     if (["Escape", "Enter", "Backspace"].includes(e.key) && canvas.key(e.key)) return true;
     const onBoard = document.activeElement === canvas.element || document.activeElement === document.body;
     if (onBoard && store.state.tool !== "select" && this.pointing(e)) return true;
-    if (onBoard && arrows[e.key]) return this.arrow(arrows[e.key] as Point, e.shiftKey, e.altKey);
+    if (onBoard && arrows[e.key]) {
+      const by = arrows[e.key] as Point;
+      return e.altKey ? this.nudge(by, e.shiftKey, e.repeat) : this.arrow(by, e.shiftKey);
+    }
     const tool = tools.find((t) => t.key.toLowerCase() === e.key.toLowerCase());
     if (tool) {
       store.set({ tool: tool.name });
@@ -177,22 +186,31 @@ export class Keyboard {
     store.say(this.handle === null ? "Arrows move the view" : `Arrows move handle ${this.handle + 1} of ${count}`);
   }
 
-  private arrow(by: Point, wide: boolean, whole: boolean): boolean {
+  private arrow(by: Point, wide: boolean): boolean {
     const { store } = this.studio;
     const { view } = this.table;
     const e = entityOf(store.doc, store.state.selection.at(-1) ?? null);
-    const step = (wide ? 10 : 1) / view.scale;
-    const move: Point = [by[0] * step, by[1] * step];
     const handle = this.handle === null ? undefined : e && handlesOf(e)[this.handle];
-    if (e && !isHeld(store.doc, e) && (handle || whole)) {
-      const next = handle && !whole
-        ? withHandle(e, this.handle as number, [handle[0] + move[0], handle[1] + move[1]])
-        : moved(e, move);
-      store.commit("Nudge", withEntity(store.doc, next));
+    if (e && !isHeld(store.doc, e) && handle) {
+      const step = (wide ? kWide : 1) / view.scale;
+      const to: Point = [handle[0] + by[0] * step, handle[1] + by[1] * step];
+      store.commit("Nudge", withEntity(store.doc, withHandle(e, this.handle as number, to)));
       return true;
     }
     view.panBy(-by[0] * kPan, by[1] * kPan);
     this.table.paint();
+    return true;
+  }
+
+  /** All that is chosen, by a pixel or ten; a key held down makes one step of undo. */
+  private nudge(by: Point, wide: boolean, held: boolean): boolean {
+    const { store } = this.studio;
+    const ids = movable(store);
+    if (ids.length === 0) return true;
+    const step = (wide ? kWide : 1) / this.table.view.scale;
+    const doc = carriedDoc(this.table, store.state.history.now, ids, shiftedBy([by[0] * step, by[1] * step]));
+    if (held && store.state.history.past.at(-1)?.label === kNudge) store.amend(doc);
+    else store.commit(kNudge, doc);
     return true;
   }
 }

@@ -20,6 +20,7 @@ import { FileBar } from "./panels/filebar.ts";
 import { listPanel } from "./panels/list.ts";
 import { LooksBar } from "./panels/looks.ts";
 import { measuresPanel, reading } from "./panels/measures.ts";
+import { placePanel } from "./panels/place.ts";
 import { Notices } from "./panels/notices.ts";
 import { shapePanel } from "./panels/shape.ts";
 import { layUnder, SketchPanel } from "./panels/sketch.ts";
@@ -309,6 +310,7 @@ export class Studio {
     fill(this.panel,
       listPanel(this.store),
       e && shapePanel(this.store, e),
+      placePanel(this),
       ...(e?.kind === "surface" ? this.surfacePanel.element(e) : []),
       fairable && e.kind !== "fixed" && this.fair.element(e),
       h("div", { id: "measures-slot" }),

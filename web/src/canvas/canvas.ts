@@ -1,7 +1,8 @@
 /** The canvas: what the pointer does goes to the gesture, what it shows comes from the scene. */
 import type { Gesture, Pointer, Table } from "../gestures/gesture.ts";
 import { gestureFor } from "../gestures/draw.ts";
-import { handleAt, type HandleHit } from "../gestures/pick.ts";
+import { type BoxPart, turnBox, turnerOf } from "../gestures/box.ts";
+import { handleAt, type HandleHit, partAt } from "../gestures/pick.ts";
 import { snapped } from "../gestures/snap.ts";
 import type { Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
@@ -17,6 +18,7 @@ export class Canvas {
   private tool: ToolName = "select";
   private cursor: Pointer | null = null;
   private byKeys = false;
+  private spaced = false; // the space bar is down: what is dragged is the view
   private readonly touches = new Map<number, Point>();
   private scheduled = false;
   private readonly images = new Map<string, HTMLImageElement>();
@@ -28,7 +30,7 @@ export class Canvas {
   constructor(private readonly table: Table, private readonly extras: Pick<Scene, "before" | "region" | "deviation">) {
     this.element = h("canvas", {
       class: "board", tabindex: 0, role: "application",
-      "aria-label": "Drawing board. Arrow keys pan, plus and minus zoom, F fits; Tab from here reaches the panels.",
+      "aria-label": "Drawing board. Arrow keys pan, with Alt they move what is chosen; plus and minus zoom, F fits; Tab from here reaches the panels.",
     });
     this.pen = this.element.getContext("2d", { alpha: false, desynchronized: true }) as CanvasRenderingContext2D;
     this.gesture = gestureFor(table, "select");
@@ -44,6 +46,17 @@ export class Canvas {
   /** The handle under the pointer. */
   get hot(): HandleHit | null {
     return this.cursor ? handleAt(this.table, this.cursor.at) : null;
+  }
+
+  private get hotPart(): BoxPart | null {
+    return this.cursor && !this.hot ? partAt(this.table, this.cursor.at) : null;
+  }
+
+  /** Where the box about what is chosen can be taken hold of, on the canvas. */
+  parts(): { corners: Point[]; turner: Point; pivot: Point } | null {
+    const { view } = this.table;
+    const box = turnBox(this.table);
+    return box && { corners: box.corners.map((c) => view.toScreen(c)), turner: turnerOf(view, box.corners).at, pivot: view.toScreen(box.pivot) };
   }
 
   get place(): Point | null {
@@ -65,6 +78,8 @@ export class Canvas {
     paintScene(this.pen, {
       state: store.state, live, view, ...this.extras,
       hot: this.hot,
+      box: turnBox(this.table),
+      hotPart: this.hotPart,
       cursor: this.cursor?.place ?? null,
       crosshair: this.byKeys && this.tool !== "select",
       started: this.gesture.started ?? [],
@@ -144,9 +159,11 @@ export class Canvas {
   /** Control does the opposite of what the snap is set to. */
   private pointerAt(at: Point, otherwise = false): Pointer {
     const snaps = this.table.store.state.looks.snap !== otherwise;
+    const bare = { at, snaps, shift: false, alt: false, button: 0, coarse: false, time: performance.now() };
+    if (this.gesture.placesItself) return { ...bare, place: this.table.view.toModel(at) };
     const { place, to } = snaps ? snapped(this.table, at) : { place: this.table.view.toModel(at), to: "" };
     if (to !== this.table.store.state.snappedTo) this.table.store.set({ snappedTo: to });
-    return { at, place, shift: false, alt: false, button: 0, coarse: false, time: performance.now() };
+    return { ...bare, place };
   }
 
   private follow(next: Gesture): void {
@@ -178,6 +195,12 @@ export class Canvas {
     });
     on("dblclick", (e) => this.follow(this.gesture.doubled?.(this.pointer(e)) ?? this.gesture));
     on("contextmenu", (e) => e.preventDefault());
+    on("keydown", (e) => {
+      if (e.key === " ") this.spaced = true;
+    });
+    addEventListener("keyup", (e) => {
+      if (e.key === " ") this.spaced = false;
+    });
     on("wheel", (e) => this.wheel(e));
   }
 
@@ -189,6 +212,7 @@ export class Canvas {
       if (this.touches.size === 2) return this.follow(this.gesture.cancel?.() ?? this.gesture);
     }
     this.cursor = this.pointer(e);
+    if (this.spaced && this.cursor.button === 0) this.cursor.button = 1;
     this.follow(this.gesture.down?.(this.cursor) ?? this.gesture);
   }
 

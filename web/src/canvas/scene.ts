@@ -1,4 +1,5 @@
 /** All that stands on the canvas, back to front. */
+import type { BoxPart, TurnBox } from "../gestures/box.ts";
 import { jointOf } from "../gestures/joint.ts";
 import { type Comb, type Entity, entityOf, isHeld, isShown, lineOf, type Point } from "../model/document.ts";
 import type { DeviationTold } from "../model/deviation.ts";
@@ -9,6 +10,7 @@ import type { Viewport } from "../view/viewport.ts";
 import {
   paintComb, paintCurve, paintDeviation, paintEvents, paintEvolute, paintJoints, paintMark, paintPoints, paintStrays, paintStretch,
 } from "./curves.ts";
+import { paintBand, paintBox, paintCarrying } from "./box.ts";
 import { kRuler, paintGrid, paintRulers } from "./grid.ts";
 import { paintHandles } from "./handles.ts";
 import { paintCard, paintCircle } from "./reading.ts";
@@ -23,6 +25,9 @@ export interface Scene {
   before: (id: number) => Comb | undefined;
   /** a handle under the pointer */
   hot: { entity: number; handle: number } | null;
+  /** about what is chosen, and the part of it under the pointer */
+  box: TurnBox | null;
+  hotPart: BoxPart | null;
   cursor: Point | null;
   /** keys move the pointer: it has to be seen */
   crosshair: boolean;
@@ -240,6 +245,9 @@ export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
     if (!e || !isShown(doc, e) || isHeld(doc, e)) continue;
     paintHandles(g, view, e, colors, scene.hot?.entity === id ? scene.hot.handle : null, jointOf(scene, e));
   }
+  if (scene.box && !state.carrying) paintBox(g, view, scene.box, scene.hotPart, colors);
+  paintCarrying(g, view, state, colors);
+  paintBand(g, view, state.band, colors);
   if (state.stretch) {
     const comb = scene.live.of(state.stretch.entity)?.comb;
     if (comb) paintStretch(g, view, comb, state.stretch, colors.handle);

@@ -16,6 +16,8 @@ export interface Pointer {
   shift: boolean;
   alt: boolean;
   button: number;
+  /** whether places are to snap */
+  snaps: boolean;
   /** a finger: it hides what it points at */
   coarse: boolean;
   /** the event's own time */
@@ -39,6 +41,8 @@ export interface Gesture {
   key?(name: string): Gesture | null;
   cancel?(): Gesture;
   readonly cursor?: string;
+  /** it finds out itself what snaps to what */
+  readonly placesItself?: boolean;
   /** points clicked so far */
   readonly started?: readonly Point[];
   /** what the status line says */

@@ -1,6 +1,7 @@
 /** What lies under the pointer. */
 import { type Comb, type Entity, handlesOf, isHeld, isShown, type Point } from "../model/document.ts";
 import { nearestSample } from "../view/nearest.ts";
+import { type BoxPart, boxPartAt, turnBox } from "./box.ts";
 import type { Table } from "./gesture.ts";
 
 const kHandle = 11; // pixels
@@ -27,6 +28,12 @@ export function handleAt(table: Table, at: Point, coarse = false): HandleHit | n
     });
   }
   return best;
+}
+
+/** Of the box about what is chosen. */
+export function partAt(table: Table, at: Point, coarse = false): BoxPart | null {
+  const box = turnBox(table);
+  return box && boxPartAt(table.view, box, at, coarse ? kFinger : kHandle);
 }
 
 export interface CurveHit {

@@ -1,29 +1,43 @@
-/** Select: hover, take hold of a handle, pick, move, pan. */
-import { type Doc, entityOf, isHeld, moved, type Point, withEntity, withHandle, withPoint } from "../model/document.ts";
+/** Select: hover, take hold of a handle or of the box, pick, draw a band, pan. */
+import { entityOf, isHeld, isMovable, type Point, withEntity, withHandle, withPoint } from "../model/document.ts";
 import { nearestSample } from "../view/nearest.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
+import { Banding } from "./band.ts";
+import type { BoxPart } from "./box.ts";
+import { Moving, MovingPivot, Scaling, Turning } from "./carry.ts";
 import { DraggingJoint, jointAt } from "./joint.ts";
-import { entityAt, handleAt, hoverAt } from "./pick.ts";
+import { entityAt, handleAt, hoverAt, partAt } from "./pick.ts";
 
 const kWipe = 6; // pixels about the line between before and after
 const kStill = 4; // pixels a press may wander and still be a click
 
+type Over = "handle" | "curve" | "nothing" | BoxPart;
+
+const cursorOver = (over: Over): string => {
+  if (typeof over === "number") return over % 2 === 0 ? "nesw-resize" : "nwse-resize";
+  return { handle: "grab", turn: "grab", pivot: "move", curve: "pointer", nothing: "default" }[over];
+};
+
 export class Idle implements Gesture {
   readonly cursor: string;
-  readonly hint = "Drag a handle, click a curve, drag the ground to pan, wheel to zoom";
+  readonly hint: string;
 
-  constructor(private readonly table: Table, over: "handle" | "curve" | "nothing" = "nothing") {
-    this.cursor = over === "handle" ? "grab" : over === "curve" ? "pointer" : "default";
+  constructor(private readonly table: Table, over: Over = "nothing") {
+    this.cursor = cursorOver(over);
+    this.hint = over === "turn" ? "Drag to turn about the pivot" : over === "pivot" ? "Drag the pivot to where things are to turn about"
+      : typeof over === "number" ? "Drag to scale about the pivot"
+        : "Drag a handle or a curve, click to choose, drag the ground for a band; the right button or Space pans, the wheel zooms";
   }
 
   move(p: Pointer): Gesture {
     const { store } = this.table;
     const handle = handleAt(this.table, p.at) ?? jointAt(this.table, p.at);
-    const over = handle ? null : hoverAt(this.table, p.at);
+    const part = handle ? null : partAt(this.table, p.at);
+    const over = handle || part !== null ? null : hoverAt(this.table, p.at);
     const hover = over && { entity: over.entity, sample: over.sample };
     const same = hover?.entity === store.state.hover?.entity && hover?.sample === store.state.hover?.sample;
     if (!same) store.set({ hover });
-    return new Idle(this.table, handle ? "handle" : over && over.distance < kStill * 2 ? "curve" : "nothing");
+    return new Idle(this.table, handle ? "handle" : part ?? (over && over.distance < kStill * 2 ? "curve" : "nothing"));
   }
 
   down(p: Pointer): Gesture {
@@ -34,9 +48,16 @@ export class Idle implements Gesture {
     if (handle) return new DraggingHandle(this.table, handle.entity, handle.handle);
     const joined = jointAt(this.table, p.at, p.coarse);
     if (joined) return new DraggingJoint(this.table, joined.id);
+    const part = partAt(this.table, p.at, p.coarse);
+    if (part !== null) return this.taken(part, p);
     const entity = entityAt(this.table, p.at, p.coarse);
     if (entity !== null) return new Pressed(this.table, entity, p);
     return new PressedGround(this.table, p);
+  }
+
+  private taken(part: BoxPart, p: Pointer): Gesture {
+    this.table.store.set({ hover: null });
+    return part === "turn" ? new Turning(this.table, p) : part === "pivot" ? new MovingPivot(this.table) : new Scaling(this.table, p, part);
   }
 
   doubled(p: Pointer): Gesture {
@@ -86,7 +107,8 @@ class PressedGround implements Gesture {
 
   move(p: Pointer): Gesture {
     const far = Math.hypot(p.at[0] - this.from.at[0], p.at[1] - this.from.at[1]) > kStill;
-    return far ? new Panning(this.table, this.from.at).move(p) : this;
+    if (!far) return this;
+    return this.from.coarse ? new Panning(this.table, this.from.at).move(p) : new Banding(this.table, this.from).move(p);
   }
   up(): Gesture {
     if (!this.from.shift) this.table.store.set({ selection: [], hover: null });
@@ -105,9 +127,11 @@ class Pressed implements Gesture {
     if (!far) return this;
     const { store } = this.table;
     const e = entityOf(store.doc, this.entity);
-    if (!e || isHeld(store.doc, e) || !store.state.selection.includes(this.entity))
-      return new Panning(this.table, this.from.at).move(p);
-    return new Moving(this.table, store.state.history.now, this.from.place).move(p);
+    if (!e || isHeld(store.doc, e) || !isMovable(e)) return new PressedGround(this.table, this.from).move(p);
+    const { selection } = store.state;
+    if (!selection.includes(this.entity)) store.set({ selection: this.from.shift ? [...selection, this.entity] : [this.entity] });
+    store.set({ hover: null });
+    return new Moving(this.table, this.from, this.entity).move(p);
   }
   up(): Gesture {
     const { store } = this.table;
@@ -119,32 +143,6 @@ class Pressed implements Gesture {
     return new Idle(this.table, "curve");
   }
   cancel(): Gesture {
-    return new Idle(this.table);
-  }
-}
-
-/** All that is selected moves with the hand. */
-class Moving implements Gesture {
-  readonly cursor = "move";
-  constructor(private readonly table: Table, private readonly doc: Doc, private readonly from: Point) {}
-
-  move(p: Pointer): Gesture {
-    const by: Point = [p.place[0] - this.from[0], p.place[1] - this.from[1]];
-    const { store } = this.table;
-    store.draft({
-      ...this.doc,
-      entities: this.doc.entities.map((e) =>
-        store.state.selection.includes(e.id) && !isHeld(this.doc, e) ? moved(e, by) : e),
-    });
-    return this;
-  }
-  up(): Gesture {
-    const { store } = this.table;
-    store.commit("Move", store.doc);
-    return new Idle(this.table);
-  }
-  cancel(): Gesture {
-    this.table.store.set({ draft: null });
     return new Idle(this.table);
   }
 }

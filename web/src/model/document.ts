@@ -3,6 +3,7 @@ import type {
   Curve, CurveCondition, CurveEditRequest, FairedPiece, FairFigures, FairRequest, FoundSymmetry, KeyLine, SampledComb, Surface,
   SurfaceEditRequest,
 } from "../../generated/operations.ts";
+import { carried, followedBy, type Placement, still } from "./placement.ts";
 
 export type Point = [number, number];
 
@@ -61,6 +62,8 @@ export interface Mirror extends Common {
 export interface Fixed extends Common {
   kind: "fixed";
   curve: Curve;
+  /** where a hand has put it since */
+  placed?: Placement;
   /** what it was made of, to be looked at beside it */
   before?: Curve;
   /** of a traced line: the drawn strokes it stands for, by their numbers from 0 */
@@ -255,8 +258,17 @@ export function withoutPoint(e: Spline, index: number): Spline {
   return points.length < (e.closed ? 3 : 2) ? e : { ...e, points };
 }
 
-/** All of it moved; things made of others move with them. */
-export function moved(e: Entity, by: Point): Entity {
-  return handlesOf(e).reduce<Entity>(
-    (to, p, i) => withHandle(to, i, [p[0] + by[0], p[1] + by[1]]), e);
+/** Whether a hand can move the whole of it. */
+export const isMovable = (e: Entity): boolean => e.kind === "fixed" || handlesOf(e).length > 0;
+
+/** All of it moved, turned, scaled; things made of others go with them. A curve of a file is placed about its middle. */
+export function moved(e: Entity, by: Placement, middle: Point): Entity {
+  if (e.kind === "fixed") return { ...e, placed: followedBy(e.placed ?? still(middle), by) };
+  return handlesOf(e).reduce<Entity>((to, p, i) => withHandle(to, i, carried(by, p)), e);
+}
+
+/** The curve of a file as something else made it: where it was put is in the curve now. */
+export function recast(e: Fixed, curve: Curve, before: Curve): Fixed {
+  const { placed: _placed, ...rest } = e;
+  return { ...rest, curve, before };
 }

@@ -4,7 +4,8 @@
  */
 import type { Curve } from "../../generated/operations.ts";
 import type { Answer, Client, Failure } from "../api/client.ts";
-import type { Comb, Entity } from "./document.ts";
+import { type Comb, type Entity, entityOf, type Fixed } from "./document.ts";
+import { carriedComb, type Placement, still } from "./placement.ts";
 import { type Recipe, recipeOf } from "./recipe.ts";
 import type { Store } from "./state.ts";
 
@@ -26,6 +27,7 @@ export interface MadeAnswer {
 const kSamples = 201;
 const kMostSamples = 1201;
 const kPerPiece = 40;
+const kFollowed = 3; // so many curves of files are asked for while a hand moves them; of more only the drawing moves
 
 /** Enough to see every piece: a long chain gets more. */
 export function samplesFor(curve: Curve | undefined): number {
@@ -38,10 +40,18 @@ interface Asked {
   busy: boolean;
 }
 
+/** What a shown curve of a file answers, and the drawing of it where a hand has put it since. */
+interface Placing {
+  curve: Curve;
+  placed: Placement | undefined;
+  drawn?: { at: Placement | undefined; shown: Shown };
+}
+
 export class Live {
   private readonly shown = new Map<number, Shown>();
   private readonly asked = new Map<number, Asked>();
   private readonly failures = new Map<number, Failure>();
+  private readonly placings = new Map<number, Placing>();
   /** Told when a curve has come, with the time of the input it answers. */
   onCurve: (id: number) => void = () => {};
 
@@ -52,7 +62,20 @@ export class Live {
   }
 
   of(id: number): Shown | undefined {
-    return this.shown.get(id);
+    const shown = this.shown.get(id);
+    const placing = shown && this.placings.get(id);
+    const e = placing && entityOf(this.store.doc, id);
+    if (!shown || e?.kind !== "fixed" || e.curve !== placing?.curve || e.placed === placing.placed) return shown;
+    return this.drawn(shown, e, placing);
+  }
+
+  /** The answer for the place is on its way: until then what is drawn is moved. */
+  private drawn(shown: Shown, e: Fixed, placing: Placing): Shown {
+    if (placing.drawn && placing.drawn.at === e.placed) return placing.drawn.shown;
+    const { about } = placing.placed ?? e.placed ?? still([0, 0]);
+    const comb = carriedComb(shown.comb, placing.placed ?? still(about), e.placed ?? still(about));
+    placing.drawn = { at: e.placed, shown: { ...shown, comb } };
+    return placing.drawn.shown;
   }
 
   failureOf(id: number): Failure | undefined {
@@ -76,6 +99,7 @@ export class Live {
         this.shown.delete(id);
         this.asked.delete(id);
         this.failures.delete(id);
+        this.placings.delete(id);
       }
     for (const e of doc.entities) void this.update(e);
   }
@@ -89,9 +113,12 @@ export class Live {
     this.asked.set(e.id, asked);
     if (asked.busy) return; // its answer looks again
     const recipe = this.recipe(e);
-    if (!recipe) return;
+    if (!recipe || this.isOneOfMany(e)) return;
     const key = keyOf(recipe);
-    if (key === asked.key) return;
+    if (key === asked.key) {
+      this.place(e);
+      return;
+    }
     asked.key = key;
     asked.busy = true;
     const samples = samplesFor(recipe.request.curve as Curve | undefined);
@@ -101,11 +128,23 @@ export class Live {
     asked.busy = false;
     if (this.asked.get(e.id) !== asked) return; // gone meanwhile
     this.take(e.id, answer);
+    if (answer.ok) this.place(e);
     const now = this.store.doc.entities.find((other) => other.id === e.id);
     if (now) void this.update(now);
     for (const other of this.store.doc.entities)
       if (isMadeOf(other, e.id)) void this.update(other);
     this.onCurve(e.id);
+  }
+
+  private isOneOfMany(e: Entity): boolean {
+    const { draft, selection } = this.store.state;
+    return draft !== null && e.kind === "fixed" && selection.length > kFollowed && selection.includes(e.id)
+      && !draft.entities.some((other) => isMadeOf(other, e.id));
+  }
+
+  /** What is shown stands where the thing does. */
+  private place(e: Entity): void {
+    if (e.kind === "fixed") this.placings.set(e.id, { curve: e.curve, placed: e.placed });
   }
 
   private take(id: number, answer: Answer<MadeAnswer>): void {

@@ -48,6 +48,8 @@ export function recipeOf(e: Entity, curveOf: (id: number) => Curve | undefined):
         request: { curve: e.given, hold: e.hold, amount: e.amount, ...(e.target ? { target: e.target } : {}) },
       };
     case "fixed":
+      return e.placed ? { op: "curve.transform", request: { curve: e.curve, ...e.placed } }
+        : { op: "curve.show", request: { curve: e.curve } };
     case "faired":
       return { op: "curve.show", request: { curve: e.curve } };
     case "scan":

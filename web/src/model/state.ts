@@ -33,6 +33,8 @@ export interface Looks {
   deviation: boolean;
   /** the osculating circle at the place that is read */
   circle: boolean;
+  /** the box about chosen things, by which they are turned and scaled */
+  box: boolean;
   grid: boolean;
   snap: boolean;
   theme: "dark" | "light";
@@ -74,6 +76,12 @@ export interface State {
   stretch: Stretch | null;
   /** the handle a hand holds */
   dragged: { entity: number; handle: number } | null;
+  /** about what the chosen things turn and scale, where a hand has said so; it holds for that choice alone */
+  pivot: { of: readonly number[]; at: Point } | null;
+  /** while things are moved whole: where the box about them has got to, and how far that is */
+  carrying: { corners: readonly Point[]; at: Point; says: string } | null;
+  /** opposite corners of what a hand draws around things to choose them */
+  band: readonly [Point, Point] | null;
   /** what the hand has been drawn to: "end of Segment 1" */
   snappedTo: string;
   looks: Looks;
@@ -95,10 +103,13 @@ export const startState = (theme: "dark" | "light"): State => ({
   hover: null,
   stretch: null,
   dragged: null,
+  pivot: null,
+  carrying: null,
+  band: null,
   snappedTo: "",
   looks: {
     comb: true, combOfAll: false, combScale: 0, combOwn: false, combDensity: 2, evolute: false, events: true, before: true,
-    deviation: false, circle: false, grid: true, snap: false, theme, wipe: null,
+    deviation: false, circle: false, box: true, grid: true, snap: false, theme, wipe: null,
   },
   work: null,
   message: null,
@@ -167,6 +178,11 @@ export class Store {
   /** One step of undo. */
   commit(label: string, doc: Doc, more: Partial<State> = {}): void {
     this.set({ ...more, draft: null, history: committed(this.current.history, label, doc) });
+  }
+
+  /** The newest step goes on: it stays one step of undo. */
+  amend(doc: Doc): void {
+    this.set({ draft: null, history: { ...this.current.history, now: doc, future: [] } });
   }
 
   undo(): void {

@@ -1,7 +1,7 @@
 /** What can be made of the chosen curves: a mirror image, a blend, one of several, two of one, a group. */
 import type { Curve, CurveJoinResult, CurveSplitResult } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
-import { added, type Doc, entityOf, type Fresh, type Point, without } from "../model/document.ts";
+import { added, type Doc, type Entity, entityOf, type Fixed, type Fresh, type Kind, type Point, withEntity, without } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
 import type { Hover, Store } from "../model/state.ts";
 import { button, section } from "../ui/controls.ts";
@@ -71,6 +71,14 @@ function group(store: Store, chosen: readonly Chosen[]): void {
   });
 }
 
+/** Curves that stand where what they were made of says. */
+const kHeld: readonly Kind[] = ["faired", "sliding", "blend", "mirror"];
+
+function letGo(store: Store, { id, name, layer, visible, locked, color }: Entity, curve: Curve): void {
+  const own: Fixed = { kind: "fixed", id, name, layer, visible, locked, color, curve };
+  store.commit("Let go", withEntity(store.state.history.now, own));
+}
+
 export function actionsPanel(client: Client, store: Store, live: Live): HTMLElement | null {
   const chosen = chosenOf(store, live);
   const make = (label: string, fresh: Fresh) => {
@@ -79,11 +87,14 @@ export function actionsPanel(client: Client, store: Store, live: Live): HTMLElem
   };
   const [a, b] = chosen;
   if (!a) return null;
+  const e = entityOf(store.doc, a.id);
   const nameOf = (id: number) => entityOf(store.doc, id)?.name ?? "";
   if (!b)
     return section("Make", h("div", { class: "row" }, button("Mirror image", () =>
       make("Mirror", { kind: "mirror", name: `${nameOf(a.id)}, mirrored`, of: a.id, axis: [a.end, [a.end[0], a.end[1] + 1]] }),
-    { id: "mirror" }), h("span", { class: "quiet" }, "X splits at the pointer")));
+    { id: "mirror" }), e && kHeld.includes(e.kind) && button("Let it go", () => letGo(store, e, a.curve),
+      { id: "let-go", title: "A curve of its own from now on, that can be moved: it no longer follows what it was made of" }),
+    h("span", { class: "quiet" }, "X splits at the pointer")));
   // it leaves the end of one for the start of the other, whichever is nearer
   const [from, to] = distance(a.end, b.start) <= distance(b.end, a.start) ? [a, b] : [b, a];
   return section("Make", h("div", { class: "row wrap" },

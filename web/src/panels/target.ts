@@ -2,7 +2,7 @@
 import type { Curve, FitCurvatureRequest, FitCurvatureResult } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
 import type { CurvaturePlot } from "../graphs/curvature.ts";
-import { type Entity, entityOf, type Fixed, withEntity } from "../model/document.ts";
+import { type Entity, entityOf, type Fixed, recast, withEntity } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
 import { type Store, workTold } from "../model/state.ts";
 import { button, section, toggle } from "../ui/controls.ts";
@@ -55,14 +55,15 @@ export class TargetPanel {
   private async drive(target: FitCurvatureRequest["target"]): Promise<void> {
     const e = this.subject();
     if (!e || this.store.state.work) return;
-    const work = this.client.long<FitCurvatureResult>("fit.curvature", { curve: e.curve, target, hold_end: this.holdEnd },
+    const given = this.live.of(e.id)?.curve ?? e.curve;
+    const work = this.client.long<FitCurvatureResult>("fit.curvature", { curve: given, target, hold_end: this.holdEnd },
       (fraction, doing) => workTold(this.store, fraction, doing));
     this.store.set({ work: { doing: "following the curvature", fraction: 0, trace: [], cancel: () => work.cancel() } });
     const answer = await work.answer;
     this.store.set({ work: null });
     if (!answer.ok) return this.store.say(answer.error.message, answer.error.hint ?? "", true);
     const { curve, before, after, moved } = answer.result;
-    this.store.commit("Follow curvature", withEntity(this.store.state.history.now, { ...e, curve, before: e.curve }));
+    this.store.commit("Follow curvature", withEntity(this.store.state.history.now, recast(e, curve as Curve, given)));
     this.store.say(`Curvature off its target by ${measure(before ?? 0, 3)}, now ${measure(after ?? 0, 3)}`, `moved by at most ${measure(moved ?? 0, 3)}`);
   }
 }

@@ -4,6 +4,8 @@ import {
   withPoint,
 } from "../../src/model/document.ts";
 import { recipeOf } from "../../src/model/recipe.ts";
+import { carried, carriedComb, followedBy, type Placement, shiftedBy, still } from "../../src/model/placement.ts";
+import { crosses, taken } from "../../src/gestures/band.ts";
 import { isKept, ownDocument } from "../../src/model/autosave.ts";
 
 const points: [Point, Point, Point] = [[0, 0], [2, 0], [3, 1]];
@@ -49,7 +51,7 @@ describe("document", () => {
     const [segment] = two().doc.entities;
     if (!segment) throw new Error();
     expect(handlesOf(withHandle(segment, 1, [5, 5]))).toEqual([[0, 0], [5, 5], [3, 1]]);
-    expect(handlesOf(moved(segment, [1, -1]))).toEqual([[1, -1], [3, -1], [4, 0]]);
+    expect(handlesOf(moved(segment, shiftedBy([1, -1]), [0, 0]))).toEqual([[1, -1], [3, -1], [4, 0]]);
     expect(handlesOf(segment)).toEqual(points);
   });
 
@@ -62,6 +64,20 @@ describe("document", () => {
     expect(recipeOf(mirror, () => curve)).toEqual({
       op: "curve.mirror", request: { curve, point: [0, 0], direction: Math.PI / 2 },
     });
+  });
+
+  it("places a curve of a file by the operation, however often it was moved", () => {
+    const curve = { type: "bezier", points: [] };
+    const fixed = added(emptyDoc(), { kind: "fixed", name: "f", curve }).doc.entities[0] as Entity;
+    expect(recipeOf(fixed, () => undefined)).toEqual({ op: "curve.show", request: { curve } });
+    const turned = moved(fixed, { about: [0, 0], turn: Math.PI / 2, scale: 2, shift: [0, 0] }, [3, 1]);
+    const shifted = moved(turned, shiftedBy([5, 6]), [99, 99]);
+    const { op, request } = recipeOf(shifted, () => undefined) ?? {};
+    const { about, turn, scale, shift } = request as unknown as Placement;
+    expect([op, request?.["curve"], about, turn, scale]).toEqual(["curve.transform", curve, [3, 1], Math.PI / 2, 2]);
+    // 2i (3 + i) = -2 + 6i, less 3 + i, and 5 + 6i on top
+    expect(shift[0]).toBeCloseTo(0, 12);
+    expect(shift[1]).toBeCloseTo(11, 12);
   });
 
   it("slides a curve by the operation, to the place or to least energy", () => {
@@ -85,5 +101,57 @@ describe("document", () => {
     expect(isKept({ format: "keyline-studio", version: 1, saved: 0, files: [], doc: emptyDoc() })).toBe(true);
     for (const other of [null, 3, {}, { format: "keyline-studio", version: 2 }, { format: "x", doc: emptyDoc() }])
       expect(isKept(other)).toBe(false);
+  });
+});
+
+describe("a placement", () => {
+  const first: Placement = { about: [2, -1], turn: 0.7, scale: 1.5, shift: [3, 4] };
+  const next: Placement = { about: [-5, 8], turn: -2.1, scale: 0.4, shift: [-1, 0.5] };
+  const near = (a: Point, b: Point) => expect(Math.hypot(a[0] - b[0], a[1] - b[1])).toBeLessThan(1e-12);
+
+  it("is a turn, a factor and a shift", () => {
+    near(carried(first, [2, -1]), [5, 3]);
+    near(carried({ ...still([1, 1]), turn: Math.PI / 2 }, [3, 1]), [1, 3]);
+    near(carried({ ...still([1, 1]), scale: 3 }, [3, 2]), [7, 4]);
+  });
+
+  it("follows another as one", () => {
+    for (const p of [[0, 0], [1, 7], [-3, 2]] as Point[]) near(carried(followedBy(first, next), p), carried(next, carried(first, p)));
+    expect(followedBy(first, next).about).toEqual(first.about);
+  });
+
+  it("carries what is drawn until the answer comes", () => {
+    // a circle of radius 2 at its lowest place, and what becomes of it
+    const comb = {
+      length: 4, points: [[0, 0]] as Point[], normals: [[0, 1]] as Point[], arc_length: [4], curvature: [0.5], joints: [],
+      graphs: { centers: [[0, 2]], events: [{ point: [0, 0] as Point }] },
+    };
+    const at = carriedComb(comb, still([0, 0]), { about: [0, 0], turn: Math.PI / 2, scale: 3, shift: [10, 0] });
+    near(at.points[0] as Point, [10, 0]);
+    near(at.normals[0] as Point, [-1, 0]);
+    near(at.graphs?.centers?.[0] as Point, [4, 0]);
+    near(at.graphs?.events?.[0]?.point as Point, [10, 0]);
+    expect([at.length, at.arc_length[0], at.curvature[0]]).toEqual([12, 12, 0.5 / 3]);
+    const moved = carriedComb(at, { about: [0, 0], turn: Math.PI / 2, scale: 3, shift: [10, 0] }, next);
+    near(moved.points[0] as Point, carried(next, [0, 0]));
+  });
+});
+
+describe("a band", () => {
+  const line: Point[] = [[0, 0], [10, 0]];
+  it("takes to the right what lies within it, to the left what it touches", () => {
+    expect(taken(line, [-1, -1], [11, 1])).toBe(true);
+    expect(taken(line, [-1, -1], [9, 1])).toBe(false);
+    expect(taken(line, [9, 1], [-1, -1])).toBe(true);
+    expect(taken(line, [6, 1], [4, -1])).toBe(true); // between the drawn places
+    expect(taken(line, [6, 2], [4, 1])).toBe(false);
+    expect(taken([], [0, 0], [1, 1])).toBe(false);
+  });
+  it("knows lines that miss a corner", () => {
+    const rect = { low: [0, 0] as Point, high: [2, 2] as Point };
+    expect(crosses(rect, [-1, 1.5], [1.5, 4])).toBe(false);
+    expect(crosses(rect, [-1, 0.5], [1, 2.5])).toBe(true);
+    expect(crosses(rect, [1, 1], [1, 1.5])).toBe(true);
+    expect(crosses(rect, [3, -1], [3, 3])).toBe(false);
   });
 });
