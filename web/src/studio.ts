@@ -124,7 +124,7 @@ export class Studio {
       if (now.tool !== before.tool) this.canvas.useTool(now.tool);
       const panel = now.history !== before.history || now.selection !== before.selection || now.underlay?.file !== before.underlay?.file
         || now.underlay?.stages !== before.underlay?.stages || now.underlay?.scale !== before.underlay?.scale || now.measured !== before.measured
-        || now.targeting !== before.targeting || now.tool !== before.tool;
+        || now.targeting !== before.targeting || now.tool !== before.tool || (now.looks.wipe === null) !== (before.looks.wipe === null);
       if (panel) this.renderPanel();
       if (now.history !== before.history) this.bar.render();
       const fair = this.panel.querySelector<HTMLButtonElement>("#fair");

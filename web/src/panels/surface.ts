@@ -66,6 +66,10 @@ export class SurfacePanel {
           id: "surface-joints", label: "Joints: G2 green, G1 amber, a fold red", value: looks.joints,
           onChange: (joints) => this.stage.look({ joints }),
         }),
+        e.given && toggle({
+          id: "surface-wipe", label: "Wipe between before and after (W)", value: this.store.state.looks.wipe !== null,
+          onChange: (on) => this.store.look({ wipe: on ? 0.5 : null }),
+        }),
         e.given && toggle({ id: "surface-before", label: "As it was before", value: looks.before, onChange: (before) => this.stage.look({ before }) })),
       section("Surface aesthetic value", this.table),
       this.editing(e),
@@ -209,7 +213,9 @@ export class SurfacePanel {
 
   private renderTable({ before, after }: Told): void {
     const now = after ?? before;
-    this.stage.types = new Map((now.curves ?? []).map((c) => [c.name ?? "", c.type ?? 5]));
+    const typesOf = ({ curves = [] }: SurfaceValueShown) => new Map(curves.map((c) => [c.name ?? "", c.type ?? 5]));
+    this.stage.types = typesOf(now);
+    this.stage.typesBefore = typesOf(before);
     this.stage.paint();
     const several = (now.patches?.length ?? 0) > 1;
     fill(this.table,

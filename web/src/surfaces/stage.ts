@@ -7,7 +7,8 @@ import type { Store } from "../model/state.ts";
 import { h } from "../ui/dom.ts";
 import { type SurfaceJoint, SurfaceJoints } from "./joints.ts";
 import { type Sampled, Samples, shownRange, type SurfaceLook } from "./mesh.ts";
-import type { NetworkLine, SurfaceView } from "./view.ts";
+import type { NetworkLine, SurfaceContent, SurfaceView } from "./view.ts";
+import { WipeBar } from "./wipebar.ts";
 
 export interface SurfaceLooks {
   look: SurfaceLook;
@@ -39,17 +40,21 @@ export class SurfaceStage {
   };
   private view: SurfaceView | null = null;
   private loading = false;
+  private readonly bar: WipeBar;
   private readonly samples: Samples;
   private readonly meetings: SurfaceJoints;
   /** of the surfaces in sight */
   joints: readonly SurfaceJoint[] = [];
-  /** type of each network curve of the chosen surface, for its colour */
+  /** type of each network curve of the chosen surface, for its colour; before editing and now */
+  typesBefore = new Map<string, number>();
   types = new Map<string, number>();
   /** of the values in sight */
   range: readonly [number, number] = [0, 1];
   onRange: () => void = () => {};
 
   constructor(client: Client, private readonly store: Store) {
+    this.bar = new WipeBar(store);
+    this.element.append(this.bar.element);
     this.samples = new Samples(client);
     this.samples.onCame = () => this.paint();
     this.meetings = new SurfaceJoints(client);
@@ -58,7 +63,14 @@ export class SurfaceStage {
     store.onChange((now, before) => {
       if (now.history.now !== before.history.now || now.selection !== before.selection || now.looks.theme !== before.looks.theme)
         this.paint();
+      else if (now.looks.wipe !== before.looks.wipe) this.wipe(now.looks.wipe, before.looks.wipe);
     });
+  }
+
+  private wipe(now: number | null, before: number | null): void {
+    this.bar.follow();
+    if (now === null || before === null) this.paint();
+    else this.view?.wipeAt(now);
   }
 
   subject(): SurfaceEntity | null {
@@ -99,29 +111,48 @@ export class SurfaceStage {
     if (!subject) return;
     if (!this.view) return void this.load();
     const { looks } = this;
-    const surfaces = this.surfacesInSight().map((e) => (looks.before && e.given ? e.given : e.surface));
-    const sampled = surfaces.map((s) => this.samples.of(s, looks.look));
-    const there = sampled.filter((s): s is Sampled => s !== null);
-    if (there.length === 0) return;
-    this.range = shownRange(there.map((s) => s.values), looks.share);
+    const seen = this.surfacesInSight();
+    const { wipe } = this.store.state.looks;
+    const wiped = wipe !== null && seen.some((e) => e.given);
+    this.bar.show(wiped);
+    const onlyPast = looks.before && !wiped;
+    const given = subject.given ?? subject.surface;
+    const before = seen.map((e) => e.given ?? e.surface);
+    const after = onlyPast ? before : seen.map((e) => e.surface);
+    const now = this.sampledOf(after);
+    const then = wiped ? this.sampledOf(before) : null;
+    if (now.length === 0) return;
+    this.range = shownRange([...now, ...(then ?? [])].map((s) => s.values), looks.share);
     const colors = paletteOf(this.store.state);
-    this.joints = looks.joints ? this.meetings.of(surfaces) : [];
+    this.joints = looks.joints ? this.meetings.of(after) : [];
     this.view.show({
-      joints: this.joints.map(({ order, points }) => ({ points, color: jointColor(order, colors) })),
-      surfaces: there, range: this.range, look: looks.look, stripes: looks.stripes, colors,
-      network: looks.network ? this.network(looks.before && subject.given ? subject.given : subject.surface, colors) : [],
+      ...this.content(now, this.joints, onlyPast ? given : subject.surface, onlyPast ? this.typesBefore : this.types, colors),
+      before: then && this.content(then, looks.joints ? this.meetings.of(before) : [], given, this.typesBefore, colors),
+      range: this.range, look: looks.look, stripes: looks.stripes, colors,
     });
+    if (wipe !== null) this.view.wipeAt(wipe);
     this.onRange();
   }
 
-  fit(): void {
-    const there = this.surfacesInSight().map((e) => this.samples.of(e.surface, this.looks.look));
-    this.view?.frame(there.filter((s): s is Sampled => s !== null));
+  private sampledOf(surfaces: readonly SurfaceEntity["surface"][]): Sampled[] {
+    return surfaces.map((s) => this.samples.of(s, this.looks.look)).filter((s): s is Sampled => s !== null);
   }
 
-  private network(surface: SurfaceEntity["surface"], colors: Palette): NetworkLine[] {
+  private content(surfaces: readonly Sampled[], joints: readonly SurfaceJoint[], chosen: SurfaceEntity["surface"],
+                  types: ReadonlyMap<string, number>, colors: Palette): SurfaceContent {
+    return {
+      surfaces, joints: joints.map(({ order, points }) => ({ points, color: jointColor(order, colors) })),
+      network: this.looks.network ? this.network(chosen, types, colors) : [],
+    };
+  }
+
+  fit(): void {
+    this.view?.frame(this.sampledOf(this.surfacesInSight().map((e) => e.surface)));
+  }
+
+  private network(surface: SurfaceEntity["surface"], types: ReadonlyMap<string, number>, colors: Palette): NetworkLine[] {
     return [...networkOf(surface)].map(([name, points]) => {
-      const type = this.types.get(name);
+      const type = types.get(name);
       const color = type === undefined ? colors.faint : type <= 2 ? colors.inflection : type === 3 ? colors.comb : colors.bad;
       return { name, points, color, chosen: name === this.looks.chosen };
     });

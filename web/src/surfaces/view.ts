@@ -1,6 +1,6 @@
 /** Surfaces in space. This module brings three.js and is loaded when the first surface is shown. */
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Line, LineBasicMaterial, Mesh, PerspectiveCamera, Points,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Line, LineBasicMaterial, type Material, Mesh, PerspectiveCamera, Points,
   PointsMaterial, Scene, ShaderMaterial, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -15,14 +15,20 @@ export interface NetworkLine {
   chosen: boolean;
 }
 
-export interface SurfaceScene {
+/** What stands in space on one side of the wipe. */
+export interface SurfaceContent {
   surfaces: readonly Sampled[];
+  network: readonly NetworkLine[];
+  joints: readonly { points: readonly (readonly number[])[]; color: string }[];
+}
+
+export interface SurfaceScene extends SurfaceContent {
+  /** left of the wipe, in the same light and colours */
+  before: SurfaceContent | null;
   /** of the values' colours */
   range: readonly [number, number];
   look: SurfaceLook;
   stripes: number;
-  network: readonly NetworkLine[];
-  joints: readonly { points: readonly (readonly number[])[]; color: string }[];
   colors: Palette;
 }
 
@@ -71,6 +77,9 @@ export class SurfaceView {
   private readonly camera = new PerspectiveCamera(28, 1, 0.01, 1e5);
   private readonly controls: OrbitControls;
   private content = new Group();
+  private past: Group | null = null;
+  /** where the line between before and after stands, as a share of the width */
+  private wipe = 0.5;
   private framed = "";
   private scheduled = false;
 
@@ -98,7 +107,7 @@ export class SurfaceView {
     this.scheduled = true;
     requestAnimationFrame(() => {
       this.scheduled = false;
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       this.canvas.dataset.painted = String(Number(this.canvas.dataset.painted ?? 0) + 1);
     });
   }
@@ -109,16 +118,43 @@ export class SurfaceView {
       vertexShader, fragmentShader, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, // lines lie on it
       uniforms: { look: { value: lookNumber(shown.look) }, count: { value: shown.stripes } },
     });
-    this.content = new Group();
-    for (const sampled of shown.surfaces) {
-      this.content.add(meshOf(sampled, shown.range, material), lineOf(borderOf(sampled), shown.colors.curve));
-    }
-    for (const line of shown.network) this.content.add(...this.networkLine(line, shown.colors));
-    for (const joint of shown.joints) this.content.add(this.jointLine(joint.points, joint.color));
+    this.content = this.groupOf(shown, shown, material);
+    this.past = shown.before && this.groupOf(shown.before, shown, material);
     this.scene.add(this.content);
+    if (this.past) this.scene.add(this.past);
     this.scene.background = new Color(shown.colors.ground);
     this.frameOnce(shown.surfaces);
     this.schedule();
+  }
+
+  wipeAt(share: number): void {
+    this.wipe = share;
+    this.schedule();
+  }
+
+  /** Both sides of the wipe from the same eye, each within its part of the canvas. */
+  private render(): void {
+    const { renderer, past, content } = this;
+    if (!past) return renderer.render(this.scene, this.camera);
+    const { clientWidth, clientHeight } = this.canvas;
+    const at = Math.round(this.wipe * clientWidth);
+    renderer.setScissorTest(true);
+    for (const [group, left, right] of [[past, 0, at], [content, at, clientWidth]] as const) {
+      past.visible = group === past;
+      content.visible = group === content;
+      renderer.setScissor(left, 0, right - left, clientHeight);
+      if (right > left) renderer.render(this.scene, this.camera);
+    }
+    content.visible = true;
+    renderer.setScissorTest(false);
+  }
+
+  private groupOf({ surfaces, network, joints }: SurfaceContent, { range, colors }: SurfaceScene, material: ShaderMaterial): Group {
+    const group = new Group();
+    for (const sampled of surfaces) group.add(meshOf(sampled, range, material), lineOf(borderOf(sampled), colors.curve));
+    for (const line of network) group.add(...this.networkLine(line, colors));
+    for (const joint of joints) group.add(this.jointLine(joint.points, joint.color));
+    return group;
   }
 
   /** Thick: what one looks for among the borders. */
@@ -184,9 +220,15 @@ export class SurfaceView {
   }
 
   private dispose(): void {
-    this.scene.remove(this.content);
-    this.content.traverse((thing) => {
-      if (thing instanceof Mesh || thing instanceof Line || thing instanceof Points) thing.geometry.dispose();
-    });
+    for (const group of [this.content, this.past]) {
+      if (!group) continue;
+      this.scene.remove(group);
+      group.traverse((thing) => {
+        if (thing instanceof Mesh || thing instanceof Line || thing instanceof Points) {
+          thing.geometry.dispose();
+          (thing.material as Material).dispose();
+        }
+      });
+    }
   }
 }

@@ -54,6 +54,53 @@ onStage("a patch", ["examples/panel-b.json"], (stage) => {
     expect(await surface()).toEqual(given);
   });
 
+  it("wipes between the patch as opened and as edited", async () => {
+    const { page } = stage.at;
+    await page.click("#edit-surface");
+    await page.waitForSelector("#surface-outcome");
+    await settled(page);
+    const box = await page.locator(".space").boundingBox();
+    if (!box) throw new Error("no view");
+    /** Pictures of both sides, from 80 pixels off the middle on: the bar and its words stand there. */
+    const sides = async (change: () => Promise<unknown>) => {
+      const before = await painted();
+      await change();
+      await page.waitForFunction((n) => Number(document.querySelector<HTMLElement>(".space")?.dataset["painted"] ?? 0) > n, before);
+      await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+      const half = { y: box.y, width: box.width / 2 - 80, height: box.height };
+      const at = async (x: number) => (await page.screenshot({ clip: { ...half, x } })).toString("base64");
+      return { left: await at(box.x), right: await at(box.x + box.width / 2 + 80) };
+    };
+    await page.mouse.move(5, 795);
+    const after = await sides(() => page.selectOption("#surface-look", "zebra"));
+    const before = await sides(() => page.check("#surface-before"));
+    expect(before.left).not.toBe(after.left);
+    expect(before.right).not.toBe(after.right);
+    await sides(() => page.uncheck("#surface-before"));
+    const bar = page.locator(".wipe-bar");
+    expect(await bar.isVisible()).toBe(false);
+    const wiped = await sides(() => page.keyboard.press("w"));
+    expect(wiped.left).toBe(before.left);
+    expect(wiped.right).toBe(after.right);
+    await bar.focus();
+    await page.keyboard.press("Home");
+    expect(await bar.getAttribute("aria-valuenow")).toBe("0");
+    await page.keyboard.press("Shift+ArrowRight");
+    await page.keyboard.press("ArrowRight");
+    expect(await bar.getAttribute("aria-valuenow")).toBe("11");
+    const grip = await page.locator(".wipe-bar .grip").boundingBox();
+    if (!grip) throw new Error("no grip");
+    await page.mouse.move(grip.x + grip.width / 2, grip.y + grip.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.75 * box.width, box.y + 100, { steps: 3 });
+    await page.mouse.up();
+    expect(await bar.getAttribute("aria-valuenow")).toBe("75");
+    await page.uncheck("#surface-wipe");
+    expect(await bar.isVisible()).toBe(false);
+    await page.click("#restore-surface");
+    await settled(page);
+  });
+
   it("puts a network curve where a hand puts it in its plane", async () => {
     const { page } = stage.at;
     await page.waitForSelector("#network-A1");
