@@ -32,14 +32,14 @@ struct DrawWords {
 };
 
 /// An operation and the option that asks for it.
-struct Kind {
+struct CurveKind {
   const char* operation;
   const char* sign;
 };
-constexpr Kind kKinds[] = {{"lac.spline", "--spline"}, {"lac.space", "--space"},
-                           {"lac.volume", "--volume"}, {"lac.hermite", "--directions"},
-                           {"lac.quasi", "--form"},    {"lac.compound", "--ratio"},
-                           {"lac.segment", ""}};
+constexpr CurveKind kKinds[] = {{"lac.spline", "--spline"}, {"lac.space", "--space"},
+                                {"lac.volume", "--volume"}, {"lac.hermite", "--directions"},
+                                {"lac.quasi", "--form"},    {"lac.compound", "--ratio"},
+                                {"lac.segment", ""}};
 
 bool is_given(const Words& words, const std::string& option) {
   return std::ranges::any_of(words, [&](const std::string& word) {
@@ -60,7 +60,7 @@ bool has_two_slopes(const Words& words) {
 const Operation& operation_for(const Words& words) {
   std::string name = kKinds[std::size(kKinds) - 1].operation;
   if (has_two_slopes(words)) name = "lac.compound";
-  for (const Kind& kind : kKinds)
+  for (const CurveKind& kind : kKinds)
     if (*kind.sign != '\0' && is_given(words, kind.sign)) {
       name = kind.operation;
       break;
@@ -84,7 +84,7 @@ Session new_session(const Operation& asked, bool all) {
                                   group_for(asked),
                                   {"Figures", &core::type_of<presentation::HandleView>()}};
   if (all)
-    for (const Kind& kind : kKinds)
+    for (const CurveKind& kind : kKinds)
       if (asked.name != kind.operation)
         groups.push_back(group_for(*operations::find_operation(kind.operation)));
   groups.push_back(door_group());
@@ -193,7 +193,7 @@ Result<operations::Outcome> drawn(Session& session, const Operation& operation) 
 
 /// Which option asks for the operation that has the option refused.
 std::string asked_by(const std::string& option) {
-  for (const Kind& kind : kKinds) {
+  for (const CurveKind& kind : kKinds) {
     const auto options = option_names(plain_manual(kind.operation));
     if (*kind.sign != '\0' && std::ranges::find(options, option) != options.end())
       return std::string(kind.sign);

@@ -85,7 +85,7 @@ LcgGraph graph_of(const analysis::Lcg& lcg) {
   return graph;
 }
 
-AnalyzedPiece shown(const analysis::PieceAnalysis& piece) {
+AnalyzedPiece piece_shown(const analysis::PieceAnalysis& piece) {
   return {piece.extent.t,
           piece.extent.arc_length,
           {piece.extent.curvature_start, piece.extent.curvature_end},
@@ -95,7 +95,7 @@ AnalyzedPiece shown(const analysis::PieceAnalysis& piece) {
           piece.slopes,
           piece.impression,
           graph_of(piece.lcg),
-          operations::shown(piece.lddc),
+          shown(piece.lddc),
           readings_of(piece.interpretations)};
 }
 
@@ -168,7 +168,7 @@ AnalyzeAnswer analyze_answer(analysis::CurveAnalysis analysis) {
   for (const auto& wave : analysis.split.merged)
     answer.merged.push_back({wave.t, wave.displacement});
   answer.threshold = analysis.split.threshold;
-  for (const auto& piece : analysis.pieces) answer.pieces.push_back(shown(piece));
+  for (const auto& piece : analysis.pieces) answer.pieces.push_back(piece_shown(piece));
   answer.monotone = verdict_of(analysis.monotone.value);
   if (answer.monotone != Verdict::yes) answer.witness = analysis.monotone.witness;
   answer.analysis = std::move(analysis);

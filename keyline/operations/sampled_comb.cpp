@@ -177,16 +177,16 @@ std::vector<CombEvent> events_of(const document::Path& path) {
   if (path.curves.size() == 1)
     if (const auto* chain = std::get_if<lac::Chain>(&path.curves[0].value))
       return events_of(*chain);
-  using Kind = analysis::CurvatureEvent::Kind;
+  using EventKind = analysis::CurvatureEvent::Kind;
   const analysis::CurveView view(path);
   const analysis::Split split = analysis::split_monotone(view);
   std::vector<CombEvent> events;
   const auto add = [&](const std::vector<analysis::CurvatureEvent>& found) {
     for (const analysis::CurvatureEvent& e : found) {
-      const CombEventKind kind = e.kind == Kind::maximum      ? CombEventKind::maximum
-                                 : e.kind == Kind::minimum    ? CombEventKind::minimum
-                                 : e.kind == Kind::inflection ? CombEventKind::inflection
-                                                              : CombEventKind::corner;
+      const CombEventKind kind = e.kind == EventKind::maximum      ? CombEventKind::maximum
+                                 : e.kind == EventKind::minimum    ? CombEventKind::minimum
+                                 : e.kind == EventKind::inflection ? CombEventKind::inflection
+                                                                   : CombEventKind::corner;
       if (std::isfinite(e.curvature))
         events.push_back({kind, e.arc_length, e.curvature, view.point(e.t)});
     }

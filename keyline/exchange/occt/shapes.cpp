@@ -169,7 +169,7 @@ Handle(Geom_BSplineSurface) spline_surface_of(const surface::Surface& s) {
                                  array(v.times), given.degree[0], given.degree[1]);
 }
 
-TopoDS_Shape edge_of(const CurvePart& part) {
+TopoDS_Shape part_edge(const CurvePart& part) {
   BRepBuilderAPI_MakeEdge make(part.curve, part.first, part.last);
   if (!make.IsDone()) throw std::runtime_error("a curve cannot be written; it may have no length");
   return make.Edge();
@@ -178,7 +178,7 @@ TopoDS_Shape edge_of(const CurvePart& part) {
 }  // namespace
 
 TopoDS_Shape shape_of(const document::Path& path) {
-  if (path.curves.size() == 1) return edge_of(curve_of(path.curves.front()));
+  if (path.curves.size() == 1) return part_edge(curve_of(path.curves.front()));
   // Neighbours share a vertex: what goes along a wire finds its way by them.
   BRep_Builder builder;
   TopoDS_Wire wire;
@@ -207,7 +207,7 @@ TopoDS_Shape shape_of(const document::Path& path) {
   return wire;
 }
 
-TopoDS_Shape edge_of(const document::SpaceCurve& curve) { return edge_of(curve_of(curve)); }
+TopoDS_Shape edge_of(const document::SpaceCurve& curve) { return part_edge(curve_of(curve)); }
 
 TopoDS_Shape face_of(const surface::Surface& surface) {
   BRepBuilderAPI_MakeFace make(spline_surface_of(surface), kTolerance);
