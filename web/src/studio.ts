@@ -1,6 +1,7 @@
 /** The page put together. */
 import type { Client } from "./api/client.ts";
 import { Canvas } from "./canvas/canvas.ts";
+import { tip } from "./canvas/curves.ts";
 import { paletteOf } from "./canvas/scene.ts";
 import type { Table } from "./gestures/gesture.ts";
 import { Dock, type Subject } from "./graphs/dock.ts";
@@ -38,6 +39,8 @@ import { label, readable, roundStep } from "./view/ticks.ts";
 const kMostTeeth = 0.9;
 const kToothShare = 0.16;
 const kLongestTooth = 0.55;
+const kAround = 0.16; // of the smaller side left free about curves,
+const kAroundComb = 0.09; // and about curves with the comb
 const kSameComb = Math.log(2.5); // combs whose scales differ by less stay comparable
 
 const kSpaceHint = "Drag turns, wheel comes nearer, the right button moves; arrows, plus and minus do too";
@@ -65,7 +68,8 @@ export class Studio {
   private readonly panel = h("aside", { class: "panel", "aria-label": "Properties" });
   private readonly status = h("div", { class: "status", role: "status" });
   private readonly bar = new FileBar(this);
-  private fitted = false;
+  /** the view as it was fitted last; null: not yet */
+  private fitted: { scale: number; center: Point } | null = null;
 
   constructor(readonly client: Client, root: HTMLElement) {
     const wantsLight = matchMedia("(prefers-color-scheme: light)").matches;
@@ -115,7 +119,7 @@ export class Studio {
       this.dock.paint();
     };
     this.canvas.onStatus = () => this.renderStatus();
-    this.canvas.onReady = () => this.fitOnce();
+    this.canvas.onReady = () => this.resized();
     this.client.onReach = (reached) => {
       if (reached !== this.store.state.reached) this.store.set({ reached });
     };
@@ -192,17 +196,41 @@ export class Studio {
 
   fit(): void {
     if (this.surfaces.subject()) return this.surfaces.fit();
-    const box = boxOf(this.drawn());
-    if (!box) return;
-    const margin = Math.min(this.view.width, this.view.height) * 0.16;
-    this.view.fit(box, { left: margin, right: margin, top: margin, bottom: margin });
-    this.fitted = true;
-    if (!this.store.state.looks.combOwn && this.store.state.looks.combScale > 0) this.fitComb();
+    const drawn = this.drawn();
+    if (!this.show(drawn, kAround)) return;
+    const { looks } = this.store.state;
+    if (!looks.combOwn && looks.combScale > 0) this.fitComb();
+    this.show([...drawn, ...this.tips()], kAroundComb);
+    this.fitted = { scale: this.view.scale, center: this.view.center };
     this.canvas.schedule();
+  }
+
+  private show(points: readonly Point[], around: number): boolean {
+    const box = boxOf(points);
+    const margin = Math.min(this.view.width, this.view.height) * around;
+    if (box) this.view.fit(box, { left: margin, right: margin, top: margin, bottom: margin });
+    return box !== null;
+  }
+
+  /** Of the comb that is shown, but for what stands out of it. */
+  private tips(): Point[] {
+    const { comb, combScale, combOwn } = this.store.state.looks;
+    const shown = this.subject()?.shown.comb;
+    if (!comb || !shown) return [];
+    const sizes = shown.curvature.map(Math.abs).sort((a, b) => a - b);
+    const most = combOwn ? Infinity : sizes[Math.floor(kMostTeeth * (sizes.length - 1))] ?? 0;
+    return shown.points.flatMap((_, i) => (Math.abs(shown.curvature[i] ?? 0) <= most ? [tip(shown, i, combScale)] : []));
   }
 
   private fitOnce(): void {
     if (!this.fitted && this.view.width > 100) this.fit();
+  }
+
+  /** The canvas has another size: what was fitted and never moved by hand is fitted again. */
+  private resized(): void {
+    const { fitted, view } = this;
+    if (!fitted) this.fitOnce();
+    else if (fitted.scale === view.scale && fitted.center === view.center && !this.surfaces.subject()) this.fit();
   }
 
   /** The longest tooth of the chosen curve (else of any) as long as is good to look at. */

@@ -61,7 +61,7 @@ function paintEntity(g: CanvasRenderingContext2D, scene: Scene, e: Entity, color
   const shown = live.of(e.id);
   if (!shown) return;
   const { looks } = state;
-  if (looks.comb && looks.combScale > 0 && (selected || looks.combOfAll))
+  if (looks.comb && looks.combScale > 0 && !live.failureOf(e.id) && (selected || looks.combOfAll))
     paintComb(g, view, shown.comb, {
       scale: looks.combScale, density: looks.combDensity, line: colors.comb, fill: colors.combFill,
       faint: !selected,
@@ -226,8 +226,8 @@ export function paintScene(g: CanvasRenderingContext2D, scene: Scene): void {
   const colors = paletteOf(state);
   g.fillStyle = colors.ground;
   g.fillRect(0, 0, view.width, view.height);
-  paintUnderlay(g, scene);
   if (state.looks.grid) paintGrid(g, view, colors);
+  paintUnderlay(g, scene);
   const visible = doc.entities.filter((e) => isShown(doc, e));
   paintRegion(g, scene, colors);
   for (const e of visible) if (e.kind === "scan") paintEntity(g, scene, e, colors);

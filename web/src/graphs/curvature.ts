@@ -2,11 +2,13 @@ import type { Palette } from "../canvas/palette.ts";
 import type { DeviationTold } from "../model/deviation.ts";
 import type { Comb } from "../model/document.ts";
 import { nearestIndex } from "../view/nearest.ts";
-import { Plot, type Range, rangeOf } from "./plot.ts";
+import { Plot, type Range, rangeOf, withOther } from "./plot.ts";
 
 export interface Graphed {
   comb: Comb;
   before: Comb | undefined;
+  /** name of another curve that `before` is */
+  beside: string;
   /** slope of each piece, where the curve tells */
   slopes: readonly (number | null)[];
   hover: number | null;
@@ -62,7 +64,8 @@ export class CurvaturePlot extends Plot {
     this.length = comb.length;
     this.steps = comb.arc_length;
     const own = this.heights(comb);
-    this.axes = { x: { low: 0, high: comb.length * 1.0001 }, y: own };
+    const y = before && graphed.beside ? withOther(own, this.heights(before)) : own;
+    this.axes = { x: { low: 0, high: comb.length * 1.0001 }, y };
     this.begin(colors);
     if (graphed.stretch) this.band(graphed.stretch, colors);
     for (const i of comb.joints) this.upright(comb.arc_length[i] as number, colors.axis, [2, 3]);
@@ -85,7 +88,7 @@ export class CurvaturePlot extends Plot {
         colors.mark, colors.ground, 4.5);
     }
     this.end();
-    this.say(before ? "amber: after \u00b7 blue: before" : "");
+    this.say(before ? `blue: ${graphed.beside || "before"}` : "");
   }
 
   /** Zero is in sight unless the curve keeps far from it: then how it changes is. */

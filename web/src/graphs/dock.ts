@@ -64,6 +64,7 @@ export class Dock {
     const graphed: Graphed | null = subject && {
       comb: subject.shown.comb,
       before: looks.before ? subject.before?.comb : undefined,
+      beside: subject.beside,
       slopes: slopesOf(subject.shown),
       hover: hover?.entity === subject.entity ? hover.sample : null,
       stretch: stretch?.entity === subject.entity ? stretch : null,

@@ -2,7 +2,9 @@
 import type { Palette } from "../canvas/palette.ts";
 import type { Comb } from "../model/document.ts";
 import { type Graphed } from "./curvature.ts";
-import { Plot, rangeOf } from "./plot.ts";
+import { Plot, rangeOf, withOther } from "./plot.ts";
+
+const kNamed = 2; // slopes that have room beside the title
 
 /** Samples of the graph at which another piece begins. */
 function breaksOf(comb: Comb, samples: readonly number[]): Set<number> {
@@ -50,12 +52,13 @@ export class LcgPlot extends LogPlot {
     const samples = graphs.samples ?? [];
     const xs = lcg.map((p) => p[0]);
     const ys = lcg.map((p) => p[1]);
-    const x = rangeOf(xs) ?? { low: 0, high: 1 };
-    const y = rangeOf(ys) ?? { low: 0, high: 1 };
-    this.axes = { x, y };
+    const old = (graphed.before?.graphs?.lcg ?? []) as [number, number][];
+    this.axes = {
+      x: withOther(rangeOf(xs) ?? { low: 0, high: 1 }, rangeOf(old.map((p) => p[0]))),
+      y: withOther(rangeOf(ys) ?? { low: 0, high: 1 }, rangeOf(old.map((p) => p[1]))),
+    };
     this.places = samples.map((sample, i) => ({ sample, x: xs[i] as number, y: ys[i] as number }));
     this.begin(colors);
-    const old = (graphed.before?.graphs?.lcg ?? []) as [number, number][];
     if (graphed.before && old.length > 0)
       this.line(old.map((p) => p[0]), old.map((p) => p[1]), colors.before, 1,
         breaksOf(graphed.before, graphed.before.graphs?.samples ?? []));
@@ -64,8 +67,8 @@ export class LcgPlot extends LogPlot {
     if (at >= 0) this.dot(xs[at] as number, ys[at] as number, colors.mark, colors.ground, 4.5);
     this.end();
     const slopes = graphed.slopes.filter((s): s is number => s !== null);
-    const named = slopes.slice(0, 3).map((s) => s.toFixed(2).replace("-", "\u2212")).join("  ");
-    this.say(slopes.length > 0 ? `slope ${named}${slopes.length > 3 ? " \u2026" : ""}` : "");
+    const named = slopes.map((s) => s.toFixed(2).replace("-", "\u2212"));
+    this.say(named.length > kNamed ? `${named.length} slopes` : named.length > 0 ? `slope ${named.join("  ")}` : "");
   }
 }
 

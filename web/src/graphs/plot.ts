@@ -34,6 +34,12 @@ export function rangeOf(values: Iterable<number>, margin = 0.06): Range | null {
   return { low: low - margin * size, high: high + margin * size };
 }
 
+/** The one range, and of another as much as leaves the one a third of the room. */
+export function withOther(own: Range, other: Range | null): Range {
+  const size = own.high - own.low;
+  return other ? { low: Math.max(Math.min(own.low, other.low), own.low - size), high: Math.min(Math.max(own.high, other.high), own.high + size) } : own;
+}
+
 export abstract class Plot {
   readonly canvas: HTMLCanvasElement;
   readonly element: HTMLElement;

@@ -90,7 +90,7 @@ export function actionsPanel(client: Client, store: Store, live: Live): HTMLElem
   const e = entityOf(store.doc, a.id);
   const nameOf = (id: number) => entityOf(store.doc, id)?.name ?? "";
   if (!b)
-    return section("Make", h("div", { class: "row" }, button("Mirror image", () =>
+    return section("Make", h("div", { class: "row wrap" }, button("Mirror image", () =>
       make("Mirror", { kind: "mirror", name: `${nameOf(a.id)}, mirrored`, of: a.id, axis: [a.end, [a.end[0], a.end[1] + 1]] }),
     { id: "mirror" }), e && kHeld.includes(e.kind) && button("Let it go", () => letGo(store, e, a.curve),
       { id: "let-go", title: "A curve of its own from now on, that can be moved: it no longer follows what it was made of" }),

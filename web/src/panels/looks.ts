@@ -1,8 +1,11 @@
 /** How curves are looked at: the comb first. */
-import type { Store } from "../model/state.ts";
+import { entityOf } from "../model/document.ts";
+import { docOf, type State, type Store } from "../model/state.ts";
 import { iconButton, slider } from "../ui/controls.ts";
 import { fill, h } from "../ui/dom.ts";
 import { icons } from "../ui/icons.ts";
+
+const inSpace = (state: State): boolean => entityOf(docOf(state), state.selection.at(-1) ?? null)?.kind === "surface";
 
 export class LooksBar {
   onHelp: () => void = () => {};
@@ -12,7 +15,7 @@ export class LooksBar {
     store.onChange((now, before) => {
       const { combScale: _a, combDensity: _b, combOwn: _e, ...rest } = now.looks;
       const { combScale: _c, combDensity: _d, combOwn: _f, ...old } = before.looks;
-      if (JSON.stringify(rest) !== JSON.stringify(old)) this.render();
+      if (JSON.stringify(rest) !== JSON.stringify(old) || inSpace(now) !== inSpace(before)) this.render();
     });
     this.render();
   }
@@ -20,9 +23,10 @@ export class LooksBar {
   private render(): void {
     const { store } = this;
     const { looks } = store.state;
+    const space = inSpace(store.state); // where nothing of the drawing board is seen
     const flip = (id: string, icon: string, label: string, name: "comb" | "combOfAll" | "evolute" | "circle" | "deviation" | "grid" | "snap", key?: string) =>
       iconButton({
-        id: `look-${id}`, icon, label, pressed: looks[name], ...(key ? { key } : {}),
+        id: `look-${id}`, icon, label, pressed: looks[name] && !space, disabled: space, ...(key ? { key } : {}),
         onClick: () => store.look({ [name]: !looks[name] }),
       });
     fill(this.element,

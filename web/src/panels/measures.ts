@@ -41,10 +41,7 @@ export const reading = (e: Entity | undefined, shown: Shown, sample: number, uni
   readings(e, shown, sample, unit).join("  \u00b7  ");
 
 export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined, beside: string, unit: string): HTMLElement {
-  const { comb } = shown;
-  const graphs = comb.graphs;
   const behind = unit ? ` ${unit}` : "";
-  const inflections = graphs?.events?.filter((x) => x.kind === "inflection").length ?? 0;
   const pair = (name: string, of: (s: Shown) => string) =>
     before
       ? h("div", { class: "fact" }, h("dt", {}, name), h("dd", { class: "was" }, of(before)), h("dd", {}, of(shown)))
@@ -53,13 +50,13 @@ export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined
     const radii = s.comb.curvature.map((k) => 1 / Math.abs(k));
     return `${measure(Math.min(...radii), 3)}\u2009\u2026\u2009${measure(Math.max(...radii), 3)}`;
   };
-  return section(!before ? "Measures" : beside ? `${beside} \u2192 ${e.name}` : "Before \u2192 after",
+  return section(shown.failure ? "Measures of the last that could be drawn" : !before ? "Measures" : beside ? `${beside} \u2192 ${e.name}` : "Before \u2192 after",
     h("dl", { class: before ? "facts pairs" : "facts", id: "measures", "data-entity": e.id },
       pair("Length", (s) => measure(s.comb.length, 5) + (before ? "" : behind)),
       pair("Radius", range),
       pair("Pieces", (s) => String(s.comb.joints.length + 1)),
       pair("Extrema", (s) => String(s.comb.graphs?.events?.filter((x) => x.kind === "maximum" || x.kind === "minimum").length ?? 0)),
-      fact("Inflections", String(inflections)),
+      pair("Inflections", (s) => String(s.comb.graphs?.events?.filter((x) => x.kind === "inflection").length ?? 0)),
       pair("Waves", (s) => String(s.comb.graphs?.waves ?? 0)),
       pair("Energy", (s) => measure(s.comb.graphs?.energy ?? 0, 3)),
       pair("Bending", (s) => measure(s.comb.graphs?.bending ?? 0, 3)),

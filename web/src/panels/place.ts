@@ -8,7 +8,7 @@ import { button, section } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
 
 const kDegree = Math.PI / 180;
-const kDigits = 6; // that a typed number keeps when shown again
+const kDigits = 5; // shown of a number
 
 interface Field {
   id: string;

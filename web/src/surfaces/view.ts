@@ -81,12 +81,15 @@ export class SurfaceView {
   /** where the line between before and after stands, as a share of the width */
   private wipe = 0.5;
   private framed = "";
+  /** what was brought in sight and not been turned or moved since */
+  private inSight: readonly Sampled[] | null = null;
   private scheduled = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.schedule());
+    this.controls.addEventListener("start", () => { this.inSight = null; });
     this.camera.up.set(0, 0, 1);
     canvas.addEventListener("keydown", (e) => this.key(e));
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -99,6 +102,7 @@ export class SurfaceView {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
+    if (this.inSight) this.frame(this.inSight);
     this.schedule();
   }
 
@@ -197,6 +201,7 @@ export class SurfaceView {
     this.camera.updateProjectionMatrix();
     this.controls.target.copy(sphere.center);
     this.controls.update();
+    this.inSight = surfaces;
     this.schedule();
   }
 
@@ -205,6 +210,7 @@ export class SurfaceView {
     const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key];
     const zoom = { "+": 0.9, "=": 0.9, "-": 1.1 }[e.key];
     if (!turn && !zoom) return;
+    this.inSight = null;
     const offset = this.camera.position.clone().sub(this.controls.target);
     if (zoom) offset.multiplyScalar(zoom);
     if (turn) {

@@ -1,6 +1,7 @@
 /**
  * Every panel, light and dark, held against axe-core's rules. With KEYLINE_PICTURES=FOLDER also
- * pictures of all of them at 1440 x 900, 1280 x 800 and the size of a tablet, for somebody to look at.
+ * pictures of all of them at 1440 x 900, 1280 x 800 and the size of a tablet, and tall enough for the
+ * whole of the panel, for somebody to look at.
  */
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -11,7 +12,7 @@ import { onStage, settled, source, type Stage } from "./studio.ts";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const pictures = process.env["KEYLINE_PICTURES"];
-const kSizes = { wide: [1440, 900], usual: [1280, 800], tablet: [1024, 768], upright: [768, 1024] } as const;
+const kSizes = { wide: [1440, 900], usual: [1280, 800], tablet: [1024, 768], upright: [768, 1024], whole: [1280, 1900] } as const;
 
 interface Finding {
   id: string;
@@ -36,8 +37,7 @@ async function looked(page: Page, name: string): Promise<void> {
     if (pictures)
       for (const [size, [width, height]] of Object.entries(kSizes)) {
         await page.setViewportSize({ width, height });
-        await page.evaluate(async () => {
-          window.keyline.fit();
+        await page.evaluate(async () => { // what was fitted is fitted again
           await new Promise((painted) => requestAnimationFrame(() => requestAnimationFrame(painted)));
         });
         await page.screenshot({ path: join(pictures, `${name}-${size}-${theme}.png`) });
@@ -81,6 +81,59 @@ panel("a sketch", [], async ({ at: { page } }) => {
   await page.waitForSelector("#trace");
   await page.click("#regions summary");
   await page.click(".cell");
+});
+panel("a surface wiped", ["examples/panel-b.json"], async ({ at: { page } }) => {
+  await page.click("#edit-surface");
+  await page.waitForSelector("#surface-outcome");
+  await page.selectOption("#surface-look", "mean");
+  await page.check("#surface-wipe");
+  await page.waitForSelector(".wipe-bar:not([hidden])");
+});
+const arch = { type: "bezier", points: [[0, 0], [10, 40], [50, 40], [60, 0]] };
+const shifted = { about: [30, 15], turn: 0.4, scale: 1.2, shift: [12.5, -8] };
+const common = { layer: "Curves", visible: true, locked: false, color: "" };
+/** Things put there, the last so many of them chosen. */
+const put = async (page: Page, things: readonly object[], chosen = 1) => {
+  await page.evaluate(({ entities, count }) => {
+    const { store } = window.keyline;
+    store.commit("Test", { unit: "mm", next: entities.length + 1, layers: [{ name: "Curves", visible: true, locked: false }], entities } as never,
+      { selection: entities.map((_, i) => i + 1).slice(-count) });
+  }, { entities: things.map((thing, i) => ({ ...common, id: i + 1, ...thing })), count: chosen });
+  await settled(page);
+};
+const handles = [[80, 0], [150, 0], [170, 60]];
+const drawn = [
+  { kind: "compound", name: "Compound 1", points: handles, alpha: [-1, 1], ratio: 0.5 },
+  { kind: "segment", name: "Segment with a name that is rather long for its row", points: [[200, 80], [240, 80], [260, 110]], alpha: 0 },
+];
+panel("a curve placed", [], async ({ at: { page } }) => put(page, [{ kind: "fixed", name: "arch", curve: arch, placed: shifted }]));
+panel("several curves", [], async ({ at: { page } }) => {
+  await put(page, [...drawn, { kind: "fixed", name: "arch", curve: arch }], 2);
+  await page.keyboard.press("j");
+});
+panel("two curves wiped", [], async ({ at: { page } }) => {
+  await put(page, [{ ...drawn[0] }, { ...drawn[0], name: "Compound 2", alpha: [0, 2], points: [[80, 0], [150, 4], [170, 60]] }], 2);
+  await page.keyboard.press("w");
+});
+panel("compound", [], async ({ at: { page } }) => put(page, [drawn[1] as object, drawn[0] as object]));
+panel("a blend", [], async ({ at: { page } }) =>
+  put(page, [...drawn, { kind: "blend", name: "Blend 1\u20132", of: [1, 2], ends: ["end", "start"], order: "G2", alpha: -1 }]));
+panel("quasi", [], async ({ at: { page } }) =>
+  put(page, [{ kind: "quasi", name: "Quasi 1", points: handles, alpha: -1, form: "best", degree: 6 }]));
+panel("a spline", [], async ({ at: { page } }) =>
+  put(page, [{ kind: "spline", name: "Spline 1", points: [[0, 0], [40, 50], [90, 10], [130, 60]], alpha: -1, closed: true }]));
+panel("what cannot be drawn", [], async ({ at: { page } }) => {
+  await put(page, [{ kind: "segment", name: "Segment 1", points: [[0, 0], [200, 0], [200.5, 30]], alpha: 2 }]);
+  await page.waitForSelector("#failure");
+});
+panel("nothing", [], async ({ at: { page } }) => put(page, []));
+panel("traced lines", [], async ({ at: { page } }) => {
+  const choosing = page.waitForEvent("filechooser");
+  await page.click("#open");
+  await (await choosing).setFiles(join(source, "examples/sketch.png"));
+  await page.click("#trace");
+  await page.waitForFunction(() => window.keyline.store.doc.entities.some((e) => e.layer === "Sketch"));
+  await settled(page);
 });
 panel("symmetry", ["examples/bonnet-scan.csv"], async ({ at: { page } }) => {
   await page.selectOption("#symmetric", "line");
