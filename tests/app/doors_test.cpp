@@ -298,7 +298,7 @@ constexpr Looser kOnPages[] = {
     {"curve.diagrams", 1e-8, "so does the self-affinity's scale"},
     {"curve.offset", 1e-10, "fitted until it is near enough"},
     {"fit.curvature", 1e-10,
-     "iterated until the squared misfit falls by 1e-14 of itself: known to 1e-7 of a shift of 1e-3"},
+     "iterated until its squares fall by 1e-14 of themselves: known to 1e-7 of a shift of 1e-3"},
     {"lac.quasi", 1e-12, "the slope of its graph is measured on differences"},
     {"lac.space", 1e-9, "torsion's slopes are measured on third differences"},
 };

@@ -1,16 +1,16 @@
 /** The page put together. */
 import type { Client } from "./api/client.ts";
 import { Canvas } from "./canvas/canvas.ts";
-import { tip } from "./canvas/curves.ts";
 import { paletteOf } from "./canvas/scene.ts";
 import type { Table } from "./gestures/gesture.ts";
 import { Dock, type Subject } from "./graphs/dock.ts";
+import { Fitting } from "./fitting.ts";
 import { Keyboard } from "./keyboard.ts";
 import { Autosave, ownDocument } from "./model/autosave.ts";
 import { Before } from "./model/before.ts";
 import { Deviation } from "./model/deviation.ts";
-import { added, emptyDoc, entityOf, isShown, type Point, without } from "./model/document.ts";
-import { Live, type Shown } from "./model/live.ts";
+import { added, emptyDoc, entityOf, without } from "./model/document.ts";
+import { Live } from "./model/live.ts";
 import { exportAs, isImage, openNamed } from "./model/open.ts";
 import { DrawableRegion } from "./model/region.ts";
 import { kExample, startState, Store } from "./model/state.ts";
@@ -30,18 +30,9 @@ import { TargetPanel } from "./panels/target.ts";
 import { ToolRail } from "./panels/toolbar.ts";
 import { SurfaceStage } from "./surfaces/stage.ts";
 import { section } from "./ui/controls.ts";
-import { fill, h } from "./ui/dom.ts";
-import { boxOf, Viewport } from "./view/viewport.ts";
+import { fill, h, refill } from "./ui/dom.ts";
+import { Viewport } from "./view/viewport.ts";
 import { label, readable, roundStep } from "./view/ticks.ts";
-
-// A comb that fits: nine teeth of ten within this share of the canvas' smaller side, so that one tight
-// corner does not press the rest flat; none longer than the second.
-const kMostTeeth = 0.9;
-const kToothShare = 0.16;
-const kLongestTooth = 0.55;
-const kAround = 0.16; // of the smaller side left free about curves,
-const kAroundComb = 0.09; // and about curves with the comb
-const kSameComb = Math.log(2.5); // combs whose scales differ by less stay comparable
 
 const kSpaceHint = "Drag turns, wheel comes nearer, the right button moves; arrows, plus and minus do too";
 
@@ -64,12 +55,11 @@ export class Studio {
   readonly region: DrawableRegion;
   private readonly deviation: Deviation;
   private readonly looks: LooksBar;
+  private readonly fitting: Fitting;
   readonly autosave: Autosave;
   private readonly panel = h("aside", { class: "panel", "aria-label": "Properties" });
   private readonly status = h("div", { class: "status", role: "status" });
   private readonly bar = new FileBar(this);
-  /** the view as it was fitted last; null: not yet */
-  private fitted: { scale: number; center: Point } | null = null;
 
   constructor(readonly client: Client, root: HTMLElement) {
     const wantsLight = matchMedia("(prefers-color-scheme: light)").matches;
@@ -92,7 +82,8 @@ export class Studio {
     this.surfaces = new SurfaceStage(client, this.store);
     this.surfacePanel = new SurfacePanel(client, this.store, this.surfaces);
     const notices = new Notices(this.store);
-    this.looks = new LooksBar(this.store, () => this.fitComb());
+    this.fitting = new Fitting(this.store, this.live, this.view, () => this.subject()?.shown, () => this.canvas.schedule());
+    this.looks = new LooksBar(this.store, () => this.fitting.fitComb());
     this.autosave = new Autosave(client, this.store, localStorage);
     root.replaceChildren(h("div", { class: "studio" },
       h("header", {}, h("h1", {}, h("img", { src: "icon.svg", alt: "", width: 20, height: 20 }), "Keyline Studio"),
@@ -118,8 +109,8 @@ export class Studio {
       this.canvas.schedule();
       this.dock.paint();
     };
-    this.canvas.onStatus = () => this.renderStatus();
-    this.canvas.onReady = () => this.resized();
+    this.canvas.onPaint = () => this.renderStatus();
+    this.canvas.onReady = () => this.fitting.resized(this.surfaces.subject() !== null);
     this.client.onReach = (reached) => {
       if (reached !== this.store.state.reached) this.store.set({ reached });
     };
@@ -144,7 +135,7 @@ export class Studio {
       this.canvas.schedule();
     });
     this.store.onChange((now, before) => {
-      if (now.selection !== before.selection) this.refitComb();
+      if (now.selection !== before.selection) this.fitting.refitComb();
     });
     this.listenToDrops();
   }
@@ -152,9 +143,9 @@ export class Studio {
   /** A curve has come: it is painted at once, with its comb and graphs, in the same breath. */
   private curveCame(id: number): void {
     const { state } = this.store;
-    if (state.looks.combScale === 0) this.fitComb();
-    else if (!state.draft && state.selection.includes(id)) this.refitComb();
-    this.fitOnce();
+    if (state.looks.combScale === 0) this.fitting.fitComb();
+    else if (!state.draft && state.selection.includes(id)) this.fitting.refitComb();
+    this.fitting.fitOnce();
     this.canvas.paint();
     void this.region.update();
     if (state.selection.includes(id)) {
@@ -165,7 +156,6 @@ export class Studio {
     }
     this.canvas.latency.painted(state.draft !== null);
     if (performance.getEntriesByName(kFirstCurve).length === 0) performance.mark(kFirstCurve);
-    this.renderStatus();
   }
 
   subject(): Subject | null {
@@ -184,76 +174,9 @@ export class Studio {
     return null;
   }
 
-  private drawn(): Point[] {
-    const doc = this.store.doc;
-    const under = this.store.state.underlay;
-    return doc.entities.filter((e) => isShown(doc, e)).flatMap((e): Point[] => {
-      if (e.kind === "scan") return e.line.points as Point[];
-      const own = "points" in e ? (e.points as Point[]) : [];
-      return [...own, ...((this.live.of(e.id)?.comb.points ?? []) as Point[])];
-    }).concat(under ? [under.at, [under.at[0] + under.width * under.scale, under.at[1] + under.height * under.scale]] : []);
-  }
-
   fit(): void {
-    if (this.surfaces.subject()) return this.surfaces.fit();
-    const drawn = this.drawn();
-    if (!this.show(drawn, kAround)) return;
-    const { looks } = this.store.state;
-    if (!looks.combOwn && looks.combScale > 0) this.fitComb();
-    this.show([...drawn, ...this.tips()], kAroundComb);
-    this.fitted = { scale: this.view.scale, center: this.view.center };
-    this.canvas.schedule();
-  }
-
-  private show(points: readonly Point[], around: number): boolean {
-    const box = boxOf(points);
-    const margin = Math.min(this.view.width, this.view.height) * around;
-    if (box) this.view.fit(box, { left: margin, right: margin, top: margin, bottom: margin });
-    return box !== null;
-  }
-
-  /** Of the comb that is shown, but for what stands out of it. */
-  private tips(): Point[] {
-    const { comb, combScale, combOwn } = this.store.state.looks;
-    const shown = this.subject()?.shown.comb;
-    if (!comb || !shown) return [];
-    const sizes = shown.curvature.map(Math.abs).sort((a, b) => a - b);
-    const most = combOwn ? Infinity : sizes[Math.floor(kMostTeeth * (sizes.length - 1))] ?? 0;
-    return shown.points.flatMap((_, i) => (Math.abs(shown.curvature[i] ?? 0) <= most ? [tip(shown, i, combScale)] : []));
-  }
-
-  private fitOnce(): void {
-    if (!this.fitted && this.view.width > 100) this.fit();
-  }
-
-  /** The canvas has another size: what was fitted and never moved by hand is fitted again. */
-  private resized(): void {
-    const { fitted, view } = this;
-    if (!fitted) this.fitOnce();
-    else if (fitted.scale === view.scale && fitted.center === view.center && !this.surfaces.subject()) this.fit();
-  }
-
-  /** The longest tooth of the chosen curve (else of any) as long as is good to look at. */
-  fitComb(): void {
-    const subject = this.subject();
-    const shown: Shown[] = subject ? [subject.shown]
-      : this.store.doc.entities.flatMap((e) => this.live.of(e.id) ?? []);
-    const sizes = shown.flatMap((s) => s.comb.curvature.map(Math.abs)).sort((a, b) => a - b);
-    const largest = sizes.at(-1) ?? 0;
-    if (!(largest > 0)) return;
-    const most = sizes[Math.floor(kMostTeeth * (sizes.length - 1))] ?? largest;
-    const side = Math.min(this.view.width, this.view.height) / this.view.scale;
-    const fitting = Math.min((kToothShare * side) / Math.max(most, 1e-12), (kLongestTooth * side) / largest);
-    this.store.look({ combScale: fitting, combOwn: false });
-  }
-
-  /** Another curve is looked at: its comb is fitted too, unless it would hardly differ or a hand has scaled it. */
-  private refitComb(): void {
-    const { combScale, combOwn } = this.store.state.looks;
-    if (combOwn || combScale === 0 || !this.subject()) return;
-    this.fitComb();
-    const fitting = this.store.state.looks.combScale;
-    if (Math.abs(Math.log(fitting / combScale)) < kSameComb) this.store.look({ combScale });
+    if (this.surfaces.subject()) this.surfaces.fit();
+    else this.fitting.fit();
   }
 
   async openFiles(files: FileList | readonly File[]): Promise<void> {
@@ -357,7 +280,7 @@ export class Studio {
     const e = subject && entityOf(this.store.doc, subject.entity);
     const failure = e && this.live.failureOf(e.id);
     if (slot)
-      fill(slot,
+      refill(slot,
         failure && section("Cannot be drawn", h("p", { class: "bad", id: "failure" }, readable(failure.message)), h("p", { class: "quiet" }, readable(failure.hint ?? ""))),
         e && measuresPanel(e, subject.shown, subject.before, subject.beside, this.store.doc.unit));
   }
@@ -367,7 +290,7 @@ export class Studio {
     const shown = hover && this.live.of(hover.entity);
     const place = this.canvas.place;
     const { latency } = this.canvas;
-    fill(this.status,
+    refill(this.status,
       h("span", { class: "reading", id: "reading" }, shown ? reading(entityOf(this.store.doc, hover.entity), shown, hover.sample, this.store.doc.unit)
         : this.surfaces.subject() ? kSpaceHint : this.canvas.hint),
       h("span", { class: "place" }, place ? place.map((v) => label(v, roundStep(1 / this.view.scale))).join(", ") : ""),

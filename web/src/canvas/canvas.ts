@@ -10,6 +10,8 @@ import { h } from "../ui/dom.ts";
 import { Latency } from "./latency.ts";
 import { paintScene, type Scene } from "./scene.ts";
 
+const kPatience = 2; // frames that wait for a curve under way
+
 export class Canvas {
   readonly element: HTMLCanvasElement;
   readonly latency = new Latency();
@@ -22,7 +24,7 @@ export class Canvas {
   private readonly touches = new Map<number, Point>();
   private scheduled = false;
   private readonly images = new Map<string, HTMLImageElement>();
-  onStatus: () => void = () => {};
+  /** what is said below it may be another */
   onPaint: () => void = () => {};
   /** before the first size is known nothing can be fitted */
   onReady: () => void = () => {};
@@ -88,10 +90,19 @@ export class Canvas {
     this.onPaint();
   }
 
+  /** Once a frame; while a hand drags, the curve that is on its way paints the frame itself. */
   schedule(): void {
     if (this.scheduled) return;
     this.scheduled = true;
-    requestAnimationFrame(() => this.scheduled && this.paint());
+    requestAnimationFrame(() => this.frame(kPatience));
+  }
+
+  private frame(patience: number): void {
+    if (!this.scheduled) return;
+    const { store, live } = this.table;
+    const awaited = store.state.draft !== null && store.state.carrying === null && live.asking;
+    if (awaited && patience > 0) requestAnimationFrame(() => this.frame(patience - 1));
+    else this.paint();
   }
 
   /** A key the gesture may know. */
@@ -173,8 +184,8 @@ export class Canvas {
   }
 
   private after(): void {
-    this.element.style.cursor = this.gesture.cursor ?? "default";
-    this.onStatus();
+    const cursor = this.gesture.cursor ?? "default";
+    if (cursor !== this.element.style.cursor) this.element.style.cursor = cursor;
     this.schedule();
   }
 
@@ -183,6 +194,11 @@ export class Canvas {
       this.element.addEventListener(name, act, { passive: false });
     on("pointerdown", (e) => this.down(e));
     on("pointermove", (e) => this.move(e));
+    // browsers keep moves back until the next frame; while a hand drags, the next question leaves at once
+    this.element.addEventListener("pointerrawupdate", (e) => {
+      const { store, live } = this.table;
+      if (store.state.draft !== null && !live.asking && (e as PointerEvent).pointerType !== "touch") this.move(e as PointerEvent);
+    });
     on("pointerup", (e) => this.up(e));
     on("pointercancel", (e) => {
       this.touches.delete(e.pointerId);
@@ -260,6 +276,5 @@ export class Canvas {
     if (trackpad) view.panBy(-e.deltaX, -e.deltaY);
     else view.zoomAt(this.pointer(e).at, Math.exp(-turned / (e.ctrlKey ? 100 : 400)));
     this.schedule();
-    this.onStatus();
   }
 }

@@ -82,6 +82,11 @@ export class Live {
     return this.failures.get(id);
   }
 
+  /** Whether an answer is on its way. */
+  get asking(): boolean {
+    return [...this.asked.values()].some((asked) => asked.busy);
+  }
+
   /** Whether all curves are those of the document as it is. */
   get settled(): boolean {
     return this.store.doc.entities.every((e) => {

@@ -38,3 +38,26 @@ export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren(...children.filter((c): c is Node | string => !!c || c === ""));
   if (within && focused) document.getElementById(focused)?.focus();
 }
+
+/** Texts and attributes of what is there, where the new children are built alike: nothing is laid out anew for a number. */
+function taken(over: Node, from: Node): boolean {
+  if (over.nodeName !== from.nodeName || over.childNodes.length !== from.childNodes.length) return false;
+  if (over instanceof Text) {
+    if (over.data !== (from as Text).data) over.data = (from as Text).data;
+    return true;
+  }
+  if (over instanceof Element && from instanceof Element) {
+    if (over.attributes.length !== from.attributes.length) return false;
+    for (const { name, value } of from.attributes) if (over.getAttribute(name) !== value) over.setAttribute(name, value);
+  }
+  return [...over.childNodes].every((child, i) => taken(child, from.childNodes[i] as Node));
+}
+
+/** As fill(), for content that nobody listens to and that changes while a hand drags. */
+export function refill(element: Element, ...children: Child[]): void {
+  const fresh = document.createElement(element.nodeName);
+  fresh.append(...children.filter((c): c is Node | string => !!c));
+  const same = element.childNodes.length === fresh.childNodes.length
+    && [...element.childNodes].every((child, i) => taken(child, fresh.childNodes[i] as Node));
+  if (!same) element.replaceChildren(...fresh.childNodes);
+}

@@ -6,10 +6,14 @@ import { type Browser, type BrowserContext, chromium, type Page } from "playwrig
 export const source = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const kPatience = 120_000; // ms: how fast the machine is, is not what is asked
 
-export async function openBrowser(): Promise<Browser> {
+/**
+ * `space`: with WebGL, for surfaces. Its graphics card is emulated by one of the two cores, and everything flat is
+ * painted by way of it too, frames of 300 ms among them: what is timed is timed without.
+ */
+export async function openBrowser(space = true): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.KEYLINE_CHROMIUM as string,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: ["--no-sandbox", ...(space ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] : [])],
   });
 }
 
