@@ -1,7 +1,7 @@
-# KEYLINE_UNITY: a target's sources are compiled a dozen at a time, which takes about half of the
+# KEYLINE_UNITY: a target's sources are compiled twenty at a time, which takes about half of the
 # time from nothing; the code and what it computes stay the same (docs/contributing.md). cmake/unity.py writes
 # the sources that hold them.
-set(KEYLINE_UNITY_SIZE 12 CACHE STRING "Most sources compiled as one; more take more memory (1.7 GB for 12)")
+set(KEYLINE_UNITY_SIZE 20 CACHE STRING "Most sources compiled as one; more take more memory")
 
 # Puts into `result` what a target compiles: the sources as they are, or those that hold them. Alone
 # stay sources with properties of their own, which have to be set before.

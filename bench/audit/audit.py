@@ -7,7 +7,7 @@ be the same to the last byte. Exit status 1 where they are not, or where nobody 
 import os
 import random
 import resource
-import signal
+import subprocess
 import sys
 import tempfile
 import threading
@@ -17,10 +17,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(Path(os.environ.get("KEYLINE_BUILD", ROOT / "build" / "release")) / "bindings" / "python"))
 
-import dask  # noqa: E402
 import distributed  # noqa: E402
 
 from keyline import audit  # noqa: E402
+
+
+# Here workers die far oftener than a file could be to blame for.
+DEATHS = 1000
 
 
 def processor():
@@ -36,43 +39,53 @@ def table(paths, run, target):
     return target.read_bytes()
 
 
-class Killer:
-    """Kills a worker every so many seconds until it is stopped."""
+class Crew:
+    """So many workers, each a process; who dies is replaced. One of them is killed every `kill_every`
+    seconds, where that is given."""
 
-    def __init__(self, cluster, seconds):
-        self.cluster, self.seconds, self.killed = cluster, seconds, 0
+    def __init__(self, address, workers, kill_every=None):
+        self.command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1",
+                        "--no-nanny", "--no-dashboard"]  # fmt: skip
+        self.kill_every, self.killed = kill_every, 0
         self.stop = threading.Event()
         self.random = random.Random(1)
+        self.processes = [self.hire() for _ in range(workers)]
         self.thread = threading.Thread(target=self.run)
         self.thread.start()
 
+    def hire(self):
+        path = os.pathsep.join(p for p in sys.path if p)
+        return subprocess.Popen(self.command, env={**os.environ, "PYTHONPATH": path},
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+
     def run(self):
-        while not self.stop.wait(self.seconds):
-            there = [w for w in self.cluster.workers.values() if w.status.name == "running" and getattr(w, "pid", None)]
-            if not there:
-                continue
-            try:
-                os.kill(self.random.choice(there).pid, signal.SIGKILL)
+        due = time.monotonic() + (self.kill_every or 0)
+        while not self.stop.wait(0.2):
+            if self.kill_every and time.monotonic() >= due:
+                self.random.choice(self.processes).kill()
                 self.killed += 1
-            except ProcessLookupError:
-                pass
+                due += self.kill_every
+            self.processes = [p if p.poll() is None else self.hire() for p in self.processes]
 
     def end(self):
         self.stop.set()
         self.thread.join()
+        for process in self.processes:
+            process.kill()
+            process.wait()
         return self.killed
 
 
 def on_dask(paths, workers, target, kill_every=None):
     """The table, and how often a worker was killed meanwhile."""
-    with distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster:
-        cluster.scheduler.allowed_failures = audit.DEATHS
+    with distributed.LocalCluster(n_workers=0, dashboard_address=None) as cluster:
+        cluster.scheduler.allowed_failures = DEATHS
         start = time.perf_counter()
-        killer = Killer(cluster, kill_every) if kill_every else None
+        crew = Crew(cluster.scheduler_address, workers, kill_every)
         try:
             made = table(paths, audit.distributed(paths, cluster.scheduler_address, workers), target)
         finally:
-            killed = killer.end() if killer else 0
+            killed = crew.end()
         return made, time.perf_counter() - start, killed
 
 
@@ -83,7 +96,6 @@ def main():
     if not paths:
         print(f"audit.py: no file in {folder}", file=sys.stderr)
         return 1
-    dask.config.set({"distributed.scheduler.allowed-failures": audit.DEATHS})
     here = Path(tempfile.mkdtemp())
     start, used = time.perf_counter(), processor()
     expected = table(paths, audit.serial(paths), here / "serial.csv")

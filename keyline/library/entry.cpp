@@ -157,6 +157,8 @@ Result<std::vector<Entry>> describe(const Document& document, const std::string&
                                     const DescribeOptions& options,
                                     const core::Progress& progress) {
   std::vector<Document> things = things_of(document);
+  things.erase(things.begin(), things.begin() + std::min(options.first, things.size()));
+  if (options.most && *options.most < things.size()) things.resize(*options.most);
   std::vector<Entry> entries(things.size());
   std::atomic<std::size_t> done = 0;
   std::mutex telling;

@@ -68,6 +68,8 @@ struct Entry {
 const document::Label& label(const Entry& entry);
 
 struct DescribeOptions {
+  std::size_t first = 0;                 ///< of the document's things, in its order
+  std::optional<std::size_t> most = {};  ///< so many from there on; empty: all
   int threads = 0;  ///< <= 0: all of the machine's; the entries do not depend on it
 };
 

@@ -20,6 +20,8 @@ struct MeasureRequest {
   std::vector<NamedCurve> curves;
   std::string unit;
   std::string source;
+  std::size_t first = 0;
+  std::optional<std::size_t> most;
   static constexpr auto describe() {
     using R = MeasureRequest;
     return core::fields(
@@ -28,7 +30,11 @@ struct MeasureRequest {
         core::field<&R::glyphs>("of fonts: characters, /name or U+0053"),
         core::field<&R::curves>("instead of files: curves with their names"),
         core::field<&R::unit>("of the coordinates; else the file's own"),
-        core::field<&R::source>("where it comes from; else the file's name"));
+        core::field<&R::source>("where it comes from; else the file's name"),
+        core::field<&R::first>("of each file: leave out so many things before")
+            .within(core::at_least(0)),
+        core::field<&R::most>("of each file: so many things at most; else all")
+            .within(core::at_least(1)));
   }
 };
 
@@ -76,8 +82,10 @@ struct Measured {
 };
 
 Result<void> measure_document(const document::Document& document, const std::string& source,
-                              const Context& context, Measured& all) {
-  auto entries = library::describe(document, source, {context.threads}, context.progress);
+                              const MeasureRequest& request, const Context& context,
+                              Measured& all) {
+  auto entries = library::describe(document, source, {request.first, request.most, context.threads},
+                                   context.progress);
   if (!entries) return std::unexpected(entries.error());
   std::ranges::move(*entries, std::back_inserter(all.entries));
   all.skipped.insert(all.skipped.end(), document.skipped.begin(), document.skipped.end());
@@ -87,7 +95,8 @@ Result<void> measure_document(const document::Document& document, const std::str
 Result<Measured> measure(const MeasureRequest& request, const Context& context) {
   Measured all;
   if (!request.curves.empty())
-    if (auto done = measure_document(document_of(request), request.source, context, all); !done)
+    if (auto done = measure_document(document_of(request), request.source, request, context, all);
+        !done)
       return std::unexpected(done.error());
   for (const std::string& file : request.file) {
     InputRequest input;
@@ -98,7 +107,8 @@ Result<Measured> measure(const MeasureRequest& request, const Context& context) 
     auto read = read_input(input, context.progress);
     if (!read) return std::unexpected(read.error());
     const std::string& source = request.source.empty() ? file : request.source;
-    if (auto done = measure_document(document_of(std::move(*read)), source, context, all); !done)
+    if (auto done = measure_document(document_of(std::move(*read)), source, request, context, all);
+        !done)
       return std::unexpected(done.error());
   }
   return all;

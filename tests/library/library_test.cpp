@@ -52,6 +52,21 @@ document::Document collection() {
   return all;
 }
 
+TEST(Describe, PartsAreWhatTheWholeHolds) {
+  const document::Document all = collection();
+  const std::vector<Entry> whole = entries_of(all, "");
+  for (std::size_t first = 0; first < whole.size() + 4; first += 4) {
+    const auto part = describe(all, "", {.first = first, .most = 4});
+    ASSERT_TRUE(part);
+    EXPECT_EQ(part->size(), first == 0 ? 4 : first == 4 ? 2 : 0);
+    for (std::size_t i = 0; i < part->size(); ++i) {
+      EXPECT_EQ(label((*part)[i]).name, label(whole[first + i]).name);
+      EXPECT_EQ((*part)[i].length, whole[first + i].length);
+      EXPECT_EQ((*part)[i].sav, whole[first + i].sav);
+    }
+  }
+}
+
 Library filled(const std::filesystem::path& file) {
   auto library = Library::open(file, Mode::write);
   EXPECT_TRUE(library) << (library ? "" : library.error().message);

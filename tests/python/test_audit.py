@@ -27,6 +27,8 @@ def files(tmp_path_factory):
         curve = keyline.lac.segment([[0, 0], [2, 0], [3.2, 1.2 + i / 400]], alpha)
         where = folder / "deep" if i % 2 else folder
         keyline.document.write(str(where / f"{i:02}.json"), curves=[{"name": f"c{i}", "curve": curve}])
+    many = [{"name": f"m{i}", "curve": keyline.lac.segment([[0, 0], [2, 0], [3, 1 + i / 9]], -1)} for i in range(5)]
+    keyline.document.write(str(folder / "many.json"), curves=many)
     (folder / "twin.json").write_bytes((folder / "00.json").read_bytes())
     (folder / "broken.json").write_text("{")
     return folder
@@ -42,13 +44,14 @@ def table(files):
 def test_the_table_tells_everything(files, table):
     lines = table.splitlines()
     assert lines[0].split(",")[:3] == ["file", "number", "name"]
-    assert len(lines) == 1 + 16 + 1 + 1
+    assert len(lines) == 1 + 16 + 1 + 1 + 5
     assert sum("broken.json" in line for line in lines) == 1
     clothoid = next(line for line in lines if "/04.json" in line)  # alpha = -1
     assert ",minus," in clothoid
 
 
-def test_on_dask_with_workers_killed_all_the_time(files, table):
+def test_on_dask_with_workers_killed_all_the_time(files, table, monkeypatch):
+    monkeypatch.setattr(audit, "FIRST_PART", 2)  # so that a file of five is measured in parts
     distributed = pytest.importorskip("distributed")
     import dask
 
@@ -92,7 +95,7 @@ def test_into_a_library_twice_holds_nothing_twice(files):
     for _ in range(2):
         assert audit.main(["--serial", "-o", str(target), f"{files}/**"]) == 0
     stats = keyline.library.stats(str(target))
-    assert stats.things == 17
+    assert stats.things == 22
     assert keyline.library.find(str(target), name="c4").found[0].rhythm == "minus"
 
 

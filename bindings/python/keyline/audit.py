@@ -22,6 +22,7 @@ import hashlib
 import os
 import sys
 import tempfile
+import time
 from typing import Any, Iterable, Iterator
 
 import keyline
@@ -36,6 +37,10 @@ VERSION = f"keyline-{keyline.__version__}-1"
 # A worker that is killed takes its task's reputation with it; Dask gives up on a task after three. A file
 # that kills its worker by itself is reported after so many.
 DEATHS = 25
+# A drawing of hundreds of curves takes minutes: its first task measures so many, those after it what
+# takes so many seconds of the processor. Who is killed loses no more than that.
+FIRST_PART = 32
+SECONDS = 5.0
 
 
 def content_key(path: str) -> str:
@@ -48,12 +53,16 @@ def content_key(path: str) -> str:
     return "keyline-audit-" + digest.hexdigest()
 
 
-def measure(path: str) -> dict[str, Any]:
-    """The entries of a file, or why there are none. Runs on a worker; one thread, no memory of others."""
+def measure(path: str, first: int = 0, most: int | None = None) -> dict[str, Any]:
+    """The entries of a file from the one numbered `first` (0: all from the beginning) and at most so many,
+    or why there are none. Runs on a worker; one thread, no memory of others."""
+    fields = {"file": path, "first": first} | ({} if most is None else {"most": most})
+    start = time.process_time()
     try:
-        return {"entries": keyline.perform("library.measure", {"file": path}, threads=1)["entries"]}
+        measured = {"entries": keyline.perform("library.measure", fields, threads=1)["entries"]}
     except keyline.Error as failure:
-        return {"entries": [], "error": str(failure)}
+        measured = {"entries": [], "error": str(failure)}
+    return measured | {"seconds": time.process_time() - start}
 
 
 def main_piece(entry: dict[str, Any]) -> dict[str, Any]:
@@ -160,15 +169,29 @@ def distributed(paths: list[str], scheduler: str | None, workers: int) -> Iterat
         same: dict[str, list[str]] = {}
         for path in paths:
             same.setdefault(content_key(path), []).append(path)
-        tasks = [client.submit(measure, group[0], key=key, pure=True) for key, group in same.items()]
-        for task in as_completed(tasks):
+
+        found: dict[str, list[Any]] = {key: [] for key in same}
+
+        def part(key: str, most: int) -> Any:
+            first = len(found[key])
+            name = f"{key}-{first}-{most}"
+            return client.submit(measure, same[key][0], first, most, key=name, pure=True)
+
+        running = as_completed([part(key, FIRST_PART) for key in same])
+        for task in running:
+            key, _, most = task.key.rsplit("-", 2)
             try:
                 measured = task.result()
             except Exception as death:  # KilledWorker: the file took every worker with it
                 measured = {"entries": [], "error": f"not measured: {type(death).__name__}"}
-            for path in same[task.key]:
-                yield path, measured
             task.release()
+            found[key] += measured["entries"]
+            if len(measured["entries"]) == int(most):
+                running.add(part(key, max(1, int(int(most) * SECONDS / max(measured["seconds"], 1e-3)))))
+                continue
+            whole = {**measured, "entries": found.pop(key)}
+            for path in same[key]:
+                yield path, whole
     if cluster:
         cluster.close()
 
