@@ -14,6 +14,8 @@ function legs(e: Entity): [number, number][] {
       return [[0, 1], [2, 3]];
     case "mirror":
       return [[0, 1]];
+    case "fixed":
+      return handlesOf(e).slice(1).map((_, i) => [i, i + 1]);
     default:
       return [];
   }

@@ -47,7 +47,10 @@ export function turnBox(seen: Seen): TurnBox | null {
   const { store, view } = seen;
   const { state } = store;
   const ids = movable(store);
-  const ofFile = ids.some((id) => entityOf(store.doc, id)?.kind === "fixed");
+  const ofFile = ids.some((id) => {
+    const e = entityOf(store.doc, id);
+    return e?.kind === "fixed" && !e.held;
+  });
   if (!state.looks.box || state.tool !== "select" || !(ofFile || ids.length > 1)) return null;
   const points = placesOf(seen, ids);
   const box = boxOf(points);

@@ -1,5 +1,6 @@
 /** Select: hover, take hold of a handle or of the box, pick, draw a band, pan. */
 import { entityOf, isHeld, isMovable, type Point, withEntity, withHandle, withPoint } from "../model/document.ts";
+import { controlsOf } from "../model/controls.ts";
 import { nearestSample } from "../view/nearest.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Banding } from "./band.ts";
@@ -63,9 +64,18 @@ export class Idle implements Gesture {
   doubled(p: Pointer): Gesture {
     if (handleAt(this.table, p.at, p.coarse)) return this;
     const entity = entityAt(this.table, p.at);
-    if (entity !== null && this.inserted(entity, p)) return this;
+    if (entity !== null && (this.inserted(entity, p) || this.held(entity))) return this;
     if (entity !== null) this.table.store.set({ selection: [entity] });
     return this;
+  }
+
+  /** The control points of a curve of a file come and go as handles. */
+  private held(entity: number): boolean {
+    const { store } = this.table;
+    const e = entityOf(store.doc, entity);
+    if (e?.kind !== "fixed" || isHeld(store.doc, e) || controlsOf(e.curve).length === 0) return false;
+    store.commit(e.held ? "Hide control points" : "Show control points", withEntity(store.doc, { ...e, held: !e.held }), { selection: [entity] });
+    return true;
   }
 
   /** A chosen spline passes the place from now on, between the points it lies between. */

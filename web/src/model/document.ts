@@ -3,7 +3,8 @@ import type {
   Curve, CurveCondition, CurveEditRequest, FairedPiece, FairFigures, FairRequest, FoundSymmetry, KeyLine, SampledComb, Surface,
   SurfaceEditRequest,
 } from "../../generated/operations.ts";
-import { carried, followedBy, type Placement, still } from "./placement.ts";
+import { controlsOf, withControl } from "./controls.ts";
+import { before, carried, followedBy, type Placement, still } from "./placement.ts";
 
 export type Point = [number, number];
 
@@ -64,6 +65,8 @@ export interface Fixed extends Common {
   curve: Curve;
   /** where a hand has put it since */
   placed?: Placement;
+  /** its control points are handles */
+  held?: boolean;
   /** what it was made of, to be looked at beside it */
   before?: Curve;
   /** of a traced line: the drawn strokes it stands for, by their numbers from 0 */
@@ -227,6 +230,8 @@ export function handlesOf(e: Entity): readonly Point[] {
       return e.points;
     case "mirror":
       return e.axis;
+    case "fixed":
+      return e.held ? controlsOf(e.curve).map((p) => (e.placed ? carried(e.placed, p) : p)) : [];
     default:
       return [];
   }
@@ -243,6 +248,8 @@ export function withHandle(e: Entity, index: number, at: Point): Entity {
       return { ...e, points: put(e.points) } as Entity;
     case "mirror":
       return { ...e, axis: put(e.axis) };
+    case "fixed":
+      return { ...e, curve: withControl(e.curve, index, e.placed ? before(e.placed, at) : at) };
     default:
       return e;
   }

@@ -24,6 +24,12 @@ export function carried({ about, turn, scale, shift }: Placement, [x, y]: Point)
   return [about[0] + c * dx - s * dy + shift[0], about[1] + s * dx + c * dy + shift[1]];
 }
 
+/** Where the point was before it was carried there. */
+export function before(m: Placement, p: Point): Point {
+  const { about, turn, scale, shift } = m;
+  return carried({ about, turn: -turn, scale: 1 / scale, shift: [0, 0] }, [p[0] - shift[0], p[1] - shift[1]]);
+}
+
 /** The one after the other, told about the point of the first. */
 export function followedBy(first: Placement, next: Placement): Placement {
   const { about } = first;

@@ -2,9 +2,10 @@
 import { movable, placesOf, middleOf, turnBox } from "../gestures/box.ts";
 import { carriedDoc } from "../gestures/carry.ts";
 import type { Table } from "../gestures/gesture.ts";
+import { controlsOf } from "../model/controls.ts";
 import { entityOf, type Fixed, withEntity } from "../model/document.ts";
 import { isStill, type Placement, still } from "../model/placement.ts";
-import { button, section } from "../ui/controls.ts";
+import { button, section, toggle } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
 
 const kDegree = Math.PI / 180;
@@ -58,6 +59,10 @@ export function placePanel(table: Pick<Table, "store" | "live" | "view">): HTMLE
   const { placed: _placed, ...asOpened } = own;
   return section("Place",
     row(now, (placed) => store.commit("Place", withEntity(history.now, { ...own, placed }))),
+    controlsOf(own.curve).length > 0 && toggle({
+      id: "control-points", label: "Control points as handles", value: own.held === true,
+      onChange: (held) => store.commit(held ? "Show control points" : "Hide control points", withEntity(history.now, { ...own, held })),
+    }),
     own.placed && !isStill(own.placed)
       && h("div", { class: "row" }, h("span", { class: "quiet" }, "from where it was"),
         button("Put back", () => store.commit("Put back", withEntity(history.now, asOpened)), { id: "put-back" })));

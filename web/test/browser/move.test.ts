@@ -173,6 +173,26 @@ onStage("moving curves of a file", [], (stage) => {
     expect(await page.inputValue("#place-scale")).toBe("2");
   });
 
+  it("is held by its control points after a double click", async () => {
+    const { page } = stage.at;
+    const there = await onPage(page, [30, 30]);
+    await page.mouse.dblclick(there.x, there.y);
+    await settled(page);
+    expect(await page.isChecked("#control-points")).toBe(true);
+    await dragModel([10, 40], [20, 45]);
+    const { curve } = await named("arch");
+    const [start, moved, ...rest] = (curve as unknown as typeof arch).points;
+    expect([start, ...rest]).toEqual([[0, 0], [50, 40], [60, 0]]);
+    expect(moved?.[0]).toBeCloseTo(20, 0);
+    expect(moved?.[1]).toBeCloseTo(45, 0);
+    const length = (await stage.server.ask<{ comb: { length: number } }>("curve.show", { curve, comb: { samples: 11 } })).comb.length;
+    expect(await page.evaluate(() => window.keyline.live.of(window.keyline.store.state.selection[0] ?? 0)?.comb.length)).toBeCloseTo(length, 9);
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("Control+z");
+    await settled(page);
+    expect((await named("arch")).curve).toEqual(arch);
+  });
+
   it("is kept, and exported as it stands", async () => {
     const { page, context } = stage.at;
     const wanted = await Promise.all(["arch", "chain", "line"].map(named));

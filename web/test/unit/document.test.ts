@@ -5,6 +5,7 @@ import {
 } from "../../src/model/document.ts";
 import { recipeOf } from "../../src/model/recipe.ts";
 import { carried, carriedComb, followedBy, type Placement, shiftedBy, still } from "../../src/model/placement.ts";
+import { controlsOf, withControl } from "../../src/model/controls.ts";
 import { crosses, taken } from "../../src/gestures/band.ts";
 import { isKept, ownDocument } from "../../src/model/autosave.ts";
 
@@ -134,6 +135,35 @@ describe("a placement", () => {
     expect([at.length, at.arc_length[0], at.curvature[0]]).toEqual([12, 12, 0.5 / 3]);
     const moved = carriedComb(at, { about: [0, 0], turn: Math.PI / 2, scale: 3, shift: [10, 0] }, next);
     near(moved.points[0] as Point, carried(next, [0, 0]));
+  });
+});
+
+describe("control points", () => {
+  const half: Point[] = [[0, 0], [1, 2], [3, 2], [4, 0]];
+  const other: Point[] = [[4, 0], [5, -1], [0, 0]];
+  const path = { type: "path", closed: true, curves: [{ type: "bezier", points: half }, { type: "bezier", points: other }] };
+
+  it("are one where curves of a path meet", () => {
+    expect(controlsOf(path)).toEqual([[0, 0], [1, 2], [3, 2], [4, 0], [5, -1]]);
+    expect(withControl(path, 3, [9, 9])).toEqual({
+      ...path, curves: [{ type: "bezier", points: [...half.slice(0, 3), [9, 9]] }, { type: "bezier", points: [[9, 9], ...other.slice(1)] }],
+    });
+    const ends = withControl(path, 0, [7, 7]) as typeof path;
+    expect([ends.curves[0]?.points[0], ends.curves[1]?.points[2]]).toEqual([[7, 7], [7, 7]]);
+  });
+
+  it("are none of a curve that has none", () => {
+    expect(controlsOf({ type: "log-aesthetic", pieces: [] })).toEqual([]);
+    expect(controlsOf({ type: "polyline", points: Array.from({ length: 300 }, (_, i) => [i, 0]) })).toEqual([]);
+  });
+
+  it("are moved where they are seen", () => {
+    const placed: Placement = { about: [1, 1], turn: 0.8, scale: 2.5, shift: [3, -4] };
+    const e = added(emptyDoc(), { kind: "fixed", name: "f", curve: { type: "bezier", points: half }, placed, held: true }).doc.entities[0] as Entity;
+    const to = withHandle(e, 1, [20, 30]);
+    const seen = handlesOf(to)[1] as Point;
+    expect(Math.hypot(seen[0] - 20, seen[1] - 30)).toBeLessThan(1e-12);
+    expect(handlesOf(to)[2]).toEqual(carried(placed, half[2] as Point));
   });
 });
 
