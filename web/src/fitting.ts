@@ -1,6 +1,6 @@
 /** The view brought to what is drawn, and the comb to the view. */
 import { tip } from "./canvas/curves.ts";
-import { isShown, type Point } from "./model/document.ts";
+import { handlesOf, isShown, type Point } from "./model/document.ts";
 import type { Live, Shown } from "./model/live.ts";
 import type { Store } from "./model/state.ts";
 import { boxOf, type Viewport } from "./view/viewport.ts";
@@ -26,7 +26,7 @@ export class Fitting {
     const under = this.store.state.underlay;
     return doc.entities.filter((e) => isShown(doc, e)).flatMap((e): Point[] => {
       if (e.kind === "scan") return e.line.points as Point[];
-      const own = "points" in e ? (e.points as Point[]) : [];
+      const own = e.kind === "mirror" ? [] : handlesOf(e);
       return [...own, ...((this.live.of(e.id)?.comb.points ?? []) as Point[])];
     }).concat(under ? [under.at, [under.at[0] + under.width * under.scale, under.at[1] + under.height * under.scale]] : []);
   }

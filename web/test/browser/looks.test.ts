@@ -106,7 +106,7 @@ const drawn = [
   { kind: "compound", name: "Compound 1", points: handles, alpha: [-1, 1], ratio: 0.5 },
   { kind: "segment", name: "Segment with a name that is rather long for its row", points: [[200, 80], [240, 80], [260, 110]], alpha: 0 },
 ];
-panel("a curve placed", [], async ({ at: { page } }) => put(page, [{ kind: "fixed", name: "arch", curve: arch, placed: shifted }]));
+panel("a curve placed", [], async ({ at: { page } }) => put(page, [{ kind: "fixed", name: "arch", curve: arch, placed: shifted, held: true }]));
 panel("several curves", [], async ({ at: { page } }) => {
   await put(page, [...drawn, { kind: "fixed", name: "arch", curve: arch }], 2);
   await page.keyboard.press("j");
