@@ -81,6 +81,24 @@ TEST(Blend, RandomRequestsAreMet) {
   EXPECT_GE(solved, 78);
 }
 
+/// Seven lengths of the outer pieces are tried, which proves nothing where none of them serves.
+TEST(Blend, RatesThatAreNotMetAreNoProofThatNoneMeetsThem) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int missed = 0;
+  for (int i = 0; i < 60; ++i) {
+    const BlendEnd from{
+        {{0, 0}, -0.6 + 0.3 * any(random)}, 0.5 + 0.4 * any(random), 1e5 * any(random)};
+    const BlendEnd to{
+        {{2, 0}, 0.7 + 0.3 * any(random)}, 0.5 + 0.4 * any(random), 1e5 * any(random)};
+    const auto blend = solve_blend(from, to, BlendOrder::g3, 1);
+    if (blend || !solve_blend(from, to, BlendOrder::g2, 1)) continue;
+    ++missed;
+    EXPECT_EQ(blend.error().code, core::ErrorCode::not_converged);
+  }
+  EXPECT_GT(missed, 0);
+}
+
 TEST(Blend, RunsBothWays) {
   const BlendEnd from{{{0, 0}, 0.4}, 0.3, 0.1};
   const BlendEnd to{{{3, 1}, -0.5}, -0.2, 0.4};

@@ -91,7 +91,9 @@ core::Result<BlendSolution> blend_g3(const BlendEnd& from, const BlendEnd& to, d
     if (calmer) best = std::move(blend);
   }
   if (best) return *best;
-  return core::fail(ErrorCode::undrawable, "no blend with these rates of curvature was found",
+  return core::fail(ErrorCode::not_converged,
+                    "no blend with these rates of curvature was found with any of the lengths "
+                    "tried for its outer pieces",
                     alpha < 0 ? "use order G2" : "use order G2 or slope -1");
 }
 

@@ -54,7 +54,8 @@ struct BlendSolution {
 /// inside are G2. Where curvature is (nearly) zero at an end no slope but -1 has a finite rate
 /// other than zero: the outer piece there gets -1. Accuracy: as solve_g2; the rates within 1e-9
 /// relative of the larger of rate and curvature/chord. Fails: bad_input, undrawable as
-/// solve_g1_directions and solve_g2.
+/// solve_g1_directions and solve_g2; not_converged where none of the lengths tried meets the rates,
+/// which proves nothing.
 core::Result<BlendSolution> solve_blend(const BlendEnd& from, const BlendEnd& to, BlendOrder order,
                                         double alpha);
 
