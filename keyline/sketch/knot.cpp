@@ -16,12 +16,7 @@ constexpr double kBendPixels = 0.5;  ///< that a radian of bend counts as
 constexpr double kOffInk = 1;        ///< pixels beyond the ink, for the same rounding
 constexpr std::size_t kMostExits = 10;
 constexpr std::ptrdiff_t kMostEnds = 2;
-constexpr int kMostHalved = 2;   ///< how often less far out is looked where no arc goes that far
-constexpr double kHalved = 1e3;  ///< cost of that: only where it must
-constexpr double kNever = 1e6;   ///< cost of a line that ends inside: only where it must
-
-/// How far points may lie off their arc.
-double most_off(double half_width) { return kOffGrid + kOffShare * half_width; }
+constexpr double kNever = 1e6;  ///< cost of a line that ends inside: only where it must
 
 class Untying {
  public:
@@ -36,14 +31,12 @@ class Untying {
 
   std::optional<Knot> run() {
     if (!find_exits()) return std::nullopt;
-    find_ways();
     knot_.mates = pair_up(costs(), kNever);
     if (std::count(knot_.mates.begin(), knot_.mates.end(), -1) > kMostEnds) return std::nullopt;
     for (std::size_t i = 0; i < knot_.mates.size(); ++i) {
-      if (knot_.mates[i] < 0)
-        add_tail(knot_.exits[i]);
-      else if (const auto mate = static_cast<std::size_t>(knot_.mates[i]); mate < i)
-        add_way(i, mate);
+      if (knot_.mates[i] < 0) add_tail(knot_.exits[i]);
+      if (knot_.mates[i] > static_cast<int>(i))
+        add_way(knot_.exits[i], knot_.exits[static_cast<std::size_t>(knot_.mates[i])]);
     }
     if (!all_covered()) return std::nullopt;
     return std::move(knot_);
@@ -64,42 +57,21 @@ class Untying {
     return knot_.exits.size() >= 4 && knot_.exits.size() <= kMostExits;
   }
 
-  /// How a line would go from one exit to another: along the arc of as much of both as lies on one.
-  struct Way {
-    double cost = HUGE_VAL;
-    std::vector<Point2> points;
-  };
-
-  Way way_between(const Branch& a, const Branch& b) const {
-    if (bend_between(a, b) > kMostBend) return {};
-    const double bend = kBendPixels * bend_between(a, b);
-    const double far = arc_reach(distance(a.place, b.place), half_width_);
-    for (int halved = 0; halved <= kMostHalved; ++halved) {
-      const double reach = std::ldexp(far, -halved);
-      CommonArc arc = common_arc(arm_of(graph_, a, reach), arm_of(graph_, b, reach));
-      if (arc.off > most_off(half_width_)) continue;
-      const bool ink = std::all_of(arc.gap.begin(), arc.gap.end(), [&](Point2 p) {
-        return on_ink(p, a.edge) || on_ink(p, b.edge) || on_ink(p);
-      });
-      if (ink) return {halved * kHalved + arc.off * arc.off + bend * bend, std::move(arc.gap)};
-    }
-    return {};
-  }
-
-  /// Of all pairs of exits.
-  void find_ways() {
-    const std::size_t n = knot_.exits.size();
-    ways_.resize(n);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        ways_[i].push_back(way_between(knot_.exits[i], knot_.exits[k]));
-  }
-
   std::vector<std::vector<double>> costs() const {
-    const std::size_t n = ways_.size();
-    std::vector<std::vector<double>> all(n, std::vector<double>(n, HUGE_VAL));
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < i; ++k) all[i][k] = all[k][i] = ways_[i][k].cost;
+    const std::vector<Branch>& out = knot_.exits;
+    std::vector<std::vector<double>> all(out.size(), std::vector<double>(out.size(), HUGE_VAL));
+    for (std::size_t i = 0; i < out.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        if (bend_between(out[i], out[k]) > kMostBend) continue;
+        const double reach = arc_reach(distance(out[i].place, out[k].place), half_width_);
+        if (!on_one_arc(graph_, out[i], out[k], reach, half_width_)) continue;
+        const CommonArc arc =
+            common_arc(arm_of(graph_, out[i], reach), arm_of(graph_, out[k], reach));
+        const bool ink = std::all_of(arc.gap.begin(), arc.gap.end(), [&](Point2 p) {
+          return on_ink(p, out[i].edge) || on_ink(p, out[k].edge) || on_ink(p);
+        });
+        if (ink) all[i][k] = all[k][i] = going_on(graph_, out[i], out[k], reach);
+      }
     return all;
   }
 
@@ -113,12 +85,12 @@ class Untying {
     return std::any_of(knot_.edges.begin(), knot_.edges.end(), [&](int e) { return on_ink(p, e); });
   }
 
-  void add_way(std::size_t i, std::size_t k) {
-    Branch& a = knot_.exits[i];
-    Branch& b = knot_.exits[k];
-    a.way = ways_[i][k].points;
-    b.way.assign(a.way.rbegin(), a.way.rend());
-    way_.insert(way_.end(), a.way.begin(), a.way.end());
+  void add_way(Branch& a, Branch& b) {
+    const double reach = arc_reach(distance(a.place, b.place), half_width_);
+    const CommonArc arc = common_arc(arm_of(graph_, a, reach), arm_of(graph_, b, reach));
+    way_.insert(way_.end(), arc.gap.begin(), arc.gap.end());
+    a.way = arc.gap;
+    b.way.assign(arc.gap.rbegin(), arc.gap.rend());
     way_.push_back(a.place);
     way_.push_back(b.place);
   }
@@ -152,8 +124,7 @@ class Untying {
   Knot knot_;
   std::set<int> nodes_;
   double half_width_ = 0;
-  std::vector<std::vector<Way>> ways_;  ///< from an exit to those before it
-  std::vector<Point2> way_;             ///< of all lines through the knot
+  std::vector<Point2> way_;  ///< of all lines through the knot
 };
 
 }  // namespace
@@ -170,7 +141,8 @@ double going_on(const StrokeGraph& graph, const Branch& a, const Branch& b, doub
 
 bool on_one_arc(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach,
                 double half_width) {
-  return common_arc(arm_of(graph, a, reach), arm_of(graph, b, reach)).off <= most_off(half_width);
+  return common_arc(arm_of(graph, a, reach), arm_of(graph, b, reach)).off <=
+         kOffGrid + kOffShare * half_width;
 }
 
 std::optional<Knot> untie(const StrokeGraph& graph, const std::vector<int>& edges) {

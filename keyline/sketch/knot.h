@@ -17,8 +17,7 @@ struct Knot {
 
 /// The knot of these edges as lines through it: exits go on with each other that lie on one arc,
 /// whose way through the knot is all ink; least sum of the squares of what they lie off and of
-/// their bends. Exits for which that leaves nobody are looked at less far out, since lines need not
-/// be arcs for long; up to two that go on with nobody then end inside.
+/// their bends. Up to two exits may end inside.
 ///
 /// Empty where that leaves an edge inside that none of these lines runs along, or where no exits or
 /// more than ten come out: then it is no knot, or not that one.
