@@ -10,6 +10,4 @@ namespace keyline::operations {
 /// has.
 std::vector<Operation> curve_operations();
 
-Operation curve_transform_operation();
-
 }  // namespace keyline::operations

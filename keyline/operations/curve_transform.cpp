@@ -1,6 +1,5 @@
 #include "keyline/core/similarity.h"
 #include "keyline/document/planar_curve.h"
-#include "keyline/operations/curve_registry.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 

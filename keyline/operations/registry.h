@@ -19,6 +19,7 @@ Operation curve_offset_operation();
 Operation curve_reverse_operation();
 Operation curve_show_operation();
 Operation curve_split_operation();
+Operation curve_transform_operation();
 Operation curve_trim_operation();
 Operation document_convert_operation();
 Operation document_list_operation();
