@@ -24,7 +24,7 @@ struct Prepared {
   bool reversed = false;
   int effort = 0;  ///< problems of like effort share their lanes' loops best
 };
-constexpr int kEfforts = 16;
+constexpr int kEfforts = 17;
 
 /// The three angles of the handles of each problem, a column each.
 struct AngleBlock {
@@ -63,11 +63,13 @@ void measure(std::span<const G1Problem> problems, AngleBlock& block) {
   block.direction.compute(problems.size());
 }
 
-/// About the range of the integral: the turning and, by the first guess, the decay.
+/// About the range of the integral: the turning and, by the first guess, the decay. Clothoids,
+/// which need none, come first.
 int effort_of(double theta, double excess, double alpha) {
+  if (alpha == -1) return 0;
   const double x = excess * std::max(1.0, std::abs(2 * alpha - 1)) / theta;  // below 1/2
   const double reach = theta + 6 * x / (1.05 - 2 * std::min(x, 0.5));
-  return static_cast<int>(std::min(reach, kEfforts - 1.0));
+  return 1 + static_cast<int>(std::min(reach, kEfforts - 2.0));
 }
 
 /// False where the problem is one for the single solver.

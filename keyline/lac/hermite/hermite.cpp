@@ -6,6 +6,7 @@
 #include "keyline/core/text.h"
 #include "keyline/lac/hermite/chord_kernel.h"
 #include "keyline/lac/hermite/one_signed.h"
+#include "keyline/lac/hermite/quick_search.h"
 #include "keyline/lac/hermite/region.h"
 #include "keyline/lac/segment/arm.h"
 #include "keyline/lac/segment/slope.h"
@@ -43,23 +44,17 @@ std::unexpected<core::Failure> beyond_doubles(double alpha) {
                     alpha < 0.5 ? "move the slope away from 0" : "move the slope away from 1");
 }
 
-/// Lambda of the standard form: dtheta/dlambda integrated from the reference point, over theta.
-double standard_lambda(double alpha, double range, double theta) {
-  return detail::decay_integral(std::abs(1 - alpha), range) / theta;
-}
-
-/// Curvatures of the arm of unit length at the ends of smaller and of larger radius.
-struct EndCurvatures {
-  double sharp = 0;
-  double flat = 0;
-};
-EndCurvatures end_curvatures(double alpha, double theta, double range) {
-  if (range == 0) return {theta, theta};
+/// Lambda of the standard form is dtheta/dlambda integrated from the reference point, over theta.
+detail::UnitCurve unit_curve(double alpha, double theta, const detail::ChordSolution& found) {
+  const double q = found.range;
+  const double lambda = detail::decay_integral(std::abs(1 - alpha), q) / theta;
+  if (q == 0) return {found.chord_length, theta, theta, lambda, found.iterations};
   const detail::Decays d = detail::decays_of(alpha);
-  const double heavy =
-      theta * (detail::decay_integral(d.a, range) / detail::decay_integral(d.b, range));
-  if (alpha < 0) return {heavy, heavy * std::exp(-range)};
-  return {heavy * std::exp(range), heavy};
+  const double heavy = theta * (detail::decay_integral(d.a, q) / detail::decay_integral(d.b, q));
+  if (alpha < 0) {
+    return {found.chord_length, heavy, heavy * std::exp(-q), lambda, found.iterations};
+  }
+  return {found.chord_length, heavy * std::exp(q), heavy, lambda, found.iterations};
 }
 
 SegmentSolution straight(const HandleAngles& angles, double alpha) {
@@ -67,6 +62,24 @@ SegmentSolution straight(const HandleAngles& angles, double alpha) {
   solution.segment = {{}, alpha, 1, 0, 0};
   solution.turning = angles.turning;
   solution.chord_angle = angles.chord_angle;
+  return solution;
+}
+
+/// Over a chord of length 1; swapped: run from its flat to its sharp end.
+SegmentSolution placed(const detail::UnitCurve& curve, const HandleAngles& angles, double alpha,
+                       bool swapped) {
+  const double unit = angles.turning < 0 ? -curve.chord_length : curve.chord_length;
+  SegmentSolution solution;
+  solution.segment = {{{0, 0}, -angles.chord_angle},
+                      alpha,
+                      1 / curve.chord_length,
+                      unit * (swapped ? curve.flat : curve.sharp),
+                      unit * (swapped ? curve.sharp : curve.flat)};
+  solution.reversed = swapped;
+  solution.lambda = curve.lambda;
+  solution.turning = angles.turning;
+  solution.chord_angle = angles.chord_angle;
+  solution.iterations = curve.iterations;
   return solution;
 }
 
@@ -134,24 +147,16 @@ core::Result<SegmentSolution> solve_one_signed(const HandleAngles& angles, doubl
                       "the middle point does not lie between the ends: the curve would turn back",
                       "put it nearer to the chord's middle");
   }
-  SegmentSolution solution;
-  solution.reversed = psi < theta / 2;
-  const ChordSolution chord =
-      solve_chord_angle(alpha, theta, solution.reversed ? theta - psi : psi);
+  const bool swapped = psi < theta / 2;
+  const double grown = swapped ? theta - psi : psi;
+  if (alpha == -1) {
+    const auto clothoid = quick_clothoid(theta, std::max(grown - theta / 2, 0.0));
+    if (clothoid) return placed(*clothoid, angles, alpha, swapped);
+  }
+  const ChordSolution chord = solve_chord_angle(alpha, theta, grown);
   if (chord.status == detail::ChordStatus::beyond_precision) return beyond_doubles(alpha);
   if (chord.status != detail::ChordStatus::solved) return undrawable(alpha, theta, psi, sign);
-  const double length = 1 / chord.chord_length;
-  const EndCurvatures k = end_curvatures(alpha, theta, chord.range);
-  solution.segment = {{{0, 0}, -angles.chord_angle},
-                      alpha,
-                      length,
-                      sign * (solution.reversed ? k.flat : k.sharp) / length,
-                      sign * (solution.reversed ? k.sharp : k.flat) / length};
-  solution.lambda = standard_lambda(alpha, chord.range, theta);
-  solution.turning = angles.turning;
-  solution.chord_angle = angles.chord_angle;
-  solution.iterations = chord.iterations;
-  return solution;
+  return placed(unit_curve(alpha, theta, chord), angles, alpha, swapped);
 }
 
 }  // namespace detail

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/lac/lanes/chord_lanes.h"
+#include "keyline/lac/lanes/clothoid_lanes_body.h"
 
 namespace keyline::lac::detail {
 namespace {
@@ -99,6 +100,15 @@ bool quick_search(double alpha, double theta, double excess, ChordSolution& solu
     }
   }
   return false;
+}
+
+std::optional<UnitCurve> quick_clothoid(double theta, double excess) {
+  using One = numeric::simd::Scalar;
+  const double h = theta / 2;
+  const ClothoidLanes<One> c = clothoid_lanes(One(h), One(excess));
+  if (!c.solved.on) return std::nullopt;
+  const double y = c.y.value;
+  return UnitCurve{c.chord_length.value, 2 * (h + y), 2 * (h - y), y / ((h + y) * (h + y))};
 }
 
 }  // namespace keyline::lac::detail

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "keyline/lac/hermite/chord_kernel.h"
 
 /// Internals: the common case of the chord search, on one Gauss panel.
@@ -17,5 +19,17 @@ RangeGuess guess_range(const Decays& d, double theta, double excess, double slop
 /// the integral to rounding and the steps stay short of the limit. False: not solved, `solution`
 /// holds in `range` where to start the guarded search.
 bool quick_search(double alpha, double theta, double excess, ChordSolution& solution);
+
+/// A curve of unit length, its radius of curvature growing.
+struct UnitCurve {
+  double chord_length = 1;
+  double sharp = 0;  ///< curvature at the end of smaller radius
+  double flat = 0;
+  double lambda = 0;  ///< of the standard form
+  int iterations = 1;
+};
+/// The clothoid turning by theta whose chord lies `excess` beyond theta/2, in one step. Empty where
+/// theta is close to pi or more, or the flat end close to an inflection or beyond.
+std::optional<UnitCurve> quick_clothoid(double theta, double excess);
 
 }  // namespace keyline::lac::detail

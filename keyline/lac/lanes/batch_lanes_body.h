@@ -2,6 +2,7 @@
 
 #include "keyline/lac/lanes/batch_lanes.h"
 #include "keyline/lac/lanes/chord_lanes_body.h"
+#include "keyline/lac/lanes/clothoid_lanes_body.h"
 
 /// Internals: included once for each instruction set by a source compiled for it. The steps are
 /// those of quick_search.cpp, where they are explained.
@@ -166,6 +167,25 @@ inline void solve_lanes(ChordBlock& block, std::size_t at) {
   (standard / p.theta).store_aligned(block.lambda + at);
 }
 
+/// All lanes of slope -1.
+template <class Batch>
+inline void solve_clothoid_lanes(ChordBlock& block, std::size_t at) {
+  const Batch theta = Batch::load_aligned(block.theta + at);
+  const Batch h = Batch(0.5) * theta;
+  const ClothoidLanes<Batch> c = clothoid_lanes(h, Batch::load_aligned(block.excess + at));
+  const Batch heavy = h + c.y;
+  select(c.solved, Batch(1.0), Batch(0.0)).store_aligned(block.solved + at);
+  c.chord_length.store_aligned(block.chord_length + at);
+  (heavy + heavy).store_aligned(block.heavy + at);
+  ((h - c.y) / heavy).store_aligned(block.ratio + at);
+  (c.y / (heavy * heavy)).store_aligned(block.lambda + at);
+}
+
+template <class Batch>
+inline bool all_clothoids(const ChordBlock& block, std::size_t at) {
+  return !any(!(Batch::load_aligned(block.alpha + at) == Batch(-1.0)));
+}
+
 template <class Arch>
 void AngleKernel::operator()(Arch, const double* y, const double* x, double* angle,
                              std::size_t count) const {
@@ -178,7 +198,13 @@ void AngleKernel::operator()(Arch, const double* y, const double* x, double* ang
 template <class Arch>
 void BatchKernel::operator()(Arch, ChordBlock* block, std::size_t count) const {
   using Batch = numeric::simd::Lanes<Arch>;
-  for (std::size_t i = 0; i < count; i += Batch::size) solve_lanes<Batch>(*block, i);
+  for (std::size_t i = 0; i < count; i += Batch::size) {
+    if (all_clothoids<Batch>(*block, i)) {
+      solve_clothoid_lanes<Batch>(*block, i);
+    } else {
+      solve_lanes<Batch>(*block, i);
+    }
+  }
 }
 
 }  // namespace keyline::lac::detail
