@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include "keyline/numeric/levenberg_marquardt.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::analysis::detail {
 namespace {
@@ -74,11 +76,11 @@ Eigen::VectorXd uncertainty(const PieceFrame& frame, const Build& build, const E
     down[k] -= 1e-5;
     j.col(k) = (frame.displacement(build(up)) - frame.displacement(build(down))) / 2e-5;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j.transpose() * j);
-  if (!qr.isInvertible()) {
+  const std::optional<Eigen::MatrixXd> inverse = numeric::inverse(j.transpose() * j);
+  if (!inverse) {
     return Eigen::VectorXd::Constant(x.size(), std::numeric_limits<double>::infinity());
   }
-  return qr.inverse().diagonal().cwiseMax(0).cwiseSqrt();
+  return inverse->diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 /// One line through the mean curvature of both ends, with the right whole turning.

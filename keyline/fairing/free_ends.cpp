@@ -4,11 +4,12 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/lac/chain/extend.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -31,11 +32,12 @@ Progress fit_progress(const Eigen::VectorXd& values, int degree) {
   Eigen::MatrixXd rows(n, degree + 1);
   for (Eigen::Index i = 0; i < n; ++i)
     for (int k = 0; k <= degree; ++k) rows(i, k) = std::pow(double(i) / double(n), k);
-  const Eigen::VectorXd c = rows.householderQr().solve(values);
+  const Eigen::VectorXd c = numeric::least_squares(rows, values);
   const double square = (rows * c - values).squaredNorm();
   const double spread = std::sqrt(square / static_cast<double>(n - degree - 1));
-  const Eigen::MatrixXd inverse = (rows.transpose() * rows).inverse();
-  const double error = spread * std::sqrt(inverse(degree, degree));
+  const Eigen::VectorXd last = Eigen::VectorXd::Unit(degree + 1, degree);
+  const double error =
+      spread * std::sqrt(numeric::solve_symmetric(rows.transpose() * rows, last)(degree));
   return {c(0), spread, error > 0 ? std::abs(c(degree)) / error : 0};
 }
 

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/segment/sensitivity.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -91,8 +92,7 @@ double meet_target(lac::Chain& chain, const Target& target) {
     Eigen::Matrix3Xd by = end_by_unknowns(chain, unknown, curvatures);
     if (!target.direction) by.row(2).setZero();
     if (!target.start_direction_free) by.rightCols<1>().setZero();
-    const Eigen::VectorXd change =
-        by.completeOrthogonalDecomposition().solve(-miss).cwiseMax(-0.3).cwiseMin(0.3);
+    const Eigen::VectorXd change = numeric::least_norm(by, -miss).cwiseMax(-0.3).cwiseMin(0.3);
     lac::Chain next = chain;
     next.start.direction += change(change.size() - 1);
     for (std::size_t i = 0; i < next.pieces.size(); ++i) {

@@ -7,10 +7,11 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include "keyline/core/polygon.h"
 #include "keyline/fit/parametrization.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::fit {
 namespace {
@@ -82,7 +83,7 @@ NormalEquations assemble(const Problem& problem, int degree, const std::vector<d
 
 /// The unknowns; a handle that would turn back is held at the least length.
 Eigen::VectorXd solve(NormalEquations n, double least_handle) {
-  Eigen::VectorXd x = n.matrix.ldlt().solve(n.right);
+  Eigen::VectorXd x = numeric::solve_symmetric(n.matrix, n.right);
   for (int k = 0; k < 2; ++k) {
     if (x[k] >= least_handle) continue;
     n.right -= n.matrix.col(k) * least_handle;
@@ -90,7 +91,7 @@ Eigen::VectorXd solve(NormalEquations n, double least_handle) {
     n.matrix.col(k).setZero();
     n.matrix(k, k) = 1;
     n.right[k] = least_handle;
-    x = n.matrix.ldlt().solve(n.right);
+    x = numeric::solve_symmetric(n.matrix, n.right);
   }
   return x;
 }

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include "keyline/curve/bspline.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::fit::detail {
 namespace {
@@ -73,7 +74,7 @@ std::optional<LeastSquaresSpline> periodic_spline(const SplineData& data,
       open(i, k) = solver.coefficient(static_cast<std::size_t>(i), static_cast<std::size_t>(k));
     }
   }
-  const Eigen::MatrixXd periodic = (triangle * map).colPivHouseholderQr().solve(triangle * open);
+  const Eigen::MatrixXd periodic = numeric::pivoted_least_squares(triangle * map, triangle * open);
   if (!periodic.allFinite()) return std::nullopt;
   const Eigen::MatrixXd clamped = map * periodic;
   LeastSquaresSpline result;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "keyline/core/error.h"
 #include "keyline/fit/chain_data.h"
 #include "keyline/numeric/damped_descent.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::fit {
 namespace {
@@ -286,7 +286,7 @@ class Fit {
       }
     }
     for (Eigen::Index i = 0; i < a.rows(); ++i) a(i, i) += damping * a(i, i) + 1e-9;
-    const Eigen::VectorXd x = a.ldlt().solve(g);
+    const Eigen::VectorXd x = numeric::solve_symmetric(a, g);
     if (!x.allFinite()) return;
     for (std::size_t j = 0; j < chain_.joints.size(); ++j) {
       Joint& joint = chain_.joints[j];

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "keyline/numeric/solve.h"
 
 namespace keyline::fit {
 namespace {
@@ -142,8 +144,8 @@ class Smoother {
         for (int l = 0; l < 4; ++l) add(i + j, i + l, penalty * kThird[j] * kThird[l]);
     Eigen::SparseMatrix<double> normal(count_, count_);
     normal.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
-    if (factor.info() != Eigen::Success) return false;
+    const numeric::SparseSymmetric factor(normal);
+    if (!factor) return false;
     x_ = factor.solve(right_x_);
     y_ = factor.solve(right_y_);
     return x_.allFinite() && y_.allFinite();

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "keyline/numeric/damped_descent.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::numeric {
 namespace {
@@ -40,7 +39,7 @@ Step damped_step(const NormalEquations& normal, double damping, const Eigen::Vec
   Eigen::MatrixXd damped = normal.matrix;
   damped.diagonal().array() += damping;
   Step step;
-  step.scaled = damped.ldlt().solve(-normal.gradient);
+  step.scaled = solve_symmetric(damped, -normal.gradient);
   const Eigen::VectorXd move = normal.scale.cwiseProduct(step.scaled);
   step.length = move.norm();
   step.x = x + move;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/quantile.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::sketch {
 namespace {
@@ -167,7 +168,7 @@ CommonArc common_arc(const std::vector<Point2>& a, const std::vector<Point2>& b)
       rest[i] = left_of_circle(x, y, fit[2] / far) / far - fit[3] * u * u * u;
       rows.row(i) << 1, u, 0.5 * u * u, u * u * u;
     }
-    if (step < kSteps) fit += rows.householderQr().solve(rest);
+    if (step < kSteps) fit += numeric::least_squares(rows, rest);
   }
   CommonArc arc{far * rest.norm() / std::sqrt(static_cast<double>(points.size())), {}};
   for (double x = 1 - 0.5 * length; x < 0.5 * length; ++x) {

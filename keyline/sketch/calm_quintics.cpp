@@ -8,12 +8,12 @@
 #include <tuple>
 #include <utility>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include "keyline/analysis/comb_figures.h"
 #include "keyline/core/polygon.h"
 #include "keyline/fit/quintic_chain.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::sketch {
 namespace {
@@ -51,7 +51,7 @@ class Smoother {
       given_(i, 0) = points[static_cast<std::size_t>(i)].x;
       given_(i, 1) = points[static_cast<std::size_t>(i)].y;
     }
-    solver_.analyzePattern(system(1));
+    solver_.emplace(system(1));
   }
 
   /// Third differences that are wanted, from the first point on; 0 unless set.
@@ -65,8 +65,9 @@ class Smoother {
   /// Waves of that many points are halved.
   std::vector<Point2> smooth(double wavelength) {
     const double lambda = std::pow(wavelength / (2 * std::numbers::pi), 6);
-    solver_.factorize(system(lambda));
-    const Eigen::MatrixX2d z = solver_.solve(weight_.asDiagonal() * given_ + lambda * pull_);
+    solver_->renew(system(lambda));
+    const Eigen::MatrixXd z =
+        solver_->solve(Eigen::MatrixXd(weight_.asDiagonal() * given_ + lambda * pull_));
     std::vector<Point2> points;
     for (Index i = 0; i < n_; ++i) points.push_back({z(i, 0), z(i, 1)});
     return points;
@@ -86,7 +87,7 @@ class Smoother {
   Eigen::MatrixX2d pull_;
   Eigen::VectorXd weight_;
   Eigen::MatrixX2d given_;
-  Eigen::SimplicialLDLT<Matrix> solver_;
+  std::optional<numeric::SparseSymmetric> solver_;
 };
 
 double largest_move(const std::vector<Point2>& a, const std::vector<Point2>& b) {

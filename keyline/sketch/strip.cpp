@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include "keyline/core/quantile.h"
+#include "keyline/numeric/solve.h"
 #include "keyline/sketch/align_strokes.h"
 
 namespace keyline::sketch {
@@ -178,8 +178,8 @@ class Layer {
     for (Eigen::Index i = 0; i < n; ++i) matrix.emplace_back(i, i, 1e-9);
     Eigen::SparseMatrix<double> normal(n, n);
     normal.setFromTriplets(matrix.begin(), matrix.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
-    if (solver.info() != Eigen::Success) return;
+    const numeric::SparseSymmetric solver(normal);
+    if (!solver) return;
     const Eigen::VectorXd places = solver.solve(right);
     for (std::size_t s = 0; s < strokes_.size(); ++s)
       for (std::size_t k = 0; k < strip_.at[s].size(); ++k)

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include "keyline/numeric/solve.h"
 #include "keyline/surface/joint_conditions.h"
 
 namespace keyline::surface {
@@ -36,8 +36,9 @@ Eigen::MatrixX3d admissible(Eigen::MatrixX3d moves, const std::vector<Form>& for
   a.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseMatrix<double> normal = a * a.transpose();
   for (Eigen::Index i = 0; i < row; ++i) normal.coeffRef(i, i) += 1e-10;  // repeated conditions
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) moves -= a.transpose() * solver.solve(a * moves);
+  const numeric::SparseSymmetric solver(normal);
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    moves -= a.transpose() * solver.solve(Eigen::MatrixXd(a * moves));
   return moves;
 }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+
+#include "keyline/numeric/solve.h"
 
 namespace keyline::surface::detail {
 namespace {
@@ -156,7 +158,7 @@ Multipliers fit(const Forms& rest, const Forms& a, const Forms& b, std::size_t d
       matrix.col(c++) = column(product(unit, *forms));
     }
   const Eigen::VectorXd right = -column(rest);
-  const Eigen::VectorXd x = matrix.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd x = numeric::least_norm(matrix, right);
   Multipliers m{Scalar(degree + 1), Scalar(degree + 2), 0};
   for (std::size_t k = 0; k <= degree; ++k) m.f[k] = x[static_cast<Eigen::Index>(k)];
   for (std::size_t k = 0; k <= degree + 1; ++k)

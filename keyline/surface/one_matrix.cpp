@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include "keyline/core/axis.h"
 #include "keyline/numeric/levenberg_marquardt.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::surface::detail {
 namespace {
@@ -210,10 +211,7 @@ void polish(const System& system, const std::vector<int>& rows, Eigen::VectorXd&
     if (!system.evaluate(x, r, &jacobian)) return;
     const Eigen::VectorXd left = r(rows);
     if (left.lpNorm<Eigen::Infinity>() < 1e-14) return;
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(kDependent);
-    solver.compute(jacobian(rows, Eigen::all));
-    const Eigen::VectorXd whole = solver.solve(left);
+    const Eigen::VectorXd whole = numeric::least_norm(jacobian(rows, Eigen::all), left, kDependent);
     bool better = false;
     for (double share = 1; share > 1e-4 && !better; share *= 0.5) {
       const Eigen::VectorXd next = x - share * whole;

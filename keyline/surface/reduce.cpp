@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
+#include "keyline/numeric/solve.h"
 #include "keyline/surface/tensor.h"
 
 namespace keyline::surface {
@@ -55,7 +56,7 @@ BezierSurface reduced_degree(const BezierSurface& s, int degree_u, int degree_v)
       }
     wanted.row(k) << left.x, left.y, left.z;
   }
-  const Eigen::MatrixXd found = basis.colPivHouseholderQr().solve(wanted);
+  const Eigen::MatrixXd found = numeric::pivoted_least_squares(basis, wanted);
   int row = 0;
   for (int i = 0; i < r.net.rows; ++i)
     for (int j = 0; j < r.net.columns; ++j) {

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+
+#include "keyline/numeric/solve.h"
 
 namespace keyline::surface::detail {
 namespace {
@@ -259,8 +260,8 @@ Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& ho
     }
   const Eigen::SparseMatrix<double> j = rows.matrix(unknowns_);
   const Eigen::SparseMatrix<double> normal = j.transpose() * j;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
-  return -solver.solve(j.transpose() * rows.residuals());
+  const numeric::SparseSymmetric solver(normal);
+  return -solver.solve(Eigen::VectorXd(j.transpose() * rows.residuals()));
 }
 
 RowVector3d StrandSystem::moved(Index point, const Eigen::VectorXd& dx) const {

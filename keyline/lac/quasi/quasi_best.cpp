@@ -2,14 +2,13 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/quasi/quasi_forms.h"
 #include "keyline/numeric/damped_descent.h"
 #include "keyline/numeric/lawson.h"
+#include "keyline/numeric/solve.h"
 
 namespace keyline::lac::detail {
 
@@ -130,7 +129,7 @@ class Family {
         a.block<2, 1>(2 * j, i) << d.x, d.y;
       }
     }
-    const VectorXd solved = a.householderQr().solve(rest);
+    const VectorXd solved = numeric::least_squares(a, rest);
     for (int i = 0; i < columns; ++i) x[unknown(i)] = solved[i];
     miss = (a * solved - rest).norm() / std::sqrt(static_cast<double>(rows));
     return x;
@@ -340,7 +339,7 @@ class Fit {
       const MatrixXd weighted = weights_.asDiagonal() * jacobian;
       MatrixXd normal = jacobian.transpose() * weighted;
       normal.diagonal().array() += damping * normal.diagonal().maxCoeff();
-      const VectorXd next = x - normal.ldlt().solve(weighted.transpose() * r);
+      const VectorXd next = x - numeric::solve_symmetric(normal, weighted.transpose() * r);
       const std::vector<double> feet = feet_;
       VectorXd moved;
       MatrixXd slopes;
