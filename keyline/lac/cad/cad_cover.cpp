@@ -15,7 +15,10 @@ namespace {
 constexpr std::size_t kMostPieces = 100000;
 constexpr double kShortest = 0.01;       ///< of the length: not made shorter for monotone curvature
 constexpr double kCoarsestTable = 1e-7;  ///< a short cubic must not follow the table's errors
-constexpr int kMostRefused = 8;          ///< cubics whose curvature is not monotone
+/// Share of the tolerance that an estimated error may have, and that is aimed at: the bound is up
+/// to 6 % above it.
+constexpr double kLeastShare = 0.84, kAimedShare = 0.92, kMostShare = 0.95;
+constexpr int kMostRefused = 8;  ///< cubics whose curvature is not monotone
 
 /// a times b in Bernstein's basis.
 template <std::size_t A, std::size_t B>
@@ -80,7 +83,8 @@ class Cover {
       : unit_(unit),
         tolerance_(tolerance),
         monotone_(monotone && unit.piece.curvature_start != unit.piece.curvature_end),
-        table_(unit, std::min(3e-3 * tolerance, kCoarsestTable)) {}
+        table_(unit, std::min(3e-3 * tolerance, kCoarsestTable)),
+        end_(exact_frame(unit, 1)) {}
 
   std::vector<CubicPiece> run() {
     std::vector<CubicPiece> pieces;
@@ -114,7 +118,7 @@ class Cover {
     return std::isfinite(l) ? l : 0;
   }
 
-  /// Handles differ as the ends do: by some -0.1 times the logarithm of the curvatures' ratio; how
+  /// Handles differ as the ends do: by some 0.17 times the logarithm of the curvatures' ratio; how
   /// much exactly is learnt from one cubic for the next.
   CubicTry tried(double v0, double v1, const Frame& start, const Frame& end, bool last) {
     const double l = log_ratio(v0, v1);
@@ -123,41 +127,58 @@ class Cover {
                             last ? 64 * tolerance_ : 8 * tolerance_};
     const CubicTry c = try_cubic(table_, v0, v1, start, end, guess);
     if (c.sound && std::abs(l) > 1e-6 && c.error < 4 * tolerance_)
-      tilt_rate_ = std::clamp(c.tilt / l, -0.3, 0.1);
+      tilt_rate_ = std::clamp(c.tilt / l, -0.1, 0.3);
     return c;
   }
 
-  /// Width whose estimated error is just within the tolerance.
-  double fitting_width(double v0, const Frame& start, double width, double rest) {
+  struct Width {
+    double width = 1;
+    std::optional<CubicTry> whole;  ///< the cubic over all the rest, where that is the width
+  };
+
+  /// Width whose estimated error is just within the tolerance. The error grows about with its sixth
+  /// power; with which exactly the last two tries tell.
+  Width fitting_width(double v0, const Frame& start, double width, double rest) {
     double most = rest;
+    double power = 6;
+    double before = 0, share_before = 0;
+    if (1.25 * width > rest) width = rest;
     for (int step = 0; step < 16; ++step) {
       width = std::min(width, most);
-      const CubicTry c = tried(v0, v0 + width, start, rough_frame(v0 + width), false);
+      const bool whole = width == rest;
+      const CubicTry c =
+          tried(v0, v0 + width, start, whole ? end_ : rough_frame(v0 + width), false);
       if (!c.sound) {
         most = width;
         width *= 0.5;
         continue;
       }
-      const double share = c.error / tolerance_;
-      if (share <= 1 && (share > 0.9 || width == rest)) return width;
-      const double growth = std::pow(0.95 / std::max(share, 1e-12), 1.0 / 6);
-      if (share <= 1 && width == most && most < rest) return width;
-      width *= std::clamp(growth, 0.3, 4.0);
+      const double share = std::max(c.error / tolerance_, 1e-12);
+      if (whole && share <= 1) return {width, c};
+      if (share <= kMostShare && share > kLeastShare) return {width, {}};
+      if (share <= 1 && width == most) return {width, {}};
+      if (before > 0 && std::abs(before - width) > 1e-3 * width)
+        power = std::clamp(std::log(share / share_before) / std::log(width / before), 4.0, 8.0);
+      before = width;
+      share_before = share;
+      width *= std::clamp(std::pow(kAimedShare / share, 1 / power), 0.3, 4.0);
     }
-    return width;
+    return {width, {}};
   }
 
   Laid longest(double v0, const Frame& start, double width) {
     const double rest = 1 - v0;
-    width = fitting_width(v0, start, width, rest);
+    const Width fitting = fitting_width(v0, start, width, rest);
+    width = fitting.width;
     std::optional<Laid> longest;  // within the tolerance, monotone or not
     int refused = 0;
     for (int step = 0; step < 60; ++step) {
       if (!(width > 1e-9)) break;
       if (width > 0.999 * rest && width < rest) width = rest;
       const double v1 = width == rest ? 1.0 : v0 + width;
-      const Frame end = exact_frame(unit_, v1);
-      const CubicTry c = tried(v0, v1, start, end, true);
+      const bool whole = fitting.whole && width == rest;
+      const Frame end = v1 == 1 ? end_ : exact_frame(unit_, v1);
+      const CubicTry c = whole ? *fitting.whole : tried(v0, v1, start, end, true);
       const double bound =
           c.sound ? cubic_bound(table_, v0, v1, c.cubic, tolerance_) : 64 * tolerance_;
       if (bound <= tolerance_) {
@@ -188,7 +209,8 @@ class Cover {
   double tolerance_;
   bool monotone_;
   SeriesTable table_;
-  double tilt_rate_ = -0.12;
+  Frame end_;
+  double tilt_rate_ = 0.17;
 };
 
 }  // namespace

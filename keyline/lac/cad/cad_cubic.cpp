@@ -118,8 +118,10 @@ class HandleSolve {
     negligible_ = 1e-3 * guess.fine;
     const double d = solve(std::clamp(guess.tilt, -kMost, kMost), guess.fine);
     CubicTry c = measured(d);
-    if (!met_ && c.error <= guess.hopeful) c = measured(scan(guess.fine));
-    return c;
+    if (met_ || c.error > guess.hopeful) return c;
+    const double scanned = scan(guess.fine);
+    odd(scanned);
+    return measured(scanned);
   }
 
  private:
@@ -161,8 +163,8 @@ class HandleSolve {
     return difference;
   }
 
+  /// Of the d that was tried last.
   CubicTry measured(double d) {
-    odd(d);
     CubicTry c{cubic(d), p_ > 0.3 && p_ < 1.6, d, 0};
     for (const double f : kTops) {
       const Vector2 p = table_.point(v0_ + f * width_);
