@@ -385,10 +385,8 @@ def pencil(page, width, points, noise, wide, dark):
                 page[at] = max(page[at], dark * min(1.0, max(0.0, reach)))
 
 
-def sketch():
-    """A small car from the side in pencil on shaded paper, the roof line drawn three times."""
-    width, height = 640, 320
-    noise = Noise("sketch.png")
+def car_in_pencil(width, height, noise):
+    """Ink of a small car from the side, the roof line drawn three times."""
     ink = [0.0] * (width * height)
     roof = [(70, 200), (170, 150), (220, 70), (350, 68)]
     rear = [(350, 68), (470, 66), (540, 110), (585, 190)]
@@ -412,6 +410,14 @@ def sketch():
             circle = [(centre + radius * math.cos(0.01 * k), 254 + radius * math.sin(0.01 * k))
                       for k in range(315 if radius == 54 else 0, 629)]
             pencil(ink, width, circle, noise, 2.8, 0.75)
+    return ink
+
+
+def sketch():
+    """The car on shaded paper."""
+    width, height = 640, 320
+    noise = Noise("sketch.png")
+    ink = car_in_pencil(width, height, noise)
     rows = []
     for y in range(height):
         row = []
@@ -422,8 +428,52 @@ def sketch():
     return {"sketch.png": grey_png(width, height, rows)}
 
 
+def unit(v, sign=1):
+    """v at length 1, turned round for -1."""
+    return tuple(sign * c / math.hypot(*v) for c in v)
+
+
+def across(a, b):
+    """Cross product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def photo():
+    """The car on a sheet that lies aslant on a dark table, half of it in shadow."""
+    wide, high = 640, 320
+    noise = Noise("photo.png")
+    ink = car_in_pencil(wide, high, noise)
+    width, height = 760, 570
+    focal = 0.8 * math.hypot(width, height)
+    away = 1.25 * math.hypot(wide, high)
+    slant, turn = 0.6, 0.25  # the camera looks down from the lower right
+    forward = unit((-0.3 * math.sin(slant), -0.95 * math.sin(slant), math.cos(slant)))
+    right = unit(across(forward, (math.sin(turn), math.cos(turn), 0)), -1)
+    down = across(forward, right)
+    rows = []
+    for y in range(height):
+        row = []
+        for x in range(width):
+            light = 0.0
+            for i in range(4):
+                u, v = x + 0.25 + 0.5 * (i % 2) - width / 2, y + 0.25 + 0.5 * (i // 2) - height / 2
+                ray = [focal * f + u * r + v * d for f, r, d in zip(forward, right, down)]
+                far = away * forward[2] / ray[2]
+                px = wide / 2 - away * forward[0] + far * ray[0]
+                py = high / 2 - away * forward[1] + far * ray[1]
+                if 0 <= px < wide and 0 <= py < high:
+                    light += 0.25 * 0.82 * (1 - 0.9 * ink[int(py) * wide + int(px)])
+                else:
+                    light += 0.25 * (0.16 + 0.02 * math.sin(0.15 * px + 3 * math.sin(0.01 * py)))
+            shadow = 1 / (1 + math.exp(-0.07 * (x - 330 + 0.35 * y)))
+            grey = 255 * (light * (0.5 + 0.5 * shadow)) ** (1 / 2.2) + noise.normal(1.2)
+            row.append(max(0, min(255, round(grey))))
+        rows.append(row)
+    return {"photo.png": grey_png(width, height, rows)}
+
+
 MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
-          unordered, outlines, clothoid, cubic, panels, skin, sketch)
+          unordered, outlines, clothoid, cubic, panels, skin, sketch, photo)
 
 
 def main():

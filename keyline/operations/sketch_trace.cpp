@@ -178,6 +178,7 @@ Result<SketchAnswer> run(const SketchRequest& request, const Context& context) {
   for (const sketch::Stroke& stroke : trace->strokes)
     answer.strokes.push_back(shown(stroke, answer.scale));
   answer.size = {answer.scale * trace->width, answer.scale * trace->height};
+  answer.sheet = trace->sheet;
   answer.explained = trace->explained;
   answer.left_over = trace->left_over;
   answer.report = trace->notes;
@@ -193,6 +194,9 @@ Result<void> SketchRequest::check(const SketchRequest& request) {
   if (curve.aim == sketch::CurvatureAim::smooth && curve.rhythm != fit::WantedRhythm::own)
     return core::fail(ErrorCode::bad_input, "curvature is to be smoothed and to have a rhythm",
                       "leave one of them out", "rhythm");
+  if (request.options.sheet && request.options.rectify == sketch::Rectify::off)
+    return core::fail(ErrorCode::bad_input, "a sheet is given and not to be rectified",
+                      "leave one of them out", "rectify");
   if (request.options.wishes.empty() || request.options.consolidate) return {};
   return core::fail(ErrorCode::bad_input, "nothing is consolidated that wishes could be about",
                     "add --consolidate (\"consolidate\": true), or leave keep, join, split out",

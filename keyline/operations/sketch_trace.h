@@ -32,6 +32,12 @@ struct SketchRequest {
         core::field<&Request::image>("PNG, JPEG, TIFF or WebP in base64; or file"),
         core::field<&Request::file>(
             "path of such a picture, or of pen strokes (scap, svg, dxf, json); or image"),
+        core::field<&Request::options, &Trace::rectify>(
+            "photos of a sheet of paper on darker ground are mapped back to the sheet"),
+        core::field<&Request::options, &Trace::sheet>(
+            "its corners: upper left, upper right, lower right, lower left, in pixels from the "
+            "picture's upper left corner; else found")
+            .in("pixel"),
         core::field<&Request::options, &Trace::binarize, &Ink::threshold>(
             "of the log picture: what is darker is ink; else by region")
             .within(core::from_to(0, 1)),
@@ -89,7 +95,8 @@ struct SketchRequest {
             .within(core::from_to(0, 1 << 20)),
         core::field<&Request::stages>("also the picture after each stage"));
   }
-  /// Fails: bad_input for wishes where nothing is consolidated, a rhythm for curvature smooth.
+  /// Fails: bad_input for wishes where nothing is consolidated, a rhythm for curvature smooth, a
+  /// sheet that is not to be rectified.
   static core::Result<void> check(const SketchRequest& request);
 };
 
@@ -145,6 +152,7 @@ struct StrokeShown {
 struct SketchAnswer {
   std::vector<StrokeShown> strokes;
   std::array<double, 2> size{};
+  std::optional<sketch::SheetCorners> sheet;
   std::string unit;
   double explained = 1;
   std::vector<std::size_t> left_over;
@@ -158,7 +166,10 @@ struct SketchAnswer {
   static constexpr auto describe() {
     return core::fields(
         core::field<&SketchAnswer::strokes>("the lines, longest first"),
-        core::field<&SketchAnswer::size>("of the picture").in("length"),
+        core::field<&SketchAnswer::size>("of the picture, or of the sheet in it").in("length"),
+        core::field<&SketchAnswer::sheet>(
+            "corners of the sheet that a photo was mapped back to, as they are given")
+            .in("pixel"),
         core::field<&SketchAnswer::unit>("of lengths: px, or mm where the scale is known"),
         core::field<&SketchAnswer::explained>(
             "share of the ink, or of the strokes' length, that lies beside a curve"),

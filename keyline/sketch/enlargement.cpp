@@ -121,6 +121,8 @@ void enlarge(TraceResult& trace, int to_width, int to_height) {
   const double down = static_cast<double>(to_height) / trace.height;
   const double times = std::sqrt(across * down);
   const auto grow = [across, down](core::Point2& p) { p = {across * p.x, down * p.y}; };
+  if (trace.sheet)
+    for (core::Point2& p : *trace.sheet) grow(p);
   trace.width = to_width;
   trace.height = to_height;
   for (DrawnStroke& pass : trace.passes)

@@ -15,6 +15,7 @@
 #include "keyline/sketch/outline.h"
 #include "keyline/sketch/polyline_tools.h"
 #include "keyline/sketch/refine_stroke.h"
+#include "keyline/sketch/straighten.h"
 #include "keyline/sketch/stroke_graph.h"
 #include "keyline/sketch/thinning.h"
 
@@ -265,9 +266,15 @@ core::Result<TraceResult> trace_enlarged(const Image& image, const OwnSize& size
   if (own.specks) *own.specks = static_cast<int>(*own.specks / (times * times));
   if (own.curve.tolerance > 0)
     own.curve.tolerance = std::max(own.curve.tolerance / times, StrokeCurveOptions{}.tolerance);
+  if (own.sheet)
+    for (Point2& p : *own.sheet) p = {p.x / times, p.y / times};
   auto result = trace(reduced(image, size), own);
   if (!result) return result;
-  enlarge(*result, image.width(), image.height());
+  if (result->sheet)
+    enlarge(*result, static_cast<int>(std::lround(times * result->width)),
+            static_cast<int>(std::lround(times * result->height)));
+  else
+    enlarge(*result, image.width(), image.height());
   result->notes.push_back("the picture was enlarged " + core::number_text(times, 3) +
                           " times by repeating pixels: traced at its own size");
   return result;
@@ -279,9 +286,10 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (const OwnSize size = own_size(image); size.width < image.width())
     return trace_enlarged(image, size, options);
   TraceResult result;
+  options.progress.report(0, "reading grey values");
+  if (auto done = straighten(image, options, result); !done) return std::unexpected(done.error());
   result.width = image.width();
   result.height = image.height();
-  options.progress.report(0, "reading grey values");
   Tone tone = transform_intensity(std::move(image), options.tone);
   show(options, tone);
   if (tone.light_on_dark) result.notes.push_back("light lines on dark ground");

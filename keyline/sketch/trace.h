@@ -15,6 +15,7 @@
 #include "keyline/sketch/binarize.h"
 #include "keyline/sketch/consolidate.h"
 #include "keyline/sketch/image.h"
+#include "keyline/sketch/rectify.h"
 #include "keyline/sketch/stroke_curve.h"
 #include "keyline/sketch/tone.h"
 
@@ -46,6 +47,8 @@ struct Stage {
 };
 
 struct TraceOptions {
+  Rectify rectify = Rectify::automatic;
+  std::optional<SheetCorners> sheet;  ///< in the picture; empty: found, where there is one
   ToneOptions tone;
   BinarizeOptions binarize;
   Edge edge = Edge::center;
@@ -61,9 +64,10 @@ struct TraceOptions {
 };
 
 struct TraceResult {
-  int width = 0;  ///< of the picture
+  int width = 0;  ///< of the picture, or of the sheet in it
   int height = 0;
-  std::vector<Stroke> strokes;  ///< longest first
+  std::optional<SheetCorners> sheet;  ///< that the photo was mapped back to
+  std::vector<Stroke> strokes;        ///< longest first
   /// Share of the ink within half the line's width and a pixel of a curve; of drawn strokes the
   /// share of their length beside the line they are members of. A note warns below 97 %.
   double explained = 1;
@@ -74,10 +78,10 @@ struct TraceResult {
 };
 
 /// Traces a picture's lines. Strokes have pixels for a unit and y up: (0, 0) is the lower left
-/// corner of the picture.
+/// corner of the picture, or of the sheet of paper that it is a photo of.
 ///
 /// Fails: undrawable where nothing in the picture looks like a line; bad_input for wishes about
-/// what is not there; cancelled.
+/// what is not there and corners that are no sheet's; cancelled.
 /// Cost:  linear in the pixels; some 7 bytes per pixel of an 8 bit picture, reading it included.
 core::Result<TraceResult> trace(Image image, const TraceOptions& options = {});
 

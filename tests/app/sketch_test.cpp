@@ -137,6 +137,38 @@ TEST(Sketch, TracesTheExampleOntoItself) {
   EXPECT_LT(share_without(curves, lines, 2.8), 0.01);
 }
 
+TEST(Sketch, APhotoIsMappedBackToItsSheet) {
+  const Outcome o = run_keyline("sketch --json " + example("photo.png"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("a photo of a sheet, corners "), std::string::npos) << o.err;
+  auto told = nlohmann::json::parse(o.out);
+  const double width = told["size"][0];
+  const double height = told["size"][1];
+  EXPECT_NEAR(width / height, 2, 0.04);
+  std::vector<Point> curves = traced(told, height);
+  for (Point& p : curves) p = {640 / width * p[0], 320 / height * p[1]};
+  const std::vector<Point> lines = drawn_car();
+  std::printf("drawn but not traced %.4f, traced but not drawn %.4f\n",
+              share_without(lines, curves, 3.5), share_without(curves, lines, 3.5));
+  EXPECT_LT(share_without(lines, curves, 3.5), 0.02);  // a photo's pixel is 1.4 of the drawing's
+  EXPECT_LT(share_without(curves, lines, 3.5), 0.02);
+
+  std::string corners;
+  for (const auto& p : told["sheet"]) corners += " " + p[0].dump() + "," + p[1].dump();
+  const Outcome given = run_keyline("sketch --json " + example("photo.png") + " --sheet" + corners);
+  ASSERT_EQ(given.status, 0) << given.err;
+  EXPECT_EQ(nlohmann::json::parse(given.out)["size"], told["size"]);
+  const Outcome off = run_keyline("sketch --json " + example("photo.png") + " --rectify off");
+  ASSERT_EQ(off.status, 0) << off.err;
+  const auto as_it_is = nlohmann::json::parse(off.out);
+  EXPECT_EQ(as_it_is["size"][0], 760);
+  EXPECT_FALSE(as_it_is.contains("sheet"));
+  expect_failure(run_keyline("sketch " + example("photo.png") + " --rectify off --sheet" + corners),
+                 2, "leave one of them out");
+  expect_failure(run_keyline("sketch " + example("photo.png") + " --sheet 0,0 0,9 9,9 9,0"), 2,
+                 "no sheet's");
+}
+
 TEST(Sketch, PrintsWhatTheOperationAnswers) {
   const Outcome o = run_keyline("sketch " + example("sketch.png") + " --json --quiet --dpi 120");
   ASSERT_EQ(o.status, 0) << o.err;

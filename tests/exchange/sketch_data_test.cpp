@@ -99,6 +99,7 @@ TEST(SketchData, PicturesAreCoveredWithoutAnyOption) {
     };
     const auto trace = sketch::trace(*image, options);
     ASSERT_TRUE(trace) << trace.error().message;
+    EXPECT_FALSE(trace->sheet) << "is no photo";
     const Coverage coverage = coverage_of(*trace, ink);
     std::size_t segments = 0;
     std::size_t pieces = 0;
