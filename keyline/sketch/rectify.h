@@ -26,7 +26,7 @@ constexpr auto choices(const Rectify*) {
 /// about one of its sides only, or seen from far), the focal length is that of a usual lens, 0.75
 /// of the photo's diagonal, and in between what is likeliest with corners known to half a pixel and
 /// focal lengths within a factor of 1.5 of that.
-/// Source: the planar case of camera calibration: the homography's columns h1, h2 have
+/// Source: [Zhang 2000] for one plane: the homography's columns h1, h2 have
 /// h1ᵀ ω h2 = 0 and lengths in that ratio, ω = diag(1, 1, f²) / f².
 double aspect_of(const SheetCorners& corners, int width, int height);
 
