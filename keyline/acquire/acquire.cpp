@@ -69,8 +69,20 @@ void merge(Working& work, KeyLine& line) {
   }
 }
 
+/// A closed polyline of two places is the line between them, there and back; false where there are
+/// more.
+bool settle_line(Working& work, const AcquireOptions& options, KeyLine& line) {
+  const std::size_t n = work.points.size();
+  if (!options.closed.value_or(false) || n < 2 || n > 3) return false;
+  if (n == 3 && work.points[2] != work.points[0]) return false;
+  if (n == 3) detail::remove_points(work, {2});
+  line.report.notes.emplace_back("closed, but of two points: taken for the line between them");
+  return true;
+}
+
 /// Closes the outline as its ends ask for: drops the repeated first point, or adds it at a corner.
 void settle_ends(Working& work, std::size_t stride, const AcquireOptions& options, KeyLine& line) {
+  if (settle_line(work, options, line)) return;
   Ends ends = recognise_ends(work.points, stride, line.report.reordered || work.scattered);
   if (options.closed) {
     const bool repeated = ends == Ends::closed_repeated || ends == Ends::corner_repeated;

@@ -10,9 +10,12 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::size_t kMostExactPieces = 8;  // longer chains are not drawn exactly by anyone
-constexpr std::size_t kStretches = 3 * kMostExactPieces;  // two thirds of them hold no joint
+constexpr std::size_t kStretches = 3 * kMostExactPieces;
 constexpr std::size_t kStretchPoints = 8;  // two more than a piece has freedoms beside its ends'
-constexpr double kWhole = 0.25;      // of the stretches: where they overlap joints, fewer are whole
+// Stretches this long in the whole: of places on a chain of the most pieces, a third begins one
+// that holds no joint.
+constexpr double kStretchShare = 2.0 / (3 * kMostExactPieces);
+constexpr double kWhole = 0.25;      // of the stretches: what is left of that third by the grid
 constexpr double kExactness = 2e-7;  // of the length
 constexpr double kRate = 5;     // power of the pieces' length with which approximation gets near
 constexpr double kBetter = 10;  // times nearer than that is no approximation
@@ -70,12 +73,40 @@ bool follows_one_piece(const std::vector<FitPoint>& points, std::size_t first, s
   return fit_chain(chain, stretch, fit).max_offset <= by * exact;
 }
 
+/// The chain's feet of points `taken` of n, those of the points between in even steps between.
+std::vector<Foot> feet_of_all(const FitChain& chain, const std::vector<std::size_t>& taken,
+                              std::size_t n) {
+  std::vector<double> starts{0};
+  for (const FitPiece& piece : chain.pieces) starts.push_back(starts.back() + piece.length);
+  const double whole = starts.back();
+  const auto along = [&](const Foot& f) {
+    return starts[f.piece] + f.fraction * chain.pieces[f.piece].length;
+  };
+  std::vector<Foot> feet;
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    feet.push_back(chain.feet[k]);
+    if (k + 1 == taken.size()) break;
+    const double from = along(chain.feet[k]);
+    double step = along(chain.feet[k + 1]) - from;
+    if (chain.closed && step < 0) step += whole;
+    for (std::size_t i = taken[k] + 1; i < taken[k + 1]; ++i) {
+      const double share = double(i - taken[k]) / double(taken[k + 1] - taken[k]);
+      const double s = std::fmod(from + share * step, whole);
+      const auto piece = std::ranges::upper_bound(starts, s) - starts.begin() - 1;
+      feet.push_back({int(piece), (s - starts[piece]) / chain.pieces[piece].length});
+    }
+  }
+  feet.resize(n, chain.feet.back());
+  return feet;
+}
+
 }  // namespace
 
 bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact) {
   const std::size_t n = points.size();
   if (n < 2 * kStretchPoints) return true;
-  const std::size_t step = std::max<std::size_t>(1, n / (kStretches * kStretchPoints));
+  const auto step = static_cast<std::size_t>(
+      std::max(1.0, kStretchShare * static_cast<double>(n) / (kStretchPoints - 1)));
   const std::size_t span = step * (kStretchPoints - 1);
   const std::size_t places = closed ? n : n - span;
   const std::size_t tried = std::min(kStretches, places);
@@ -83,6 +114,22 @@ bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact
   for (std::size_t i = 0; i < tried; ++i)
     whole += follows_one_piece(points, i * places / tried, step, exact);
   return static_cast<double>(whole) >= kWhole * static_cast<double>(tried);
+}
+
+std::vector<std::size_t> telling_points(const std::vector<FitPoint>& points) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / (kStretches * kStretchPoints));
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i % step == 0 || i + 1 == points.size() || points[i].must_pass) taken.push_back(i);
+  return taken;
+}
+
+bool follows_all(ChainSearchResult& found, const std::vector<std::size_t>& taken,
+                 const std::vector<FitPoint>& points, double exact) {
+  if (taken.size() == points.size()) return true;
+  found.chain.feet = feet_of_all(found.chain, taken, points.size());
+  double reached = 0;
+  return converges(found, points, exact, reached);
 }
 
 double exactness(const Acceptance& accept) { return std::max(kExactness, 6 * accept.noise); }

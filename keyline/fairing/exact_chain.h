@@ -15,6 +15,14 @@ double exactness(const Acceptance& accept);
 /// to rounding.
 bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact);
 
+/// Of points that are dense enough to be taken for a curve as many as tell whether a chain of few
+/// pieces draws them: the ends, those that must be passed, and an even choice of the others.
+std::vector<std::size_t> telling_points(const std::vector<FitPoint>& points);
+
+/// Whether the chain found for points `taken` comes to reproduce all of them; it is theirs then.
+bool follows_all(ChainSearchResult& found, const std::vector<std::size_t>& taken,
+                 const std::vector<FitPoint>& points, double exact);
+
 /// Exact data deserve the chain that reproduces them, where it is about as short as the one the
 /// tolerance asks for: that one itself once converged, one for a tighter tolerance, or the shortest
 /// found that reproduces the points. `best` comes from a search with these options; true where it

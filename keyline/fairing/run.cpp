@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
@@ -50,6 +51,13 @@ struct Attempt {
   bool any_trend = false;  ///< offsets that show more than noise are let pass
 };
 
+std::vector<FitPoint> chosen(const std::vector<FitPoint>& points,
+                             const std::vector<std::size_t>& taken) {
+  std::vector<FitPoint> found;
+  for (const std::size_t i : taken) found.push_back(points[i]);
+  return found;
+}
+
 /// Takes over what a search found for `points`, straightened and polished.
 void finish(RunResult& result, ChainSearchResult search, std::vector<FitPoint> points,
             bool straightening) {
@@ -65,14 +73,15 @@ void finish(RunResult& result, ChainSearchResult search, std::vector<FitPoint> p
 }
 
 /// The chain that reproduces the points, where there is one and its polish keeps it; else the
-/// result stays as it is.
+/// result stays as it is. The search was for points `taken` of them.
 bool finish_exact(RunResult& result, ChainSearchResult search,
-                  const std::vector<FitPoint>& measured, const Run& run,
-                  const ChainSearchOptions& searching) {
-  if (!find_exact(search, measured, run.closed, searching)) return false;
+                  const std::vector<FitPoint>& measured, const std::vector<std::size_t>& taken,
+                  const Run& run, const ChainSearchOptions& searching) {
+  if (!find_exact(search, chosen(measured, taken), run.closed, searching)) return false;
   RunResult exact = result;
   exact.exact = true;
   exact.accept = {exactness(result.accept), 0};
+  if (!follows_all(search, taken, measured, exact.accept.tolerance)) return false;
   finish(exact, std::move(search), measured, searching.wanted_pieces == 0);
   if (exact.within_tolerance) result = std::move(exact);
   return result.exact;
@@ -92,7 +101,9 @@ bool solve_once(RunResult& result, const std::vector<FitPoint>& measured, const 
   ChainSearchResult search = search_chain(points, run.closed, searching);
   const bool found = search.within_tolerance;
   const bool first = attempt.share > 0.95 && !attempt.any_trend;
-  if (first && finish_exact(result, search, measured, run, searching)) return false;
+  std::vector<std::size_t> all(measured.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (first && finish_exact(result, search, measured, all, run, searching)) return false;
   finish(result, std::move(search), std::move(points), options.pieces == 0);
   return found && !result.within_tolerance;
 }
@@ -137,17 +148,21 @@ bool may_reproduce(const RunResult& result, const Run& run) {
 }
 
 /// Points that a chain reproduces to rounding get that chain, whatever the tolerance allows.
-/// The search begins with few pieces, as a loose tolerance gives them.
+/// The search begins with few pieces, as a loose tolerance gives them, and with no more points than
+/// tell them.
 bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
                  const curve::BSpline2& spline, RunOptions options) {
   if (run.axis || !may_reproduce(result, run)) return false;
   options.tolerance = std::max(options.tolerance, kLoose * run.length);
+  const std::vector<std::size_t> taken = telling_points(result.points);
   const std::vector<FitPoint> points =
-      with_guides(cut_digits(result.points), run.closed, rounded(options.tolerance / run.length));
+      with_guides(cut_digits(chosen(result.points, taken)), run.closed,
+                  rounded(options.tolerance / run.length));
   ChainSearchOptions searching = search_options(run, options);
   searching.start = held_end(run, frame, spline, true);
   searching.end = held_end(run, frame, spline, false);
-  return finish_exact(result, search_chain(points, run.closed, searching), result.points, run,
+  const std::vector<FitPoint> measured = result.points;
+  return finish_exact(result, search_chain(points, run.closed, searching), measured, taken, run,
                       searching);
 }
 
