@@ -17,12 +17,15 @@ using core::Result;
 
 constexpr int kCurveSamples = 801;
 
-/// The vertices of a path that is one polyline, or is made of straight edges that turn as points of
-/// a curve do; else none.
+/// The vertices of a path that is one polyline or one straight edge, or is made of such edges that
+/// turn as points of a curve do; else none.
 std::vector<core::Point2> vertices_of(const document::Path& path) {
-  if (path.curves.size() == 1)
+  if (path.curves.size() == 1) {
     if (const auto* line = std::get_if<curve::Polyline2>(&path.curves.front().value))
       return line->points;
+    if (const auto* edge = std::get_if<curve::Bezier2>(&path.curves.front().value))
+      if (edge->control.size() == 2) return edge->control;
+  }
   std::vector<core::Point2> vertices;
   for (const document::PlanarCurve& c : path.curves) {
     const auto* line = std::get_if<curve::Polyline2>(&c.value);

@@ -53,6 +53,24 @@ TEST(AcquireKeyLine, FewPointsAreALine) {
   EXPECT_EQ(three->points.size(), 3u);
 }
 
+TEST(AcquireKeyLine, AClosedPolylineOfTwoPointsIsTheLineBetweenThem) {
+  AcquireOptions options;
+  options.ordered = true;
+  options.closed = true;
+  for (const bool repeated : {false, true}) {
+    RawCurve raw = curve_of({{0, 0, 0}, {3, 1, 0}});
+    if (repeated) raw.points.push_back(raw.points.front());
+    const auto line = acquire_key_line(raw, options);
+    ASSERT_TRUE(line);
+    EXPECT_FALSE(line->closed);
+    EXPECT_EQ(line->points, (std::vector<core::Point2>{{0, 0}, {3, 1}}));
+    EXPECT_EQ(line->report.notes.size(), 1u);
+  }
+  const auto triangle = acquire_key_line(curve_of({{0, 0, 0}, {3, 1, 0}, {1, 2, 0}}), options);
+  ASSERT_TRUE(triangle);
+  EXPECT_TRUE(triangle->closed);
+}
+
 TEST(AcquireKeyLine, CollinearIsAStraightKeyLine) {
   RawCurve raw;
   for (int i = 0; i < 20; ++i) raw.points.push_back({i * 0.1, i * 0.2, 0});

@@ -107,6 +107,83 @@ TEST(Genetic, BestNeverGetsWorseAndTheObserverStops) {
   EXPECT_EQ(result[0].best.cost, last);
 }
 
+/// Where no rate is above 0 nothing changes, and nothing is looked at again; where pairs always
+/// cross and members always change, all of them are, twice a generation.
+TEST(Genetic, OnlyWhatChangesIsLookedAtAgain) {
+  struct Equal : Switches {
+    static double cost(const Genome&, int) { return 3; }
+  } problem;
+  GeneticOptions options = small(1, 1);
+  options.minimum_rate = 0;
+  EXPECT_EQ(evolve_trials(problem, options)[0].evaluations, 30U);
+  options.minimum_rate = 1;
+  EXPECT_EQ(evolve_trials(problem, options)[0].evaluations, 30U + 2U * 30U * 40U);
+}
+
+/// Selection of twos draws the population's mean down even where nothing crosses or changes, and
+/// the best stays in it.
+TEST(Genetic, SelectionKeepsTheBest) {
+  Switches problem;
+  GeneticOptions options = small(4, 1);
+  options.k1 = options.k2 = options.k3 = options.k4 = options.minimum_rate = 0;
+  const auto first = [&](int generations) {
+    options.generations = generations;
+    return evolve_trials(problem, options);
+  };
+  const auto before = first(0);
+  const auto after = first(30);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(before[i].best.cost, after[i].best.cost);
+  EXPECT_NE(before[0].best.genome, before[1].best.genome);  // each trial draws from its own stream
+}
+
+/// Two members that always get worse: the best so far takes the place of the worse one.
+TEST(Genetic, TheBestReplacesTheWorst) {
+  struct Worsening {
+    using Genome = int;
+    std::vector<int> taken;
+    std::vector<int> made;
+    static Genome create(Random& random, std::size_t) { return int(random.index(1000)); }
+    static void crossover(Genome&, Genome&, Random&) {}
+    void mutate(Genome& g, Random& random) {
+      taken.push_back(g);
+      made.push_back(g += 1000 + int(random.index(500)));
+    }
+    static double cost(Genome g, int) { return g; }
+  } problem;
+  GeneticOptions options = small(200, 1);
+  options.population = options.generations = 2;
+  options.minimum_rate = 1;
+  std::vector<int> there;
+  evolve_trials(problem, options, [&](int, int generation, double best) {
+    if (generation == 1) there = {int(best), std::ranges::min(problem.made)};
+    for (const int g : problem.taken)
+      EXPECT_TRUE(generation == 1 || g == there[0] || g == there[1]) << g;
+    problem.made.clear();
+    problem.taken.clear();
+    return true;
+  });
+}
+
+TEST(Genetic, StoppedAtTheLastGenerationIsComplete) {
+  Switches problem;
+  const auto all = [](int, int, double) { return false; };
+  GeneticOptions options = small(1, 1);
+  options.generations = 1;
+  EXPECT_TRUE(evolve_trials(problem, options, all)[0].complete);
+  options.generations = 2;
+  EXPECT_FALSE(evolve_trials(problem, options, all)[0].complete);
+}
+
+/// Where no member can be, one of them comes back with its cost.
+TEST(Genetic, ImpossibleMembersHaveNoCost) {
+  struct Impossible : Switches {
+    static double cost(const Genome&, int) { return std::numeric_limits<double>::infinity(); }
+  } problem;
+  const auto result = evolve_trials(problem, small(1, 1));
+  EXPECT_EQ(result[0].best.cost, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(result[0].generations, 40);
+}
+
 TEST(Genetic, RatesFollowSrinivasAndPatnaik) {
   const detail::PopulationCosts costs{10, 20};
   EXPECT_DOUBLE_EQ(detail::adaptive_rate(15, costs, 1, 1, 0.01), 0.5);

@@ -53,6 +53,61 @@ TEST(LevenbergMarquardt, RefusedStartIsReported) {
   EXPECT_EQ(x[0], 3);
 }
 
+/// The line r = (slope x, level), whose least is at 0.
+auto line(double slope, double level) {
+  return [=](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+    r.resize(2);
+    r << slope * x[0], level;
+    if (j) {
+      j->resize(2, 1);
+      *j << slope, 0;
+    }
+    return true;
+  };
+}
+
+/// Scaled columns: one step leaves damping / (1 + damping) of the way, whatever the slope.
+TEST(LevenbergMarquardt, OneStepIsAsLongAsTheDampingSays) {
+  for (const double slope : {1.0, 5.0, 0.01}) {
+    Eigen::VectorXd x(1);
+    x << 3;
+    LevenbergMarquardtOptions options;
+    options.max_iterations = 1;
+    options.initial_damping = 0.25;
+    const auto report = minimize_least_squares(line(slope, 0), x, options);
+    EXPECT_EQ(report.status, LevenbergMarquardtStatus::iteration_limit);
+    EXPECT_EQ(report.iterations, 1);
+    EXPECT_NEAR(x[0], 0.6, 1e-15);
+    EXPECT_NEAR(report.cost, 0.36 * slope * slope / 2, 1e-14 * slope * slope);
+  }
+}
+
+/// The second step's damping is a third of the first's: a line keeps to what was foreseen.
+TEST(LevenbergMarquardt, DampingFallsWhereStepsAreForeseen) {
+  Eigen::VectorXd x(1);
+  x << 1;
+  LevenbergMarquardtOptions options;
+  options.max_iterations = 2;
+  options.initial_damping = 0.3;
+  minimize_least_squares(line(1, 0), x, options);
+  EXPECT_NEAR(x[0], (0.3 / 1.3) * (0.1 / 1.1), 1e-15);
+}
+
+/// The cosine between residual and column at x is x / sqrt(x^2 + 1): at 0.1 it is 0.0995.
+TEST(LevenbergMarquardt, FlatStartsAreLeftAlone) {
+  Eigen::VectorXd x(1);
+  LevenbergMarquardtOptions options;
+  for (const bool flat : {true, false}) {
+    x << 0.1;
+    options.gradient_tolerance = flat ? 0.1 : 0.099;
+    const auto report = minimize_least_squares(line(4, 4), x, options);
+    EXPECT_EQ(report.status, LevenbergMarquardtStatus::converged);
+    EXPECT_EQ(report.iterations == 0, flat);
+    EXPECT_EQ(x[0] == 0.1, flat);
+    EXPECT_GE(report.cost, 8);
+  }
+}
+
 TEST(LevenbergMarquardt, RankDeficientProblemsEnd) {
   const auto f = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
     r.resize(2);

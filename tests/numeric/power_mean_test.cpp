@@ -92,7 +92,48 @@ TEST(PowerMeanIntegral, SingularEnds) {
   EXPECT_NEAR(signed_power_mean_integral(-1, 3, 1, 1), 1, 1e-15);
 }
 
+// Closed forms: (-1, 3) to the power 2 is the line from -1 to 9.
+TEST(PowerMean, SignedPowersOfALine) {
+  EXPECT_NEAR(signed_power_mean(-1, 3, 2, 0.5), 2, 1e-15);
+  EXPECT_NEAR(signed_power_mean(-1, 3, 2, 0.05), -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(signed_power_mean(3, -1, 2, 0.5), 2, 1e-15);
+  EXPECT_NEAR(signed_power_mean_integral(-1, 3, 2, 1), 26.0 / 15, 1e-15);
+  EXPECT_NEAR(signed_power_mean_integral(-1, 3, 2, 0.05), (std::pow(0.5, 1.5) - 1) / 15, 1e-16);
+  EXPECT_NEAR(signed_power_mean_integral(-1, -3, 1, 1), -2, 1e-15);
+  EXPECT_NEAR(signed_power_mean_integral(0, 3, 1, 1), 1.5, 1e-15);
+  EXPECT_NEAR(signed_power_mean_integral(0, -3, 1, 1), -1.5, 1e-15);
+}
+
+// The arithmetic and the harmonic mean have integrals without exponentials.
+TEST(PowerMeanIntegral, RatiosMayBeAnySize) {
+  const double l = std::log(1e200);
+  EXPECT_NEAR(power_mean_integral(1, 1e200, 1, 1) / 0.5e200, 1, 1e-12);
+  EXPECT_NEAR(power_mean_integral(1e200, 1, 1, 1) / 0.5e200, 1, 1e-12);
+  EXPECT_NEAR(power_mean_integral(1, 1e-200, -1, 1) / (l * 1e-200), 1, 1e-12);
+  EXPECT_NEAR(power_mean_integral(1, 1e200, -1, 1) / l, 1, 1e-12);
+  EXPECT_EQ(power_mean_integral(1, 2, 3, 0), 0);
+  EXPECT_EQ(power_mean_integral(2, 2, 3, 0.25), 0.5);
+}
+
+// Integrals of powers of a line: g from 1 to 343 to the power 1/3, from 1/25 to 4 to -1/2.
+TEST(PowerMeanIntegral, OfCubesAndInverseSquaresIsThatOfALine) {
+  const double g = 0.7 + 0.3 * 343;
+  EXPECT_NEAR(power_mean_integral(1, 7, 3, 0.3), 0.75 * (std::pow(g, 4.0 / 3) - 1) / 342, 4e-15);
+  EXPECT_NEAR(power_mean_integral(5, 0.5, -2, 0.8), 2 * (std::sqrt(3.208) - 0.2) / 3.96, 2e-15);
+}
+
+// (1 -+ 1/sqrt 3) / 2 with weights of 1/2; of three nodes the middle one weighs 4/9.
+TEST(Quadrature, NodesAndWeightsAreThoseOfTheTables) {
+  EXPECT_NEAR(gauss_legendre<2>.nodes[0], (1 - 1 / std::sqrt(3.0)) / 2, 1e-16);
+  EXPECT_NEAR(gauss_legendre<2>.nodes[1], (1 + 1 / std::sqrt(3.0)) / 2, 2e-16);
+  EXPECT_NEAR(gauss_legendre<2>.weights[1], 0.5, 1e-16);
+  EXPECT_NEAR(gauss_legendre<3>.nodes[1], 0.5, 1e-16);
+  EXPECT_NEAR(gauss_legendre<3>.weights[1], 4.0 / 9, 1e-16);
+  EXPECT_NEAR(gauss_legendre<3>.weights[2], 5.0 / 18, 1e-16);
+}
+
 TEST(Quadrature, GaussRulesAreExactForPolynomials) {
+  EXPECT_NEAR((integrate_gauss<2>([](double x) { return x * x * x; }, 1, 3)), 20, 1e-13);
   const auto power = [](int n) { return [n](double x) { return std::pow(x, n); }; };
   EXPECT_NEAR((integrate_gauss<8>(power(15), 0, 1)), 1.0 / 16, 1e-16);
   EXPECT_NEAR((integrate_gauss<16>(power(31), 0, 2)), std::pow(2.0, 32) / 32, 1e-7);

@@ -27,6 +27,28 @@ TEST(BracketedRoot, InfiniteValuesCountAsLarge) {
   for (const double x : asked) EXPECT_TRUE(x >= 0 && x <= 1) << x;
 }
 
+TEST(BracketedRoot, ZerosAtTheEndsAreFoundAtOnce) {
+  int asked = 0;
+  const auto line = [&](double x) { return ++asked, x - 1; };
+  EXPECT_EQ(bracketed_root(line, 1, 3, 1e-12), 1);
+  EXPECT_EQ(bracketed_root(line, -3, 1, 1e-12), 1);
+  EXPECT_EQ(asked, 4);
+  EXPECT_FALSE(bracketed_root([](double x) { return std::sqrt(x); }, -1, 1, 1e-12));
+}
+
+/// As near as is asked for, and no nearer: a bracket of twice the tolerance is enough.
+TEST(BracketedRoot, ToleranceSparesWork) {
+  int asked = 0;
+  const auto f = [&](double x) { return ++asked, std::atan(50 * (x - 0.3)); };
+  const auto rough = bracketed_root(f, 0, 1, 1e-2);
+  const int few = asked;
+  ASSERT_TRUE(rough);
+  EXPECT_NEAR(*rough, 0.3, 2e-2);
+  asked = 0;
+  ASSERT_TRUE(bracketed_root(f, 0, 1, 1e-15));
+  EXPECT_LT(few, asked);
+}
+
 TEST(BracketedRoot, UndefinedInsideIsNoRoot) {
   const auto hole = [](double x) { return x > 0.2 && x < 0.8 ? std::nan("") : x - 0.5; };
   EXPECT_FALSE(bracketed_root(hole, 0, 1, 1e-14));
