@@ -319,8 +319,14 @@ double uniform(std::mt19937_64& random, double low, double high) {
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
+std::uint64_t seed(std::uint64_t kind) {
+  const char* other = std::getenv("KEYLINE_SEED");
+  return kind + (other ? 1000 * std::strtoull(other, nullptr, 10) : 0);
+}
+
 int requests(double share) {
-  const double all = std::getenv("KEYLINE_FULL") ? 100000 : 2000;
+  const char* many = std::getenv("KEYLINE_REQUESTS");
+  const double all = many ? std::atof(many) : std::getenv("KEYLINE_FULL") ? 100000 : 2000;
   return std::max(1, static_cast<int>(all * share));
 }
 

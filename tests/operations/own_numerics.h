@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <random>
 #include <string>
@@ -66,7 +67,11 @@ json result_of(const json& request);
 double uniform(std::mt19937_64& random, double low, double high);
 double wrapped(double angle);
 
-/// So many requests: `share` of 2,000, or of 100,000 where KEYLINE_FULL is set.
+/// Of a kind of requests: the kind's own, or another where KEYLINE_SEED holds a number.
+std::uint64_t seed(std::uint64_t kind);
+
+/// So many requests: `share` of 2,000, of 100,000 where KEYLINE_FULL is set, or of
+/// KEYLINE_REQUESTS.
 int requests(double share);
 
 }  // namespace keyline::own

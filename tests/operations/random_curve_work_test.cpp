@@ -18,7 +18,7 @@ namespace {
 using namespace own;
 
 TEST(RandomCurves, FormsKeepWithinTheDeviationTheyTell) {
-  Random random(15);
+  Random random(own::seed(15));
   for (int n = 0; n < requests(0.05); ++n) {
     const json curve = any_curve(random);
     const double size = extent(curve);
@@ -106,7 +106,7 @@ TEST(CurveTransform, MovesAChainByWhatItIsMadeOf) {
 }
 
 TEST(RandomCurves, AreWorkedOnAsTheyStand) {
-  Random random(16);
+  Random random(own::seed(16));
   for (int n = 0; n < requests(0.04); ++n) {
     json curve = any_curve(random);
     while (curve["type"] == "log-aesthetic") curve = any_curve(random);
@@ -151,7 +151,7 @@ TEST(RandomCurves, AreWorkedOnAsTheyStand) {
 }
 
 TEST(RandomCurves, OffsetsLieAtTheirDistance) {
-  Random random(17);
+  Random random(own::seed(17));
   int drawn = 0;
   for (int n = 0; n < requests(0.04); ++n) {
     json curve = one_or_more(random);
@@ -194,7 +194,7 @@ TEST(RandomCurves, OffsetsLieAtTheirDistance) {
 }
 
 TEST(RandomCurves, AreComparedAndMeasuredAgainstPoints) {
-  Random random(18);
+  Random random(own::seed(18));
   for (int n = 0; n < requests(0.03); ++n) {
     json a = one_or_more(random);
     const double size = extent(a);
@@ -232,7 +232,7 @@ TEST(RandomCurves, AreComparedAndMeasuredAgainstPoints) {
 }
 
 TEST(RandomCurves, JointsAreWhatTheyAreMade) {
-  Random random(19);
+  Random random(own::seed(19));
   Worst worst("curvature jump");
   for (int n = 0; n < requests(0.03); ++n) {
     const json a = one_or_more(random), b = one_or_more(random);

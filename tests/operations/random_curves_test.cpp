@@ -74,7 +74,7 @@ json unmoved(const json& result, bool turned) {
 }
 
 TEST(RandomCurves, AreMeasuredRight) {
-  Random random(11);
+  Random random(own::seed(11));
   Worst worst_length("length"), worst_volume("volume");
   int yes = 0, no = 0, undecided = 0;
   for (int n = 0; n < requests(0.01); ++n) {
@@ -135,7 +135,7 @@ json matrix_curve(double alpha, double s, int degree, const Frame2& frame) {
 }
 
 TEST(RandomCurves, HaveTheirPlaceEnergyAndMinimumInThePlane) {
-  Random random(12);
+  Random random(own::seed(12));
   Worst worst_energy("energy"), worst_place("place"), worst_end("end of the minimum");
   for (int n = 0; n < requests(0.01); ++n) {
     const double alpha = uniform(random, 0.02, 1), s = uniform(random, 1, 2);
@@ -189,7 +189,7 @@ TEST(RandomCurves, HaveTheirPlaceEnergyAndMinimumInThePlane) {
 }
 
 TEST(RandomCurves, AreEditedToTheirMinimum) {
-  Random random(13);
+  Random random(own::seed(13));
   int edited = 0;
   for (int n = 0; n < requests(0.03); ++n) {
     const json curve = any_bezier(random, 2, 6);
@@ -224,7 +224,7 @@ TEST(RandomCurves, AreEditedToTheirMinimum) {
 }
 
 TEST(RandomCurves, PiecesAreEditedWithinWhatIsSaid) {
-  Random random(14);
+  Random random(own::seed(14));
   for (int n = 0; n < requests(0.02); ++n) {
     json request{{"op", "curve.edit_pieces"}, {"curve", any_path(random)}};
     const double length = length_of(beziers_of(request["curve"]));

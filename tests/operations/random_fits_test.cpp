@@ -55,7 +55,7 @@ json any_function(Random& random) {
 /// No other spline of these knots leaves less: what is left is at right angles to every basis
 /// function, and of the size told.
 TEST(RandomFits, FunctionsAreLeastSquaresOfTheirKnots) {
-  Random random(21);
+  Random random(own::seed(21));
   Worst worst_normal("normal equations"), worst_sse("sse");
   for (int n = 0; n < requests(0.02); ++n) {
     const json request = any_function(random);
@@ -102,7 +102,7 @@ TEST(RandomFits, FunctionsAreLeastSquaresOfTheirKnots) {
 }
 
 TEST(RandomFits, CurvesPassWhatTheyMustAndTellHowFarTheyAre) {
-  Random random(22);
+  Random random(own::seed(22));
   for (int n = 0; n < requests(0.01); ++n) {
     const Frame2 frame = any_frame(random);
     const int count = 15 + static_cast<int>(random() % 40);
@@ -175,7 +175,7 @@ double bend_of_rounding(const Bezier& c, std::size_t end) {
 }
 
 TEST(RandomFits, DrivenCurvesStayWithinTheirBoundAndJoints) {
-  Random random(23);
+  Random random(own::seed(23));
   int driven = 0;
   for (int n = 0; n < requests(0.03); ++n) {
     json request{{"op", "fit.curvature"},
@@ -228,7 +228,7 @@ TEST(RandomFits, DrivenCurvesStayWithinTheirBoundAndJoints) {
 }
 
 TEST(RandomFits, MonotonePiecesStaySo) {
-  Random random(24);
+  Random random(own::seed(24));
   int kept = 0;
   for (int n = 0; n < 10 * requests(0.01) && kept < requests(0.01); ++n) {
     const json curve = any_quintics(random);

@@ -69,7 +69,7 @@ std::optional<double> compound_chord_angle(double a0, double a1, double ratio, d
 
 /// Every rate from next to none to next to too much.
 TEST(RandomRefusals, NoCompoundCurveIsFoundByScanningAllRates) {
-  Random random(41);
+  Random random(own::seed(41));
   int refused = 0;
   for (int n = 0; refused < refusals() && n < 100 * refusals(); ++n) {
     const double theta = uniform(random, 0.1, 2.5);
@@ -110,7 +110,7 @@ TEST(RandomRefusals, NoCompoundCurveIsFoundByScanningAllRates) {
 
 /// Class A curves of one matrix on a grid of the plane: none ends where one was refused.
 TEST(RandomRefusals, NoClassACurveIsFoundOnAGridOfThePlane) {
-  Random random(42);
+  Random random(own::seed(42));
   int refused = 0;
   for (int n = 0; refused < refusals() && n < 100 * refusals(); ++n) {
     const int degree = 2 + static_cast<int>(random() % 5);
@@ -165,7 +165,7 @@ TEST(RandomRefusals, NoClassACurveIsFoundOnAGridOfThePlane) {
 /// With slopes from 0 on curvature never changes its sign: the tangent turns one way from the first
 /// direction to the last, and the chord, a mean of the tangents, lies between them.
 TEST(RandomRefusals, ChainsWithCurvaturesAreRefusedByTheirSignsAlone) {
-  Random random(43);
+  Random random(own::seed(43));
   int refused = 0;
   for (int n = 0; refused < refusals() && n < 100 * refusals(); ++n) {
     const double alpha = uniform(random, -3, 3);

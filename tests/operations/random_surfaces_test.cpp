@@ -84,7 +84,7 @@ json turned_net(json surface) {
 }
 
 TEST(RandomSurfaces, ValuesAreThoseOfTheirCurvesWhicheverWayTheyAreHeld) {
-  Random random(31);
+  Random random(own::seed(31));
   Worst worst("sav");
   for (int n = 0; n < requests(0.02); ++n) {
     const json surface =
@@ -134,7 +134,7 @@ void expect_apart_at_most(const json& a, const json& b, double told, double roun
 }
 
 TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
-  Random random(32);
+  Random random(own::seed(32));
   int edited = 0;
   const char* keeps[] = {"start", "corners", "joints", "boundary"};
   for (int n = 0; n < requests(0.01); ++n) {
@@ -196,7 +196,7 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
 }
 
 TEST(RandomSurfaces, CurvaturesAreThoseOfTheirDerivatives) {
-  Random random(33);
+  Random random(own::seed(33));
   Worst worst("curvature");
   for (int n = 0; n < requests(0.04); ++n) {
     json surface = any_patch(random, 2 + random() % 4, 2 + random() % 4, 0.1);
@@ -248,7 +248,7 @@ TEST(RandomSurfaces, CurvaturesAreThoseOfTheirDerivatives) {
 }
 
 TEST(RandomSurfaces, JointsAreAsTheyWereMade) {
-  Random random(34);
+  Random random(own::seed(34));
   for (int n = 0; n < requests(0.02); ++n) {
     // Two patches cut from one, so that all is equal across; then one is lifted or turned up.
     const json whole = any_patch(random, 4, 4, 0.05);
@@ -306,7 +306,7 @@ TEST(RandomSurfaces, JointsAreAsTheyWereMade) {
 }
 
 TEST(RandomSurfaces, SweepsCarryTheirProfile) {
-  Random random(35);
+  Random random(own::seed(35));
   for (int n = 0; n < requests(0.03); ++n) {
     json profile = random() % 2 == 0 ? any_bezier(random, 2, 5) : any_bspline(random);
     const auto line = beziers_of(profile);
@@ -367,7 +367,7 @@ json row_of(const json& surface, std::size_t i) {
 }
 
 TEST(RandomSurfaces, NetworksPassTheirCurves) {
-  Random random(36);
+  Random random(own::seed(36));
   for (int n = 0; n < requests(0.01); ++n) {
     const json made = any_patch(random, 4, 4, 0.1);
     const json columns = transposed(made);
