@@ -17,10 +17,11 @@ using nlohmann::json;
 using operations::Operation;
 using Kind = core::Type::Kind;
 
-constexpr Tool kTools[] = {
-    {"blend", "lac.blend"},     {"compare", "curve.compare"},     {"join", "curve.join"},
-    {"mirror", "curve.mirror"}, {"offset", "curve.offset"},       {"reverse", "curve.reverse"},
-    {"split", "curve.split"},   {"transform", "curve.transform"}, {"trim", "curve.trim"}};
+constexpr Tool kTools[] = {{"blend", "lac.blend"},           {"compare", "curve.compare"},
+                           {"join", "curve.join"},           {"mirror", "curve.mirror"},
+                           {"offset", "curve.offset"},       {"raise", "lac.raise_joints"},
+                           {"reverse", "curve.reverse"},     {"split", "curve.split"},
+                           {"transform", "curve.transform"}, {"trim", "curve.trim"}};
 
 const Operation& named(const std::string& operation) {
   return *operations::find_operation(operation);

@@ -14,9 +14,9 @@ std::vector<Operation> curve_operations() {
           document_read_operation(),   document_write_operation(),   fair_operation(),
           fit_curvature_operation(),   fit_spline_operation(),       lac_blend_operation(),
           lac_compound_operation(),    lac_drag_operation(),         lac_hermite_operation(),
-          lac_quasi_operation(),       lac_region_operation(),       lac_segment_operation(),
-          lac_space_operation(),       lac_spline_operation(),       lac_taylor_operation(),
-          lac_volume_operation()};
+          lac_quasi_operation(),       lac_raise_joints_operation(), lac_region_operation(),
+          lac_segment_operation(),     lac_space_operation(),        lac_spline_operation(),
+          lac_taylor_operation(),      lac_volume_operation()};
 }
 
 }  // namespace keyline::operations

@@ -10,6 +10,7 @@ Operation curve_deviation_operation();
 Operation curve_diagrams_operation();
 Operation curve_plane_operation();
 Operation lac_drag_operation();
+Operation lac_raise_joints_operation();
 Operation lac_taylor_operation();
 Operation surface_patch_operation();
 
