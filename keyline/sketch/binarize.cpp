@@ -79,15 +79,20 @@ Histogram edge_histogram(const Gray& dark, const Box& box, double floor) {
   const int y0 = std::max(box.y0, 1);
   const int x1 = std::min(box.x1, dark.width - 1);
   const int y1 = std::min(box.y1, dark.height - 1);
-  for (int y = y0; y < y1; ++y)
+  const int least = static_cast<int>(std::floor(floor * kFull));
+  for (int y = y0; y < y1; ++y) {
+    const std::uint16_t* above = &dark.at(0, y - 1);
+    const std::uint16_t* here = &dark.at(0, y);
+    const std::uint16_t* below = &dark.at(0, y + 1);
     for (int x = x0; x < x1; ++x) {
-      const double dx = dark.at(x + 1, y) - dark.at(x - 1, y);
-      const double dy = dark.at(x, y + 1) - dark.at(x, y - 1);
-      const double edge = (std::abs(dx) + std::abs(dy)) / kFull;
+      const int step = std::abs(here[x + 1] - here[x - 1]) + std::abs(below[x] - above[x]);
+      if (step < least) continue;  // most pixels
+      const double edge = step / kFull;
       if (edge < floor) continue;
-      h.weight[static_cast<std::size_t>(bin_of(dark.at(x, y) / kFull))] += edge;
+      h.weight[static_cast<std::size_t>(bin_of(here[x] / kFull))] += edge;
       h.total += edge;
     }
+  }
   return h;
 }
 
@@ -175,18 +180,43 @@ constexpr std::uint8_t kPaper = 0;
 constexpr std::uint8_t kWeak = 2;
 constexpr std::uint8_t kStrong = 1;
 
+/// Whether some pixel within kLocalRadius is so much darker that a faint one is its line's edge.
+class Nearby {
+ public:
+  explicit Nearby(const Gray& dark) : dark_(dark) {
+    const int size = 2 * kLocalRadius + 1;
+    const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        if (disc.at<std::uint8_t>(y, x)) disc_.push_back({x - kLocalRadius, y - kLocalRadius});
+  }
+
+  bool has_darker(int x, int y, double than) const {
+    return std::ranges::any_of(disc_, [&](const cv::Point& d) {
+      return dark_.contains(x + d.x, y + d.y) && dark_.at(x + d.x, y + d.y) > than;
+    });
+  }
+
+ private:
+  const Gray& dark_;
+  std::vector<cv::Point> disc_;
+};
+
 /// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak).
-void mark(const Gray& dark, const Gray& darkest, const Regions& regions, double faintest,
-          Binary& marks) {
+void mark(const Gray& dark, const Regions& regions, double faintest, Binary& marks) {
   Blend threshold(regions, dark.width, dark.height);
+  const Nearby nearby(dark);
+  const int least = static_cast<int>(std::floor(faintest * kFull));
   for (int y = 0; y < dark.height; ++y) {
     threshold.set_row(y);
+    const std::uint16_t* row = &dark.at(0, y);
     for (int x = 0; x < dark.width; ++x) {
+      if (row[x] < least) continue;  // most pixels
       const double here = dark.at(x, y) / kFull;
       if (here < faintest) continue;
       const double strong = std::max(threshold(x), faintest);
       if (here < std::max(kWeakShare * strong, faintest)) continue;
-      if (here < kLocalShare * darkest.at(x, y) / kFull) continue;
+      if (nearby.has_darker(x, y, row[x] / kLocalShare)) continue;
       marks.at(x, y) = here >= strong ? kStrong : kWeak;
     }
   }
@@ -264,12 +294,7 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
   Regions regions = automatic_regions(dark, faintest);
   apply_given(options, tone.gain, result, regions);
   cv::GaussianBlur(as_mat(dark), as_mat(dark), {3, 3}, noise > kNoisy ? kStrongBlur : kBlur);
-  Gray darkest(dark.width, dark.height);
-  cv::Mat target = as_mat(darkest);
-  cv::dilate(
-      as_mat(dark), target,
-      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kLocalRadius + 1, 2 * kLocalRadius + 1}));
-  mark(dark, darkest, regions, faintest, result.ink);
+  mark(dark, regions, faintest, result.ink);
   keep_connected(result.ink);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace keyline::sketch {
@@ -15,7 +16,7 @@ constexpr double kAboveChance = 0.8;
 constexpr double kByChance = 1e-6;  ///< that a drawing's steps all lie so, for any size tried
 /// Of a pixel's middle or its corner; halves are rounded either way.
 constexpr std::array kShifts = {0.5, 0.499, 0.0};
-constexpr int kLooks = 1024;  ///< rows, or columns, that are looked at
+constexpr std::size_t kLooks = 1024;  ///< rows, or columns, that are looked at
 
 /// Sums of squared differences between neighbouring columns, and rows.
 struct Steps {
@@ -24,20 +25,25 @@ struct Steps {
 };
 
 Steps steps_of(const Raster<std::uint16_t>& level) {
-  Steps steps{std::vector<double>(static_cast<std::size_t>(level.width), 0),
-              std::vector<double>(static_cast<std::size_t>(level.height), 0)};
-  const auto square = [](double d) { return d * d; };
-  const int every_row = 1 + level.height / kLooks;
-  const int every_column = 1 + level.width / kLooks;
-  for (int y = 0; y < level.height; y += every_row)
-    for (int x = 1; x < level.width; ++x)
-      steps.columns[static_cast<std::size_t>(x)] +=
-          square(double(level.at(x, y)) - level.at(x - 1, y));
-  for (int y = 1; y < level.height; ++y)
-    for (int x = 0; x < level.width; x += every_column)
-      steps.rows[static_cast<std::size_t>(y)] +=
-          square(double(level.at(x, y)) - level.at(x, y - 1));
-  return steps;
+  const auto width = static_cast<std::size_t>(level.width);
+  const auto height = static_cast<std::size_t>(level.height);
+  const auto square = [](std::uint16_t a, std::uint16_t b) -> std::uint64_t {
+    const std::uint32_t d = a > b ? a - b : b - a;
+    return d * d;
+  };
+  std::vector<std::uint64_t> columns(width, 0);
+  std::vector<std::uint64_t> rows(height, 0);
+  const std::size_t every_row = 1 + height / kLooks;
+  const std::size_t every_column = 1 + width / kLooks;
+  for (std::size_t y = 0; y < height; y += every_row) {
+    const std::uint16_t* row = level.data.data() + y * width;
+    for (std::size_t x = 1; x < width; ++x) columns[x] += square(row[x], row[x - 1]);
+  }
+  for (std::size_t y = 1; y < height; ++y) {
+    const std::uint16_t* row = level.data.data() + y * width;
+    for (std::size_t x = 0; x < width; x += every_column) rows[y] += square(row[x], row[x - width]);
+  }
+  return {{columns.begin(), columns.end()}, {rows.begin(), rows.end()}};
 }
 
 /// Where pixel k of `own` begins among `all`.
@@ -49,13 +55,15 @@ int begin_of(int k, int own, int all, double shift) {
 /// The steps of one direction, and what they weigh.
 class Line {
  public:
-  explicit Line(const std::vector<double>& steps) : steps_(steps) {
+  explicit Line(const std::vector<double>& steps) : steps_(steps), largest_(steps) {
     double squares = 0;
     for (const double s : steps) {
       sum_ += s;
       squares += s * s;
     }
     if (squares > 0) places_ = sum_ * sum_ / squares;
+    std::ranges::sort(largest_, std::greater());
+    for (std::size_t i = 1; i < largest_.size(); ++i) largest_[i] += largest_[i - 1];
   }
 
   /// Whether enough of the steps lies where pixels of `own` begin, and no few steps by chance.
@@ -63,14 +71,17 @@ class Line {
     const int all = static_cast<int>(steps_.size());
     const double share = (own - 1.0) / (all - 1.0);
     if (own < 2 || places_ * std::log(share) > std::log(kByChance / all)) return false;
+    const double enough = sum_ * (share + kAboveChance * (1 - share));
+    if (largest_[static_cast<std::size_t>(own) - 2] < enough) return false;  // wherever they begin
     double there = 0;
     for (int k = 1; k < own; ++k)
       there += steps_[static_cast<std::size_t>(std::min(begin_of(k, own, all, shift), all - 1))];
-    return there / sum_ - share >= kAboveChance * (1 - share);
+    return there >= enough;
   }
 
  private:
   const std::vector<double>& steps_;
+  std::vector<double> largest_;  ///< so many of the largest steps weigh, from one on
   double sum_ = 0;
   double places_ = 0;  ///< so many equal steps weigh the same
 };

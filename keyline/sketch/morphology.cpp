@@ -2,6 +2,8 @@
 
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace keyline::sketch {
@@ -45,6 +47,37 @@ struct Rules {
   }
 };
 
+/// Eight pixels of a row at once.
+std::uint64_t eight(const std::uint8_t* row) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, row, sizeof word);
+  return word;
+}
+
+/// Calls see(x, y) for pixels inside the rim that have the value and, not always, none of the other
+/// around them.
+template <class See>
+void visit_borders(const Binary& ink, std::uint8_t value, const See& see) {
+  constexpr std::uint64_t kAll = 0x0101010101010101;
+  const std::uint64_t other = value ? 0 : kAll;
+  for (int y = 1; y + 1 < ink.height; ++y) {
+    const std::uint8_t* above = &ink.at(0, y - 1);
+    const std::uint8_t* here = &ink.at(0, y);
+    const std::uint8_t* below = &ink.at(0, y + 1);
+    for (int x = 1; x + 1 < ink.width; ++x) {
+      while (x + 9 < ink.width) {
+        const std::uint64_t word = eight(here + x);
+        const bool inside = (word ^ other) == kAll && eight(above + x) == word &&
+                            eight(below + x) == word && here[x - 1] == value &&
+                            here[x + 8] == value;
+        if (word != other && !inside) break;
+        x += 8;
+      }
+      if (here[x] == value) see(x, y);
+    }
+  }
+}
+
 /// Flips pixels of the given colour that are features; `value` 1: bumps of ink, 0: dents. Returns
 /// how many.
 long flip_features(Binary& ink, std::uint8_t value) {
@@ -52,21 +85,18 @@ long flip_features(Binary& ink, std::uint8_t value) {
   std::vector<std::size_t> flips;
   const unsigned invert = value ? 0U : 255U;
   const auto seen = [&](int x, int y) { return (neighbours_of(ink, x, y) ^ invert) & 255U; };
-  for (int y = 1; y + 1 < ink.height; ++y)
-    for (int x = 1; x + 1 < ink.width; ++x) {
-      if (ink.at(x, y) != value) continue;
-      if (ink.at(x - 1, y) == value && ink.at(x + 1, y) == value && ink.at(x, y - 1) == value &&
-          ink.at(x, y + 1) == value)
-        continue;
-      const unsigned n = seen(x, y);
-      bool flip = kRules.bump[n];
-      if (!flip && kRules.long_bump[n]) {
-        for (const auto& [dx, dy] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-          flip =
-              flip || (ink.at(x + dx, y + dy) == value && kRules.long_bump[seen(x + dx, y + dy)]);
-      }
-      if (flip) flips.push_back(ink.index(x, y));
+  visit_borders(ink, value, [&](int x, int y) {
+    if (ink.at(x - 1, y) == value && ink.at(x + 1, y) == value && ink.at(x, y - 1) == value &&
+        ink.at(x, y + 1) == value)
+      return;
+    const unsigned n = seen(x, y);
+    bool flip = kRules.bump[n];
+    if (!flip && kRules.long_bump[n]) {
+      for (const auto& [dx, dy] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+        flip = flip || (ink.at(x + dx, y + dy) == value && kRules.long_bump[seen(x + dx, y + dy)]);
     }
+    if (flip) flips.push_back(ink.index(x, y));
+  });
   for (const std::size_t i : flips) ink.data[i] = static_cast<std::uint8_t>(1 - value);
   return static_cast<long>(flips.size());
 }
@@ -88,49 +118,52 @@ void grow(Binary& ink, std::uint8_t value) {
 
 constexpr std::uint8_t kSeen = 2;
 
-/// Marks the piece around `start` as seen. Its pixels are collected up to `most`; the front of the
-/// search is all that is held of larger pieces. Returns whether it touches the rim.
-bool collect(Binary& ink, std::size_t start, bool diagonal, std::size_t most,
-             std::vector<std::size_t>& piece, std::vector<std::size_t>& front) {
+/// The piece around `start` where it has fewer than `least` pixels, else as many of it; of paper, a
+/// piece that touches the rim counts as large.
+bool is_small(Binary& ink, std::size_t start, bool diagonal, std::size_t least,
+              std::vector<std::size_t>& piece) {
   const std::uint8_t value = ink.data[start];
   const auto w = static_cast<std::size_t>(ink.width);
   piece.assign(1, start);
-  front.assign(1, start);
   ink.data[start] |= kSeen;
-  bool rim = false;
-  while (!front.empty()) {
-    const int x = static_cast<int>(front.back() % w);
-    const int y = static_cast<int>(front.back() / w);
-    front.pop_back();
-    rim = rim || x == 0 || y == 0 || x + 1 == ink.width || y + 1 == ink.height;
+  bool large = false;
+  for (std::size_t k = 0; k < piece.size() && !large; ++k) {
+    const int x = static_cast<int>(piece[k] % w);
+    const int y = static_cast<int>(piece[k] / w);
+    large = value == 0 && (x == 0 || y == 0 || x + 1 == ink.width || y + 1 == ink.height);
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if ((!diagonal && dx != 0 && dy != 0) || !ink.contains(x + dx, y + dy)) continue;
         const std::size_t j = ink.index(x + dx, y + dy);
         if (ink.data[j] != value) continue;
         ink.data[j] |= kSeen;
-        front.push_back(j);
-        if (piece.size() < most) piece.push_back(j);
+        piece.push_back(j);
       }
+    large = large || piece.size() >= least;
   }
-  return rim;
+  for (const std::size_t i : piece) ink.data[i] = value;
+  return !large;
 }
 
 /// Flips connected pieces of `value` of fewer than `least` pixels. Pieces of paper that touch the
-/// rim are no holes.
+/// rim are no holes. A piece is looked for at pixels that can be its first, row by row.
 int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
   if (least <= 1) return 0;
   std::vector<std::size_t> piece;
-  std::vector<std::size_t> front;
   int flipped = 0;
-  for (std::size_t start = 0; start < ink.data.size(); ++start) {
-    if (ink.data[start] != value) continue;
-    const bool rim = collect(ink, start, diagonal, static_cast<std::size_t>(least), piece, front);
-    if (piece.size() >= static_cast<std::size_t>(least) || (value == 0 && rim)) continue;
-    for (const std::size_t i : piece) ink.data[i] = static_cast<std::uint8_t>((1 - value) | kSeen);
+  const auto look = [&](int x, int y) {
+    const auto is = [&](int u, int v) { return ink.contains(u, v) && ink.at(u, v) == value; };
+    if (ink.at(x, y) != value || is(x - 1, y) || is(x, y - 1)) return;
+    if (diagonal && (is(x - 1, y - 1) || is(x + 1, y - 1))) return;
+    if (!is_small(ink, ink.index(x, y), diagonal, static_cast<std::size_t>(least), piece)) return;
+    for (const std::size_t i : piece) ink.data[i] = static_cast<std::uint8_t>(1 - value);
     ++flipped;
-  }
-  for (std::uint8_t& v : ink.data) v &= 1;
+  };
+  for (int x = 0; x < ink.width; ++x) look(x, 0);
+  for (int y = 1; y < ink.height; ++y) look(0, y);
+  visit_borders(ink, value, look);
+  for (int y = 1; y < ink.height; ++y) look(ink.width - 1, y);
+  for (int x = 0; x < ink.width; ++x) look(x, ink.height - 1);
   return flipped;
 }
 

@@ -18,9 +18,9 @@ using core::Point2;
 using core::Vector2;
 using Sides = std::array<Side, 4>;  // by direction of their normals
 
-constexpr double kReduced = 512;       ///< pixels of the longer side that sheets are looked for in
-constexpr int kLeastSize = 64;         ///< pixels: in less there is no sheet
-constexpr int kLine = 9;               ///< reduced pixels: dark lines up to that width are closed
+constexpr double kReduced = 512;  ///< pixels, about: the longer side that sheets are looked for in
+constexpr int kLeastSize = 64;    ///< pixels: in less there is no sheet
+constexpr int kLine = 9;          ///< reduced pixels: dark lines up to that width are closed
 constexpr double kLeastArea = 0.1;     ///< of the picture
 constexpr double kLeastCorner = 0.5;   ///< radians between the normals of neighbouring sides
 constexpr double kBeyond = 0.05;       ///< of the picture's size a corner may lie outside
@@ -31,22 +31,25 @@ constexpr double kDarker = 0.15;       ///< of log luminance: that is darker, wh
 constexpr double kBand = 4;            ///< reduced pixels beside a side that may be either
 constexpr double kUnsupported = 2;     ///< that a pixel of side without border counts against
 
-/// log luminance (1 to 256) of the reduced picture, its lines closed.
-Raster<float> reduced_level(const Image& image, double scale) {
+/// Pixels of the photo, one way, that become one.
+int reduction(const Image& image) {
+  return std::max(
+      1, static_cast<int>(std::lround(std::max(image.width(), image.height()) / kReduced)));
+}
+
+/// log luminance (1 to 256) of the picture reduced so many times, its lines closed.
+Raster<float> reduced_level(const Image& image, int times) {
   const cv::Mat full(image.height(), image.width(), CV_16U,
                      const_cast<std::uint16_t*>(image.luminance.data.data()));
+  const cv::Size size(image.width() / times, image.height() / times);
   cv::Mat small;
-  const auto size = [scale](int n) {
-    return std::max(1, static_cast<int>(std::lround(n * scale)));
-  };
-  cv::resize(full, small, {size(image.width()), size(image.height())}, 0, 0, cv::INTER_AREA);
-  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kLine, kLine});
-  cv::morphologyEx(small, small, cv::MORPH_CLOSE, disc, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::resize(full(cv::Rect({}, size * times)), small, size, 0, 0, cv::INTER_AREA);
+  const cv::Mat square = cv::Mat::ones(kLine, kLine, CV_8U);
+  cv::morphologyEx(small, small, cv::MORPH_CLOSE, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
   Raster<float> level(small.cols, small.rows);
-  for (int y = 0; y < level.height; ++y)
-    for (int x = 0; x < level.width; ++x)
-      level.at(x, y) =
-          static_cast<float>(std::log1p(255.0 / 65535 * small.at<std::uint16_t>(y, x)));
+  cv::Mat target(small.rows, small.cols, CV_32F, level.data.data());
+  small.convertTo(target, CV_32F, 255.0 / 65535, 1);
+  cv::log(target, target);
   return level;
 }
 
@@ -273,13 +276,13 @@ SheetCorners turned_least(const SheetCorners& c) {
 
 std::optional<Sheet> find_sheet(const Image& image) {
   if (std::min(image.width(), image.height()) < kLeastSize) return std::nullopt;
-  const double scale = std::min(1.0, kReduced / std::max(image.width(), image.height()));
-  auto sides = Finder(Borders(reduced_level(image, scale))).find();
+  const int times = reduction(image);
+  auto sides = Finder(Borders(reduced_level(image, times))).find();
   if (!sides) return std::nullopt;
-  for (Side& side : *sides) side.offset /= scale;
+  for (Side& side : *sides) side.offset *= times;
   double square = 0;
   double count = 0;
-  for (const double reach : {3 / scale + 2, 4.0}) {
+  for (const double reach : {3.0 * times + 2, 4.0}) {
     const SheetCorners corners = corners_of(*sides);
     const Refining refining(image, reach);
     Sides finer = *sides;

@@ -1,7 +1,9 @@
 #include "keyline/sketch/thinning.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace keyline::sketch {
@@ -15,10 +17,27 @@ struct Padded {
   explicit Padded(const Binary& binary)
       : stride(binary.width + 2),
         data(static_cast<std::size_t>(stride) * static_cast<std::size_t>(binary.height + 2)) {
-    for (int y = 0; y < binary.height; ++y)
-      for (int x = 0; x < binary.width; ++x)
-        data[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(stride) +
-             static_cast<std::size_t>(x + 1)] = binary.at(x, y) ? 1 : 0;
+    for (int y = 0; y < binary.height; ++y) {
+      const std::uint8_t* row = &binary.at(0, y);
+      std::transform(row, row + binary.width, &data[begin_of(y)],
+                     [](std::uint8_t v) -> std::uint8_t { return v ? 1 : 0; });
+    }
+  }
+
+  /// Of row y of the picture.
+  std::size_t begin_of(int y) const {
+    return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(stride) + 1;
+  }
+
+  /// The next place from i on that is not paper; the end where there is none.
+  std::size_t next(std::size_t i) const {
+    std::uint64_t word = 0;
+    for (; i + sizeof word <= data.size(); i += sizeof word) {
+      std::memcpy(&word, &data[i], sizeof word);
+      if (word != 0) break;
+    }
+    while (i < data.size() && data[i] == 0) ++i;
+    return i;
   }
 
   std::array<std::size_t, 8> around(std::size_t i) const {
@@ -98,8 +117,7 @@ std::size_t half_pass(Padded& image, std::array<std::vector<std::size_t>, 2>& qu
 void clean_staircases(Padded& image) {
   constexpr unsigned kUpDown = 0b00010001;
   constexpr unsigned kBeside = 0b01000100;
-  for (std::size_t i = 0; i < image.data.size(); ++i) {
-    if (!(image.data[i] & kInk)) continue;
+  for (std::size_t i = image.next(0); i < image.data.size(); i = image.next(i + 1)) {
     const unsigned n = image.neighbours(i);
     if ((n & kUpDown) && (n & kBeside) && tables().simple[n]) image.data[i] = 0;
   }
@@ -127,8 +145,8 @@ bool is_simple(unsigned n) {
 Binary thin(const Binary& ink) {
   Padded image(ink);
   std::array<std::vector<std::size_t>, 2> queues;
-  for (std::size_t i = 0; i < image.data.size(); ++i)
-    if ((image.data[i] & kInk) && image.neighbours(i) != 255)
+  for (std::size_t i = image.next(0); i < image.data.size(); i = image.next(i + 1))
+    if (image.neighbours(i) != 255)
       for (std::size_t q = 0; q < 2; ++q) {
         image.data[i] |= kQueued[q];
         queues[q].push_back(i);
@@ -138,12 +156,11 @@ Binary thin(const Binary& ink) {
     quiet = half_pass(image, queues, half) == 0 ? quiet + 1 : 0;
   clean_staircases(image);
   Binary lines(ink.width, ink.height);
-  for (int y = 0; y < ink.height; ++y)
-    for (int x = 0; x < ink.width; ++x)
-      lines.at(x, y) =
-          image.data[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(image.stride) +
-                     static_cast<std::size_t>(x + 1)] &
-          kInk;
+  for (int y = 0; y < ink.height; ++y) {
+    const std::uint8_t* row = &image.data[image.begin_of(y)];
+    std::transform(row, row + ink.width, &lines.at(0, y),
+                   [](std::uint8_t v) -> std::uint8_t { return v & kInk; });
+  }
   return lines;
 }
 
