@@ -1,8 +1,9 @@
 #include "keyline/sketch/branch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -16,8 +17,6 @@ namespace {
 using core::distance;
 using core::Point2;
 using core::Vector2;
-
-constexpr std::size_t kMostBranches = 10;
 
 /// Half the usual width of an edge.
 double half_width(const GraphEdge& e) { return core::quantile(e.radii); }
@@ -48,45 +47,35 @@ Vector2 direction(const PointAt& point, std::size_t i, std::size_t j) {
   return core::norm(d) > 0 ? d / core::norm(d) : Vector2{1, 0};
 }
 
-/// Goes through all ways to pair branches, giving up where they cost more than the best so far.
-class Pairing {
- public:
-  Pairing(const std::vector<std::vector<double>>& costs, double alone)
-      : costs_(costs), alone_(alone), mate_(costs.size(), kOpen), best_(costs.size(), -1) {
-    search(0, 0);
-  }
-  std::vector<int> best() const { return best_; }
-
- private:
-  static constexpr int kOpen = -2;
-
-  void search(std::size_t first, double spent) {
-    if (spent >= least_) return;
-    while (first < mate_.size() && mate_[first] != kOpen) ++first;
-    if (first == mate_.size()) {
-      least_ = spent;
-      best_ = mate_;
-      return;
+/// Least sum of costs over all ways to pair, by sets of those already settled, largest set first:
+/// whoever comes first of the others stays alone or goes with one of the rest.
+std::vector<int> least_pairing(const std::vector<std::vector<double>>& costs, double alone) {
+  const auto n = static_cast<unsigned>(costs.size());
+  const std::size_t all = (std::size_t{1} << n) - 1;
+  std::vector<double> rest(all + 1, 0);  // what settling the others costs
+  std::vector<std::uint8_t> mate(all + 1, 0);
+  for (std::size_t settled = all; settled-- > 0;) {
+    const auto first = static_cast<unsigned>(std::countr_one(settled));
+    const std::size_t with_first = settled | (std::size_t{1} << first);
+    rest[settled] = alone + rest[with_first];
+    mate[settled] = static_cast<std::uint8_t>(first);
+    for (unsigned k = first + 1; k < n; ++k) {
+      if ((settled >> k) & 1U || !std::isfinite(costs[first][k])) continue;
+      const double cost = costs[first][k] + rest[with_first | (std::size_t{1} << k)];
+      if (cost < rest[settled]) rest[settled] = cost, mate[settled] = static_cast<std::uint8_t>(k);
     }
-    for (std::size_t k = first + 1; k < mate_.size(); ++k) {
-      if (mate_[k] != kOpen) continue;
-      if (!std::isfinite(costs_[first][k])) continue;
-      mate_[first] = static_cast<int>(k);
-      mate_[k] = static_cast<int>(first);
-      search(first + 1, spent + costs_[first][k]);
-      mate_[k] = kOpen;
-    }
-    mate_[first] = -1;
-    search(first + 1, spent + alone_);
-    mate_[first] = kOpen;
   }
-
-  const std::vector<std::vector<double>>& costs_;
-  double alone_;
-  std::vector<int> mate_;
-  std::vector<int> best_;
-  double least_ = std::numeric_limits<double>::infinity();
-};
+  std::vector<int> mates(n, -1);
+  for (std::size_t settled = 0; settled != all;) {
+    const auto first = static_cast<unsigned>(std::countr_one(settled));
+    const unsigned other = mate[settled];
+    settled |= (std::size_t{1} << first) | (std::size_t{1} << other);
+    if (other == first) continue;
+    mates[first] = static_cast<int>(other);
+    mates[other] = static_cast<int>(first);
+  }
+  return mates;
+}
 
 }  // namespace
 
@@ -136,6 +125,8 @@ double bend_between(const Branch& a, const Branch& b) {
 
 namespace {
 
+constexpr double kArm = 30;  ///< pixels of a line that tell how it goes on
+
 /// Distance of (x, y) to the left of the circle through the origin that goes along x there.
 double left_of_circle(double x, double y, double curvature) {
   const double q = x * x + y * y;
@@ -183,12 +174,30 @@ CommonArc common_arc(const std::vector<Point2>& a, const std::vector<Point2>& b)
   return arc;
 }
 
+double passes_beside(const StrokeGraph& g, const Branch& arm, Point2 place) {
+  const double ahead = -core::dot(arm.outward, place - arm.place);
+  const std::vector<Point2> points = arm_of(g, arm, std::max(kArm, 2 * ahead));
+  if (ahead <= 0 || points.size() < 6 ||
+      core::distance(points.front(), points.back()) < 0.5 * ahead)
+    return HUGE_VAL;
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 3);
+  Eigen::VectorXd beside(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const core::Vector2 d = points[static_cast<std::size_t>(i)] - arm.place;
+    const double x = -core::dot(arm.outward, d) / ahead;
+    rows.row(i) << 1, x, x * x;
+    beside[i] = core::cross(arm.outward, d);
+  }
+  const Eigen::VectorXd parabola = numeric::least_squares(rows, beside);
+  return std::abs(core::cross(arm.outward, place - arm.place) - parabola.sum());
+}
+
 std::vector<int> pair_up(const std::vector<std::vector<double>>& costs, double alone) {
-  if (costs.size() <= kMostBranches) return Pairing(costs, alone).best();
+  if (costs.size() <= kMostBranches) return least_pairing(costs, alone);
   std::vector<std::vector<double>> first(costs.begin(),
                                          costs.begin() + static_cast<long>(kMostBranches));
   for (std::vector<double>& row : first) row.resize(kMostBranches);
-  std::vector<int> mates = Pairing(first, alone).best();
+  std::vector<int> mates = least_pairing(first, alone);
   mates.resize(costs.size(), -1);
   return mates;
 }

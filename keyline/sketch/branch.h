@@ -42,8 +42,16 @@ struct CommonArc {
 };
 CommonArc common_arc(const std::vector<core::Point2>& a, const std::vector<core::Point2>& b);
 
+/// How far beside a place the line passes that comes in on an arm and goes on as the parabola
+/// through its points does; infinite behind it, and farther ahead than twice the arm's length.
+double passes_beside(const StrokeGraph& graph, const Branch& arm, core::Point2 place);
+
+/// Branches that are paired at most: the cost is 2 to their number.
+inline constexpr std::size_t kMostBranches = 18;
+
 /// Who goes on with whom, of least sum of bends, a branch left over counting half `turn`; -1 for
-/// those. Pairs that bend more than `turn` are not made. At most ten branches (more are left over).
+/// those. Pairs that bend more than `turn` are not made. At most kMostBranches (more are left
+/// over).
 std::vector<int> pair_up(const std::vector<Branch>& branches, double turn);
 
 /// The same for costs given: of every pair (a row each, infinite: never), and of one left over.

@@ -6,10 +6,13 @@
 #include <map>
 #include <optional>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/branch.h"
 #include "keyline/sketch/knot.h"
+#include "keyline/sketch/shared_stretch.h"
+#include "keyline/sketch/spurs.h"
 
 namespace keyline::sketch {
 namespace {
@@ -18,9 +21,10 @@ using core::distance;
 using core::Point2;
 using core::Vector2;
 
-/// Two lines that cross at 10 degrees share about 23 half widths, 1 / tan 5 degrees twice.
-constexpr double kShortShared = 4;  // half widths: up to it directions beside the stretch tell
-constexpr double kLongestShared = 24;
+/// Radians: lines that meet at less run into one before their centres do.
+constexpr double kFork = 0.8;
+
+constexpr double kForkReach = 20;  ///< pixels of what follows that tell whose it is
 
 class Joiner {
  public:
@@ -77,7 +81,8 @@ class Joiner {
       const double length = length_of(line);
       const double radius = std::max(node(line.from).radius, node(line.to).radius);
       const bool inside = length < 1.3 * radius + 1;
-      if (line.from == line.to ? inside : inside || is_shared_stretch(static_cast<int>(e))) {
+      if (line.from == line.to ? inside
+                               : inside || is_shared_stretch(graph_, static_cast<int>(e))) {
         bridge_[e] = true;
         merge(line.from, line.to);
       }
@@ -113,47 +118,6 @@ class Joiner {
       }
       knots_.push_back(std::move(*knot));
     }
-  }
-
-  /// True where two lines cross at a small angle along this edge: its four neighbours pair up
-  /// across it, nearly straight; the longer it is, the straighter.
-  bool is_shared_stretch(int e) const {
-    const GraphEdge& line = edge(e);
-    const double wide = std::max(node(line.from).radius, node(line.to).radius);
-    const double length = length_of(line);
-    if (length > kLongestShared * wide) return false;
-    if (node(line.from).edges.size() != 3 || node(line.to).edges.size() != 3) return false;
-    std::vector<Branch> left;
-    std::vector<Branch> right;
-    for (const auto& [n, side] : {std::pair{line.from, &left}, std::pair{line.to, &right}})
-      for (const int other : node(n).edges) {
-        if (other == e) continue;
-        if (length_of(edge(other)) < 2 * wide) return false;
-        side->push_back(sketch::make_branch(graph_, other, edge(other).to == n, 1.5 * wide + 1));
-      }
-    if (left.size() != 2 || right.size() != 2) return false;
-    if (rejoin(left, line.from, 6 * wide) || rejoin(right, line.to, 6 * wide)) return false;
-    const double reach = arc_reach(length, wide);
-    const auto cost = [&](std::size_t l, std::size_t r) {
-      return going_on(graph_, left[l], right[r], reach);
-    };
-    const std::size_t mate = cost(0, 1) + cost(1, 0) < cost(0, 0) + cost(1, 1) ? 1 : 0;
-    for (const std::size_t l : {0U, 1U}) {
-      const Branch& other = right[l == 0 ? mate : 1 - mate];
-      if (bend_between(left[l], other) >= kMostBend) return false;
-      if (length > kShortShared * wide && !on_one_arc(graph_, left[l], other, reach, wide))
-        return false;
-    }
-    return true;
-  }
-
-  /// Two branches out of a node that soon meet again at their other ends: the sides of a hole.
-  bool rejoin(const std::vector<Branch>& pair, int n, double most) const {
-    const auto other = [&](const Branch& b) {
-      return edge(b.edge).from == n ? edge(b.edge).to : edge(b.edge).from;
-    };
-    return other(pair[0]) == other(pair[1]) && length_of(edge(pair[0].edge)) < most &&
-           length_of(edge(pair[1].edge)) < most;
   }
 
   void make_branches() {
@@ -234,14 +198,50 @@ class Joiner {
     }
   }
 
-  void match(const std::vector<int>& list, double shared) {
+  /// Of two lines that run into one at a small angle, one goes on, the other ends there, or a
+  /// little beyond: the one goes on that leads to the short end that follows.
+  bool match_fork(const std::vector<int>& list) {
+    for (const std::size_t k : {0U, 1U, 2U}) {
+      const int stem = list[k];
+      const int a = list[(k + 1) % 3];
+      const int b = list[(k + 2) % 3];
+      if (std::abs(core::angle_between(at(a).outward, at(b).outward)) > kFork) continue;
+      if (!is_short_end(graph_, at(stem))) return false;
+      if (bend_between(at(stem), at(a)) > options_.turn) return false;
+      if (bend_between(at(stem), at(b)) > options_.turn) return false;
+      const Point2 place = arm_of(graph_, at(stem), kForkReach).back();
+      const int mate =
+          passes_beside(graph_, at(a), place) <= passes_beside(graph_, at(b), place) ? a : b;
+      at(stem).mate = mate;
+      at(mate).mate = stem;
+      return true;
+    }
+    return false;
+  }
+
+  /// Short ends and the lines that lead to them go on with each other; they leave the list.
+  void match_leading(std::vector<int>& list) {
+    const std::vector<int> all = list;
+    for (const int end : all) {
+      const int arm = leading_arm(graph_, at(end).edge);
+      const auto mate = std::ranges::find_if(list, [&](int b) { return at(b).edge == arm; });
+      if (arm < 0 || mate == list.end() || std::ranges::find(list, end) == list.end()) continue;
+      at(end).mate = *mate;
+      at(*mate).mate = end;
+      std::erase_if(list, [&](int b) { return b == end || b == at(end).mate; });
+    }
+  }
+
+  void match(std::vector<int> list, double shared) {
     if (list.size() == 2) {  // no junction at all
       at(list[0]).mate = list[1];
       at(list[1]).mate = list[0];
       return;
     }
     if (const Knot* knot = knot_of(list)) return match_knot(*knot, list);
+    if (list.size() >= 4) match_leading(list);
     if (list.size() == 4 && shared > 0 && match_far_out(list, shared)) return;
+    if (list.size() == 3 && match_fork(list)) return;
     std::vector<Branch> branches;
     for (const int id : list) branches.push_back(at(id));
     const std::vector<int> mates = pair_up(branches, options_.turn);

@@ -14,7 +14,6 @@ constexpr double kOffGrid = 0.4;     ///< pixels: a skeleton's rounding, 1/sqrt(
 constexpr double kOffShare = 0.5;    ///< of the half width: as far as a hand's line lies off an arc
 constexpr double kBendPixels = 0.5;  ///< that a radian of bend counts as
 constexpr double kOffInk = 1;        ///< pixels beyond the ink, for the same rounding
-constexpr std::size_t kMostExits = 10;
 constexpr std::ptrdiff_t kMostEnds = 2;
 constexpr double kNever = 1e6;  ///< cost of a line that ends inside: only where it must
 
@@ -54,7 +53,7 @@ class Untying {
         const Branch out = make_branch(graph_, e, edge(e).to == n, 1.2 * half_width_ + 1);
         knot_.exits.push_back(out);
       }
-    return knot_.exits.size() >= 4 && knot_.exits.size() <= kMostExits;
+    return knot_.exits.size() >= 4 && knot_.exits.size() <= kMostBranches;
   }
 
   std::vector<std::vector<double>> costs() const {
@@ -143,6 +142,12 @@ bool on_one_arc(const StrokeGraph& graph, const Branch& a, const Branch& b, doub
                 double half_width) {
   return common_arc(arm_of(graph, a, reach), arm_of(graph, b, reach)).off <=
          kOffGrid + kOffShare * half_width;
+}
+
+bool is_short_end(const StrokeGraph& graph, const Branch& branch) {
+  const GraphEdge& line = graph.edges[static_cast<std::size_t>(branch.edge)];
+  const GraphNode& tip = graph.nodes[static_cast<std::size_t>(branch.at_end ? line.from : line.to)];
+  return tip.edges.size() == 1 && length_of(line) < 2 * arc_reach(0, tip.radius);
 }
 
 std::optional<Knot> untie(const StrokeGraph& graph, const std::vector<int>& edges) {

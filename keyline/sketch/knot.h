@@ -20,7 +20,7 @@ struct Knot {
 /// their bends. Up to two exits may end inside.
 ///
 /// Empty where that leaves an edge inside that none of these lines runs along, or where no exits or
-/// more than ten come out: then it is no knot, or not that one.
+/// more than kMostBranches come out: then it is no knot, or not that one.
 std::optional<Knot> untie(const StrokeGraph& graph, const std::vector<int>& edges);
 
 /// How little two branches go on with each other, in squared pixels: the square of what their
@@ -34,6 +34,9 @@ bool on_one_arc(const StrokeGraph& graph, const Branch& a, const Branch& b, doub
 
 /// How far out lines are looked at that have to be told apart over a gap of that length.
 double arc_reach(double gap, double half_width);
+
+/// Whether the line ends freely, too near for its own arc to tell where it came from.
+bool is_short_end(const StrokeGraph& graph, const Branch& branch);
 
 /// Radians: lines that bend more do not go on with each other through a knot.
 inline constexpr double kMostBend = 0.9;

@@ -12,6 +12,9 @@ namespace keyline::sketch {
 ///
 /// Where lines run together at a small angle their ink is one long before their centres meet, so
 /// that thinning alone lets the stem end too early.
-void end_on_lines(std::vector<FineStroke>& strokes);
+///
+/// Where the pen went on beyond the line it met and stopped before their ink parted, the end lies
+/// there; in ragged ink that is not to be told.
+void end_on_lines(std::vector<FineStroke>& strokes, const Refiner& refiner, bool ragged = false);
 
 }  // namespace keyline::sketch

@@ -37,6 +37,9 @@ class Refiner {
   /// none is seen.
   double edge_offset(core::Point2 p, core::Vector2 out) const;
 
+  /// At a place, bilinear: 0 paper, 1 black.
+  double darkness(core::Point2 p) const;
+
  private:
   struct Profile {
     bool good = false;
@@ -44,7 +47,6 @@ class Refiner {
     double width = 0;
   };
   Profile profile(core::Point2 p, core::Vector2 normal, double half_width) const;
-  double darkness(core::Point2 p) const;
   double extension(core::Point2 end, core::Vector2 direction, double half_width) const;
   void trim_end(std::vector<core::Point2>& points, std::vector<double>& widths,
                 double half_width) const;

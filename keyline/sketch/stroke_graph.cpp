@@ -9,15 +9,14 @@
 #include <utility>
 
 #include "keyline/core/polygon.h"
-#include "keyline/core/quantile.h"
 #include "keyline/sketch/ink_radius.h"
+#include "keyline/sketch/spurs.h"
 
 namespace keyline::sketch {
 namespace {
 
 using core::Point2;
 
-constexpr double kSwelling = 1.3;   ///< of its usual width a line may swell by itself
 constexpr double kLensShare = 1.3;  ///< of a line's width: a hole with its rims is no wider
 
 struct Pixel {
@@ -191,89 +190,6 @@ class Builder {
 GraphNode& node_at(StrokeGraph& g, int i) { return g.nodes[static_cast<std::size_t>(i)]; }
 GraphEdge& edge_at(StrokeGraph& g, int i) { return g.edges[static_cast<std::size_t>(i)]; }
 
-void detach(StrokeGraph& g, int node, int edge) {
-  auto& list = node_at(g, node).edges;
-  const auto at = std::find(list.begin(), list.end(), edge);
-  if (at != list.end()) list.erase(at);
-}
-
-void reverse_edge(GraphEdge& e) {
-  std::swap(e.from, e.to);
-  std::reverse(e.points.begin(), e.points.end());
-  std::reverse(e.radii.begin(), e.radii.end());
-}
-
-/// The two lines at a node left with two become one; a line that returns to it becomes closed.
-void join_at(StrokeGraph& g, int node) {
-  if (node_at(g, node).edges.size() != 2) return;
-  const int a = node_at(g, node).edges[0];
-  const int b = node_at(g, node).edges[1];
-  if (a == b) {
-    edge_at(g, a).from = edge_at(g, a).to = -1;
-    node_at(g, node).edges.clear();
-    return;
-  }
-  GraphEdge& first = edge_at(g, a);
-  GraphEdge& second = edge_at(g, b);
-  if (first.to != node) reverse_edge(first);
-  if (second.from != node) reverse_edge(second);
-  first.points.insert(first.points.end(), second.points.begin(), second.points.end());
-  first.radii.insert(first.radii.end(), second.radii.begin(), second.radii.end());
-  first.to = second.to;
-  second.alive = false;
-  node_at(g, node).edges.clear();
-  auto& list = node_at(g, first.to).edges;
-  std::replace(list.begin(), list.end(), b, a);
-}
-
-/// Half the usual width of the widest of the other lines at a node.
-double half_width_beside(StrokeGraph& g, const GraphNode& node, int edge) {
-  double widest = 0;
-  for (const int i : node.edges) {
-    if (i == edge) continue;
-    widest = std::max<double>(widest, core::quantile(edge_at(g, i).radii));
-  }
-  return widest;
-}
-
-/// True for an end that leaves the disc of the line it sits on by less than half that line's width,
-/// or by less than dirt beside a thin line does. Where a line swells its usual width counts too.
-bool is_spur(StrokeGraph& g, int edge) {
-  const GraphEdge& e = edge_at(g, edge);
-  if (!e.alive || e.from < 0 || e.from == e.to) return false;
-  const bool free_from = node_at(g, e.from).edges.size() == 1;
-  const bool free_to = node_at(g, e.to).edges.size() == 1;
-  if (free_from == free_to) return false;
-  const GraphNode& foot = node_at(g, free_from ? e.to : e.from);
-  if (foot.edges.size() < 3) return false;
-  const double length = length_of(e);
-  if (length >= 1.5 * foot.radius + 3) return false;
-  const double r = std::min(foot.radius, kSwelling * half_width_beside(g, foot, edge));
-  return length < std::max(1.5 * r + 1.5, std::min(2 * r + 3, 6.0));
-}
-
-void prune_spurs(StrokeGraph& g) {
-  for (int round = 0; round < 3; ++round) {
-    // shortest first: of a forked end the longer fork stays as the line's end
-    std::vector<std::pair<double, int>> spurs;
-    for (int i = 0; i < static_cast<int>(g.edges.size()); ++i)
-      if (is_spur(g, i)) spurs.emplace_back(length_of(edge_at(g, i)), i);
-    std::sort(spurs.begin(), spurs.end());
-    bool changed = false;
-    for (const auto& [length, i] : spurs) {
-      if (!is_spur(g, i)) continue;
-      GraphEdge& e = edge_at(g, i);
-      e.alive = false;
-      const int foot = node_at(g, e.from).edges.size() == 1 ? e.to : e.from;
-      detach(g, e.from, i);
-      detach(g, e.to, i);
-      join_at(g, foot);
-      changed = true;
-    }
-    if (!changed) return;
-  }
-}
-
 double widest_gap(const GraphEdge& a, const GraphEdge& b) {
   double widest = 0;
   for (const Point2 p : a.points) {
@@ -334,11 +250,11 @@ void close_lenses(StrokeGraph& g) {
 
 double length_of(const GraphEdge& edge) { return core::polygon_length(edge.points); }
 
-StrokeGraph build_graph(const Binary& lines, const Binary& ink) {
+StrokeGraph build_graph(const Binary& lines, const Binary& ink, bool ragged) {
   StrokeGraph graph = Builder(lines, ink).build();
-  prune_spurs(graph);
+  prune_spurs(graph, !ragged);
   close_lenses(graph);
-  prune_spurs(graph);
+  prune_spurs(graph, !ragged);
   return graph;
 }
 

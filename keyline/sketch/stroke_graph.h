@@ -33,8 +33,8 @@ struct StrokeGraph {
 /// The graph of `lines`, thinned from `ink`. Single pixels and blobs whose line is shorter than
 /// they are wide give an edge of one point or few. Spurs (ends that hardly leave the width of the
 /// line they sit on) are cut and the lines through their feet made one. Of two edges around a hole
-/// no wider than the line it lies in one stays.
-StrokeGraph build_graph(const Binary& lines, const Binary& ink);
+/// no wider than the line it lies in one stays. Where the ink is ragged no short end is spared.
+StrokeGraph build_graph(const Binary& lines, const Binary& ink, bool ragged = false);
 
 /// Length along the points.
 double length_of(const GraphEdge& edge);

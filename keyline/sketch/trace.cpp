@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "keyline/core/polygon.h"
 #include "keyline/core/text.h"
+#include "keyline/numeric/parallel.h"
 #include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
 #include "keyline/sketch/join_strokes.h"
@@ -34,6 +36,8 @@ constexpr double kLongestStub = 5;
 
 constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
 constexpr double kManyPasses = 0.75;       ///< lines per stroke from which passes are told
+
+constexpr std::size_t kAtOnce = 32;  ///< lines fitted between two reports of progress
 
 constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
 constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
@@ -136,23 +140,31 @@ Ink find_ink(Tone& tone, const TraceOptions& options) {
 bool is_stub(const RawStroke& line) { return !line.closed && line.free_start != line.free_end; }
 
 /// Lines along the middle of the ink.
-std::vector<FineStroke> center_lines(const Binary& ink, const Tone& tone, double width,
+std::vector<FineStroke> center_lines(const Ink& found, const Tone& tone,
                                      const TraceOptions& options) {
+  const Binary& ink = found.picture;
+  const double width = found.width;
   const Binary thinned = thin(ink);
   show(options, "lines", thinned);
-  const StrokeGraph graph = build_graph(thinned, ink);
+  const StrokeGraph graph = build_graph(thinned, ink, found.grainy);
   options.progress.report(0.6, "following lines");
   const Refiner refiner(tone);
   std::vector<FineStroke> strokes;
-  for (const RawStroke& line : join_strokes(graph, {options.gap.value_or(2.5 * width + 3), 1.05})) {
-    if (options.progress.stop_requested()) return {};
-    if (core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width)) continue;
-    FineStroke fine = refiner.refine(line);
-    const double length = core::polygon_length(fine.points, fine.closed);
-    if (length >= (is_stub(line) ? std::min(kStub * width + 2, kLongestStub) : 1.5))
-      strokes.push_back(std::move(fine));
+  std::vector<RawStroke> lines = join_strokes(graph, {options.gap.value_or(2.5 * width + 3), 1.05});
+  std::erase_if(lines, [&](const RawStroke& line) {
+    return core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width);
+  });
+  std::vector<FineStroke> fine(lines.size());
+  numeric::parallel_for(lines.size(), 0, [&](std::size_t i, int) {
+    if (!options.progress.stop_requested()) fine[i] = refiner.refine(lines[i]);
+  });
+  if (options.progress.stop_requested()) return {};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double length = core::polygon_length(fine[i].points, fine[i].closed);
+    if (length >= (is_stub(lines[i]) ? std::min(kStub * width + 2, kLongestStub) : 1.5))
+      strokes.push_back(std::move(fine[i]));
   }
-  end_on_lines(strokes);
+  end_on_lines(strokes, refiner, found.grainy);
   return strokes;
 }
 
@@ -227,13 +239,20 @@ void tell_explained(const char* of_what, TraceResult& result) {
 /// Curves of all strokes, longest first.
 core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceOptions& options,
                               TraceResult& result) {
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+  std::vector<std::optional<Stroke>> curves(lines.size());
+  for (std::size_t first = 0; first < lines.size(); first += kAtOnce) {
     if (options.progress.stop_requested())
       return core::fail(core::ErrorCode::cancelled, "cancelled");
-    options.progress.report(0.7 + 0.3 * static_cast<double>(i) / static_cast<double>(lines.size()),
-                            "fitting curves");
-    if (lines[i].points.size() >= 2) result.strokes.push_back(curve_of(lines[i], options.curve));
+    options.progress.report(
+        0.7 + 0.3 * static_cast<double>(first) / static_cast<double>(lines.size()),
+        "fitting curves");
+    numeric::parallel_for(std::min(kAtOnce, lines.size() - first), 0, [&](std::size_t k, int) {
+      const FineStroke& line = lines[first + k];
+      if (line.points.size() >= 2) curves[first + k] = curve_of(line, options.curve);
+    });
   }
+  for (std::optional<Stroke>& curve : curves)
+    if (curve) result.strokes.push_back(std::move(*curve));
   std::stable_sort(result.strokes.begin(), result.strokes.end(), [](const auto& a, const auto& b) {
     return core::polygon_length(a.points) > core::polygon_length(b.points);
   });
@@ -247,9 +266,9 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
 
 /// A picture of which much is dark, or ink in broad areas, may be no drawing.
 void warn_of_photograph(const Tone& tone, const Binary& ink, double width, TraceResult& result) {
-  double dark = 0;
+  std::size_t dark = 0;
   for (const std::uint8_t v : ink.data) dark += v;
-  const double share = dark / static_cast<double>(ink.data.size());
+  const double share = static_cast<double>(dark) / static_cast<double>(ink.data.size());
   const bool broad = width > 0.06 * std::max(ink.width, ink.height);
   const double most = std::max(share, tone.shaded);
   if (most > (broad ? 0.15 : 0.25))
@@ -302,7 +321,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   options.progress.report(0.4, "thinning");
   warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
-      options.edge == Edge::outer ? outlines(ink, tone) : center_lines(ink, tone, width, options);
+      options.edge == Edge::outer ? outlines(ink, tone) : center_lines(found, tone, options);
   const ConsolidateOptions passes{
       .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
   if (options.consolidate) {
