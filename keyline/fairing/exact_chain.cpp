@@ -15,7 +15,9 @@ constexpr std::size_t kStretchPoints = 8;  // two more than a piece has freedoms
 // Stretches this long in the whole: of places on a chain of the most pieces, a third begins one
 // that holds no joint.
 constexpr double kStretchShare = 2.0 / (3 * kMostExactPieces);
-constexpr double kWhole = 0.25;      // of the stretches: what is left of that third by the grid
+constexpr double kWhole = 0.25;  // of the stretches: what is left of that third by the grid
+// Points of a chain whose shortest piece is a fiftieth of it: as many on that as a stretch has.
+constexpr std::size_t kTelling = 50 * kStretchPoints;
 constexpr double kExactness = 2e-7;  // of the length
 constexpr double kRate = 5;     // power of the pieces' length with which approximation gets near
 constexpr double kBetter = 10;  // times nearer than that is no approximation
@@ -117,7 +119,7 @@ bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact
 }
 
 std::vector<std::size_t> telling_points(const std::vector<FitPoint>& points) {
-  const std::size_t step = std::max<std::size_t>(1, points.size() / (kStretches * kStretchPoints));
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kTelling);
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (i % step == 0 || i + 1 == points.size() || points[i].must_pass) taken.push_back(i);
