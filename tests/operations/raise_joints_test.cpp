@@ -25,7 +25,9 @@ json chain(std::vector<json> pieces) {
   return {
       {"type", "log-aesthetic"}, {"start", {0.3, -0.2}}, {"direction", 0.4}, {"pieces", pieces}};
 }
-json raised(const json& curve) { return result_of({{"op", "lac.raise_joints"}, {"curve", curve}}); }
+json raised(const json& curve) {
+  return result_of({{"op", "lac.raise_joints"}, {"curve", curve}, {"hold", "joints"}});
+}
 
 /// dkappa/ds at an end, from kappa^-alpha being linear in the length (alpha = 0: its logarithm).
 double rate(const json& p, int end) {
@@ -140,7 +142,7 @@ TEST(RaiseJoints, WithoutNewPiecesWhereOnlyTheEndsAreHeld) {
     const std::size_t pieces = 2 + random() % 4;
     const json given = any_run(random, static_cast<int>(pieces));
     SCOPED_TRACE(given.dump());
-    const json result = result_of({{"op", "lac.raise_joints"}, {"curve", given}, {"hold", "ends"}});
+    const json result = result_of({{"op", "lac.raise_joints"}, {"curve", given}});
     const json& now = result["curve"]["pieces"];
     ASSERT_EQ(now.size(), pieces);
     EXPECT_EQ(result["raised"].get<std::size_t>(), pieces - 1);
@@ -229,8 +231,8 @@ TEST(RaiseJoints, StayWithinTheirLimit) {
   const json given = chain({piece(-1, 1, 0.1, 0.3), piece(2, 1, 0.3, 0.9), piece(-1, 1, 0.9, 1.4)});
   const double free = raised(given)["departure"];
   ASSERT_GT(free, 0);
-  const json held =
-      result_of({{"op", "lac.raise_joints"}, {"curve", given}, {"limit", free * 1e-3}});
+  const json held = result_of(
+      {{"op", "lac.raise_joints"}, {"curve", given}, {"hold", "joints"}, {"limit", free * 1e-3}});
   EXPECT_LE(held["departure"].get<double>(), free * 1e-3);
   EXPECT_LT(held["raised"].get<int>(), 2);
   bool told = false;

@@ -45,20 +45,20 @@ struct RaisedJoint {
 };
 
 /// What stays where it is: every joint, which takes three pieces for one, or but the ends of each
-/// run of pieces, which takes no new piece and departs more.
+/// run of pieces, which takes no new piece and leaves curvature calmer.
 enum class HeldJoints { joints, ends };
 constexpr auto choices(const HeldJoints*) {
   return core::words<HeldJoints>({{HeldJoints::joints, "joints"}, {HeldJoints::ends, "ends"}});
 }
 
 struct RaiseOptions {
-  HeldJoints hold = HeldJoints::joints;
+  HeldJoints hold = HeldJoints::ends;
   std::optional<double> limit;  ///< largest departure from the given chain
   static constexpr auto describe() {
     return core::fields(
         core::field<&RaiseOptions::hold>(
-            "joints: all keep place, direction and curvature, three pieces for one; ends: those "
-            "between which curvature rises or falls do, no new pieces, the joints inside move"),
+            "ends: joints between which curvature rises or falls keep place, direction and "
+            "curvature, those inside move; joints: all keep them, with three pieces for one"),
         core::field<&RaiseOptions::limit>("largest departure; joints that need more stay as given")
             .in("length")
             .within(core::kPositive));
@@ -71,12 +71,12 @@ struct RaiseSolution {
   double departure = 0;             ///< bound of the distance from the given chain, both ways
 };
 
-/// The chain with its joints made G3 wherever that is possible: pieces beside such joints are
-/// replaced by three each (four where curvature is 0 at a joint or three do not do), joined G3
-/// themselves, or change as they are (see HeldJoints). Joints that are held keep place, direction
-/// and curvature, and the ends keep theirs; curvature still rises where it rose and falls where it
-/// fell. A log-aesthetic piece has a rate of curvature that never
-/// vanishes: where curvature turns, or an arc begins, no choice of pieces is G3.
+/// The chain with its joints made G3 wherever that is possible. Ends held: the pieces change as
+/// they are. Joints held: pieces beside such joints are replaced by three each, joined G3
+/// themselves (four where curvature is 0 at a joint or three do not do). What is held keeps place,
+/// direction and curvature; curvature still rises where it rose and falls where it fell. A
+/// log-aesthetic piece has a rate of curvature that never vanishes: where curvature turns, or an
+/// arc begins, no choice of pieces is G3.
 ///
 /// Method: along a piece the logarithm of the rate is linear in that of curvature, so a G3 chain is
 /// a broken line in that graph; its slopes and lengths are found by Newton's method of least change
