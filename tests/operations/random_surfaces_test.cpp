@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "own_curves.h"
+#include "random_patches.h"
 #include "random_values.h"
 #include "worst.h"
 
@@ -12,76 +13,6 @@ namespace keyline::operations {
 namespace {
 
 using namespace own;
-
-/// A patch like a panel: a grid, bent and disturbed, of any size, anywhere.
-json any_patch(Random& random, std::size_t rows, std::size_t columns, double disturbed) {
-  const double size = power_of_ten(random, -1, 3);
-  const double a = uniform(random, -0.1, 0.1), b = uniform(random, -0.1, 0.1);
-  const double c = uniform(random, -0.05, 0.05);
-  const Vec at{uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3)};
-  json net = json::array();
-  for (std::size_t i = 0; i < rows; ++i) {
-    json row = json::array();
-    for (std::size_t j = 0; j < columns; ++j) {
-      const auto u = static_cast<double>(i), v = static_cast<double>(j);
-      const Vec p{u + disturbed * uniform(random, -1, 1), v + disturbed * uniform(random, -1, 1),
-                  a * u * u + b * v * v + c * u * v + disturbed * uniform(random, -1, 1)};
-      const Vec placed = size * (at + p);
-      row.push_back({placed[0], placed[1], placed[2]});
-    }
-    net.push_back(row);
-  }
-  return {{"type", "bezier-surface"}, {"points", net}};
-}
-
-double extent(const json& surface) {
-  double most = 0;
-  for (const json& row : surface["points"])
-    for (const json& p : row) most = std::max(most, distance(vec(p), vec(surface["points"][0][0])));
-  return most;
-}
-
-double farthest(const json& surface) {
-  double most = 0;
-  for (const json& row : surface["points"])
-    for (const json& p : row) most = std::max(most, size(vec(p)));
-  return most;
-}
-
-template <class F>
-json with_net(json surface, const F& f) {
-  for (json& row : surface["points"])
-    for (json& p : row) p = f(p);
-  return surface;
-}
-json transposed(const json& surface) {
-  json turned = surface;
-  turned["points"] = json::array();
-  for (std::size_t j = 0; j < surface["points"][0].size(); ++j) {
-    json row = json::array();
-    for (const json& r : surface["points"]) row.push_back(r[j]);
-    turned["points"].push_back(row);
-  }
-  return turned;
-}
-json mirrored_net(const json& surface) {
-  return with_net(surface, [](json p) {
-    p[2] = -p[2].get<double>();
-    return p;
-  });
-}
-json scaled_net(const json& surface, double by) {
-  return with_net(surface, [by](json p) {
-    for (json& x : p) x = by * x.get<double>();
-    return p;
-  });
-}
-/// Both parameters the other way round.
-json turned_net(json surface) {
-  std::reverse(surface["points"].begin(), surface["points"].end());
-  for (json& row : surface["points"]) std::reverse(row.begin(), row.end());
-  return surface;
-}
 
 TEST(RandomSurfaces, ValuesAreThoseOfTheirCurvesWhicheverWayTheyAreHeld) {
   Random random(own::seed(31));
@@ -133,6 +64,28 @@ void expect_apart_at_most(const json& a, const json& b, double told, double roun
   EXPECT_LE(most, told + rounding);
 }
 
+/// Control points that an edit was to keep are where they were.
+void expect_held(const json& before, const json& after, const std::string& keep, double rounding) {
+  const json &given = before["points"], &now = after["points"];
+  const auto same = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+    EXPECT_LT(distance(vec(given[i][j]), vec(now[k][l])), rounding);
+  };
+  same(0, 0, 0, 0);
+  const std::size_t r = now.size() - 1, c = now[0].size() - 1;
+  if (keep != "start") {
+    same(3, 0, r, 0);
+    same(0, 3, 0, c);
+    same(3, 3, r, c);
+  }
+  if (keep == "boundary" && r == 3 && c == 3)
+    for (std::size_t i = 0; i < 4; ++i) {
+      same(i, 0, i, 0);
+      same(i, 3, i, 3);
+      same(0, i, 0, i);
+      same(3, i, 3, i);
+    }
+}
+
 TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
   Random random(own::seed(32));
   int edited = 0;
@@ -158,24 +111,7 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
       EXPECT_LE(told, request["limit"].get<double>() * (1 + 1e-12));
     }
     expect_apart_at_most(surface, result["surface"], told, rounding);
-    const json &given = surface["points"], &now = result["surface"]["points"];
-    const auto same = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
-      EXPECT_LT(distance(vec(given[i][j]), vec(now[k][l])), 1e-9 * size + rounding);
-    };
-    same(0, 0, 0, 0);
-    const std::size_t r = now.size() - 1, c = now[0].size() - 1;
-    if (keep != "start") {
-      same(3, 0, r, 0);
-      same(0, 3, 0, c);
-      same(3, 3, r, c);
-    }
-    if (keep == "boundary" && r == 3 && c == 3)
-      for (std::size_t i = 0; i < 4; ++i) {
-        same(i, 0, i, 0);
-        same(i, 3, i, 3);
-        same(0, i, 0, i);
-        same(3, i, 3, i);
-      }
+    expect_held(surface, result["surface"], keep, 1e-9 * size + rounding);
     const json fresh = answered({{"op", "surface.sav"}, {"surface", result["surface"]}});
     if (!request.contains("amount") && !request.contains("limit") && fresh["ok"] == true) {
       EXPECT_LE(result["after"]["sav"].get<double>(),
@@ -247,24 +183,29 @@ TEST(RandomSurfaces, CurvaturesAreThoseOfTheirDerivatives) {
   }
 }
 
+/// A bicubic patch as two that meet at u.
+std::pair<json, json> cut_along_u(const json& whole, double u) {
+  json first = whole, second = whole;
+  for (std::size_t j = 0; j < 4; ++j) {
+    std::array<std::array<Vec, 4>, 4> b{};
+    for (std::size_t i = 0; i < 4; ++i) b[0][i] = vec(whole["points"][i][j]);
+    for (std::size_t k = 1; k < 4; ++k)
+      for (std::size_t i = 0; i + k < 4; ++i) b[k][i] = (1 - u) * b[k - 1][i] + u * b[k - 1][i + 1];
+    for (std::size_t i = 0; i < 4; ++i) {
+      first["points"][i][j] = b[i][0];
+      second["points"][i][j] = b[3 - i][i];
+    }
+  }
+  return {first, second};
+}
+
 TEST(RandomSurfaces, JointsAreAsTheyWereMade) {
   Random random(own::seed(34));
   for (int n = 0; n < requests(0.02); ++n) {
     // Two patches cut from one, so that all is equal across; then one is lifted or turned up.
     const json whole = any_patch(random, 4, 4, 0.05);
     const double u = uniform(random, 0.3, 0.7);
-    json first = whole, second = whole;
-    for (std::size_t j = 0; j < 4; ++j) {
-      std::array<std::array<Vec, 4>, 4> b{};
-      for (std::size_t i = 0; i < 4; ++i) b[0][i] = vec(whole["points"][i][j]);
-      for (std::size_t k = 1; k < 4; ++k)
-        for (std::size_t i = 0; i + k < 4; ++i)
-          b[k][i] = (1 - u) * b[k - 1][i] + u * b[k - 1][i + 1];
-      for (std::size_t i = 0; i < 4; ++i) {
-        first["points"][i][j] = b[i][0];
-        second["points"][i][j] = b[3 - i][i];
-      }
-    }
+    const auto [first, second] = cut_along_u(whole, u);
     const double extent_ = extent(whole), size_ = extent_ + farthest(whole);
     json request{{"op", "surface.continuity"},
                  {"surfaces", {first, second}},

@@ -1,0 +1,307 @@
+#include "keyline/exchange/points/points_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/points/airfoil_points.h"
+
+namespace keyline::exchange::detail {
+namespace {
+
+using acquire::RawCurve;
+using core::ErrorCode;
+
+constexpr double kLargest = 1e100;
+constexpr std::size_t kFewest = 3;  // rows that make a table beyond doubt
+
+}  // namespace
+
+bool PointsTable::all_numbers(const Fields& fields, std::size_t from) const {
+  return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(from), fields.end(),
+                     [&](auto f) { return parse_number(f, style_).has_value(); });
+}
+
+core::Result<void> PointsTable::take(std::string_view line, int number, const std::string& place) {
+  line = trimmed(line);
+  if (line.empty()) return {};
+  if (!started_) return before_data(line, number, place);
+  if (is_comment(line)) return {};
+  return among_data(line, number, place);
+}
+
+core::Result<void> PointsTable::among_data(std::string_view line, int number,
+                                           const std::string& place) {
+  const Fields fields = split(line, style_);
+  if (fields.empty()) return {};
+  const auto x = static_cast<std::size_t>(columns_.x);
+  const bool remark = columns_.id == PointsColumns::kNone
+                          ? is_remark(fields, style_, x, width_)
+                          : fields.size() < width_ && fields.size() <= x;
+  if (remark) {
+    remark_ = {ErrorCode::bad_input, "text where a number belongs: '" + shortened(line) + "'",
+               "remove the line, or start it with #", place};
+    remark_text_ = shortened(line);
+    left_out_.push_back("line " + std::to_string(number) + ": " + remark_text_);
+    return {};
+  }
+  if (first_was_none(fields)) {
+    restart(fields.size(), place);
+    return before_data(line, number, place);
+  }
+  auto row = row_of(fields, place);
+  if (!row) return std::unexpected(row.error());
+  if (auto done = surplus(fields, number, place); !done) return done;
+  if (remark_)
+    if (auto again = take_up_again(); !again) return again;
+  add(std::move(*row), number);
+  return {};
+}
+
+/// Numbers behind the columns of the first row are left out; where commas separate they are rather
+/// what a decimal comma makes of one number, and the row would be read wrongly.
+core::Result<void> PointsTable::surplus(const Fields& fields, int number,
+                                        const std::string& place) {
+  if (fields.size() <= most_) return {};
+  const auto is_number = [&](std::string_view f) {
+    return !f.empty() && parse_number(f, style_).has_value();
+  };
+  if (std::none_of(fields.begin() + static_cast<std::ptrdiff_t>(most_), fields.end(), is_number))
+    return {};
+  if (style_.separator == ',')
+    return core::fail(
+        ErrorCode::bad_input,
+        std::to_string(fields.size()) + " columns where the first row has " + std::to_string(most_),
+        "where numbers have a decimal comma, separate columns by ; or blanks", place);
+  left_out_.push_back("line " + std::to_string(number) + ": what stands behind column " +
+                      std::to_string(most_));
+  return {};
+}
+
+/// A first row of more or fewer numbers than the next, as the window before an airfoil's points or
+/// the count before a list of points in space, is no point.
+bool PointsTable::first_was_none(const Fields& fields) const {
+  const bool chosen = !names_.empty() || !options_.columns.empty() || text_id_;
+  return rows_ == 1 && !chosen && !remark_ && style_.separator == ' ' && fields.size() >= 2 &&
+         fields.size() != width_ && all_numbers(fields, 0);
+}
+
+void PointsTable::restart(std::size_t fields, const std::string& place) {
+  misfit_ = {ErrorCode::bad_input,
+             std::to_string(fields) + " columns where the row before has " + std::to_string(width_),
+             "give every point all its coordinates", place};
+  left_out_.push_back("line " + std::to_string(first_line_) + ": " +
+                      core::counted(width_, "number") + " before the rows of points");
+  curves_.clear();
+  index_.clear();
+  current_ = 0;
+  rows_ = run_ = 0;
+  ignored_columns_ = 0;
+  started_ = false;
+}
+
+/// Rows behind a line of text are a curve of its own where there are enough on both sides of it.
+core::Result<void> PointsTable::take_up_again() {
+  if (run_ < kFewest || unproven_ || columns_.id != PointsColumns::kNone)
+    return std::unexpected(unproven_ ? *unproven_ : *remark_);
+  unproven_ = std::exchange(remark_, std::nullopt);
+  left_out_.pop_back();  // it is the name of what follows
+  run_ = 0;
+  current_ = curves_.size();
+  RawCurve curve;
+  curve.id = remark_text_;
+  curve.has_z = columns_.z != PointsColumns::kNone;
+  curves_.push_back(std::move(curve));
+  return {};
+}
+
+void PointsTable::remember_title(std::string_view line) {
+  if (first_text_.empty()) first_text_ = shortened(line);
+  last_text_ = std::string(line.substr(0, 4096));
+  ++text_lines_;
+}
+
+core::Result<void> PointsTable::before_data(std::string_view line, int number,
+                                            const std::string& place) {
+  const bool comment = is_comment(line);
+  const std::string_view text = comment ? comment_text(line) : line;
+  if (!comment) {
+    style_ = options_.separator == 0
+                 ? guess_style(line)
+                 : TableStyle{options_.separator,
+                              options_.separator != ',' && line.find(',') != line.npos};
+    const Fields fields = split(line, style_);
+    if (!names_.empty() && names_.size() <= fields.size() + 1 && fields.size() >= 2) {
+      return start(fields, number, place);
+    }
+    text_id_ = style_.separator != ' ' && fields.size() >= 3 && all_numbers(fields, 1) &&
+               !parse_number(fields[0], style_);
+    if (fields.size() >= 2 && (text_id_ || all_numbers(fields, 0))) {
+      return start(fields, number, place);
+    }
+    if (style_.separator != ' ' && fields.size() >= 2 && parse_number(fields[0], style_) &&
+        !fields[0].empty()) {
+      return core::fail(ErrorCode::bad_input,
+                        "text where a number belongs: '" + shortened(line) + "'",
+                        "give numbers only, or start the line with #", place);
+    }
+  }
+  // A header may be separated by a comma although rows are not, and the other way round.
+  for (const char separator : {',', ';', '\t', ' '}) {
+    std::vector<std::string> names;
+    for (const auto field : split(text, {separator, false})) {
+      names.push_back(plain_name(field));
+    }
+    if (is_points_header(names, options_)) {
+      names_ = std::move(names);
+      return {};
+    }
+  }
+  if (!comment) remember_title(line);
+  return {};
+}
+
+core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
+  started_ = true;
+  width_ = fields.size();
+  first_line_ = number;
+  unknown_header_ = text_lines_ > 0 && style_.separator != ' ' &&
+                    split(last_text_, style_).size() == fields.size();
+  const bool headed = text_lines_ > 0 && style_.separator != ' ';
+  most_ =
+      std::max({width_, names_.size(), headed ? split(last_text_, style_).size() : std::size_t{0}});
+  const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
+  if (!chosen) return std::unexpected(chosen.error());
+  columns_ = *chosen;
+  if (names_.empty() && options_.columns.empty())
+    ignored_columns_ = width_ - std::min<std::size_t>(width_, text_id_ ? 4 : 3);
+  auto row = row_of(fields, place);
+  if (!row) return std::unexpected(row.error());
+  add(std::move(*row), number);
+  return {};
+}
+
+RawCurve& PointsTable::curve_of(std::string_view id) {
+  if (columns_.id == PointsColumns::kNone && !curves_.empty()) return curves_[current_];
+  if (!curves_.empty() && curves_[current_].id == id) return curves_[current_];
+  const auto known = index_.find(id);
+  if (known != index_.end()) {
+    current_ = known->second;
+  } else {
+    current_ = curves_.size();
+    index_.emplace(std::string(id), current_);
+    RawCurve curve;
+    curve.id = std::string(id);
+    curve.has_z = columns_.z != PointsColumns::kNone;
+    curves_.push_back(std::move(curve));
+  }
+  return curves_[current_];
+}
+
+core::Result<double> PointsTable::number_in(const Fields& fields, int column,
+                                            const std::string& place) const {
+  const auto k = static_cast<std::size_t>(column);
+  // A missing last entry was dropped with the trailing separators.
+  const std::string_view field = k < fields.size() ? fields[k] : std::string_view{};
+  if (k > fields.size() || (k == fields.size() && style_.separator == ' ')) {
+    return core::fail(ErrorCode::bad_input,
+                      "only " + std::to_string(fields.size()) + " of at least " +
+                          std::to_string(columns_.last() + 1) + " columns",
+                      "give every point all its coordinates", place);
+  }
+  const auto value = parse_number(field, style_);
+  if (!value) {
+    return core::fail(ErrorCode::bad_input,
+                      "text where a number belongs: '" + shortened(field) + "'",
+                      "give a number, or choose other columns", place);
+  }
+  if (std::isfinite(*value) && std::abs(*value) > kLargest) {
+    return core::fail(ErrorCode::bad_input, "the number " + shortened(field) + " is too large",
+                      "check the unit, or divide all coordinates by a common factor", place);
+  }
+  return *value;
+}
+
+core::Result<PointsTable::Row> PointsTable::row_of(const Fields& fields,
+                                                   const std::string& place) const {
+  Row row;
+  const std::pair<int, double*> wanted[] = {{columns_.x, &row.point.x},
+                                            {columns_.y, &row.point.y},
+                                            {columns_.z, &row.point.z},
+                                            {columns_.weight, &row.weight}};
+  for (const auto& [column, target] : wanted) {
+    if (column == PointsColumns::kNone) continue;
+    const auto value = number_in(fields, column, place);
+    if (!value) return std::unexpected(value.error());
+    *target = *value;
+  }
+  const auto k = static_cast<std::size_t>(columns_.id);
+  if (columns_.id == PointsColumns::kNone || k >= fields.size()) return row;
+  const std::string_view id = fields[k];
+  const bool quoted = id.size() >= 2 && id.front() == '"' && id.back() == '"';
+  row.id = quoted ? unquoted(id) : std::string(id);
+  return row;
+}
+
+void PointsTable::add(Row row, int number) {
+  ++rows_;
+  if (++run_ >= kFewest) unproven_.reset();
+  RawCurve& curve = curve_of(row.id);
+  curve.points.push_back(row.point);
+  curve.source_lines.push_back(number);
+  if (columns_.weight != PointsColumns::kNone) curve.weights.push_back(row.weight);
+}
+
+/// A curve takes the title of its file; of several, those without a name of their own.
+void PointsTable::name_curves() {
+  const bool title_is_header = unknown_header_ && text_lines_ == 1;
+  if (columns_.id != PointsColumns::kNone || text_lines_ == 0 || title_is_header) return;
+  std::size_t number = 0;
+  for (RawCurve& curve : curves_) {
+    ++number;
+    if (curve.id.empty())
+      curve.id = number == 1 ? first_text_ : first_text_ + "#" + std::to_string(number);
+  }
+}
+
+void PointsTable::tell_left_out() {
+  const bool title_is_header = unknown_header_ && text_lines_ == 1;
+  for (RawCurve& curve : curves_) {
+    if (unknown_header_)
+      curve.notes.emplace_back("the header names no x and y: the first columns taken");
+    if (text_lines_ > 0 && !title_is_header)
+      curve.notes.push_back(core::counted(text_lines_, "title line") + " before the points");
+    if (ignored_columns_ > 0)
+      curve.notes.push_back(std::to_string(ignored_columns_) +
+                            " further column(s) ignored: x, y, z taken from the first three");
+  }
+  constexpr std::size_t kMost = 5;  // told one by one
+  const std::size_t more = left_out_.size() - std::min(left_out_.size(), kMost);
+  left_out_.resize(left_out_.size() - more);
+  if (more > 0) left_out_.push_back(core::counted(more, "further line"));
+  for (RawCurve& curve : curves_) curve.left_out = left_out_;
+}
+
+core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
+  if (unproven_) return std::unexpected(*unproven_);
+  if (misfit_ && rows_ < kFewest) return std::unexpected(*misfit_);
+  if (curves_.empty()) {
+    const bool empty = text_lines_ == 0 && names_.empty();
+    return core::fail(ErrorCode::bad_input,
+                      empty ? "the file is empty"
+                            : "no points found" + (first_text_.empty()
+                                                       ? std::string()
+                                                       : " (it starts with '" + first_text_ + "')"),
+                      "give a text file with two or three numbers on each line", name);
+  }
+  if (curves_.size() == 1 && names_.empty()) {
+    unfold_lednicer(curves_[0]);
+    part_elements(curves_);
+  }
+  name_curves();
+  tell_left_out();
+  return std::move(curves_);
+}
+
+}  // namespace keyline::exchange::detail

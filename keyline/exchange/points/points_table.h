@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyline/acquire/raw_curve.h"
+#include "keyline/core/error.h"
+#include "keyline/core/point.h"
+#include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/text/text_table.h"
+
+/// Internals of points_reader.cpp: lines of text become curves.
+namespace keyline::exchange::detail {
+
+/// Reads lines one after the other into curves.
+class PointsTable {
+ public:
+  using Curves = std::vector<acquire::RawCurve>;
+
+  explicit PointsTable(const PointsOptions& options) : options_(options) {}
+
+  core::Result<void> take(std::string_view line, int number, const std::string& place);
+  /// What the end of the input cut off, in words.
+  void cut_off(std::string what) { left_out_.push_back(std::move(what)); }
+  core::Result<Curves> finish(const std::string& name);
+
+ private:
+  using Fields = std::vector<std::string_view>;
+  struct Row {
+    core::Point3 point;
+    double weight = 1;
+    std::string id;
+  };
+
+  core::Result<void> before_data(std::string_view line, int number, const std::string& place);
+  core::Result<void> start(const Fields& fields, int number, const std::string& place);
+  core::Result<void> among_data(std::string_view line, int number, const std::string& place);
+  core::Result<void> take_up_again();
+  bool first_was_none(const Fields& fields) const;
+  core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
+  core::Result<double> number_in(const Fields& fields, int column, const std::string& place) const;
+  core::Result<Row> row_of(const Fields& fields, const std::string& place) const;
+  void add(Row row, int number);
+  acquire::RawCurve& curve_of(std::string_view id);
+  bool all_numbers(const Fields& fields, std::size_t from) const;
+  void remember_title(std::string_view line);
+  void restart(std::size_t fields, const std::string& place);
+  void name_curves();
+  void tell_left_out();
+
+  const PointsOptions& options_;
+  TableStyle style_;
+  PointsColumns columns_;
+  std::vector<std::string> names_;
+  std::string first_text_;  // shortened
+  std::string last_text_;
+  bool unknown_header_ = false;
+  bool started_ = false;
+  bool text_id_ = false;
+  std::size_t text_lines_ = 0;
+  std::size_t width_ = 0;  // fields of the first row
+  std::size_t most_ = 0;  // the same, or of its header: empty fields at a row's end are not counted
+  std::size_t rows_ = 0;
+  int first_line_ = 0;
+  std::size_t ignored_columns_ = 0;
+  std::optional<core::Failure> remark_;    // the last line of text behind rows, as a failure
+  std::optional<core::Failure> unproven_;  // of the text before rows too few to be a curve
+  std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers
+  std::string remark_text_;
+  std::size_t run_ = 0;  // rows since the last line of text
+  std::vector<std::string> left_out_;
+  Curves curves_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+  std::size_t current_ = 0;
+};
+
+}  // namespace keyline::exchange::detail
