@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "keyline/acquire/raw_curve.h"
-#include "keyline/acquire/section.h"
 #include "keyline/core/error.h"
 #include "keyline/core/point.h"
 
@@ -22,11 +21,5 @@ struct Lattice {
 /// Returns bad-input where there is no such row (column) or points do not match rows * columns.
 core::Result<RawCurve> lattice_row(const Lattice& lattice, std::size_t row);
 core::Result<RawCurve> lattice_column(const Lattice& lattice, std::size_t column);
-
-/// Where the lattice crosses the plane y = position (axis y; others likewise): the linear
-/// crossings of its rows and columns, whichever the plane cuts more often, in order along the cut.
-/// Sharper than a band of points, since it interpolates between them.
-/// Returns bad-input where fewer than 3 crossings exist.
-core::Result<RawCurve> lattice_section(const Lattice& lattice, Axis axis, double position);
 
 }  // namespace keyline::acquire

@@ -166,15 +166,6 @@ void Band::move(const std::vector<double>& offsets, const std::vector<double>& m
   set_price();
 }
 
-void Band::recentre() {
-  for (std::size_t j = 0; j < pair_.size(); ++j) {
-    auto& [high, low] = pair_[j];
-    high.multiplier = barrier_ / (room_high(j, offset_[j]) + high.extra);
-    low.multiplier = barrier_ / (room_low(j, offset_[j]) + low.extra);
-  }
-  set_price();
-}
-
 void Band::rescale(double by) {
   price_ *= by;
   for (double& w : spring_) w *= by;

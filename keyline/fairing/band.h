@@ -81,8 +81,6 @@ class Band : public Limits {
   void rescale(double by) override;
 
   void set_barrier(double barrier) { barrier_ = barrier; }
-  /// Multipliers anew from the slacks as they are.
-  void recentre();
   double barrier() const { return barrier_; }
   /// Largest extra width left.
   double extra() const;

@@ -48,10 +48,6 @@ std::string area_text(double value, const std::string& unit) {
   return with_unit(short_number(value), unit.empty() ? "" : unit + "\u00B2");
 }
 
-std::string degrees_text(double radians) {
-  return short_number(radians * 180 / std::numbers::pi, 3) + "\u00B0";
-}
-
 std::string slopes_text(const std::vector<double>& slopes) {
   std::string text;
   for (const double slope : slopes) {

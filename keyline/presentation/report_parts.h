@@ -19,7 +19,6 @@ std::string length_text(double value, const std::string& unit, int significant =
 std::string radii_text(double curvature_start, double curvature_end, const std::string& unit);
 /// "0.12 mm²".
 std::string area_text(double value, const std::string& unit);
-std::string degrees_text(double radians);
 /// "−1.02" or "−1.02, 0.5"; empty without slopes.
 std::string slopes_text(const std::vector<double>& slopes);
 /// "plus 0.67 (62 %), arc (38 %)": the first few plausible readings, best first.

@@ -120,17 +120,6 @@ Result<void> check(const Lighting& l) {
 
 }  // namespace
 
-std::optional<FieldKind> field_named(std::string_view name) {
-  constexpr std::pair<std::string_view, FieldKind> kKinds[] = {
-      {"gaussian", FieldKind::gaussian},   {"mean", FieldKind::mean},
-      {"principal", FieldKind::principal}, {"zebra", FieldKind::zebra},
-      {"isophote", FieldKind::isophote},   {"reflection", FieldKind::reflection},
-      {"highlight", FieldKind::highlight}};
-  for (const auto& [known, kind] : kKinds)
-    if (name == known) return kind;
-  return std::nullopt;
-}
-
 Lighting completed(const Lighting& given, const JetGrid& grid) {
   Lighting l = given;
   const std::size_t step = 1 + grid.jets.size() / kMeanOf;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "keyline/core/describe.h"
@@ -21,9 +20,6 @@ constexpr auto choices(const FieldKind*) {
                                  {FieldKind::reflection, "reflection"},
                                  {FieldKind::highlight, "highlight"}});
 }
-
-/// By the name it has here; empty for any other.
-std::optional<FieldKind> field_named(std::string_view name);
 
 /// How light and eye stand; vectors need not be unit, but not zero. Empty: chosen from the surface
 /// so that the picture turns with it: `view` is the mean normal, `light` the same (for highlight

@@ -164,11 +164,6 @@ Result<Point2> point_from_json(const json& j, const std::string& where) {
   return Point2{c[0], c[1]};
 }
 
-Result<std::vector<Point2>> points_from_json(const json& j, const std::string& where,
-                                             std::size_t least) {
-  return detail::read_points<Point2>(j, where, least);
-}
-
 Result<PlanarCurve> curve_from_json(const json& j, const std::string& where) {
   const auto type = type_of(j, where);
   if (!type) return std::unexpected(type.error());

@@ -21,11 +21,6 @@ nlohmann::json to_json(const document::Path& path);
 /// [x, y]; a third coordinate of zero is let pass.
 core::Result<core::Point2> point_from_json(const nlohmann::json& j, const std::string& where);
 
-/// [[x, y], …] with at least `least` points.
-core::Result<std::vector<core::Point2>> points_from_json(const nlohmann::json& j,
-                                                         const std::string& where,
-                                                         std::size_t least);
-
 /// Any planar curve type but "path".
 core::Result<document::PlanarCurve> curve_from_json(const nlohmann::json& j,
                                                     const std::string& where);

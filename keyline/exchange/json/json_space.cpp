@@ -117,10 +117,6 @@ json to_json(const curve::Bezier3& c) { return detail::curve_json(c); }
 
 json to_json(const curve::BSpline3& c) { return detail::curve_json(c); }
 
-json polyline_json(const std::vector<Point3>& points) {
-  return detail::curve_json(curve::Polyline3{points});
-}
-
 json to_json(const document::SpaceCurve& c) {
   if (const auto* chain = std::get_if<lac::SpaceChain>(&c.value)) return to_json(*chain);
   if (const auto* line = std::get_if<curve::Polyline3>(&c.value)) return detail::curve_json(*line);

@@ -20,7 +20,6 @@ nlohmann::json to_json(const lac::SpaceChain& c);
 /// "bezier", "bspline" and "polyline" with points [x, y, z].
 nlohmann::json to_json(const curve::Bezier3& c);
 nlohmann::json to_json(const curve::BSpline3& c);
-nlohmann::json polyline_json(const std::vector<core::Point3>& points);
 nlohmann::json to_json(const document::SpaceCurve& c);
 
 /// [x, y, z]; z may be left out and is 0 then.
