@@ -29,14 +29,14 @@ inline json any_patch(Random& random, std::size_t rows, std::size_t columns, dou
   return {{"type", "bezier-surface"}, {"points", net}};
 }
 
-inline double extent(const json& surface) {
+inline double net_extent(const json& surface) {
   double most = 0;
   for (const json& row : surface["points"])
     for (const json& p : row) most = std::max(most, distance(vec(p), vec(surface["points"][0][0])));
   return most;
 }
 
-inline double farthest(const json& surface) {
+inline double net_farthest(const json& surface) {
   double most = 0;
   for (const json& row : surface["points"])
     for (const json& p : row) most = std::max(most, size(vec(p)));

@@ -92,7 +92,7 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
   const char* keeps[] = {"start", "corners", "joints", "boundary"};
   for (int n = 0; n < requests(0.01); ++n) {
     const json surface = any_patch(random, 4, 4, 0.03);
-    const double size = extent(surface);
+    const double size = net_extent(surface);
     const std::string keep = keeps[random() % 4];
     json request{{"op", "surface.edit"}, {"surface", surface}, {"keep", keep}};
     if (random() % 2 == 0) request["limit"] = size * power_of_ten(random, -3, -1);
@@ -106,7 +106,7 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
     ++edited;
     const json& result = answer["result"];
     const double told = result["departure"];
-    const double rounding = 1e-13 * (size + farthest(surface));
+    const double rounding = 1e-13 * (size + net_farthest(surface));
     if (request.contains("limit")) {
       EXPECT_LE(told, request["limit"].get<double>() * (1 + 1e-12));
     }
@@ -120,7 +120,7 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
     for (const json& other : {mirrored_net(surface), scaled_net(surface, 8)}) {
       json again = request;
       again["surface"] = other;
-      const double by = other == surface ? 1 : extent(other) / size;
+      const double by = other == surface ? 1 : net_extent(other) / size;
       if (again.contains("limit")) again["limit"] = by * again["limit"].get<double>();
       const json twin = result_of(again);
       EXPECT_NEAR(twin["departure"].get<double>() / by, told, 5e-3 * told + rounding);
@@ -206,7 +206,7 @@ TEST(RandomSurfaces, JointsAreAsTheyWereMade) {
     const json whole = any_patch(random, 4, 4, 0.05);
     const double u = uniform(random, 0.3, 0.7);
     const auto [first, second] = cut_along_u(whole, u);
-    const double extent_ = extent(whole), size_ = extent_ + farthest(whole);
+    const double extent_ = net_extent(whole), size_ = extent_ + net_farthest(whole);
     json request{{"op", "surface.continuity"},
                  {"surfaces", {first, second}},
                  {"edges", {"u1", "u0"}},
@@ -315,7 +315,7 @@ TEST(RandomSurfaces, NetworksPassTheirCurves) {
     const json request{{"op", "surface.network"},
                        {"along_u", {row_of(made, 0), row_of(made, 3)}},
                        {"along_v", {row_of(columns, 0), row_of(columns, 3)}},
-                       {"tolerance", 1e-4 * extent(made)}};
+                       {"tolerance", 1e-4 * net_extent(made)}};
     SCOPED_TRACE(request.dump());
     const json result = result_of(request);
     EXPECT_LE(result["deviation"].get<double>(), request["tolerance"].get<double>());
@@ -323,18 +323,19 @@ TEST(RandomSurfaces, NetworksPassTheirCurves) {
     for (const char* way : {"along_u", "along_v"})
       for (const json& curve : request[way])
         for (const double t : {0.0, 0.13, 0.5, 0.77, 1.0})
-          EXPECT_LE(distance_from(skin, spot(beziers_of(curve)[0], t).place),
-                    result["deviation"].get<double>() + 1e-12 * (extent(made) + farthest(made)));
+          EXPECT_LE(
+              distance_from(skin, spot(beziers_of(curve)[0], t).place),
+              result["deviation"].get<double>() + 1e-12 * (net_extent(made) + net_farthest(made)));
     // A patch of rows along a column has them as they are, moved to start on it.
     json rows = json::array();
     for (std::size_t i = 0; i < 4; ++i) rows.push_back(row_of(made, i));
     const json patch =
         result_of({{"op", "surface.patch"}, {"rows", rows}, {"column", row_of(columns, 0)}});
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_LT(patch["moved"][i].get<double>(), 1e-12 * farthest(made));
+      EXPECT_LT(patch["moved"][i].get<double>(), 1e-12 * net_farthest(made));
       for (std::size_t j = 0; j < 4; ++j)
         EXPECT_LT(distance(vec(patch["surface"]["points"][i][j]), vec(made["points"][i][j])),
-                  1e-12 * farthest(made));
+                  1e-12 * net_farthest(made));
     }
   }
 }
