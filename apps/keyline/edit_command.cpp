@@ -98,6 +98,7 @@ struct EditedCurves {
 /// tolerance was asked for, or the curve is closed.
 bool pieces_may_do(const json& request, const core::Failure& why) {
   if (request.contains("fit_tolerance") || request.contains("target")) return false;
+  if (why.code == core::ErrorCode::unsupported) return false;  // in space
   return why.path == option_name("fit_tolerance") ||
          (why.path == option_name("curve") && request["curve"]["type"] != "bezier");
 }
@@ -133,7 +134,8 @@ Result<void> add_curve(Session& session, const json& thing, json& request, Edite
   all.curves.push_back(std::move(written));
   if (!name.empty()) (*one)["name"] = name;
   all.shown.push_back(std::move(*one));
-  if (!pieces) all.whole.push_back({name, std::move(*outcome)});
+  if (!pieces && outcome->result_as<operations::CurveEditAnswer>()->edited)
+    all.whole.push_back({name, std::move(*outcome)});
   return {};
 }
 
@@ -161,13 +163,13 @@ int edit_curves(Session& session, const ReadFiles& read) {
   if (session.door().tolerance && !request.contains("fit_tolerance"))
     request["fit_tolerance"] = *session.door().tolerance;
   EditedCurves all;
-  for (const json& thing : planar_things(read))
+  for (const json& thing : read.shown["curves"])
     if (auto done = add_curve(session, thing, request, all); !done)
       return report_failure(done.error());
   if (all.shown.empty() && !all.left.empty())
     return report_failure(all.first, session.files().front());
   if (all.shown.empty())
-    return report_failure({core::ErrorCode::bad_input, "there is no planar curve or patch to edit",
+    return report_failure({core::ErrorCode::bad_input, "there is no curve or patch to edit",
                            "give a file that holds one", ""},
                           session.files().front());
   for (const std::string& why : all.left) say(session.door().quiet, why);
@@ -232,13 +234,21 @@ int edit_surfaces(Session& session, const ReadFiles& read) {
   return kDone;
 }
 
+/// Curves in a plane come in its coordinates; a file of others alone as it is.
+Result<ReadFiles> read_to_edit(Session& session) {
+  auto planar = read_files(session, session.of(kReading), true);
+  if (planar || planar.error().code != core::ErrorCode::bad_input) return planar;
+  auto space = read_files(session, session.of(kReading), false);
+  return space && !space->answer().curves.empty() ? std::move(space) : std::move(planar);
+}
+
 }  // namespace
 
 int run_edit(const Words& words) {
   Session session = new_session();
   if (const auto status = session.begin(words)) return *status;
   if (auto done = session.check_outputs(); !done) return report_failure(done.error());
-  const auto read = read_files(session, session.of(kReading), true);
+  const auto read = read_to_edit(session);
   if (!read) return report_failure(read.error());
   const bool surfaces = !read->answer().surfaces.empty();
   if (auto sound = surfaces

@@ -41,11 +41,15 @@ Result<ClassASubject> matrix_subject(const ClassARequest& request) {
 
 Result<ClassASubject> space_subject(const AnyCurve& curve) {
   const auto* space = std::get_if<document::SpaceCurve>(&curve);
-  const auto* bezier = space ? std::get_if<curve::Bezier3>(&space->value) : nullptr;
-  if (!bezier)
-    return fail(ErrorCode::unsupported, "of curves in space only a bezier is placed in the plane",
-                "convert the curve to a bezier, or lay it into a plane", "curve");
-  return ClassASubject{{}, 1, {}, *bezier, {}};
+  if (const auto* bezier = space ? std::get_if<curve::Bezier3>(&space->value) : nullptr)
+    return ClassASubject{{}, 1, {}, *bezier, {}};
+  const auto* spline = space ? std::get_if<curve::BSpline3>(&space->value) : nullptr;
+  if (spline && !is_rational(*spline))
+    if (auto pieces = curve::to_beziers(*spline); pieces.size() == 1)
+      return ClassASubject{{}, 1, {}, std::move(pieces.front()), {}};
+  return fail(ErrorCode::unsupported,
+              "of curves in space only a bezier, or a spline of one piece, is placed in the plane",
+              "cut the curve into beziers, or lay it into a plane", "curve");
 }
 
 MinimumShown minimum_shown(const classa::EnergyMinimum& m) {

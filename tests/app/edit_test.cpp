@@ -81,5 +81,41 @@ TEST(Edit, DrawingsAreEditedPieceByPiece) {
   EXPECT_NE(slurp(made).find("viewBox"), std::string::npos);
 }
 
+// A curve in space goes to the minimum in the plane of its start tangent and chord, its ends held;
+// a spline of two pieces has none and stays, which is told. A planar one beside them is edited too.
+TEST(Edit, CurvesInSpaceGoToTheirMinimum) {
+  const Scratch s;
+  const std::string bent = R"({"type":"bezier","points":[[0,0,0],[10,0,0],[18,6,2],[22,14,9]]})";
+  const std::string spline = R"({"type":"bspline","degree":3,"knots":[0,0,0,0,0.5,1,1,1,1],)"
+                             R"("points":[[0,0,0],[10,0,0],[18,6,2],[22,14,9],[30,20,14]]})";
+  const std::string one_piece = R"({"type":"bspline","degree":3,"knots":[0,0,0,0,1,1,1,1],)"
+                                R"("points":[[0,0,0],[10,0,0],[18,6,2],[22,14,9]]})";
+  const std::string file =
+      s.write("space.json", R"({"curves":[{"name":"bent","curve":)" + bent +
+                                R"(},{"name":"spline","curve":)" + spline +
+                                R"(},{"name":"one","curve":)" + one_piece + "}]}");
+  const std::string made = s.path("made.json");
+  const Outcome o =
+      run_keyline("edit --json " + file + " -o " + made + " -o " + s.path("made.svg"));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_NE(o.err.find("spline left as given"), std::string::npos) << o.err;
+  const json all = json::parse(o.out)["curves"];
+  ASSERT_EQ(all.size(), 2U);
+  for (const json& one : all) {
+    EXPECT_EQ(one["before"]["type"], 5);
+    EXPECT_EQ(one["after"]["type"], 1);
+    const json& points = one["curve"]["points"];
+    EXPECT_EQ(points.front(), json({0.0, 0.0, 0.0}));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(points.back()[k].get<double>(), json({22, 14, 9})[k].get<double>(), 0.3);
+    EXPECT_NEAR(points[1][1].get<double>(), 0, 1e-12);  // the start tangent
+    EXPECT_NEAR(points[1][2].get<double>(), 0, 1e-12);
+    for (const json& p : points)  // in the plane of (1, 0, 0) and (22, 14, 9)
+      EXPECT_NEAR(14 * p[2].get<double>() - 9 * p[1].get<double>(), 0, 1e-9);
+  }
+  EXPECT_EQ(json::parse(run_keyline("convert --json " + made).out)["curves"].size(), 3U);
+  expect_failure(run_keyline("edit " + s.write("spline.json", spline)), 2, "cut the curve");
+}
+
 }  // namespace
 }  // namespace keyline::app_test
