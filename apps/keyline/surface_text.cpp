@@ -15,6 +15,13 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kSharper = 0.016 * std::numbers::pi / 180;  ///< what counts as a fold
+
+/// Rounding is no gap and no fold.
+double told(double x) { return x < 1e-9 ? 0 : x; }
+
+double degrees_of(double radians) { return told(radians) * 180 / std::numbers::pi; }
+
 std::string number_of(const json& number) {
   return number.is_number() ? fmt::format("{:.5g}", number.get<double>()) : "-";
 }
@@ -55,10 +62,15 @@ std::string patches_text(const json& patches) {
 }
 
 std::string tradeoff_text(const json& found) {
-  std::string text = fmt::format("{:>31} {:>11} {:>11}\n", "target", "departure", "SAV");
+  const bool joined =
+      std::ranges::any_of(found, [](const json& t) { return t.contains("stripe_turn"); });
+  std::string text = fmt::format("{:>31} {:>11} {:>11}{}\n", "target", "departure", "SAV",
+                                 joined ? "  zebra turns" : "");
   for (const json& t : found)
-    text += fmt::format("{:>31} {:>11.5g} {:>11.5g}\n", t["target"].get<std::string>(),
-                        t["departure"].get<double>(), t["sav"].get<double>());
+    text += fmt::format(
+        "{:>31} {:>11.5g} {:>11.5g}{}\n", t["target"].get<std::string>(),
+        t["departure"].get<double>(), t["sav"].get<double>(),
+        joined ? fmt::format(" {:>8.3g} deg", degrees_of(t["stripe_turn"].get<double>())) : "");
   return text;
 }
 
@@ -135,20 +147,30 @@ std::string joints_text(const json& joints) {
   const json& before = joints["before"];
   const json& after = joints["after"];
   if (before["joints"] == 0) return "";
-  const auto told = [](const json& x) {  // rounding is no gap
-    return x.get<double>() < 1e-9 ? 0 : x.get<double>();
-  };
-  const auto degrees = [&](const json& x) { return told(x) * 180 / std::numbers::pi; };
   const auto count = [](const json& j, const char* order) { return j[order].get<int>(); };
   std::string text = fmt::format(
       "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
       "G0 {} to {}  G1 {} to {}  G2 {} to {}\n",
-      before["joints"].get<int>(), told(before["gap"]), told(after["gap"]),
-      degrees(before["angle"]), degrees(after["angle"]), count(before, "G0"), count(after, "G0"),
+      before["joints"].get<int>(), told(before["gap"].get<double>()),
+      told(after["gap"].get<double>()), degrees_of(before["angle"].get<double>()),
+      degrees_of(after["angle"].get<double>()), count(before, "G0"), count(after, "G0"),
       count(before, "G1"), count(after, "G1"), count(before, "G2"), count(after, "G2"));
+  const auto change = [&](const char* what) {
+    return fmt::format("{:.3g} to {:.3g}", degrees_of(before["zebra"][what].get<double>()),
+                       degrees_of(after["zebra"][what].get<double>()));
+  };
+  text += fmt::format("zebra at joints, in degrees: jumps {} (at most {})  turns {} (at most {})\n",
+                      change("mean_jump"), change("jump"), change("mean_turn"), change("turn"));
   if (count(after, "G1") < count(before, "G1"))
     text += fmt::format("warning: {} of {} tangent joints are lost\n",
                         count(before, "G1") - count(after, "G1"), count(before, "G1"));
+  if (count(after, "G2") < count(before, "G2"))
+    text += fmt::format(
+        "warning: {} of {} joints lose their common curvature, so that stripes turn there; "
+        "--joints G2 holds it\n",
+        count(before, "G2") - count(after, "G2"), count(before, "G2"));
+  if (const auto growth = joints["fold_growth"].get<double>(); growth > kSharper)
+    text += fmt::format("warning: a fold grows by {:.3g} degrees\n", degrees_of(growth));
   return text;
 }
 

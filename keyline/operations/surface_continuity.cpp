@@ -75,6 +75,12 @@ struct EdgeAnswer {
         core::field<&Answer::largest, &Found::rate_jump>("largest").in("1/length^2"),
         core::field<&Answer::largest, &Found::relative_curvature_jump>("as compared"),
         core::field<&Answer::largest, &Found::relative_rate_jump>("as compared"),
+        core::field<&Answer::largest, &Found::stripe_turn>(
+            "of zebra stripes that cross, in the mean over all lights; means something from G1 on")
+            .in("radian"),
+        core::field<&Answer::largest, &Found::turning>(
+            "of the normal along the edge; the number of stripes grows with it")
+            .in("radian"),
         core::field<&Answer::largest, &Found::tolerance>("that was applied"),
         core::field<&Answer::along>("place by place"));
   }

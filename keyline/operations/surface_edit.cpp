@@ -15,7 +15,8 @@ std::vector<MissedShown> missed_shown(const std::vector<surface::MissedTarget>& 
 
 std::vector<TradeOffShown> tradeoff_shown(const std::vector<surface::TradeOff>& found) {
   std::vector<TradeOffShown> all;
-  for (const surface::TradeOff& t : found) all.push_back({t.name, t.departure, t.sav});
+  for (const surface::TradeOff& t : found)
+    all.push_back({t.name, t.departure, t.sav, t.stripe_turn});
   return all;
 }
 
@@ -80,7 +81,8 @@ JointsShown shown(const surface::JointSummary& joints) {
           joints.order_at_least[1],
           joints.order_at_least[2],
           joints.gap,
-          joints.angle};
+          joints.angle,
+          {joints.zebra.jump, joints.zebra.mean_jump, joints.zebra.turn, joints.zebra.mean_turn}};
 }
 
 SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit) {
@@ -99,7 +101,7 @@ SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit) {
   answer.patch_edits.emplace();
   for (std::size_t i = 0; i < all.patches.size(); ++i)
     answer.patch_edits->push_back(patch_shown(edit, i));
-  answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost};
+  answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost, all.fold_growth};
   if (!all.tradeoff.empty()) answer.tradeoff = tradeoff_shown(all.tradeoff);
   if (all.sav_apart < answer.after.sav) answer.sav_apart = all.sav_apart;
   answer.edit = edit;

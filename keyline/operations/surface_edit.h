@@ -50,6 +50,23 @@ struct SurfaceEditRequest {
   }
 };
 
+/// Zebra stripes at joints, over all lights.
+struct ZebraShown {
+  double jump = 0;
+  double mean_jump = 0;
+  double turn = 0;
+  double mean_turn = 0;
+  static constexpr auto describe() {
+    using Zebra = ZebraShown;
+    return core::fields(
+        core::field<&Zebra::jump>("largest, of a mirrored ray where two patches meet").in("radian"),
+        core::field<&Zebra::mean_jump>("over the length of joints").in("radian"),
+        core::field<&Zebra::turn>("of stripes that cross one tangent joint, in the mean; largest")
+            .in("radian"),
+        core::field<&Zebra::mean_turn>("of all stripes that cross tangent joints").in("radian"));
+  }
+};
+
 struct JointsShown {
   std::size_t joints = 0;
   std::size_t g0 = 0;
@@ -57,13 +74,15 @@ struct JointsShown {
   std::size_t g2 = 0;
   double gap = 0;
   double angle = 0;
+  ZebraShown zebra;
   static constexpr auto describe() {
     return core::fields(core::field<&JointsShown::joints>("in all"),
                         core::field<&JointsShown::g0>("at least G0").named("G0"),
                         core::field<&JointsShown::g1>("at least G1").named("G1"),
                         core::field<&JointsShown::g2>("at least G2").named("G2"),
                         core::field<&JointsShown::gap>("largest").in("length"),
-                        core::field<&JointsShown::angle>("largest fold").in("radian"));
+                        core::field<&JointsShown::angle>("largest fold").in("radian"),
+                        core::field<&JointsShown::zebra>("whatever the light"));
   }
 };
 JointsShown shown(const surface::JointSummary& joints);
@@ -72,10 +91,12 @@ struct JointsChange {
   JointsShown before;
   JointsShown after;
   std::size_t lost = 0;
+  double fold_growth = 0;
   static constexpr auto describe() {
     return core::fields(core::field<&JointsChange::before>("as given"),
                         core::field<&JointsChange::after>("as edited"),
-                        core::field<&JointsChange::lost>("of lower order than before"));
+                        core::field<&JointsChange::lost>("of lower order than before"),
+                        core::field<&JointsChange::fold_growth>("largest").in("radian"));
   }
 };
 
@@ -83,10 +104,14 @@ struct TradeOffShown {
   std::string target;
   double departure = 0;
   double sav = 0;
+  std::optional<double> stripe_turn;
   static constexpr auto describe() {
-    return core::fields(core::field<&TradeOffShown::target>("its name"),
-                        core::field<&TradeOffShown::departure>("at amount 1").in("length"),
-                        core::field<&TradeOffShown::sav>("value there"));
+    return core::fields(
+        core::field<&TradeOffShown::target>("its name"),
+        core::field<&TradeOffShown::departure>("at amount 1").in("length"),
+        core::field<&TradeOffShown::sav>("value there"),
+        core::field<&TradeOffShown::stripe_turn>("of zebra stripes at joints, in the mean")
+            .in("radian"));
   }
 };
 

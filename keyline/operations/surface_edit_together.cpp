@@ -79,7 +79,7 @@ JointsChange joints_between(const std::vector<OneOfSurfaces>& all, surface::Hold
   }
   const auto joints = surface::joints_of(given, 10 * surface::EdgeTolerance{}.gap);
   return {shown(measure_joints(joints, given)), shown(measure_joints(joints, edited)),
-          lost_orders(joints, given, edited, order_of(hold))};
+          lost_orders(joints, given, edited, order_of(hold)), fold_growth(joints, given, edited)};
 }
 
 /// One that cannot be edited stays as given among others; alone it is a failure.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "keyline/operations/spline_input.h"
+#include "keyline/operations/surface_edit.h"
 #include "keyline/operations/values.h"
 #include "keyline/surface/gordon.h"
 #include "keyline/surface/network.h"
@@ -46,6 +47,7 @@ struct NetworkAnswer {
   double gap = 0;
   std::size_t patches = 0;
   double sav = 0;
+  JointsShown joints;
   static constexpr auto describe() {
     using Answer = NetworkAnswer;
     return core::fields(
@@ -55,7 +57,8 @@ struct NetworkAnswer {
             .in("length"),
         core::field<&Answer::gap>("largest by which curves miss each other").in("length"),
         core::field<&Answer::patches>("Bezier patches it consists of"),
-        core::field<&Answer::sav>("sum of their surface aesthetic values"));
+        core::field<&Answer::sav>("sum of their surface aesthetic values"),
+        core::field<&Answer::joints>("between them, and what a zebra does there"));
   }
 };
 
@@ -90,11 +93,14 @@ Result<NetworkAnswer> run(const NetworkRequest& request, const Context& context)
   auto made = surface::gordon_surface(
       *u, *v, {(1 - kCurveShare) * tolerance, request.gap.value_or(tolerance)});
   if (!made) return std::unexpected(made.error());
-  NetworkAnswer answer{std::move(made->surface), made->deviation + off, made->gap, 0, 0};
+  NetworkAnswer answer{std::move(made->surface), made->deviation + off, made->gap, 0, 0, {}};
   const auto values = surface::sav_by_patch(answer.surface, {}, context.threads, context.progress);
   if (!values) return std::unexpected(values.error());
   answer.patches = values->size();
   for (const surface::PatchValue& patch : *values) answer.sav += patch.value.sav;
+  const auto patches = surface::patches_of(answer.surface).patches;
+  answer.joints = shown(surface::measure_joints(
+      surface::joints_of(patches, 10 * surface::EdgeTolerance{}.gap), patches));
   return answer;
 }
 

@@ -204,15 +204,37 @@ report::ReportTable joints_table(const surface::PatchesEdit& edited) {
                              {"Joints"},
                              {"G0"},
                              {"G1"},
+                             {"G2"},
                              {"Largest gap"},
-                             {"Largest fold"}},
+                             {"Largest fold"},
+                             {"Zebra jumps"},
+                             {"at most"},
+                             {"Zebra turns"},
+                             {"at most"}},
                             {}};
+  const auto degrees = [](double radians) { return number(told(radians * 180 / core::kPi)) + "°"; };
   for (const auto& [name, j] :
        {std::pair{"before", &edited.before}, std::pair{"after", &edited.after}})
     table.rows.push_back({name, std::to_string(j->joints), std::to_string(j->order_at_least[0]),
-                          std::to_string(j->order_at_least[1]), number(told(j->gap)),
-                          number(told(j->angle * 180 / core::kPi)) + "°"});
+                          std::to_string(j->order_at_least[1]),
+                          std::to_string(j->order_at_least[2]), number(told(j->gap)),
+                          degrees(j->angle), degrees(j->zebra.mean_jump), degrees(j->zebra.jump),
+                          degrees(j->zebra.mean_turn), degrees(j->zebra.turn)});
   return table;
+}
+
+/// What joints lost, in words; empty where that is nothing.
+std::string joint_loss(const surface::PatchesEdit& edited) {
+  const auto lost = [&](std::size_t order) {
+    const std::size_t was = edited.before.order_at_least[order];
+    const std::size_t is = edited.after.order_at_least[order];
+    return is < was ? fmt::format("{} of {} ", was - is, was) : std::string();
+  };
+  if (!lost(0).empty()) return "edges that met before have gaps now";
+  if (!lost(1).empty()) return lost(1) + "tangent joints have a fold now";
+  if (!lost(2).empty())
+    return lost(2) + "joints lost their common curvature: zebra stripes turn there";
+  return "";
 }
 
 }  // namespace
@@ -229,16 +251,11 @@ Result<report::Report> surface_edit_report(const Surface& given, const surface::
   const double before = sum_of(values_before(edit));
   const double after = sum_of(values_after(edit));
   const surface::PatchesEdit& all = edit.edited;
-  const bool torn = all.after.order_at_least[0] < all.before.order_at_least[0];
-  const bool bent = all.after.order_at_least[1] < all.before.order_at_least[1];
-  report.verdict = torn || bent ? report::Verdict::caution : report::Verdict::good;
-  report.verdict_line = fmt::format(
-      "SAV of {} patches from {} to {}; {}.", all.surfaces.size(), number(before), number(after),
-      torn   ? std::string("edges that met before have gaps now")
-      : bent ? fmt::format("{} of {} tangent joints have a fold now",
-                           all.before.order_at_least[1] - all.after.order_at_least[1],
-                           all.before.order_at_least[1])
-             : std::string("their joints are as good as before"));
+  const std::string loss = joint_loss(all);
+  report.verdict = loss.empty() ? report::Verdict::good : report::Verdict::caution;
+  report.verdict_line =
+      fmt::format("SAV of {} patches from {} to {}; {}.", all.surfaces.size(), number(before),
+                  number(after), loss.empty() ? "their joints are as good as before" : loss);
   report.numbers = {{"SAV before", number(before), "sum of all patches"},
                     {"SAV after", number(after), {}},
                     {"Largest departure",

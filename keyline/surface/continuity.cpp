@@ -7,6 +7,7 @@
 
 #include "keyline/core/axis.h"
 #include "keyline/surface/curvature.h"
+#include "keyline/surface/stripe_turn.h"
 
 namespace keyline::surface {
 
@@ -150,6 +151,8 @@ void compare(EdgeSample& sample, const SideState& a, SideState b, double size) {
   const double rate = std::max({std::abs(a.rate), std::abs(b.rate), 1 / (size * size)});
   sample.relative_curvature_jump = sample.curvature_jump / bend;
   sample.relative_rate_jump = sample.rate_jump / rate;
+  sample.stripe_turn = stripe_turn(a.form, b.form);
+  sample.stripe_density = stripe_density(a.form, b.form);
 }
 
 double edge_length(const Surface& s, Edge e) {
@@ -220,6 +223,19 @@ void take_largest(EdgeContinuity& e, const EdgeSample& s) {
   e.relative_rate_jump = std::max(e.relative_rate_jump, s.relative_rate_jump);
 }
 
+/// Mean of the stripes and turning of the normal, by trapezoids along the edge.
+void sum_stripes(EdgeContinuity& e) {
+  double turned = 0;
+  for (std::size_t i = 1; i < e.samples.size(); ++i) {
+    const EdgeSample& a = e.samples[i - 1];
+    const EdgeSample& b = e.samples[i];
+    const double half = 0.5 * core::distance(a.position, b.position);
+    e.turning += half * (a.stripe_density + b.stripe_density);
+    turned += half * (a.stripe_density * a.stripe_turn + b.stripe_density * b.stripe_turn);
+  }
+  if (e.turning > 0) e.stripe_turn = turned / e.turning;
+}
+
 }  // namespace
 
 std::array<double, 2> edge_parameters(Edge edge, double along) {
@@ -257,7 +273,8 @@ Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& seco
   const auto [a, b] = result.edges;
   const EdgeProjection onto(second, b);
 
-  const double size = std::max(edge_length(first, a), 1e-300);
+  result.length = edge_length(first, a);
+  const double size = std::max(result.length, 1e-300);
   for (int i = 0; i < count; ++i) {
     EdgeSample sample;
     sample.along = i / (count - 1.0);
@@ -272,6 +289,7 @@ Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& seco
     take_largest(result, sample);
     result.samples.push_back(sample);
   }
+  sum_stripes(result);
   result.order = order_of(result);
   return result;
 }

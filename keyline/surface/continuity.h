@@ -46,7 +46,8 @@ struct EdgeTolerance {
 /// fold: between the direction out of the first surface and that into the second, both at right
 /// angles to the edge, in [0, pi]. `curvature_jump` is the largest difference of normal curvature
 /// over all directions; `rate_jump` that of the derivative by arc length of the curvature of the
-/// normal section across the edge, in 1/length^2. Both need a normal on each side: `defined`.
+/// normal section across the edge, in 1/length^2; `stripe_turn` and `stripe_density` are what a
+/// zebra does where it crosses (stripe_turn.h). All of them need a normal on each side: `defined`.
 struct EdgeSample {
   double along = 0;  ///< parameter of the first edge
   core::Point3 position;
@@ -57,14 +58,20 @@ struct EdgeSample {
   double rate_jump = 0;
   double relative_curvature_jump = 0;
   double relative_rate_jump = 0;
+  double stripe_turn = 0;
+  double stripe_density = 0;
 };
 
-/// Largest values along the edge and the order they amount to: -1 a gap, 0…3 for G0…G3.
+/// Largest values along the edge and the order they amount to: -1 a gap, 0…3 for G0…G3. The
+/// `stripe_turn` is the mean over all stripes of all lights that cross the edge, radians; `turning`
+/// the angle by which the normal turns along it, in all: as that grows so does their number.
 struct EdgeContinuity {
   std::array<Edge, 2> edges{};
   std::vector<EdgeSample> samples;
   double gap = 0, angle = 0, curvature_jump = 0, rate_jump = 0;
   double relative_curvature_jump = 0, relative_rate_jump = 0;
+  double stripe_turn = 0, turning = 0;
+  double length = 0;  ///< of the first edge
   EdgeTolerance tolerance;
   int order = -1;
 };

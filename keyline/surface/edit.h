@@ -39,6 +39,8 @@ struct TradeOff {
   std::string name;
   double departure = 0;
   double sav = 0;
+  /// Of several patches: by how much zebra stripes then turn at joints, in the mean (ZebraBreaks).
+  std::optional<double> stripe_turn = {};
 };
 
 /// A target that was not found, or does not meet a condition: the curve it fails for, and why.

@@ -11,6 +11,7 @@
 #include "keyline/surface/class_a_together.h"
 #include "keyline/surface/departure.h"
 #include "keyline/surface/hold_joints.h"
+#include "keyline/surface/turn_over.h"
 
 namespace keyline::surface::detail {
 namespace {
@@ -73,12 +74,13 @@ class AsOne {
         all_(all),
         joints_(all.joints),
         fixed_(fixed_points(given_, all.patches, options_.keep)),
+        was_(joint_states(joints_, given_, task.tolerance)),
         stiff_(joints_.size(), false),
+        still_(given_.size(), false),
         best_(given_.begin(), given_.end()),
         least_(all.sav_before),
         most_(order_of(task.hold)) {
-    for (const int order : joint_orders(joints_, given_, task.tolerance))
-      orders_.push_back(std::min(order, most_));
+    for (const JointState& state : was_) orders_.push_back(std::min(state.order, most_));
   }
 
   /// The least SAV of what rounds of editing and holding come to, and of nets whose curves take one
@@ -100,6 +102,7 @@ class AsOne {
   static constexpr int kRounds = 4;
   static constexpr double kWorthIt = 1e-3;  ///< of SAV that a round has to gain
   static constexpr int kTries = 4;
+  static constexpr int kAttempts = 3;
   static constexpr int kHalvings = 10;  ///< towards the limit
 
   void edit_in_rounds() {
@@ -110,7 +113,7 @@ class AsOne {
       for (const double share : {1.0, 0.6, 0.3}) {
         auto moved = within_limit(held, share);
         const double sav = total(moved);
-        if (sav >= least_ * (1 - kWorthIt) || loses_a_joint(moved)) continue;
+        if (sav >= least_ * (1 - kWorthIt) || !is_sound(moved)) continue;
         accept("", std::move(moved), sav);
         better = true;
         break;
@@ -122,26 +125,32 @@ class AsOne {
     }
   }
 
-  /// Nets of one matrix per curve; joints that lose their order are made stiff once.
+  /// Nets of one matrix per curve; what does not come out sound is held still and all tried again.
   void take_one_matrix(const std::vector<std::vector<bool>>& fixed) {
-    for (int attempt = 0; attempt < 2 && !options_.progress.stop_requested(); ++attempt) {
-      TogetherTask task{{given_.begin(), given_.end()}, held_joints(), fixed, {}, options_};
-      for (const PatchEdit& p : all_.patches) task.open.push_back(p.result.has_value());
-      bool lost = false;
+    stiff_.assign(stiff_.size(), false);
+    still_.assign(still_.size(), false);
+    for (int attempt = 0; attempt < kAttempts && !options_.progress.stop_requested(); ++attempt) {
+      TogetherTask task{
+          {given_.begin(), given_.end()}, held_joints(), with_still(fixed), {}, options_};
+      for (std::size_t p = 0; p < given_.size(); ++p)
+        task.open.push_back(all_.patches[p].result && !still_[p]);
+      bool again = false;
       for (TogetherNets& nets : class_a_together(task)) {
         auto moved = blend(nets.surfaces, options_.amount);
-        if (stiffen(moved)) {
-          lost = true;
+        close_joints(given_, task.joints, moved);
+        if (hold_more(moved)) {
+          again = true;
           continue;
         }
-        if (loses_a_joint(moved)) continue;  // stiff ones cannot be held by less
+        if (!is_sound(moved)) continue;  // nothing is left to hold
         const double away = farthest(moved);
         const double sav = total(moved);
-        all_.tradeoff.push_back({nets.name, away, sav});
+        const ZebraBreaks zebra = measure_joints(joints_, moved, task_.tolerance).zebra;
+        all_.tradeoff.push_back({nets.name, away, sav, zebra.mean_turn});
         if (options_.limit && away > *options_.limit) continue;
         if (sav < least_) accept(nets.name, std::move(moved), sav);
       }
-      if (!lost) return;
+      if (!again) return;
     }
   }
 
@@ -151,32 +160,78 @@ class AsOne {
     name_ = name;
   }
 
+  /// Joints that meet are held to their order; a crease is held as a tangent joint is, so that it
+  /// keeps what it misses that by.
   std::vector<HeldJoint> held_joints() const {
     std::vector<HeldJoint> held;
     for (std::size_t i = 0; i < joints_.size(); ++i)
-      if (orders_[i] >= 0) held.push_back({joints_[i], orders_[i], stiff_[i]});
+      if (orders_[i] >= 0)
+        held.push_back({joints_[i], std::max(orders_[i], std::min(most_, 1)), stiff_[i]});
     return held;
   }
 
-  /// Makes joints stiff that lose their order; whether there is one that was not.
-  bool stiffen(const std::vector<BezierSurface>& moved) {
-    const auto now = joint_orders(joints_, moved, task_.tolerance);
+  /// With the control points of still patches and stiff joints, which many wishes beside them
+  /// would else wear down.
+  std::vector<std::vector<bool>> with_still(std::vector<std::vector<bool>> fixed) const {
+    for (std::size_t p = 0; p < fixed.size(); ++p)
+      if (still_[p]) fixed[p].assign(fixed[p].size(), true);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      if (!stiff_[i]) continue;
+      const int deep = std::max(orders_[i], 1);
+      fix_beside(joints_[i].first, joints_[i].edges[0], deep, fixed);
+      fix_beside(joints_[i].second, joints_[i].edges[1], deep, fixed);
+    }
+    return fixed;
+  }
+
+  /// The points of an edge and of so many rows inside it.
+  void fix_beside(std::size_t patch, Edge edge, int deep,
+                  std::vector<std::vector<bool>>& fixed) const {
+    const Net& net = given_[patch].net;
+    const bool u = edge == Edge::u0 || edge == Edge::u1;
+    const bool far = edge == Edge::u1 || edge == Edge::v1;
+    const int across = u ? net.rows : net.columns;
+    for (int d = 0; d <= std::min(deep, across - 1); ++d)
+      for (int k = 0; k < (u ? net.columns : net.rows); ++k) {
+        const int at = far ? across - 1 - d : d;
+        fixed[patch][u ? net.index(at, k) : net.index(k, at)] = true;
+      }
+  }
+
+  /// A joint of lower order than it had, or of a sharper fold.
+  bool suffers(std::size_t joint, const JointState& now) const {
+    return now.order < orders_[joint] ||
+           (orders_[joint] >= 0 && now.angle > was_[joint].angle + task_.tolerance.angle);
+  }
+
+  /// Makes joints stiff that suffer and patches still that turn over; whether there is one that was
+  /// not.
+  bool hold_more(const std::vector<BezierSurface>& moved) {
+    const auto now = joint_states(joints_, moved, task_.tolerance);
     bool any = false;
     for (std::size_t i = 0; i < joints_.size(); ++i)
-      if (now[i] < orders_[i] && !stiff_[i]) any = stiff_[i] = true;
+      if (suffers(i, now[i]) && !stiff_[i]) any = stiff_[i] = true;
+    for (std::size_t p = 0; p < given_.size(); ++p)
+      if (!still_[p] && turns_over(given_[p], moved[p])) any = still_[p] = true;
     return any;
   }
 
-  bool loses_a_joint(const std::vector<BezierSurface>& moved) const {
-    const auto now = joint_orders(joints_, moved, task_.tolerance);
-    return !std::ranges::equal(now, orders_, std::greater_equal<>());
+  bool is_sound(const std::vector<BezierSurface>& moved) const {
+    const auto now = joint_states(joints_, moved, task_.tolerance);
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      if (suffers(i, now[i])) return false;
+    for (std::size_t p = 0; p < given_.size(); ++p)
+      if (turns_over(given_[p], moved[p])) return false;
+    return true;
   }
 
-  /// Nets nearest to the wanted ones that hold the joints; those that fail are made stiff.
+  /// Nets nearest to the wanted ones that hold the joints; what does not come out sound is held.
   std::vector<BezierSurface> hold(const std::vector<BezierSurface>& wanted) {
     for (int attempt = 0;; ++attempt) {
-      auto moved = hold_joints(given_, wanted, held_joints(), fixed_);
-      if (!stiffen(moved) || attempt + 1 == kTries) return moved;
+      const auto joints = held_joints();
+      auto moved = hold_joints(given_, wanted, joints, with_still(fixed_));
+      close_joints(given_, joints, moved);
+      if (!hold_more(moved) || attempt + 1 == kTries) return moved;
     }
   }
 
@@ -267,8 +322,10 @@ class AsOne {
   PatchesEdit& all_;
   const std::vector<PatchJoint>& joints_;
   std::vector<std::vector<bool>> fixed_;
-  std::vector<int> orders_;  ///< to be held, by joint
-  std::vector<bool> stiff_;
+  std::vector<JointState> was_;  ///< by joint, as given
+  std::vector<int> orders_;      ///< to be held, by joint
+  std::vector<bool> stiff_;      ///< by joint: its control points stay
+  std::vector<bool> still_;      ///< by patch: all of them do
   std::vector<BezierSurface> best_;
   double least_ = 0;  ///< SAV of the best
   int most_ = 1;      ///< order that is held

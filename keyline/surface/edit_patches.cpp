@@ -57,6 +57,7 @@ core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
   for (const PatchEdit& p : all.patches)
     if (p.result) all.departure = std::max(all.departure, p.result->departure);
   all.after = measure_joints(all.joints, all.surfaces, tolerance);
+  all.fold_growth = fold_growth(all.joints, patches, all.surfaces, tolerance);
   return all;
 }
 
@@ -112,6 +113,7 @@ PatchesEdit part_of_edit(const PatchesEdit& all, std::span<const BezierSurface> 
   part.before = measure_joints(part.joints, given, tolerance);
   part.after = measure_joints(part.joints, part.surfaces, tolerance);
   part.lost = lost_orders(part.joints, given, part.surfaces, order_of(hold), tolerance);
+  part.fold_growth = fold_growth(part.joints, given, part.surfaces, tolerance);
   part.sav_before = sum_of(part.patches, &EditResult::before);
   part.sav_after = sum_of(part.patches, &EditResult::after);
   part.sav_apart = part.sav_after;

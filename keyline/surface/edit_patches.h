@@ -29,8 +29,9 @@ struct PatchesEdit {
   std::vector<PatchJoint> joints;       ///< of the patches as given
   JointSummary before;
   JointSummary after;
-  std::size_t lost = 0;  ///< joints whose order is lower now, of what was to be held
-  double departure = 0;  ///< largest of all
+  std::size_t lost = 0;    ///< joints whose order is lower now, of what was to be held
+  double fold_growth = 0;  ///< largest, of joints that meet before and after, radians
+  double departure = 0;    ///< largest of all
   double sav_apart = 0;  ///< sum over the patches each edited for itself: what holding joints costs
   double sav_before = 0;                ///< sum over the patches as given
   double sav_after = 0;                 ///< … as edited
@@ -43,15 +44,16 @@ struct PatchesEdit {
 /// least SAV within the limit. Beside that nets are looked for in which as many curves as can be
 /// have one matrix each while all joints hold (`tradeoff`; not where single curves have
 /// conditions); with Keep::joints corners in which patches meet may move with them there. The least
-/// SAV within the limit is taken. Where a joint could not be held otherwise it stays where it is;
-/// nets in which one is lower all the same are not taken. Patches of which the SAV cannot be
-/// lowered that way may rise for the others' sake. HoldJoints::free: patches do not know of one
-/// another: with Keep::boundary joints stay where they are to the last digit, with Keep::joints
-/// they move and stay closed (unless conditions of single curves say otherwise), with less kept
-/// they may open; tangent planes across them change. Keep::start keeps the corner b00 of every
-/// patch, its tangents as far as the joints let it. `before` and `after` say by how much. Joints
-/// are edges that lie within ten times tolerance.gap of one another. Errors: the first patch's
-/// where no patch could be edited; unsupported for a rational patch; cancelled.
+/// SAV within the limit is taken. Where a joint could not be held otherwise it stays where it is,
+/// and so does a patch that would turn over (turn_over.h); nets in which a joint is of lower order
+/// or a fold sharper all the same, by more than tolerance.angle, are not taken. Patches of which
+/// the SAV cannot be lowered that way may rise for the others' sake. HoldJoints::free: patches do
+/// not know of one another: with Keep::boundary joints stay where they are to the last digit, with
+/// Keep::joints they move and stay closed (unless conditions of single curves say otherwise), with
+/// less kept they may open; tangent planes across them change. Keep::start keeps the corner b00 of
+/// every patch, its tangents as far as the joints let it. `before` and `after` say by how much.
+/// Joints are edges that lie within ten times tolerance.gap of one another. Errors: the first
+/// patch's where no patch could be edited; unsupported for a rational patch; cancelled.
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options = {}, int threads = 1,
                                        const EdgeTolerance& tolerance = {},

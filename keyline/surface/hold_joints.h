@@ -21,7 +21,9 @@ struct HeldJoint {
 /// D1 + beta D2 + gamma E = 0, of order 2 the second ones a like equation. Its multipliers are
 /// those of `given` (polynomials of least squares, exact for patches cut from a spline); with them
 /// held the equation is linear in the control points, and what it says of their moves is kept. A
-/// joint of multipliers that are no such polynomials keeps its order for small moves only.
+/// joint of multipliers that are no such polynomials keeps its order for small moves only, and one
+/// that is held to a higher order than it has keeps what it misses that by: a crease its fold, up
+/// to the lengths of D1 and D2.
 ///
 /// fixed: by patch and control point, those that do not move; or empty.
 /// Precondition: patches as many, polynomial, of the same degrees on both sides.
@@ -29,5 +31,10 @@ std::vector<BezierSurface> hold_joints(std::span<const BezierSurface> given,
                                        std::span<const BezierSurface> wanted,
                                        std::span<const HeldJoint> joints,
                                        const std::vector<std::vector<bool>>& fixed = {});
+
+/// Gives control points of common edges that coincide in `given`, to 1e-12 of the patches' extent,
+/// one place again in `moved`, where rounding left them apart.
+void close_joints(std::span<const BezierSurface> given, std::span<const HeldJoint> joints,
+                  std::vector<BezierSurface>& moved);
 
 }  // namespace keyline::surface

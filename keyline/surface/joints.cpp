@@ -1,6 +1,9 @@
 #include "keyline/surface/joints.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "keyline/core/angle.h"
 
 namespace keyline::surface {
 namespace {
@@ -8,24 +11,42 @@ namespace {
 using core::Point3;
 
 constexpr int kPlaces = 33;
+constexpr int kCoarse = 8;           ///< steps along an edge, to find its neighbour
+constexpr double kCollapsed = 1e-9;  ///< of the patch: an edge that is but a point
+constexpr double kRounding = 1e-9;   ///< of the edge: gaps that are alike
 constexpr std::array<Edge, 4> kEdges{Edge::u0, Edge::u1, Edge::v0, Edge::v1};
 
-struct EdgeEnds {
+struct EdgeShape {
   Point3 start;
   Point3 end;
+  double size = 0;  ///< the lesser of its length and its largest distance from the edge opposite
 };
 
-EdgeEnds ends_of(const BezierSurface& s, Edge edge) {
-  const auto at = [&](double along) {
-    const auto [u, v] = edge_parameters(edge, along);
+EdgeShape shape_of(const BezierSurface& s, Edge edge) {
+  const Edge opposite = kEdges[static_cast<std::size_t>(edge) ^ 1U];
+  const auto at = [&](Edge e, int i) {
+    const auto [u, v] = edge_parameters(e, i / static_cast<double>(kCoarse));
     return evaluate(s, u, v);
   };
-  return {at(0), at(1)};
+  double length = 0;
+  double width = 0;
+  for (int i = 0; i <= kCoarse; ++i) {
+    width = std::max(width, distance(at(edge, i), at(opposite, i)));
+    if (i > 0) length += distance(at(edge, i - 1), at(edge, i));
+  }
+  if (length <= kCollapsed * extent(s.net)) length = 0;
+  return {at(edge, 0), at(edge, kCoarse), std::min(length, width)};
 }
 
-bool together(const EdgeEnds& a, const EdgeEnds& b, double gap) {
+/// How far the edges may be apart and still be those of one joint: beyond half of an edge's length
+/// its ends, beyond half of a patch's width its opposite edges could be taken for one another.
+double reach(const EdgeShape& a, const EdgeShape& b, double gap) {
+  return std::min({gap, 0.5 * a.size, 0.5 * b.size});
+}
+
+bool together(const EdgeShape& a, const EdgeShape& b, double gap) {
+  if (!(gap > 0)) return false;
   const auto near = [gap](Point3 p, Point3 q) { return distance(p, q) <= gap; };
-  if (near(a.start, a.end) || near(b.start, b.end)) return false;
   return (near(a.start, b.start) && near(a.end, b.end)) ||
          (near(a.start, b.end) && near(a.end, b.start));
 }
@@ -36,43 +57,97 @@ EdgeContinuity along(const PatchJoint& joint, std::span<const BezierSurface> pat
                           count);
 }
 
+/// Two edges that lie together, numbered over all patches, four each.
+struct Near {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  PatchJoint joint;
+  double apart = 0;
+};
+
+/// A mirror that turns by an angle turns the ray by twice as much, by up to half a turn.
+double ray_jump(double fold) { return std::min(2 * fold, core::kPi); }
+
+/// What the means of a zebra's breaks are made of.
+struct ZebraSums {
+  double length = 0, jumped = 0;
+  double turning = 0, turned = 0;
+
+  void add(const EdgeContinuity& c, ZebraBreaks& zebra) {
+    const auto count = static_cast<double>(c.samples.size());
+    for (const EdgeSample& s : c.samples) jumped += c.length / count * ray_jump(s.angle);
+    length += c.length;
+    zebra.jump = std::max(zebra.jump, ray_jump(c.angle));
+    if (c.order < 1) return;
+    turning += c.turning;
+    turned += c.turning * c.stripe_turn;
+    if (c.turning > c.tolerance.angle) zebra.turn = std::max(zebra.turn, c.stripe_turn);
+  }
+
+  void finish(ZebraBreaks& zebra) const {
+    if (length > 0) zebra.mean_jump = jumped / length;
+    if (turning > 0) zebra.mean_turn = turned / turning;
+  }
+};
+
 }  // namespace
 
 std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches, double gap) {
-  std::vector<std::array<EdgeEnds, 4>> ends;
-  for (const BezierSurface& s : patches) {
-    ends.emplace_back();
-    for (std::size_t e = 0; e < 4; ++e) ends.back()[e] = ends_of(s, kEdges[e]);
-  }
+  std::vector<EdgeShape> shapes;
+  for (const BezierSurface& s : patches)
+    for (const Edge e : kEdges) shapes.push_back(shape_of(s, e));
+  std::vector<Near> pairs;
+  std::vector<double> nearest(shapes.size(), HUGE_VAL);
+  for (std::size_t a = 0; a < shapes.size(); ++a)
+    for (std::size_t b = 4 * (a / 4 + 1); b < shapes.size(); ++b) {
+      const double most = reach(shapes[a], shapes[b], gap);
+      if (!together(shapes[a], shapes[b], most)) continue;
+      const PatchJoint joint{a / 4, b / 4, {kEdges[a % 4], kEdges[b % 4]}};
+      const double apart = along(joint, patches, {}, kCoarse + 1).gap;
+      if (apart > most) continue;
+      pairs.push_back({a, b, joint, apart});
+      for (const std::size_t e : {a, b}) nearest[e] = std::min(nearest[e], apart);
+    }
+  std::ranges::sort(
+      pairs, {}, [](const Near& p) { return std::array{p.joint.first, p.joint.second, p.a, p.b}; });
   std::vector<PatchJoint> joints;
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    for (std::size_t k = i + 1; k < patches.size(); ++k)
-      for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = 0; b < 4; ++b) {
-          if (!together(ends[i][a], ends[k][b], gap)) continue;
-          const PatchJoint joint{i, k, {kEdges[a], kEdges[b]}};
-          if (along(joint, patches, {}, 9).gap <= gap) joints.push_back(joint);
-        }
+  for (const Near& p : pairs) {
+    const double rounding = kRounding * std::min(shapes[p.a].size, shapes[p.b].size);
+    if (p.apart <= std::max(nearest[p.a], nearest[p.b]) + rounding) joints.push_back(p.joint);
+  }
   return joints;
 }
 
-std::vector<int> joint_orders(std::span<const PatchJoint> joints,
-                              std::span<const BezierSurface> patches,
-                              const EdgeTolerance& tolerance) {
-  std::vector<int> orders;
-  for (const PatchJoint& joint : joints)
-    orders.push_back(along(joint, patches, tolerance, kPlaces).order);
-  return orders;
+std::vector<JointState> joint_states(std::span<const PatchJoint> joints,
+                                     std::span<const BezierSurface> patches,
+                                     const EdgeTolerance& tolerance) {
+  std::vector<JointState> states;
+  for (const PatchJoint& joint : joints) {
+    const EdgeContinuity c = along(joint, patches, tolerance, kPlaces);
+    states.push_back({c.order, c.angle});
+  }
+  return states;
 }
 
 std::size_t lost_orders(std::span<const PatchJoint> joints, std::span<const BezierSurface> before,
                         std::span<const BezierSurface> after, int most,
                         const EdgeTolerance& tolerance) {
-  const std::vector<int> was = joint_orders(joints, before, tolerance);
-  const std::vector<int> is = joint_orders(joints, after, tolerance);
+  const auto was = joint_states(joints, before, tolerance);
+  const auto is = joint_states(joints, after, tolerance);
   std::size_t lost = 0;
-  for (std::size_t i = 0; i < was.size(); ++i) lost += is[i] < std::min(was[i], most) ? 1 : 0;
+  for (std::size_t i = 0; i < was.size(); ++i)
+    lost += is[i].order < std::min(was[i].order, most) ? 1 : 0;
   return lost;
+}
+
+double fold_growth(std::span<const PatchJoint> joints, std::span<const BezierSurface> before,
+                   std::span<const BezierSurface> after, const EdgeTolerance& tolerance) {
+  const auto was = joint_states(joints, before, tolerance);
+  const auto is = joint_states(joints, after, tolerance);
+  double most = 0;
+  for (std::size_t i = 0; i < was.size(); ++i)
+    if (was[i].order >= 0 && is[i].order >= 0) most = std::max(most, is[i].angle - was[i].angle);
+  return most;
 }
 
 JointSummary measure_joints(std::span<const PatchJoint> joints,
@@ -80,16 +155,20 @@ JointSummary measure_joints(std::span<const PatchJoint> joints,
                             const EdgeTolerance& tolerance) {
   JointSummary summary;
   summary.joints = joints.size();
+  ZebraSums sums;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const EdgeContinuity c = along(joints[i], patches, tolerance, kPlaces);
     summary.order_at_least[0] += c.order >= 0;
     summary.order_at_least[1] += c.order >= 1;
     summary.order_at_least[2] += c.order >= 2;
     if (c.gap > summary.gap) summary.widest = i;
-    if (c.angle > summary.angle) summary.sharpest = i;
     summary.gap = std::max(summary.gap, c.gap);
+    if (c.order < 0) continue;
+    if (c.angle > summary.angle) summary.sharpest = i;
     summary.angle = std::max(summary.angle, c.angle);
+    sums.add(c, summary.zebra);
   }
+  sums.finish(summary.zebra);
   return summary;
 }
 

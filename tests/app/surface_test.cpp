@@ -108,6 +108,8 @@ TEST(Surfaces, EditOfASplineIsASplineAndTellsItsJoints) {
   ASSERT_EQ(o.status, 0) << o.err;
   EXPECT_NE(o.out.find("6 patches  SAV 659"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("joints 7"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("zebra at joints, in degrees: jumps 0 to"), std::string::npos) << o.out;
+  EXPECT_NE(slurp(s.path("skin.html")).find("Zebra turns"), std::string::npos);
   EXPECT_EQ(json::parse(slurp(file))["type"], "bspline-surface");
 }
 

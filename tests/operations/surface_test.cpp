@@ -99,6 +99,8 @@ TEST(SurfaceOperations, ContinuityPassesOrFails) {
   EXPECT_EQ(r["order"], "G3");
   EXPECT_EQ(r["edges"], json({"u1", "u0"}));
   EXPECT_EQ(r["along"].size(), 101U);
+  EXPECT_EQ(r["stripe_turn"], 0);
+  EXPECT_EQ(r["turning"], 0);  // no stripe crosses a line on which the normal stands still
   r = result_of({{"op", "surface.continuity"}, {"surfaces", {plane(0, 1), plane(1.0005, 2)}}});
   EXPECT_EQ(r["pass"]["G0"], true);
   EXPECT_NEAR(r["gap"].get<double>(), 0.0005, 1e-12);
@@ -197,6 +199,13 @@ TEST(SurfaceOperations, EditOfASplineGoesByPatch) {
   EXPECT_LE(r["after"]["sav"].get<double>(), r["before"]["sav"].get<double>());
   EXPECT_EQ(r["joints"]["before"]["G1"], 1);
   EXPECT_EQ(r["joints"]["after"]["G1"], 1);
+  for (const char* when : {"before", "after"}) {  // a tangent joint: stripes meet, but may turn
+    const json& zebra = r["joints"][when]["zebra"];
+    EXPECT_LT(zebra["jump"].get<double>(), 1e-6);
+    EXPECT_LE(zebra["mean_turn"].get<double>(), zebra["turn"].get<double>());
+  }
+  EXPECT_LT(r["joints"]["before"]["zebra"]["turn"].get<double>(), 1e-9);  // a spline's is smooth
+  EXPECT_LT(r["joints"]["fold_growth"].get<double>(), 1e-6);
   // the joint wins over what each patch by itself would like
   const json loose = result_of({{"op", "surface.edit"}, {"surface", spline}, {"keep", "start"}});
   EXPECT_EQ(loose["surface"]["type"], "bspline-surface");
@@ -266,6 +275,28 @@ TEST(SurfaceOperations, SweepsTakeLogAestheticQuasiAndFreeProfiles) {
   const json loft =
       result_of({{"op", "surface.loft"}, {"sections", {lac, quasi, free}}, {"heights", {0, 1, 3}}});
   EXPECT_EQ(loft["surface"]["degree"][0], 2);
+}
+
+TEST(SurfaceOperations, NetworksTellTheirJointsAndZebra) {
+  // arches along x at y = 0, 1.5 and 3, and along y at both ends, whose middles (z = 0.45) the one
+  // at y = 1.5 stands on
+  const auto arch = [](bool along_x, double at, double height, double up) {
+    json points = json::array();
+    for (int i = 0; i < 4; ++i) {
+      const double z = height * i * (3 - i) / 2.0 + up;
+      points.push_back(along_x ? json{1.0 * i, at, z} : json{at, 1.0 * i, z});
+    }
+    return json{{"type", "bezier"}, {"points", points}};
+  };
+  const json u = {arch(true, 0, 0.4, 0), arch(true, 1.5, 0.6, 0.45), arch(true, 3, 0.4, 0)};
+  const json v = {arch(false, 0, 0.6, 0), arch(false, 3, 0.6, 0)};
+  const json r =
+      result_of({{"op", "surface.network"}, {"along_u", u}, {"along_v", v}, {"gap", 1e-3}});
+  const json& joints = r["joints"];
+  EXPECT_GE(joints["joints"], 1);
+  EXPECT_EQ(joints["G2"], joints["joints"]);
+  EXPECT_LT(joints["zebra"]["jump"].get<double>(), 1e-9);
+  EXPECT_LT(joints["zebra"]["turn"].get<double>(), 1e-6);
 }
 
 TEST(SurfaceOperations, SweepsSayWhatIsWrong) {

@@ -4,61 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/surface/hold_joints.h"
-
 #include "test_surfaces.h"
 
 namespace keyline::surface {
 namespace {
-
-/// Bicubic, two by two patches, waves in its net: smooth joints.
-BSplineSurface four_patches() {
-  BSplineSurface s;
-  s.net = wavy_net(5, 5);
-  for (core::Point3& p : s.net.points) p = {40 * p.x, 40 * p.y, 6 * p.z};
-  s.knots = {{{0, 0, 0, 0, 0.4, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 3, 3, 3, 3}}};
-  return s;
-}
-
-TEST(Joints, FindsThePatchesOfASplineTogether) {
-  const auto patches = to_beziers(four_patches()).patches;
-  const auto joints = joints_of(patches, 1e-6);
-  ASSERT_EQ(joints.size(), 4U);
-  EXPECT_EQ(joints[0].first, 0U);
-  EXPECT_EQ(joints[0].second, 1U);
-  EXPECT_EQ(joints[0].edges, (std::array{Edge::v1, Edge::v0}));
-  const JointSummary summary = measure_joints(joints, patches);
-  EXPECT_EQ(summary.order_at_least[1], 4U);
-  EXPECT_LT(summary.gap, 1e-9);
-  auto apart = patches;
-  for (core::Point3& p : apart[3].net.points) p.z += 0.5;
-  EXPECT_EQ(joints_of(apart, 1e-6).size(), 2U);
-  const JointSummary torn = measure_joints(joints, apart);
-  EXPECT_EQ(torn.order_at_least[0], 2U);
-  EXPECT_NEAR(torn.gap, 0.5, 0.1);
-}
-
-TEST(Joints, LostOrdersAreThoseThatWereToBeHeld) {
-  const auto patches = to_beziers(four_patches()).patches;
-  const auto joints = joints_of(patches, 1e-6);
-  EXPECT_EQ(lost_orders(joints, patches, patches, 2), 0U);
-  auto folded = patches;
-  folded[3].net.at(1, 2).z += 0.5;  // beside the edge to patch 1 alone
-  EXPECT_EQ(lost_orders(joints, patches, folded, 1), 1U);
-  EXPECT_EQ(lost_orders(joints, patches, folded, 0), 0U);
-  EXPECT_EQ(lost_orders(joints, folded, folded, 2), 0U);
-  auto torn = patches;
-  for (core::Point3& p : torn[3].net.points) p.z += 0.5;
-  EXPECT_EQ(lost_orders(joints, patches, torn, 0), 2U);
-}
-
-TEST(Joints, SecondEdgeMayRunTheOtherWay) {
-  const auto [low, high] = halves_u(crowned_patch());
-  BezierSurface turned = high;  // v run backwards
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) turned.net.at(i, j) = high.net.at(i, 3 - j);
-  EXPECT_EQ(joints_of(std::vector{low, turned}, 1e-6).size(), 1U);
-}
 
 TEST(JoinedSurface, IsTheSplineItWasCutFrom) {
   const BSplineSurface s = four_patches();
@@ -143,6 +92,30 @@ TEST(EditPatches, JointsHeldStayTangent) {
   }
 }
 
+// The right half bent down along the joint, the same everywhere: a crease of about a degree, and
+// two tangent joints that go through it.
+TEST(EditPatches, CreasesGrowNoSharper) {
+  std::vector<BezierSurface> patches = to_beziers(four_patches()).patches;
+  for (const std::size_t i : {1U, 3U})
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column) patches[i].net.at(row, column).z -= 0.3 * column;
+  EditOptions options;
+  options.keep = Keep::joints;
+  const auto all = edit_patches(patches, options, 2);
+  ASSERT_TRUE(all) << all.error().message;
+  EXPECT_EQ(all->before.order_at_least[0], 4U);
+  EXPECT_EQ(all->before.order_at_least[1], 2U);
+  EXPECT_GT(all->before.angle, 0.01);
+  EXPECT_EQ(all->after.order_at_least[0], 4U);
+  EXPECT_GE(all->after.order_at_least[1], 2U);
+  EXPECT_EQ(all->lost, 0U);
+  EXPECT_LT(all->fold_growth, EdgeTolerance{}.angle);
+  for (const std::size_t i : {0U, 2U})
+    EXPECT_LT(largest_jump_of_normals(all->surfaces[i], all->surfaces[i + 1]),
+              largest_jump_of_normals(patches[i], patches[i + 1]) + EdgeTolerance{}.angle);
+  EXPECT_LT(all->sav_after, 0.97 * all->sav_before);
+}
+
 /// The largest difference of a cubic's edge ratios, as complex numbers in the plane of the curve:
 /// 0 where it has one control matrix.
 double ratio_spread(const std::vector<core::Point3>& c) {
@@ -222,21 +195,6 @@ TEST(EditPatches, SurfacesOfAFileAreHeldTogether) {
   EXPECT_EQ(together.after.order_at_least[1], 1U);
   EXPECT_LT(together.sav_after, together.sav_before);
   EXPECT_EQ((*edits)[1].edited.joints.size(), 0U);
-}
-
-TEST(HoldJoints, MovesOnePatchWithItsNeighbour) {
-  const auto patches = to_beziers(four_patches()).patches;
-  const std::vector<BezierSurface> two{patches[0], patches[1]};
-  std::vector<BezierSurface> wanted = two;
-  for (int i = 0; i < 4; ++i) wanted[0].net.at(i, 3).z += 1;  // the common edge of one alone
-  const auto joints = joints_of(two, 1e-6);
-  ASSERT_EQ(joints.size(), 1U);
-  const auto held = hold_joints(two, wanted, std::vector{HeldJoint{joints[0], 1, false}});
-  EXPECT_GT(held[1].net.at(1, 0).z - two[1].net.at(1, 0).z, 0.1);
-  EXPECT_EQ(measure_joints(joints, held).order_at_least[1], 1U);
-  const auto loose = hold_joints(two, wanted, std::vector{HeldJoint{joints[0], 0, false}});
-  EXPECT_EQ(measure_joints(joints, loose).order_at_least[0], 1U);
-  EXPECT_EQ(measure_joints(joints, loose).order_at_least[1], 0U);
 }
 
 TEST(EditPatches, CurvesInsideKeptJointsHaveOneMatrix) {

@@ -83,4 +83,13 @@ inline BezierSurface quarter_cylinder(double cx, double cz, double radius, doubl
   return s;
 }
 
+/// Bicubic, two by two patches, waves in its net: smooth joints.
+inline BSplineSurface four_patches() {
+  BSplineSurface s;
+  s.net = wavy_net(5, 5);
+  for (core::Point3& p : s.net.points) p = {40 * p.x, 40 * p.y, 6 * p.z};
+  s.knots = {{{0, 0, 0, 0, 0.4, 1, 1, 1, 1}, {0, 0, 0, 0, 2, 3, 3, 3, 3}}};
+  return s;
+}
+
 }  // namespace keyline::surface
