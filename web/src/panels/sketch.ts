@@ -78,6 +78,9 @@ export class SketchPanel {
     const { doc, ids } = withStrokes(this.store.opened, answer.result, underlay);
     for (const old of underlay.stages) URL.revokeObjectURL(old.url);
     this.put({ stages, stage: stages.some((s) => s.name === underlay.stage) ? underlay.stage : "" });
+    const [first] = answer.result.stages ?? [];
+    if (answer.result.sheet && first) // a photo was mapped back to its sheet, whose lines these are
+      this.put({ url: await pictureOf(first), width: first.width ?? underlay.width, height: first.height ?? underlay.height });
     this.store.commit("Trace", doc, { selection: ids.slice(0, 1) });
     const explained = answer.result.explained === undefined ? "" : `, ${(100 * answer.result.explained).toFixed(0)} % of the ink lies beside one`;
     this.store.say(`${ids.length} line${ids.length === 1 ? "" : "s"} found${explained}`, (answer.result.report ?? []).join("; "));
