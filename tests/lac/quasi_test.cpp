@@ -337,6 +337,19 @@ TEST(Quasi, BestIsNeverWorseThanAnyOther) {
   EXPECT_GT(worst, 0);
 }
 
+// With end curvatures 1e41 apart Newton's method finds none of the Taylor forms, the scan one.
+TEST(Quasi, BestIsNoWorseThanAFormThatOnlyTheScanFinds) {
+  const core::Point2 p0{-0.03226488086904719, -0.023489116677885367};
+  const core::Point2 p1{-0.029091481104493826, -0.03732333265737067};
+  const core::Point2 p2{-0.02909141915519918, -0.03732333299602281};
+  const double alpha = 0.1111190439715175;
+  const auto taylor =
+      quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::taylor_angle, 8, {}, false});
+  const auto best = quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::best, 8, {}, false});
+  ASSERT_TRUE(taylor && best);
+  EXPECT_LE(best->deviation, taylor->deviation);
+}
+
 // What the Bézier's own ends meet is solved for; where Newton's method from the segment fails, the
 // scan finds a Lambda (10 of 70 refusals had one).
 TEST(Quasi, TaylorFormsFindALambdaWhereThereIsOne) {

@@ -184,7 +184,7 @@ QuasiResult laid_result(const SegmentSolution& solution, const Unknowns& x, doub
   return r;
 }
 
-/// Of the other forms over the handles, as far as Newton's method finds them at once, the closest.
+/// Of the other forms over the handles the closest: found as they are where they are asked for.
 std::optional<QuasiResult> closest_other(const SegmentSolution& solution,
                                          const HandleAngles& angles, double alpha, int degree,
                                          const std::array<Point2, 3>& handles) {
@@ -196,9 +196,12 @@ std::optional<QuasiResult> closest_other(const SegmentSolution& solution,
     if (!settled) continue;
     Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
                unit.turning};
-    if (!Hermite(angles, alpha, *settled).solve(x)) continue;
-    QuasiResult r = laid_result(solution, x, alpha, *settled, handles, unit.mirror);
-    if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+    Hermite hermite(angles, alpha, *settled);
+    const std::vector<Unknowns> all = hermite.solve(x) ? std::vector{x} : hermite.scan();
+    for (const Unknowns& found : all) {
+      QuasiResult r = laid_result(solution, found, alpha, *settled, handles, unit.mirror);
+      if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+    }
   }
   return closest;
 }
