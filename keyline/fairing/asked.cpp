@@ -10,6 +10,27 @@ using core::ErrorCode;
 using core::fail;
 using core::Result;
 
+namespace {
+
+/// What G3 joints do not go with: other solvers make those chains, or change them afterwards.
+Result<void> check_joints(const FairOptions& options) {
+  if (options.joints == JointOrder::g2) return {};
+  std::string against;
+  if (options.pieces > 0 || options.criterion != Criterion::least_variation)
+    against = "the shortest chain";
+  else if (options.max_rate)
+    against = "a limit on curvature's rate";
+  else if (options.symmetric.mode != SymmetricMode::off)
+    against = "a symmetric answer";
+  else if (!options.interpretations.empty())
+    against = "readings asked for";
+  if (against.empty()) return {};
+  return fail(ErrorCode::bad_input, "G3 joints do not go with " + against, "leave one of them out",
+              "joints");
+}
+
+}  // namespace
+
 Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (line.points.size() < 2)
     return fail(ErrorCode::bad_input, "a key-line needs at least two points", "give more points");
@@ -34,6 +55,7 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
     return fail(ErrorCode::bad_input,
                 "a limit on curvature's rate does not go with the shortest chain",
                 "leave one of them out", "max_rate");
+  if (auto sound = check_joints(options); !sound) return sound;
   for (const std::size_t index : options.must_pass)
     if (index >= line.points.size())
       return fail(ErrorCode::bad_input, "a point to be passed does not exist",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/fairing/joint_rates.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
 
@@ -144,6 +145,7 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
     const std::vector<lac::Segment> segments = lac::segments(*chain);
     const auto inner = analysis::continuity(segments, chain->closed);
     result.joints.insert(result.joints.end(), inner.begin(), inner.end());
+    count_rates(result.joint_rates, segments, chain->closed);
   }
   if (views.size() > 1) {
     const auto outer = analysis::continuity(views, result.closed);

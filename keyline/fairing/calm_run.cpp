@@ -170,7 +170,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   flat.band.spring = run.band.spring;
   flat.most_rms = rms_of_lines();
   flat.worth = 1 + kForPieces;
-  if (run.band.within) make_arcs(run.curve, run.band, points, flat);
+  if (run.band.within && options.arcs) make_arcs(run.curve, run.band, points, flat);
   return run;
 }
 

@@ -16,7 +16,8 @@ struct CalmRunOptions {
   double most_rate = HUGE_VAL;         ///< see DenseCurve
   HeldEnd start;
   HeldEnd end;
-  Members members;  ///< empty: every fitted point is a measured one
+  Members members;   ///< empty: every fitted point is a measured one
+  bool arcs = true;  ///< next to free, of pieces
   core::Progress progress;
 };
 

@@ -50,6 +50,15 @@ double Evaluation::offset(std::size_t j) const {
   return points_[j].share * std::copysign(core::norm(miss), side);
 }
 
+Evaluation::PointRow Evaluation::row(std::size_t j) const {
+  const Foot& foot = chain_.feet[j];
+  const Stand s = stand(foot);
+  const core::Vector2 miss = s.at - points_[j].position;
+  const core::Vector2 normal{-s.tangent.y, s.tangent.x};
+  return {foot.piece, core::dot(miss, normal), core::dot(miss, s.tangent),
+          derivative(foot, s, normal), derivative(foot, s, s.tangent)};
+}
+
 bool Evaluation::beyond_end(const Foot& foot) const {
   const bool first = foot.fraction <= 0 && foot.piece == 0;
   const bool last = foot.fraction >= 1 && foot.piece + 1 == static_cast<int>(tables_.size());

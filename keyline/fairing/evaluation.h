@@ -39,6 +39,17 @@ class Evaluation {
 
   double offset(std::size_t j) const;
 
+  /// How far the place of a point's foot lies from the point, across and along the chain, and both
+  /// by the seven variables of the foot's stage.
+  struct PointRow {
+    int piece = 0;
+    double across = 0;  ///< positive where the chain passes left of the point
+    double along = 0;
+    Vector7 by_across;
+    Vector7 by_along;
+  };
+  PointRow row(std::size_t j) const;
+
  private:
   struct Frame {
     double c;

@@ -13,6 +13,7 @@
 #include "keyline/fairing/assemble.h"
 #include "keyline/fairing/corners.h"
 #include "keyline/fairing/free_ends.h"
+#include "keyline/fairing/joint_rates.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
 #include "keyline/fairing/symmetric_run.h"
@@ -77,6 +78,7 @@ class Job {
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (auto done = fair_one(k, {}); !done) return std::unexpected(done.error());
     detail::tie_corners(runs_, solved_, result_.splines, options_of_runs(), result_.closed);
+    detail::make_rates_one(result_, solved_, runs_, options_of_runs());
     for (std::size_t k = 0; k < runs_.size(); ++k)
       detail::place_free_ends(solved_[k], runs_[k], run_options(k));
     if (*mirror) tell_symmetry(**mirror);
@@ -111,6 +113,7 @@ class Job {
             .waves = options_.waves,
             .max_rate = options_.max_rate,
             .slopes = options_.slopes,
+            .joints = options_.joints,
             .asked = asked_.empty() ? std::vector<int>{} : asked_[k],
             .threads = options_.threads,
             .progress = core::part_of(whole, 0.4, 1)};
@@ -266,6 +269,7 @@ class Job {
     runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
     runs_[0].clamp_end = to_end ? options_.clamp.end : Clamp::g2;
     if (auto done = fair_one(0, inside); !done) return std::unexpected(done.error());
+    detail::make_rates_one(result_, solved_, runs_, options_of_runs());
     detail::place_free_ends(solved_[0], runs_[0], run_options(0));
     if (range.t_first > 0) kept_before_ = subcurve(*whole, 0, range.t_first);
     if (range.t_last < 1) kept_after_ = subcurve(*whole, range.t_last, 1);

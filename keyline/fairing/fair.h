@@ -40,6 +40,13 @@ constexpr auto choices(const Criterion*) {
                                  {Criterion::least_variation, "least-variation"}});
 }
 
+/// What joints of the calmest chain are to be: of one curvature, or also of one rate at which it
+/// changes wherever curvature runs one way through them. Where it turns the rate cannot be one.
+enum class JointOrder { g2, g3 };
+constexpr auto choices(const JointOrder*) {
+  return core::words<JointOrder>({{JointOrder::g2, "G2"}, {JointOrder::g3, "G3"}});
+}
+
 struct EndClamps {
   Clamp start = Clamp::none;
   Clamp end = Clamp::none;
@@ -84,7 +91,8 @@ struct FairOptions {
   /// that is not found within the tolerance. Of the calmest chain alone.
   std::optional<double> max_rate;
   core::Interval slopes{-3, 3};  ///< of the pieces' logarithmic curvature graphs
-  int pieces = 0;                ///< wanted number of pieces; 0: as the criterion has it
+  JointOrder joints = JointOrder::g2;
+  int pieces = 0;  ///< wanted number of pieces; 0: as the criterion has it
   Criterion criterion = Criterion::least_variation;
   /// Sides of lines that the curve stays on, beside those that the key-line itself has.
   std::vector<Bound> keep_inside;
@@ -122,6 +130,9 @@ struct FairOptions {
             .within(core::kPositive),
         core::field<&FairOptions::slopes>("slopes that pieces may have")
             .within(core::from_to(-12, 12)),
+        core::field<&FairOptions::joints>(
+            "what joints are where curvature does not turn: G3 is of one rate as well, as far as "
+            "the tolerance and the slopes allow, with more pieces and more variation"),
         core::field<&FairOptions::pieces>("wanted number of pieces; 0: as the criterion has it")
             .within(core::from_to(0, 400)),
         core::field<&FairOptions::criterion>(
@@ -182,6 +193,19 @@ const char* impression(const FairPiece& piece);
 /// A member of the answer: a faired chain, or a part of the given curve that was kept.
 using FairCurve = std::variant<lac::Chain, curve::BSpline2>;
 
+/// Joints inside the faired chains by the rate at which curvature changes.
+struct JointRates {
+  int g3 = 0;     ///< it is one
+  int turns = 0;  ///< it changes its sign: curvature turns, and along a piece it never vanishes
+  int jumps = 0;  ///< it jumps where it could be one
+  static constexpr auto describe() {
+    return core::fields(
+        core::field<&JointRates::g3>("of one rate of curvature"),
+        core::field<&JointRates::turns>("where curvature turns: the rate cannot be one there"),
+        core::field<&JointRates::jumps>("where the rate jumps although curvature runs one way"));
+  }
+};
+
 struct FairResult {
   std::vector<FairCurve> curves;  ///< end to end; corners between them
   bool closed = false;
@@ -203,6 +227,7 @@ struct FairResult {
   double outside = 0;  ///< by how much the answer passes a bound; 0 where it keeps them
   bool cancelled = false;
   std::vector<analysis::JointContinuity> joints;  ///< inside chains and between curves
+  JointRates joint_rates;
   std::vector<std::string> notes;  ///< everything dropped, merged, overridden, in words
 };
 

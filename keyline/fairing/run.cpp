@@ -184,6 +184,7 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.tolerance = tolerance;
   calm.residuals = residuals;
   calm.slopes = options.slopes;
+  calm.arcs = options.joints == JointOrder::g2;  // the rate beside an arc is never one
   calm.most_turns = options.waves;
   const double size = result.to_canonical.scale;
   if (options.max_rate) calm.most_rate = kRateShare * *options.max_rate / (size * size);

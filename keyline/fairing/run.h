@@ -40,11 +40,12 @@ struct RunOptions {
   double noise = 0;
   int pieces = 0;
   Criterion criterion = Criterion::least_variation;
-  double smoothness = 0.5;         ///< see FairOptions
-  std::optional<int> waves;        ///< at most, see FairOptions
-  std::optional<double> max_rate;  ///< of curvature along the chain, in the points' unit
-  core::Interval slopes{-3, 3};    ///< of the calmest chain's pieces
-  std::vector<int> asked;          ///< pieces whose reading was asked for
+  double smoothness = 0.5;             ///< see FairOptions
+  std::optional<int> waves;            ///< at most, see FairOptions
+  std::optional<double> max_rate;      ///< of curvature along the chain, in the points' unit
+  core::Interval slopes{-3, 3};        ///< of the calmest chain's pieces
+  JointOrder joints = JointOrder::g2;  ///< see FairOptions
+  std::vector<int> asked;              ///< pieces whose reading was asked for
   int threads = 0;
   core::Progress progress;
 };

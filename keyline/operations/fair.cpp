@@ -93,6 +93,7 @@ FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   answer.fairness = fair_figures(line, result);
   answer.cancelled = result.cancelled;
   for (const auto& joint : result.joints) answer.continuity.push_back(joint_of(joint));
+  answer.joints = result.joint_rates;
   answer.report = result.notes;
   answer.line = std::move(line);
   answer.faired = std::move(result);

@@ -78,6 +78,7 @@ struct FairAnswer {
   std::optional<fairing::FoundSymmetry> symmetry;
   FairFigures fairness;
   bool cancelled = false;
+  fairing::JointRates joints;
   std::vector<Joint> continuity;
   std::vector<std::string> report;
 
@@ -105,6 +106,8 @@ struct FairAnswer {
         core::field<&FairAnswer::symmetry>("line in which the points mirror within their noise"),
         core::field<&FairAnswer::fairness>("how calm its comb is, beside others'"),
         core::field<&FairAnswer::cancelled>("stopped: the best found until then"),
+        core::field<&FairAnswer::joints>(
+            "inside the chains, by the rate at which curvature changes: G3, at turns, jumps"),
         core::field<&FairAnswer::continuity>("at the joints, inside chains and between curves"),
         core::field<&FairAnswer::report>("everything dropped, merged or overridden, in words"));
   }

@@ -1,0 +1,107 @@
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/acquire/acquire.h"
+#include "keyline/fairing/fair.h"
+
+/// Joints of one rate of curvature, asked for with --joints G3. Rates are worked out here from the
+/// pieces' own numbers, without the solver.
+namespace keyline::fairing {
+namespace {
+
+using Formula = core::Point2 (*)(double);
+
+acquire::KeyLine measured(Formula at, int n) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> error(0, 1e-4);
+  acquire::RawCurve raw;
+  for (int i = 0; i < n; ++i) {
+    const core::Point2 p = at(i / (n - 1.0));
+    raw.points.push_back({p.x + error(random), p.y + error(random), 0});
+  }
+  return acquire::acquire_key_line(raw).value();
+}
+
+core::Point2 half_ellipse(double u) {
+  return {3 * std::cos(3.14159265358979 * u), std::sin(3.14159265358979 * u)};
+}
+core::Point2 sine(double u) { return {6 * u, std::sin(6 * u)}; }
+core::Point2 cubic(double u) { return {2 * u - 1, std::pow(2 * u - 1, 3)}; }
+
+/// d curvature / ds at an end: with p = -alpha curvature^p (with its sign) is linear in arc length.
+double rate(const lac::Piece& piece, bool at_end) {
+  const double p = -piece.alpha;
+  const auto power = [p](double k) { return std::copysign(std::pow(std::abs(k), p), k); };
+  const double k = at_end ? piece.curvature_end : piece.curvature_start;
+  if (p == 0) return k * std::log(piece.curvature_end / piece.curvature_start) / piece.length;
+  const double rise = (power(piece.curvature_end) - power(piece.curvature_start)) / piece.length;
+  return rise / p * std::pow(std::abs(k), 1 - p);
+}
+
+JointRates counted(const lac::Chain& chain) {
+  JointRates count;
+  for (std::size_t i = 0; i + 1 < chain.pieces.size(); ++i) {
+    const double before = rate(chain.pieces[i], true);
+    const double after = rate(chain.pieces[i + 1], false);
+    const double larger = std::max(std::abs(before), std::abs(after));
+    if (std::abs(after - before) <= 1e-4 * larger)
+      ++count.g3;
+    else
+      ++(before * after < 0 ? count.turns : count.jumps);
+  }
+  return count;
+}
+
+class JointsOfOneRate : public ::testing::TestWithParam<Formula> {};
+
+TEST_P(JointsOfOneRate, AreAllWhereCurvatureDoesNotTurn) {
+  const acquire::KeyLine line = measured(GetParam(), 161);
+  FairOptions options;
+  const FairResult plain = fair(line, options).value();
+  options.joints = JointOrder::g3;
+  const FairResult smooth = fair(line, options).value();
+  const auto& before = std::get<lac::Chain>(plain.curves.at(0));
+  const auto& after = std::get<lac::Chain>(smooth.curves.at(0));
+  EXPECT_GT(counted(before).jumps, 0);
+  const JointRates count = counted(after);
+  EXPECT_EQ(count.jumps, 0);
+  EXPECT_GT(count.g3, 0);
+  EXPECT_EQ(smooth.joint_rates.g3, count.g3);
+  EXPECT_EQ(smooth.joint_rates.turns, count.turns);
+  EXPECT_EQ(smooth.joint_rates.jumps, 0);
+  EXPECT_TRUE(smooth.within_tolerance);
+  EXPECT_LT(lac::largest_joint_gap(after).curvature, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formulas, JointsOfOneRate, ::testing::Values(half_ellipse, sine, cubic));
+
+TEST(JointsOfOneRate, AreToldWhereTheyAreNotAskedFor) {
+  const FairResult plain = fair(measured(sine, 161)).value();
+  const JointRates count = counted(std::get<lac::Chain>(plain.curves.at(0)));
+  EXPECT_EQ(plain.joint_rates.turns, count.turns);
+  EXPECT_EQ(plain.joint_rates.jumps, count.jumps);
+  EXPECT_THAT(plain.notes, ::testing::Not(::testing::Contains(::testing::HasSubstr("G3"))));
+}
+
+TEST(JointsOfOneRate, DoNotGoWithOtherSolversChains) {
+  const acquire::KeyLine line = measured(sine, 161);
+  const auto path = [&](auto change) {
+    FairOptions options;
+    options.joints = JointOrder::g3;
+    change(options);
+    const auto answer = fair(line, options);
+    return answer ? std::string() : answer.error().path;
+  };
+  EXPECT_EQ(path([](FairOptions& o) { o.pieces = 4; }), "joints");
+  EXPECT_EQ(path([](FairOptions& o) { o.criterion = Criterion::fewest_pieces; }), "joints");
+  EXPECT_EQ(path([](FairOptions& o) { o.max_rate = 1e3; }), "joints");
+  EXPECT_EQ(path([](FairOptions& o) { o.symmetric.mode = SymmetricMode::found; }), "joints");
+  EXPECT_EQ(path([](FairOptions& o) { o.interpretations = {{0, analysis::Rhythm::plus, {}}}; }),
+            "joints");
+}
+
+}  // namespace
+}  // namespace keyline::fairing
