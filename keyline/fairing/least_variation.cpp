@@ -38,7 +38,6 @@ class Search {
       : curve_(curve), points_(points), options_(options), unit_(options.tolerance) {
     mean_weight_ = mean_weights(points);
     spring_ = options.spring;
-    multiplier_ = Vector6::Zero();
     look();
     energy_unit_ = energy_scale();
   }
@@ -371,7 +370,7 @@ class Search {
   Spots spots_;
   Gaps gaps_;
   std::vector<double> mean_weight_;
-  Vector6 multiplier_;
+  Vector6 multiplier_ = Vector6::Zero();
   double spring_ = 0;
   double hung_ = 0;  ///< weight of the springs that the curve hung on last
   double energy_unit_ = 1;
