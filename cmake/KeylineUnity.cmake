@@ -3,6 +3,9 @@
 # the sources that hold them.
 set(KEYLINE_UNITY_SIZE 20 CACHE STRING "Most sources compiled as one; more take more memory")
 
+# What reads words and draws pages: nobody waits for the optimiser there but who builds.
+set(KEYLINE_LIGHTLY keyline keyline-cad keyline_studio keyline_presentation keyline_report)
+
 # Puts into `result` what a target compiles: the sources as they are, or those that hold them. Alone
 # stay sources with properties of their own, which have to be set before.
 function(keyline_sources target result)
@@ -44,9 +47,14 @@ function(keyline_sources target result)
       COMMENT "Putting sources of ${target} together"
       VERBATIM)
     # g++ gets the memory a source needs before it looks for what it can spare: an eighth of the time.
-    set_source_files_properties("${file}" PROPERTIES COMPILE_OPTIONS
-                                "$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1500000>")
+    set(options "$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1500000>")
+    if(target IN_LIST KEYLINE_LIGHTLY)
+      list(APPEND options -O1)
+    endif()
+    set_source_files_properties("${file}" PROPERTIES COMPILE_OPTIONS "${options}")
     list(APPEND made "${file}")
   endforeach()
+  # Sources that a target of their own asks for, too, do not wait for the libraries of the first.
+  add_custom_target("${target}_together" DEPENDS ${made})
   set(${result} ${alone} ${made} PARENT_SCOPE)
 endfunction()
