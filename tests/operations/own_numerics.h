@@ -58,7 +58,8 @@ struct SpaceEnd {
 /// in `steps` steps for each piece.
 SpaceEnd integrated(const json& curve, int steps = 2000);
 
-/// The answer to a request, through the text a client sends.
+/// The answer to a request, through the text a client sends. How many of its operation were asked
+/// so far is recorded beside the test.
 json answered(const json& request);
 
 /// Its result; a failure of the test where there is none.

@@ -1,0 +1,27 @@
+// The judges of the random tests, held against numbers of 60 digits.
+#include "own_numerics.h"
+
+#include <gtest/gtest.h>
+
+namespace keyline::operations {
+namespace {
+
+/// A radius that grows by e^663 with a slope next to 1: expected by mpmath, the integral of
+/// exp(i theta) in the variable -ln(1 - s / length).
+TEST(OwnNumerics, WalksAPieceWhoseRadiusGrowsByE663) {
+  const own::json curve{{"start", {0, 0}},
+                        {"direction", 0},
+                        {"pieces",
+                         {{{"alpha", 1.000000163768151},
+                           {"length", 55.664630431837686},
+                           {"curvature", {4.725667067529685e+283, 7.076447846049144e-05}}}}}};
+  constexpr double kRounding = 1e-12;  // 2e-14 of the length: some 10,000 roundings
+  const own::Track track = own::walked(curve);
+  EXPECT_NEAR(track.end().x, -47.88374826298086177781652, kRounding);
+  EXPECT_NEAR(track.end().y, 28.38396829209593490491845, kRounding);
+  EXPECT_NEAR(track.end().direction, 2.610446602371313011661568, 1e-13);
+  EXPECT_NEAR(track.length, 55.664630431837686, kRounding);
+}
+
+}  // namespace
+}  // namespace keyline::operations
