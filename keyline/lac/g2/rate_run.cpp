@@ -22,7 +22,9 @@ enum class SlopeKind { any, negative, clothoid };
 
 /// A row of pieces between two ends that stay, as parts that may change. Unknowns: a slope and the
 /// logarithm of a length for each part, and for each joint between them its curvature, as the logit
-/// of its share of what is left to the last curvature.
+/// of its share of what is left to the last curvature. Slopes are measured by what they do to the
+/// part's rates, whose logarithms differ by (1 + alpha) ln(k1 / k0): of a part whose curvature
+/// hardly grows the slope changes as readily as its length.
 class Row {
  public:
   /// Which of the ends lie at a joint whose rate counts, and the curvature that the first joint may
@@ -55,6 +57,7 @@ class Row {
   double turning_ = 0;
   Index parts_ = 0;
   std::vector<SlopeKind> kind_;
+  std::vector<double> growth_;  ///< what slopes are multiplied by
   VectorXd start_;
 };
 
@@ -87,7 +90,9 @@ Row::Row(const Parts& start, const Ends& ends)
     const bool held = (i == 0 && ends.joined_before && first_ == 0) ||
                       (i + 1 == parts_ && ends.joined_after && last_ == 0);
     kind_.push_back(held ? SlopeKind::clothoid : zero ? SlopeKind::negative : SlopeKind::any);
-    start_[i] = zero && !held ? std::log(-p.alpha) : p.alpha;
+    const double growth = zero ? 1 : std::abs(std::log(p.curvature_end / p.curvature_start));
+    growth_.push_back(std::max(growth, 1 / kSteepest));
+    start_[i] = zero && !held ? std::log(-p.alpha) : p.alpha * growth_.back();
     start_[parts_ + i] = std::log(p.length);
     length_ += p.length;
     if (i == 0) continue;
@@ -104,7 +109,8 @@ Parts Row::parts(const VectorXd& x) const {
   for (Index i = 0; i < parts_; ++i) {
     Piece& p = all[static_cast<std::size_t>(i)];
     const SlopeKind kind = kind_[static_cast<std::size_t>(i)];
-    p.alpha = kind == SlopeKind::any ? x[i] : kind == SlopeKind::negative ? -std::exp(x[i]) : -1;
+    const double slope = x[i] / growth_[static_cast<std::size_t>(i)];
+    p.alpha = kind == SlopeKind::any ? slope : kind == SlopeKind::negative ? -std::exp(x[i]) : -1;
     p.length = std::exp(x[parts_ + i]);
     p.curvature_start = before;
     p.curvature_end = last_;
@@ -249,15 +255,19 @@ VectorXd shortest(const MatrixXd& derivatives, const VectorXd& miss) {
   return qr.householderQ() * step;
 }
 
-/// Newton's method from x to where the misses are `wanted`; of the steps that serve the shortest,
-/// so that nothing moves without need. There are more unknowns than equations.
+constexpr double kNear = 1e-7;  ///< misses from which Newton's next step is exact to rounding
+constexpr double kMet = 1e-9;   ///< what rounding may leave of the misses
+
+/// Newton's method from x to near where the misses are `wanted`; of the steps that serve the
+/// shortest, so that nothing moves without need. There are more unknowns than equations. Whether
+/// it arrives is asked far above rounding: which way is gone must not hang on a last digit.
 bool settle(const RateRun& run, const VectorXd& wanted, VectorXd& x) {
   double last = HUGE_VAL;
   for (int round = 0; round < 12; ++round) {
     const VectorXd miss = run.misses(x) - wanted;
     const double size = miss.cwiseAbs().maxCoeff();
-    if (!std::isfinite(size)) return false;
-    if (size < 1e-12 && !(size < 0.3 * last)) return true;
+    if (!miss.allFinite()) return false;
+    if (size < kNear) return true;
     if (round > 4 && size > last) return false;
     last = size;
     const VectorXd step = shortest(run.derivatives(x), miss);
@@ -266,6 +276,13 @@ bool settle(const RateRun& run, const VectorXd& wanted, VectorXd& x) {
     x -= std::min(1.0, 1.5 / longest) * step;
   }
   return false;
+}
+
+/// From near to exact.
+bool polish(const RateRun& run, VectorXd& x) {
+  for (int round = 0; round < 3; ++round) x -= shortest(run.derivatives(x), run.misses(x));
+  const VectorXd miss = run.misses(x);
+  return miss.allFinite() && miss.cwiseAbs().maxCoeff() < kMet;
 }
 
 bool is_sound(const std::vector<Parts>& all) {
@@ -296,6 +313,7 @@ std::optional<std::vector<Parts>> solved(const RateRun& problem) {
     x = moved;
     left = next;
   }
+  if (!polish(problem, x)) return std::nullopt;
   auto parts = problem.parts(x);
   if (!is_sound(parts)) return std::nullopt;
   return parts;
