@@ -349,6 +349,30 @@ def skin():
     return {"skin.json": text.replace("bezier-surface", "bspline-surface")}
 
 
+def hood():
+    """Curves of a bonnet that cross like warp and weft: cubics over a plane, sums of one along and
+    one across, so that they meet."""
+    length, width = 1200.0, 900.0
+    along, across = (0.0, 55.0, 75.0, 60.0), (0.0, 40.0, 40.0, 0.0)
+
+    def height(control, t):
+        return sum(c * b for c, b in zip(control, ((1 - t) ** 3, 3 * t * (1 - t) ** 2,
+                                                   3 * t * t * (1 - t), t ** 3)))
+
+    def curves_file(name, curves):
+        rows = ",\n".join('{"name": "%s %d", "curve": {"type": "bezier", "points": [%s]}}' %
+                          (name, i + 1, ",".join("[%.9f,%.9f,%.9f]" % p for p in points))
+                          for i, points in enumerate(curves))
+        return '{"unit": "mm", "curves": [\n' + rows + "]}\n"
+
+    u = [[(length * i / 3, width * t, z + height(across, t)) for i, z in enumerate(along)]
+         for t in (0.0, 0.5, 1.0)]
+    v = [[(length * t, width * i / 3, z + height(along, t)) for i, z in enumerate(across)]
+         for t in (0.0, 0.4, 1.0)]
+    return {"hood-along.json": curves_file("along", u),
+            "hood-across.json": curves_file("across", v)}
+
+
 def grey_png(width, height, rows):
     """PNG bytes of an 8 bit grey picture with 120 dots per inch."""
     def chunk(name, data):
@@ -473,7 +497,7 @@ def photo():
 
 
 MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
-          unordered, outlines, clothoid, cubic, panels, skin, sketch, photo)
+          unordered, outlines, clothoid, cubic, panels, skin, hood, sketch, photo)
 
 
 def main():

@@ -45,10 +45,13 @@ Manual batch_manual();
 Manual studio_manual();
 Manual operations_manual();
 
-/// A command on curves of files: its operation takes them as "curve", one by one, or as "curves".
+/// A command on curves of files: its operation takes them as "curve", one by one, as "curves", or
+/// those of a first file as "along_u" and of a second as "along_v".
 struct Tool {
   const char* name;
   const char* operation;
+  const char* words = "FILE... ";
+  const char* more = "";  ///< example
 };
 std::span<const Tool> tools();
 int run_tool(const Tool& tool, const Words& words);

@@ -32,7 +32,8 @@ std::string as_typed(const std::string& word) {
 }  // namespace
 
 std::vector<std::string_view> filled_by_files() {
-  return {"file", "curve", "curves", "points", "line", "weights", "surface", "surfaces"};
+  return {"file",    "curve",   "curves",   "points",  "line",
+          "weights", "surface", "surfaces", "along_u", "along_v"};
 }
 
 OptionGroup group_of(const Operation& operation, const std::string& title) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -17,11 +19,20 @@ using nlohmann::json;
 using operations::Operation;
 using Kind = core::Type::Kind;
 
-constexpr Tool kTools[] = {{"blend", "lac.blend"},           {"compare", "curve.compare"},
-                           {"join", "curve.join"},           {"mirror", "curve.mirror"},
-                           {"offset", "curve.offset"},       {"raise", "lac.raise_joints"},
-                           {"reverse", "curve.reverse"},     {"split", "curve.split"},
-                           {"transform", "curve.transform"}, {"trim", "curve.trim"}};
+constexpr Tool kTools[] = {
+    {"blend", "lac.blend"},
+    {"compare", "curve.compare"},
+    {"join", "curve.join"},
+    {"mirror", "curve.mirror"},
+    {"network", "surface.network", "ALONG ACROSS ",
+     "ALONG holds two borders and sections between them, ACROSS those that cross them.\n"
+     "Example: keyline network examples/hood-along.json examples/hood-across.json -o hood.json"},
+    {"offset", "curve.offset"},
+    {"raise", "lac.raise_joints"},
+    {"reverse", "curve.reverse"},
+    {"split", "curve.split"},
+    {"transform", "curve.transform"},
+    {"trim", "curve.trim"}};
 
 const Operation& named(const std::string& operation) {
   return *operations::find_operation(operation);
@@ -118,7 +129,7 @@ int finish(Session& session, const Made& made) {
     const auto output = presentation::output_of(made.document);
     if (!output) return report_failure(output.error());
     presentation::ReportOptions options = session.report_options();
-    options.title = "Curves";
+    options.title = made.document["surfaces"].empty() ? "Curves" : "Surface";
     const auto pages = presentation::document_pages(output->document, options);
     if (auto done = session.write(pages, made.document); !done) return report_failure(done.error());
   }
@@ -150,30 +161,78 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
   return {};
 }
 
+/// Curves of one file.
+Result<json> read_one(Session& session, const std::string& file, Made& made) {
+  json request = session.of(1);
+  request["file"] = file;
+  const auto read = session.perform("document.read", request, session.progress());
+  end_progress();
+  if (!read) return std::unexpected(read.error());
+  auto shown = shown_of(*read);
+  if (!shown) return std::unexpected(shown.error());
+  if ((*shown)["curves"].empty())
+    return core::fail(core::ErrorCode::bad_input, "there is no curve in it",
+                      "give a file that holds one", file);
+  made.document["unit"] = (*shown)["unit"];
+  return std::move((*shown)["curves"]);
+}
+
 /// Curves of all files; every file is one of its own here.
 Result<std::vector<json>> read_all(Session& session, Made& made) {
   std::vector<json> all;
   for (const std::string& file : session.files()) {
-    json request = session.of(1);
-    request["file"] = file;
-    const auto read = session.perform("document.read", request, session.progress());
-    end_progress();
-    if (!read) return std::unexpected(read.error());
-    auto shown = shown_of(*read);
-    if (!shown) return std::unexpected(shown.error());
-    if ((*shown)["curves"].empty())
-      return core::fail(core::ErrorCode::bad_input, "there is no curve in it",
-                        "give a file that holds one", file);
-    for (const json& thing : (*shown)["curves"]) all.push_back(thing);
-    made.document["unit"] = (*shown)["unit"];
+    auto curves = read_one(session, file, made);
+    if (!curves) return std::unexpected(curves.error());
+    for (json& thing : *curves) all.push_back(std::move(thing));
   }
   return all;
+}
+
+/// A failure of the i-th curve along u or v names its file and counts from 1.
+core::Failure of_files(const Session& session, core::Failure failure) {
+  const std::array fields{option_name("along_u"), option_name("along_v")};
+  for (const std::size_t way : {0U, 1U}) {
+    if (!failure.path.starts_with(fields[way])) continue;
+    const std::size_t open = failure.path.find('[');
+    const int number = open == std::string::npos ? 0 : std::atoi(failure.path.c_str() + open + 1);
+    failure.path = fmt::format("{}: curve {}", session.files()[way], number + 1);
+  }
+  return failure;
+}
+
+/// Two files whose curves cross: those of the first run along u, of the second along v.
+Result<void> run_across(Session& session, const Operation& operation, Made& made) {
+  if (session.files().size() != 2)
+    return core::fail(core::ErrorCode::bad_input, "takes two files",
+                      "curves one way in the first, those that cross them in the second", "");
+  json request = session.of(0);
+  json unit;
+  for (const std::size_t way : {0U, 1U}) {
+    const auto curves = read_one(session, session.files()[way], made);
+    if (!curves) return std::unexpected(curves.error());
+    if (way == 1 && made.document["unit"] != unit)
+      return core::fail(core::ErrorCode::bad_input, "is in another unit than the first file",
+                        "convert one of them", session.files()[way]);
+    unit = made.document["unit"];
+    for (const json& thing : *curves)
+      request[way == 0 ? "along_u" : "along_v"].push_back(curve_of(thing));
+  }
+  auto done = run_one(session, operation, request, "", session.progress(), made);
+  if (!done) done = std::unexpected(of_files(session, done.error()));
+  return done;
+}
+
+Result<void> run_on_files(Session& session, const Operation& operation, Made& made) {
+  if (has_field(operation, "along_u")) return run_across(session, operation, made);
+  const auto things = read_all(session, made);
+  if (!things) return std::unexpected(things.error());
+  return run_on_curves(session, operation, *things, made);
 }
 
 Session tool_session(const Tool& tool) {
   const Operation& operation = named(tool.operation);
   return Session(
-      {tool.name, "FILE... ", operation.summary, "", operations::further_options(operation)},
+      {tool.name, tool.words, operation.summary, tool.more, operations::further_options(operation)},
       {group_of(operation, "Options"), reading_group(), door_group()});
 }
 
@@ -224,9 +283,7 @@ int run_tool(const Tool& tool, const Words& words) {
   const Operation& operation = named(tool.operation);
   if (auto done = check_outputs(session, operation); !done) return report_failure(done.error());
   Made made;
-  const auto things = read_all(session, made);
-  if (!things) return report_failure(things.error());
-  if (auto done = run_on_curves(session, operation, *things, made); !done)
+  if (auto done = run_on_files(session, operation, made); !done)
     return report_failure(done.error());
   return finish(session, made);
 }

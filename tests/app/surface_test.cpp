@@ -113,6 +113,36 @@ TEST(Surfaces, EditOfASplineIsASplineAndTellsItsJoints) {
   EXPECT_EQ(json::parse(slurp(file))["type"], "bspline-surface");
 }
 
+// Cubics over a plane that are sums of one along and one across: the surface through them is the
+// sum.
+TEST(Surfaces, NetworkOfTwoFilesIsASurface) {
+  const Scratch s;
+  const std::string file = s.path("hood.json");
+  const std::string along = kExamples + "hood-along.json ";
+  const std::string across = kExamples + "hood-across.json ";
+  const Outcome o = run_keyline("network --json " + along + across + "-o " + file);
+  ASSERT_EQ(o.status, 0) << o.err;
+  const json r = json::parse(o.out);
+  EXPECT_LT(r["deviation"].get<double>(), 0.12);  // 1e-4 of 1,200 mm
+  EXPECT_EQ(r["joints"]["G2"], r["joints"]["joints"]);
+  const json made = json::parse(slurp(file));
+  EXPECT_EQ(made["type"], "bspline-surface");
+  EXPECT_EQ(made["unit"], "mm");
+  const json& corner = made["points"].back().back();
+  EXPECT_NEAR(corner[0].get<double>(), 1200, 1e-6);
+  EXPECT_NEAR(corner[1].get<double>(), 900, 1e-6);
+  EXPECT_NEAR(corner[2].get<double>(), 60, 1e-6);
+  const Outcome one = run_keyline("network " + along);
+  EXPECT_EQ(one.status, 2);
+  EXPECT_NE(one.err.find("two files"), std::string::npos) << one.err;
+  const Outcome missed = run_keyline("network " + along + along);
+  EXPECT_EQ(missed.status, 2);
+  EXPECT_NE(missed.err.find("hood-along.json: curve 1"), std::string::npos) << missed.err;
+  const Outcome help = run_keyline("network --help");
+  EXPECT_NE(help.out.find("--gap"), std::string::npos) << help.out;
+  EXPECT_NE(help.out.find("hood-along.json"), std::string::npos) << help.out;
+}
+
 TEST(Surfaces, EditTakesConditions) {
   const Outcome o =
       run_keyline("edit --quiet --json --condition s=1.3..1.4 --condition A1:s=1.35 " + kExamples +
