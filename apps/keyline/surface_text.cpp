@@ -100,6 +100,10 @@ std::string many_patches_text(const json& r) {
   if (r.contains("sav_apart"))
     text += fmt::format("joints are held; each patch for itself would come to SAV {:.5g}\n",
                         r["sav_apart"].get<double>());
+  if (r["departure"].get<double>() == 0)
+    text +=
+        "as given: nothing of less SAV was found that holds the joints; --joints G1 or free holds "
+        "less of them\n";
   if (r.contains("tradeoff")) text += tradeoff_text(r["tradeoff"]);
   text += fmt::format("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure",
                       "target");
@@ -164,11 +168,21 @@ std::string joints_text(const json& joints) {
   if (count(after, "G1") < count(before, "G1"))
     text += fmt::format("warning: {} of {} tangent joints are lost\n",
                         count(before, "G1") - count(after, "G1"), count(before, "G1"));
-  if (count(after, "G2") < count(before, "G2"))
+  const int bent = count(before, "G2") - count(after, "G2");
+  if (bent > 0)
     text += fmt::format(
         "warning: {} of {} joints lose their common curvature, so that stripes turn there; "
-        "--joints G2 holds it\n",
-        count(before, "G2") - count(after, "G2"), count(before, "G2"));
+        "--joints zebra holds it\n",
+        bent, count(before, "G2"));
+  if (const int turned = joints["turned"].get<int>(); turned > std::max(bent, 0))
+    text += fmt::format(
+        "warning: stripes turn farther than before at {} of {} tangent joints; --joints zebra does "
+        "not let them\n",
+        turned, count(before, "G1"));
+  if (const int folded = joints["folded"].get<int>(); folded > 0)
+    text += fmt::format("warning: {} over, so that it folds over itself; {}\n",
+                        folded == 1 ? "1 patch turns" : fmt::format("{} patches turn", folded),
+                        "--joints zebra, G1 or G2 lets none");
   if (const auto growth = joints["fold_growth"].get<double>(); growth > kSharper)
     text += fmt::format("warning: a fold grows by {:.3g} degrees\n", degrees_of(growth));
   return text;

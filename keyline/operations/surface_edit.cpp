@@ -101,7 +101,8 @@ SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit) {
   answer.patch_edits.emplace();
   for (std::size_t i = 0; i < all.patches.size(); ++i)
     answer.patch_edits->push_back(patch_shown(edit, i));
-  answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost, all.fold_growth};
+  answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost,
+                               all.turned,        all.folded,       all.fold_growth};
   if (!all.tradeoff.empty()) answer.tradeoff = tradeoff_shown(all.tradeoff);
   if (all.sav_apart < answer.after.sav) answer.sav_apart = all.sav_apart;
   answer.edit = edit;

@@ -91,11 +91,17 @@ struct JointsChange {
   JointsShown before;
   JointsShown after;
   std::size_t lost = 0;
+  std::size_t turned = 0;
+  std::size_t folded = 0;
   double fold_growth = 0;
   static constexpr auto describe() {
     return core::fields(core::field<&JointsChange::before>("as given"),
                         core::field<&JointsChange::after>("as edited"),
                         core::field<&JointsChange::lost>("of lower order than before"),
+                        core::field<&JointsChange::turned>(
+                            "tangent joints at which stripes of a zebra turn farther than before"),
+                        core::field<&JointsChange::folded>(
+                            "patches whose normal turns over: they fold over themselves"),
                         core::field<&JointsChange::fold_growth>("largest").in("radian"));
   }
 };

@@ -7,22 +7,24 @@ namespace {
 using core::Result;
 using surface::SurfaceEdit;
 
-enum class Joints { free, g1, g2 };
+enum class Joints { free, g1, g2, zebra };
 constexpr auto choices(const Joints*) {
-  return core::words<Joints>({{Joints::free, "free"}, {Joints::g1, "G1"}, {Joints::g2, "G2"}});
+  return core::words<Joints>(
+      {{Joints::free, "free"}, {Joints::g1, "G1"}, {Joints::g2, "G2"}, {Joints::zebra, "zebra"}});
 }
 
 struct TogetherRequest {
   std::vector<surface::Surface> surfaces;
-  Joints joints = Joints::g1;
+  Joints joints = Joints::zebra;
   SurfaceEditOptions options;
   static constexpr auto describe() {
     using Request = TogetherRequest;
     return core::fields(
         core::field<&Request::surfaces>("polynomial Bezier or B-spline surfaces").count(1).needed(),
         core::field<&Request::joints>(
-            "of several patches what stays where it was: tangent planes across joints (G1), their "
-            "curvature too (G2), or neither (free)"),
+            "of several patches what stays where it was: tangent planes across joints (G1), common "
+            "curvature too (G2), that and how far stripes of a zebra turn at any joint (zebra), or "
+            "none of these (free)"),
         core::flattened<&Request::options>());
   }
 };
@@ -34,9 +36,11 @@ surface::HoldJoints held(Joints joints) {
     case Joints::g1:
       return surface::HoldJoints::G1;
     case Joints::g2:
+      return surface::HoldJoints::G2;
+    case Joints::zebra:
       break;
   }
-  return surface::HoldJoints::G2;
+  return surface::HoldJoints::zebra;
 }
 
 /// One of them; or why none of its patches could be edited.
@@ -78,8 +82,15 @@ JointsChange joints_between(const std::vector<OneOfSurfaces>& all, surface::Hold
     edited.insert(edited.end(), e.edited.surfaces.begin(), e.edited.surfaces.end());
   }
   const auto joints = surface::joints_of(given, 10 * surface::EdgeTolerance{}.gap);
-  return {shown(measure_joints(joints, given)), shown(measure_joints(joints, edited)),
-          lost_orders(joints, given, edited, order_of(hold)), fold_growth(joints, given, edited)};
+  std::size_t folded = 0;
+  for (const OneOfSurfaces& one : all)
+    if (one.edit) folded += one.edit->edit->edited.folded;
+  return {shown(measure_joints(joints, given)),
+          shown(measure_joints(joints, edited)),
+          lost_orders(joints, given, edited, order_of(hold)),
+          turned_farther(joints, given, edited),
+          folded,
+          fold_growth(joints, given, edited)};
 }
 
 /// One that cannot be edited stays as given among others; alone it is a failure.

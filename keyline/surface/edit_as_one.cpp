@@ -100,7 +100,7 @@ class AsOne {
 
  private:
   static constexpr int kRounds = 4;
-  static constexpr double kWorthIt = 1e-3;  ///< of SAV that a round has to gain
+  static constexpr double kWorthIt = 1e-3;  ///< of SAV that another net has to gain
   static constexpr int kTries = 4;
   static constexpr int kAttempts = 3;
   static constexpr int kHalvings = 10;  ///< towards the limit
@@ -114,7 +114,8 @@ class AsOne {
         auto moved = within_limit(held, share);
         const double sav = total(moved);
         if (sav >= least_ * (1 - kWorthIt) || !is_sound(moved)) continue;
-        accept("", std::move(moved), sav);
+        const double away = farthest(moved);
+        accept("", std::move(moved), sav, away);
         better = true;
         break;
       }
@@ -148,26 +149,32 @@ class AsOne {
         const ZebraBreaks zebra = measure_joints(joints_, moved, task_.tolerance).zebra;
         all_.tradeoff.push_back({nets.name, away, sav, zebra.mean_turn});
         if (options_.limit && away > *options_.limit) continue;
-        if (sav < least_) accept(nets.name, std::move(moved), sav);
+        const bool nearer = sav < least_ * (1 + kWorthIt) && away < away_;
+        if (sav < least_ * (1 - kWorthIt) || nearer) accept(nets.name, std::move(moved), sav, away);
       }
       if (!again) return;
     }
   }
 
-  void accept(const std::string& name, std::vector<BezierSurface> moved, double sav) {
+  void accept(const std::string& name, std::vector<BezierSurface> moved, double sav, double away) {
     least_ = sav;
+    away_ = away;
     best_ = std::move(moved);
     name_ = name;
   }
 
   /// Joints that meet are held to their order; a crease is held as a tangent joint is, so that it
-  /// keeps what it misses that by.
+  /// keeps what it misses that by, and for the zebra's sake a jump of curvature likewise.
   std::vector<HeldJoint> held_joints() const {
     std::vector<HeldJoint> held;
     for (std::size_t i = 0; i < joints_.size(); ++i)
-      if (orders_[i] >= 0)
-        held.push_back({joints_[i], std::max(orders_[i], std::min(most_, 1)), stiff_[i]});
+      if (orders_[i] >= 0) held.push_back({joints_[i], held_order(i), stiff_[i]});
     return held;
+  }
+
+  int held_order(std::size_t joint) const {
+    const bool jump = task_.hold == HoldJoints::zebra && orders_[joint] == 1;
+    return jump ? 2 : std::max(orders_[joint], 1);
   }
 
   /// With the control points of still patches and stiff joints, which many wishes beside them
@@ -177,7 +184,7 @@ class AsOne {
       if (still_[p]) fixed[p].assign(fixed[p].size(), true);
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       if (!stiff_[i]) continue;
-      const int deep = std::max(orders_[i], 1);
+      const int deep = held_order(i);
       fix_beside(joints_[i].first, joints_[i].edges[0], deep, fixed);
       fix_beside(joints_[i].second, joints_[i].edges[1], deep, fixed);
     }
@@ -198,10 +205,11 @@ class AsOne {
       }
   }
 
-  /// A joint of lower order than it had, or of a sharper fold.
+  /// A joint of lower order than it had, or of a sharper fold, or where a zebra turns farther.
   bool suffers(std::size_t joint, const JointState& now) const {
     return now.order < orders_[joint] ||
-           (orders_[joint] >= 0 && now.angle > was_[joint].angle + task_.tolerance.angle);
+           (orders_[joint] >= 0 && now.angle > was_[joint].angle + task_.tolerance.angle) ||
+           (task_.hold == HoldJoints::zebra && turns_farther(was_[joint], now, task_.tolerance));
   }
 
   /// Makes joints stiff that suffer and patches still that turn over; whether there is one that was
@@ -328,6 +336,7 @@ class AsOne {
   std::vector<bool> still_;      ///< by patch: all of them do
   std::vector<BezierSurface> best_;
   double least_ = 0;  ///< SAV of the best
+  double away_ = 0;   ///< its departure
   int most_ = 1;      ///< order that is held
   std::string name_;  ///< of the best among nets of one matrix; empty: of a round
 };

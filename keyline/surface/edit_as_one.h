@@ -10,7 +10,7 @@ struct AsOneTask {
   const EditOptions& options;
   int threads = 1;
   const EdgeTolerance& tolerance;
-  HoldJoints hold = HoldJoints::G1;
+  HoldJoints hold = HoldJoints::zebra;
 };
 
 /// edit() for every patch, each for itself.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "keyline/surface/edit_as_one.h"
+#include "keyline/surface/turn_over.h"
 
 namespace keyline::surface {
 
@@ -19,6 +20,13 @@ double sum_of(const std::vector<PatchEdit>& patches, SurfaceValue EditResult::* 
   return sum;
 }
 
+std::size_t count_folded(std::span<const BezierSurface> given,
+                         const std::vector<BezierSurface>& edited) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < given.size(); ++i) count += turns_over(given[i], edited[i]) ? 1 : 0;
+  return count;
+}
+
 }  // namespace
 
 int order_of(HoldJoints hold) {
@@ -28,6 +36,7 @@ int order_of(HoldJoints hold) {
     case HoldJoints::G1:
       return 1;
     case HoldJoints::G2:
+    case HoldJoints::zebra:
       break;
   }
   return 2;
@@ -57,6 +66,8 @@ core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
   for (const PatchEdit& p : all.patches)
     if (p.result) all.departure = std::max(all.departure, p.result->departure);
   all.after = measure_joints(all.joints, all.surfaces, tolerance);
+  all.folded = count_folded(patches, all.surfaces);
+  all.turned = turned_farther(all.joints, patches, all.surfaces, tolerance);
   all.fold_growth = fold_growth(all.joints, patches, all.surfaces, tolerance);
   return all;
 }
@@ -113,6 +124,8 @@ PatchesEdit part_of_edit(const PatchesEdit& all, std::span<const BezierSurface> 
   part.before = measure_joints(part.joints, given, tolerance);
   part.after = measure_joints(part.joints, part.surfaces, tolerance);
   part.lost = lost_orders(part.joints, given, part.surfaces, order_of(hold), tolerance);
+  part.folded = count_folded(given, part.surfaces);
+  part.turned = turned_farther(part.joints, given, part.surfaces, tolerance);
   part.fold_growth = fold_growth(part.joints, given, part.surfaces, tolerance);
   part.sav_before = sum_of(part.patches, &EditResult::before);
   part.sav_after = sum_of(part.patches, &EditResult::after);

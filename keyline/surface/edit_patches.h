@@ -16,8 +16,9 @@ struct PatchEdit {
 };
 
 /// What of the joints stays: nothing but what Keep says; the tangent planes of joints that have one
-/// in common; their curvature too.
-enum class HoldJoints { free, G1, G2 };
+/// in common; their curvature too, where that is in common; and that, and no stripe of a zebra
+/// turns farther at any joint than it did, whatever of its curvature is in common.
+enum class HoldJoints { free, G1, G2, zebra };
 
 /// Order of joints that is held at most; -1: none.
 int order_of(HoldJoints hold);
@@ -30,6 +31,8 @@ struct PatchesEdit {
   JointSummary before;
   JointSummary after;
   std::size_t lost = 0;    ///< joints whose order is lower now, of what was to be held
+  std::size_t folded = 0;  ///< patches whose normal turns over (turn_over.h): joints let go alone
+  std::size_t turned = 0;  ///< joints at which a zebra turns farther (turned_farther)
   double fold_growth = 0;  ///< largest, of joints that meet before and after, radians
   double departure = 0;    ///< largest of all
   double sav_apart = 0;  ///< sum over the patches each edited for itself: what holding joints costs
@@ -46,7 +49,8 @@ struct PatchesEdit {
 /// conditions); with Keep::joints corners in which patches meet may move with them there. The least
 /// SAV within the limit is taken. Where a joint could not be held otherwise it stays where it is,
 /// and so does a patch that would turn over (turn_over.h); nets in which a joint is of lower order
-/// or a fold sharper all the same, by more than tolerance.angle, are not taken. Patches of which
+/// or a fold sharper all the same, by more than tolerance.angle, or (HoldJoints::zebra) a zebra
+/// turns farther, are not taken. Patches of which
 /// the SAV cannot be lowered that way may rise for the others' sake. HoldJoints::free: patches do
 /// not know of one another: with Keep::boundary joints stay where they are to the last digit, with
 /// Keep::joints they move and stay closed (unless conditions of single curves say otherwise), with
@@ -57,7 +61,7 @@ struct PatchesEdit {
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options = {}, int threads = 1,
                                        const EdgeTolerance& tolerance = {},
-                                       HoldJoints hold = HoldJoints::G1);
+                                       HoldJoints hold = HoldJoints::zebra);
 
 /// A surface with its Bézier patches edited.
 struct SurfaceEdit {
@@ -71,7 +75,7 @@ struct SurfaceEdit {
 /// knots of full multiplicity where their edges still coincide (to 1e-9 of its size).
 core::Result<SurfaceEdit> edit_surface(const Surface& s, const EditOptions& options = {},
                                        int threads = 1, const EdgeTolerance& tolerance = {},
-                                       HoldJoints hold = HoldJoints::G1);
+                                       HoldJoints hold = HoldJoints::zebra);
 
 /// edit_patches() of all patches of several surfaces, joints between them included.
 /// Patches of rational surfaces stay where they are. The PatchesEdit of each has its own patches
@@ -81,7 +85,7 @@ core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> su
                                                      const EditOptions& options = {},
                                                      int threads = 1,
                                                      const EdgeTolerance& tolerance = {},
-                                                     HoldJoints hold = HoldJoints::G1,
+                                                     HoldJoints hold = HoldJoints::zebra,
                                                      PatchesEdit* together = nullptr);
 
 /// SAV of every patch before the edit, and after.

@@ -68,6 +68,9 @@ struct Near {
 /// A mirror that turns by an angle turns the ray by twice as much, by up to half a turn.
 double ray_jump(double fold) { return std::min(2 * fold, core::kPi); }
 
+/// Whether the normal turns along the joint; where it stands still no stripe crosses.
+bool stripes_cross(const EdgeContinuity& c) { return c.turning > c.tolerance.angle; }
+
 /// What the means of a zebra's breaks are made of.
 struct ZebraSums {
   double length = 0, jumped = 0;
@@ -81,7 +84,7 @@ struct ZebraSums {
     if (c.order < 1) return;
     turning += c.turning;
     turned += c.turning * c.stripe_turn;
-    if (c.turning > c.tolerance.angle) zebra.turn = std::max(zebra.turn, c.stripe_turn);
+    if (stripes_cross(c)) zebra.turn = std::max(zebra.turn, c.stripe_turn);
   }
 
   void finish(ZebraBreaks& zebra) const {
@@ -124,7 +127,8 @@ std::vector<JointState> joint_states(std::span<const PatchJoint> joints,
   std::vector<JointState> states;
   for (const PatchJoint& joint : joints) {
     const EdgeContinuity c = along(joint, patches, tolerance, kPlaces);
-    states.push_back({c.order, c.angle});
+    const bool crossed = c.order >= 1 && stripes_cross(c);
+    states.push_back({c.order, c.angle, crossed ? c.stripe_turn : 0});
   }
   return states;
 }
@@ -148,6 +152,21 @@ double fold_growth(std::span<const PatchJoint> joints, std::span<const BezierSur
   for (std::size_t i = 0; i < was.size(); ++i)
     if (was[i].order >= 0 && is[i].order >= 0) most = std::max(most, is[i].angle - was[i].angle);
   return most;
+}
+
+bool turns_farther(const JointState& was, const JointState& is, const EdgeTolerance& tolerance) {
+  // A relative jump x of curvature turns a stripe by x / 2 at most.
+  return was.order >= 1 && is.order >= 1 && is.turn > was.turn + 0.5 * tolerance.curvature;
+}
+
+std::size_t turned_farther(std::span<const PatchJoint> joints,
+                           std::span<const BezierSurface> before,
+                           std::span<const BezierSurface> after, const EdgeTolerance& tolerance) {
+  const auto was = joint_states(joints, before, tolerance);
+  const auto is = joint_states(joints, after, tolerance);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < was.size(); ++i) count += turns_farther(was[i], is[i], tolerance);
+  return count;
 }
 
 JointSummary measure_joints(std::span<const PatchJoint> joints,

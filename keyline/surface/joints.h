@@ -45,10 +45,12 @@ struct JointSummary {
   std::size_t sharpest = 0;  ///< joint of the largest fold
 };
 
-/// What a joint amounts to: order, -1 to 3, and largest fold, radians.
+/// What a joint amounts to: order, -1 to 3, largest fold, radians, and by how much stripes of a
+/// zebra turn there in the mean (stripe_turn.h), 0 where none crosses or there is a fold.
 struct JointState {
   int order = -1;
   double angle = 0;
+  double turn = 0;
 };
 
 /// Of every joint, measured at 33 places of it (edge_continuity).
@@ -66,6 +68,15 @@ std::size_t lost_orders(std::span<const PatchJoint> joints, std::span<const Bezi
 /// all are as flat as they were.
 double fold_growth(std::span<const PatchJoint> joints, std::span<const BezierSurface> before,
                    std::span<const BezierSurface> after, const EdgeTolerance& tolerance = {});
+
+/// Joints of one tangent plane before and after at which stripes turn farther after than before, by
+/// more than what a jump of curvature that still counts as none may turn them
+/// (tolerance.curvature, as an angle).
+std::size_t turned_farther(std::span<const PatchJoint> joints,
+                           std::span<const BezierSurface> before,
+                           std::span<const BezierSurface> after,
+                           const EdgeTolerance& tolerance = {});
+bool turns_farther(const JointState& was, const JointState& is, const EdgeTolerance& tolerance);
 
 /// The same places of every joint.
 JointSummary measure_joints(std::span<const PatchJoint> joints,

@@ -46,7 +46,7 @@ TEST(Manual, BashCompletesOptionsAndTheirWords) {
   };
   EXPECT_EQ(completed("keyline fai", 1), "fair\n");
   EXPECT_EQ(completed("keyline fair --piec", 2), "--pieces\n");
-  EXPECT_EQ(completed("keyline edit --joints \"\"", 3), "free G1 G2\n");
+  EXPECT_EQ(completed("keyline edit --joints \"\"", 3), "free G1 G2 zebra\n");
   EXPECT_EQ(completed("keyline fair exam", 2), "\n");  // a file: the shell's own part
 }
 

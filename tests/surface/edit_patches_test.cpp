@@ -78,7 +78,7 @@ TEST(EditPatches, JointsHeldStayTangent) {
   for (const Keep keep : {Keep::joints, Keep::boundary}) {
     EditOptions options;
     options.keep = keep;
-    const auto edit = edit_surface(s, options, 2);
+    const auto edit = edit_surface(s, options, 2, {}, HoldJoints::G1);
     ASSERT_TRUE(edit) << edit.error().message;
     const PatchesEdit& all = edit->edited;
     EXPECT_EQ(all.before.order_at_least[1], 4U);
@@ -166,6 +166,32 @@ TEST(EditPatches, CurvatureIsHeldOnRequest) {
   EXPECT_EQ(edit->edited.before.order_at_least[2], 4U);
   EXPECT_EQ(edit->edited.after.order_at_least[2], 4U);
   EXPECT_LT(edit->edited.sav_after, edit->edited.sav_before);
+}
+
+// The right half bent up from the joint on, so that curvature jumps there and tangent planes do
+// not: held as they are, no stripe turns farther; with G1 asked for, some do.
+TEST(EditPatches, StripesTurnNoFartherUnlessAskedFor) {
+  std::vector<BezierSurface> patches = to_beziers(four_patches()).patches;
+  for (const std::size_t i : {1U, 3U})
+    for (int row = 0; row < 4; ++row)
+      for (const int column : {2, 3}) patches[i].net.at(row, column).z += 4.0 * (column - 1);
+  EditOptions options;
+  options.keep = Keep::joints;
+  const auto held = edit_patches(patches, options, 2);
+  ASSERT_TRUE(held) << held.error().message;
+  EXPECT_EQ(held->before.order_at_least[1], 4U);
+  EXPECT_EQ(held->before.order_at_least[2], 2U);
+  EXPECT_GT(held->before.zebra.turn, 0.02);
+  EXPECT_EQ(held->after.order_at_least[1], 4U);
+  EXPECT_EQ(held->after.order_at_least[2], 2U);
+  EXPECT_EQ(held->turned, 0U);
+  EXPECT_LT(held->after.zebra.turn, held->before.zebra.turn + 0.005);
+  EXPECT_LT(held->sav_after, held->sav_before);
+  const auto tangent = edit_patches(patches, options, 2, {}, HoldJoints::G1);
+  ASSERT_TRUE(tangent) << tangent.error().message;
+  EXPECT_EQ(tangent->after.order_at_least[1], 4U);
+  EXPECT_GT(tangent->turned, 0U);
+  EXPECT_GT(tangent->after.zebra.turn, held->before.zebra.turn + 0.005);
 }
 
 TEST(EditPatches, LimitHoldsForPatchesTogether) {
