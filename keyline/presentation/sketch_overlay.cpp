@@ -99,11 +99,21 @@ void add_strokes(Canvas& canvas, const sketch::TraceResult& trace) {
       canvas.number(trace.passes[i].points.front(), std::to_string(i), color(i), false);
 }
 
+/// Chords of a piece, so short that none is seen: a long one of few would leave the ink.
+int steps_of(const curve::Bezier2& piece, double scale) {
+  constexpr double kChord = 4;  ///< pixels
+  double length = 0;
+  for (std::size_t i = 1; i < piece.control.size(); ++i)
+    length += core::distance(piece.control[i - 1], piece.control[i]);
+  return static_cast<int>(std::clamp(std::ceil(scale * length / kChord), 8.0, 4000.0));
+}
+
 void add_lines(Canvas& canvas, const sketch::TraceResult& trace) {
   for (std::size_t i = 0; i < trace.strokes.size(); ++i) {
     std::vector<Point2> points;
     for (const curve::Bezier2& piece : trace.strokes[i].curve)
-      for (int k = 0; k <= 24; ++k) points.push_back(evaluate(piece, k / 24.0));
+      for (int k = 0, n = steps_of(piece, canvas.view.scale); k <= n; ++k)
+        points.push_back(evaluate(piece, static_cast<double>(k) / n));
     if (points.empty()) continue;
     canvas.line(points, false, figure::palette(i), 1.6);
     canvas.number(points[points.size() / 2], "stroke" + std::to_string(i + 1), figure::palette(i),
