@@ -1,8 +1,9 @@
 """The audit of docs/design/batch.md over real files: ./dev bench audit [FOLDER] [SECONDS].
 
 Every file of FOLDER (../shared/data unless given) is measured three ways: serially, on Dask with one
-worker and with two, and with two of which one is killed every SECONDS (3 unless given). The tables must
-be the same to the last byte. Exit status 1 where they are not, or where nobody was killed."""
+worker and with two, and with two of which one is killed whenever the two have used SECONDS of the
+processor (10 unless given; by the clock, a busy machine would kill what has hardly begun). The tables must be
+the same to the last byte. Exit status 1 where they are not, or where nobody was killed."""
 
 import os
 import random
@@ -31,6 +32,15 @@ def processor():
     return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
 
 
+def used_by(process):
+    """Seconds of the processor a running process has had, none once it is gone."""
+    try:
+        fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def table(paths, run, target):
     rows = audit.Table(str(target))
     for path, measured in run:
@@ -40,8 +50,8 @@ def table(paths, run, target):
 
 
 class Crew:
-    """So many workers, each a process; who dies is replaced. One of them is killed every `kill_every`
-    seconds, where that is given."""
+    """So many workers, each a process; who dies is replaced. One of them is killed whenever they have used
+    `kill_every` seconds of the processor, where that is given."""
 
     def __init__(self, address, workers, kill_every=None):
         self.command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1",
@@ -59,10 +69,13 @@ class Crew:
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
 
     def run(self):
-        due = time.monotonic() + (self.kill_every or 0)
+        gone, due = 0, self.kill_every
         while not self.stop.wait(0.2):
-            if self.kill_every and time.monotonic() >= due:
-                self.random.choice(self.processes).kill()
+            if self.kill_every and gone + sum(map(used_by, self.processes)) >= due:
+                victim = self.random.choice(self.processes)
+                gone += used_by(victim)
+                victim.kill()
+                victim.wait()
                 self.killed += 1
                 due += self.kill_every
             self.processes = [p if p.poll() is None else self.hire() for p in self.processes]
@@ -91,7 +104,7 @@ def on_dask(paths, workers, target, kill_every=None):
 
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT.parent / "shared" / "data"
-    seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 3
+    seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 10
     paths = audit.files_of([f"{folder}/**"])
     if not paths:
         print(f"audit.py: no file in {folder}", file=sys.stderr)
