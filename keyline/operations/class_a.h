@@ -219,4 +219,8 @@ struct EvaluationShown {
 };
 EvaluationShown shown(const classa::Evaluation& evaluation);
 
+/// Of a planar curve or one in space, in the units of the request.
+core::Result<EvaluationShown> value_of(const ClassASubject& subject,
+                                       const classa::CavOptions& options);
+
 }  // namespace keyline::operations

@@ -43,42 +43,26 @@ core::Interval scales(const EvaluationShown& e) {
   return s;
 }
 
-struct Placed {
-  EvaluationShown value;
-  classa::CurveReading reading;
-};
-
-Result<Placed> placed_in_space(const curve::Bezier3& curve, const classa::CavOptions& options) {
-  const auto value = classa::cav(curve, options);
-  if (!value) return std::unexpected(value.error());
-  auto reading = classa::read_curve(curve, options);
-  if (!reading) return std::unexpected(reading.error());
-  Placed placed{{}, std::move(*reading)};
-  placed.value.value = shown(*value);
-  return placed;
-}
-
-Result<Placed> placed(const ClassASubject& subject, const classa::CavOptions& options) {
-  if (!subject.planar) return placed_in_space(*subject.space, options);
-  const auto evaluation = classa::evaluate_curve(*subject.planar, options);
-  if (!evaluation) return std::unexpected(evaluation.error());
-  auto reading = classa::read_curve(evaluation->approximation.curve, options);
-  if (!reading) return std::unexpected(reading.error());
-  return Placed{shown(*evaluation), std::move(*reading)};
+Result<classa::CurveReading> reading_of(const ClassASubject& subject, const EvaluationShown& value,
+                                        const classa::CavOptions& options) {
+  if (subject.space) return classa::read_curve(*subject.space, options);
+  return classa::read_curve(value.evaluation->approximation.curve, options);
 }
 
 Result<PlaneAnswer> run(const PlaneRequest& request, const Context&) {
   const classa::CavOptions options = cav_options(request.curve.options);
   const auto subject = class_a_subject(request.curve);
   if (!subject) return std::unexpected(subject.error());
-  auto found = placed(*subject, options);
+  auto value = value_of(*subject, options);
+  if (!value) return std::unexpected(value.error());
+  const auto found = reading_of(*subject, *value, options);
   if (!found) return std::unexpected(found.error());
-  const classa::CurveReading& reading = found->reading;
-  if (found->value.value.degree < 2 || !(norm(reading.conditions.chord) > 0))
+  const classa::CurveReading& reading = *found;
+  if (value->value.degree < 2 || !(norm(reading.conditions.chord) > 0))
     return core::fail(core::ErrorCode::undrawable, "the curve has no energy to compare with",
                       "give a curve of degree 2 or more whose ends are apart", "curve");
   PlaneAnswer answer;
-  answer.value = std::move(found->value);
+  answer.value = std::move(*value);
   const core::Interval s = request.shown.value_or(scales(answer.value));
   if (!(s.low > 0))
     return core::fail(core::ErrorCode::bad_input, "s is a scale: it is above 0",

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "own_curves.h"
 #include "random_values.h"
@@ -76,6 +78,22 @@ inline json turned_net(json surface) {
   std::reverse(surface["points"].begin(), surface["points"].end());
   for (json& row : surface["points"]) std::reverse(row.begin(), row.end());
   return surface;
+}
+
+/// A bicubic patch as two that meet at u.
+inline std::pair<json, json> cut_along_u(const json& whole, double u) {
+  json first = whole, second = whole;
+  for (std::size_t j = 0; j < 4; ++j) {
+    std::array<std::array<Vec, 4>, 4> b{};
+    for (std::size_t i = 0; i < 4; ++i) b[0][i] = vec(whole["points"][i][j]);
+    for (std::size_t k = 1; k < 4; ++k)
+      for (std::size_t i = 0; i + k < 4; ++i) b[k][i] = (1 - u) * b[k - 1][i] + u * b[k - 1][i + 1];
+    for (std::size_t i = 0; i < 4; ++i) {
+      first["points"][i][j] = b[i][0];
+      second["points"][i][j] = b[3 - i][i];
+    }
+  }
+  return {first, second};
 }
 
 }  // namespace keyline::own

@@ -183,22 +183,6 @@ TEST(RandomSurfaces, CurvaturesAreThoseOfTheirDerivatives) {
   }
 }
 
-/// A bicubic patch as two that meet at u.
-std::pair<json, json> cut_along_u(const json& whole, double u) {
-  json first = whole, second = whole;
-  for (std::size_t j = 0; j < 4; ++j) {
-    std::array<std::array<Vec, 4>, 4> b{};
-    for (std::size_t i = 0; i < 4; ++i) b[0][i] = vec(whole["points"][i][j]);
-    for (std::size_t k = 1; k < 4; ++k)
-      for (std::size_t i = 0; i + k < 4; ++i) b[k][i] = (1 - u) * b[k - 1][i] + u * b[k - 1][i + 1];
-    for (std::size_t i = 0; i < 4; ++i) {
-      first["points"][i][j] = b[i][0];
-      second["points"][i][j] = b[3 - i][i];
-    }
-  }
-  return {first, second};
-}
-
 TEST(RandomSurfaces, JointsAreAsTheyWereMade) {
   Random random(own::seed(34));
   for (int n = 0; n < requests(0.02); ++n) {

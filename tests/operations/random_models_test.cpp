@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "random_patches.h"
+
+/// surface.edit_together, asked at random (see random_requests_test.cpp).
+namespace keyline::operations {
+namespace {
+
+using namespace own;
+
+/// Largest fold along the edge u = 1 of one and u = 0 of the other.
+double fold(const Patches& a, const Patches& b) {
+  double most = 0;
+  for (int k = 0; k <= 40; ++k) {
+    const SurfaceSpot from = spot(a.patches[0], 1, k / 40.0), to = spot(b.patches[0], 0, k / 40.0);
+    const Vec m = cross(from.u, from.v), n = cross(to.u, to.v);
+    most = std::max(most, std::atan2(size(cross(m, n)), dot(m, n)));
+  }
+  return most;
+}
+double gap(const Patches& a, const Patches& b) {
+  double most = 0;
+  for (int k = 0; k <= 40; ++k)
+    most = std::max(most, distance(spot(a.patches[0], 1, k / 40.0).place,
+                                   spot(b.patches[0], 0, k / 40.0).place));
+  return most;
+}
+
+double apart(const Patches& a, const Patches& b) {
+  double most = 0;
+  constexpr int kPlaces = 6;
+  for (int i = 0; i <= kPlaces; ++i)
+    for (int j = 0; j <= kPlaces; ++j) {
+      const double u = i / double{kPlaces}, v = j / double{kPlaces};
+      most = std::max({most, distance_from(b, spot(a.patches[0], u, v).place),
+                       distance_from(a, spot(b.patches[0], u, v).place)});
+    }
+  return most;
+}
+
+TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
+  Random random(own::seed(55));
+  int edited = 0;
+  const int count = requests(0.002);
+  const char* holds[] = {"free", "G1", "G2"};
+  for (int n = 0; n < count; ++n) {
+    const json whole = any_patch(random, 4, 4, 0.03);
+    auto [first, second] = cut_along_u(whole, uniform(random, 0.3, 0.7));
+    const double size_ = net_extent(whole), rounding = 1e-13 * (size_ + net_farthest(whole));
+    const std::string hold = holds[n % 3];
+    json request{{"op", "surface.edit_together"}, {"surfaces", {first, second}}, {"joints", hold}};
+    if (random() % 2 == 0) request["limit"] = size_ * power_of_ten(random, -3, -1);
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    if (answer["ok"] == false) {
+      EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
+      continue;
+    }
+    ++edited;
+    const json& result = answer["result"];
+    json now = json::array();
+    for (std::size_t i = 0; i < 2; ++i) {
+      const json& one = result["surfaces"][i];
+      const json& given = request["surfaces"][i];
+      if (!one.contains("edit") || one["edit"].is_null()) {
+        EXPECT_FALSE(one["why"].get<std::string>().empty());
+        now.push_back(given);
+        continue;
+      }
+      now.push_back(one["edit"]["surface"]);
+      const double told = one["edit"]["departure"];
+      EXPECT_LE(apart(patches_of(given), patches_of(now[i])), told + rounding);
+      if (request.contains("limit")) {
+        EXPECT_LE(told, request["limit"].get<double>() * (1 + 1e-12));
+      }
+      // Corners of the model stay; those where patches meet only where no joint is held.
+      const std::size_t last = now[i]["points"].size() - 1, c = now[i]["points"][0].size() - 1;
+      for (const std::size_t row : {std::size_t{0}, std::size_t{3}})
+        for (const std::size_t column : {std::size_t{0}, std::size_t{3}}) {
+          if ((row == 3) == (i == 0) && hold != "free") continue;
+          const json& there = now[i]["points"][row == 0 ? 0 : last][column == 0 ? 0 : c];
+          EXPECT_LT(distance(vec(given["points"][row][column]), vec(there)),
+                    1e-9 * size_ + rounding);
+        }
+    }
+    const Patches a = patches_of(now[0]), b = patches_of(now[1]);
+    EXPECT_LT(gap(a, b), 1e-9 * size_ + rounding);
+    const json& joints = result["joints"]["after"];
+    if (joints["joints"] == 1) {  // the largest of its own places
+      EXPECT_NEAR(joints["angle"].get<double>(), fold(a, b), 1e-6 + 0.01 * fold(a, b));
+    }
+    if (hold != "free") {
+      EXPECT_LT(fold(a, b), 1e-5);
+    }
+  }
+  EXPECT_GT(edited, count / 2);
+}
+
+}  // namespace
+}  // namespace keyline::operations
