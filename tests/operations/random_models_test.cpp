@@ -88,9 +88,13 @@ TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
         }
     }
     const Patches a = patches_of(now[0]), b = patches_of(now[1]);
-    EXPECT_LT(gap(a, b), 1e-9 * size_ + rounding);
+    // Free patches stop at the limit each for itself (docs/limits.md).
+    const bool may_open = hold == "free" && request.contains("limit");
+    if (!may_open) {
+      EXPECT_LT(gap(a, b), 1e-9 * size_ + rounding);
+    }
     const json& joints = result["joints"]["after"];
-    if (joints["joints"] == 1) {  // the largest of its own places
+    if (joints["G0"] == 1) {  // the largest of its own places
       EXPECT_NEAR(joints["angle"].get<double>(), fold(a, b), 1e-6 + 0.01 * fold(a, b));
     }
     if (hold != "free") {

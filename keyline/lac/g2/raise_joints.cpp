@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "keyline/lac/chain/departure.h"
 #include "keyline/lac/g2/rate_run.h"
@@ -44,6 +47,28 @@ double rate_gap(const Piece& before, const Piece& after) {
   const double gap = std::abs(std::log(std::abs(curvature_rate(before, 1))) -
                               std::log(std::abs(curvature_rate(after, 0))));
   return std::isnan(gap) ? HUGE_VAL : gap;
+}
+
+Parts backwards(std::span<const Piece> row) {
+  return reverse(Chain{{}, {row.begin(), row.end()}, false}).pieces;
+}
+
+/// Tried from the end where nothing is found from the start: neither way must find what the other
+/// does not.
+std::optional<Parts> free_run_either_way(std::span<const Piece> row) {
+  if (auto run = detail::solve_free_run(row)) return run;
+  const auto run = detail::solve_free_run(backwards(row));
+  if (!run) return std::nullopt;
+  return backwards(*run);
+}
+std::optional<std::vector<Parts>> rate_run_either_way(std::span<const Piece> row,
+                                                      const detail::Cut& cut) {
+  if (auto run = detail::solve_rate_run(row, cut)) return run;
+  auto run = detail::solve_rate_run(backwards(row), cut);
+  if (!run) return std::nullopt;
+  std::ranges::reverse(*run);
+  for (Parts& parts : *run) parts = backwards(parts);
+  return run;
 }
 
 /// The pieces of the chain with what takes their place so far.
@@ -94,7 +119,7 @@ class Raising {
 
   /// Without new pieces; the departure is that of the whole run.
   Found free_run(std::span<const Piece> row) const {
-    auto run = detail::solve_free_run(row);
+    auto run = free_run_either_way(row);
     if (!run) return {};
     Found found{{}, {}, departure_bound({{}, {row.begin(), row.end()}, false}, {{}, *run, false})};
     for (const Piece& piece : *run) {
@@ -109,7 +134,7 @@ class Raising {
     Found best;
     for (const detail::Cut cut : kCuts) {
       if (cut.parts > 3 && best.largest <= limit_) break;
-      auto parts = detail::solve_rate_run(row, cut);
+      auto parts = rate_run_either_way(row, cut);
       if (!parts) continue;
       Found found{std::move(*parts), {}, 0};
       for (std::size_t i = 0; i < row.size(); ++i) {

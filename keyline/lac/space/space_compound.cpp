@@ -198,9 +198,8 @@ Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const Space
     solution.iterations = reached.iterations;
     return solution;
   }
-  return core::fail(ErrorCode::undrawable,
-                    "no compound space curve of these slopes meets the "
-                    "tangents",
+  return core::fail(ErrorCode::not_converged,
+                    "no compound space curve of these slopes was found for the tangents",
                     "one was followed " + core::number_text(100 * furthest, 3) +
                         " % of the way from a curve of one slope: bring the slopes together, or "
                         "turn the tangents towards the chord");

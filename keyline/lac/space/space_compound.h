@@ -22,8 +22,8 @@ struct SpaceRhythm {
 ///
 /// Led by Newton's method from a curve of one slope (either piece's, or the mean of both) while the
 /// slopes part. Accuracy: 1e-11 of the chord, 1e-11 rad. 10 to 200 ms.
-/// Fails: bad_input as solve_g1_space and for a share outside (0, 1); undrawable where no such way
-/// leads to the data.
+/// Fails: bad_input as solve_g1_space and for a share outside (0, 1); not_converged where no such
+/// way leads to the data.
 core::Result<SpaceSolution> solve_compound_space(const SpaceHermite& data,
                                                  const SpaceRhythm& rhythm);
 

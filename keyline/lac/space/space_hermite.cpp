@@ -215,7 +215,8 @@ Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, do
   if (planar) return solve_in_plane(data, wanted, alpha, beta);
   const Search search = find_member({alpha, beta, 0, omega, 0}, wanted);
   if (!search.found) {
-    return core::fail(ErrorCode::undrawable, "no space curve of these slopes meets the tangents",
+    return core::fail(ErrorCode::not_converged,
+                      "no space curve of these slopes was found for the tangents",
                       "one was followed " + core::number_text(100 * search.furthest, 3) +
                           " % of the way from a plane curve: turn the tangents towards the chord, "
                           "or take slopes nearer to 0 and a smaller omega");

@@ -39,7 +39,7 @@ struct SpaceSolution {
 /// Where ends and tangents lie in one plane (within 1e-12) the answer is the plane curve of
 /// solve_g1_directions, whatever beta and omega: a plane curve has no torsion to have a slope.
 /// Accuracy: ends to rounding, tangents 1e-12 rad. One to three milliseconds.
-/// Fails: bad_input; undrawable with, in the hint, how far towards the data a curve was found.
+/// Fails: bad_input; not_converged with, in the hint, how far towards the data a curve was found.
 core::Result<SpaceSolution> solve_g1_space(const SpaceHermite& data, double alpha, double beta,
                                            double omega);
 
