@@ -31,7 +31,8 @@ std::vector<std::vector<double>> energy_grid(int degree, double chord, const Cla
 std::vector<Point2> reach_line(const classa::CurveReading& reading, const ClassAPlane& plane) {
   const classa::EnergyConditions& c = reading.conditions;
   const double side = reading.matrix.left ? 1 : -1;
-  const double angle = side * core::angle_between(c.tangent, c.chord);
+  double angle = side * core::angle_between(c.tangent, c.chord);
+  if (angle < 0) angle += 2 * core::kPi;  // it turns on past the tangent's backward direction
   std::vector<Point2> line;
   for (int i = 1; i <= kReachSteps && angle > 0; ++i) {
     const double alpha = plane.alpha.high * i / kReachSteps;

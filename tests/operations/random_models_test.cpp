@@ -42,6 +42,32 @@ double apart(const Patches& a, const Patches& b) {
   return most;
 }
 
+/// Corners of the model stay; those where patches meet only where no joint is held.
+void expect_corners(const json& given, const json& now, bool first, bool free, double rounding) {
+  const std::size_t last = now["points"].size() - 1, c = now["points"][0].size() - 1;
+  for (const std::size_t row : {std::size_t{0}, std::size_t{3}})
+    for (const std::size_t column : {std::size_t{0}, std::size_t{3}}) {
+      if ((row == 3) == first && !free) continue;
+      const json& there = now["points"][row == 0 ? 0 : last][column == 0 ? 0 : c];
+      EXPECT_LT(distance(vec(given["points"][row][column]), vec(there)), rounding);
+    }
+}
+
+/// Joint of both as they are now: what is held is, and what is told is so.
+void expect_joint(const json& now, const json& told, const std::string& hold, bool may_open,
+                  double rounding) {
+  const Patches a = patches_of(now[0]), b = patches_of(now[1]);
+  if (!may_open) {
+    EXPECT_LT(gap(a, b), rounding);
+  }
+  if (told["G0"] == 1) {  // the largest of its own places
+    EXPECT_NEAR(told["angle"].get<double>(), fold(a, b), 1e-6 + 0.01 * fold(a, b));
+  }
+  if (hold != "free") {
+    EXPECT_LT(fold(a, b), 1e-5);
+  }
+}
+
 TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
   Random random(own::seed(55));
   int edited = 0;
@@ -77,29 +103,11 @@ TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
       if (request.contains("limit")) {
         EXPECT_LE(told, request["limit"].get<double>() * (1 + 1e-12));
       }
-      // Corners of the model stay; those where patches meet only where no joint is held.
-      const std::size_t last = now[i]["points"].size() - 1, c = now[i]["points"][0].size() - 1;
-      for (const std::size_t row : {std::size_t{0}, std::size_t{3}})
-        for (const std::size_t column : {std::size_t{0}, std::size_t{3}}) {
-          if ((row == 3) == (i == 0) && hold != "free") continue;
-          const json& there = now[i]["points"][row == 0 ? 0 : last][column == 0 ? 0 : c];
-          EXPECT_LT(distance(vec(given["points"][row][column]), vec(there)),
-                    1e-9 * size_ + rounding);
-        }
+      expect_corners(given, now[i], i == 0, hold == "free", 1e-9 * size_ + rounding);
     }
-    const Patches a = patches_of(now[0]), b = patches_of(now[1]);
     // Free patches stop at the limit each for itself (docs/limits.md).
     const bool may_open = hold == "free" && request.contains("limit");
-    if (!may_open) {
-      EXPECT_LT(gap(a, b), 1e-9 * size_ + rounding);
-    }
-    const json& joints = result["joints"]["after"];
-    if (joints["G0"] == 1) {  // the largest of its own places
-      EXPECT_NEAR(joints["angle"].get<double>(), fold(a, b), 1e-6 + 0.01 * fold(a, b));
-    }
-    if (hold != "free") {
-      EXPECT_LT(fold(a, b), 1e-5);
-    }
+    expect_joint(now, result["joints"]["after"], hold, may_open, 1e-9 * size_ + rounding);
   }
   EXPECT_GT(edited, count / 2);
 }

@@ -79,6 +79,24 @@ TEST(RandomPlanes, ShowTheEnergiesAndPlacesOfTheirCurves) {
   EXPECT_GT(shown, requests(0.01) / 4);
 }
 
+/// Found at random: no places for curves whose chord lies more than half way round.
+TEST(RandomPlanes, PlacesOfACurveThatTurnsFar) {
+  const double alpha = 0.9096554632005563, s = 1.6131604046199874;
+  const json result = result_of({{"op", "curve.plane"},
+                                 {"alpha", alpha},
+                                 {"s", s},
+                                 {"degree", 6},
+                                 {"direction", "as-given"}});
+  const Complex end = matrix_points(alpha, s, 6).back();
+  ASSERT_LT(std::arg(end), 0);
+  double nearest = INFINITY;
+  for (const json& p : result["reach"]) {
+    EXPECT_NEAR(std::arg(matrix_points(p[0], p[1], 6).back() / end), 0, 1e-9);
+    nearest = std::min(nearest, std::hypot(p[0].get<double>() - alpha, p[1].get<double>() - s));
+  }
+  EXPECT_LT(nearest, 0.05);
+}
+
 /// Samples of a curve's Béziers at equal steps of its length: how many radii fall into each bin of
 /// 0.05 of log10(radius / length), from -3 on.
 std::vector<int> bins_of(const std::vector<Bezier>& curve, int samples) {
