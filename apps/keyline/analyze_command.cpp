@@ -120,12 +120,14 @@ void add_json(presentation::Pages& pages, const json& shown) {
 int analyze_curves(Session& session, const ReadFiles& read) {
   Analysed all;
   const core::Progress progress = session.progress();
-  const std::vector<json> things = planar_things(read);
-  for (const json& thing : things) {
+  const auto things = planar_things(read);
+  if (!things) return report_failure(things.error(), session.files().front());
+  for (const json& thing : *things) {
     const std::size_t at = all.shown.size();
-    if (auto done = analyze_one(session, thing, one_of_many(progress, at, things.size()), all);
+    if (auto done = analyze_one(session, thing, one_of_many(progress, at, things->size()), all);
         !done)
-      return report_failure(told_how_far(done.error(), at, things.size()), session.files().front());
+      return report_failure(told_how_far(done.error(), at, things->size()),
+                            session.files().front());
   }
   end_progress();
   const json shown = one_or_all(all.shown, "curves");

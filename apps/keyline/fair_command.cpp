@@ -194,13 +194,14 @@ int run_fair(const Words& words) {
   if (auto done = session.check_outputs(); !done) return report_failure(done.error());
   const auto read = read_files(session, session.of(1), true);
   if (!read) return report_failure(read.error());
-  const std::vector<json> things = planar_things(*read);
+  const auto things = planar_things(*read);
+  if (!things) return report_failure(things.error(), session.files().front());
   // Measured points tell it among their notes.
-  if (things.empty() || !things.front().contains("line"))
+  if (things->empty() || !things->front().contains("line"))
     say_skipped(session.door().quiet, read->answer().skipped);
-  const auto all = fair_all(session, things);
+  const auto all = fair_all(session, *things);
   if (!all) return report_failure(all.error());
-  return finish(session, *read, *all, things);
+  return finish(session, *read, *all, *things);
 }
 
 Manual fair_manual() { return new_session().manual(); }

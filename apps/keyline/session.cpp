@@ -179,7 +179,8 @@ Result<operations::Outcome> read_outcome(Session& session, json request, bool pl
   return outcome;
 }
 
-std::vector<json> planar_things(const ReadFiles& read) {
+Result<std::vector<json>> planar_things(const ReadFiles& read) {
+  if (auto few = operations::check_amount(read.answer()); !few) return std::unexpected(few.error());
   std::vector<json> things;
   const auto& curves = read.answer().curves;
   for (std::size_t i = 0; i < curves.size(); ++i)

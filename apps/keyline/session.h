@@ -150,8 +150,8 @@ core::Result<operations::Outcome> read_outcome(Session& session, nlohmann::json 
                                                bool planar);
 core::Result<ReadFiles> read_files(Session& session, nlohmann::json request, bool planar);
 
-/// Points and curves in the plane among what was read.
-std::vector<nlohmann::json> planar_things(const ReadFiles& read);
+/// Points and curves in the plane among what was read, where they are not too many to work on.
+core::Result<std::vector<nlohmann::json>> planar_things(const ReadFiles& read);
 
 /// A curve of document.read as a request for one curve has it, and as one for measured points has.
 nlohmann::json curve_of(const nlohmann::json& thing);

@@ -63,6 +63,25 @@ MonotoneAnswer monotone_answer(const AnalyzeOptions& options, const Split& split
   return {};
 }
 
+core::Result<std::vector<PieceAnalysis>> analyze_pieces(const CurveView& curve,
+                                                        const ArcLengthTable& table,
+                                                        const std::vector<MonotonePiece>& extents,
+                                                        const AnalyzeOptions& options) {
+  std::vector<PieceAnalysis> pieces;
+  const auto count = static_cast<double>(extents.size());
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    const core::Interval& s = extents[i].arc_length;
+    if (!(s.high - s.low > 1e-12 * table.length())) continue;
+    if (options.progress.stop_requested())
+      return core::fail(core::ErrorCode::cancelled, "cancelled");
+    options.progress.report(static_cast<double>(i) / count, "analysing pieces");
+    auto piece = analyze_piece(curve, table, extents[i], options, table.length());
+    if (!piece) return std::unexpected(piece.error());
+    pieces.push_back(std::move(*piece));
+  }
+  return pieces;
+}
+
 }  // namespace
 
 core::Result<CurveAnalysis> analyze(const CurveView& curve, const AnalyzeOptions& options) {
@@ -76,12 +95,9 @@ core::Result<CurveAnalysis> analyze(const CurveView& curve, const AnalyzeOptions
   SplitOptions split = options.split;
   split.noise = std::max(split.noise, options.noise);
   result.split = split_monotone(curve, split);
-  for (const MonotonePiece& extent : result.split.pieces) {
-    if (!(extent.arc_length.high - extent.arc_length.low > 1e-12 * result.length)) continue;
-    auto piece = analyze_piece(curve, table, extent, options, result.length);
-    if (!piece) return std::unexpected(piece.error());
-    result.pieces.push_back(std::move(*piece));
-  }
+  auto pieces = analyze_pieces(curve, table, result.split.pieces, options);
+  if (!pieces) return std::unexpected(pieces.error());
+  result.pieces = std::move(*pieces);
   result.curvature_min = std::numeric_limits<double>::infinity();
   result.curvature_max = -result.curvature_min;
   const auto meet = [&](double kappa) {

@@ -8,6 +8,7 @@
 #include "keyline/analysis/lddc.h"
 #include "keyline/analysis/rhythm.h"
 #include "keyline/analysis/split.h"
+#include "keyline/core/progress.h"
 
 namespace keyline::analysis {
 
@@ -30,6 +31,7 @@ struct AnalyzeOptions {
   /// Certifies monotone curvature where the curve's type allows it; without it the answer is `no`
   /// where an extremum was found, else `undecided`.
   std::function<MonotoneAnswer()> certify;
+  core::Progress progress;  ///< told and asked before every piece
 };
 
 struct CurvaturePlotPoint {
@@ -64,7 +66,7 @@ struct CurveAnalysis {
 };
 
 /// Measures, splits and reads a curve. Fails with bad_input where the curve has no length or gives
-/// numbers that are not finite.
+/// numbers that are not finite, with cancelled where that was asked for.
 core::Result<CurveAnalysis> analyze(const CurveView& curve, const AnalyzeOptions& options = {});
 
 template <curve::PlanarCurve C>

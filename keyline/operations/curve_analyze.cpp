@@ -122,8 +122,8 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
   if (!line) return std::unexpected(std::move(line.error()));
   const bool polygon = subject.curve && *line && !are_points_of_a_curve((**line).points);
   if (!*line || polygon) {
-    auto found =
-        analyze_path(*subject.curve, subject.acquiring.noise.value_or(0), request.plot_samples);
+    auto found = analyze_path(*subject.curve, subject.acquiring.noise.value_or(0),
+                              request.plot_samples, context.progress);
     if (!found) return std::unexpected(found.error());
     AnalyzeAnswer answer = analyze_answer(std::move(*found));
     answer.path = *subject.curve;
@@ -131,7 +131,7 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
   }
   auto spline = spline_of(**line, request, context);
   if (!spline) return std::unexpected(std::move(spline.error()));
-  auto found = analyze_path(*spline, (**line).noise, request.plot_samples);
+  auto found = analyze_path(*spline, (**line).noise, request.plot_samples, context.progress);
   if (!found) return std::unexpected(found.error());
   AnalyzeAnswer answer = analyze_answer(std::move(*found));
   answer.noise = (**line).noise;
@@ -181,13 +181,15 @@ analysis::MonotoneAnswer certified_monotone(const document::Path& path) {
 }
 
 core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, double noise,
-                                                   int plot_samples) {
+                                                   int plot_samples,
+                                                   const core::Progress& progress) {
   if (!(noise >= 0))
     return core::fail(core::ErrorCode::bad_input, "the noise is negative", "give 0 or more",
                       "noise");
   analysis::AnalyzeOptions options;
   options.noise = noise;
   options.plot_samples = plot_samples;
+  options.progress = progress;
   options.certify = certificate_of(path);
   return path.curves.size() == 1 ? analysis::analyze(path.curves[0], options)
                                  : analysis::analyze(path, options);

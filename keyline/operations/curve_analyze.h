@@ -183,7 +183,8 @@ AnalyzeAnswer analyze_answer(analysis::CurveAnalysis analysis);
 /// type allows it. Pieces are those of the curve's split; noise is the standard deviation of the
 /// curve's positions, in its unit.
 core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, double noise = 0,
-                                                   int plot_samples = 401);
+                                                   int plot_samples = 401,
+                                                   const core::Progress& progress = {});
 
 /// Whether curvature is monotone, by the certificate of the curve's own type; undecided where there
 /// is none (paths of several curves, polylines).

@@ -80,6 +80,23 @@ TEST(Analyze, CubicSplineWithKinkedCurvature) {
   }
 }
 
+// A clothoid from -1 to 3 has two pieces of monotone curvature (its radius falls, then grows).
+TEST(Analyze, AsksBeforeEveryPieceWhetherToGoOn) {
+  const auto c = testing::clothoid(-1, 3, 2);
+  AnalyzeOptions options;
+  options.progress.cancellation = core::CancellationToken::make();
+  std::vector<double> told;
+  options.progress.sink = [&](double fraction, std::string_view) { told.push_back(fraction); };
+  ASSERT_TRUE(analyze(c, options));
+  EXPECT_EQ(told, (std::vector<double>{0, 0.5}));
+  options.progress.sink = [&](double, std::string_view) {
+    options.progress.cancellation.request_stop();
+  };
+  const auto stopped = analyze(c, options);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, core::ErrorCode::cancelled);
+}
+
 TEST(Analyze, RefusesCurvesWithoutLengthOrNumbers) {
   EXPECT_FALSE(analyze(curve::Bezier2{{{1, 1}, {1, 1}, {1, 1}}, {}}));
   EXPECT_FALSE(analyze(curve::Bezier2{{{0, 0}, {std::nan(""), 1}, {1, 1}}, {}}));

@@ -84,6 +84,30 @@ TEST(BadInput, EndlessLineInBoundedMemory) {
   expect_failure({WEXITSTATUS(status), slurp(s.path("out")), slurp(s.path("err"))}, 2, "line");
 }
 
+// 101 references to a path of 100 cubics, and a line: 10,100 spans, of which 10,000 are allowed.
+// The blanks let the reader take all of it, which reads in proportion to the file's size.
+TEST(BadInput, MoreSpansThanAnyoneWaitsForAreRefusedBeforehand) {
+  const Scratch s;
+  std::string path = "M0 0";
+  for (int i = 0; i < 100; ++i) path += "c1 1 2 1 3 0";
+  const auto drawing = [&](int references) {
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\">" + std::string(20000, ' ') +
+                      "<line id=\"edge\" x2=\"9\" y2=\"9\"/><defs><path id=\"p\" d=\"" + path +
+                      "\"/></defs>";
+    for (int i = 0; i < references; ++i)
+      svg += "<use href=\"#p\" x=\"" + std::to_string(i) + "\"/>";
+    return svg + "</svg>";
+  };
+  const std::string file = s.write("uses.svg", drawing(101));
+  for (const char* command : {"analyze --quiet ", "fair --quiet "})
+    expect_failure(run_keyline(command + file), 2,
+                   "102 curves of 10100 spans together; at most 10000 at a time; choose some with "
+                   "--select");
+  EXPECT_EQ(run_keyline("analyze --quiet --select edge " + file).status, 0);
+  EXPECT_EQ(run_keyline("list --quiet " + file).status, 0);
+  EXPECT_EQ(run_keyline("convert --quiet " + file + " -o " + s.path("uses.dxf")).status, 0);
+}
+
 TEST(BadInput, MissingFile) {
   expect_failure(run_keyline("fair --quiet /no/such/file.csv"), 3, "/no/such/file.csv");
 }

@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include "keyline/core/text.h"
+#include "keyline/operations/document_read.h"
+
+namespace keyline::operations {
+namespace {
+
+/// A span takes a twentieth of a second to analyse and four times that to fair.
+constexpr std::size_t kMostSpans = 10'000;
+
+std::size_t bent_spans(const document::PlanarCurve& curve) {
+  if (std::holds_alternative<curve::Polyline2>(curve.value)) return 0;
+  if (const auto* chain = std::get_if<lac::Chain>(&curve.value)) return chain->pieces.size();
+  if (const auto* bezier = std::get_if<curve::Bezier2>(&curve.value))
+    return bezier->control.size() > 2 ? 1 : 0;
+  return document::breakpoints(curve).size() - 1;
+}
+
+}  // namespace
+
+core::Result<void> check_amount(const ReadAnswer& read) {
+  std::size_t spans = 0;
+  for (const NamedCurve& named : read.curves) {
+    if (named.line || !named.curve) continue;
+    if (const auto path = planar_path(*named.curve))
+      for (const document::PlanarCurve& curve : path->curves) spans += bent_spans(curve);
+  }
+  if (spans <= kMostSpans) return {};
+  return core::fail(core::ErrorCode::unsupported,
+                    fmt::format("{} of {} spans together; at most {} at a time",
+                                core::counted(read.curves.size(), "curve"), spans, kMostSpans),
+                    "choose some with --select, by name, layer or number", "");
+}
+
+}  // namespace keyline::operations
