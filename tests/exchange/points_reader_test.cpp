@@ -70,6 +70,18 @@ TEST(ReadPoints, UnderstandsCommonFormats) {
   }
 }
 
+// Whole numbers in the first row leave open what parts a fraction.
+TEST(ReadPoints, TheFirstFractionTellsTheDecimalComma) {
+  for (const char* text : {"x;y\n0;0\n1;5\n2,5;-2,25\n3;1\n", "0;0\n1;5\n2.5;-2.25\n3;1\n"}) {
+    SCOPED_TRACE(text);
+    const auto curves = parse(text);
+    ASSERT_TRUE(curves) << curves.error().message;
+    ASSERT_EQ(curves->size(), 1u);
+    ASSERT_EQ(curves->front().points.size(), 4u);
+    EXPECT_EQ(curves->front().points[2], (core::Point3{2.5, -2.25, 0}));
+  }
+}
+
 TEST(ReadPoints, SeligTitleAndJunkLinesAreIgnored) {
   const auto curves =
       parse("SU-26M scanned 26\n\n1 0\n0.5 0.1\n0 0\n\nhttp://x.example/\n+ Profscan.exe\n");
@@ -241,6 +253,7 @@ TEST(ReadPoints, FailuresTellThePlace) {
       {"a broken last row", "0 0\n1 1\n2 2\n3 o.5\n", "data.csv:4"},
       {"text within a curve", "0 0\n1 1\n2 2\nfoo bar\n3 3\n4 4\n", "data.csv:4"},
       {"a decimal comma among commas", "0,0\n1,3,5\n2,1\n3,2\n", "data.csv:2"},
+      {"a comma where points part fractions", "0;0\n1.5;2\n1,234;2\n", "data.csv:3"},
       {"one row behind another", "0 0 0\n1 1\n", "data.csv:2"},
       {"large", "0,0\n1,1e300\n", "data.csv:2"},
       {"overflow", "0,0\n1,1e999\n", "data.csv:2"},

@@ -31,8 +31,17 @@ core::Result<void> PointsTable::take(std::string_view line, int number, const st
   return among_data(line, number, place);
 }
 
+/// Of the first row with a fraction in it: whether a comma parts it or a point.
+void PointsTable::learn_fraction(std::string_view line) {
+  const std::size_t at = fraction_known_ ? line.npos : line.find_first_of(".,");
+  if (at == line.npos) return;
+  fraction_known_ = true;
+  style_.decimal_comma = line[at] == ',';
+}
+
 core::Result<void> PointsTable::among_data(std::string_view line, int number,
                                            const std::string& place) {
+  learn_fraction(line);
   const Fields fields = split(line, style_);
   if (fields.empty()) return {};
   const auto x = static_cast<std::size_t>(columns_.x);
@@ -131,6 +140,8 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
                  ? guess_style(line)
                  : TableStyle{options_.separator,
                               options_.separator != ',' && line.find(',') != line.npos};
+    fraction_known_ =
+        style_.separator == ',' || style_.separator == ' ' || line.find_first_of(".,") != line.npos;
     const Fields fields = split(line, style_);
     if (!names_.empty() && names_.size() <= fields.size() + 1 && fields.size() >= 2) {
       return start(fields, number, place);

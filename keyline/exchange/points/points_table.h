@@ -39,6 +39,7 @@ class PointsTable {
 
   core::Result<void> before_data(std::string_view line, int number, const std::string& place);
   core::Result<void> start(const Fields& fields, int number, const std::string& place);
+  void learn_fraction(std::string_view line);
   core::Result<void> among_data(std::string_view line, int number, const std::string& place);
   core::Result<void> take_up_again();
   bool first_was_none(const Fields& fields) const;
@@ -55,6 +56,7 @@ class PointsTable {
 
   const PointsOptions& options_;
   TableStyle style_;
+  bool fraction_known_ = false;  ///< whether style_.decimal_comma is settled
   PointsColumns columns_;
   std::vector<std::string> names_;
   std::string first_text_;  // shortened
