@@ -63,7 +63,8 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   if (part.size() < 4) return pieces;
   const double tolerance = std::max(options.tolerance, options.width_share * fine.width);
   fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48});
-  return chain.within_tolerance ? chain.pieces : pieces;
+  if (!chain.within_tolerance) return pieces;
+  return without_jolts(part, run.closed, tolerance, std::move(chain.pieces));
 }
 
 /// How far driving may take a curve: so many tolerances (a hand's wobble of a pixel and what the
