@@ -4,12 +4,14 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/lac/chain/chain.h"
+#include "keyline/lac/hermite/hermite.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::lac {
@@ -260,6 +262,22 @@ TEST(Chain, AgreesWithItsSegments) {
   const Vector2 measured = (1 / (2 * h)) * (evaluate(chain, t + h) - evaluate(chain, t - h));
   EXPECT_NEAR(norm(measured - jet(chain, t).first), 0, 1e-8);
   EXPECT_FALSE(validate(Chain{}));
+}
+
+/// Found at random: all of the curve's length was added to the straight beginning of a curve whose
+/// radius falls by e^39.7. The end of the handles' curve is known: (1, 0).
+TEST(Segment, IsSampledPastAStraightBeginning) {
+  const auto solved =
+      solve_g1_directions({{0, 0}, -0.023952056369365315}, {{1, 0}, 1.43}, 0.016728668809351706);
+  ASSERT_TRUE(solved);
+  const Segment& s = solved->segment;
+  const std::vector<double> at{0, 0.02, 0.1, 0.5, 0.9, 0.98, 0.999, 1};
+  std::vector<Point2> points(at.size());
+  sample(s, at, points);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    EXPECT_LT(norm(points[i] - evaluate(s, at[i])), 1e-12) << at[i];
+  EXPECT_NEAR(points.back().x, 1, 1e-12);
+  EXPECT_NEAR(points.back().y, 0, 1e-12);
 }
 
 }  // namespace

@@ -279,7 +279,9 @@ TEST(RandomRequests, BlendsLeaveAndJoinTheirCurves) {
     SCOPED_TRACE(request.dump());
     const json answer = answered(request);
     if (answer["ok"] == false) {
-      EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
+      // With curvatures a chain may not be found; that claims nothing.
+      const std::string code = answer["error"]["code"];
+      EXPECT_TRUE(code == "undrawable" || (n % 3 > 0 && code == "not-converged")) << answer;
       continue;
     }
     expect_sound(answer);

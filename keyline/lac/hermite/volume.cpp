@@ -133,7 +133,7 @@ auto with_volume(const Across& across, double widest, double volume, const Solve
   const auto arrival = numeric::bracketed_root(
       [&](double b) { return family.area(b) - unit_volume; }, low, high, 1e-15);
   auto found = arrival ? family.at(*arrival) : std::nullopt;
-  if (!found) {
+  if (!found || !(std::abs(area_of(*found) - unit_volume) <= 1e-9 * unit_volume + 1e-13)) {
     return core::fail(ErrorCode::not_converged, "the search for the end direction broke down");
   }
   return Found<typename decltype(solve(1.0))::value_type>{std::move(*found), reachable};

@@ -61,7 +61,8 @@ ArmTable::ArmTable(const Arm& arm) : arm_(arm) {
   while (walk.next(panel)) {
     Series series{panel.from, panel.to, panel.straight, end_, {}, 0, {}};
     add_series(series, panel);
-    end_ = value(series, panel.to, 1);
+    // Straight panels are measured by the arc: one that begins the arm does not end it.
+    end_ = value(series, panel.to, panel.to < arm.range ? arm.arc_fraction(panel.to) : 1);
     series_.push_back(series);
   }
 }
