@@ -242,7 +242,8 @@ double distance_from_bezier(const json& bezier, const std::array<double, 2>& poi
   int best = 0;
   for (int k = 1; k <= kPlaces; ++k)
     if (off(k / 100.0) < off(best / 100.0)) best = k;
-  double low = (best - 1) / 100.0, high = (best + 1) / 100.0;
+  // Not past an end: beyond it all places are the end, and equal.
+  double low = std::max(best - 1, 0) / 100.0, high = std::min(best + 1, kPlaces) / 100.0;
   for (int k = 0; k < 60; ++k) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
     (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;

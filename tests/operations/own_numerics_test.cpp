@@ -23,5 +23,12 @@ TEST(OwnNumerics, WalksAPieceWhoseRadiusGrowsByE663) {
   EXPECT_NEAR(track.length, 55.664630431837686, kRounding);
 }
 
+/// A foot of the perpendicular just before the end is not the end.
+TEST(OwnNumerics, FindsTheNearestPlaceNextToAnEnd) {
+  const own::json line{{"points", {{0, 0}, {1, 0}, {2, 0}}}};
+  EXPECT_NEAR(own::distance_from_bezier(line, {1.9984, 0.001}), 0.001, 1e-12);
+  EXPECT_NEAR(own::distance_from_bezier(line, {0.0016, 0.001}), 0.001, 1e-12);
+}
+
 }  // namespace
 }  // namespace keyline::operations
