@@ -12,8 +12,11 @@
 namespace keyline::fit {
 namespace {
 
-constexpr int kMostSpans = 400;
+constexpr int kMostSpans = 1000;
 constexpr int kBisections = 18;
+// Of the distances between points: chord length, and centripetal and even ones, which have more
+// knots where points are dense.
+constexpr std::array kPowers{1.0, 0.5, 0.0};
 constexpr double kStiffest = 12;  // decimal logarithms of the penalty that are searched
 constexpr double kSoftest = -12;
 constexpr int kSamplesPerSpan = 16;
@@ -43,12 +46,17 @@ Basis basis(double u, int derivative) {
 
 class Smoother {
  public:
-  Smoother(std::span<const core::Point2> points, bool closed) : points_(points), closed_(closed) {
+  /// power: of the points' distances, by whose sums the parameter runs.
+  Smoother(std::span<const core::Point2> points, bool closed, double power)
+      : points_(points), closed_(closed) {
+    const auto gap = [&](std::size_t from, std::size_t to) {
+      const double d = core::distance(points[from], points[to]);
+      return d > 0 ? std::pow(d, power) : 0;
+    };
     at_.push_back(0);
-    for (std::size_t i = 1; i < points.size(); ++i)
-      at_.push_back(at_.back() + core::distance(points[i - 1], points[i]));
-    total_ = at_.back() + (closed ? core::distance(points.back(), points.front()) : 0);
-    spans_ = std::clamp(static_cast<int>(points.size() / 2), 6, kMostSpans);
+    for (std::size_t i = 1; i < points.size(); ++i) at_.push_back(at_.back() + gap(i - 1, i));
+    total_ = at_.back() + (closed ? gap(points.size() - 1, 0) : 0);
+    spans_ = std::clamp(static_cast<int>(2 * points.size()), 16, kMostSpans);
     count_ = closed ? spans_ : spans_ + 5;
     gather();
   }
@@ -164,12 +172,10 @@ class Smoother {
   Eigen::VectorXd y_;
 };
 
-}  // namespace
-
-std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
-    std::span<const core::Point2> points, bool closed, double tolerance) {
-  if (points.size() < 8) return std::nullopt;
-  Smoother smoother(points, closed);
+/// The smoothest with that parameter.
+std::optional<curve::CurvatureGraph> smoothest(std::span<const core::Point2> points, bool closed,
+                                               double tolerance, double power) {
+  Smoother smoother(points, closed, power);
   if (!smoother.sound()) return std::nullopt;
   std::optional<curve::CurvatureGraph> best;
   double low = kSoftest;
@@ -179,6 +185,29 @@ std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
     const bool kept = smoother.within(std::pow(10, middle), tolerance);
     if (kept) best = smoother.graph();
     (kept ? low : high) = middle;
+  }
+  return best;
+}
+
+/// L^3 * integral of (d curvature / ds)^2.
+double variation(const curve::CurvatureGraph& graph) {
+  double sum = 0;
+  for (std::size_t i = 1; i < graph.arc_length.size(); ++i) {
+    const double step = graph.arc_length[i] - graph.arc_length[i - 1];
+    if (step > 0) sum += std::pow(graph.curvature[i] - graph.curvature[i - 1], 2) / step;
+  }
+  return sum * std::pow(graph.arc_length.back() - graph.arc_length.front(), 3);
+}
+
+}  // namespace
+
+std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
+    std::span<const core::Point2> points, bool closed, double tolerance) {
+  if (points.size() < 8) return std::nullopt;
+  std::optional<curve::CurvatureGraph> best;
+  for (const double power : kPowers) {
+    auto found = smoothest(points, closed, tolerance, power);
+    if (found && (!best || variation(*found) < variation(*best))) best = std::move(found);
   }
   return best;
 }

@@ -11,10 +11,11 @@ namespace keyline::fit {
 /// The graph of curvature of the smoothest quintic spline whose distance from every point is within
 /// the tolerance: what any program has to offer, to compare with.
 ///
-/// Method: a spline on even knots over the points' chord length, a knot to every two points up to
-/// 400, least squares plus a penalty on third differences of its coefficients (a P-spline), the
-/// largest penalty that keeps the tolerance found by bisection of its logarithm.
-/// Returns: nothing for fewer than eight points, points of no extent, or where no penalty keeps the
+/// Method: a spline on even knots, two to a point up to 1,000, least squares plus a penalty on
+/// third differences of its coefficients (a P-spline), the largest penalty that keeps the tolerance
+/// found by bisection of its logarithm; once each over chord lengths, their roots and the points'
+/// numbers, and of the three the one of least variation of curvature. Returns: nothing for fewer
+/// than eight points, points of no extent, or where no penalty keeps the
 ///          tolerance.
 /// Source: [Eilers 1996], penalised B-splines: many knots, and differences of the coefficients
 ///         kept small.

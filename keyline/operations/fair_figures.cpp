@@ -36,6 +36,17 @@ void add(analysis::CombFigures& sum, const analysis::CombFigures& one) {
   sum.jolt = std::max(sum.jolt, one.jolt);
 }
 
+/// The points of an answer of one chain in its order: of a closed key-line that a corner parts,
+/// from the corner on.
+std::vector<core::Point2> points_along(const acquire::KeyLine& line, bool open) {
+  std::vector<core::Point2> points = line.points;
+  if (!line.closed || !open || line.corners.empty()) return points;
+  const auto corner = points.begin() + static_cast<std::ptrdiff_t>(line.corners.front());
+  std::rotate(points.begin(), corner, points.end());
+  points.push_back(points.front());
+  return points;
+}
+
 bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
   return a.waves <= b.waves && a.energy <= kAsGood * b.energy && a.jolt <= kAsGood * b.jolt;
 }
@@ -52,7 +63,10 @@ FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult
   const bool straight = figures.answer.energy == 0;
   figures.fair = straight || as_fair(figures.answer, figures.spline);
   if (result.curves.size() != 1) return figures;
-  const auto smooth = fit::smoothing_spline_curvature(line.points, result.closed, result.tolerance);
+  const auto* chain = std::get_if<lac::Chain>(&result.curves.front());
+  const bool open = chain ? !chain->closed : !result.closed;
+  const auto smooth =
+      fit::smoothing_spline_curvature(points_along(line, open), !open, result.tolerance);
   if (!smooth) return figures;
   figures.smoothing_spline = analysis::comb_figures(*smooth);
   figures.fair = straight || as_fair(figures.answer, *figures.smoothing_spline);

@@ -55,6 +55,19 @@ TEST(SmoothingSpline, IsSmootherTheWiderTheTolerance) {
   }
 }
 
+/// A nose whose curvature is 75 times that of its length: points are dense there, and knots that
+/// are even along the chords have none to spare for it.
+TEST(SmoothingSpline, FollowsATightNose) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i <= 32; ++i) {
+    const double t = std::numbers::pi * (i / 16.0 - 1) / 2;
+    points.push_back({3 * std::cos(t), 0.2 * std::sin(t)});
+  }
+  const auto graph = smoothing_spline_curvature(points, false, 1e-4);
+  ASSERT_TRUE(graph);
+  EXPECT_NEAR(largest(*graph), 75, 5);  // a / b^2
+}
+
 TEST(SmoothingSpline, RefusesWhatHasNone) {
   const std::vector<core::Point2> one(20, {1, 2});
   EXPECT_FALSE(smoothing_spline_curvature(one, false, 1e-3));
