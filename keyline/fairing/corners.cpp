@@ -1,8 +1,10 @@
 #include "keyline/fairing/corners.h"
 
 #include <algorithm>
+#include <array>
 
 #include "keyline/fairing/run_again.h"
+#include "keyline/fairing/symmetric_run.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -17,34 +19,89 @@ core::Point2 near_corner(core::Point2 place, core::Point2 corner, double toleran
   return far <= most ? place : corner + (most / far) * (place - corner);
 }
 
-/// Where the chain of one run and that of the next meet.
-core::Point2 meeting(const Run& run, const RunResult& one, const RunResult& next,
+/// Shares of the way from one chain's end to the next one's start at which they may meet: half way
+/// first, for that moves both least.
+constexpr std::array kMeetings{0.5, 0.25, 0.75, 0.0, 1.0};
+
+core::Point2 meeting(const Run& run, const RunResult& one, const RunResult& next, double share,
                      double tolerance) {
   const core::Point2 from = lac::end_pose(one.chain).position;
   const core::Point2 to = next.chain.start.position;
-  core::Point2 place = near_corner(from + 0.5 * (to - from), run.points.back(), tolerance);
+  core::Point2 place = near_corner(from + share * (to - from), run.points.back(), tolerance);
   for (const core::HalfPlane& half : run.inside)
     place = place - std::min(0.0, core::depth(half, place)) * half.normal;
   return place;
 }
+
+/// Chains brought together at the corners between them.
+class Tying {
+ public:
+  Tying(std::vector<Run>& runs, std::vector<RunResult>& solved,
+        const std::vector<curve::BSpline2>& splines, const OptionsOf& options, bool round)
+      : runs_(runs), solved_(solved), splines_(splines), options_(options), round_(round) {}
+
+  void run() {
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      if (corner_after(k)) meet(k, kMeetings.front());
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      if (!reaches(k)) find_place(k);
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      if (tied(k)) tie_ends(solved_[k], runs_[k], spline(k), options_(k));
+  }
+
+ private:
+  std::size_t next(std::size_t k) const { return (k + 1) % runs_.size(); }
+  bool corner_after(std::size_t k) const {
+    return (next(k) != 0 || round_) && runs_[k].clamp_end == Clamp::none &&
+           runs_[next(k)].clamp_start == Clamp::none;
+  }
+  bool tied(std::size_t k) const { return runs_[k].tie_start || runs_[k].tie_end; }
+  curve::BSpline2 spline(std::size_t k) const {
+    return k < splines_.size() ? splines_[k] : curve::BSpline2{};
+  }
+
+  void meet(std::size_t k, double share) {
+    runs_[k].tie_end = runs_[next(k)].tie_start =
+        meeting(runs_[k], solved_[k], solved_[next(k)], share, options_(k).tolerance);
+  }
+
+  /// Whether the run's pieces come to where its ends are tied, with no more waves; only the calmest
+  /// chain's are asked.
+  bool reaches(std::size_t k) const {
+    if (!tied(k) || solved_[k].dense.joints.empty()) return true;
+    RunResult trial = solved_[k];
+    return solve_again(trial, runs_[k], spline(k), 1) &&
+           waves_of({trial}) <= waves_of({solved_[k]});
+  }
+
+  /// Another place at one of the run's corners to which both its chains come; half way where there
+  /// is none.
+  void find_place(std::size_t k) {
+    const std::size_t before = (k + runs_.size() - 1) % runs_.size();
+    for (const std::size_t corner : {k, before}) {
+      if (!corner_after(corner)) continue;
+      for (std::size_t i = 1; i < kMeetings.size(); ++i) {
+        if (options_(k).progress.stop_requested()) return;
+        meet(corner, kMeetings[i]);
+        if (reaches(corner) && reaches(next(corner))) return;
+      }
+      meet(corner, kMeetings.front());
+    }
+  }
+
+  std::vector<Run>& runs_;
+  std::vector<RunResult>& solved_;
+  const std::vector<curve::BSpline2>& splines_;
+  const OptionsOf& options_;
+  bool round_;
+};
 
 }  // namespace
 
 void tie_corners(std::vector<Run>& runs, std::vector<RunResult>& solved,
                  const std::vector<curve::BSpline2>& splines, const OptionsOf& options,
                  bool round) {
-  const std::size_t n = runs.size();
-  if (runs.front().closed) return;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t next = (k + 1) % n;
-    if (next == 0 && !round) break;
-    if (runs[k].clamp_end != Clamp::none || runs[next].clamp_start != Clamp::none) continue;
-    runs[k].tie_end = runs[next].tie_start =
-        meeting(runs[k], solved[k], solved[next], options(k).tolerance);
-  }
-  for (std::size_t k = 0; k < n; ++k)
-    if (runs[k].tie_start || runs[k].tie_end)
-      tie_ends(solved[k], runs[k], k < splines.size() ? splines[k] : curve::BSpline2{}, options(k));
+  if (!runs.front().closed) Tying(runs, solved, splines, options, round).run();
 }
 
 }  // namespace keyline::fairing::detail

@@ -325,7 +325,7 @@ class Job {
       bound.push_back("the range of slopes at " + core::counted(std::size_t(at_slope), "piece"));
     if (options_.max_rate && result_.rate > kAlike * *options_.max_rate)
       bound.emplace_back("how fast curvature may change");
-    if (bound.empty()) bound.emplace_back("the points' noise, which keeps it near them");
+    if (bound.empty()) bound.push_back(detail::held_from_within(solved_));
     result_.notes.push_back(
         fmt::format("what holds it from being calmer: {}", fmt::join(bound, ", ")));
   }

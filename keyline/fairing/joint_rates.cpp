@@ -30,10 +30,17 @@ bool make_one(RunResult& result, const Run& run, const RunOptions& options) {
   if (passed_most(joined, run) > passed_most(result, run)) return false;
   if (waves_of({joined}) > waves_of({result})) return false;
   result = std::move(joined);
+  result.joined = true;
   return true;
 }
 
 }  // namespace
+
+std::string held_from_within(const std::vector<RunResult>& solved) {
+  if (std::ranges::any_of(solved, &RunResult::joined))
+    return "that joints are to be of one rate within the tolerance";
+  return "the points' noise, which keeps it near them";
+}
 
 void count_rates(JointRates& count, const std::vector<lac::Segment>& segments, bool closed) {
   const std::size_t n = segments.size();

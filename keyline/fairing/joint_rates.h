@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "keyline/fairing/corners.h"
@@ -14,6 +15,9 @@ namespace keyline::fairing::detail {
 /// way, as far as the points and the borders allow, and notes how far that went.
 void make_rates_one(FairResult& result, std::vector<RunResult>& solved,
                     const std::vector<Run>& runs, const OptionsOf& options);
+
+/// What holds answers that touch no limit from being calmer.
+std::string held_from_within(const std::vector<RunResult>& solved);
 
 /// Adds a chain's joints.
 void count_rates(JointRates& count, const std::vector<lac::Segment>& segments, bool closed);

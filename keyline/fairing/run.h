@@ -73,6 +73,7 @@ struct RunResult {
   bool within_tolerance = false;
   bool exact = false;        ///< reproduces the points to rounding
   bool calm_missed = false;  ///< no calmest chain was found within the tolerance: the shortest one
+  bool joined = false;       ///< solved again for joints of one rate, in the tolerance alone
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
   int turns = 0;         ///< of the calmest curve's curvature

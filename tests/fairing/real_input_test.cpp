@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/analysis/comb_figures.h"
+#include "keyline/lac/chain/chain_graph.h"
+
 #include "judge.h"
 #include "tests/shared_data.h"
 
@@ -51,6 +54,30 @@ TEST_F(RealInput, Contours) { fair_all(testing::profiles("contour"), 4); }
 TEST_F(RealInput, BezierCars) { fair_all(testing::bezier_cars()); }
 TEST_F(RealInput, HullStations) { fair_all(testing::hull_stations(), 4); }
 TEST_F(RealInput, CarSections) { fair_all(testing::car_sections()); }
+
+/// A sharp trailing edge is one place for both ends of the outline. Where it is chosen half way
+/// between them whatever the curve, a wave is needed to come there; the smoothest quintic spline
+/// (FITPACK) within the same tolerance has one wave.
+TEST_F(RealInput, NoWaveIsBoughtByWhereEndsMeet) {
+  for (const RealLine& input : testing::profiles("airfoil")) {
+    if (input.name.find("goe387") == std::string::npos) continue;
+    const FairResult result = fair(input.line).value();
+    ASSERT_EQ(result.curves.size(), 1U);
+    const auto& chain = std::get<lac::Chain>(result.curves[0]);
+    EXPECT_EQ(analysis::comb_figures(lac::curvature_graph(chain)).waves, 1);
+    const core::Point2 end = lac::end_pose(chain).position;
+    EXPECT_LT(core::distance(end, chain.start.position), 1e-9);
+    EXPECT_TRUE(result.within_tolerance);
+    // Joints of one rate are solved for without regard to the noise.
+    FairOptions smooth;
+    smooth.joints = JointOrder::g3;
+    const FairResult joined = fair(input.line, smooth).value();
+    for (const std::string& note : joined.notes)
+      EXPECT_EQ(note.find("the points' noise"), std::string::npos) << note;
+    return;
+  }
+  ADD_FAILURE() << "no goe387 among the airfoils";
+}
 
 /// Tolerances at which the pieces of a bottle's calmest curve did not fit into the tenth of the
 /// tolerance that was left for them, and the shortest chain stood in with 1e5 times the energy.
