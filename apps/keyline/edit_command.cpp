@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -196,6 +197,18 @@ void add_edited(const json& given, const json& edit, json& written) {
   }
 }
 
+/// Why surfaces that are worth something else than nothing may come back as they were.
+std::string as_given_text(const std::vector<json>& edits, const json& joints) {
+  const bool stays = std::ranges::all_of(
+      edits, [](const json& edit) { return edit["departure"].get<double>() == 0; });
+  const bool wanted = std::ranges::any_of(
+      edits, [](const json& edit) { return edit["before"]["sav"].get<double>() > 0; });
+  return stays && wanted && joints["before"]["joints"].get<int>() > 0
+             ? "all as given: nothing within the limits lowers SAV and keeps the joints; "
+               "--joints G1 or free holds less\n"
+             : "";
+}
+
 int edit_surfaces(Session& session, const ReadFiles& read) {
   say_curves_left_out(read.shown, session.door().quiet);
   json request = session.of(kSurfaces);
@@ -230,7 +243,8 @@ int edit_surfaces(Session& session, const ReadFiles& read) {
   if (!done) return report_failure(done.error());
   json all = one_or_all(shown, "surfaces");
   if (shown.size() > 1) all["joints"] = (*result)["joints"];
-  session.print(all, text + joints_text((*result)["joints"]));
+  session.print(
+      all, text + joints_text((*result)["joints"]) + as_given_text(shown, (*result)["joints"]));
   return kDone;
 }
 

@@ -110,6 +110,9 @@ TEST(Surfaces, EditOfASplineIsASplineAndTellsItsJoints) {
   EXPECT_NE(o.out.find("joints 7"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("zebra at joints, in degrees: jumps 0 to"), std::string::npos) << o.out;
   EXPECT_NE(slurp(s.path("skin.html")).find("Zebra turns"), std::string::npos);
+  EXPECT_EQ(o.out.find("all as given"), std::string::npos) << o.out;
+  const Outcome held = run_keyline("edit " + kExamples + "skin.json --limit 0");
+  EXPECT_NE(held.out.find("all as given"), std::string::npos) << held.out;
   EXPECT_EQ(json::parse(slurp(file))["type"], "bspline-surface");
 }
 
