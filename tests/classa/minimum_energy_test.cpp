@@ -114,6 +114,31 @@ TEST(MinimumEnergy, ExactEnd) {
   }
 }
 
+/// Minima inside the region, both rates of the energy 0 there: alpha, s and energy with 25 digits
+/// (tests/classa/energy_minima.py). Not along the edge, where golden section finds them.
+TEST(MinimumEnergy, MeetsMinimaOfHighPrecision) {
+  struct Case {
+    int degree;
+    double offset, slack, alpha, s, energy;
+  };
+  for (const Case& c : {
+           Case{6, 0.48, 0.12, 0.1160486489295118, 1.240914218939864, 0.3946906494230953},
+           Case{7, 1.51, 0.23, 0.3669198464196878, 1.157242022443382, 3.896042380724366},
+           Case{4, 1.33, 0.15, 0.6533798373266173, 1.288557388880866, 3.450873037782011},
+           Case{2, 0.66, 0.26, 0.6363186756705933, 1.691418102976892, 0.4774142377917016},
+           Case{8, 0.65, 0.1, 0.1273406072318221, 1.177755078037703, 0.8996990839580629},
+       }) {
+    SCOPED_TRACE(c.degree);
+    const auto m = minimum_energy({.chord = {std::cos(c.offset), std::sin(c.offset)},
+                                   .degree = c.degree,
+                                   .end_tolerance = c.slack});
+    ASSERT_TRUE(m) << m.error().message;
+    EXPECT_NEAR(m->alpha, c.alpha, 1e-10);
+    EXPECT_NEAR(m->s, c.s, 1e-10);
+    EXPECT_NEAR(m->energy, c.energy, 1e-13 * c.energy);
+  }
+}
+
 TEST(MinimumEnergy, IsItsOwnMinimum) {
   EnergyConditions c{.tangent = {1, 2}, .chord = {-1, 5}, .degree = 5};
   const auto once = minimum_energy(c);
