@@ -67,6 +67,27 @@ TEST(DepartureBound, HoldsBetweenItsPlaces) {
   }
 }
 
+// Nothing in the bound has a size of its own.
+TEST(DepartureBound, GrowsAsTheChainsDo) {
+  std::mt19937 random(19);
+  for (int n = 0; n < 10; ++n) {
+    const Chain a = any_chain(random);
+    const Chain b = any_chain(random);
+    const double bound = departure_bound(a, b);
+    for (const double scale : {1e-3, 40.0, 1e6}) {
+      const auto scaled = [scale](Chain chain) {
+        for (Piece& p : chain.pieces) {
+          p.length *= scale;
+          p.curvature_start /= scale;
+          p.curvature_end /= scale;
+        }
+        return chain;
+      };
+      EXPECT_NEAR(departure_bound(scaled(a), scaled(b)), scale * bound, 1e-9 * scale * bound);
+    }
+  }
+}
+
 // An arc and the one with the same ends on the other side of the chord do not leave in one
 // direction; the bound does not need them to.
 TEST(DepartureBound, TwoArcsAreApartByTheirHeights) {

@@ -1,5 +1,6 @@
 #include "keyline/lac/space/space.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -124,6 +125,34 @@ TEST(SpaceCurve, QuinticsMeetTheTolerance) {
     }
     EXPECT_LE(before, 72U);
   }
+}
+
+// A short clothoid of curvature k(s): of its sixth derivative p T + q N, with p and q polynomials
+// in k and k', Frenet's equations with all signs positive bound |C6|; h^6/46080 of it is the
+// deviation.
+TEST(SpaceCurve, DeviationOfOneQuinticIsThatOfItsSixthDerivative) {
+  using Polynomial = std::array<double, 6>;  // in s, about the end
+  const double last = 1.5, rate = 0.8, h = 0.3;
+  const auto grown = [&](const Polynomial& own, const Polynomial& other) {
+    Polynomial sum{};
+    for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+      sum[i] += static_cast<double>(i + 1) * own[i + 1] + last * other[i];
+      sum[i + 1] += rate * other[i];
+    }
+    return sum;
+  };
+  Polynomial along{1}, across{};
+  for (int order = 2; order <= 6; ++order) {
+    const Polynomial next = grown(along, across);
+    across = grown(across, along);
+    along = next;
+  }
+  const double wanted = std::pow(h, 6) / 46080 * std::hypot(along[0], across[0]);
+  const SpaceChain chain{{}, {{-1, 1, h, last - rate * h, last, 0, 0}}};
+  const SpaceBeziers made = approximate_by_quintics(chain, 1e-5);
+  ASSERT_EQ(made.pieces.size(), 1U);
+  EXPECT_NEAR(made.deviation, wanted, 1e-9 * wanted + 1e-12);
+  EXPECT_LE(sampled_departure(made, chain), made.deviation);
 }
 
 TEST(SpaceCurve, RefusesWhatIsNone) {
@@ -307,6 +336,24 @@ TEST(SolveG1Space, InAPlaneIsThePlaneCurve) {
   ASSERT_TRUE(line);
   EXPECT_NEAR(arc_length(line->chain), 3, 1e-15);
   EXPECT_EQ(line->chain.pieces[0].curvature_start, 0);
+}
+
+// Curvature k (1 - s/L)^n falls to 0 at the end: drho/ds is n / (k L) at the start.
+TEST(SolveG1Space, InAPlaneTheEndMayHaveNoCurvature) {
+  for (const auto& [alpha, n] : {std::pair{-1.0, 1.0}, {-0.5, 2.0}, {-2.0, 0.5}}) {
+    for (const double k : {0.8, 0.3, 0.5}) {
+      const Segment s{{{0, 0}, 0}, alpha, 1, k, 0};
+      const core::Pose2 end = end_pose(s);
+      const SpaceHermite data{{0, 0, 0},
+                              {end.position.x, end.position.y, 0},
+                              {1, 0, 0},
+                              {std::cos(end.direction), std::sin(end.direction), 0}};
+      const auto solved = solve_g1_space(data, alpha, 0, 0);
+      ASSERT_TRUE(solved);
+      EXPECT_NEAR(solved->lambda, n / k, 1e-6) << alpha << ' ' << k;
+      EXPECT_NEAR(solved->length, k, 1e-6);
+    }
+  }
 }
 
 TEST(SolveG1Space, BadInputIsNormalInput) {

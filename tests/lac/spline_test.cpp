@@ -157,6 +157,42 @@ TEST(Spline, SpansThatMustInflectGiveWay) {
   EXPECT_LT(misses(*m, points), 1e-12);
 }
 
+// Slope 2 does not reach all the way through these points: the one span gives way whose curvatures
+// in the clothoid spline are most unlike each other.
+TEST(Spline, TheSpanNearestToVanishingGivesWay) {
+  struct Case {
+    std::vector<Point2> points;
+    bool closed;
+  };
+  for (const Case& c : {
+           Case{{{1.07, 0}, {0.79, 0.54}, {0.39, 1.01}, {-0.23, 0.99}, {-0.8, 0.73}}, false},
+           Case{{{1.04, 0}, {0.78, 0.53}, {0.38, 0.97}, {-0.21, 0.89}, {-0.74, 0.68}}, false},
+           Case{{{1.04, 0},
+                 {0.63, 0.79},
+                 {-0.24, 1.06},
+                 {-0.86, 0.41},
+                 {-0.97, -0.47},
+                 {-0.2, -0.86},
+                 {0.64, -0.81}},
+                true},
+       }) {
+    SplineOptions options;
+    options.closed = c.closed;
+    const auto clothoids = solve_spline(c.points, options);
+    ASSERT_TRUE(clothoids);
+    std::vector<double> unlike;
+    for (const Piece& p : clothoids->chain.pieces) {
+      ASSERT_GT(p.curvature_start * p.curvature_end, 0);
+      unlike.push_back(std::abs(std::log(p.curvature_end / p.curvature_start)));
+    }
+    const auto most = std::max_element(unlike.begin(), unlike.end()) - unlike.begin();
+    options.alpha = {2};
+    const auto s = solve_spline(c.points, options);
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->overridden, std::vector{static_cast<std::size_t>(most)});
+  }
+}
+
 TEST(Spline, EndConditionsHold) {
   const std::vector<Point2> points{{0, 0}, {1, 0.6}, {2, 0.7}, {3, 0}};
   SplineOptions options;

@@ -16,9 +16,11 @@ inline constexpr int kPieceVariables = 4;
 /// with derivatives by the four variables. The frame is the piece's own start (origin, x axis
 /// along the tangent). Built once, read at many fractions; this is what fitting a chain needs.
 ///
-/// Accuracy: positions and angle to about 1e-13 of the length where curvature has no zero inside
-///           and |log(curvature ratio)| is moderate; 1e-9 where an end or the inside is an
-///           inflection (graded panels). Derivatives lose a few digits more at an inflection.
+/// Accuracy: positions and angle to about 1e-11 of the length if built `fine`, for slopes from -3
+/// on
+///           and turning below 3 rad; without, 1e-7 where the curvatures' ratio is below 7, and
+///           1e-6 with an inflection at an end or inside. There derivatives hold to 4e-4 (at slope
+///           -3, less at -2), fine or not; elsewhere to 1e-6.
 /// Source:   [QLAC] Eqs. 2-4: curvature is the power mean of exponent -alpha in arc
 ///           length; derivatives by differentiation under the integral.
 class PieceTable {
