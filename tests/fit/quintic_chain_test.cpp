@@ -1,0 +1,116 @@
+#include "keyline/fit/quintic_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/core/error.h"
+#include "keyline/curve/bezier.h"
+#include "keyline/curve/closest_point.h"
+
+namespace keyline::fit {
+namespace {
+
+using core::Point2;
+
+/// Points of (300 cos t, 200 sin t) for t in [from, to].
+std::vector<Point2> ellipse(int n, double from, double to) {
+  std::vector<Point2> points;
+  for (int i = 0; i < n; ++i) {
+    const double t = std::lerp(from, to, i / (n - 1.0));
+    points.push_back({300 * std::cos(t), 200 * std::sin(t)});
+  }
+  return points;
+}
+
+/// Distances of the points from the chain by the curves' own nearest places.
+struct Measured {
+  double most = 0, rms = 0;
+};
+
+Measured measured(const std::vector<Point2>& points, const QuinticChain& chain) {
+  Measured m;
+  for (const Point2 p : points) {
+    double least = HUGE_VAL;
+    for (const curve::Bezier2& piece : chain.pieces)
+      least = std::min(least, curve::closest_point(piece, p).distance);
+    m.most = std::max(m.most, least);
+    m.rms += least * least / static_cast<double>(points.size());
+  }
+  m.rms = std::sqrt(m.rms);
+  return m;
+}
+
+void expect_smooth(const QuinticChain& chain, bool closed) {
+  const std::size_t n = chain.pieces.size();
+  for (std::size_t k = 0; k + (closed ? 0 : 1) < n; ++k) {
+    const auto before = jet(chain.pieces[k], 1.0), after = jet(chain.pieces[(k + 1) % n], 0.0);
+    EXPECT_LT(core::distance(before.point, after.point), 1e-12);
+    EXPECT_NEAR(
+        core::wrap_angle(core::direction_of(before.first) - core::direction_of(after.first)), 0,
+        1e-12);
+    EXPECT_NEAR(curvature(before), curvature(after), 1e-12);
+  }
+}
+
+TEST(QuinticChain, FollowsAnEllipseWithinTheTolerance) {
+  std::size_t before = 0;
+  for (const double tolerance : {3.0, 0.1, 0.003}) {
+    SCOPED_TRACE(tolerance);
+    for (const bool closed : {false, true}) {
+      if (closed && tolerance < 0.1) continue;
+      const auto points = closed ? ellipse(150, 0, 2 * M_PI * 149 / 150) : ellipse(120, 0.3, 4);
+      const QuinticChain chain = fit_quintic_chain(points, closed, {.tolerance = tolerance});
+      EXPECT_TRUE(chain.within_tolerance);
+      expect_smooth(chain, closed);
+      const Measured m = measured(points, chain);
+      EXPECT_LE(m.most, tolerance);
+      EXPECT_NEAR(chain.max_deviation, m.most, 0.01 * m.most + 2e-4);
+      EXPECT_NEAR(chain.rms_deviation, m.rms, 0.01 * m.rms + 2e-4);
+      if (!closed) {
+        EXPECT_EQ(chain.pieces.front().control.front(), points.front());
+        EXPECT_EQ(chain.pieces.back().control.back(), points.back());
+        EXPECT_GE(chain.pieces.size(), before);
+        before = chain.pieces.size();
+      }
+    }
+  }
+}
+
+// A quintic can come within a ten-thousandth of the length (fit_bezier's within 1e-6 of it).
+TEST(QuinticChain, OnePieceIsNearWhatOneCanBe) {
+  for (const double to : {1.5, 2.2, 3.0}) {
+    SCOPED_TRACE(to);
+    const auto points = ellipse(100, 0.2, to);
+    const QuinticChain chain =
+        fit_quintic_chain(points, false, {.tolerance = 1e-9, .max_pieces = 1});
+    ASSERT_EQ(chain.pieces.size(), 1U);
+    EXPECT_FALSE(chain.within_tolerance);
+    EXPECT_LT(measured(points, chain).rms, 0.01);
+  }
+}
+
+// The last point but one overshoots the last, the second falls short of the first: the nearest
+// places to them are the ends.
+TEST(QuinticChain, PointsBeyondTheEndsAreNearestToThem) {
+  std::vector<Point2> points;
+  for (int i = 0; i <= 60; ++i) points.push_back({10.0 * i, 0.002 * i * i * i});
+  points[1] = points[0] - core::Vector2{3, 0};
+  points[59] = points[60] + core::Vector2{0.5, 1.0};
+  const QuinticChain chain = fit_quintic_chain(points, false, {.tolerance = 0.2, .max_pieces = 3});
+  EXPECT_FALSE(chain.within_tolerance);
+  const Measured m = measured(points, chain);
+  EXPECT_NEAR(chain.max_deviation, m.most, 0.01 * m.most);
+  EXPECT_NEAR(m.most, 3, 0.3);
+}
+
+TEST(QuinticChain, RefusesWhatIsNone) {
+  EXPECT_THROW(fit_quintic_chain({{0, 0}}, false), core::InvalidInput);
+  EXPECT_THROW(fit_quintic_chain({{0, 0}, {0, 0}, {1, 1}}, false), core::InvalidInput);
+}
+
+}  // namespace
+}  // namespace keyline::fit
