@@ -8,11 +8,12 @@
 #include <rapidcheck.h>
 
 #include "keyline/core/angle.h"
-#include "keyline/curve/closest_point.h"
 #include "keyline/lac/hermite/hermite.h"
 #include "keyline/lac/quasi/quasi_forms.h"
 #include "keyline/lac/segment/deviation.h"
 #include "keyline/lac/segment/taylor.h"
+
+#include "quasi_samples.h"
 
 namespace keyline::lac {
 namespace {
@@ -20,20 +21,6 @@ namespace {
 using core::ErrorCode;
 using core::Vector2;
 using detail::SeriesVariable;
-
-constexpr QuasiForm kForms[] = {QuasiForm::taylor_angle,   QuasiForm::taylor_arc,
-                                QuasiForm::discrete_angle, QuasiForm::discrete_arc,
-                                QuasiForm::rational_cubic, QuasiForm::best};
-
-double sampled_deviation(const Segment& s, const curve::Bezier2& b, int n = 40) {
-  double largest = 0;
-  for (int i = 0; i <= n; ++i) {
-    const double t = static_cast<double>(i) / n;
-    largest = std::max(largest, curve::closest_point(b, evaluate(s, t)).distance);
-    largest = std::max(largest, curve::closest_point(s, evaluate(b, t)).distance);
-  }
-  return largest;
-}
 
 // From the inflection a clothoid is the sum of (-1)^k terms: x = s - s^5/40 + s^9/3456 - ...,
 // y = s^3/6 - s^7/336 + s^11/42240 - ... with theta = s^2/2 (Fresnel's series).
@@ -294,79 +281,6 @@ TEST(Quasi, StraightLinesAndScales) {
       ASSERT_TRUE(r);
       EXPECT_LT(r->deviation, 1e-2 * size);
     }
-  }
-}
-
-/// Handles of a drawable request over the chord from (0, 0) to (1, 0).
-struct Handles {
-  core::Point2 p0, p1, p2;
-};
-Handles handles_of(double theta, double psi) {
-  const double s = std::sin(theta - psi) / std::sin(theta);
-  return {{0, 0}, {s * std::cos(psi), -s * std::sin(psi)}, {1, 0}};
-}
-
-// From slope 1 upward a third was more than 1 % of the chord off, or refused.
-TEST(Quasi, BestIsNeverWorseThanAnyOther) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> unit(0, 1);
-  int asked = 0;
-  double worst = 0;
-  while (asked < 60) {
-    const double theta = 0.1 + 2.9 * unit(random);
-    const double psi = theta * (0.02 + 0.96 * unit(random));
-    const double alpha = -3 + 7 * unit(random);
-    const int degree = 5 + static_cast<int>(random() % 5);
-    const auto [p0, p1, p2] = handles_of(theta, psi);
-    if (!solve_g1(p0, p1, p2, alpha)) continue;
-    ++asked;
-    SCOPED_TRACE(testing::Message()
-                 << alpha << ' ' << theta << ' ' << psi / theta << ' ' << degree);
-    const auto best = quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::best, degree, {}, false});
-    ASSERT_TRUE(best) << best.error().message;
-    EXPECT_LE(sampled_deviation(best->target, best->curve), best->deviation);
-    EXPECT_LE(best->deviation, 2e-4);
-    worst = std::max(worst, best->deviation);
-    for (const QuasiForm form : kForms) {
-      const auto other = quasi_log_aesthetic(p0, p1, p2, alpha, {form, degree, {}, false});
-      if (other) {
-        EXPECT_LE(best->deviation, 1.01 * other->deviation + 1e-12);
-      }
-    }
-  }
-  EXPECT_GT(worst, 0);
-}
-
-// With end curvatures 1e41 apart Newton's method finds none of the Taylor forms, the scan one.
-TEST(Quasi, BestIsNoWorseThanAFormThatOnlyTheScanFinds) {
-  const core::Point2 p0{-0.03226488086904719, -0.023489116677885367};
-  const core::Point2 p1{-0.029091481104493826, -0.03732333265737067};
-  const core::Point2 p2{-0.02909141915519918, -0.03732333299602281};
-  const double alpha = 0.1111190439715175;
-  const auto taylor =
-      quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::taylor_angle, 8, {}, false});
-  const auto best = quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::best, 8, {}, false});
-  ASSERT_TRUE(taylor && best);
-  EXPECT_LE(best->deviation, taylor->deviation);
-}
-
-// What the Bézier's own ends meet is solved for; where Newton's method from the segment fails, the
-// scan finds a Lambda (10 of 70 refusals had one).
-TEST(Quasi, TaylorFormsFindALambdaWhereThereIsOne) {
-  const struct {
-    core::Point2 p1, p2;
-    double alpha;
-    int degree;
-  } cases[] = {{{0.42, 0}, {0.6, 0.8}, 1, 5}, {{0.8, 0}, {0.86, 0.51}, 2, 4}};
-  for (const auto& c : cases) {
-    const auto r = quasi_log_aesthetic({0, 0}, c.p1, c.p2, c.alpha,
-                                       {QuasiForm::taylor_angle, c.degree, {}, false});
-    ASSERT_TRUE(r) << r.error().message;
-    const auto& b = r->curve.control;
-    EXPECT_LT(distance(b.back(), c.p2), 1e-14);
-    EXPECT_LT(std::abs(cross(b[1] - b[0], c.p1 - b[0])), 1e-13);
-    EXPECT_LT(std::abs(cross(b.back() - b[b.size() - 2], c.p2 - c.p1)), 1e-13);
-    EXPECT_GT(dot(b.back() - b[b.size() - 2], c.p2 - c.p1), 0);
   }
 }
 

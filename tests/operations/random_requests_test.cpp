@@ -295,6 +295,18 @@ TEST(RandomRequests, BlendsLeaveAndJoinTheirCurves) {
   }
 }
 
+/// A Bézier of a lower degree is one of a higher degree too.
+void expect_no_closer_lower_degree(json request, double best, double chord) {
+  const int degree = request["degree"];
+  const int least = request["form"] == "best" ? 5 : 3;
+  if (request["form"] == "rational-cubic" || degree == least) return;
+  request["degree"] = least + (degree * 7) % (degree - least);
+  const json answer = answered(request);
+  if (answer["ok"] == false) return;
+  EXPECT_LE(best, answer["result"]["deviation"].get<double>() * (1 + 1e-9) + 1e-13 * chord)
+      << request;
+}
+
 TEST(RandomRequests, QuasiCurvesMeetHandlesAndBoundAndBestIsBest) {
   Random random(own::seed(7));
   Worst worst("best");
@@ -322,6 +334,7 @@ TEST(RandomRequests, QuasiCurvesMeetHandlesAndBoundAndBestIsBest) {
         worst.expect_below(told / h.chord, 1e-2);
       }
       EXPECT_LE(best, told * (1 + 1e-9) + 1e-13 * h.chord);
+      expect_no_closer_lower_degree(request, best, h.chord);
       const own::Track target = own::walked(result["target"]);
       double farthest = 0;
       const std::size_t step = 1 + target.places.size() / 40;

@@ -75,7 +75,7 @@ QuinticTry try_quintic(const Segment& s) {
   const UnitPiece unit = detail::unit_piece(piece_of(s));
   const QuinticTry none{{}, std::numeric_limits<double>::infinity()};
   if (unit.turning > 3) return none;
-  const detail::ControlPolygon polygon = detail::best_polygon(unit, 5, false);
+  const detail::ControlPolygon polygon = detail::best_polygon(unit, 5, {});
   if (polygon.empty()) return none;  // no handle of a usual length meets such end curvatures
   QuinticTry q;
   for (const Vector2 v : polygon) q.bezier.control.push_back(place_point(s, unit, v));

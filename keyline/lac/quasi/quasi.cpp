@@ -1,6 +1,8 @@
 #include "keyline/lac/quasi/quasi.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "keyline/analysis/lcg.h"
 #include "keyline/core/angle.h"
@@ -44,6 +46,11 @@ Result<void> check_options(const QuasiOptions& o) {
 
 std::unexpected<core::Failure> unsupported(const char* message, const char* hint = "") {
   return core::fail(ErrorCode::unsupported, message, hint, "form");
+}
+
+std::unexpected<core::Failure> no_such_ends() {
+  return core::fail(ErrorCode::undrawable, "no Bézier of this form meets these ends",
+                    "split the curve", "form");
 }
 
 bool has_inflection(const UnitPiece& u) { return inflection(u.piece) > 0; }
@@ -105,7 +112,6 @@ Drawn draw_form(const UnitPiece& unit, const QuasiOptions& o) {
     RationalCubic c = rational_cubic(unit);
     return {std::move(c.polygon), std::move(c.weights), 0};
   }
-  if (o.form == QuasiForm::best) return {best_polygon(unit, o.degree, true), {}, 0};
   return {discrete_polygon(unit, variable, o.degree), {}, 0};
 }
 
@@ -164,42 +170,39 @@ Result<Segment> standard_segment(double alpha, double lambda, const core::Interv
   return place(asked, start);
 }
 
-namespace {
+namespace detail {
 
-/// Of low degree and close to an arc the rational cubic can be the closer one: then that, raised.
-void take_closer_rational(QuasiResult& r, const QuasiOptions& options) {
-  const auto rational = quasi_log_aesthetic(r.target, {QuasiForm::rational_cubic, 3, {}, false});
-  if (!rational || !(rational->deviation < r.deviation)) return;
-  QuasiResult closer = *rational;
-  closer.curve = curve::elevate_degree(rational->curve, options.degree - 3);
-  closer.form = QuasiForm::best;
-  detail::measure(closer);
-  if (closer.deviation < r.deviation) r = std::move(closer);
+Result<QuasiResult> best_result(const Segment& segment, int degree, const OtherForms& others) {
+  auto best = best_of_degrees(segment, degree, others);
+  if (!best) return no_such_ends();
+  QuasiResult r;
+  r.target = segment;
+  r.form = QuasiForm::best;
+  r.lambda = lambda_of(piece_of(segment));
+  r.curve = std::move(best->curve);
+  measure(r);
+  r.deviation = std::min(r.deviation, best->deviation);  // a raised curve stays where it was
+  return r;
 }
 
-}  // namespace
+}  // namespace detail
 
 Result<QuasiResult> quasi_log_aesthetic(const Segment& segment, const QuasiOptions& options) {
   if (auto valid = validate(segment); !valid) return std::unexpected(valid.error());
   const UnitPiece unit = detail::unit_piece(piece_of(segment));
   const auto settled = detail::settled(unit, options);
   if (!settled) return std::unexpected(settled.error());
-  detail::Drawn drawn = detail::draw_form(unit, *settled);
-  if (drawn.polygon.empty())
-    return core::fail(ErrorCode::undrawable, "no Bézier of this form meets these ends",
-                      "split the curve", "form");
+  if (settled->form == QuasiForm::best) return detail::best_result(segment, settled->degree, {});
+  const detail::Drawn drawn = detail::draw_form(unit, *settled);
+  if (drawn.polygon.empty()) return no_such_ends();
   QuasiResult r;
   r.target = segment;
   r.form = settled->form;
   r.about = settled->about.value_or(0);
   r.lambda = lambda_of(piece_of(segment));
   r.series_bound = unit.length * drawn.series_bound;
-  for (const Vector2 v : drawn.polygon)
-    r.curve.control.push_back(
-        from_local(segment.start, {unit.length * v.x, unit.length * unit.mirror * v.y}));
-  r.curve.weights = std::move(drawn.weights);
+  r.curve = detail::in_place(segment, unit, drawn);
   detail::measure(r);
-  if (r.form == QuasiForm::best) take_closer_rational(r, options);
   return r;
 }
 

@@ -21,7 +21,7 @@ enum class QuasiForm {
   rational_cubic,  ///< positions, tangents and end curvatures exact, then least LCG variance
   /// Positions, tangents and end curvatures exact, then least deviation; the raised rational cubic,
   /// or over handles any other form, where that is closer (its end curvatures are then as near as
-  /// its deviation lets them be): never worse than any other form of the degree.
+  /// its deviation lets them be): never worse than any other form of the degree or a lower one.
   best,
 };
 constexpr auto choices(const QuasiForm*) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/quasi/quasi_family.h"
 #include "keyline/lac/quasi/quasi_forms.h"
 #include "keyline/numeric/damped_descent.h"
 #include "keyline/numeric/lawson.h"
@@ -17,129 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-/// Bernstein polynomials of degree n at t, and their derivatives.
-struct Basis {
-  std::vector<double> value, slope;
-  Basis(int n, double t) : value(n + 1, 0.0), slope(n + 1, 0.0) {
-    std::vector<double> b{1};
-    for (int level = 1; level <= n; ++level) {
-      if (level == n)
-        for (int i = 0; i <= n; ++i) slope[i] = n * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
-      b.push_back(0);
-      for (int i = level; i > 0; --i) b[i] = (1 - t) * b[i] + t * b[i - 1];
-      b[0] *= 1 - t;
-    }
-    value = b;
-  }
-};
-
-Vector2 combine(const std::vector<double>& weights, const ControlPolygon& b) {
-  Vector2 v;
-  for (std::size_t i = 0; i < b.size(); ++i) v = v + weights[i] * b[i];
-  return v;
-}
-
-/// Bézier polygons of one degree with the ends, tangents and curvatures of a unit piece. Unknowns:
-/// handle length and far handle's offset along the tangent at either end, then the inner points.
-class Family {
- public:
-  Family(const UnitPiece& unit, int degree)
-      : unit_(unit),
-        n_(degree),
-        end_(displacement(unit.piece, 1)),
-        end_tangent_(core::unit_vector(unit.turning)) {}
-
-  int unknowns() const { return 4 + 2 * (n_ - 5); }
-
-  ControlPolygon polygon(const VectorXd& x) const {
-    ControlPolygon b(n_ + 1);
-    const double bend = n_ / (n_ - 1.0);
-    const Vector2 tangent{1, 0};
-    b[1] = x[0] * tangent;
-    b[2] = x[1] * tangent + (bend * unit_.piece.curvature_start * x[0] * x[0]) * Vector2{0, 1};
-    for (int i = 3; i < n_ - 2; ++i) b[i] = {x[4 + 2 * (i - 3)], x[5 + 2 * (i - 3)]};
-    b[n_] = end_;
-    b[n_ - 1] = end_ - x[2] * end_tangent_;
-    b[n_ - 2] =
-        end_ - x[3] * end_tangent_ +
-        (bend * unit_.piece.curvature_end * x[2] * x[2]) * core::perpendicular_left(end_tangent_);
-    return b;
-  }
-
-  /// d(combination of the polygon) / dx_k.
-  Vector2 change(const VectorXd& x, const std::vector<double>& w, int k) const {
-    const double bend = 2 * n_ / (n_ - 1.0);
-    const Vector2 normal = core::perpendicular_left(end_tangent_);
-    switch (k) {
-      case 0:
-        return {w[1], w[2] * bend * unit_.piece.curvature_start * x[0]};
-      case 1:
-        return {w[2], 0};
-      case 2:
-        return -w[n_ - 1] * end_tangent_ +
-               (w[n_ - 2] * bend * unit_.piece.curvature_end * x[2]) * normal;
-      case 3:
-        return -w[n_ - 2] * end_tangent_;
-      default: {
-        const double at = w[3 + (k - 4) / 2];
-        return k % 2 == 0 ? Vector2{at, 0} : Vector2{0, at};
-      }
-    }
-  }
-
-  /// The curve of the family nearest to a polygon of its degree: what that misses the ends by is
-  /// spread over it.
-  VectorXd nearest(const ControlPolygon& polygon) const {
-    const Vector2 from = polygon.front();
-    const Vector2 off = end_ - (polygon.back() - from);
-    const auto moved = [&](int i) { return polygon[i] - from + (i / double(n_)) * off; };
-    VectorXd x(unknowns());
-    x[0] = norm(moved(1));
-    x[1] = moved(2).x;
-    x[2] = norm(end_ - moved(n_ - 1));
-    x[3] = dot(end_ - moved(n_ - 2), end_tangent_);
-    for (int i = 3; i < n_ - 2; ++i) {
-      const Vector2 b = moved(i);
-      x[4 + 2 * (i - 3)] = b.x;
-      x[5 + 2 * (i - 3)] = b.y;
-    }
-    return x;
-  }
-
-  /// Handles of the given lengths, all else by least squares against points at given parameters;
-  /// `miss` is the root mean square that is left.
-  VectorXd start(double first, double last, const std::vector<double>& at,
-                 const std::vector<Vector2>& points, double& miss) const {
-    VectorXd x = VectorXd::Zero(unknowns());
-    x[0] = first;
-    x[2] = last;
-    const ControlPolygon fixed = polygon(x);
-    const int rows = static_cast<int>(at.size());
-    const int columns = unknowns() - 2;
-    const auto unknown = [](int column) { return column == 0 ? 1 : column + 2; };
-    MatrixXd a(2 * rows, columns);
-    VectorXd rest(2 * rows);
-    for (int j = 0; j < rows; ++j) {
-      const Basis basis(n_, at[j]);
-      const Vector2 r = points[j] - combine(basis.value, fixed);
-      rest.segment<2>(2 * j) << r.x, r.y;
-      for (int i = 0; i < columns; ++i) {
-        const Vector2 d = change(x, basis.value, unknown(i));
-        a.block<2, 1>(2 * j, i) << d.x, d.y;
-      }
-    }
-    const VectorXd solved = numeric::least_squares(a, rest);
-    for (int i = 0; i < columns; ++i) x[unknown(i)] = solved[i];
-    miss = (a * solved - rest).norm() / std::sqrt(static_cast<double>(rows));
-    return x;
-  }
-
- private:
-  const UnitPiece& unit_;
-  int n_;
-  Vector2 end_, end_tangent_;
-};
 
 /// Where a search begins: unknowns, and parameters of the feet.
 struct Start {
@@ -192,7 +70,11 @@ std::vector<double> parameters(const UnitPiece& unit, const std::vector<double>&
 /// distances, weights growing where the distance is large (Lawson's rule).
 class Fit {
  public:
-  Fit(const UnitPiece& unit, int degree) : unit_(unit), family_(unit, degree), degree_(degree) {
+  Fit(const UnitPiece& unit, int degree, const BestSearch& search)
+      : unit_(unit),
+        search_(search),
+        family_(unit, degree, search.curvatures_held),
+        degree_(degree) {
     at_ = places(unit, 4 * degree + 8);
     for (const double v : at_) {
       points_.push_back(displacement(unit.piece, v));
@@ -200,12 +82,13 @@ class Fit {
     }
   }
 
-  /// From unit speed alone, or, where that leaves much, from the best of many starts too.
-  ControlPolygon run(bool thorough) {
-    double miss = 0;
-    const double handle = 1.0 / degree_;
-    descend_from({family_.start(handle, handle, at_, points_, miss), at_, miss});
-    if (thorough && !(least_ < kGood)) {
+  /// From the polygon given, or unit speed where there is none, or, where they leave much, from the
+  /// best of many starts too.
+  ControlPolygon run() {
+    if (!search_.from.empty())
+      descend_from({family_.nearest(search_.from), feet_on(search_.from), 0});
+    if (search_.thorough || search_.from.empty()) from_unit_speed();
+    if (search_.thorough && !(least_ < kGood)) {
       for (const Start& start : starts()) descend_from(start);
       for (const Start& start : other_forms()) descend_from(start);
     }
@@ -217,12 +100,39 @@ class Fit {
   /// Deviation from which on, of the length, other starts are worth their time.
   static constexpr double kGood = 1e-9;
   static constexpr double kExact = 1e-15;
+  static constexpr double kShortest = 1e-8;  ///< handle, of the length
   static constexpr std::size_t kStarts = 6;
 
   /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
   /// radius bends the polygon by about a radian.
   double handle(double speed, double curvature) const {
+    if (!search_.curvatures_held) return speed / degree_;
     return std::min(speed / degree_, 1 / std::abs(curvature));
+  }
+
+  void from_unit_speed() {
+    double miss = 0;
+    const double handle = 1.0 / degree_;
+    descend_from({family_.start(handle, handle, at_, points_, miss), at_, miss});
+  }
+
+  /// Where a curve along the piece is nearest to the places, of many of its parameters.
+  std::vector<double> feet_on(const ControlPolygon& b) const {
+    const int count = 8 * static_cast<int>(at_.size());
+    std::vector<Vector2> curve;
+    const auto parameter = [&](int i) { return 0.5 - 0.5 * std::cos(core::kPi * i / count); };
+    for (int i = 0; i <= count; ++i)
+      curve.push_back(combine(Basis(degree_, parameter(i)).value, b));
+    std::vector<double> feet;
+    int i = 0;
+    for (const Vector2& p : points_) {
+      int nearest = i;
+      for (int k = i; k <= count; ++k)
+        if (norm(curve[k] - p) < norm(curve[nearest] - p)) nearest = k;
+      i = nearest;
+      feet.push_back(parameter(i));
+    }
+    return feet;
   }
 
   /// From the Taylor forms about either end and the middle, and the discretised ones.
@@ -319,7 +229,8 @@ class Fit {
   }
 
   void keep_better(const VectorXd& x, const VectorXd& r) {
-    if (!(x[0] > 0) || !(x[2] > 0)) return;  // a handle the other way: an end tangent reversed
+    // A handle the other way reverses an end tangent, one too short loses it in rounding.
+    if (!(x[0] > kShortest) || !(x[2] > kShortest)) return;
     const double largest = r.cwiseAbs().maxCoeff();
     round_least_ = std::min(round_least_, largest);
     if (!(largest < least_)) return;
@@ -369,6 +280,7 @@ class Fit {
   }
 
   const UnitPiece& unit_;
+  const BestSearch& search_;
   Family family_;
   int degree_;
   std::vector<double> at_, feet_, feet_of_last_;
@@ -381,8 +293,8 @@ class Fit {
 
 }  // namespace
 
-ControlPolygon best_polygon(const UnitPiece& unit, int degree, bool thorough) {
-  return Fit(unit, degree).run(thorough);
+ControlPolygon best_polygon(const UnitPiece& unit, int degree, const BestSearch& search) {
+  return Fit(unit, degree, search).run();
 }
 
 }  // namespace keyline::lac::detail

@@ -30,10 +30,17 @@ struct RationalCubic {
 /// piece. Empty polygon where there is none.
 RationalCubic rational_cubic(const UnitPiece& unit);
 
-/// Least deviation with ends, tangents and end curvatures kept, degree >= 5. Empty where the search
-/// cannot begin: end curvatures so large that no handle of a usual length meets them. Thorough:
-/// from many starts where the usual one leaves more than 1e-9 of the length (up to 100 ms).
-ControlPolygon best_polygon(const UnitPiece& unit, int degree, bool thorough);
+struct BestSearch {
+  /// From many starts where the usual one leaves more than 1e-9 of the length (up to 100 ms).
+  bool thorough = false;
+  bool curvatures_held = true;
+  /// Of the degree: where to start; from unit speed where it is empty, if thorough too.
+  ControlPolygon from = {};
+};
+/// Least deviation with ends, tangents and, where held, end curvatures kept, degree >= 5. Empty
+/// where the search cannot begin: end curvatures so large that no handle of a usual length meets
+/// them.
+ControlPolygon best_polygon(const UnitPiece& unit, int degree, const BestSearch& search);
 
 /// The point of expansion of the paper's rule.
 double ruled_about(const UnitPiece& unit, SeriesVariable variable);

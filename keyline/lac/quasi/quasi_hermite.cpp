@@ -8,6 +8,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/segment/deviation.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
@@ -166,55 +167,83 @@ curve::Bezier2 laid_over(const detail::Drawn& drawn, Point2 p0, Point2 p1, Point
   return c;
 }
 
-/// The curve of solved unknowns over the handles, measured.
-QuasiResult laid_result(const SegmentSolution& solution, const Unknowns& x, double alpha,
-                        const QuasiOptions& settled, const std::array<Point2, 3>& handles,
-                        double mirror) {
-  const UnitPiece solved = piece_from(alpha, x);
-  const detail::Drawn drawn = draw_form(solved, settled);
-  QuasiResult r;
-  r.target = solution.segment;
-  r.form = settled.form;
-  r.about = settled.about.value_or(0);
-  r.lambda = lambda_of(solved.piece);
-  r.curve = laid_over(drawn, handles[0], handles[1], handles[2], mirror);
-  const double chord = norm(drawn.polygon.back() - drawn.polygon.front());
-  r.series_bound = distance(handles[0], handles[2]) / chord * drawn.series_bound;
-  detail::measure(r);
-  return r;
-}
+/// The forms over three handles.
+class OverHandles {
+ public:
+  OverHandles(const Segment& target, double alpha, const std::array<Point2, 3>& handles)
+      : target_(target),
+        unit_(detail::unit_piece(piece_of(target))),
+        angles_(*handle_angles(handles[0], handles[1], handles[2])),
+        alpha_(alpha),
+        handles_(handles) {}
 
-/// Of the other forms over the handles the closest: found as they are where they are asked for.
-std::optional<QuasiResult> closest_other(const SegmentSolution& solution,
-                                         const HandleAngles& angles, double alpha, int degree,
-                                         const std::array<Point2, 3>& handles) {
-  const UnitPiece unit = detail::unit_piece(piece_of(solution.segment));
-  std::optional<QuasiResult> closest;
-  for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc,
-                               QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
-    const auto settled = detail::settled(unit, {form, degree, {}, false});
-    if (!settled) continue;
-    Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
-               unit.turning};
-    Hermite hermite(angles, alpha, *settled);
-    const std::vector<Unknowns> all = hermite.solve(x) ? std::vector{x} : hermite.scan();
-    for (const Unknowns& found : all) {
-      QuasiResult r = laid_result(solution, found, alpha, *settled, handles, unit.mirror);
+  Result<QuasiOptions> settled(const QuasiOptions& options) const {
+    return detail::settled(unit_, options);
+  }
+
+  /// Of the curves of settled options the closest to the target; nothing where there is none.
+  std::optional<QuasiResult> closest(const QuasiOptions& settled) const {
+    Unknowns x{numeric::log_ratio(unit_.piece.curvature_end, unit_.piece.curvature_start),
+               unit_.turning};
+    Hermite hermite(angles_, alpha_, settled);
+    if (hermite.solve(x)) {
+      QuasiResult r = laid(x, settled);
+      r.iterations = hermite.iterations;
+      return r;
+    }
+    std::optional<QuasiResult> closest;
+    for (const Unknowns& found : hermite.scan()) {
+      QuasiResult r = laid(found, settled);
       if (!closest || r.deviation < closest->deviation) closest = std::move(r);
     }
+    return closest;
   }
-  return closest;
-}
 
-/// What is left of a fit of free handles that another form beats: that form.
-void take_closer(Result<QuasiResult>& best, std::optional<QuasiResult> other,
-                 const SegmentSolution& solution) {
-  if (!best && best.error().code != ErrorCode::undrawable) return;
-  if (!other || !std::isfinite(other->deviation)) return;
-  if (best && !(other->deviation < best->deviation)) return;
-  other->form = QuasiForm::best;
-  other->lambda = lambda_of(piece_of(solution.segment));
-  best = *std::move(other);
+  /// Of all forms that give up end curvatures.
+  std::optional<detail::Approximation> closest_form(int degree) const {
+    std::optional<detail::Approximation> all;
+    for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc,
+                                 QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
+      const auto options = settled({form, degree, {}, false});
+      if (!options) continue;
+      auto r = closest(*options);
+      if (r && !(all && all->deviation <= r->deviation))
+        all = {std::move(r->curve), r->deviation, false};
+    }
+    return all;
+  }
+
+ private:
+  /// The curve of solved unknowns, with its deviation and nothing else measured.
+  QuasiResult laid(const Unknowns& x, const QuasiOptions& settled) const {
+    const UnitPiece solved = piece_from(alpha_, x);
+    const detail::Drawn drawn = detail::draw_form(solved, settled);
+    QuasiResult r;
+    r.target = target_;
+    r.form = settled.form;
+    r.about = settled.about.value_or(0);
+    r.lambda = lambda_of(solved.piece);
+    r.curve = laid_over(drawn, handles_[0], handles_[1], handles_[2], unit_.mirror);
+    const double chord = norm(drawn.polygon.back() - drawn.polygon.front());
+    r.series_bound = distance(handles_[0], handles_[2]) / chord * drawn.series_bound;
+    r.deviation = deviation_bound(target_, r.curve);
+    return r;
+  }
+
+  const Segment& target_;
+  UnitPiece unit_;
+  HandleAngles angles_;
+  double alpha_;
+  std::array<Point2, 3> handles_;
+};
+
+/// Those of the forms that are fitted to the target, whose ends are those of the handles.
+Result<QuasiResult> fitted(const OverHandles& forms, const Segment& target,
+                           const QuasiOptions& options) {
+  if (options.form != QuasiForm::best) return quasi_log_aesthetic(target, options);
+  if (auto checked = forms.settled(options); !checked) return std::unexpected(checked.error());
+  return detail::best_result(target, options.degree,
+                             [&](int degree) { return forms.closest_form(degree); });
 }
 
 bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == QuasiForm::best; }
@@ -225,38 +254,22 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
                                         const QuasiOptions& options) {
   const auto solution = solve_g1(p0, p1, p2, alpha);
   if (!solution) return std::unexpected(solution.error());
-  const auto angles = handle_angles(p0, p1, p2);
-  if (keeps_ends(options.form) || solution->turning == 0) {
-    auto result = quasi_log_aesthetic(solution->segment, options);
-    if (result && solution->turning != 0) settle_ends(result->curve, p0, p1, p2);
-    if (options.form == QuasiForm::best && solution->turning != 0)
-      take_closer(result, closest_other(*solution, *angles, alpha, options.degree, {p0, p1, p2}),
-                  *solution);
+  if (solution->turning == 0) return quasi_log_aesthetic(solution->segment, options);
+  const OverHandles forms(solution->segment, alpha, {p0, p1, p2});
+  if (keeps_ends(options.form)) {
+    auto result = fitted(forms, solution->segment, options);
+    if (result) settle_ends(result->curve, p0, p1, p2);
     return result;
   }
-  const UnitPiece unit = detail::unit_piece(piece_of(solution->segment));
-  const auto settled = detail::settled(unit, options);
+  const auto settled = forms.settled(options);
   if (!settled) return std::unexpected(settled.error());
-  Unknowns x{numeric::log_ratio(unit.piece.curvature_end, unit.piece.curvature_start),
-             unit.turning};
-  Hermite hermite(*angles, alpha, *settled);
-  const auto result = [&](const Unknowns& solved) {
-    return laid_result(*solution, solved, alpha, *settled, {p0, p1, p2}, unit.mirror);
-  };
-  if (hermite.solve(x)) {
-    QuasiResult r = result(x);
-    r.iterations = hermite.iterations;
-    return r;
-  }
-  std::optional<QuasiResult> closest;
-  for (const Unknowns& found : hermite.scan()) {
-    QuasiResult r = result(found);
-    if (!closest || r.deviation < closest->deviation) closest = std::move(r);
-  }
-  if (closest) return *std::move(closest);
-  return core::fail(ErrorCode::undrawable,
-                    "no Lambda gives a curve of this form and degree with these end tangents",
-                    "raise the degree, or take the form best or rational-cubic");
+  auto closest = forms.closest(*settled);
+  if (!closest)
+    return core::fail(ErrorCode::undrawable,
+                      "no Lambda gives a curve of this form and degree with these end tangents",
+                      "raise the degree, or take the form best or rational-cubic");
+  detail::measure(*closest);
+  return *std::move(closest);
 }
 
 }  // namespace keyline::lac

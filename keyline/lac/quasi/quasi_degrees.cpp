@@ -1,0 +1,128 @@
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "keyline/lac/quasi/quasi_forms.h"
+#include "keyline/lac/quasi/quasi_hermite.h"
+#include "keyline/lac/segment/deviation.h"
+
+namespace keyline::lac::detail {
+
+using core::Point2;
+using core::Vector2;
+
+namespace {
+
+/// Least deviation of each degree in turn: each begins, among others, from the last one raised, so
+/// that none is worse than a lower one.
+class Degrees {
+ public:
+  Degrees(const Segment& segment, const OtherForms& others)
+      : segment_(segment), unit_(unit_piece(piece_of(segment))), others_(others) {}
+
+  /// Its control is empty where there is none.
+  Approximation run(int degree) {
+    offer(fitted(degree, {}));
+    if (nearer_than(kExact)) return nearest_;
+    const Approximation quick = std::exchange(nearest_, none());
+    for (int d = kLeast; d <= degree && !nearer_than(kExact); ++d) take(d);
+    raise_to(degree);
+    offer(quick);
+    return nearest_;
+  }
+
+ private:
+  static constexpr int kLeast = 5;
+  static constexpr int kLeastOther = 3;    ///< of the other forms
+  static constexpr double kExact = 1e-13;  ///< of the length: nothing to gain
+  static constexpr double kGood = 1e-9;    ///< other forms are not looked at for less
+
+  static Approximation none() { return {{}, std::numeric_limits<double>::infinity(), false}; }
+  bool found() const { return !nearest_.curve.control.empty(); }
+  bool nearer_than(double share) const { return nearest_.deviation <= share * unit_.length; }
+  void raise_to(int degree) {
+    if (found())
+      nearest_.curve =
+          curve::elevate_degree(nearest_.curve, degree - curve::degree(nearest_.curve));
+  }
+
+  /// The nearest of a degree, from that of the one below.
+  void take(int degree) {
+    raise_to(degree);
+    if (degree == kLeast) offer(rational(degree));
+    offer(fitted(degree, {.thorough = true, .from = start(nearest_.curve)}));
+    if (!others_ || nearer_than(kGood)) return;
+    for (int d = degree == kLeast ? kLeastOther : degree; d <= degree; ++d) {
+      auto other = others_(d);
+      if (!other) continue;
+      other->curve = curve::elevate_degree(other->curve, degree - d);
+      offer(fitted(degree, {.from = start(other->curve)}));
+      offer(std::move(other));
+    }
+    if (!found() || nearest_.curvatures_held) return;
+    // Where the end curvatures are given up they may as well be for the best.
+    offer(fitted(degree,
+                 {.thorough = true, .curvatures_held = false, .from = start(nearest_.curve)}));
+  }
+
+  void offer(std::optional<Approximation> a) {
+    if (!a || !std::isfinite(a->deviation)) return;
+    if (a->deviation < nearest_.deviation) nearest_ = *std::move(a);
+  }
+
+  /// A curve as a polygon of the unit piece; empty for none and for rational ones.
+  ControlPolygon start(const curve::Bezier2& c) const {
+    ControlPolygon b;
+    if (!c.weights.empty()) return b;
+    for (const Point2& p : c.control) {
+      const Point2 local = to_local(segment_.start, p);
+      b.push_back({local.x / unit_.length, unit_.mirror * local.y / unit_.length});
+    }
+    return b;
+  }
+
+  std::optional<Approximation> fitted(int degree, const BestSearch& search) const {
+    const ControlPolygon b = best_polygon(unit_, degree, search);
+    if (b.empty()) return std::nullopt;
+    return measured({in_place(segment_, unit_, {b, {}, 0}), 0, search.curvatures_held});
+  }
+
+  std::optional<Approximation> rational(int degree) const {
+    if (!check_form(unit_, {QuasiForm::rational_cubic, 3, {}, false})) return std::nullopt;
+    RationalCubic cubic = rational_cubic(unit_);
+    if (cubic.polygon.empty()) return std::nullopt;
+    const curve::Bezier2 c =
+        in_place(segment_, unit_, {std::move(cubic.polygon), std::move(cubic.weights), 0});
+    return measured({curve::elevate_degree(c, degree - 3), 0, true});
+  }
+
+  Approximation measured(Approximation a) const {
+    a.deviation = deviation_bound(segment_, a.curve);
+    return a;
+  }
+
+  const Segment& segment_;
+  UnitPiece unit_;
+  const OtherForms& others_;
+  Approximation nearest_ = none();
+};
+
+}  // namespace
+
+curve::Bezier2 in_place(const Segment& segment, const UnitPiece& unit, const Drawn& drawn) {
+  curve::Bezier2 c;
+  for (const Vector2 v : drawn.polygon)
+    c.control.push_back(
+        from_local(segment.start, {unit.length * v.x, unit.length * unit.mirror * v.y}));
+  c.weights = drawn.weights;
+  return c;
+}
+
+std::optional<Approximation> best_of_degrees(const Segment& segment, int degree,
+                                             const OtherForms& others) {
+  Approximation best = Degrees(segment, others).run(degree);
+  if (best.curve.control.empty()) return std::nullopt;
+  return best;
+}
+
+}  // namespace keyline::lac::detail

@@ -1,0 +1,120 @@
+#include "keyline/lac/quasi/quasi_family.h"
+
+#include <cmath>
+
+#include "keyline/core/angle.h"
+#include "keyline/numeric/solve.h"
+
+namespace keyline::lac::detail {
+
+using core::Vector2;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Basis::Basis(int n, double t) {
+  Row& b = value;
+  b[0] = 1;
+  for (int level = 1; level <= n; ++level) {
+    if (level == n)
+      for (int i = 0; i <= n; ++i) slope[i] = n * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
+    for (int i = level; i > 0; --i) b[i] = (1 - t) * b[i] + t * b[i - 1];
+    b[0] *= 1 - t;
+  }
+}
+
+Vector2 combine(const Basis::Row& weights, const ControlPolygon& b) {
+  Vector2 v;
+  for (std::size_t i = 0; i < b.size(); ++i) v = v + weights[i] * b[i];
+  return v;
+}
+
+Family::Family(const UnitPiece& unit, int degree, bool curvatures_held)
+    : unit_(unit),
+      n_(degree),
+      held_(curvatures_held),
+      end_(displacement(unit.piece, 1)),
+      end_tangent_(core::unit_vector(unit.turning)) {}
+
+ControlPolygon Family::polygon(const VectorXd& x) const {
+  ControlPolygon b(n_ + 1);
+  const double bend = n_ / (n_ - 1.0);
+  const double first = held_ ? bend * unit_.piece.curvature_start * x[0] * x[0] : x[inner_end()];
+  const double last = held_ ? bend * unit_.piece.curvature_end * x[2] * x[2] : x[inner_end() + 1];
+  b[1] = {x[0], 0};
+  b[2] = {x[1], first};
+  for (int i = 3; i < n_ - 2; ++i) b[i] = {x[4 + 2 * (i - 3)], x[5 + 2 * (i - 3)]};
+  b[n_] = end_;
+  b[n_ - 1] = end_ - x[2] * end_tangent_;
+  b[n_ - 2] = end_ - x[3] * end_tangent_ + last * core::perpendicular_left(end_tangent_);
+  return b;
+}
+
+Vector2 Family::change(const VectorXd& x, const Basis::Row& w, int k) const {
+  const double bend = held_ ? 2 * n_ / (n_ - 1.0) : 0;
+  const Vector2 normal = core::perpendicular_left(end_tangent_);
+  switch (k) {
+    case 0:
+      return {w[1], w[2] * bend * unit_.piece.curvature_start * x[0]};
+    case 1:
+      return {w[2], 0};
+    case 2:
+      return -w[n_ - 1] * end_tangent_ +
+             (w[n_ - 2] * bend * unit_.piece.curvature_end * x[2]) * normal;
+    case 3:
+      return -w[n_ - 2] * end_tangent_;
+    default:
+      break;
+  }
+  if (k == inner_end()) return {0, w[2]};
+  if (k == inner_end() + 1) return w[n_ - 2] * normal;
+  const double at = w[3 + (k - 4) / 2];
+  return k % 2 == 0 ? Vector2{at, 0} : Vector2{0, at};
+}
+
+VectorXd Family::nearest(const ControlPolygon& polygon) const {
+  const Vector2 from = polygon.front();
+  const Vector2 off = end_ - (polygon.back() - from);
+  const auto moved = [&](int i) { return polygon[i] - from + (i / double(n_)) * off; };
+  VectorXd x(unknowns());
+  x[0] = norm(moved(1));
+  x[1] = moved(2).x;
+  x[2] = norm(end_ - moved(n_ - 1));
+  x[3] = dot(end_ - moved(n_ - 2), end_tangent_);
+  for (int i = 3; i < n_ - 2; ++i) {
+    const Vector2 b = moved(i);
+    x[4 + 2 * (i - 3)] = b.x;
+    x[5 + 2 * (i - 3)] = b.y;
+  }
+  if (held_) return x;
+  x[inner_end()] = moved(2).y;
+  x[inner_end() + 1] = cross(end_tangent_, moved(n_ - 2) - end_);
+  return x;
+}
+
+VectorXd Family::start(double first, double last, const std::vector<double>& at,
+                       const std::vector<Vector2>& points, double& miss) const {
+  VectorXd x = VectorXd::Zero(unknowns());
+  x[0] = first;
+  x[2] = last;
+  const ControlPolygon fixed = polygon(x);
+  const int rows = static_cast<int>(at.size());
+  const int columns = unknowns() - 2;
+  const auto unknown = [](int column) { return column == 0 ? 1 : column + 2; };
+  MatrixXd a(2 * rows, columns);
+  VectorXd rest(2 * rows);
+  for (int j = 0; j < rows; ++j) {
+    const Basis basis(n_, at[j]);
+    const Vector2 r = points[j] - combine(basis.value, fixed);
+    rest.segment<2>(2 * j) << r.x, r.y;
+    for (int i = 0; i < columns; ++i) {
+      const Vector2 d = change(x, basis.value, unknown(i));
+      a.block<2, 1>(2 * j, i) << d.x, d.y;
+    }
+  }
+  const VectorXd solved = numeric::least_squares(a, rest);
+  for (int i = 0; i < columns; ++i) x[unknown(i)] = solved[i];
+  miss = (a * solved - rest).norm() / std::sqrt(static_cast<double>(rows));
+  return x;
+}
+
+}  // namespace keyline::lac::detail
