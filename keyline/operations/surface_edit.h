@@ -19,8 +19,9 @@ struct SurfaceEditOptions {
     return core::fields(
         core::field<&Request::keep>(
             "start (the first corner and the tangents of its row and column; the default of one "
-            "patch), corners, joints (corners, boundary curves moving so that neighbours stay "
-            "joined; the default of several) or boundary"),
+            "patch), corners, joints (boundary curves move so that neighbours stay joined; corners "
+            "stay, but where joints are held those in which patches meet move together; the "
+            "default of several) or boundary"),
         core::field<&Request::amount>("0 as given to 1 the target").within(core::from_to(0, 1)),
         core::field<&Request::limit>("largest departure from the given surface")
             .in("length")
@@ -97,7 +98,9 @@ struct JointsChange {
   static constexpr auto describe() {
     return core::fields(core::field<&JointsChange::before>("as given"),
                         core::field<&JointsChange::after>("as edited"),
-                        core::field<&JointsChange::lost>("of lower order than before"),
+                        core::field<&JointsChange::lost>(
+                            "of lower order than before, of what was to be held; of joints let go "
+                            "those that opened"),
                         core::field<&JointsChange::turned>(
                             "tangent joints at which stripes of a zebra turn farther than before"),
                         core::field<&JointsChange::folded>(

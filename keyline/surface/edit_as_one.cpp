@@ -321,7 +321,6 @@ class AsOne {
       }
     });
     all_.surfaces = best_;
-    all_.lost = lost_orders(joints_, given_, best_, most_, task_.tolerance);
   }
 
   std::span<const BezierSurface> given_;

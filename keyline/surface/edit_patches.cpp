@@ -32,7 +32,7 @@ std::size_t count_folded(std::span<const BezierSurface> given,
 int order_of(HoldJoints hold) {
   switch (hold) {
     case HoldJoints::free:
-      return -1;
+      return 0;
     case HoldJoints::G1:
       return 1;
     case HoldJoints::G2:
@@ -61,6 +61,7 @@ core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
   all.sav_apart = sum_of(all.patches, &EditResult::after);
   if (hold != HoldJoints::free && !all.joints.empty())
     detail::edit_as_one({patches, options, threads, tolerance, hold}, all);
+  all.lost = lost_orders(all.joints, patches, all.surfaces, order_of(hold), tolerance);
   if (options.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
   all.sav_after = sum_of(all.patches, &EditResult::after);
   for (const PatchEdit& p : all.patches)

@@ -20,7 +20,8 @@ struct PatchEdit {
 /// turns farther at any joint than it did, whatever of its curvature is in common.
 enum class HoldJoints { free, G1, G2, zebra };
 
-/// Order of joints that is held at most; -1: none.
+/// Order of joints that counts as lost where it is lower after an edit; of joints let go 0, that
+/// their edges meet.
 int order_of(HoldJoints hold);
 
 /// Several patches edited as one problem, and what that does to their joints.
@@ -30,7 +31,7 @@ struct PatchesEdit {
   std::vector<PatchJoint> joints;       ///< of the patches as given
   JointSummary before;
   JointSummary after;
-  std::size_t lost = 0;    ///< joints whose order is lower now, of what was to be held
+  std::size_t lost = 0;    ///< joints whose order is lower now, of orders up to order_of(hold)
   std::size_t folded = 0;  ///< patches whose normal turns over (turn_over.h): joints let go alone
   std::size_t turned = 0;  ///< joints at which a zebra turns farther (turned_farther)
   double fold_growth = 0;  ///< largest, of joints that meet before and after, radians

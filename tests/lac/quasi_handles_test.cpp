@@ -130,5 +130,31 @@ TEST(Quasi, TaylorFormsFindALambdaWhereThereIsOne) {
   }
 }
 
+// Such pieces turn 49 and 900,000 radians, all but the polygon's turning within half an edge; they
+// were refused beyond 6.2. By mpmath, 50 digits: the edge's length and the control point b4.
+TEST(Quasi, PolygonsAreFoundHoweverFarTheirPieceTurns) {
+  const struct {
+    double theta, psi, alpha, edge;
+    core::Point2 b4;
+  } cases[] = {{1.5765,
+                1.4411,
+                0.1967,
+                0.123984430388918117,
+                {0.385715515265846005, -0.0834143758028426197}},
+               {2.036,
+                0.1649,
+                0.3322,
+                0.131101503521131865,
+                {0.517640150274660267, -0.0839447640651129446}}};
+  for (const auto& c : cases) {
+    const auto [p0, p1, p2] = handles_of(c.theta, c.psi);
+    const auto r =
+        quasi_log_aesthetic(p0, p1, p2, c.alpha, {QuasiForm::discrete_arc, 9, {}, false});
+    ASSERT_TRUE(r) << c.alpha;
+    EXPECT_NEAR(distance(r->curve.control[0], r->curve.control[1]), c.edge, 1e-11);
+    EXPECT_LT(distance(r->curve.control[4], c.b4), 1e-11);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::lac

@@ -12,6 +12,8 @@ namespace {
 
 using namespace own;
 
+constexpr double kOpen = 1e-3;  ///< largest gap that still joins, in the model's unit
+
 /// Largest fold along the edge u = 1 of one and u = 0 of the other.
 double fold(const Patches& a, const Patches& b) {
   double most = 0;
@@ -42,24 +44,28 @@ double apart(const Patches& a, const Patches& b) {
   return most;
 }
 
-/// Corners of the model stay; those where patches meet only where no joint is held.
-void expect_corners(const json& given, const json& now, bool first, bool free, double rounding) {
+/// Corners of the model stay; those where patches meet may move where a joint is held, unless
+/// corners are kept (that both of a joint move alike its gap tells).
+void expect_corners(const json& given, const json& now, bool first, bool all, double rounding) {
   const std::size_t last = now["points"].size() - 1, c = now["points"][0].size() - 1;
   for (const std::size_t row : {std::size_t{0}, std::size_t{3}})
     for (const std::size_t column : {std::size_t{0}, std::size_t{3}}) {
-      if ((row == 3) == first && !free) continue;
+      if ((row == 3) == first && !all) continue;
       const json& there = now["points"][row == 0 ? 0 : last][column == 0 ? 0 : c];
       EXPECT_LT(distance(vec(given["points"][row][column]), vec(there)), rounding);
     }
 }
 
 /// Joint of both as they are now: what is held is, and what is told is so.
-void expect_joint(const json& now, const json& told, const std::string& hold, bool may_open,
+void expect_joint(const json& now, const json& joints, const std::string& hold, bool may_open,
                   double rounding) {
   const Patches a = patches_of(now[0]), b = patches_of(now[1]);
+  const json& told = joints["after"];
   if (!may_open) {
     EXPECT_LT(gap(a, b), rounding);
   }
+  EXPECT_NEAR(told["gap"].get<double>(), gap(a, b), 0.01 * gap(a, b) + rounding);
+  EXPECT_EQ(joints["lost"], gap(a, b) > kOpen ? 1 : 0) << gap(a, b);
   if (told["G0"] == 1) {  // the largest of its own places
     EXPECT_NEAR(told["angle"].get<double>(), fold(a, b), 1e-6 + 0.01 * fold(a, b));
   }
@@ -80,6 +86,8 @@ TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
     const std::string hold = holds[n % 3];
     json request{{"op", "surface.edit_together"}, {"surfaces", {first, second}}, {"joints", hold}};
     if (random() % 2 == 0) request["limit"] = size_ * power_of_ten(random, -3, -1);
+    const bool corners = random() % 3 == 0;
+    if (corners) request["keep"] = "corners";
     SCOPED_TRACE(request.dump());
     const json answer = answered(request);
     if (answer["ok"] == false) {
@@ -103,11 +111,11 @@ TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
       if (request.contains("limit")) {
         EXPECT_LE(told, request["limit"].get<double>() * (1 + 1e-12));
       }
-      expect_corners(given, now[i], i == 0, hold == "free", 1e-9 * size_ + rounding);
+      expect_corners(given, now[i], i == 0, hold == "free" || corners, 1e-9 * size_ + rounding);
     }
-    // Free patches stop at the limit each for itself (docs/limits.md).
-    const bool may_open = hold == "free" && request.contains("limit");
-    expect_joint(now, result["joints"]["after"], hold, may_open, 1e-9 * size_ + rounding);
+    // Free patches stop at the limit each for itself (docs/limits.md), edges go with the patch.
+    const bool may_open = hold == "free" && (request.contains("limit") || corners);
+    expect_joint(now, result["joints"], hold, may_open, 1e-9 * size_ + rounding);
   }
   EXPECT_GT(edited, count / 2);
 }

@@ -41,6 +41,10 @@ struct Miss {
   double size() const { return std::max(std::abs(turning), std::abs(chord_angle)); }
 };
 
+bool is_discrete(QuasiForm f) {
+  return f == QuasiForm::discrete_angle || f == QuasiForm::discrete_arc;
+}
+
 class Hermite {
  public:
   Hermite(const HandleAngles& angles, double alpha, const QuasiOptions& options)
@@ -66,12 +70,62 @@ class Hermite {
       x = {x.log_ratio + factor * step->log_ratio, x.turning + factor * step->turning};
       miss = next;
     }
-    return miss->size() < 1e-11;
+    return miss->size() < kMet;
   }
 
-  /// The paper's scan for Lambda ([QLAC] §4) in both unknowns: from the places that miss least,
-  /// every solution found, each once.
-  std::vector<Unknowns> scan() {
+  /// Every solution found, each once.
+  std::vector<Unknowns> scan() { return is_discrete(options_.form) ? polygons() : series(); }
+
+  int iterations = 0;
+
+ private:
+  static constexpr std::size_t kTried = 40;
+  static constexpr double kMet = 1e-11;         ///< radians
+  static constexpr double kMostTurning = 1e30;  ///< of a polygon's piece
+  static constexpr double kFarthest = 350;      ///< log of the ratio of polygons' radii
+
+  /// Of a polygon the turning of its edges is in proportion to that of the piece, so only the ratio
+  /// of the radii is looked for, by sign: the piece itself may turn many times round within half an
+  /// edge.
+  std::vector<Unknowns> polygons() const {
+    std::vector<Unknowns> found;
+    std::optional<Miss> before;
+    double last = 0;
+    for (double log_ratio = -kFarthest; log_ratio <= kFarthest;
+         log_ratio += std::max(1.0, 0.1 * std::abs(log_ratio))) {
+      const auto now = at(turning_rightly(log_ratio));
+      if (before && now && before->chord_angle * now->chord_angle <= 0) {
+        const Unknowns x = between(last, log_ratio, before->chord_angle);
+        const auto miss = at(x);
+        if (miss && miss->size() < kMet) found.push_back(x);
+      }
+      before = now;
+      last = log_ratio;
+    }
+    return found;
+  }
+
+  /// Where the chord angle is met between two ratios, halved down; `off` is the miss at the first.
+  Unknowns between(double low, double high, double off) const {
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      const auto miss = at(turning_rightly(middle));
+      if (!miss) break;
+      (miss->chord_angle * off > 0 ? low : high) = middle;
+    }
+    return turning_rightly(0.5 * (low + high));
+  }
+
+  /// The piece of a ratio whose polygon turns as wanted from its first edge to its last.
+  Unknowns turning_rightly(double log_ratio) const {
+    const double n = options_.degree;
+    if (options_.form == QuasiForm::discrete_angle) return {log_ratio, turning_ * n / (n - 1)};
+    const Piece whole = piece_from(alpha_, {log_ratio, 1}).piece;
+    return {log_ratio, turning_ / total_turning(part(whole, 0.5 / n, 1 - 0.5 / n))};
+  }
+
+  /// The paper's scan for Lambda ([QLAC] §4) in both unknowns, from the places that miss least.
+  std::vector<Unknowns> series() {
     struct Place {
       Unknowns x;
       double miss = 0;
@@ -97,13 +151,10 @@ class Hermite {
     return found;
   }
 
-  int iterations = 0;
-
- private:
-  static constexpr std::size_t kTried = 40;
-
   std::optional<Miss> at(const Unknowns& x) const {
-    if (!(x.turning > 1e-3 * turning_ && x.turning < 6.2) || !(std::abs(x.log_ratio) < 60))
+    const bool discrete = is_discrete(options_.form);
+    if (!(x.turning > 1e-3 * turning_ && x.turning < (discrete ? kMostTurning : 6.2)) ||
+        !(std::abs(x.log_ratio) <= kFarthest))
       return std::nullopt;
     const ControlPolygon b = draw_form(piece_from(alpha_, x), options_).polygon;
     const std::size_t n = b.size() - 1;

@@ -76,12 +76,17 @@ ControlPolygon taylor_polygon(const UnitPiece& unit, const TaylorSeries& s) {
 }
 
 ControlPolygon discrete_polygon(const UnitPiece& unit, SeriesVariable variable, int degree) {
-  ControlPolygon polygon{{0, 0}};
   const bool by_angle = variable == SeriesVariable::tangent_angle;
   const auto arc_at = [&](double u) { return by_angle ? fraction_at_turning(unit.piece, u) : u; };
+  // Of equal lengths: beyond the first and last edge's middles the piece may turn many times round;
+  // by which angle the edges part must not drown in that.
+  const Piece inner = part(unit.piece, 0.5 / degree, 1 - 0.5 / degree);
+  const double first = core::wrap_angle(turning(unit.piece, 0.5 / degree));
+  ControlPolygon polygon{{0, 0}};
   for (int i = 0; i < degree; ++i) {
     const double edge = arc_at((i + 1.0) / degree) - arc_at(1.0 * i / degree);
-    const double direction = turning(unit.piece, arc_at((i + 0.5) / degree));
+    const double direction =
+        by_angle ? unit.turning * (i + 0.5) / degree : first + turning(inner, i / (degree - 1.0));
     polygon.push_back(polygon.back() + edge * core::unit_vector(direction));
   }
   return polygon;
