@@ -105,22 +105,26 @@ TEST(RandomRefusals, NoVolumeIsFoundByScanningAllTurnings) {
   EXPECT_GT(found, 0);  // of what exists the search does find some: it goes but to 1.2 half turns
 }
 
+constexpr double kShortest = 1e-8;  ///< end edge, of the chord, whose direction outlasts rounding
+
 /// A polygon that turns by theta between its first and last edge: what the forms draw. `growth` is
-/// that of the radius over the whole target.
+/// that of the radius over the whole target. NaN where an end edge is too short to be one.
 double polygon_chord_angle(bool by_angle, double alpha, int edges, double theta, double growth) {
   const auto mean = [](double exponent, double ratio, double u) {
     if (std::abs(exponent) < 1e-9) return std::pow(ratio, u);
     return std::pow(1 - u + u * std::pow(ratio, exponent), 1 / exponent);
   };
   Complex end = 0;
+  double shortest = INFINITY;
   if (by_angle) {  // parts of equal angle: edges as long as the parts
     for (int j = 0; j < edges; ++j) {
       const double part =
           own::integral([&](double u) { return mean(alpha - 1, std::exp(growth), u); },
                         static_cast<double>(j) / edges, (j + 1.0) / edges);
       end += std::polar(part, theta * j / (edges - 1));
+      if (j == 0 || j + 1 == edges) shortest = std::min(shortest, part);
     }
-    return std::arg(end);
+    return shortest > kShortest * std::abs(end) ? std::arg(end) : NAN;
   }
   std::vector<double> turned;  // parts of equal length: edges along their middles
   double sum = 0;

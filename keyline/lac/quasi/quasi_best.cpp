@@ -100,7 +100,6 @@ class Fit {
   /// Deviation from which on, of the length, other starts are worth their time.
   static constexpr double kGood = 1e-9;
   static constexpr double kExact = 1e-15;
-  static constexpr double kShortest = 1e-8;  ///< handle, of the length
   static constexpr std::size_t kStarts = 6;
 
   /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
@@ -230,7 +229,7 @@ class Fit {
 
   void keep_better(const VectorXd& x, const VectorXd& r) {
     // A handle the other way reverses an end tangent, one too short loses it in rounding.
-    if (!(x[0] > kShortest) || !(x[2] > kShortest)) return;
+    if (!(x[0] > kShortestHandle) || !(x[2] > kShortestHandle)) return;
     const double largest = r.cwiseAbs().maxCoeff();
     round_least_ = std::min(round_least_, largest);
     if (!(largest < least_)) return;

@@ -30,6 +30,9 @@ struct RationalCubic {
 /// piece. Empty polygon where there is none.
 RationalCubic rational_cubic(const UnitPiece& unit);
 
+/// Of the size: an end edge that is shorter loses its direction in rounding.
+inline constexpr double kShortestHandle = 1e-8;
+
 struct BestSearch {
   /// From many starts where the usual one leaves more than 1e-9 of the length (up to 100 ms).
   bool thorough = false;

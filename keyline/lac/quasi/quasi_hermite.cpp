@@ -240,11 +240,12 @@ class OverHandles {
     if (hermite.solve(x)) {
       QuasiResult r = laid(x, settled);
       r.iterations = hermite.iterations;
-      return r;
+      if (holds_tangents(r.curve)) return r;
     }
     std::optional<QuasiResult> closest;
     for (const Unknowns& found : hermite.scan()) {
       QuasiResult r = laid(found, settled);
+      if (!holds_tangents(r.curve)) continue;
       if (!closest || r.deviation < closest->deviation) closest = std::move(r);
     }
     return closest;
@@ -265,6 +266,17 @@ class OverHandles {
   }
 
  private:
+  /// Whether the end edges are long enough for their directions to outlast the coordinates'
+  /// rounding.
+  bool holds_tangents(const curve::Bezier2& c) const {
+    double extent = distance(handles_[0], handles_[2]);
+    for (const Point2& p : handles_) extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+    const std::size_t n = c.control.size() - 1;
+    const double edge =
+        std::min(distance(c.control[0], c.control[1]), distance(c.control[n - 1], c.control[n]));
+    return edge > detail::kShortestHandle * extent;
+  }
+
   /// The curve of solved unknowns, with its deviation and nothing else measured.
   QuasiResult laid(const Unknowns& x, const QuasiOptions& settled) const {
     const UnitPiece solved = piece_from(alpha_, x);
@@ -317,7 +329,8 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   auto closest = forms.closest(*settled);
   if (!closest)
     return core::fail(ErrorCode::undrawable,
-                      "no Lambda gives a curve of this form and degree with these end tangents",
+                      "no Lambda gives a curve of this form and degree with these end tangents "
+                      "whose end edges outlast rounding",
                       "raise the degree, or take the form best or rational-cubic");
   detail::measure(*closest);
   return *std::move(closest);
