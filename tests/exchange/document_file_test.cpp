@@ -113,10 +113,27 @@ TEST(JsonDocument, OneSurfaceIsItsValue) {
   d.surfaces[0].label.layer.clear();
   const auto j = to_json(d);
   EXPECT_EQ(j["type"], "bezier-surface");
+  EXPECT_FALSE(j.contains("trims"));
   const auto read = document_from_json(j);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->surfaces[0].label.name, "hood");
   EXPECT_EQ(read->surfaces[0].surface, d.surfaces[0].surface);
+}
+
+TEST(JsonDocument, KeepsTheNumberOfTrims) {
+  for (const int trims : {1, 2, 4}) {
+    Document d;
+    d.surfaces.push_back(mixed().surfaces[0]);
+    d.surfaces[0].trims = trims;
+    const auto j = to_json(d);
+    EXPECT_EQ(j["surfaces"][0]["trims"], trims);
+    const auto read = document_from_json(j);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->surfaces[0].trims, trims);
+    const auto from_text = read_json(json_text(d, 2));
+    ASSERT_TRUE(from_text);
+    EXPECT_EQ(from_text->surfaces[0].trims, trims);
+  }
 }
 
 TEST(JsonDocument, NamesThePlaceOfAMistake) {
@@ -265,6 +282,21 @@ TEST_F(Files, NamesComeBackFromATable) {
   ASSERT_EQ(read->paths.size(), names.size());
   for (std::size_t i = 0; i < names.size(); ++i)
     EXPECT_EQ(read->paths[i].label.name, i == 3 ? "tab here" : names[i]);
+}
+
+TEST_F(Files, LinesOfAMeshAreNumberedInTheirOrder) {
+  const auto read = read_document(
+      file("l.obj", "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 1 2 3\nl 1 2\nl 2 3 4\nl 4 1\nf 1 2 3\n"));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->space_curves.size(), 3U);
+  const char* const names[] = {"line-1", "line-2", "line-3"};
+  const std::size_t corners[] = {2, 3, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(read->space_curves[i].label.name, names[i]);
+    const auto* line = std::get_if<curve::Polyline3>(&read->space_curves[i].curve.value);
+    ASSERT_TRUE(line);
+    EXPECT_EQ(line->points.size(), corners[i]);
+  }
 }
 
 TEST_F(Files, WhatAFormatCannotHoldIsSaid) {

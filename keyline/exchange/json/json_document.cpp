@@ -114,7 +114,8 @@ Result<void> add_surface(Document& document, const json& item, const std::string
   auto read = surface_from_json(item["surface"], in(where, "surface"));
   if (!read) return std::unexpected(read.error());
   const auto trims = item.find("trims");
-  const bool counted = trims != item.end() && trims->is_number_unsigned() && *trims < 1'000'000;
+  const bool counted =
+      trims != item.end() && trims->is_number_integer() && *trims >= 0 && *trims < 1'000'000;
   document.surfaces.push_back({label_of(item), std::move(*read), counted ? trims->get<int>() : 0});
   return add_trim_loops(document.surfaces.back(), item, where);
 }
