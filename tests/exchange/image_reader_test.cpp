@@ -163,14 +163,8 @@ void put(std::string& bytes, std::size_t at, std::uint32_t value, int size, bool
         static_cast<char>(value >> (8 * (little ? k : size - 1 - k)));
 }
 
-TEST(ImageReader, RefusesHeaderBombsBeforeMakingRoom) {
-  const auto rgb = rgb_pixels();
-  std::string jpeg = jpeg_of(rgb);
-  const std::size_t frame = jpeg.find("\xff\xc0");
-  ASSERT_NE(frame, std::string::npos);
-  put(jpeg, frame + 5, 40000, 2, false);
-  put(jpeg, frame + 7, 40000, 2, false);
-  expect_bad(jpeg);
+/// A TIFF of a few pixels that states side x side.
+std::string tiff_stating(std::uint32_t side) {
   std::string tiff = tiff_of(8, 1, 1);
   const auto number = [&](std::size_t at, int size) {
     std::uint32_t v = 0;
@@ -183,10 +177,29 @@ TEST(ImageReader, RefusesHeaderBombsBeforeMakingRoom) {
     const std::size_t entry = directory + 2 + 12 * k;
     if (number(entry, 2) == TIFFTAG_IMAGEWIDTH || number(entry, 2) == TIFFTAG_IMAGELENGTH) {
       put(tiff, entry + 2, 4, 2, true);
-      put(tiff, entry + 8, 40000, 4, true);
+      put(tiff, entry + 8, side, 4, true);
     }
   }
-  expect_bad(tiff);
+  return tiff;
+}
+
+// Deflate packs a thousandfold at the best: 8000 x 8000 pixels are not in a file of a kilobyte.
+TEST(ImageReader, SaysWhereAFileIsTooShortForItsPixels) {
+  const auto image = read_image(tiff_stating(8000));
+  ASSERT_FALSE(image);
+  EXPECT_NE(image.error().message.find("too short for the 8000 x 8000 pixels"), std::string::npos)
+      << image.error().message;
+}
+
+TEST(ImageReader, RefusesHeaderBombsBeforeMakingRoom) {
+  const auto rgb = rgb_pixels();
+  std::string jpeg = jpeg_of(rgb);
+  const std::size_t frame = jpeg.find("\xff\xc0");
+  ASSERT_NE(frame, std::string::npos);
+  put(jpeg, frame + 5, 40000, 2, false);
+  put(jpeg, frame + 7, 40000, 2, false);
+  expect_bad(jpeg);
+  expect_bad(tiff_stating(40000));
   // a PNG with a good checksum that states 40,000 × 40,000, and one within the limit but empty
   for (const int side : {40000, 8000}) {
     std::string png = png_of(PNG_COLOR_TYPE_RGB, 8, rgb, kWidth, kHeight);

@@ -71,6 +71,18 @@ TEST(SvgWriter, HasTightPageAndRealSize) {
   EXPECT_EQ(*svg, write_svg({{"L", {arch}}}, {.unit = "m", .margin = 0}).value());
 }
 
+TEST(SvgWriter, LinesAreAsWideAsTheLayerTimesTheDrawings) {
+  const SvgPath line{"l", {{{{0, 0}, {800, 3}}, {}}}, false};
+  const auto width_of = [&](double layer, const SvgWriteOptions& options) {
+    const auto svg = write_svg({{"L", {line}, "#808080", layer}}, options);
+    pugi::xml_document document;
+    EXPECT_TRUE(svg && document.load_string(svg->c_str()));
+    return document.child("svg").child("g").attribute("stroke-width").as_double();
+  };
+  EXPECT_DOUBLE_EQ(width_of(3, {.stroke_width = 0.5}), 1.5);
+  EXPECT_DOUBLE_EQ(width_of(0.25, {}), 0.25 * 800 / 400);
+}
+
 TEST(SvgWriter, RefusesWhatSvgCannotHold) {
   const auto code = [](const SvgPath& path, const SvgWriteOptions& options = {}) {
     return write_svg({{"L", {path}}}, options).error().code;
@@ -159,6 +171,19 @@ TEST(SvgReader, ReadsShapes) {
   EXPECT_EQ(c.curves[7].pieces.size(), 1U);
   ASSERT_EQ(c.skipped.size(), 2U);
   EXPECT_NE(c.skipped[1].what.find("pair of numbers"), std::string::npos);
+}
+
+// SVG 2, 10.2: a corner is round where neither radius is 0; one that is not given is the other's.
+TEST(SvgReader, CornersAreRoundByBothRadii) {
+  const SvgContents c = contents(
+      wrap("<rect width='9' height='8' rx='0' ry='2'/><rect width='9' height='8' rx='2' ry='0'/>"
+           "<rect width='9' height='8' ry='2'/><rect width='9' height='8' rx='20' ry='3'/>"));
+  ASSERT_EQ(c.curves.size(), 4U);
+  EXPECT_EQ(c.curves[0].pieces.size(), 4U);
+  EXPECT_EQ(c.curves[1].pieces.size(), 4U);
+  EXPECT_EQ(c.curves[2].pieces.size(), 8U);
+  EXPECT_EQ(c.curves[2].pieces[0].control.front(), (Point2{2, 0}));
+  EXPECT_EQ(c.curves[3].pieces[0].control.front(), (Point2{4.5, 0}));  // no more than half
 }
 
 TEST(SvgReader, FollowsUseSymbolAndNestedSvg) {

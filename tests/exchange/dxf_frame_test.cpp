@@ -1,0 +1,93 @@
+#include "keyline/exchange/dxf/dxf_frame.h"
+
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/exchange/dxf/dxf_writer.h"
+
+namespace keyline::exchange {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsSupersetOf;
+
+struct Group {
+  int code = 0;
+  std::string value;
+};
+
+std::vector<Group> groups_of(const std::string& dxf) {
+  std::istringstream lines(dxf);
+  std::vector<Group> groups;
+  for (std::string code, value; std::getline(lines, code) && std::getline(lines, value);)
+    groups.push_back({std::stoi(code), value});
+  return groups;
+}
+
+std::string written() {
+  document::Document d;
+  d.unit = "mm";
+  for (const char* layer : {"body", "glass", "body"})
+    d.paths.push_back(
+        {{"a", layer, "#fe0101"}, {{{curve::Bezier2{{{0, 0}, {1, 2}, {3, 0}}, {}}}}, false}, 0});
+  return write_dxf(d, {.tolerance = 1e-3}).value().content;
+}
+
+// DXF reference, "General DXF file structure": what begins with group 0 ends with group 0.
+TEST(DxfFrame, SectionsTablesAndBlocksEndWhereTheyShould) {
+  std::vector<std::string> sections, tables, open;
+  const std::vector<Group> groups = groups_of(written());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::string& value = groups[i].value;
+    if (groups[i].code != 0) {
+      EXPECT_FALSE(value == "ENDSEC" || value == "ENDTAB" || value == "EOF") << i;
+      continue;
+    }
+    if (value == "SECTION" || value == "TABLE") {
+      EXPECT_EQ(groups.at(i + 1).code, 2);
+      (value == "TABLE" ? tables : sections).push_back(groups.at(i + 1).value);
+    }
+    if (value == "SECTION" || value == "TABLE" || value == "BLOCK") {
+      open.push_back(value);
+    } else if (value == "ENDSEC" || value == "ENDTAB" || value == "ENDBLK") {
+      ASSERT_FALSE(open.empty()) << i;
+      const std::string begun = value == "ENDBLK"   ? "BLOCK"
+                                : value == "ENDTAB" ? "TABLE"
+                                                    : "SECTION";
+      EXPECT_EQ(open.back(), begun) << i;
+      open.pop_back();
+    } else {
+      EXPECT_EQ(value == "EOF", i + 1 == groups.size()) << i;
+    }
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_THAT(sections, ElementsAre("HEADER", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS"));
+  EXPECT_THAT(tables, IsSupersetOf({"VPORT", "LTYPE", "LAYER", "STYLE", "VIEW", "UCS", "APPID",
+                                    "DIMSTYLE", "BLOCK_RECORD"}));
+}
+
+// Handles are hexadecimal numbers, each of one object; owners (330) are among them, or 0.
+TEST(DxfFrame, HandlesAreOfOneObjectEach) {
+  std::set<std::string> handles, owners;
+  std::string next;
+  const std::vector<Group> groups = groups_of(written());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].code == 9) next = groups[i].value == "$HANDSEED" ? groups.at(i + 1).value : next;
+    if (groups[i].code == 330) owners.insert(groups[i].value);
+    const bool header = i > 0 && groups[i - 1].code == 9;
+    if (header || (groups[i].code != 5 && groups[i].code != 105)) continue;
+    EXPECT_TRUE(handles.insert(groups[i].value).second) << groups[i].value;
+  }
+  owners.erase("0");
+  for (const std::string& owner : owners) EXPECT_TRUE(handles.contains(owner)) << owner;
+  for (const std::string& handle : handles)
+    EXPECT_LT(std::stoul(handle, nullptr, 16), std::stoul(next, nullptr, 16));
+}
+
+}  // namespace
+}  // namespace keyline::exchange
