@@ -14,9 +14,9 @@ double mean_curvature(double k0, double k1, double alpha) {
                               0.930568155797026};
   constexpr double weight[4] = {0.173927422568727, 0.326072577431273, 0.326072577431273,
                                 0.173927422568727};
+  const lac::PieceCurvature bend(k0, k1, alpha);
   double sum = 0;
-  for (int i = 0; i < 4; ++i)
-    sum += weight[i] * lac::curvature_with_derivatives(k0, k1, alpha, node[i]).curvature;
+  for (int i = 0; i < 4; ++i) sum += weight[i] * bend.curvature(node[i]);
   return sum;
 }
 

@@ -51,15 +51,34 @@ bool flat(const DenseCurve& curve, std::size_t piece) {
 namespace {
 
 /// Curvature along one piece, by its shares of the whole length.
-lac::CurvatureValue curvature_at(const DenseCurve& curve, std::size_t p, double t) {
-  if (flat(curve, p)) return {curve.value[p], 1, 0, 0};
-  const double from = curve.at[curve.cut[p]];
-  const double v = std::clamp((t - from) / (curve.at[curve.cut[p + 1]] - from), 0.0, 1.0);
-  const double a = curve.value[p];
-  const double b = curve.value[p + 1];
-  if (curve.alpha[p] == -1) return {(1 - v) * a + v * b, 1 - v, v, 0};
-  return lac::curvature_with_derivatives(a, b, curve.alpha[p], v);
-}
+class PieceBend {
+ public:
+  PieceBend(const DenseCurve& curve, std::size_t p)
+      : a_(curve.value[p]),
+        b_(curve.value[p + 1]),
+        from_(curve.at[curve.cut[p]]),
+        to_(curve.at[curve.cut[p + 1]]),
+        flat_(flat(curve, p)),
+        linear_(curve.alpha[p] == -1) {
+    if (!flat_ && !linear_) bend_ = {a_, b_, curve.alpha[p]};
+  }
+
+  lac::CurvatureValue at(double t) const {
+    if (flat_) return {a_, 1, 0, 0};
+    const double v = std::clamp((t - from_) / (to_ - from_), 0.0, 1.0);
+    if (linear_) return {(1 - v) * a_ + v * b_, 1 - v, v, 0};
+    return bend_.at(v);
+  }
+
+ private:
+  double a_;
+  double b_;
+  double from_;
+  double to_;
+  bool flat_;
+  bool linear_;
+  lac::PieceCurvature bend_;
+};
 
 }  // namespace
 
@@ -72,11 +91,12 @@ std::vector<CellShape> shapes_of(DenseCurve& curve) {
       shape.by_start[q] = k.by_start;
       shape.by_end[q] = k.by_end;
     };
-    lac::CurvatureValue at = curvature_at(curve, p, curve.at[curve.cut[p]]);
+    const PieceBend bend(curve, p);
+    lac::CurvatureValue at = bend.at(curve.at[curve.cut[p]]);
     for (int c = curve.cut[p]; c < curve.cut[p + 1]; ++c) {
       set(shapes[c], 0, at);
-      set(shapes[c], 1, curvature_at(curve, p, 0.5 * (curve.at[c] + curve.at[c + 1])));
-      at = curvature_at(curve, p, curve.at[c + 1]);
+      set(shapes[c], 1, bend.at(0.5 * (curve.at[c] + curve.at[c + 1])));
+      at = bend.at(curve.at[c + 1]);
       set(shapes[c], 2, at);
       curve.joints[c].curvature = shapes[c].curvature[0];
       curve.joints[c + 1].curvature = shapes[c].curvature[2];
@@ -229,9 +249,8 @@ namespace {
 
 /// What a piece turns between two places, by Simpson's rule over so many parts.
 double turn_between(const DenseCurve& curve, std::size_t p, double from, double to, int parts) {
-  const auto k = [&](double u) {
-    return curvature_at(curve, p, std::lerp(from, to, u / (2 * parts))).curvature;
-  };
+  const PieceBend bend(curve, p);
+  const auto k = [&](double u) { return bend.at(std::lerp(from, to, u / (2 * parts))).curvature; };
   double sum = k(0) + k(2 * parts);
   for (int i = 1; i < 2 * parts; ++i) sum += (i % 2 == 1 ? 4 : 2) * k(i);
   return sum * (to - from) / (6 * parts);

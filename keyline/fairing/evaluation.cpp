@@ -18,6 +18,8 @@ Evaluation::Evaluation(FitChain& chain, const std::vector<FitPoint>& points,
     const FitPiece& piece = chain.pieces[i];
     tables_[i].build(chain.joints[i].curvature, chain.joints[i + 1].curvature, piece.length,
                      piece.alpha, options.fine);
+    const double d = chain.joints[i].direction;
+    frames_.push_back({std::cos(d), std::sin(d)});
   }
 }
 
@@ -69,18 +71,13 @@ bool Evaluation::pinned(std::size_t j) const {
   return (chain_.first_at_start && j == 0) || (chain_.last_at_end && j + 1 == points_.size());
 }
 
-Evaluation::Frame Evaluation::frame(int piece) const {
-  const double d = chain_.joints[piece].direction;
-  return {std::cos(d), std::sin(d)};
-}
-
 core::Point2 Evaluation::place(int piece, Frame f, double x, double y) const {
   const core::Point2 o = chain_.joints[piece].position;
   return {o.x + f.c * x - f.s * y, o.y + f.s * x + f.c * y};
 }
 
 Evaluation::Stand Evaluation::stand(const Foot& foot) const {
-  Stand s{frame(foot.piece), tables_[foot.piece].at(foot.fraction), {}, {}};
+  Stand s{frames_[foot.piece], tables_[foot.piece].at(foot.fraction), {}, {}};
   s.at = place(foot.piece, s.frame, s.value.x, s.value.y);
   const double direction = chain_.joints[foot.piece].direction + s.value.angle;
   s.tangent = {std::cos(direction), std::sin(direction)};
@@ -108,7 +105,7 @@ void Evaluation::add_dynamics(Model& m, int i) {
   const FitJoint& from = chain_.joints[i];
   const FitJoint& to = chain_.joints[i + 1];
   const auto& end = tables_[i].end();
-  const Frame f = frame(i);
+  const Frame f = frames_[i];
   const core::Point2 at = place(i, f, end.x, end.y);
   auto& j = stage.step;
   j.setZero();
@@ -230,12 +227,15 @@ void Evaluation::move_foot(std::size_t j) {
   Foot& foot = chain_.feet[j];
   const int count = static_cast<int>(tables_.size());
   for (int hop = 0; hop < 4; ++hop) {
-    const Stand s = stand(foot);
     const lac::PieceTable& table = tables_[foot.piece];
-    const core::Vector2 miss = points_[j].position - s.at;
-    const double side = core::cross(s.tangent, miss);
+    const lac::PieceTable::Place local = table.place(foot.fraction);
+    const double direction = chain_.joints[foot.piece].direction + local.angle;
+    const core::Vector2 tangent{std::cos(direction), std::sin(direction)};
+    const core::Vector2 miss =
+        points_[j].position - place(foot.piece, frames_[foot.piece], local.x, local.y);
+    const double side = core::cross(tangent, miss);
     const double bend = 1 - table.curvature(foot.fraction) * side;
-    const double step = core::dot(miss, s.tangent) / std::max(0.25, bend) / table.length();
+    const double step = core::dot(miss, tangent) / std::max(0.25, bend) / table.length();
     const double to = foot.fraction + std::clamp(step, -0.5, 0.5);
     const bool back = to < 0 && (chain_.closed || foot.piece > 0);
     const bool on = to > 1 && (chain_.closed || foot.piece + 1 < count);

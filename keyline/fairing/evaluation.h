@@ -65,7 +65,6 @@ class Evaluation {
 
   bool beyond_end(const Foot& foot) const;
   bool pinned(std::size_t j) const;
-  Frame frame(int piece) const;
   core::Point2 place(int piece, Frame f, double x, double y) const;
   Stand stand(const Foot& foot) const;
   Vector7 derivative(const Foot& foot, const Stand& s, core::Vector2 along) const;
@@ -82,6 +81,7 @@ class Evaluation {
   const std::vector<FitPoint>& points_;
   const ChainFitOptions& options_;
   std::vector<lac::PieceTable> tables_;
+  std::vector<Frame> frames_;  ///< of the pieces' starts
   double gap_square_ = 0;
 };
 

@@ -70,7 +70,15 @@ class Smoother {
     return true;
   }
 
-  curve::CurvatureGraph graph() const {
+  /// The coefficients as they stand are those of the graph.
+  void keep() {
+    kept_x_ = x_;
+    kept_y_ = y_;
+  }
+
+  curve::CurvatureGraph graph_of_kept() {
+    x_ = kept_x_;
+    y_ = kept_y_;
     curve::CurvatureGraph graph;
     core::Point2 last = at(0, 0);
     double s = 0;
@@ -152,10 +160,13 @@ class Smoother {
         for (int l = 0; l < 4; ++l) add(i + j, i + l, penalty * kThird[j] * kThird[l]);
     Eigen::SparseMatrix<double> normal(count_, count_);
     normal.setFromTriplets(entries.begin(), entries.end());
-    const numeric::SparseSymmetric factor(normal);
-    if (!factor) return false;
-    x_ = factor.solve(right_x_);
-    y_ = factor.solve(right_y_);
+    if (factor_)
+      factor_->renew(normal);
+    else
+      factor_.emplace(normal);
+    if (!*factor_) return false;
+    x_ = factor_->solve(right_x_);
+    y_ = factor_->solve(right_y_);
     return x_.allFinite() && y_.allFinite();
   }
 
@@ -170,6 +181,9 @@ class Smoother {
   Eigen::VectorXd right_y_;
   Eigen::VectorXd x_;
   Eigen::VectorXd y_;
+  Eigen::VectorXd kept_x_;
+  Eigen::VectorXd kept_y_;
+  std::optional<numeric::SparseSymmetric> factor_;
 };
 
 /// The smoothest with that parameter.
@@ -177,16 +191,18 @@ std::optional<curve::CurvatureGraph> smoothest(std::span<const core::Point2> poi
                                                double tolerance, double power) {
   Smoother smoother(points, closed, power);
   if (!smoother.sound()) return std::nullopt;
-  std::optional<curve::CurvatureGraph> best;
+  bool any = false;
   double low = kSoftest;
   double high = kStiffest;
   for (int step = 0; step < kBisections; ++step) {
     const double middle = 0.5 * (low + high);
     const bool kept = smoother.within(std::pow(10, middle), tolerance);
-    if (kept) best = smoother.graph();
+    if (kept) smoother.keep();
+    any |= kept;
     (kept ? low : high) = middle;
   }
-  return best;
+  if (!any) return std::nullopt;
+  return smoother.graph_of_kept();
 }
 
 /// L^3 * integral of (d curvature / ds)^2.

@@ -10,8 +10,8 @@ namespace {
 constexpr int kN = 17;
 using Column = std::array<double, kN>;
 
-/// Chebyshev-Lobatto nodes on [0, 1], barycentric weights and the matrix of integrals of the
-/// Lagrange polynomials from 0 to each node.
+/// Chebyshev-Lobatto nodes on [0, 1], barycentric weights and, for every Lagrange polynomial, its
+/// integrals from 0 to each node.
 struct Collocation {
   Column node{};
   Column weight{};
@@ -42,7 +42,7 @@ struct Collocation {
       double sum = 0;
       for (int k = 0; k <= m; ++k)
         sum += a[k] * (antiderivative(k, angle) - antiderivative(k, std::numbers::pi));
-      integral[i][j] = 0.5 * sum;  // dx = 2 d(node)
+      integral[j][i] = 0.5 * sum;  // dx = 2 d(node)
     }
   }
 
@@ -62,96 +62,13 @@ const Collocation& collocation() {
 Column integrate(const Column& f) {
   const auto& table = collocation().integral;
   Column out{};
-  for (int i = 1; i < kN; ++i) {
-    double sum = 0;
-    for (int j = 0; j < kN; ++j) sum += table[i][j] * f[j];
-    out[i] = sum;
-  }
+  for (int j = 0; j < kN; ++j)
+    for (int i = 0; i < kN; ++i) out[i] += table[j][i] * f[j];
+  out[0] = 0;
   return out;
 }
 
-double signed_power(double x, double e) { return x < 0 ? -std::pow(-x, e) : std::pow(x, e); }
-
-/// g(x) = log(1 + v (e^x - 1)) / x and its derivative: cumulants of a Bernoulli variable.
-struct LogMean {
-  double g;
-  double dg;
-};
-LogMean log_mean(double x, double v) {
-  const double k2 = v * (1 - v);
-  if (std::abs(x) < 1e-3) {
-    const double k3 = k2 * (1 - 2 * v);
-    const double k4 = k2 * (1 - 6 * k2);
-    return {v + x * (k2 / 2 + x * (k3 / 6 + x * k4 / 24)), k2 / 2 + x * (k3 / 3 + x * k4 / 8)};
-  }
-  if (x < -1) {  // no cancellation here, and v = 1 gives x itself
-    const double last = v * std::exp(x);
-    const double z = (1 - v) + last;
-    const double g = z > 0 ? std::log(z) / x : 1;
-    return {g, ((z > 0 ? last / z : 1) - g) / x};
-  }
-  const double e = std::expm1(x);
-  const double z = 1 + v * e;
-  const double g = std::log1p(v * e) / x;
-  return {g, (v * (1 + e) / z - g) / x};
-}
-
-CurvatureValue same_sign(double k0, double k1, double alpha, double v) {
-  const double p = -alpha;
-  const double q = std::log(k1 / k0);
-  const double x = p * q;
-  if (x > 30) {  // measured from the other end: the mean is the same
-    CurvatureValue r = same_sign(k1, k0, alpha, 1 - v);
-    std::swap(r.by_start, r.by_end);
-    return r;
-  }
-  const LogMean m = log_mean(x, v);
-  CurvatureValue r;
-  r.curvature = k0 * std::exp(q * m.g);
-  const double last = v * std::exp(x);
-  const double z = (1 - v) + last;
-  r.by_start = z > 0 ? r.curvature * (1 - v) / z / k0 : 0;
-  r.by_end = r.curvature * (z > 0 ? last / z : 1) / k1;
-  r.by_alpha = -r.curvature * q * q * m.dg;
-  return r;
-}
-
-CurvatureValue through_zero(double k0, double k1, double alpha, double v) {
-  const double p = -alpha;
-  const double scale = std::max(std::abs(k0), std::abs(k1));
-  CurvatureValue r;
-  if (scale == 0) {
-    r.by_start = 1 - v;
-    r.by_end = v;
-    return r;
-  }
-  const double tiny = 1e-12;
-  const double a = k0 / scale;
-  const double b = k1 / scale;
-  const double za = signed_power(a, p);
-  const double zb = signed_power(b, p);
-  const double z = (1 - v) * za + v * zb;
-  r.curvature = scale * signed_power(z, 1 / p);
-  const double zz = std::max(std::abs(z), tiny);
-  const double outer = std::pow(zz, 1 / p - 1);
-  r.by_start = (1 - v) * std::pow(std::max(std::abs(a), 1e-9), p - 1) * outer;
-  r.by_end = v * std::pow(std::max(std::abs(b), 1e-9), p - 1) * outer;
-  const double la = std::log(std::max(std::abs(a), 1e-300));
-  const double lb = std::log(std::max(std::abs(b), 1e-300));
-  const double dz = (1 - v) * za * la + v * zb * lb;
-  const double by_p = r.curvature * (-std::log(zz) / (p * p)) + scale * outer * dz / p;
-  r.by_alpha = -by_p;
-  return r;
-}
-
 }  // namespace
-
-CurvatureValue curvature_with_derivatives(double curvature_start, double curvature_end,
-                                          double alpha, double v) {
-  if (curvature_start * curvature_end > 0)
-    return same_sign(curvature_start, curvature_end, alpha, v);
-  return through_zero(curvature_start, curvature_end, alpha, v);
-}
 
 struct PieceTable::Running {
   End at;
@@ -164,6 +81,7 @@ void PieceTable::build(double curvature_start, double curvature_end, double leng
   curvature_end_ = curvature_end;
   length_ = length;
   alpha_ = alpha;
+  bend_ = PieceCurvature(curvature_start, curvature_end, alpha);
   plan_panels();
   Running running;
   for (Panel& panel : panels_) fill(panel, running);
@@ -277,8 +195,7 @@ PieceTable::Turns PieceTable::turns_of(const Panel& panel, const End& at) const 
   std::array<Column, 4> k{};  // curvature and its three derivatives, times dv
   for (int i = 0; i < kN; ++i) {
     const double v = panel.from + width * graded_fraction(node[i], panel.graded);
-    const CurvatureValue c =
-        curvature_with_derivatives(curvature_start_, curvature_end_, alpha_, v);
+    const CurvatureValue c = bend_.at(v);
     t.rate[i] = width * graded_rate(node[i], panel.graded);
     k[0][i] = c.curvature * t.rate[i];
     k[1][i] = c.by_start * t.rate[i];
@@ -332,40 +249,47 @@ void PieceTable::fill(Panel& panel, Running& running) const {
   }
 }
 
-PieceTable::Value PieceTable::at(double v) const {
+/// The first columns at a fraction, by the barycentric formula.
+template <int count>
+std::array<double, count> PieceTable::columns_at(double v) const {
   std::size_t index = 0;
   while (index + 1 < panels_.size() && v > panels_[index].to) ++index;
   const Panel& panel = panels_[index];
   const double width = panel.to - panel.from;
   const double tau = ungraded(std::clamp((v - panel.from) / width, 0.0, 1.0), panel.graded);
   const Collocation& table = collocation();
-  std::array<double, kColumns> sum{};
+  std::array<double, count> sum{};
+  Column weight;
+  for (int i = 0; i < kN; ++i) {
+    weight[i] = tau - table.node[i];
+    if (std::abs(weight[i]) >= 1e-15) continue;
+    std::copy_n(panel.node[i].begin(), count, sum.begin());
+    return sum;
+  }
+  for (int i = 0; i < kN; ++i) weight[i] = table.weight[i] / weight[i];
   double total = 0;
   for (int i = 0; i < kN; ++i) {
-    const double gap = tau - table.node[i];
-    if (std::abs(gap) < 1e-15) {
-      sum = panel.node[i];
-      total = 1;
-      break;
-    }
-    const double w = table.weight[i] / gap;
-    total += w;
-    for (int c = 0; c < kColumns; ++c) sum[c] += w * panel.node[i][c];
+    total += weight[i];
+    for (int c = 0; c < count; ++c) sum[c] += weight[i] * panel.node[i][c];
   }
-  Value r;
   const double scale = 1 / total;
-  r.x = sum[0] * scale;
-  r.y = sum[1] * scale;
-  r.angle = sum[2] * scale;
+  for (double& value : sum) value *= scale;
+  return sum;
+}
+
+PieceTable::Value PieceTable::at(double v) const {
+  const auto column = columns_at<kColumns>(v);
+  Value r{.x = column[0], .y = column[1], .angle = column[2], .dx = {}, .dy = {}};
   for (int q = 0; q < 4; ++q) {
-    r.dx[q] = sum[3 + q] * scale;
-    r.dy[q] = sum[7 + q] * scale;
+    r.dx[q] = column[3 + q];
+    r.dy[q] = column[7 + q];
   }
   return r;
 }
 
-double PieceTable::curvature(double v) const {
-  return curvature_with_derivatives(curvature_start_, curvature_end_, alpha_, v).curvature;
+PieceTable::Place PieceTable::place(double v) const {
+  const auto [x, y, angle] = columns_at<3>(v);
+  return {x, y, angle};
 }
 
 }  // namespace keyline::lac

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "keyline/lac/segment/piece_curvature.h"
+
 namespace keyline::lac {
 
 /// What a piece's geometry depends on, in the order of the derivative arrays below.
@@ -25,6 +27,11 @@ inline constexpr int kPieceVariables = 4;
 ///           length; derivatives by differentiation under the integral.
 class PieceTable {
  public:
+  struct Place {
+    double x = 0;
+    double y = 0;
+    double angle = 0;
+  };
   struct Value {
     double x = 0;
     double y = 0;
@@ -44,8 +51,9 @@ class PieceTable {
 
   /// v in [0, 1], the fraction of the length.
   Value at(double v) const;
+  Place place(double v) const;
   const End& end() const { return end_; }
-  double curvature(double v) const;
+  double curvature(double v) const { return bend_.curvature(v); }
   double length() const { return length_; }
 
  private:
@@ -63,26 +71,18 @@ class PieceTable {
   void add_geometric_panels(double from, double to, double least, int grade);
   Turns turns_of(const Panel& panel, const End& at) const;
   void fill(Panel& panel, Running& running) const;
+  template <int count>
+  std::array<double, count> columns_at(double v) const;
 
   double curvature_start_ = 0;
   double curvature_end_ = 0;
   double length_ = 1;
   double alpha_ = -1;
+  PieceCurvature bend_;
   bool fine_ = false;
   double zero_ = -1;  // fraction where curvature vanishes inside, or -1
   std::vector<Panel> panels_;
   End end_;
 };
-
-/// Curvature of the piece at fraction v and its derivatives by (curvature_start, curvature_end,
-/// alpha); stable for alpha near 0. Same preconditions as PieceTable::build.
-struct CurvatureValue {
-  double curvature = 0;
-  double by_start = 0;
-  double by_end = 0;
-  double by_alpha = 0;
-};
-CurvatureValue curvature_with_derivatives(double curvature_start, double curvature_end,
-                                          double alpha, double v);
 
 }  // namespace keyline::lac
