@@ -4,18 +4,10 @@
 #include <cmath>
 
 #include "keyline/fairing/condense.h"
-#include "keyline/fairing/local_pose.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr std::size_t kMostExactPieces = 8;  // longer chains are not drawn exactly by anyone
-constexpr std::size_t kStretches = 3 * kMostExactPieces;
-constexpr std::size_t kStretchPoints = 8;  // two more than a piece has freedoms beside its ends'
-// Stretches this long in the whole: of places on a chain of the most pieces, a third begins one
-// that holds no joint.
-constexpr double kStretchShare = 2.0 / (3 * kMostExactPieces);
-constexpr double kWhole = 0.25;  // of the stretches: what is left of that third by the grid
 // Points of a chain whose shortest piece is a fiftieth of it: as many on that as a stretch has.
 constexpr std::size_t kTelling = 50 * kStretchPoints;
 constexpr double kExactness = 2e-7;  // of the length
@@ -51,30 +43,6 @@ bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, do
   return true;
 }
 
-/// Points first, first + step, … as one piece's, moved to lie along a length of 1.
-bool follows_one_piece(const std::vector<FitPoint>& points, std::size_t first, std::size_t step,
-                       double exact) {
-  std::vector<FitPoint> stretch;
-  for (std::size_t i = 0; i < kStretchPoints; ++i)
-    stretch.push_back(points[(first + i * step) % points.size()]);
-  const Track own = make_track(stretch, false);
-  const double by = 1 / own.total;
-  for (FitPoint& p : stretch) p.position = {by * p.position.x, by * p.position.y};
-  const Track track = make_track(stretch, false);
-  FitChain chain;
-  chain.first_at_start = chain.last_at_end = true;
-  chain.joints = {local_pose(track, 0, 0.3), local_pose(track, 1, 0.3)};
-  chain.pieces = {{.length = 1}};
-  for (std::size_t j = 0; j < stretch.size(); ++j) chain.feet.push_back({0, track.at(long(j))});
-  ChainFitOptions fit;
-  fit.fine = true;
-  fit.iterations = 60;
-  fit.gradient_tolerance = 1e-6;
-  fit.slope_prior = 0;
-  fit.scale = by * exact;
-  return fit_chain(chain, stretch, fit).max_offset <= by * exact;
-}
-
 /// The chain's feet of points `taken` of n, those of the points between in even steps between.
 std::vector<Foot> feet_of_all(const FitChain& chain, const std::vector<std::size_t>& taken,
                               std::size_t n) {
@@ -103,20 +71,6 @@ std::vector<Foot> feet_of_all(const FitChain& chain, const std::vector<std::size
 }
 
 }  // namespace
-
-bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact) {
-  const std::size_t n = points.size();
-  if (n < 2 * kStretchPoints) return true;
-  const auto step = static_cast<std::size_t>(
-      std::max(1.0, kStretchShare * static_cast<double>(n) / (kStretchPoints - 1)));
-  const std::size_t span = step * (kStretchPoints - 1);
-  const std::size_t places = closed ? n : n - span;
-  const std::size_t tried = std::min(kStretches, places);
-  std::size_t whole = 0;
-  for (std::size_t i = 0; i < tried; ++i)
-    whole += follows_one_piece(points, i * places / tried, step, exact);
-  return static_cast<double>(whole) >= kWhole * static_cast<double>(tried);
-}
 
 std::vector<std::size_t> telling_points(const std::vector<FitPoint>& points) {
   const std::size_t step = std::max<std::size_t>(1, points.size() / kTelling);

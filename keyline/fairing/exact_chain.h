@@ -6,14 +6,13 @@
 
 namespace keyline::fairing::detail {
 
+inline constexpr std::size_t kMostExactPieces = 8;  ///< longer chains are not drawn exactly
+/// Points that tell a piece: two more than it has freedoms beside its ends'.
+inline constexpr std::size_t kStretchPoints = 8;
+
 /// Largest distance, part of the length, of a point that counts as reproduced to rounding: 2e-7, or
 /// six times the noise.
 double exactness(const Acceptance& accept);
-
-/// Whether the points may be those of a chain that one draws exactly, of few pieces: most stretches
-/// of so short a part of the length that they lie inside one piece are followed by a single piece
-/// to rounding.
-bool may_be_exact(const std::vector<FitPoint>& points, bool closed, double exact);
 
 /// Of points that are dense enough to be taken for a curve as many as tell whether a chain of few
 /// pieces draws them: the ends, those that must be passed, and an even choice of the others.

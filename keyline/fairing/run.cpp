@@ -16,6 +16,7 @@
 #include "keyline/fairing/run_points.h"
 #include "keyline/fairing/settle.h"
 #include "keyline/fairing/straight_run.h"
+#include "keyline/fairing/stretches.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -147,6 +148,21 @@ bool may_reproduce(const RunResult& result, const Run& run) {
          may_be_exact(result.points, run.closed, exact);
 }
 
+/// A single piece where that reproduces the points, else what the search finds.
+ChainSearchResult exact_search(const std::vector<FitPoint>& points, const Run& run,
+                               const ChainSearchOptions& searching) {
+  const bool held = searching.start.hold != Hold::free || searching.end.hold != Hold::free;
+  auto piece =
+      held ? std::nullopt : one_exact_piece(points, run.closed, exactness(searching.accept));
+  if (!piece) return search_chain(points, run.closed, searching);
+  ChainSearchResult found;
+  found.chain = std::move(*piece);
+  found.weights.assign(points.size(), 1);
+  found.within_tolerance = true;
+  found.start_pieces = 1;
+  return found;
+}
+
 /// Points that a chain reproduces to rounding get that chain, whatever the tolerance allows.
 /// The search begins with few pieces, as a loose tolerance gives them, and with no more points than
 /// tell them.
@@ -162,7 +178,7 @@ bool solve_exact(RunResult& result, const Run& run, const RunFrame& frame,
   searching.start = held_end(run, frame, spline, true);
   searching.end = held_end(run, frame, spline, false);
   const std::vector<FitPoint> measured = result.points;
-  return finish_exact(result, search_chain(points, run.closed, searching), measured, taken, run,
+  return finish_exact(result, exact_search(points, run, searching), measured, taken, run,
                       searching);
 }
 

@@ -1,0 +1,101 @@
+#include "keyline/fairing/stretches.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/fairing/fair.h"
+
+#include "truth.h"
+
+namespace keyline::fairing {
+namespace {
+
+constexpr double kExact = 2e-7;
+
+/// Places along arcs (curvature, length) that follow each other with one tangent.
+std::vector<core::Point2> along_arcs(const std::vector<std::pair<double, double>>& arcs,
+                                     int count) {
+  double whole = 0;
+  for (const auto& [curvature, length] : arcs) whole += length;
+  std::vector<core::Point2> places;
+  for (int i = 0; i < count; ++i) {
+    double left = whole * i / (count - 1);
+    core::Pose2 at{{0, 0}, 0.3};
+    for (const auto& [curvature, length] : arcs) {
+      const double s = std::min(left, length);
+      const double turn = curvature * s;
+      const double chord = curvature == 0 ? s : 2 * std::sin(turn / 2) / curvature;
+      at.position = at.position + chord * core::unit_vector(at.direction + turn / 2);
+      at.direction += turn;
+      left -= s;
+    }
+    places.push_back(at.position);
+  }
+  return places;
+}
+
+std::vector<FitPoint> as_fit_points(const std::vector<core::Point2>& places) {
+  double length = 0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    length += core::distance(places[i - 1], places[i]);
+  std::vector<FitPoint> points;
+  for (const core::Point2 p : places) points.push_back({.position = {p.x / length, p.y / length}});
+  return points;
+}
+
+acquire::KeyLine drawn_line(const std::vector<core::Point2>& places) {
+  acquire::KeyLine line;
+  line.points = places;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    line.length += core::distance(places[i - 1], places[i]);
+  return line;
+}
+
+TEST(Stretches, OfArcsThatStepInCurvatureAreNoExactChain) {
+  for (const auto& arcs : {std::vector<std::pair<double, double>>{{1, 1.4}, {2.5, 0.8}},
+                           {{0, 1}, {-1.5, 1}, {0, 0.7}},
+                           {{1, 1}, {1.1, 1}}})
+    EXPECT_FALSE(detail::may_be_exact(as_fit_points(along_arcs(arcs, 400)), false, kExact));
+}
+
+TEST(Stretches, OfChainsWithoutStepsMayBeExact) {
+  for (const int seed : {1, 2, 4, 7, 9}) {
+    SCOPED_TRACE(seed);
+    const auto places = testing::measure(testing::random_chain(seed), 400, 0, 1);
+    EXPECT_TRUE(detail::may_be_exact(as_fit_points(places), false, kExact));
+  }
+  EXPECT_TRUE(detail::may_be_exact(as_fit_points(along_arcs({{1, 2}}, 400)), false, kExact));
+}
+
+TEST(Stretches, OnePieceIsFoundHoweverFarItTurns) {
+  for (const double turn : {0.5, 3.0, 5.5}) {
+    const auto points = as_fit_points(along_arcs({{turn, 1}}, 300));
+    const auto chain = detail::one_exact_piece(points, false, kExact);
+    ASSERT_TRUE(chain) << turn;
+    EXPECT_NEAR(chain->pieces[0].length, 1, 2e-5);  // chords are shorter
+    EXPECT_NEAR(chain->joints[0].curvature, turn, 1e-4);
+    EXPECT_NEAR(chain->joints[1].curvature, turn, 1e-4);
+  }
+  auto circle = as_fit_points(along_arcs({{2 * core::kPi, 1}}, 301));
+  circle.pop_back();
+  const auto closed = detail::one_exact_piece(circle, true, kExact);
+  ASSERT_TRUE(closed);
+  EXPECT_TRUE(closed->closed);
+  EXPECT_EQ(closed->feet.size(), circle.size());
+  EXPECT_NEAR(closed->turning, 2 * core::kPi, 1e-15);
+  EXPECT_FALSE(
+      detail::one_exact_piece(as_fit_points(along_arcs({{1, 1}, {1.1, 1}}, 300)), false, kExact));
+}
+
+// What bridges a step of curvature within rounding is a needle of the comb, a few spacings long.
+TEST(Stretches, ArcsThatStepInCurvatureAreFairedWithoutNeedles) {
+  const auto result = fair(drawn_line(along_arcs({{1, 1.4}, {2.5, 0.8}}, 801)));
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(result->within_tolerance);
+  for (const FairPiece& piece : result->pieces) EXPECT_GT(piece.length, 0.02 * 2.2);
+}
+
+}  // namespace
+}  // namespace keyline::fairing
