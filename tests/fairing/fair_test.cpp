@@ -33,6 +33,11 @@ TEST(Fair, ExactChainComesBack) {
   EXPECT_NEAR(chain.pieces[1].alpha, -1, 1e-2);
   EXPECT_NEAR(chain.pieces[2].alpha, -2, 1e-2);
   EXPECT_NEAR(chain.pieces[0].length, 40, 0.05);
+  double start = 0;  // each piece starts where the last one ends
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    EXPECT_NEAR(result.pieces[i].start, start, 1e-9);
+    start += chain.pieces[i].length;
+  }
 }
 
 TEST(Fair, JointsAreG2AndPiecesMonotone) {
