@@ -38,6 +38,25 @@ TEST(Band, PullsAsItsMeritRises) {
   }
 }
 
+// A run's highest offset keeps to the one limit, its lowest to the other; a point may have nearer
+// ones of its own.
+TEST(Band, LimitsAreCountedFromARunsEnds) {
+  auto given = points(3);
+  given[0].high = 0.3;
+  given[0].low = -0.4;
+  given[1] = given[0];
+  given[1].share = 0.5;
+  given[2].highest = 0.6;
+  given[2].lowest = -0.5;
+  Band band(given, 1.0, 0);
+  const double mu = 0.1;
+  band.start({0.1, 0.1, 0.1}, mu);
+  ASSERT_EQ(band.extra(), 0);
+  EXPECT_NEAR(band.pull(0).slope, mu / (0.7 - 0.1) - mu / (0.6 + 0.1), 1e-12);
+  EXPECT_NEAR(band.pull(1).slope, mu / (0.85 - 0.1) - mu / (0.8 + 0.1), 1e-12);
+  EXPECT_NEAR(band.pull(2).slope, mu / (0.6 - 0.1) - mu / (0.5 + 0.1), 1e-12);
+}
+
 // A limit that is passed by e: its slack s is e short, and Newton's step is to give that back:
 // slope (mu + lambda e) / s with lambda = mu / s.
 TEST(Band, WhatIsPassedIsTakenBack) {

@@ -84,6 +84,18 @@ TEST(BezierFit, BadInputIsRefused) {
   EXPECT_TRUE(fit_bezier(arc(0.5, 2), Vector2{1, 0}, core::unit_vector(0.5)));
 }
 
+// Without a round of reparametrisation the curve is that of the samples' chord lengths.
+TEST(BezierFit, NoRoundsOfReparametrisationLeaveACurve) {
+  const auto points = arc(1.2, 30);
+  BezierFitOptions options;
+  options.iterations = 0;
+  const auto fit = fit_bezier(points, {1, 0}, core::unit_vector(1.2), options);
+  ASSERT_TRUE(fit);
+  ASSERT_GE(fit->curve.control.size(), 4U);
+  EXPECT_EQ(fit->curve.control.front(), points.front());
+  EXPECT_LT(fit->deviation, 1e-2);
+}
+
 /// Largest distance of points from a curve, by its points at small steps.
 double measured(const std::vector<Point2>& points, const curve::Bezier2& c) {
   double most = 0;
