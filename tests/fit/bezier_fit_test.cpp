@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/curve/closest_point.h"
 
 namespace keyline::fit {
 namespace {
@@ -94,6 +95,34 @@ TEST(BezierFit, NoRoundsOfReparametrisationLeaveACurve) {
   ASSERT_GE(fit->curve.control.size(), 4U);
   EXPECT_EQ(fit->curve.control.front(), points.front());
   EXPECT_LT(fit->deviation, 1e-2);
+}
+
+/// At the least sum of squared distances the offsets of the samples, weighed by the Bernstein
+/// polynomial of a control point that is free, add up to nothing.
+TEST(BezierFit, NoFreeControlPointWouldComeNearer) {
+  std::vector<Point2> points;  // e^(0.4 a): the speed of a fit grows fivefold
+  for (int i = 0; i <= 200; ++i) {
+    const double a = 4.0 * i / 200;
+    points.push_back({std::exp(0.4 * a) * std::cos(a), std::exp(0.4 * a) * std::sin(a)});
+  }
+  const Vector2 start{0.4, 1}, end = core::rotate_ccw(Vector2{0.4, 1}, 4.0);
+  BezierFitOptions options;
+  options.tolerance = 1e-9;
+  options.lowest_degree = options.highest_degree = 5;
+  const auto fit = fit_bezier(points, start, end, options);
+  ASSERT_TRUE(fit);
+  for (const int j : {2, 3}) {
+    Vector2 sum{};
+    double size = 0;
+    for (const Point2 p : points) {
+      const double t = curve::closest_point(fit->curve, p).t;
+      const double b = 10 * std::pow(t, j) * std::pow(1 - t, 5 - j);
+      const Vector2 off = p - evaluate(fit->curve, t);
+      sum = sum + b * off;
+      size += b * core::norm(off);
+    }
+    EXPECT_LT(core::norm(sum), 1e-4 * size) << j;
+  }
 }
 
 /// Largest distance of points from a curve, by its points at small steps.
