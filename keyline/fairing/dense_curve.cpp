@@ -179,6 +179,27 @@ CellPlace place_in_cell(const DenseCurve& curve, const CellShape& shape, int cel
   return place;
 }
 
+namespace {
+
+/// Point and tangent alone.
+struct CellPoint {
+  core::Point2 at;
+  core::Vector2 tangent;
+};
+CellPoint point_in_cell(const DenseCurve& curve, const CellShape& shape, int cell, double v) {
+  const FitJoint& from = curve.joints[cell];
+  const double h = curve.at[cell + 1] - curve.at[cell];
+  const auto tangent_at = [&](double u) {
+    return turned(shape.tangent, h * sum_of(parabolas(u), shape.curvature));
+  };
+  core::Vector2 along;
+  for (std::size_t q = 0; q < kNode.size(); ++q)
+    along = along + kWeight[q] * tangent_at(v * kNode[q]);
+  return {from.position + curve.length * h * v * along, tangent_at(v)};
+}
+
+}  // namespace
+
 CellPlace place_of(const DenseCurve& curve, const std::vector<CellShape>& shapes,
                    const Foot& foot) {
   return place_in_cell(curve, shapes[foot.piece], foot.piece, foot.fraction);
@@ -209,9 +230,8 @@ void move_foot(const DenseCurve& curve, const std::vector<CellShape>& shapes, co
   const int count = static_cast<int>(curve.joints.size()) - 1;
   for (int hop = 0; hop < 6; ++hop) {
     const CellShape& shape = shapes[foot.piece];
-    const CellPlace s = place_in_cell(curve, shape, foot.piece, foot.fraction);
-    const core::Vector2 tangent = s.tangent;
-    const core::Vector2 miss = point.position - s.at;
+    const auto [at, tangent] = point_in_cell(curve, shape, foot.piece, foot.fraction);
+    const core::Vector2 miss = point.position - at;
     const double k =
         std::lerp(shape.curvature[0], shape.curvature[2], foot.fraction) / curve.length;
     const double bend = std::max(0.25, 1 - k * core::cross(tangent, miss));
