@@ -1,9 +1,11 @@
 #include "keyline/fairing/joint_rates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "keyline/core/text.h"
 #include "keyline/fairing/rate_joints.h"
@@ -16,22 +18,40 @@ namespace {
 
 constexpr double kOneRate = 1e-2;  // of the larger rate: as analysis tells G3 joints
 
-/// False where the chain stays as it is.
-bool make_one(RunResult& result, const Run& run, const RunOptions& options) {
-  if (result.dense.joints.empty()) return false;
+/// The run with that chain in place of its own.
+RunResult with_chain(const RunResult& result, const FitChain& chain) {
   RunResult joined = result;
-  const RateReport report = join_rates(joined.fit, joined.points,
-                                       {.tolerance = kBandShare * result.accept.tolerance,
-                                        .slopes = options.slopes,
-                                        .progress = options.progress});
-  if (!report.within) return false;
-  joined.chain = lay_out(joined.fit, joined.to_canonical, joined.reversed);
-  if (!(largest_offset(joined, run) <= options.tolerance)) return false;
-  if (passed_most(joined, run) > passed_most(result, run)) return false;
-  if (waves_of({joined}) > waves_of({result})) return false;
-  result = std::move(joined);
+  joined.fit = chain;
+  joined.chain = lay_out(chain, joined.to_canonical, joined.reversed);
+  return joined;
+}
+
+/// What a run would lose by another chain.
+std::optional<RateLoss> lost_by(const RunResult& joined, const RunResult& result, const Run& run,
+                                const RunOptions& options) {
+  if (!(largest_offset(joined, run) <= options.tolerance)) return RateLoss::tolerance;
+  if (passed_most(joined, run) > passed_most(result, run)) return RateLoss::bounds;
+  if (waves_of({joined}) > waves_of({result})) return RateLoss::waves;
+  return std::nullopt;
+}
+
+/// Not within where the chain stays as it is.
+RateReport make_one(RunResult& result, const Run& run, const RunOptions& options) {
+  if (result.dense.joints.empty()) return {};
+  FitChain chain = result.fit;
+  const RateReport report =
+      join_rates(chain, result.points,
+                 {.tolerance = kBandShare * result.accept.tolerance,
+                  .slopes = options.slopes,
+                  .loses =
+                      [&](const FitChain& one) {
+                        return lost_by(with_chain(result, one), result, run, options);
+                      },
+                  .progress = options.progress});
+  if (!report.within) return report;
+  result = with_chain(result, chain);
   result.joined = true;
-  return true;
+  return report;
 }
 
 }  // namespace
@@ -71,6 +91,41 @@ void note_joints(FairResult& result, const std::vector<RunResult>& solved) {
                   rates.jumps));
 }
 
+const char* words_of(RateLoss loss) {
+  switch (loss) {
+    case RateLoss::slopes:
+      return "their slopes do not come to one rate";
+    case RateLoss::tolerance:
+      return "one rate there leaves the tolerance";
+    case RateLoss::variation:
+      return "one rate there costs twice the variation";
+    case RateLoss::waves:
+      return "one rate there takes another wave";
+    case RateLoss::bounds:
+      return "one rate there passes a bound";
+  }
+  return "";
+}
+
+/// Which joints stay G2, as shares of the run's length, and why.
+void note_stay(FairResult& result, const RunResult& run, std::size_t k, const RateReport& report) {
+  std::vector<double> at{0};
+  for (const FitPiece& piece : run.fit.pieces) at.push_back(at.back() + piece.length);
+  constexpr std::array kLosses{RateLoss::slopes, RateLoss::tolerance, RateLoss::variation,
+                               RateLoss::waves, RateLoss::bounds};
+  for (const RateLoss loss : kLosses) {
+    std::vector<double> places;
+    for (const RateReport::Stay& stay : report.stay) {
+      const double share = at[stay.piece] / at.back();
+      if (stay.loss == loss) places.push_back(100 * (run.reversed ? 1 - share : share));
+    }
+    if (places.empty()) continue;
+    std::ranges::sort(places);
+    result.notes.push_back(fmt::format("run {}: G2 stays at {:.1f} % of its length: {}", k,
+                                       fmt::join(places, ", "), words_of(loss)));
+  }
+}
+
 }  // namespace
 
 void make_rates_one(FairResult& result, std::vector<RunResult>& solved,
@@ -78,13 +133,14 @@ void make_rates_one(FairResult& result, std::vector<RunResult>& solved,
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const RunOptions own = options(k);
     if (own.joints == JointOrder::g2) continue;
-    const bool done = make_one(solved[k], runs[k], own);
+    const RateReport report = make_one(solved[k], runs[k], own);
     const std::string pieces = core::counted(solved[k].chain.pieces.size(), "piece");
-    result.notes.push_back(
-        fmt::format("run {}: {}", k,
-                    done ? pieces + " for G3 joints"
-                         : "no chain with more G3 joints was found within the tolerance, with no "
-                           "more waves and less than twice the variation: they stay as they are"));
+    result.notes.push_back(fmt::format(
+        "run {}: {}", k,
+        report.within ? pieces + " for G3 joints"
+                      : "no chain with more G3 joints was found within the tolerance, with no "
+                        "more waves and less than twice the variation: they stay as they are"));
+    if (report.within) note_stay(result, solved[k], k, report);
   }
   if (!runs.empty() && options(0).joints == JointOrder::g3) note_joints(result, solved);
 }

@@ -37,7 +37,8 @@ class Descent {
       const bool idle = gain < kGain * std::max(model_.cost, 1e-6) && model_.gaps < kClosed;
       slow = idle ? slow + 1 : 0;
     }
-    return {model_.chain, model_.max_offset, model_.gaps, model_.variation, model_.jump, strain_};
+    return {model_.chain, model_.max_offset, model_.gaps,  model_.variation,
+            model_.jump,  strain_,           model_.offset};
   }
 
  private:

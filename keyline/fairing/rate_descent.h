@@ -12,6 +12,7 @@ struct RateSolution {
   double variation = 0;
   std::vector<double> jump;    ///< of the rate's logarithm, by joint
   std::vector<double> strain;  ///< of tied joints: what their tie costs
+  std::vector<double> offset;  ///< of the points, in tolerances
 };
 
 /// Sequential quadratic programming: the least squares under the equations of the gaps, the seam

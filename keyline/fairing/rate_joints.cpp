@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "keyline/fairing/piece_energy.h"
@@ -15,8 +16,14 @@ namespace {
 
 constexpr int kRounds = 4;  // of parting pieces
 constexpr int kUntyings = 5;
-constexpr double kFirmBand = 10;  // of the points' offsets where rates are held…
-constexpr double kFirmer = 4;     // …and how much more at each untying
+constexpr double kFirmBand = 10;       // of the points' offsets where rates are held…
+constexpr double kFirmer = 4;          // …and how much more at each untying
+constexpr int kPasses = 2;             // over joints that stay
+constexpr double kSteepPower = 12;     // of the offsets where joints are held one by one
+constexpr int kRaises = 3;             // of the prices of points outside, then…
+constexpr double kRaisePower = 16;     // …by that power of their offsets…
+constexpr double kMostRaise = 16;      // …so much at most…
+constexpr double kNearOutside = 0.97;  // …from here on
 constexpr int kSteps = 20;
 constexpr int kTiedSteps = 30;
 constexpr double kGone = 0.03;      // of the rate's logarithm: a jump that may be tied
@@ -59,7 +66,7 @@ class Joining {
   }
 
   RateReport run() {
-    RateReport best{false, 0, static_cast<int>(rate_joints(chain_).size()) + 1};
+    RateReport best{false, 0, static_cast<int>(rate_joints(chain_).size()) + 1, {}};
     FitChain found = chain_;
     for (int round = 0; round < kRounds; ++round) {
       prepare();
@@ -75,7 +82,7 @@ class Joining {
       if (!part()) break;
     }
     chain_ = std::move(found);
-    return best;
+    return best.within || options_.progress.stop_requested() ? best : tie_some();
   }
 
  private:
@@ -126,39 +133,113 @@ class Joining {
     jump_ = found.jump;
   }
 
-  /// Jumps that are gone are held at none; where the points do not allow it, fewer.
+  int tied() const {
+    return static_cast<int>(
+        std::ranges::count_if(problem_.joints, [](const RateJoint& j) { return j.tied; }));
+  }
+
+  /// Jumps that are gone are held at none, but for a few where that costs too much, the offsets
+  /// dearer each time.
   RateReport tie() {
     const int count = static_cast<int>(problem_.joints.size());
-    for (std::size_t k = 0; k < problem_.joints.size(); ++k)
+    RateReport report{false, count, count, {}};
+    for (std::size_t k = 0; k < problem_.joints.size(); ++k) {
       problem_.joints[k].tied = std::abs(jump_[k]) <= kGone;
+      if (!problem_.joints[k].tied)
+        report.stay.push_back({problem_.joints[k].after, RateLoss::slopes});
+    }
     problem_.weights.jump = 0;
-    for (int i = 0; i < kUntyings; ++i) {
+    for (int i = 0; i < kUntyings && !options_.progress.stop_requested(); ++i) {
       problem_.weights.band = kFirmBand * std::pow(kFirmer, i);
       const RateSolution found = solve(kTiedSteps);
-      const auto tied = static_cast<int>(
-          std::ranges::count_if(problem_.joints, [](const RateJoint& j) { return j.tied; }));
-      if (found.max_offset <= 1 && found.gaps <= kMet && close())
-        return {true, count, count - tied};
-      if (tied == 0) break;
-      untie(found.strain, tied);
+      const std::optional<RateLoss> loss = loss_of(found);
+      report.within = !loss;
+      if (report.within || tied() == 0) break;
+      untie(found.strain, 1 + static_cast<int>(kUntied * tied()), *loss, report.stay);
     }
-    return {false, count, count};
+    if (report.within) report.missed = static_cast<int>(report.stay.size());
+    return report;
   }
 
-  /// Whether the pieces meet, to the last digits, the points are within the tolerance and the
-  /// variation has not grown too much.
-  bool close() {
+  /// Joint by joint from the G2 chain, where nearly all cannot be held: all at once, else halves of
+  /// them, those of the smaller jumps first.
+  RateReport tie_some() {
+    prepare();
+    problem_.weights = RateWeights{.tolerance = options_.tolerance,
+                                   .energy = problem_.weights.energy,
+                                   .band = kFirmBand,
+                                   .power = kSteepPower,
+                                   .jump = 0,
+                                   .even = 0.1};
+    jump_ = RateModel(chain_, problem_).jump;
+    std::vector<int> all(problem_.joints.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::ranges::sort(all, {}, [this](int k) { return std::abs(jump_[k]); });
+    RateReport report{false, static_cast<int>(all.size()), 0, {}};
+    for (int pass = 0; pass < kPasses && !all.empty(); ++pass) {
+      report.stay.clear();
+      hold_some(all, report);
+      std::erase_if(all, [this](int k) { return problem_.joints[k].tied; });
+    }
+    report.missed = static_cast<int>(all.size());
+    report.within = report.missed < report.joints;
+    return report;
+  }
+
+  void hold_some(const std::vector<int>& joints, RateReport& report) {
+    if (joints.empty() || options_.progress.stop_requested()) return;
+    const std::optional<RateLoss> loss = loss_by(joints);
+    if (!loss) return;
+    if (joints.size() == 1) {
+      report.stay.push_back({problem_.joints[joints[0]].after, *loss});
+      return;
+    }
+    const auto half = joints.begin() + static_cast<std::ptrdiff_t>(joints.size() / 2);
+    hold_some({joints.begin(), half}, report);
+    hold_some({half, joints.end()}, report);
+  }
+
+  /// What is lost by holding these joints too; where nothing, they are held.
+  std::optional<RateLoss> loss_by(const std::vector<int>& joints) {
+    const FitChain before = chain_;
+    for (const int k : joints) problem_.joints[k].tied = true;
+    problem_.price.assign(problem_.points->size(), 1);
+    std::optional<RateLoss> loss;
+    for (int i = 0; i < kRaises; ++i) {
+      const RateSolution found = solve(kTiedSteps);
+      loss = loss_of(found);
+      if (!loss) return loss;
+      if (loss != RateLoss::tolerance) break;
+      raise_prices(found.offset);
+    }
+    chain_ = before;
+    for (const int k : joints) problem_.joints[k].tied = false;
+    return loss;
+  }
+
+  void raise_prices(const std::vector<double>& offset) {
+    for (std::size_t j = 0; j < offset.size(); ++j) {
+      const double over = std::abs(offset[j]) / kNearOutside;
+      if (over > 1) problem_.price[j] *= std::min(kMostRaise, std::pow(over, kRaisePower));
+    }
+  }
+
+  /// What the chain would lose as it stands; where nothing, its last digits are closed.
+  std::optional<RateLoss> loss_of(const RateSolution& found) {
+    if (!(found.max_offset <= 1 && found.gaps <= kMet)) return RateLoss::tolerance;
     const RateModel closed(close_rates(chain_, problem_), problem_);
-    if (!(closed.gaps <= kLastDigits) || !(closed.max_offset <= 1)) return false;
-    if (!(closed.variation <= kWorth)) return false;
+    if (!(closed.gaps <= kLastDigits) || !(closed.max_offset <= 1)) return RateLoss::tolerance;
+    if (!(closed.variation <= kWorth)) return RateLoss::variation;
     for (const RateLimit& limit : closed.limits)
-      if (!(limit.room >= 0)) return false;
+      if (!(limit.room >= 0)) return RateLoss::slopes;
+    if (const auto lost = options_.loses ? options_.loses(closed.chain) : std::nullopt) return lost;
     chain_ = closed.chain;
-    return true;
+    return std::nullopt;
   }
 
-  void untie(const std::vector<double>& strain, int tied) {
-    for (int i = 0; i <= static_cast<int>(kUntied * tied); ++i) {
+  void untie(const std::vector<double>& strain, int many, RateLoss loss,
+             std::vector<RateReport::Stay>& stay) {
+    for (int i = 0; i < many; ++i) {
       RateJoint* most = nullptr;
       double largest = -1;
       for (std::size_t k = 0; k < strain.size(); ++k) {
@@ -166,7 +247,9 @@ class Joining {
         largest = strain[k];
         most = &problem_.joints[k];
       }
-      if (most) most->tied = false;
+      if (!most) return;
+      most->tied = false;
+      stay.push_back({most->after, loss});
     }
   }
 
@@ -250,7 +333,7 @@ RateReport join_rates(FitChain& chain, const std::vector<FitPoint>& points,
   const std::size_t n = chain.pieces.size();
   for (std::size_t p = 0; p < n; ++p)
     if (chain.pieces[p].kind == PieceKind::arc) return {};
-  if (n < 2) return {true, 0, 0};
+  if (n < 2) return {true, 0, 0, {}};
   return Joining(chain, points, options).run();
 }
 

@@ -134,15 +134,21 @@ Share share_of(const FitPoint& point, double across, double tolerance) {
 
 }  // namespace
 
+double RateModel::price_of(std::size_t j) const {
+  const double own = problem_->price.empty() ? 1 : problem_->price[j];
+  return own * problem_->weights.band / static_cast<double>(spots_.size());
+}
+
 void RateModel::look_at_points() {
   const RateWeights& w = problem_->weights;
   const std::size_t n = spots_.size();
   max_offset = 0;
+  offset.resize(n);
   for (std::size_t j = 0; j < n; ++j) {
-    const double offset = share_of((*problem_->points)[j], spots_[j].across, w.tolerance).offset;
-    max_offset = std::max(max_offset, std::abs(offset));
-    const double over = excess(offset, w.power).value;
-    cost += w.band * over * over / static_cast<double>(n);
+    offset[j] = share_of((*problem_->points)[j], spots_[j].across, w.tolerance).offset;
+    max_offset = std::max(max_offset, std::abs(offset[j]));
+    const double over = excess(offset[j], w.power).value;
+    cost += price_of(j) * over * over;
   }
   if (chain.closed) return;
   for (const std::size_t j : {std::size_t{0}, n - 1}) {
@@ -245,7 +251,7 @@ void RateModel::add_point(std::size_t j) {
   const FitPoint& point = (*problem_->points)[j];
   const Share share = share_of(point, spot.across, w.tolerance);
   const Excess over = excess(share.offset, w.power);
-  const double weight = std::sqrt(w.band / static_cast<double>(spots_.size()));
+  const double weight = std::sqrt(price_of(j));
   const double by = -weight * over.slope * point.share / share.room;
   const auto index = static_cast<Eigen::Index>(j);
   Eigen::RowVectorXd row;

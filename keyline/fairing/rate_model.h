@@ -68,7 +68,8 @@ struct RateProblem {
   std::vector<core::Interval> slopes;  ///< of the pieces
   std::vector<double> growth;          ///< of their |curvature|: 1 or -1, which stays
   RateWeights weights;
-  FitJoint end;  ///< where a held end is held
+  std::vector<double> price;  ///< of the points' excess, each by itself; empty: all 1
+  FitJoint end;               ///< where a held end is held
 };
 
 /// A chain as it stands: what it costs and how that changes.
@@ -86,10 +87,11 @@ class RateModel {
   FitChain moved(const Eigen::VectorXd& step, double share) const;
 
   FitChain chain;
-  double cost = 0;        ///< without the limits' barrier
-  double gaps = 0;        ///< between pieces, in tolerances, and of tied rates
-  double max_offset = 0;  ///< in tolerances
-  double variation = 0;   ///< in the unit of the weights
+  double cost = 0;             ///< without the limits' barrier
+  double gaps = 0;             ///< between pieces, in tolerances, and of tied rates
+  double max_offset = 0;       ///< in tolerances
+  std::vector<double> offset;  ///< of the points, likewise
+  double variation = 0;        ///< in the unit of the weights
   std::vector<double> jump;
   std::vector<RateLimit> limits;
   bool sound = true;
@@ -108,6 +110,7 @@ class RateModel {
   void add_limits();
   void condense();
   void add_point(std::size_t j);
+  double price_of(std::size_t j) const;
   void add_piece(int p);
   void add_jump(std::size_t k, Eigen::Ref<Eigen::MatrixXd> out, int row, double by) const;
   void set_equations();

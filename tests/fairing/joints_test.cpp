@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -6,6 +7,10 @@
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/fairing/fair.h"
+#include "keyline/fairing/rate_joints.h"
+#include "keyline/fairing/run.h"
+#include "keyline/fairing/runs.h"
+#include "keyline/fit/fit_spline.h"
 
 /// Joints of one rate of curvature, asked for with --joints G3. Rates are worked out here from the
 /// pieces' own numbers, without the solver.
@@ -77,6 +82,66 @@ TEST_P(JointsOfOneRate, AreAllWhereCurvatureDoesNotTurn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formulas, JointsOfOneRate, ::testing::Values(half_ellipse, sine, cubic));
+
+lac::Chain as_chain(const FitChain& fit) {
+  lac::Chain chain;
+  for (std::size_t p = 0; p < fit.pieces.size(); ++p)
+    chain.pieces.push_back({fit.pieces[p].alpha, fit.pieces[p].length, fit.joints[p].curvature,
+                            fit.joints[p + 1].curvature});
+  return chain;
+}
+
+// Where not all joints may be of one rate, those are that may: here any two, by a rule of the
+// test's own.
+TEST(JointsOfOneRate, AreAsManyAsMayBe) {
+  const acquire::KeyLine line = measured(half_ellipse, 161);
+  const detail::Run run = detail::run_between(line, 0, line.points.size() - 1);
+  const auto spline = fit::fit_spline(run.points, {}, {}).value();
+  detail::RunOptions options;
+  options.tolerance = 4e-4;
+  options.noise = 1e-4;
+  detail::RunResult solved = detail::fair_run(run, spline.curve, options);
+  const auto two = [](const FitChain& fit) -> std::optional<detail::RateLoss> {
+    if (counted(as_chain(fit)).g3 > 2) return detail::RateLoss::waves;
+    return std::nullopt;
+  };
+  ASSERT_GT(counted(as_chain(solved.fit)).jumps, 3);
+  detail::RateOptions rates;
+  rates.tolerance = solved.accept.tolerance;
+  rates.loses = two;
+  const detail::RateReport report = detail::join_rates(solved.fit, solved.points, rates);
+  EXPECT_TRUE(report.within);
+  const JointRates count = counted(as_chain(solved.fit));
+  EXPECT_EQ(count.g3, 2);
+  EXPECT_EQ(count.jumps, report.missed);
+  EXPECT_EQ(report.missed, report.joints - 2);
+  ASSERT_EQ(report.stay.size(), static_cast<std::size_t>(report.missed));
+  int refused = 0;  // by the rule; others leave the tolerance
+  for (const auto& [piece, loss] : report.stay) {
+    refused += loss == detail::RateLoss::waves;
+    const auto chain = as_chain(solved.fit);
+    const double before = rate(chain.pieces[piece - 1], true);
+    EXPECT_GT(std::abs(rate(chain.pieces[piece], false) - before), 1e-4 * std::abs(before));
+  }
+  EXPECT_GT(refused, 0);
+}
+
+core::Point2 limacon(double u) {
+  const double t = 2 * 3.14159265358979 * u;
+  return {(1 - 0.6 * std::cos(t)) * std::cos(t), (1 - 0.6 * std::cos(t)) * std::sin(t)};
+}
+
+TEST(JointsOfOneRate, AreToldWhereTheyAreMissed) {
+  FairOptions options;
+  options.joints = JointOrder::g3;
+  const FairResult answer = fair(measured(limacon, 161), options).value();
+  int told = 0;
+  for (const std::string& note : answer.notes)
+    if (note.find("G2 stays at") != std::string::npos)
+      told += 1 + static_cast<int>(std::ranges::count(note, ','));
+  EXPECT_GT(answer.joint_rates.jumps, 0);
+  EXPECT_EQ(told, answer.joint_rates.jumps);
+}
 
 TEST(JointsOfOneRate, AreToldWhereTheyAreNotAskedFor) {
   const FairResult plain = fair(measured(sine, 161)).value();
