@@ -179,15 +179,16 @@ Candidate polish_inside(const Frame& f, const Candidate& start, bool& converged)
   Candidate c = start;
   converged = false;
   for (int iteration = 0; iteration < 8 && !converged; ++iteration) {
-    const Candidate to_alpha = moved(f, c, kStep, 0);
+    const double step = kStep * std::min(1.0, c.alpha);  // nearly straight curves are as exact
+    const Candidate to_alpha = moved(f, c, step, 0);
     const Candidate to_rim = moved(f, c, 0, kStep);
     if (to_alpha.s == 0 || to_rim.s == 0) return c;
     const Slope g = slope_at(f, c);
     const Slope a = slope_at(f, to_alpha);
     const Slope r = slope_at(f, to_rim);
-    const double aa = (a.by_alpha - g.by_alpha) / kStep;
+    const double aa = (a.by_alpha - g.by_alpha) / step;
     const double ar = rim_fixed ? 0 : (r.by_alpha - g.by_alpha) / kStep;
-    const double ra = rim_fixed ? 0 : (a.by_rim - g.by_rim) / kStep;
+    const double ra = rim_fixed ? 0 : (a.by_rim - g.by_rim) / step;
     const double rr = rim_fixed ? 1 : (r.by_rim - g.by_rim) / kStep;
     const double determinant = aa * rr - ar * ra;
     if (!(aa > 0 && determinant > 0)) return c;
@@ -198,7 +199,7 @@ Candidate polish_inside(const Frame& f, const Candidate& start, bool& converged)
     const Candidate next = moved(f, c, by_alpha, by_rim);
     if (next.s == 0) return c;
     c = next;
-    converged = std::abs(by_alpha) < 1e-9 * (1 + c.alpha) && std::abs(by_rim) < 1e-7;
+    converged = std::abs(by_alpha) < 1e-9 * std::min(1.0, c.alpha) && std::abs(by_rim) < 1e-7;
   }
   return c;
 }

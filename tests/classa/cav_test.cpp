@@ -1,5 +1,6 @@
 #include "keyline/classa/cav.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -317,6 +318,22 @@ TEST(Cav, ReversingWithEqualEdges) {
   EXPECT_NE(one->reversed, two->reversed);
   EXPECT_NEAR(one->minimum->s, two->minimum->s, 1e-7);
   EXPECT_NEAR(one->minimum->energy, two->minimum->energy, 1e-12);
+}
+
+// A minimum that turns by 1e-4 only: read from its other end the same curve had one of 1.6 % more
+// energy.
+TEST(Cav, ReversingNextToStraight) {
+  curve::Bezier3 c{{{98.93710965363694, -41.32801475736639, -154.10777203475578},
+                    {160.73409454914673, -41.32801475736639, -153.4857088224802},
+                    {222.5310794446565, -41.32801475736639, -151.61951918565353}},
+                   {}};
+  const auto value = cav(c);
+  std::reverse(c.control.begin(), c.control.end());
+  const auto reversed = cav(c);
+  ASSERT_TRUE(value && reversed && value->minimum && reversed->minimum);
+  EXPECT_NE(value->reversed, reversed->reversed);
+  EXPECT_NEAR(reversed->minimum->energy / value->minimum->energy, 1, 1e-9);
+  EXPECT_NEAR(reversed->cav, value->cav, 1e-6);
 }
 
 TEST(Cav, SizeDoesNotMatter) {

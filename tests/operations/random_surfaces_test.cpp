@@ -267,16 +267,18 @@ TEST(RandomSurfaces, SweepsCarryTheirProfile) {
     // Through sections: each lies on the loft.
     json sections = json::array(), heights = json::array();
     const std::size_t count = 2 + random() % 3;
+    double height = 0;
     for (std::size_t i = 0; i < count; ++i) {
       sections.push_back(with_points(profile, [&](json p) {
         for (json& x : p) x = x.get<double>() + 0.05 * length * uniform(random, -1, 1);
         return p;
       }));
-      heights.push_back(static_cast<double>(i) * length * uniform(random, 0.6, 1));
+      height += i == 0 ? 0 : length * uniform(random, 0.6, 1);  // a loft that folds has two feet
+      heights.push_back(height);
     }
-    const json loft =
-        result_of({{"op", "surface.loft"}, {"sections", sections}, {"heights", heights}});
-    const Patches skin = patches_of(loft["surface"]);
+    const json skinning{{"op", "surface.loft"}, {"sections", sections}, {"heights", heights}};
+    SCOPED_TRACE(skinning.dump());
+    const Patches skin = patches_of(result_of(skinning)["surface"]);
     for (std::size_t i = 0; i < count; ++i) {
       const auto section = beziers_of(sections[i]);
       Vec p = spot(section[random() % section.size()], uniform(random, 0, 1)).place;

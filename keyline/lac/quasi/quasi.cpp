@@ -194,7 +194,11 @@ Result<QuasiResult> quasi_log_aesthetic(const Segment& segment, const QuasiOptio
   if (!settled) return std::unexpected(settled.error());
   if (settled->form == QuasiForm::best) return detail::best_result(segment, settled->degree, {});
   const detail::Drawn drawn = detail::draw_form(unit, *settled);
-  if (drawn.polygon.empty()) return no_such_ends();
+  if (drawn.polygon.empty())
+    return core::fail(ErrorCode::undrawable,
+                      "no rational cubic with weights from 1e-4 to 1e4 meets these ends and has a "
+                      "logarithmic curvature graph",
+                      "split the curve", "form");
   QuasiResult r;
   r.target = segment;
   r.form = settled->form;

@@ -20,8 +20,9 @@ enum class QuasiForm {
   discrete_arc,    ///< the same for equal parts of arc length, edges of equal length
   rational_cubic,  ///< positions, tangents and end curvatures exact, then least LCG variance
   /// Positions, tangents and end curvatures exact, then least deviation; the raised rational cubic,
-  /// or over handles any other form, where that is closer (its end curvatures are then as near as
-  /// its deviation lets them be): never worse than any other form of the degree or a lower one.
+  /// or over handles any other form or a cubic with its control points on them, where that is
+  /// closer (its end curvatures are then as near as its deviation lets them be): never worse than
+  /// any other form of the degree or a lower one.
   best,
 };
 constexpr auto choices(const QuasiForm*) {

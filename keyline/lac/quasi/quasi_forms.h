@@ -26,8 +26,11 @@ struct RationalCubic {
   ControlPolygon polygon;
   std::vector<double> weights;
 };
+/// Of inner weights, the outer being 1, and of their reciprocals.
+inline constexpr double kMostRationalWeight = 1e4;
 /// Least LCG variance among the rational cubics with the ends, tangents and curvatures of the
-/// piece. Empty polygon where there is none.
+/// piece: from guesses, or where none of these has a graph from the best of a grid of handles.
+/// Empty polygon where there is none.
 RationalCubic rational_cubic(const UnitPiece& unit);
 
 /// Of the size: an end edge that is shorter loses its direction in rounding.

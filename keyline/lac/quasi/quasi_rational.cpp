@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -26,7 +30,7 @@ class Family {
         k0_(unit.piece.curvature_start),
         k1_(unit.piece.curvature_end) {}
 
-  /// False where a weight would not be positive.
+  /// False where a weight would not be positive, or beyond what leaves a curve but corners.
   bool member(double a, double b, RationalCubic& c) const {
     const Vector2 b1{a, 0};
     const Vector2 b2 = end_ - b * tangent_;
@@ -37,10 +41,14 @@ class Family {
     if (!(h0 > 0 && h1 > 0 && p > 0 && q > 0)) return false;
     c.polygon = {{0, 0}, b1, b2, end_};
     c.weights = {1, 1 / std::cbrt(p * p * q), 1 / std::cbrt(p * q * q), 1};
-    return std::isfinite(c.weights[1]) && std::isfinite(c.weights[2]);
+    return fits(c.weights[1]) && fits(c.weights[2]);
   }
 
  private:
+  static bool fits(double weight) {
+    return weight >= 1 / kMostRationalWeight && weight <= kMostRationalWeight;
+  }
+
   Vector2 end_, tangent_;
   double k0_, k1_;
 };
@@ -92,6 +100,52 @@ struct Variance {
   }
 };
 
+/// Logarithms of the handle lengths.
+using Handles = std::array<double, 2>;
+
+/// Where the variance is least of a grid of handles: what is left to start from where a guess has
+/// no graph.
+std::vector<Handles> scanned(const Variance& variance) {
+  constexpr int kSteps = 28;
+  constexpr std::size_t kStarts = 4;
+  struct Place {
+    Handles handles;
+    double cost = 0;
+  };
+  std::vector<Place> places;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const double first = std::log(2.0) - 12.0 * i / kSteps;
+      const double last = std::log(2.0) - 12.0 * j / kSteps;
+      Eigen::VectorXd r;
+      if (variance.value(Eigen::Vector2d(first, last), r))
+        places.push_back({{first, last}, r.squaredNorm()});
+    }
+  std::ranges::sort(places, {}, &Place::cost);
+  if (places.size() > kStarts) places.resize(kStarts);
+  std::vector<Handles> starts;
+  for (const Place& place : places) starts.push_back(place.handles);
+  return starts;
+}
+
+/// The least of the minima reached from the starts.
+RationalCubic least_variance(const Family& family, const std::vector<Handles>& starts) {
+  RationalCubic best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [first, last] : starts) {
+    Eigen::VectorXd x = Eigen::Vector2d(first, last);
+    const auto report = numeric::minimize_least_squares(Variance{family}, x);
+    if (report.status == numeric::LevenbergMarquardtStatus::no_start) continue;
+    RationalCubic c;
+    if (!(std::exp(std::min(x[0], x[1])) > kShortestHandle)) continue;
+    if (report.cost < least && family.member(std::exp(x[0]), std::exp(x[1]), c)) {
+      least = report.cost;
+      best = std::move(c);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 RationalCubic rational_cubic(const UnitPiece& unit) {
@@ -107,19 +161,12 @@ RationalCubic rational_cubic(const UnitPiece& unit) {
     family.member(arc_handle, arc_handle, best);
     return best;
   }
-  double least = std::numeric_limits<double>::infinity();
   const double share = std::log(unit.piece.curvature_start / unit.piece.curvature_end) / 6;
-  for (const double tilt : {0.0, 0.5, 1.0}) {
-    Eigen::VectorXd x(2);
-    x << std::log(handle) - tilt * share, std::log(handle) + tilt * share;
-    const auto report = numeric::minimize_least_squares(Variance{family}, x);
-    if (report.status == numeric::LevenbergMarquardtStatus::no_start) continue;
-    RationalCubic c;
-    if (report.cost < least && family.member(std::exp(x[0]), std::exp(x[1]), c)) {
-      least = report.cost;
-      best = std::move(c);
-    }
-  }
+  std::vector<Handles> starts;
+  for (const double tilt : {0.0, 0.5, 1.0})
+    starts.push_back({std::log(handle) - tilt * share, std::log(handle) + tilt * share});
+  best = least_variance(family, starts);
+  if (best.polygon.empty()) best = least_variance(family, scanned(Variance{family}));
   return best;
 }
 
