@@ -10,6 +10,7 @@ namespace keyline::fit {
 struct QuinticChainOptions {
   double tolerance = 0.5;  ///< largest distance of a point from the curve, in the points' unit
   int max_pieces = 48;
+  bool calm = false;  ///< the least variation of curvature within the tolerance; else least squares
 };
 
 struct QuinticChain {
@@ -27,7 +28,10 @@ struct QuinticChain {
 /// whatever the values): all are found together by Gauss–Newton on the distances of the points
 /// along the curve's normals, feet of the points moving along. Pieces are added one by one, up to
 /// four with joints laid so that each has about its share of length and turning; from there those
-/// pieces are halved that deviate most.
+/// pieces are halved that deviate most. Where the chain is to be calm, a weight on L³ ∫ (dκ/ds)² ds
+/// ([Moreton 1992]) is raised then as far as the tolerance allows, points at its rim pulling
+/// harder. No piece slows down to a tenth of its mean speed: there the curvature would have a
+/// needle.
 ///
 /// points: at least two, no two neighbours equal (InvalidInput otherwise); closed: the first is not
 ///         repeated. An open chain starts and ends exactly in the first and last point.

@@ -27,7 +27,6 @@ constexpr std::array kFitShares = {0.1, 0.05};  ///< … and by fitting quintics
 constexpr double kHeldEnd = 1e6;                ///< weight of ends that stay
 constexpr double kShortest = 4;                 ///< points: wavelength that nothing is lost with
 constexpr int kHalvings = 14;                   ///< of the wavelength's range: within 0.1 %
-constexpr double kNeedle = 0.01;  ///< of the energy at most is left where waves may come instead
 constexpr int kSamples = 32;      ///< of a piece
 constexpr int kMostPieces = 48;
 
@@ -191,28 +190,6 @@ CalmQuintics quintics_towards(const std::vector<Point2>& points, bool closed, do
   if (!chain.within_tolerance) return {};
   made.pieces = std::move(chain.pieces);
   return made;
-}
-
-std::vector<curve::Bezier2> without_jolts(const std::vector<Point2>& points, bool closed,
-                                          double most, std::vector<curve::Bezier2> pieces) {
-  const auto marks_of = [](const auto& of) { return analysis::comb_marks(graph_of(of)).size(); };
-  const std::size_t marks = marks_of(pieces);
-  if (marks == 0 || points.size() < 8) return pieces;
-  Smoother smoother(points, closed);
-  const std::vector<Point2> line = calmed(points, smoother, kSmoothShare * most);
-  const auto [waves, energy] = unrest(pieces);
-  std::tuple<bool, double> least{true, energy};  // more waves than given; energy
-  for (const double share : kFitShares) {
-    auto chain = fit::fit_quintic_chain(line, closed, {share * most, kMostPieces});
-    if (!chain.within_tolerance || marks_of(chain.pieces) > marks) continue;
-    const auto [its_waves, its_energy] = unrest(chain.pieces);
-    const std::tuple is{its_waves > waves, its_energy};
-    const double worth = its_waves > waves ? kNeedle * energy : energy;
-    if (its_energy >= worth || is >= least) continue;
-    least = is;
-    pieces = std::move(chain.pieces);
-  }
-  return pieces;
 }
 
 int waves_of(const std::vector<curve::Bezier2>& pieces) { return comb_of(pieces).waves; }

@@ -30,13 +30,6 @@ CalmQuintics calm_quintics(const std::vector<core::Point2>& points, bool closed,
 CalmQuintics quintics_towards(const std::vector<core::Point2>& points, bool closed, double most,
                               const std::vector<double>& curvature);
 
-/// The chain, or where its comb has needles or near-steps (analysis::comb_marks) one that follows
-/// the points calmed within the same `most`, if it has not more of them, nor more waves, and less
-/// energy (analysis::comb_figures); more waves where a hundredth of the energy is left, for beside
-/// such a needle they were too low to count. Same preconditions.
-std::vector<curve::Bezier2> without_jolts(const std::vector<core::Point2>& points, bool closed,
-                                          double most, std::vector<curve::Bezier2> pieces);
-
 /// Waves of the chain's curvature, as analysis::comb_figures counts them.
 int waves_of(const std::vector<curve::Bezier2>& pieces);
 

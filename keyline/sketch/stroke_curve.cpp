@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "keyline/curve/piecewise_bezier.h"
 #include "keyline/fit/quintic_chain.h"
@@ -62,9 +63,8 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   const auto part = points_of(run, fine);
   if (part.size() < 4) return pieces;
   const double tolerance = std::max(options.tolerance, options.width_share * fine.width);
-  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48});
-  if (!chain.within_tolerance) return pieces;
-  return without_jolts(part, run.closed, tolerance, std::move(chain.pieces));
+  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48, true});
+  return chain.within_tolerance ? std::move(chain.pieces) : pieces;
 }
 
 /// How far driving may take a curve: so many tolerances (a hand's wobble of a pixel and what the

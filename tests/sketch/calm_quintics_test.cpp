@@ -59,20 +59,6 @@ TEST(CalmQuintics, TakesAWobbleOfOnePixelOut) {
   }
 }
 
-// One place 0.4 pixels off, which quintics that follow every hundredth of a pixel turn into a
-// needle.
-TEST(CalmQuintics, NeedlesGoWhereTheInkAllowsIt) {
-  std::vector<Point2> points = clothoid(0, 1);
-  points[300].y += 0.4;
-  const auto given = fit::fit_quintic_chain(points, false, {0.01, 48});
-  ASSERT_GE(waves_of(given.pieces), 2);
-  const auto calm = without_jolts(points, false, 0.5, given.pieces);
-  EXPECT_LE(waves_of(calm), 1);
-  EXPECT_LE(farthest(calm, points), 0.5 + 0.1);  // points stand a pixel apart
-  const auto smooth = fit::fit_quintic_chain(clothoid(0, 1), false, {0.01, 48});
-  EXPECT_EQ(without_jolts(clothoid(0, 1), false, 0.5, smooth.pieces), smooth.pieces);
-}
-
 TEST(CalmQuintics, LeavesWhatIsCalm) {
   const std::vector<Point2> points = clothoid(0, 1);
   const auto given = fit::fit_quintic_chain(points, false, {0.01, 48});

@@ -1,0 +1,161 @@
+#include "keyline/fit/quintic_chain.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "keyline/fit/chain_data.h"
+#include "keyline/fit/quintic_joints.h"
+#include "keyline/fit/quintic_solver.h"
+
+namespace keyline::fit {
+namespace {
+
+using core::Point2;
+
+/// A line a pixel per point, by its curvature, each point moved across at random by up to `noise`.
+template <class Curvature>
+std::vector<Point2> drawn(int length, double noise, Curvature curvature) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> off(-noise, noise);
+  std::vector<Point2> points;
+  Point2 p;
+  double angle = 0;
+  for (int i = 0; i <= 100 * length; ++i) {
+    if (i % 100 == 0)
+      points.push_back(p + off(random) * core::Vector2{-std::sin(angle), std::cos(angle)});
+    p = p + 0.01 * core::Vector2{std::cos(angle), std::sin(angle)};
+    angle += 0.01 * curvature(0.01 * i);
+  }
+  return points;
+}
+
+struct Comb {
+  double length = 0, variation = 0, farthest = 0;
+};
+
+/// Straight from places: differences of the pieces' curvature, chords for the length.
+Comb comb_of(const std::vector<curve::Bezier2>& pieces, const std::vector<Point2>& points = {}) {
+  constexpr int kParts = 4000;
+  Comb comb;
+  std::vector<Point2> places;
+  for (const curve::Bezier2& piece : pieces)
+    for (int k = 0; k < kParts; ++k) {
+      const double t = static_cast<double>(k) / kParts;
+      const double u = static_cast<double>(k + 1) / kParts;
+      const double step = core::distance(evaluate(piece, t), evaluate(piece, u));
+      const double change = curvature(jet(piece, u)) - curvature(jet(piece, t));
+      comb.length += step;
+      comb.variation += change * change / step;
+      places.push_back(evaluate(piece, t));
+    }
+  places.push_back(evaluate(pieces.back(), 1));
+  comb.variation *= std::pow(comb.length, 3);
+  for (const Point2 p : points) {
+    double nearest = HUGE_VAL;
+    for (const Point2 q : places) nearest = std::min(nearest, core::distance(p, q));
+    comb.farthest = std::max(comb.farthest, nearest);
+  }
+  return comb;
+}
+
+TEST(CalmChain, CalmIsAnArcWhereOneLiesWithinTheTolerance) {
+  const auto points = drawn(300, 0.3, [](double) { return 0.01; });
+  const QuinticChain plain = fit_quintic_chain(points, false, {0.5, 48});
+  const QuinticChain calm = fit_quintic_chain(points, false, {0.5, 48, true});
+  ASSERT_TRUE(plain.within_tolerance && calm.within_tolerance);
+  EXPECT_GT(comb_of(plain.pieces).variation, 0.1);
+  EXPECT_LT(comb_of(calm.pieces).variation, 1e-2);  // of an arc 0
+  EXPECT_LE(comb_of(calm.pieces, points).farthest, 0.5 + 1e-3);
+}
+
+TEST(CalmChain, CalmHasNoMoreThanTheClothoidTheLineWasDrawnBy) {
+  const double rate = 0.02 / 400;
+  const auto points = drawn(400, 0.3, [&](double s) { return rate * s; });
+  const QuinticChain calm = fit_quintic_chain(points, false, {0.5, 48, true});
+  ASSERT_TRUE(calm.within_tolerance);
+  // the clothoid lies within the tolerance, its variation is rate² L⁴
+  EXPECT_LE(comb_of(calm.pieces).variation, 1.05 * rate * rate * std::pow(400, 4));
+  EXPECT_LE(comb_of(calm.pieces, points).farthest, 0.5 + 1e-3);
+}
+
+TEST(CalmChain, ANeedleOfOnePlaceGoesWhereTheToleranceAllowsIt) {
+  auto points = drawn(600, 0, [](double s) { return 0.001 + 0.008 / 600 * s; });
+  points[300].y += 0.4;
+  const QuinticChain calm = fit_quintic_chain(points, false, {0.5, 48, true});
+  ASSERT_TRUE(calm.within_tolerance);
+  EXPECT_LE(comb_of(calm.pieces).variation, 1.05 * std::pow(0.008 / 600, 2) * std::pow(600, 4));
+}
+
+TEST(CalmChain, JointsOfACalmChainStayG2) {
+  const auto points = drawn(500, 0.4, [](double s) { return 0.02 * std::sin(s / 40); });
+  const auto pieces = fit_quintic_chain(points, false, {0.5, 48, true}).pieces;
+  ASSERT_GT(pieces.size(), 1);
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const auto before = jet(pieces[i - 1], 1);
+    const auto after = jet(pieces[i], 0);
+    EXPECT_EQ(pieces[i - 1].control.back(), pieces[i].control.front());
+    EXPECT_NEAR(curvature(before), curvature(after), 1e-9);
+  }
+}
+
+TEST(QuinticSolver, VariationIsThatOfThePiecesItReturns) {
+  const auto points = drawn(300, 0.2, [](double s) { return 0.02 * std::cos(s / 60); });
+  const ChainData data = prepare_chain_data(points, false);
+  QuinticSolver solver(data, false, joint_indices(data, 3));
+  solver.run();
+  const Comb comb = comb_of(solver.result(1).pieces);
+  const double scale = std::pow(data.length.back() / comb.length, 3);  // of the data: longer
+  EXPECT_NEAR(solver.variation() / (scale * comb.variation), 1, 3e-3);
+}
+
+/// Three weighted sums and the change of each by every unknown, beside differences.
+TEST(JointedQuintics, SensitivityIsTheSlopeOfEverySum) {
+  JointedQuintics chain;
+  chain.joints = {{{1, 2}, 0.3, 0.05}, {{20, 9}, 0.9, -0.02}};
+  chain.lengths = {{4, 5, 3.5, 4.5}};
+  for (const QuinticWeights& weights :
+       {place_weights(0.3), first_weights(0.6), second_weights(0.2), third_weights(0.7)}) {
+    const QuinticRow row = sensitivity(piece_of(chain, 0), weights);
+    const auto unknowns = [](JointedQuintics& of) -> std::array<double*, 12> {
+      QuinticJoint& p = of.joints[0];
+      QuinticJoint& q = of.joints[1];
+      QuinticLengths& l = of.lengths[0];
+      return {&p.place.x, &p.place.y, &p.direction, &p.curvature, &l.a,         &l.b,
+              &l.c,       &l.d,       &q.place.x,   &q.place.y,   &q.direction, &q.curvature};
+    };
+    for (std::size_t c = 0; c < 12; ++c) {
+      const auto moved = [&](double by) {
+        JointedQuintics other = chain;
+        *unknowns(other)[c] += by;
+        return weighted(piece_of(other, 0).control, weights);
+      };
+      const core::Vector2 slope = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+      EXPECT_NEAR(row[c].x, slope.x, 1e-6 * (1 + std::abs(slope.x))) << c;
+      EXPECT_NEAR(row[c].y, slope.y, 1e-6 * (1 + std::abs(slope.y))) << c;
+    }
+  }
+}
+
+TEST(JointedQuintics, WeightsAreDerivativesOfEachOther) {
+  const QuinticHandles control = {{{0, 0}, {1, 2}, {3, -1}, {4, 5}, {7, 2}, {8, 8}}};
+  const auto slope = [&](auto weights, double t) {
+    return (weighted(control, weights(t + 1e-5)) - weighted(control, weights(t - 1e-5))) / 2e-5;
+  };
+  for (const double t : {0.1, 0.45, 0.8}) {
+    const auto near = [](core::Vector2 a, core::Vector2 b) {
+      EXPECT_NEAR(a.x, b.x, 1e-5 * (1 + std::abs(b.x)));
+      EXPECT_NEAR(a.y, b.y, 1e-5 * (1 + std::abs(b.y)));
+    };
+    near(weighted(control, first_weights(t)), slope(place_weights, t));
+    near(weighted(control, second_weights(t)), slope(first_weights, t));
+    near(weighted(control, third_weights(t)), slope(second_weights, t));
+    const curve::Bezier2 piece{{control.begin(), control.end()}, {}};
+    near(place(control, t) - Point2{}, evaluate(piece, t) - Point2{});
+  }
+}
+
+}  // namespace
+}  // namespace keyline::fit
