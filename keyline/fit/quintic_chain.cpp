@@ -26,12 +26,12 @@ QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
   std::vector<std::size_t> at = joint_indices(data, closed ? 2 : 1);
   while (true) {
     const int pieces = static_cast<int>(at.size()) - 1;
-    QuinticSolver fit(data, closed, at);
+    QuinticSolver fit(data, closed, at, options.tolerance);
     fit.run();
-    QuinticChain found = fit.result(options.tolerance);
+    QuinticChain found = fit.result();
     if (options.calm && found.within_tolerance) {
-      fit.calm(options.tolerance);
-      found = fit.result(options.tolerance);
+      fit.calm();
+      found = fit.result();
     }
     if (best.pieces.empty() || found.within_tolerance || found.max_deviation < best.max_deviation)
       best = std::move(found);

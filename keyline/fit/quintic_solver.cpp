@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "keyline/fit/quintic_rate.h"
 #include "keyline/numeric/damped_descent.h"
-#include "keyline/numeric/quadrature.h"
 #include "keyline/numeric/solve.h"
 
 namespace keyline::fit {
 namespace {
 
-using core::cross;
 using core::distance;
 using core::dot;
 using core::Point2;
@@ -22,8 +21,9 @@ constexpr int kPieceSize = 4;  ///< a, b (end edges), c, d (tangential part of t
 constexpr int kCalmIterations = 8;     ///< for a weight: the next one goes on from there
 constexpr double kStiffness = 1e-3;    ///< pull of the four lengths to a fifth of the piece
 constexpr double kLeastEdge = 0.5;     ///< of that fifth; shorter end edges hide a cusp behind them
+constexpr std::size_t kAhead = 8;      ///< points that the nearest one is looked for among
+constexpr double kArc = 0.125;         ///< rise of an arc of one radian over its chord
 constexpr double kSlowest = 0.1;       ///< of a piece's mean speed: slower is nearly a cusp
-constexpr std::size_t kNodes = 32;     ///< of a piece, at which the curvature's rate is taken
 constexpr double kFirstWeight = 1e-2;  ///< of variation beside the distances, as shares
 constexpr double kWeightStep = 10;     ///< up …
 constexpr int kWeightSteps = 12;       ///< … so often at most
@@ -31,60 +31,29 @@ constexpr int kReweighted = 3;         ///< rounds in which points beyond the to
 constexpr double kAimed = 0.9;         ///< of the tolerance: from there on they do
 constexpr int kWeightHalvings = 2;     ///< of the last step, in logarithms
 
-/// Rate of curvature times the root of the speed, whose square is what is integrated over t, from
-/// the first three derivatives; and what it changes by with them.
-struct RateNode {
-  double value = 0;
-  Vector2 by_first, by_second, by_third;
+struct Nearest {
+  Point2 place;
+  double edge = 0;  ///< length of the edge it lies on
 };
 
-RateNode rate_node(Vector2 v, Vector2 a, Vector2 j) {
-  const double q = dot(v, v);
-  if (!(q > 0)) return {};
-  const double c = cross(v, a);
-  const double e = cross(v, j);
-  const double f = dot(v, a);
-  const double speed = std::sqrt(q);
-  const double q7 = 1 / (q * speed * std::sqrt(speed));
-  const double q11 = q7 / q;
-  const auto left = [](Vector2 x) { return core::perpendicular_left(x); };
-  RateNode node;
-  node.value = e * q7 - 3 * c * f * q11;
-  // cross(dv, x) = -dot(dv, left of x), cross(v, dx) = dot(left of v, dx)
-  node.by_first = (-q7) * left(j) + (3 * f * q11) * left(a) - (3 * c * q11) * a +
-                  (-3.5 * e * q11 + 16.5 * c * f * q11 / q) * v;
-  node.by_second = (-3 * f * q11) * left(v) - (3 * c * q11) * v;
-  node.by_third = q7 * left(v);
-  return node;
-}
-
-/// The nodes' weights by t: the same for every piece.
-struct Node {
-  double weight = 0;
-  QuinticWeights first, second, third;
-};
-
-const std::array<Node, kNodes>& nodes() {
-  static const std::array<Node, kNodes> all = [] {
-    std::array<Node, kNodes> made;
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const double t = (i + 0.5) / kNodes;
-      made[i] = {1.0 / kNodes, first_weights(t), second_weights(t), third_weights(t)};
-    }
-    return made;
-  }();
-  return all;
-}
-
-RateNode rate_at(const JointedQuintic& piece, const Node& node) {
-  const QuinticHandles& h = piece.control;
-  return rate_node(weighted(h, node.first), weighted(h, node.second), weighted(h, node.third));
+/// Of the two edges at a point of the line.
+Nearest nearest_on_line(const std::vector<Point2>& line, std::size_t at, Point2 p) {
+  Nearest best{line[at], 0};
+  for (const std::size_t from : {at > 0 ? at - 1 : at, at}) {
+    if (from + 1 >= line.size()) continue;
+    const Vector2 edge = line[from + 1] - line[from];
+    const double share = std::clamp(dot(p - line[from], edge) / dot(edge, edge), 0.0, 1.0);
+    const Point2 q = line[from] + share * edge;
+    if (distance(p, q) <= distance(p, best.place)) best = {q, core::norm(edge)};
+  }
+  return best;
 }
 
 }  // namespace
 
-QuinticSolver::QuinticSolver(const ChainData& data, bool closed, const std::vector<std::size_t>& at)
-    : data_(data) {
+QuinticSolver::QuinticSolver(const ChainData& data, bool closed, const std::vector<std::size_t>& at,
+                             double tolerance)
+    : data_(data), tolerance_(tolerance) {
   now_.chain.closed = closed;
   for (std::size_t k = 0; k + (closed ? 1 : 0) < at.size(); ++k)
     now_.chain.joints.push_back({data.points[at[k]], data.direction[at[k]], data.curvature[at[k]]});
@@ -116,21 +85,21 @@ void QuinticSolver::run(double weight, int most) {
   });
 }
 
-bool QuinticSolver::run_within(double weight, double tolerance) {
+bool QuinticSolver::run_within(double weight) {
   for (int round = 0;; ++round) {
     run(weight, kCalmIterations);
-    if (result(tolerance).within_tolerance) return true;
+    if (result().within_tolerance) return true;
     if (round == kReweighted) return false;
     const std::vector<double> off = distances();
     for (std::size_t i = 0; i < off.size(); ++i)
-      pull_[i] *= std::max(1.0, std::pow(off[i] / (kAimed * tolerance), 4));
+      pull_[i] *= std::max(1.0, std::pow(off[i] / (kAimed * tolerance_), 4));
   }
 }
 
-void QuinticSolver::calm(double tolerance) {
+void QuinticSolver::calm() {
   const double variation_before = variation();
   if (!(variation_before > 0)) return;
-  const double near = std::max(move_feet(), 1e-6 * tolerance * tolerance);
+  const double near = std::max(move_feet(), 1e-6 * tolerance_ * tolerance_);
   double weight = kFirstWeight * near / variation_before;
   double factor = kWeightStep;
   State best = now_;
@@ -138,7 +107,7 @@ void QuinticSolver::calm(double tolerance) {
   double best_variation = variation_before;
   int halvings = 0;
   for (int k = 0; k < kWeightSteps && halvings <= kWeightHalvings; ++k) {
-    const bool within = run_within(weight, tolerance);
+    const bool within = run_within(weight);
     if (within && variation() < best_variation) {
       best = now_;
       best_pull = pull_;
@@ -167,7 +136,7 @@ std::vector<double> QuinticSolver::distances() const {
   return off;
 }
 
-QuinticChain QuinticSolver::result(double tolerance) const {
+QuinticChain QuinticSolver::result() const {
   QuinticChain out;
   for (const JointedQuintic& piece : pieces_of(now_.chain))
     out.pieces.push_back({{piece.control.begin(), piece.control.end()}, {}});
@@ -177,7 +146,7 @@ QuinticChain QuinticSolver::result(double tolerance) const {
     sum += d * d;
   }
   out.rms_deviation = std::sqrt(sum / static_cast<double>(data_.points.size()));
-  out.within_tolerance = out.max_deviation <= tolerance && is_sound();
+  out.within_tolerance = out.max_deviation <= tolerance_ && is_sound();
   return out;
 }
 
@@ -192,11 +161,56 @@ std::vector<double> QuinticSolver::deviations() const {
 double QuinticSolver::variation() const {
   double sum = 0;
   for (const JointedQuintic& piece : pieces_of(now_.chain))
-    for (const Node& node : nodes()) {
+    for (const RatePlace& node : rate_nodes()) {
       const double rate = rate_at(piece, node).value;
       sum += node.weight * rate * rate;
     }
   return std::pow(data_.length.back(), 3) * sum;
+}
+
+std::vector<QuinticSolver::Stray> QuinticSolver::strays() const {
+  std::vector<Stray> found;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < now_.chain.lengths.size(); ++k) {
+    const JointedQuintic piece = piece_of(now_.chain, k);
+    for (std::size_t j = 0; j < kRateNodes; ++j) {
+      const Point2 p = Point2{} + weighted(piece.control, rate_nodes()[j].place);
+      const auto far = [&](std::size_t i) {
+        const Vector2 off = data_.points[i] - p;
+        return dot(off, off);
+      };
+      for (std::size_t i = at; i < data_.points.size() && i <= at + kAhead; ++i)
+        if (far(i) < far(at)) at = i;
+      if (far(at) <= tolerance_ * tolerance_) continue;
+      const Nearest nearest = nearest_on_line(data_.points, at, p);
+      const Vector2 way = nearest.place - p;
+      const double off = core::norm(way);
+      const double most = tolerance_ + kArc * nearest.edge;
+      if (off > most) found.push_back({k, j, (1 - most / off) * way});
+    }
+  }
+  return found;
+}
+
+/// What strays cost.
+double QuinticSolver::off_line() const {
+  double sum = 0;
+  for (const Stray& stray : strays()) sum += dot(stray.way, stray.way);
+  return sum;
+}
+
+void QuinticSolver::add_strays(const std::vector<JointedQuintic>& pieces,
+                               std::vector<Normal>& parts) const {
+  for (const Stray& stray : strays()) {
+    const QuinticRow row = sensitivity(pieces[stray.piece], rate_nodes()[stray.node].place);
+    Row x, y;
+    for (int c = 0; c < 12; ++c) {
+      x[c] = row[static_cast<std::size_t>(c)].x;
+      y[c] = row[static_cast<std::size_t>(c)].y;
+    }
+    parts[stray.piece].add(x, stray.way.x);
+    parts[stray.piece].add(y, stray.way.y);
+  }
 }
 
 /// End edges that point forwards, and nowhere nearly a halt: no hidden cusp.
@@ -204,11 +218,11 @@ bool QuinticSolver::is_sound() const {
   const std::vector<JointedQuintic> pieces = pieces_of(now_.chain);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     if (!(pieces[k].lengths.a > 0 && pieces[k].lengths.b > 0)) return false;
-    for (const Node& node : nodes())
+    for (const RatePlace& node : rate_nodes())
       if (core::norm(weighted(pieces[k].control, node.first)) < kSlowest * 5 * rest_[k])
         return false;
   }
-  return true;
+  return strays().empty();
 }
 
 /// Newton steps of every foot towards the nearest point, over joints too; the sum of the squared
@@ -295,7 +309,7 @@ void QuinticSolver::add_variation(double weight, const std::vector<JointedQuinti
                                   std::vector<Normal>& parts) const {
   const double cubed = std::pow(data_.length.back(), 3);
   for (std::size_t k = 0; k < pieces.size(); ++k)
-    for (const Node& node : nodes()) {
+    for (const RatePlace& node : rate_nodes()) {
       const RateNode rate = rate_at(pieces[k], node);
       const double root = std::sqrt(weight * cubed * node.weight);
       const QuinticRow first = sensitivity(pieces[k], node.first);
@@ -317,6 +331,7 @@ void QuinticSolver::step(double weight, double damping) {
   const std::vector<JointedQuintic> pieces = pieces_of(now_.chain);
   std::vector<Normal> parts(pieces.size());
   add_points(pieces, parts);
+  add_strays(pieces, parts);
   if (weight > 0) add_variation(weight, pieces, parts);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd g = Eigen::VectorXd::Zero(size);

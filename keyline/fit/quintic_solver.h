@@ -17,16 +17,17 @@ namespace keyline::fit {
 class QuinticSolver {
  public:
   /// Joints at these points of the data, which has to stay.
-  QuinticSolver(const ChainData& data, bool closed, const std::vector<std::size_t>& at);
+  QuinticSolver(const ChainData& data, bool closed, const std::vector<std::size_t>& at,
+                double tolerance);
 
   /// As near to the points as it goes in so many steps, with that weight on variation().
   void run(double weight = 0, int most = 12);
 
   /// As calm as the tolerance allows, where run() has come within it: the weight is raised step by
   /// step, so that every chain starts from one that is nearly as calm.
-  void calm(double tolerance);
+  void calm();
 
-  QuinticChain result(double tolerance) const;
+  QuinticChain result() const;
 
   /// Largest distance of the points of every piece.
   std::vector<double> deviations() const;
@@ -61,15 +62,25 @@ class QuinticSolver {
   std::vector<double> distances() const;
 
   /// run(), points that stay beyond the tolerance pulling harder, until none does; whether.
-  bool run_within(double weight, double tolerance);
+  bool run_within(double weight);
+  /// A place of a piece that lies farther than the tolerance from the line of the points, and the
+  /// way it is too far.
+  struct Stray {
+    std::size_t piece = 0;
+    std::size_t node = 0;
+    core::Vector2 way;
+  };
+  std::vector<Stray> strays() const;
   bool is_sound() const;
   double move_feet();
+  double off_line() const;
   double off_rest() const;
   double cost(double weight) {
-    return move_feet() + off_rest() + (weight > 0 ? weight * variation() : 0);
+    return move_feet() + off_line() + off_rest() + (weight > 0 ? weight * variation() : 0);
   }
   void step(double weight, double damping);
   void add_points(const std::vector<JointedQuintic>& pieces, std::vector<Normal>& parts) const;
+  void add_strays(const std::vector<JointedQuintic>& pieces, std::vector<Normal>& parts) const;
   void add_variation(double weight, const std::vector<JointedQuintic>& pieces,
                      std::vector<Normal>& parts) const;
   void add(std::size_t piece, const Normal& part, Eigen::MatrixXd& a, Eigen::VectorXd& g) const;
@@ -81,6 +92,7 @@ class QuinticSolver {
   bool held(std::size_t j) const;
 
   const ChainData& data_;
+  double tolerance_;
   State now_;
   std::vector<double> pull_;  ///< weights of the points
   std::vector<double> rest_;  ///< a fifth of each piece's length

@@ -22,12 +22,12 @@ using core::Point2;
 using core::Vector2;
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kSmoothShare = 0.8;            ///< of what may be moved: by smoothing …
-constexpr std::array kFitShares = {0.1, 0.05};  ///< … and by fitting quintics to that
-constexpr double kHeldEnd = 1e6;                ///< weight of ends that stay
-constexpr double kShortest = 4;                 ///< points: wavelength that nothing is lost with
-constexpr int kHalvings = 14;                   ///< of the wavelength's range: within 0.1 %
-constexpr int kSamples = 32;      ///< of a piece
+constexpr double kSmoothShare = 0.8;  ///< of what may be moved: by smoothing …
+constexpr double kFitShare = 0.05;    ///< … and by fitting quintics to that
+constexpr double kHeldEnd = 1e6;      ///< weight of ends that stay
+constexpr double kShortest = 4;       ///< points: wavelength that nothing is lost with
+constexpr int kHalvings = 14;         ///< of the wavelength's range: within 0.1 %
+constexpr int kSamples = 32;          ///< of a piece
 constexpr int kMostPieces = 48;
 
 /// Points under a penalty on their third differences.
@@ -148,6 +148,15 @@ curve::CurvatureGraph graph_of(const std::vector<curve::Bezier2>& pieces) {
   return graph;
 }
 
+std::vector<Point2> places_of(const std::vector<curve::Bezier2>& pieces, bool closed) {
+  std::vector<Point2> places;
+  for (const curve::Bezier2& piece : pieces)
+    for (int k = 0; k < kSamples; ++k)
+      places.push_back(evaluate(piece, static_cast<double>(k) / kSamples));
+  if (!closed) places.push_back(evaluate(pieces.back(), 1));
+  return places;
+}
+
 analysis::CombFigures comb_of(const std::vector<curve::Bezier2>& pieces) {
   return analysis::comb_figures(graph_of(pieces));
 }
@@ -163,19 +172,10 @@ std::tuple<int, double> unrest(const std::vector<curve::Bezier2>& pieces) {
 CalmQuintics calm_quintics(const std::vector<Point2>& points, bool closed, double most,
                            const std::vector<curve::Bezier2>& given) {
   if (points.size() < 8) return {};
-  Smoother smoother(points, closed);
-  CalmQuintics calm{{}, calmed(points, smoother, kSmoothShare * most)};
-  auto least = unrest(given);
-  for (const double share : kFitShares) {
-    auto chain = fit::fit_quintic_chain(calm.line, closed, {share * most, kMostPieces});
-    if (!chain.within_tolerance) continue;
-    const auto is = unrest(chain.pieces);
-    if (is >= least) continue;
-    least = is;
-    calm.pieces = std::move(chain.pieces);
-  }
-  if (calm.pieces.empty()) return {};
-  return calm;
+  auto chain = fit::fit_quintic_chain(points, closed, {most, kMostPieces, true});
+  if (!chain.within_tolerance || unrest(chain.pieces) >= unrest(given)) return {};
+  std::vector<Point2> line = places_of(chain.pieces, closed);
+  return {std::move(chain.pieces), std::move(line)};
 }
 
 CalmQuintics quintics_towards(const std::vector<Point2>& points, bool closed, double most,
@@ -186,7 +186,7 @@ CalmQuintics quintics_towards(const std::vector<Point2>& points, bool closed, do
   const auto calm = calmed(points, smoother, 0.5 * kSmoothShare * most);
   smoother.want(third_differences(calm, closed, curvature));
   CalmQuintics made{{}, calmed(points, smoother, kSmoothShare * most)};
-  auto chain = fit::fit_quintic_chain(made.line, closed, {kFitShares.back() * most, kMostPieces});
+  auto chain = fit::fit_quintic_chain(made.line, closed, {kFitShare * most, kMostPieces, true});
   if (!chain.within_tolerance) return {};
   made.pieces = std::move(chain.pieces);
   return made;

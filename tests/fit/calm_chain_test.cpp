@@ -1,5 +1,3 @@
-#include "keyline/fit/quintic_chain.h"
-
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/fit/chain_data.h"
+#include "keyline/fit/quintic_chain.h"
 #include "keyline/fit/quintic_joints.h"
 #include "keyline/fit/quintic_solver.h"
 
@@ -104,9 +103,9 @@ TEST(CalmChain, JointsOfACalmChainStayG2) {
 TEST(QuinticSolver, VariationIsThatOfThePiecesItReturns) {
   const auto points = drawn(300, 0.2, [](double s) { return 0.02 * std::cos(s / 60); });
   const ChainData data = prepare_chain_data(points, false);
-  QuinticSolver solver(data, false, joint_indices(data, 3));
+  QuinticSolver solver(data, false, joint_indices(data, 3), 1);
   solver.run();
-  const Comb comb = comb_of(solver.result(1).pieces);
+  const Comb comb = comb_of(solver.result().pieces);
   const double scale = std::pow(data.length.back() / comb.length, 3);  // of the data: longer
   EXPECT_NEAR(solver.variation() / (scale * comb.variation), 1, 3e-3);
 }
