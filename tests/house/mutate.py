@@ -103,17 +103,25 @@ class Copy:
         self.build = self.tree / "build" / "release"  # as in every tree: a compiler's cache knows it
 
     def refresh(self):
+        """The tree as it is now. What changes is newer than anything built from what it was, and
+        what is gone from the tree goes from the copy too."""
         self.tree.mkdir(parents=True, exist_ok=True)
-        files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=self.root,
-                               check=True, capture_output=True, text=True).stdout.split("\n")
-        for name in filter(None, files):
+        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=self.root,
+                                check=True, capture_output=True, text=True).stdout.split("\n")
+        files = {name for name in listed if name and (self.root / name).is_file()}
+        for name in files:
             source, target = self.root / name, self.tree / name
-            if not source.is_file():
-                continue
-            if target.exists() and target.read_bytes() == source.read_bytes():
+            if target.is_file() and target.read_bytes() == source.read_bytes():
                 continue
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(source, target)
+            shutil.copyfile(source, target)
+            shutil.copymode(source, target)
+        for folder in self.tree.iterdir():
+            if not folder.is_dir() or folder == self.build.parent:
+                continue
+            for path in list(folder.rglob("*")):
+                if path.is_file() and str(path.relative_to(self.tree)) not in files:
+                    path.unlink()
 
     def configure(self):
         shared = self.tree.parent / "shared"  # beside the tree, as with the tree itself
