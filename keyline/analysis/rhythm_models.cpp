@@ -47,8 +47,16 @@ using Build = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
 /// Least squares of frame.displacement(build(x)) with a numeric Jacobian; returns the distance.
 double minimize(const PieceFrame& frame, const Build& build, Eigen::VectorXd& x, int iterations) {
+  Eigen::VectorXd known_at;  // a step that is taken is asked for again, with its derivatives
+  Eigen::VectorXd known;
+  const auto displaced = [&](const Eigen::VectorXd& at) -> const Eigen::VectorXd& {
+    if (known_at.size() == at.size() && known_at == at) return known;
+    known = frame.displacement(build(at));
+    known_at = at;
+    return known;
+  };
   const auto residuals = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
-    r = frame.displacement(build(at));
+    r = displaced(at);
     if (!r.allFinite()) return false;
     if (!j) return true;
     j->resize(r.size(), at.size());
@@ -63,7 +71,7 @@ double minimize(const PieceFrame& frame, const Build& build, Eigen::VectorXd& x,
   numeric::LevenbergMarquardtOptions options;
   options.max_iterations = iterations;
   numeric::minimize_least_squares(residuals, x, options);
-  return frame.displacement(build(x)).norm();
+  return displaced(x).norm();
 }
 
 /// Standard deviations of x for residuals of standard deviation 1.

@@ -18,7 +18,8 @@ using core::Vector2;
 constexpr int kPlaces = 256;  // of the curve, for pairing
 constexpr int kPerGap = 8;    // vertices of the curve between two points
 constexpr int kMostVertices = 4000;
-constexpr int kDrawings = 8;  // of the line to the curve
+constexpr int kDrawings = 8;                  // of the line to the curve
+constexpr double kSurelyFarther = 1 + 1e-12;  // of squares: rounding is less
 constexpr double kReach =
     0.05;  // of the vertices: how far from where it is expected a foot is sought
 
@@ -26,6 +27,7 @@ constexpr double kReach =
 struct Fine {
   std::vector<Point2> vertex;
   std::vector<double> at;
+  std::vector<double> edge;  ///< lengths from vertex to vertex
   bool closed = false;
 };
 
@@ -44,6 +46,8 @@ Fine fine_polygon(const std::vector<Point2>& points, bool closed) {
   for (std::size_t i = 1; i < fine.vertex.size(); ++i)
     fine.at.push_back(fine.at.back() + core::distance(fine.vertex[i - 1], fine.vertex[i]));
   for (double& at : fine.at) at /= std::max(fine.at.back(), 1e-300);
+  for (std::size_t i = 1; i < fine.vertex.size(); ++i)
+    fine.edge.push_back(core::norm(fine.vertex[i] - fine.vertex[i - 1]));
   return fine;
 }
 
@@ -75,10 +79,12 @@ Offset offset_near(const Fine& fine, Point2 p, std::size_t edge) {
     if (i < 0 || i >= edges) continue;
     const Point2 a = fine.vertex[i];
     const Vector2 along = fine.vertex[i + 1] - a;
-    const double size = core::norm(along);
+    const double size = fine.edge[i];
     if (size == 0) continue;
     const double u = std::clamp(core::dot(p - a, along) / (size * size), 0.0, 1.0);
-    const double away = core::distance(p, a + u * along);
+    const Vector2 from = p - (a + u * along);
+    if (core::dot(from, from) > kSurelyFarther * least * least) continue;
+    const double away = core::norm(from);
     if (away >= least) continue;
     least = away;
     const Vector2 normal = core::perpendicular_left(along) / size;
