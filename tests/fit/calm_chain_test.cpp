@@ -7,6 +7,7 @@
 #include "keyline/fit/chain_data.h"
 #include "keyline/fit/quintic_chain.h"
 #include "keyline/fit/quintic_joints.h"
+#include "keyline/fit/quintic_rate.h"
 #include "keyline/fit/quintic_solver.h"
 
 namespace keyline::fit {
@@ -88,6 +89,18 @@ TEST(CalmChain, ANeedleOfOnePlaceGoesWhereTheToleranceAllowsIt) {
   EXPECT_LE(comb_of(calm.pieces).variation, 1.05 * std::pow(0.008 / 600, 2) * std::pow(600, 4));
 }
 
+// A circle half way between both radii has no variation; least squares lie 0.7 too far inside.
+TEST(CalmChain, PointsAtTheRimOfTheTolerancePullHarder) {
+  std::vector<Point2> points;
+  for (int i = 0; i < 628; ++i) {
+    const double radius = i < 100 ? 100.85 : 100;
+    points.push_back({radius * std::cos(0.01 * i), radius * std::sin(0.01 * i)});
+  }
+  const QuinticChain calm = fit_quintic_chain(points, true, {0.5, 48, true});
+  ASSERT_TRUE(calm.within_tolerance);
+  EXPECT_LT(comb_of(calm.pieces).variation, 1e-2);
+}
+
 TEST(CalmChain, JointsOfACalmChainStayG2) {
   const auto points = drawn(500, 0.4, [](double s) { return 0.02 * std::sin(s / 40); });
   const auto pieces = fit_quintic_chain(points, false, {0.5, 48, true}).pieces;
@@ -108,6 +121,36 @@ TEST(QuinticSolver, VariationIsThatOfThePiecesItReturns) {
   const Comb comb = comb_of(solver.result().pieces);
   const double scale = std::pow(data.length.back() / comb.length, 3);  // of the data: longer
   EXPECT_NEAR(solver.variation() / (scale * comb.variation), 1, 3e-3);
+}
+
+/// The value and its change with every unknown, beside differences.
+TEST(QuinticRate, ChangesAsItsSlopesSay) {
+  JointedQuintics chain;
+  chain.joints = {{{1, 2}, 0.3, 0.05}, {{20, 9}, 0.9, -0.02}};
+  chain.lengths = {{4, 5, 3.5, 4.5}};
+  for (const std::size_t at : {0UL, 9UL, 20UL}) {
+    const RatePlace& node = rate_nodes()[at];
+    const auto rate = [&](const JointedQuintics& of) { return rate_at(piece_of(of, 0), node); };
+    const RateNode here = rate(chain);
+    const QuinticRow first = sensitivity(piece_of(chain, 0), node.first);
+    const QuinticRow second = sensitivity(piece_of(chain, 0), node.second);
+    const QuinticRow third = sensitivity(piece_of(chain, 0), node.third);
+    const auto slope_by = [&](double QuinticLengths::* length) {
+      JointedQuintics more = chain;
+      JointedQuintics less = chain;
+      more.lengths[0].*length += 1e-5;
+      less.lengths[0].*length -= 1e-5;
+      return (rate(more).value - rate(less).value) / 2e-5;
+    };
+    const std::array lengths = {&QuinticLengths::a, &QuinticLengths::b, &QuinticLengths::c,
+                                &QuinticLengths::d};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t c = 4 + k;
+      const double told = dot(first[c], here.by_first) + dot(second[c], here.by_second) +
+                          dot(third[c], here.by_third);
+      EXPECT_NEAR(told, slope_by(lengths[k]), 1e-7) << at << ' ' << k;
+    }
+  }
 }
 
 /// Three weighted sums and the change of each by every unknown, beside differences.
