@@ -208,15 +208,24 @@ class ViewSearch {
   }
 
  private:
+  static constexpr int kDepth = 4;     ///< of halvings, everywhere
+  static constexpr int kDeepest = 60;  ///< where the tangent turns between two ends
+
   struct End {
     double t, distance, speed, slope;
+    Vector2 tangent;
   };
+
+  /// By more than half a radian: what lies between may come near and leave again.
+  static bool turns(const End& a, const End& b) {
+    return dot(a.tangent, b.tangent) < 0.88 * a.speed * b.speed;
+  }
 
   End end_at(double t) {
     const Jet2 j = c_.jet_at(t);
     const double d = distance(j.point, p_);
     if (d < best_.distance) best_ = {t, j.point, d};
-    return {t, d, speed(j), dot(j.point - p_, j.first)};
+    return {t, d, speed(j), dot(j.point - p_, j.first), j.first};
   }
 
   void visit(const End& a, const End& b, int depth) {
@@ -224,7 +233,7 @@ class ViewSearch {
     const End m = end_at(middle);
     const double length = 1.25 / 6 * (b.t - a.t) * (a.speed + 4 * m.speed + b.speed);
     if (0.5 * (a.distance + b.distance - length) > best_.distance) return;
-    if (depth < 4) {
+    if (depth < kDepth || (depth < kDeepest && (turns(a, m) || turns(m, b)))) {
       visit(a, m, depth + 1);
       visit(m, b, depth + 1);
       return;

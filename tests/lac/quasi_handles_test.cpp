@@ -79,6 +79,7 @@ TEST(Quasi, BestNextToACornerIsAsCloseAsACubic) {
         quasi_log_aesthetic(p0, p1, p2, 0.957318160785845, {QuasiForm::best, degree, {}, false});
     ASSERT_TRUE(best) << degree;
     EXPECT_LE(best->deviation, 1.04 * 7.8e-6) << degree;
+    EXPECT_LE(sampled_deviation(best->target, best->curve), best->deviation);
   }
 }
 
