@@ -160,7 +160,8 @@ std::vector<Candidate> candidates_of(const BezierSurface& s, const detail::EditT
 }
 
 std::unexpected<core::Failure> nothing_found(const EditResult& result, bool conditions) {
-  std::string message = conditions ? "no net meets the conditions" : "no Class A net was found";
+  std::string message =
+      conditions ? "no net was found that meets the conditions" : "no Class A net was found";
   for (std::size_t i = 0; i < result.missed.size(); ++i) {
     const MissedTarget& m = result.missed[i];
     message += (i == 0 ? ": " : "; ") + m.target + ", " + m.curve + ": " + m.why;

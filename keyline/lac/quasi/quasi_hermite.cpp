@@ -193,10 +193,11 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   if (!settled) return std::unexpected(settled.error());
   auto closest = forms.closest(*settled, true);
   if (!closest)
-    return core::fail(ErrorCode::undrawable,
-                      "no Lambda gives a curve of this form and degree with these end tangents "
-                      "whose end edges outlast rounding",
-                      "raise the degree, or take the form best or rational-cubic");
+    return core::fail(
+        ErrorCode::undrawable,
+        "no Lambda was found that gives a curve of this form and degree with these end tangents "
+        "whose end edges outlast rounding",
+        "raise the degree, or take the form best or rational-cubic");
   detail::measure(*closest);
   return *std::move(closest);
 }

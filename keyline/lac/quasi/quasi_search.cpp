@@ -162,7 +162,8 @@ Unknowns HandleSearch::turning_rightly(double log_ratio) const {
 Unknowns HandleSearch::grid_place(int ratio, int turning) const {
   const double least = 0.2 * turning_;
   const double share = turning / (Grid::kTurnings - 1.0);
-  return {1.0 * (ratio - Grid::kRatios / 2), least * std::pow(kMostSeriesTurning / least, share)};
+  return {1.0 * (ratio - Grid::kRatios / 2),
+          std::min(least * std::pow(kMostSeriesTurning / least, share), kMostSeriesTurning)};
 }
 
 HandleSearch::Grid HandleSearch::missed() const {
