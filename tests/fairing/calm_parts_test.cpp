@@ -72,6 +72,24 @@ TEST(PieceEnergy, RatesAreDifferences) {
     }
 }
 
+// With p = -alpha its square is (|a|^p + |b|^p) / p times (|a|^(2-p) + |b|^(2-p)) / (2-p).
+TEST(PieceEnergy, RatesThroughAnInflectionAreThoseOfTheClosedForm) {
+  constexpr double h = 1e-6;
+  for (const double alpha : {-1.6, -0.7, -0.3})
+    for (const auto& [a, b] : {std::pair{-1.0, 2.0}, {3.0, -0.2}, {0.4, -0.5}, {-7.0, 9.0}}) {
+      const auto root = [alpha](double from, double to) {
+        const auto sum = [&](double q) {
+          return (std::pow(std::abs(from), q) + std::pow(std::abs(to), q)) / q;
+        };
+        return std::copysign(std::sqrt(sum(-alpha) * sum(2 + alpha)), to - from);
+      };
+      const PieceEnergy e = piece_energy(a, b, alpha);
+      EXPECT_NEAR(e.root, root(a, b), 1e-12 * std::abs(e.root));
+      EXPECT_NEAR(e.by_start, (root(a + h, b) - root(a - h, b)) / (2 * h), 1e-6);
+      EXPECT_NEAR(e.by_end, (root(a, b + h) - root(a, b - h)) / (2 * h), 1e-6);
+    }
+}
+
 std::vector<FitPoint> spread(int n) {
   std::vector<FitPoint> points(n);
   for (int i = 0; i < n; ++i) points[i].position = {i / double(n), 0};
