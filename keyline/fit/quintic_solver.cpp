@@ -232,17 +232,18 @@ double QuinticSolver::move_feet() {
   double sum = 0;
   for (std::size_t i = 0; i < now_.feet.size(); ++i) {
     Foot& f = now_.feet[i];
-    const bool end = i == 0 || i + 1 == now_.feet.size();
+    const bool closed = now_.chain.closed;
+    const bool end = !closed && (i == 0 || i + 1 == now_.feet.size());
     Vector2 off = data_.points[i] - place(h[f.piece].control, f.t);
     for (int round = 0; round < 2 && !end; ++round) {
       const Vector2 v = weighted(h[f.piece].control, first_weights(f.t));
       const double speed = dot(v, v);
       if (!(speed > 0)) break;
       f.t += dot(off, v) / speed;
-      if (f.t < 0 && f.piece > 0) {
-        f = {f.piece - 1, 1};
-      } else if (f.t > 1 && f.piece + 1 < h.size()) {
-        f = {f.piece + 1, 0};
+      if (f.t < 0 && (closed || f.piece > 0)) {
+        f = {(f.piece + h.size() - 1) % h.size(), 1};
+      } else if (f.t > 1 && (closed || f.piece + 1 < h.size())) {
+        f = {(f.piece + 1) % h.size(), 0};
       } else {
         f.t = std::clamp(f.t, 0.0, 1.0);
       }
