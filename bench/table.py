@@ -43,10 +43,11 @@ def take_peers(seconds):
 
 
 def peers(pattern):
-    """{name: [(peer, seconds), …]} of all peer scripts that can run here."""
+    """{name: [(peer, seconds), …]} of all peer scripts that can run here: NAME.py beside NAME_bench.cpp."""
     found = {}
-    for script in sorted(Path(__file__).resolve().parent.glob("*.py")):
-        if script.name == Path(__file__).name:
+    for bench in sorted(Path(__file__).resolve().parent.glob("*_bench.cpp")):
+        script = bench.with_name(bench.name.removesuffix("_bench.cpp") + ".py")
+        if not script.exists():
             continue
         result = subprocess.run([sys.executable, "-B", script], stdout=subprocess.PIPE, text=True)
         if result.returncode == 77:
