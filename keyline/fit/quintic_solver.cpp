@@ -99,7 +99,7 @@ bool QuinticSolver::run_within(double weight) {
 void QuinticSolver::calm() {
   const double variation_before = variation();
   if (!(variation_before > 0)) return;
-  const double near = std::max(move_feet(), 1e-6 * tolerance_ * tolerance_);
+  const double near = std::max(move_feet(2), 1e-6 * tolerance_ * tolerance_);
   double weight = kFirstWeight * near / variation_before;
   double factor = kWeightStep;
   State best = now_;
@@ -227,7 +227,7 @@ bool QuinticSolver::is_sound() const {
 
 /// Newton steps of every foot towards the nearest point, over joints too; the sum of the squared
 /// distances.
-double QuinticSolver::move_feet() {
+double QuinticSolver::move_feet(int rounds) {
   const std::vector<JointedQuintic> h = pieces_of(now_.chain);
   double sum = 0;
   for (std::size_t i = 0; i < now_.feet.size(); ++i) {
@@ -235,7 +235,7 @@ double QuinticSolver::move_feet() {
     const bool closed = now_.chain.closed;
     const bool end = !closed && (i == 0 || i + 1 == now_.feet.size());
     Vector2 off = data_.points[i] - place(h[f.piece].control, f.t);
-    for (int round = 0; round < 2 && !end; ++round) {
+    for (int round = 0; round < rounds && !end; ++round) {
       const Vector2 v = weighted(h[f.piece].control, first_weights(f.t));
       const double speed = dot(v, v);
       if (!(speed > 0)) break;

@@ -72,11 +72,13 @@ class QuinticSolver {
   };
   std::vector<Stray> strays() const;
   bool is_sound() const;
-  double move_feet();
+  double move_feet(int rounds);
   double off_line() const;
   double off_rest() const;
   double cost(double weight) {
-    return move_feet() + off_line() + off_rest() + (weight > 0 ? weight * variation() : 0);
+    // on the way to a calm chain one round: the next step goes on from there
+    return move_feet(weight > 0 ? 1 : 2) + off_line() + off_rest() +
+           (weight > 0 ? weight * variation() : 0);
   }
   void step(double weight, double damping);
   void add_points(const std::vector<JointedQuintic>& pieces, std::vector<Normal>& parts) const;
