@@ -103,12 +103,7 @@ CombFigures comb_figures(const curve::CurvatureGraph& graph) {
   figures.waves = extrema(grid, kSeen * range);
   for (std::size_t i = kWithin; i < grid.size(); ++i)
     figures.jolt = std::max(figures.jolt, std::abs(grid[i] - grid[i - kWithin]) / range);
-  for (std::size_t i = 1; i < graph.arc_length.size(); ++i) {
-    const double step = graph.arc_length[i] - graph.arc_length[i - 1];
-    if (!(step > 0)) continue;
-    figures.energy += std::pow(graph.curvature[i] - graph.curvature[i - 1], 2) / step;
-  }
-  figures.energy *= std::pow(graph.arc_length.back() - graph.arc_length.front(), 3);
+  figures.energy = curve::variation(graph);
   return figures;
 }
 

@@ -1,23 +1,17 @@
 #include "keyline/fit/quintic_joints.h"
 
-#include <cmath>
+#include "keyline/core/angle.h"
 
 namespace keyline::fit {
-namespace {
 
-using core::Point2;
 using core::Vector2;
-
-Vector2 unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-}  // namespace
 
 JointedQuintic piece_of(const JointedQuintics& chain, std::size_t piece) {
   const QuinticJoint& p = chain.joints[piece];
   const QuinticJoint& q = chain.end_of(piece);
   const QuinticLengths& l = chain.lengths[piece];
-  const Vector2 t0 = unit(p.direction);
-  const Vector2 t1 = unit(q.direction);
+  const Vector2 t0 = core::unit_vector(p.direction);
+  const Vector2 t1 = core::unit_vector(q.direction);
   JointedQuintic made{{}, t0, t1, p.curvature, q.curvature, l};
   QuinticHandles& h = made.control;
   h[0] = p.place;

@@ -107,13 +107,14 @@ void QuinticSolver::calm() {
   double best_variation = variation_before;
   int halvings = 0;
   for (int k = 0; k < kWeightSteps && halvings <= kWeightHalvings; ++k) {
-    const bool within = run_within(weight);
-    if (within && variation() < best_variation) {
-      best = now_;
-      best_pull = pull_;
-      best_variation = variation();
-    }
-    if (!within) {
+    if (run_within(weight)) {
+      const double calmer = variation();
+      if (calmer < best_variation) {
+        best = now_;
+        best_pull = pull_;
+        best_variation = calmer;
+      }
+    } else {
       now_ = best;
       pull_ = best_pull;
       weight /= factor;

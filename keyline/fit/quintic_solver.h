@@ -63,6 +63,7 @@ class QuinticSolver {
 
   /// run(), points that stay beyond the tolerance pulling harder, until none does; whether.
   bool run_within(double weight);
+
   /// A place of a piece that lies farther than the tolerance from the line of the points, and the
   /// way it is too far.
   struct Stray {

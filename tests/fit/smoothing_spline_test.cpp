@@ -28,7 +28,7 @@ double largest(const curve::CurvatureGraph& graph) {
   return most;
 }
 
-double variation(const curve::CurvatureGraph& g) {
+double own_variation(const curve::CurvatureGraph& g) {
   double sum = 0;
   for (std::size_t i = 1; i < g.arc_length.size(); ++i)
     sum +=
@@ -49,7 +49,7 @@ TEST(SmoothingSpline, IsSmootherTheWiderTheTolerance) {
   for (const double tolerance : {3e-3, 2e-2}) {
     const auto graph = smoothing_spline_curvature(points, false, tolerance);
     ASSERT_TRUE(graph) << tolerance;
-    const double energy = variation(*graph);
+    const double energy = own_variation(*graph);
     EXPECT_LT(energy, last) << tolerance;
     last = energy;
   }

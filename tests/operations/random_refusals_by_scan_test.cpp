@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "own_gauss.h"
-#include "own_numerics.h"
+#include "random_values.h"
 
 /// Refusals of lac.volume and of the forms of lac.quasi that are polygons, held against searches of
 /// another kind (see random_refusals_test.cpp).
@@ -19,11 +19,10 @@ namespace {
 
 using nlohmann::json;
 using own::answered;
+using own::Random;
+using own::refusals;
 using own::uniform;
-using Random = std::mt19937_64;
 using Complex = std::complex<double>;
-
-int refusals(int plain) { return std::getenv("KEYLINE_FULL") ? 1000 : plain; }
 
 /// A piece of a curve that turns by theta, its larger end radius 1: where it leads from the origin
 /// along x, and the area between it and its chord.

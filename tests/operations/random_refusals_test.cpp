@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "own_numerics.h"
+#include "random_values.h"
 
 /// Requests drawn at random until so many were refused: where an operation says that there is no
 /// answer, a search of another kind must not find one. 60 of each kind; with KEYLINE_FULL set
@@ -17,13 +17,11 @@ namespace {
 
 using nlohmann::json;
 using own::answered;
+using own::Random;
 using own::uniform;
-using Random = std::mt19937_64;
 using Complex = std::complex<double>;
 
 constexpr double kPi = std::numbers::pi;
-
-int refusals() { return std::getenv("KEYLINE_FULL") ? 1000 : 60; }
 
 double any_slope(Random& random) {
   return random() % 4 == 0 ? static_cast<double>(random() % 5) - 2 : uniform(random, -3, 3);
@@ -71,7 +69,7 @@ std::optional<double> compound_chord_angle(double a0, double a1, double ratio, d
 TEST(RandomRefusals, NoCompoundCurveIsFoundByScanningAllRates) {
   Random random(own::seed(41));
   int refused = 0;
-  for (int n = 0; refused < refusals() && n < 100 * refusals(); ++n) {
+  for (int n = 0; refused < own::refusals(60) && n < 100 * own::refusals(60); ++n) {
     const double theta = uniform(random, 0.1, 2.5);
     const double psi = theta * uniform(random, 0.55, 0.999);
     const double a0 = any_slope(random), a1 = any_slope(random);
@@ -105,14 +103,14 @@ TEST(RandomRefusals, NoCompoundCurveIsFoundByScanningAllRates) {
     }
     EXPECT_GT(std::max(psi, theta - psi), most - 1e-9);
   }
-  EXPECT_EQ(refused, refusals());
+  EXPECT_EQ(refused, own::refusals(60));
 }
 
 /// Class A curves of one matrix on a grid of the plane: none ends where one was refused.
 TEST(RandomRefusals, NoClassACurveIsFoundOnAGridOfThePlane) {
   Random random(own::seed(42));
   int refused = 0;
-  for (int n = 0; refused < refusals() && n < 100 * refusals(); ++n) {
+  for (int n = 0; refused < own::refusals(60) && n < 100 * own::refusals(60); ++n) {
     const int degree = 2 + static_cast<int>(random() % 5);
     const double alpha = uniform(random, 0.02, 1.09), s = uniform(random, 0.3, 3);
     const double low = uniform(random, 0, 0.9), high = low + uniform(random, 0.02, 0.2);
@@ -159,7 +157,7 @@ TEST(RandomRefusals, NoClassACurveIsFoundOnAGridOfThePlane) {
       }
     }
   }
-  EXPECT_EQ(refused, refusals());
+  EXPECT_EQ(refused, own::refusals(60));
 }
 
 /// With slopes from 0 on curvature never changes its sign: the tangent turns one way from the first
@@ -167,7 +165,7 @@ TEST(RandomRefusals, NoClassACurveIsFoundOnAGridOfThePlane) {
 TEST(RandomRefusals, ChainsWithCurvaturesAreRefusedByTheirSignsAlone) {
   Random random(own::seed(43));
   int refused = 0;
-  for (int n = 0; refused < refusals() && n < 100 * refusals(); ++n) {
+  for (int n = 0; refused < own::refusals(60) && n < 100 * own::refusals(60); ++n) {
     const double alpha = uniform(random, -3, 3);
     const double from = uniform(random, -1.5, 1.5), to = uniform(random, -1.5, 1.5);
     const json request{
@@ -187,7 +185,7 @@ TEST(RandomRefusals, ChainsWithCurvaturesAreRefusedByTheirSignsAlone) {
                        request["curvatures"][1].get<double>() * turning > 0;
     EXPECT_FALSE(between && signs) << answer;
   }
-  EXPECT_EQ(refused, refusals());
+  EXPECT_EQ(refused, own::refusals(60));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "own_numerics.h"
@@ -9,6 +10,9 @@
 namespace keyline::own {
 
 using Random = std::mt19937_64;
+
+/// Of each kind that are asked for: so many, and in a full run 1,000.
+inline int refusals(int plain) { return std::getenv("KEYLINE_FULL") ? 1000 : plain; }
 
 inline double sign(Random& random) { return random() % 2 == 0 ? 1 : -1; }
 inline double power_of_ten(Random& random, double low, double high) {

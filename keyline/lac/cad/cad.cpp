@@ -39,10 +39,6 @@ std::unexpected<core::Failure> too_fine() {
                     "ask for at least 1e-13 of the length", "tolerance");
 }
 
-Point2 place_point(const Segment& s, const UnitPiece& unit, Vector2 v) {
-  return from_local(s.start, {unit.length * v.x, unit.length * unit.mirror * v.y});
-}
-
 bool certified(const Bezier2& b) {
   return curve::certify_monotone_curvature(b).answer == curve::MonotoneVerdict::yes;
 }
@@ -61,7 +57,7 @@ bool append_cubics(const Segment& part, const CadOptions& o, CadBeziers& out) {
   for (const auto& c : cubics) {
     Bezier2 b;
     b.control.reserve(4);
-    for (const Vector2 v : c.cubic.control) b.control.push_back(place_point(part, unit, v));
+    for (const Vector2 v : c.cubic.control) b.control.push_back(detail::in_place(part, unit, v));
     append(out, curve::elevate_degree(b, o.degree - 3), c.bound * unit.length, c.monotone);
   }
   return !cubics.empty();
@@ -78,7 +74,7 @@ QuinticTry try_quintic(const Segment& s) {
   const detail::ControlPolygon polygon = detail::best_polygon(unit, 5, {});
   if (polygon.empty()) return none;  // no handle of a usual length meets such end curvatures
   QuinticTry q;
-  for (const Vector2 v : polygon) q.bezier.control.push_back(place_point(s, unit, v));
+  for (const Vector2 v : polygon) q.bezier.control.push_back(detail::in_place(s, unit, v));
   q.bound = deviation_bound(s, q.bezier);
   return q;
 }

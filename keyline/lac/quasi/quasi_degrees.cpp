@@ -109,11 +109,13 @@ class Degrees {
 
 }  // namespace
 
+Point2 in_place(const Segment& segment, const UnitPiece& unit, Vector2 v) {
+  return from_local(segment.start, {unit.length * v.x, unit.length * unit.mirror * v.y});
+}
+
 curve::Bezier2 in_place(const Segment& segment, const UnitPiece& unit, const Drawn& drawn) {
   curve::Bezier2 c;
-  for (const Vector2 v : drawn.polygon)
-    c.control.push_back(
-        from_local(segment.start, {unit.length * v.x, unit.length * unit.mirror * v.y}));
+  for (const Vector2 v : drawn.polygon) c.control.push_back(in_place(segment, unit, v));
   c.weights = drawn.weights;
   return c;
 }

@@ -33,6 +33,9 @@ inline constexpr double kMostRationalWeight = 1e4;
 /// Empty polygon where there is none.
 RationalCubic rational_cubic(const UnitPiece& unit);
 
+/// The segment's point that its unit piece has at v.
+core::Point2 in_place(const Segment& segment, const UnitPiece& unit, core::Vector2 v);
+
 /// Of the size: an end edge that is shorter loses its direction in rounding.
 inline constexpr double kShortestHandle = 1e-8;
 

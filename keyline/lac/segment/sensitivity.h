@@ -19,7 +19,6 @@ inline constexpr int kPieceVariables = 4;
 /// along the tangent). Built once, read at many fractions; this is what fitting a chain needs.
 ///
 /// Accuracy: positions and angle to about 1e-11 of the length if built `fine`, for slopes from -3
-/// on
 ///           and turning below 3 rad; without, 1e-7 where the curvatures' ratio is below 7, and
 ///           1e-6 with an inflection at an end or inside. There derivatives hold to 4e-4 (at slope
 ///           -3, less at -2), fine or not; elsewhere to 1e-6.
