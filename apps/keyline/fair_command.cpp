@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "keyline/core/text.h"
+#include "keyline/operations/at_once.h"
 #include "keyline/operations/fair.h"
 
 #include "session.h"
@@ -98,21 +100,34 @@ int report_missed(const std::vector<const Shown*>& missed, const std::string& fi
       file);
 }
 
+/// What was faired, in the order of the things it was made of.
+struct Faired {
+  std::vector<Shown> all;
+  std::vector<json> things;
+  std::size_t wanted = 0;
+
+  /// Those that were not cut short.
+  std::size_t done() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(all, [](const Shown& f) { return !answer_of(f).cancelled; }));
+  }
+};
+
 /// Where the tolerance is missed, or that the work was cut short: after everything is written.
-int verdict_of(const std::vector<Shown>& all, std::size_t wanted, const std::string& file) {
+int verdict_of(const Faired& faired, const std::string& file) {
   std::vector<const Shown*> missed;
-  for (const Shown& faired : all) {
-    if (answer_of(faired).cancelled) {
-      const core::Failure failure{core::ErrorCode::cancelled, "cancelled" + name_of(faired),
+  for (const Shown& one : faired.all) {
+    if (answer_of(one).cancelled) {
+      const core::Failure failure{core::ErrorCode::cancelled, "cancelled" + name_of(one),
                                   "the best found was kept", ""};
-      return report_failure(told_how_far(failure, all.size() - 1, wanted));
+      return report_failure(told_how_far(failure, faired.done(), faired.wanted));
     }
-    if (!answer_of(faired).within_tolerance) missed.push_back(&faired);
+    if (!answer_of(one).within_tolerance) missed.push_back(&one);
   }
   if (!missed.empty()) return report_missed(missed, file);
   const auto most = std::ranges::max_element(
-      all, {}, [](const Shown& faired) { return answer_of(faired).outside; });
-  if (most == all.end() || answer_of(*most).outside == 0) return kDone;
+      faired.all, {}, [](const Shown& one) { return answer_of(one).outside; });
+  if (most == faired.all.end() || answer_of(*most).outside == 0) return kDone;
   return report_failure({core::ErrorCode::not_converged,
                          fmt::format("no chain found{} that keeps its bounds: the best passes one "
                                      "by {:.3g}",
@@ -121,37 +136,59 @@ int verdict_of(const std::vector<Shown>& all, std::size_t wanted, const std::str
                         file);
 }
 
-/// All key-lines of the input; the best until then where the work is cancelled.
-Result<std::vector<Shown>> fair_all(Session& session, const std::vector<json>& things) {
-  const core::Progress progress = session.progress();
-  std::vector<Shown> all;
-  for (const json& thing : things) {
-    json request = session.of(0);
-    request.update(subject_of(thing));
-    if (!request.contains("keep_inside") && thing.contains("keep_inside"))
-      request["keep_inside"] = thing["keep_inside"];
-    auto outcome =
-        session.perform("fair", request, one_of_many(progress, all.size(), things.size()));
-    if (!outcome) return std::unexpected(told_how_far(outcome.error(), all.size(), things.size()));
-    all.push_back({thing["name"].get<std::string>(), std::move(*outcome)});
-    if (answer_of(all.back()).cancelled) break;
+using Answers = std::vector<std::optional<Result<operations::Outcome>>>;
+
+/// Those that there are. What failed decides for all, the first of them first; work that was
+/// cancelled has come to something where one of those at work had a best until then.
+Result<Faired> kept(Answers answers, const std::vector<json>& things) {
+  Faired faired{{}, {}, things.size()};
+  core::Failure cancelled{core::ErrorCode::cancelled, "cancelled", "", ""};
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i]) continue;
+    if (*answers[i]) {
+      faired.all.push_back({things[i]["name"].get<std::string>(), std::move(**answers[i])});
+      faired.things.push_back(things[i]);
+      continue;
+    }
+    if (answers[i]->error().code != core::ErrorCode::cancelled)
+      return std::unexpected(answers[i]->error());
+    cancelled = answers[i]->error();
   }
+  const std::size_t done = faired.done();
+  if (done < things.size() && done == faired.all.size())
+    return std::unexpected(told_how_far(cancelled, done, things.size()));
+  return faired;
+}
+
+/// All key-lines of the input; the best until then where the work is cancelled.
+Result<Faired> fair_all(Session& session, const std::vector<json>& things) {
+  Answers answers(things.size());
+  const json options = session.of(0);
+  const auto fair_one = [&](std::size_t i, const core::Progress& progress) {
+    json request = options;
+    request.update(subject_of(things[i]));
+    if (!request.contains("keep_inside") && things[i].contains("keep_inside"))
+      request["keep_inside"] = things[i]["keep_inside"];
+    answers[i] = session.perform("fair", request, progress);
+    return answers[i]->has_value();
+  };
+  operations::work_on_all(session.progress(), things.size(), session.door().threads, fair_one);
   end_progress();
-  return all;
+  return kept(std::move(answers), things);
 }
 
 /// A request of document.write, within a tenth of the tolerance: what is written is faired too.
 /// It lies over what was read: with its page, layers and colours.
-json document_of(const std::vector<Shown>& all, const std::vector<json>& shown,
-                 const std::vector<json>& things, const ReadFiles& read) {
+json document_of(const Faired& faired, const std::vector<json>& shown, const ReadFiles& read) {
   json document{{"unit", read.shown["unit"]}, {"curves", json::array()}};
-  double tolerance = answer_of(all.front()).tolerance;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    json curve{{"name", all[i].name}, {"curve", shown[i]["curve"]}};
+  double tolerance = answer_of(faired.all.front()).tolerance;
+  for (std::size_t i = 0; i < faired.all.size(); ++i) {
+    const Shown& one = faired.all[i];
+    json curve{{"name", one.name}, {"curve", shown[i]["curve"]}};
     for (const char* look : {"layer", "color", "stroke_width", "plane"})
-      if (things[i].contains(look)) curve[look] = things[i][look];
+      if (faired.things[i].contains(look)) curve[look] = faired.things[i][look];
     document["curves"].push_back(std::move(curve));
-    tolerance = std::min(tolerance, answer_of(all[i]).tolerance);
+    tolerance = std::min(tolerance, answer_of(one).tolerance);
   }
   document["tolerance"] = 0.1 * tolerance;
   if (read.shown.contains("page")) {
@@ -162,28 +199,27 @@ json document_of(const std::vector<Shown>& all, const std::vector<json>& shown,
 }
 
 /// What was read, shown and written; then the verdict.
-int finish(Session& session, const ReadFiles& read, const std::vector<Shown>& all,
-           const std::vector<json>& things) {
+int finish(Session& session, const ReadFiles& read, const Faired& faired) {
   std::vector<json> shown;
   std::string text;
-  for (const Shown& faired : all) {
-    auto one = shown_of(faired.outcome);
-    if (!one) return report_failure(one.error());
-    shown.push_back(std::move(*one));
-    text += table_of(faired);
+  for (const Shown& one : faired.all) {
+    auto made = shown_of(one.outcome);
+    if (!made) return report_failure(made.error());
+    shown.push_back(std::move(*made));
+    text += table_of(one);
   }
   presentation::ReportOptions options = session.report_options();
   options.unit = read.shown["unit"].get<std::string>();
-  const bool cut_short = answer_of(all.back()).cancelled;
+  const bool cut_short = faired.done() < faired.wanted;
   auto written =
-      session.write(presentation::fair_pages(all, options), document_of(all, shown, things, read),
+      session.write(presentation::fair_pages(faired.all, options), document_of(faired, shown, read),
                     cut_short ? Session::Ending::kept : Session::Ending::cancellable);
   if (!written) return report_failure(written.error());
-  if (all.size() > 1)
-    for (std::size_t i = 0; i < all.size(); ++i) shown[i]["id"] = all[i].name;
+  if (faired.all.size() > 1)
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i]["id"] = faired.all[i].name;
   session.print(one_or_all(shown, "curves"), text);
-  for (const Shown& faired : all) tell(session, faired);
-  return verdict_of(all, things.size(), session.files().front());
+  for (const Shown& one : faired.all) tell(session, one);
+  return verdict_of(faired, session.files().front());
 }
 
 }  // namespace
@@ -199,9 +235,9 @@ int run_fair(const Words& words) {
   // Measured points tell it among their notes.
   if (things->empty() || !things->front().contains("line"))
     say_skipped(session.door().quiet, read->answer().skipped);
-  const auto all = fair_all(session, *things);
-  if (!all) return report_failure(all.error());
-  return finish(session, *read, *all, *things);
+  const auto faired = fair_all(session, *things);
+  if (!faired) return report_failure(faired.error());
+  return finish(session, *read, *faired);
 }
 
 Manual fair_manual() { return new_session().manual(); }

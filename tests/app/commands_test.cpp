@@ -82,6 +82,37 @@ TEST(Commands, OptionsAreReadAsPeopleTypeThem) {
   expect_failure(run_keyline("lac.region word"), 2, "word: this word belongs to no option");
 }
 
+// Several key-lines are at work at a time; what is written and said does not tell.
+TEST(Commands, FairOfManyIsTheSameWithAnyNumberOfThreads) {
+  const Scratch s;
+  std::string text;
+  for (int name = 0; name < 6; ++name)
+    for (int i = 0; i < 20 + 10 * ((5 * name) % 6); ++i)  // the first are not the first to end
+      text += "arc" + std::to_string(name) + "," + std::to_string(0.05 * i) + "," +
+              std::to_string(0.01 * i * i * (1 + 0.1 * name)) + "\n";
+  const std::string input = s.write("many.csv", text);
+  const auto with = [&](const std::string& threads) {
+    const std::string output = s.path("out.json");
+    Outcome o = run_keyline("fair " + input + " --threads " + threads + " -o " + output);
+    o.out += slurp(output);
+    return o;
+  };
+  const Outcome one = with("1");
+  ASSERT_EQ(one.status, 0) << one.err;
+  std::size_t last = 0;
+  for (int name = 0; name < 6; ++name) {
+    const std::size_t at = one.out.find("arc" + std::to_string(name) + "\n");
+    ASSERT_NE(at, std::string::npos) << name;
+    EXPECT_GE(at, last);
+    last = at;
+  }
+  for (const char* threads : {"2", "5"}) {
+    const Outcome more = with(threads);
+    EXPECT_EQ(more.out, one.out) << threads;
+    EXPECT_EQ(more.err, one.err) << threads;
+  }
+}
+
 TEST(Commands, CurvesComeInTheFormsAskedFor) {
   for (const std::string& command :
        {"fair " + example("clothoid.csv"), "reverse " + example("cubic.json"),
