@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "keyline/lac/space/space_compound.h"
 #include "keyline/lac/space/space_graphs.h"
 #include "keyline/lac/space/space_hermite.h"
@@ -84,7 +86,7 @@ struct ApproximatedShown {
 
 struct SpaceResult {
   MadeCurve curve;
-  double lambda = 0;
+  std::optional<double> lambda;
   double nu = 0;
   double length = 0;
   bool planar = false;
@@ -93,7 +95,10 @@ struct SpaceResult {
   static constexpr auto describe() {
     return core::fields(
         core::flattened<&SpaceResult::curve>(),
-        core::field<&SpaceResult::lambda>("rate of the radius of curvature, standard form"),
+        core::field<&SpaceResult::lambda>(
+            "rate of the radius of curvature, standard form; null where the start has no curvature "
+            "to take for its unit and the rest has")
+            .null_if_empty(),
         core::field<&SpaceResult::nu>("torsion in the standard form"),
         core::field<&SpaceResult::length>("of the curve").in("length"),
         core::field<&SpaceResult::planar>("whether the data lie in one plane"),
@@ -138,7 +143,7 @@ core::Result<SpaceResult> run(const SpaceRequest& request, const Context&) {
   auto solved = solve(request);
   if (!solved) return std::unexpected(solved.error());
   SpaceResult result;
-  result.lambda = solved->lambda;
+  if (std::isfinite(solved->lambda)) result.lambda = solved->lambda;
   result.nu = solved->nu;
   result.length = lac::arc_length(solved->chain);
   result.planar = solved->planar;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -354,6 +355,29 @@ TEST(SolveG1Space, InAPlaneTheEndMayHaveNoCurvature) {
       EXPECT_NEAR(solved->length, k, 1e-6);
     }
   }
+}
+
+// Curvature k (s/L)^n rises from 0, to either side: rho falls from infinity.
+TEST(SolveG1Space, InAPlaneTheStartMayHaveNoCurvature) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double alpha : {-1.0, -0.5, -2.0, -0.2, -5.0})
+    for (const double k : {0.8, -0.8, 0.3, -0.3, 1.7, -1.7}) {
+      SCOPED_TRACE(std::to_string(alpha) + ' ' + std::to_string(k));
+      const Segment s{{{0, 0}, 0}, alpha, 1, 0, k};
+      const core::Pose2 end = end_pose(s);
+      const SpaceHermite data{{0, 0, 0},
+                              {end.position.x, end.position.y, 0},
+                              {1, 0, 0},
+                              {std::cos(end.direction), std::sin(end.direction), 0}};
+      const auto solved = solve_g1_space(data, alpha, 0, 0);
+      ASSERT_TRUE(solved);
+      EXPECT_EQ(solved->lambda, -infinity);
+      EXPECT_EQ(solved->nu, 0);
+      EXPECT_EQ(solved->length, 0);
+      EXPECT_EQ(solved->chain.pieces[0].curvature_start, 0);
+      EXPECT_NEAR(solved->chain.pieces[0].curvature_end, std::abs(k), 1e-9);
+      EXPECT_LT(miss(solved->chain, data), 2e-12);
+    }
 }
 
 TEST(SolveG1Space, BadInputIsNormalInput) {

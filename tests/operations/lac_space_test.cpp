@@ -45,6 +45,17 @@ json space_request(const json& alpha, const json& beta) {
           {"omega", 0.1}};
 }
 
+/// Of f(s^2 / 2) over [0, 1]: a clothoid's end, by Simpson's rule.
+double fresnel(double (*f)(double)) {
+  constexpr int kParts = 2000;
+  double sum = 0;
+  for (int i = 0; i <= kParts; ++i) {
+    const double s = i / static_cast<double>(kParts);
+    sum += (i == 0 || i == kParts ? 1 : i % 2 == 1 ? 4 : 2) * f(s * s / 2);
+  }
+  return sum / (3 * kParts);
+}
+
 TEST(CompoundSpace, MeetsItsEndsWithAllRatesContinuous) {
   const double size = std::sqrt(1 + 1 + 0.36);
   for (const auto& [alpha, beta] :
@@ -104,6 +115,28 @@ TEST(CompoundSpace, RefusesAShareOfNothing) {
   json request = space_request({-1, 0.5}, -1);
   request["ratio"] = 1;
   EXPECT_EQ(answered(request)["error"]["path"], "ratio");
+}
+
+// A clothoid of half a radian from its inflection, turning to either side: Fresnel's integrals.
+TEST(SpaceInAPlane, LambdaIsNullWhereTheStartHasNoCurvature) {
+  for (const double side : {1.0, -1.0}) {
+    const json request = {{"op", "lac.space"},
+                          {"start", {0, 0, 0}},
+                          {"end", {0.97528778, side * 0.16371404, 0}},
+                          {"tangents", {{1, 0, 0}, {std::cos(0.5), side * std::sin(0.5), 0}}},
+                          {"alpha", -1},
+                          {"beta", 0},
+                          {"omega", 0}};
+    const json near = result_of(request);
+    EXPECT_GT(std::abs(near["lambda"].get<double>()), 1e10);  // eight digits do not say 0
+    json exact = request;
+    exact["end"] = {fresnel(std::cos), side * fresnel(std::sin), 0};
+    const json result = result_of(exact);
+    EXPECT_TRUE(result["lambda"].is_null());
+    EXPECT_EQ(result["planar"], true);
+    EXPECT_EQ(result["curve"]["pieces"][0]["curvature"][0], 0);
+    EXPECT_NEAR(result["curve"]["pieces"][0]["curvature"][1].get<double>(), 1, 1e-9);
+  }
 }
 
 TEST(SpaceGraphs, OfTheQuinticsTendToTheSlopes) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -176,6 +177,28 @@ Search find_member(const SpaceStandardForm& form, const Invariants& wanted) {
   return s;
 }
 
+/// The same with no curvature at an end where the inflection lies within rounding of it: what is
+/// left there has a random sign, and the rate of its radius a random size.
+Segment bare_ends(Segment s) {
+  constexpr double kMet = 1e-12;  // radians, as end tangents are met
+  if (!(s.alpha < 0) || s.curvature_start == s.curvature_end) return s;
+  const double turning = std::abs(total_turning(s));
+  // By so much about the tangents turn where the inflection moves on to the end.
+  const auto missed = [&](double k, double other) {
+    return std::pow(std::abs(k / other), -s.alpha) * turning;
+  };
+  if (missed(s.curvature_start, s.curvature_end) < kMet) s.curvature_start = 0;
+  if (missed(s.curvature_end, s.curvature_start) < kMet) s.curvature_end = 0;
+  return s;
+}
+
+/// drho/ds at the start of a plane curve that turns left (sense 1) or right (-1) there.
+double start_rate(const Segment& s, double sense) {
+  if (s.curvature_start == s.curvature_end) return 0;
+  if (s.curvature_start == 0) return -std::numeric_limits<double>::infinity();
+  return -sense * curvature_rate(s, 0) / (s.curvature_start * s.curvature_start);
+}
+
 /// The plane curve, with positive curvature at its start.
 Result<SpaceSolution> solve_in_plane(const SpaceHermite& data, const Invariants& i, double alpha,
                                      double beta) {
@@ -187,7 +210,7 @@ Result<SpaceSolution> solve_in_plane(const SpaceHermite& data, const Invariants&
   const auto solved = solve_g1_directions({{0, 0}, angle(data.start_tangent)},
                                           {{1, 0}, angle(data.end_tangent)}, alpha);
   if (!solved) return std::unexpected(solved.error());
-  const Segment& s = solved->segment;
+  const Segment s = bare_ends(solved->segment);
   const double sense =
       s.curvature_start < 0 || (s.curvature_start == 0 && s.curvature_end < 0) ? -1 : 1;
   SpaceSolution solution;
@@ -198,10 +221,8 @@ Result<SpaceSolution> solve_in_plane(const SpaceHermite& data, const Invariants&
   solution.chain = {{data.start, tangent, cross(binormal, tangent), binormal},
                     {{alpha, beta, s.length * chord, sense * s.curvature_start / chord,
                       sense * s.curvature_end / chord, 0, 0}}};
-  const double bend = sense * s.curvature_start;
-  solution.length = bend * s.length;
-  if (bend != 0 || s.curvature_end != 0)
-    solution.lambda = -sense * curvature_rate(s, 0) / (bend * bend);
+  solution.length = sense * s.curvature_start * s.length;
+  solution.lambda = start_rate(s, sense);
   return solution;
 }
 

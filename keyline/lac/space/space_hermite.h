@@ -15,11 +15,13 @@ struct SpaceHermite {
 };
 
 struct SpaceSolution {
-  SpaceChain chain;   ///< one piece, from start to end
-  double lambda = 0;  ///< drho/ds at the start, where the radius of curvature is taken for 1;
-                      ///< negative: the radius falls; infinite where the start has no curvature
+  SpaceChain chain;  ///< one piece, from start to end
+  /// drho/ds at the start, where the radius of curvature is taken for 1; negative: the radius
+  /// falls; -infinity where the start has no curvature though the rest has: the radius falls from
+  /// infinity.
+  double lambda = 0;
   double nu = 0;      ///< torsion at the start in the same unit
-  double length = 0;  ///< arc length in the same unit (0: a straight line)
+  double length = 0;  ///< arc length in the same unit (0: no curvature at the start)
   bool planar = false;
   int iterations = 0;
 };
