@@ -7,154 +7,23 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/segment/bezier_feet.h"
 #include "keyline/lac/segment/taylor.h"
 
 namespace keyline::lac {
 namespace {
 
 using core::Vector2;
+using detail::Homogeneous;
+using detail::ParameterMap;
 using detail::TaylorSeries;
 using detail::UnitPiece;
+using detail::Weighted;
 
 constexpr double kAllowed = 1e-14;  ///< of the length, per step of the argument
 constexpr int kSeriesDegree = 20;
 constexpr int kMapDegree = 12;  ///< of the parameter's polynomial on a stretch
 constexpr int kMaxDepth = 60;
-
-/// Point and weight: a rational Bézier in homogeneous form.
-struct Weighted {
-  Vector2 point;
-  double weight = 0;
-};
-Weighted operator+(Weighted a, Weighted b) { return {a.point + b.point, a.weight + b.weight}; }
-Weighted operator-(Weighted a, Weighted b) { return {a.point - b.point, a.weight - b.weight}; }
-Weighted operator*(double k, Weighted a) { return {k * a.point, k * a.weight}; }
-
-/// The Bézier in the frame of the unit piece.
-struct Homogeneous {
-  std::vector<Weighted> control;
-  double least_weight = 1;
-  int degree() const { return static_cast<int>(control.size()) - 1; }
-};
-
-Homogeneous reduced(const curve::Bezier2& c, const Segment& s, const UnitPiece& unit) {
-  Homogeneous h;
-  const double largest =
-      c.weights.empty() ? 1 : *std::max_element(c.weights.begin(), c.weights.end());
-  for (std::size_t i = 0; i < c.control.size(); ++i) {
-    const core::Point2 p = to_local(s.start, c.control[i]);
-    const double w = c.weights.empty() ? 1 : c.weights[i] / largest;
-    const Vector2 v{p.x / unit.length, unit.mirror * p.y / unit.length};
-    h.control.push_back({w * v, w});
-    h.least_weight = std::min(h.least_weight, w);
-  }
-  return h;
-}
-
-struct At {
-  Vector2 point, velocity;
-};
-
-/// de Casteljau, also outside [0, 1].
-At at(const Homogeneous& h, double t) {
-  std::array<Weighted, curve::kMaxBezierDegree + 1> b;
-  const int n = h.degree();
-  std::copy(h.control.begin(), h.control.end(), b.begin());
-  for (int level = n; level > 1; --level)
-    for (int i = 0; i < level; ++i) b[i] = (1 - t) * b[i] + t * b[i + 1];
-  const Weighted value = (1 - t) * b[0] + t * b[1];
-  const Weighted slope = n * (b[1] - b[0]);
-  const Vector2 p = value.point / value.weight;
-  return {p, (slope.point - slope.weight * p) / value.weight};
-}
-
-// ---- Change of parameter ------------------------------------------------------------------
-
-struct Frame {
-  Vector2 point, tangent;
-};
-Frame frame_at(const UnitPiece& unit, double v) {
-  return {displacement(unit.piece, v), core::unit_vector(turning(unit.piece, v))};
-}
-
-/// Parameter where the Bézier crosses the normal of the segment at v, near the guess; NaN if lost.
-double foot(const Homogeneous& h, const Frame& f, double guess) {
-  double t = guess;
-  for (int step = 0; step < 12; ++step) {
-    const At b = at(h, t);
-    const double pace = dot(b.velocity, f.tangent);
-    if (!(pace > 0)) break;
-    const double change = std::clamp(dot(b.point - f.point, f.tangent) / pace, -0.25, 0.25);
-    t -= change;
-    if (!(t > -0.5 && t < 1.5)) break;
-    if (std::abs(change) < 1e-14 || std::abs(change) * pace < 1e-15) return t;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-/// The same from no guess: of the places where the Bézier crosses the normal forwards the one
-/// nearest to the segment's point; NaN where there is none.
-double searched_foot(const Homogeneous& h, const Frame& f) {
-  const int places = 12 * h.degree();
-  const auto ahead = [&](double t) { return dot(at(h, t).point - f.point, f.tangent); };
-  double nearest = std::numeric_limits<double>::infinity();
-  double low = -1;
-  bool behind = ahead(0) <= 0;
-  for (int i = 1; i <= places; ++i) {
-    const double t = static_cast<double>(i) / places;
-    const bool now_behind = ahead(t) <= 0;
-    if (behind && !now_behind) {
-      const double off = norm(at(h, t - 0.5 / places).point - f.point);
-      if (off < nearest) {
-        nearest = off;
-        low = t - 1.0 / places;
-      }
-    }
-    behind = now_behind;
-  }
-  if (low < 0) return std::numeric_limits<double>::quiet_NaN();
-  double high = low + 1.0 / places;
-  for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
-    const double middle = 0.5 * (low + high);
-    (ahead(middle) <= 0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-/// v -> t: feet, moved linearly so that ends meet ends; simply v where a foot is lost.
-class ParameterMap {
- public:
-  ParameterMap(const Homogeneous& h, const UnitPiece& unit) : h_(h), unit_(unit) {
-    start_ = foot(h, frame_at(unit, 0), 0);
-    end_ = foot(h, frame_at(unit, 1), 1);
-    sound_ = std::isfinite(start_) && std::isfinite(end_) && end_ - start_ > 0.1;
-  }
-  double operator()(double v, double guess) const {
-    if (v <= 0) return 0;
-    if (v >= 1) return 1;
-    if (!sound_) return guess;
-    const double shift = -(1 - v) * start_ + v * (1 - end_);
-    const Frame frame = frame_at(unit_, v);
-    double t = foot(h_, frame, guess - shift);
-    const auto off = [&](double u) {
-      return std::isfinite(u) ? norm(at(h_, u).point - frame.point)
-                              : std::numeric_limits<double>::infinity();
-    };
-    if (const double found = off(t); !(found < kNear)) {  // lost, or the foot of another branch
-      const double other = searched_foot(h_, frame);
-      if (off(other) < found) t = other;
-    }
-    return std::isfinite(t) ? std::clamp(t + shift, 0.0, 1.0) : guess;
-  }
-
- private:
-  static constexpr double kNear = 1e-3;  ///< of the length
-  const Homogeneous& h_;
-  const UnitPiece& unit_;
-  double start_ = 0;
-  double end_ = 1;
-  bool sound_ = false;
-};
 
 // ---- Chebyshev series ---------------------------------------------------------------------
 
@@ -267,8 +136,9 @@ Vector2 slope_of(const TaylorSeries& s, double x) {
   return v;
 }
 
-/// Bound over a stretch; loose where the points compared are not the nearest to each other, so that
-/// shorter stretches would give a smaller one.
+/// Bound over a stretch; loose where shorter stretches would give a smaller one: the points
+/// compared are not the nearest to each other, or weights run through so much that their least says
+/// little.
 struct StretchBound {
   double bound = 0;
   bool loose = false;
@@ -285,7 +155,8 @@ StretchBound stretch_bound(const Homogeneous& h, const UnitPiece& unit, const Pa
   const int carried = static_cast<int>((b.series.size() - 1) * (t.size() - 1));
   const int degree = rational ? carried + s.series.degree : std::max(carried, s.series.degree);
   const int nodes = 6 * degree;
-  double largest = 0;
+  double largest = 0;  // times the weight
+  double reached = 0;
   double across = 0;
   for (int j = 0; j < nodes; ++j) {
     const double x = std::cos(core::kPi * (j + 0.5) / nodes);
@@ -295,12 +166,16 @@ StretchBound stretch_bound(const Homogeneous& h, const UnitPiece& unit, const Pa
     const Vector2 p = core::rotate_ccw(sum(s.series, along), direction);
     const Vector2 tangent = core::rotate_ccw(slope_of(s.series, along), direction);
     const Vector2 off = q.point - q.weight * p;
+    const double weight = std::max(q.weight, b.least_weight);
     largest = std::max(largest, norm(off));
-    across = std::max(across, std::abs(cross(tangent, off)));
+    reached = std::max(reached, norm(off) / weight);
+    across = std::max(across, std::abs(cross(tangent, off)) / weight);
   }
   const double left_out = b.cut + (b.cut_weight + 1) * s.remainder + b.cut_weight * (s.v1 - s.v0);
-  return {(largest / std::cos(core::kPi / 12) + left_out) / b.least_weight,
-          largest > 1.2 * across + 2 * kAllowed};
+  const double bound = (largest / std::cos(core::kPi / 12) + left_out) / b.least_weight;
+  const double sharp = 1.2 * across + 2 * kAllowed / b.least_weight;
+  if (std::isnan(bound)) return {std::numeric_limits<double>::infinity(), true};
+  return {bound, reached > sharp || bound > 1.2 * reached + 2 * kAllowed / b.least_weight};
 }
 
 /// Stretches of [v0, v1], in order.
@@ -323,33 +198,70 @@ void cut(const UnitPiece& unit, double v0, double v1, int depth, std::vector<Str
   out.push_back(s);
 }
 
-/// Bound over stretches from t0 on; t0 becomes the parameter at their end. Loose ones are halved.
-class Walk {
- public:
-  Walk(const UnitPiece& unit, const Homogeneous& h) : unit_(unit), h_(h), map_(h, unit) {}
+/// A stretch beside the part of the Bezier that belongs to it.
+struct Part {
+  Stretch stretch;
+  double t0 = 0, t1 = 1;
+  StretchBound bound = {};
+  friend bool operator<(const Part& a, const Part& b) { return a.bound.bound < b.bound.bound; }
+};
 
-  void run(const Stretch& s) {
-    const double guess = t0_ + (1 - t0_) * (s.v1 - s.v0) / (1 - s.v0);
-    const double t1 = std::max(map_(s.v1, guess), std::nextafter(t0_, 2.0));
-    const StretchBound b = stretch_bound(h_, unit_, map_, s, t0_, std::min(t1, 1.0));
-    if (b.loose && b.bound > largest_ && halvings_ > 0) {
-      --halvings_;
-      const double middle = 0.5 * (s.v0 + s.v1);
-      run(stretch(s.v0, middle));
-      run(stretch(middle, s.v1));
-      return;
+/// Bound over all stretches: the worst is halved as long as that may help.
+class Cover {
+ public:
+  Cover(const UnitPiece& unit, const Homogeneous& h) : unit_(unit), h_(h), map_(h, unit) {}
+
+  double bound(const std::vector<Stretch>& stretches) {
+    double t0 = 0;
+    for (const Stretch& s : stretches) {
+      const double t1 = end_of(s, t0);
+      add({s, t0, std::min(t1, 1.0)});
+      t0 = std::min(t1, std::nextafter(1.0, 0.0));
     }
-    largest_ = std::max(largest_, b.bound);
-    t0_ = std::min(t1, std::nextafter(1.0, 0.0));
+    for (int i = 0; i < kMostHalvings && parts_.front().bound.loose; ++i) halve_worst();
+    return parts_.front().bound.bound;
   }
-  double largest() const { return largest_; }
 
  private:
+  static constexpr int kMostHalvings = 64;
+
+  /// Where a stretch that begins at t0 ends on the Bezier.
+  double end_of(const Stretch& s, double t0) const {
+    const double guess = t0 + (1 - t0) * (s.v1 - s.v0) / (1 - s.v0);
+    return std::max(map_(s.v1, guess), std::nextafter(t0, 2.0));
+  }
+
+  void add(Part part) {
+    part.bound = stretch_bound(h_, unit_, map_, part.stretch, part.t0, part.t1);
+    parts_.push_back(std::move(part));
+    std::push_heap(parts_.begin(), parts_.end());
+  }
+
+  void halve_worst() {
+    std::pop_heap(parts_.begin(), parts_.end());
+    Part worst = std::move(parts_.back());
+    parts_.pop_back();
+    const Stretch& s = worst.stretch;
+    const double v = 0.5 * (s.v0 + s.v1);
+    const double t =
+        std::min(std::max(map_(v, 0.5 * (worst.t0 + worst.t1)), std::nextafter(worst.t0, 2.0)),
+                 std::nextafter(worst.t1, 0.0));
+    if (!(worst.t0 < t && t < worst.t1)) {
+      worst.bound.loose = false;
+      parts_.push_back(std::move(worst));
+      std::push_heap(parts_.begin(), parts_.end());
+      return;
+    }
+    add({stretch(s.v0, v), worst.t0, t});
+    add({stretch(v, s.v1), t, worst.t1});
+  }
+
   /// Within a stretch that was cut before: by its series, or straight.
   Stretch stretch(double v0, double v1) const {
-    const double middle = 0.5 * (v0 + v1);
-    Stretch p{v0, v1,
-              taylor_series(unit_, detail::SeriesVariable::arc_length, middle, kSeriesDegree), 0};
+    Stretch p{
+        v0, v1,
+        taylor_series(unit_, detail::SeriesVariable::arc_length, 0.5 * (v0 + v1), kSeriesDegree),
+        0};
     p.remainder = remainder_bound(p.series, 0.5 * (v1 - v0));
     if (!(p.remainder <= kAllowed)) {
       p.series.degree = 1;
@@ -362,9 +274,7 @@ class Walk {
   const UnitPiece& unit_;
   const Homogeneous& h_;
   ParameterMap map_;
-  int halvings_ = 24;  ///< left
-  double t0_ = 0;
-  double largest_ = 0;
+  std::vector<Part> parts_;  ///< a heap, the worst first
 };
 
 }  // namespace
@@ -376,9 +286,7 @@ double deviation_bound(const Segment& segment, const curve::Bezier2& bezier) {
   const double bend = inflection(unit.piece);
   if (bend > 0) cut(unit, 0, bend, 0, stretches);
   cut(unit, std::max(bend, 0.0), 1, 0, stretches);
-  Walk walk(unit, h);
-  for (const Stretch& s : stretches) walk.run(s);
-  const double largest = walk.largest();
+  const double largest = Cover(unit, h).bound(stretches);
   if (!std::isfinite(largest)) return std::numeric_limits<double>::infinity();
   return unit.length * (largest + kAllowed);
 }
