@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "keyline/core/error.h"
@@ -146,6 +148,88 @@ double stretch_bound(const PiecewiseBezier& a, const PiecewiseBezier& b, const P
   return largest;
 }
 
+/// The largest distance of one chain from the other, each place taken to where it is nearest. At
+/// corners that is less than for one change of parameter for both: places before and behind a
+/// corner may be nearest to the same leg of the other chain, in any order.
+class OneWay {
+ public:
+  OneWay(const PiecewiseBezier& from, const PiecewiseBezier& to) : from_(from), to_(to) {}
+
+  /// Over the parameters [low, high] of the first, no sharper than a hundredth, or than `enough`.
+  double bound(double low, double high, double enough) {
+    const auto n = static_cast<double>(from_.pieces.size());
+    double at = low;
+    double foot = nearest(low);
+    while (at < high) {
+      const double end = std::min(high, (std::floor(at * n + 1e-12) + 1) / n);
+      if (!(end > at)) break;
+      const double next = nearest(end);
+      add({at, end, foot, next});
+      at = end;
+      foot = next;
+    }
+    for (int i = 0; i < kMostHalvings && !stretches_.empty(); ++i) {
+      if (stretches_.front().bound <= std::max(enough, 1.01 * reached_)) break;
+      halve_worst();
+    }
+    return stretches_.empty() ? reached_ : stretches_.front().bound;
+  }
+
+ private:
+  static constexpr int kMostHalvings = 400;
+
+  /// A part of one piece, and the feet of its ends.
+  struct Part {
+    double low = 0, high = 0;
+    double foot_low = 0, foot_high = 0;
+    double bound = 0;
+    friend bool operator<(const Part& a, const Part& b) { return a.bound < b.bound; }
+  };
+
+  double nearest(double t) {
+    const auto found = closest_point(to_, evaluate(from_, t));
+    reached_ = std::max(reached_, found.distance);
+    return found.t;
+  }
+
+  /// Along the other chain between the feet, or all of it taken to either foot.
+  double bound_of(const Part& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    if (p.foot_low < p.foot_high)
+      least = stretch_bound(from_, to_, {p.low, p.foot_low}, {p.high, p.foot_high}, least);
+    const auto own = parts_of(from_, p.low, p.high);
+    for (const double foot : {p.foot_low, p.foot_high}) {
+      const Point2 there = evaluate(to_, foot);
+      double largest = 0;
+      for (const auto& part : own)
+        for (const Point2& c : part.piece.control) largest = std::max(largest, distance(c, there));
+      least = std::min(least, largest);
+    }
+    return least;
+  }
+
+  void add(Part p) {
+    p.bound = bound_of(p);
+    stretches_.push_back(p);
+    std::push_heap(stretches_.begin(), stretches_.end());
+  }
+
+  void halve_worst() {
+    std::pop_heap(stretches_.begin(), stretches_.end());
+    const Part worst = stretches_.back();
+    stretches_.pop_back();
+    const double middle = 0.5 * (worst.low + worst.high);
+    const double foot = nearest(middle);
+    add({worst.low, middle, worst.foot_low, foot});
+    add({middle, worst.high, foot, worst.foot_high});
+  }
+
+  const PiecewiseBezier& from_;
+  const PiecewiseBezier& to_;
+  std::vector<Part> stretches_;  ///< a heap, the worst first
+  double reached_ = 0;           ///< a distance that there is
+};
+
 }  // namespace
 
 double deviation_bound(const PiecewiseBezier& a, const PiecewiseBezier& b, double wanted,
@@ -156,7 +240,11 @@ double deviation_bound(const PiecewiseBezier& a, const PiecewiseBezier& b, doubl
   double largest = 0;
   for (std::size_t k = 0; k + 1 < pairs.size(); ++k)
     largest = std::max(largest, stretch_bound(a, b, pairs[k], pairs[k + 1], wanted));
-  return largest;
+  if (largest <= wanted) return largest;
+  const auto& [first, last] = std::pair(pairs.front(), pairs.back());
+  const double there = OneWay(a, b).bound(first.a, last.a, wanted);
+  if (there >= largest) return largest;
+  return std::min(largest, std::max(there, OneWay(b, a).bound(first.b, last.b, wanted)));
 }
 
 }  // namespace keyline::curve

@@ -1,8 +1,13 @@
 #include "keyline/curve/chain_deviation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/curve/closest_point.h"
 
 /// Distances that are known by hand.
 namespace keyline::curve {
@@ -78,4 +83,57 @@ TEST(DeviationBound, EmptyAndRationalChainsAreRefused) {
 }
 
 }  // namespace
+/// A row of straight or bent pieces with corners of any angle between them.
+PiecewiseBezier cornered(std::mt19937& random, bool bent) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  PiecewiseBezier c;
+  Point2 at{0, 0};
+  double direction = 0;
+  for (int i = 0; i < 4; ++i) {
+    const core::Vector2 leg = (0.3 + 0.7 * std::abs(unit(random))) * core::unit_vector(direction);
+    const core::Vector2 side = (bent ? 0.1 : 0.0) * core::perpendicular_left(leg);
+    c.pieces.push_back({{at, at + (1 / 3.0) * leg + unit(random) * side,
+                         at + (2 / 3.0) * leg + unit(random) * side, at + leg},
+                        {}});
+    at = at + leg;
+    direction += 2.5 * unit(random);
+  }
+  return c;
+}
+
+/// The same with every corner moved, pieces following.
+PiecewiseBezier moved_corners(PiecewiseBezier c, std::mt19937& random, double by) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto shift = [&] { return by * core::Vector2{unit(random), unit(random)}; };
+  core::Vector2 from = shift();
+  for (Bezier2& piece : c.pieces) {
+    const core::Vector2 to = shift();
+    for (std::size_t i = 0; i < 4; ++i)
+      piece.control[i] = piece.control[i] + (1 - i / 3.0) * from + (i / 3.0) * to;
+    from = to;
+  }
+  return c;
+}
+
+// Places beside a corner may be nearest to either leg of the other chain, in any order: one change
+// of parameter for both directions told up to 25 times the distance.
+TEST(DeviationBound, IsCloseNextToCorners) {
+  std::mt19937 random(3);
+  for (int n = 0; n < 300; ++n) {
+    SCOPED_TRACE(n);
+    const PiecewiseBezier a = cornered(random, n % 2 == 1);
+    const PiecewiseBezier b = moved_corners(a, random, std::pow(10, -1 - n % 5));
+    double sampled = 0;
+    for (int i = 0; i <= 400; ++i) {
+      const double t = i / 400.0;
+      sampled = std::max(sampled, closest_point(a, evaluate(b, t)).distance);
+      sampled = std::max(sampled, closest_point(b, evaluate(a, t)).distance);
+    }
+    const double bound = deviation_bound(a, b, 1.01 * sampled);
+    EXPECT_GE(bound, sampled * (1 - 1e-9));
+    EXPECT_LE(bound, 1.03 * sampled);
+    EXPECT_NEAR(deviation_bound(b, a, 1.01 * sampled), bound, 0.03 * sampled);
+  }
+}
+
 }  // namespace keyline::curve
