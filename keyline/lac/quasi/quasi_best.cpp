@@ -101,6 +101,8 @@ class Fit {
   static constexpr double kGood = 1e-9;
   static constexpr double kExact = 1e-15;
   static constexpr std::size_t kStarts = 6;
+  static constexpr double kHopeless = 40;  ///< times the nearest so far
+  static constexpr double kSame = 0.01;    ///< of the largest distance
 
   /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
   /// radius bends the polygon by about a radian.
@@ -122,12 +124,13 @@ class Fit {
     const auto parameter = [&](int i) { return 0.5 - 0.5 * std::cos(core::kPi * i / count); };
     for (int i = 0; i <= count; ++i)
       curve.push_back(combine(Basis(degree_, parameter(i)).value, b));
+    const auto square = [](Vector2 v) { return dot(v, v); };
     std::vector<double> feet;
     int i = 0;
     for (const Vector2& p : points_) {
       int nearest = i;
       for (int k = i; k <= count; ++k)
-        if (norm(curve[k] - p) < norm(curve[nearest] - p)) nearest = k;
+        if (square(curve[k] - p) < square(curve[nearest] - p)) nearest = k;
       i = nearest;
       feet.push_back(parameter(i));
     }
@@ -189,11 +192,22 @@ class Fit {
     last_ = start.x;
     residuals_.resize(0);
     descend(start.x, 40);
-    if (std::isinf(round_least_)) return;
+    if (std::isinf(round_least_) || !is_worth_rounds()) return;
     for (int round = 0; round < 25 && least_ > 1e-14; ++round) {
       reweight();
       descend(last_, 2);
     }
+  }
+
+  /// Whether the least squares just found may become the nearest curve: not where another start led
+  /// to the same, or where they are farther off than weights ever make good.
+  bool is_worth_rounds() {
+    const double largest = residuals_.cwiseAbs().maxCoeff();
+    if (largest > kHopeless * least_) return false;
+    for (const VectorXd& known : least_squares_)
+      if ((known - residuals_).cwiseAbs().maxCoeff() < kSame * largest) return false;
+    least_squares_.push_back(residuals_);
+    return true;
   }
 
   /// Distances along the normals at x, feet moved along; false where a foot is lost.
@@ -206,18 +220,21 @@ class Fit {
       double& t = feet_[j];
       const Vector2 tangent = tangents_[j];
       const Vector2 normal = core::perpendicular_left(tangent);
+      Basis basis(degree_, t);
+      Vector2 velocity = combine(basis.slope, b);
+      Vector2 off = combine(basis.value, b) - points_[j];
       for (int step = 0; step < 4; ++step) {
-        const Basis basis(degree_, t);
-        const double pace = dot(combine(basis.slope, b), tangent);
+        const double pace = dot(velocity, tangent);
         if (!(pace > 0)) return false;
-        const double change = dot(combine(basis.value, b) - points_[j], tangent) / pace;
-        t = std::clamp(t - change, 0.0, 1.0);
-        if (std::abs(change) < 1e-13) break;
+        const double to = std::clamp(t - dot(off, tangent) / pace, 0.0, 1.0);
+        if (std::abs(to - t) < 1e-13) break;
+        t = to;
+        basis = Basis(degree_, t);
+        velocity = combine(basis.slope, b);
+        off = combine(basis.value, b) - points_[j];
       }
-      const Basis basis(degree_, t);
-      r[j] = dot(combine(basis.value, b) - points_[j], normal);
+      r[j] = dot(off, normal);
       if (!jacobian) continue;
-      const Vector2 velocity = combine(basis.slope, b);
       const double lean = dot(velocity, normal) / dot(velocity, tangent);
       for (int k = 0; k < family_.unknowns(); ++k) {
         const Vector2 d = family_.change(x, basis.value, k);
@@ -285,6 +302,7 @@ class Fit {
   std::vector<double> at_, feet_, feet_of_last_;
   std::vector<Vector2> points_, tangents_;
   VectorXd weights_, best_, last_, residuals_;
+  std::vector<VectorXd> least_squares_;  ///< distances where each start's descent ended
   numeric::FactorDamping damping_;
   double least_ = std::numeric_limits<double>::infinity();
   double round_least_ = std::numeric_limits<double>::infinity();  ///< from the present start

@@ -11,14 +11,36 @@ using core::Vector2;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+using Row = Basis::Row;
+
+/// Pascal's triangle.
+constexpr auto kBinomial = [] {
+  std::array<Row, curve::kMaxBezierDegree + 1> rows{};
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    rows[n][0] = 1;
+    for (std::size_t i = 1; i <= n; ++i)
+      rows[n][i] = rows[n - 1][i - 1] + (i < n ? rows[n - 1][i] : 0);
+  }
+  return rows;
+}();
+
+}  // namespace
+
 Basis::Basis(int n, double t) {
-  Row& b = value;
-  b[0] = 1;
-  for (int level = 1; level <= n; ++level) {
-    if (level == n)
-      for (int i = 0; i <= n; ++i) slope[i] = n * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
-    for (int i = level; i > 0; --i) b[i] = (1 - t) * b[i] + t * b[i - 1];
-    b[0] *= 1 - t;
+  Row rising, falling;
+  rising[0] = falling[0] = 1;
+  for (int i = 1; i <= n; ++i) {
+    rising[i] = rising[i - 1] * t;
+    falling[i] = falling[i - 1] * (1 - t);
+  }
+  double before = 0;  // of the degree below
+  for (int i = 0; i <= n; ++i) {
+    const double now = i < n ? kBinomial[n - 1][i] * rising[i] * falling[n - 1 - i] : 0;
+    value[i] = (1 - t) * now + t * before;
+    slope[i] = n * (before - now);
+    before = now;
   }
 }
 

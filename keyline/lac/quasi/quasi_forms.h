@@ -19,6 +19,12 @@ using ControlPolygon = std::vector<core::Vector2>;
 /// so that nothing grows: at degree 30 the loss stays below 1e-15 of the sum of |c_k|.
 ControlPolygon taylor_polygon(const UnitPiece& unit, const TaylorSeries& series);
 
+/// Of a polygon, however it is turned.
+struct EndEdges {
+  core::Vector2 first, last, chord;
+};
+EndEdges taylor_end_edges(const TaylorSeries& series);
+
 /// Control edges along the tangents at the middle of `degree` equal parts ([Miura 2010]).
 ControlPolygon discrete_polygon(const UnitPiece& unit, SeriesVariable variable, int degree);
 

@@ -10,8 +10,6 @@
 
 namespace keyline::lac::detail {
 
-using core::Vector2;
-
 namespace {
 
 constexpr std::size_t kTried = 16;  // places of least miss, of each kind
@@ -67,14 +65,23 @@ std::optional<Miss> HandleSearch::at(const Unknowns& x) const {
         x.turning <= (discrete ? kMostTurning : kMostSeriesTurning)) ||
       !(std::abs(x.log_ratio) <= kFarthest))
     return std::nullopt;
-  const ControlPolygon b = draw_form(piece_from(alpha_, x), options_).polygon;
-  const std::size_t n = b.size() - 1;
-  const Vector2 first = b[1] - b[0];
-  const Vector2 last = b[n] - b[n - 1];
-  const double turned = core::angle_between(first, last) - turning_;
-  const double chord = core::angle_between(first, b[n] - b[0]) - chord_angle_;
+  const EndEdges edges = end_edges(piece_from(alpha_, x));
+  const double turned = core::angle_between(edges.first, edges.last) - turning_;
+  const double chord = core::angle_between(edges.first, edges.chord) - chord_angle_;
   if (!std::isfinite(turned) || !std::isfinite(chord)) return std::nullopt;
   return Miss{core::wrap_angle(turned), chord};
+}
+
+EndEdges HandleSearch::end_edges(const UnitPiece& unit) const {
+  const int n = options_.degree;
+  if (!is_discrete(options_.form)) {
+    const SeriesVariable variable = options_.form == QuasiForm::taylor_angle
+                                        ? SeriesVariable::tangent_angle
+                                        : SeriesVariable::arc_length;
+    return taylor_end_edges(taylor_series(unit, variable, *options_.about, n));
+  }
+  const ControlPolygon b = draw_form(unit, options_).polygon;
+  return {b[1] - b[0], b[n] - b[n - 1], b[n] - b[0]};
 }
 
 /// By central differences of the two angles: the step's accuracy is no matter of the result's.

@@ -54,6 +54,7 @@ class HandleSearch {
   };
 
   std::optional<Miss> at(const Unknowns& x) const;
+  EndEdges end_edges(const UnitPiece& unit) const;
   std::optional<Unknowns> newton_step(const Unknowns& x, const Miss& miss) const;
 
   std::vector<Unknowns> polygons() const;

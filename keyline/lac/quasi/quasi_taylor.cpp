@@ -34,6 +34,28 @@ double end_error(const UnitPiece& unit, SeriesVariable variable, double about, i
   return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
+/// Control points of a series in its own frame: its polar form at i ones.
+class Polar {
+ public:
+  explicit Polar(const TaylorSeries& s) : s_(s) {
+    binomial_[0] = 1;
+    for (int i = 0; i < s.degree; ++i) multiply(binomial_, i, 1);
+  }
+
+  Vector2 at(int ones) const {
+    Row e{};
+    e[0] = 1;
+    for (int m = 0; m < s_.degree; ++m) multiply(e, m, m < ones ? 1 - s_.about : -s_.about);
+    Vector2 b;
+    for (int k = s_.degree; k > 0; --k) b = b + (e[k] / binomial_[k]) * s_.coefficient[k];
+    return b;
+  }
+
+ private:
+  const TaylorSeries& s_;
+  Row binomial_{};
+};
+
 struct Candidate {
   double about = 0;
   double error = 0;
@@ -59,20 +81,19 @@ Candidate best_about(const UnitPiece& unit, SeriesVariable variable, int degree)
 }  // namespace
 
 ControlPolygon taylor_polygon(const UnitPiece& unit, const TaylorSeries& s) {
-  const int n = s.degree;
-  Row binomial{};
-  binomial[0] = 1;
-  for (int i = 0; i < n; ++i) multiply(binomial, i, 1);
+  const Polar polar(s);
+  const Vector2 origin = displacement(unit.piece, s.arc);
+  const double direction = turning(unit.piece, s.arc);
   ControlPolygon polygon;
-  for (int i = 0; i <= n; ++i) {
-    Row e{};
-    e[0] = 1;
-    for (int m = 0; m < n; ++m) multiply(e, m, m < i ? 1 - s.about : -s.about);
-    Vector2 b;
-    for (int k = n; k > 0; --k) b = b + (e[k] / binomial[k]) * s.coefficient[k];
-    polygon.push_back(from_frame(unit, s, b));
-  }
+  for (int i = 0; i <= s.degree; ++i)
+    polygon.push_back(origin + core::rotate_ccw(polar.at(i), direction));
   return polygon;
+}
+
+EndEdges taylor_end_edges(const TaylorSeries& s) {
+  const Polar polar(s);
+  const Vector2 start = polar.at(0), end = polar.at(s.degree);
+  return {polar.at(1) - start, end - polar.at(s.degree - 1), end - start};
 }
 
 ControlPolygon discrete_polygon(const UnitPiece& unit, SeriesVariable variable, int degree) {
