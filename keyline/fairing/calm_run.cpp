@@ -29,9 +29,11 @@ constexpr int kPieceSteps = 40;
 constexpr int kFootSteps = 4;
 constexpr int kStiffenings = 3;
 constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
-constexpr int kRefinements = 7;        // halvings of…
-constexpr double kFirstLoss = 1.6;     // …what cutting may lose at first, in energies: solved for
-                                       // again, pieces win most of it back
+constexpr double kFirstLoss = 1.6;     // what cutting may lose at first, in energies: solved for
+                                       // again, pieces win most of it back; halved so many times,
+constexpr int kRefinements = 7;        // which leaves bows of a third of the tolerance;
+constexpr int kRefinementsOfMeans = 10;   // means of many points tell the curve nearer than that
+constexpr double kLeastRefinement = 0.1;  // of a loss at once, where offsets are far too large
 
 void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
   FitJoint& joint = at_start ? curve.joints.front() : curve.joints.back();
@@ -82,10 +84,12 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
   const BandOptions band = piece_band(run, options);
   const double most_rms =
       std::max(options.residuals.most(kErrorsOfPieces), kPieceRms * run.band.rms);
-  double loss = kFirstLoss;
+  const bool means = options.residuals.scatter > 0;
+  const double least = std::ldexp(kFirstLoss, means ? -kRefinementsOfMeans : -kRefinements);
+  double finer = 0.5;
   std::vector<int> last;
   int most = static_cast<int>(run.curve.joints.size());
-  for (int round = 0; round <= kRefinements; ++round, loss *= 0.5) {
+  for (double loss = kFirstLoss; loss >= least; loss *= finer) {
     std::vector<int> count = graph.within(loss, most);
     if (count == last) continue;
     DenseCurve trial = graph.cut_by(count);
@@ -93,12 +97,15 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
     last = std::move(count);
     most = 2 * static_cast<int>(trial.alpha.size());
     const BandReport found = solve_pieces(trial, points, band, most_rms);
-    if (round == 0 || found.max_offset < run.band.max_offset || found.within) {
+    const bool nearer = !run.band.within && found.max_offset < run.band.max_offset;
+    if (loss == kFirstLoss || nearer || found.within) {
       run.curve = trial;
       run.band = found;
     }
     if (options.progress.stop_requested()) return;
     if (found.within && found.energy <= (1 + kForPieces) * energy && found.rms <= most_rms) return;
+    // The loss goes with the square of a bow.
+    if (means) finer = std::clamp(std::pow(most_rms / found.rms, 2), kLeastRefinement, 0.5);
   }
 }
 

@@ -22,24 +22,35 @@ double noise_of(const std::vector<FitPoint>& points, bool closed, std::size_t n,
   return std::max(noise * std::sqrt(share), acquire::estimate_noise(at, closed));
 }
 
+/// Of measured points whose offsets have this root of their mean square: that of their means.
+double of_means(double rms, double scatter) {
+  return scatter > 0 ? std::sqrt(std::max(0.0, rms * rms - scatter * scatter)) : rms;
+}
+
 }  // namespace
 
 double Residuals::most(double errors) const {
-  return rms > 0 ? rms * (1 + errors * standard_error) : HUGE_VAL;
+  const double all = scatter > 0 ? std::hypot(rms, scatter) : rms;
+  return rms > 0 ? of_means(all * (1 + errors * standard_error), scatter) : HUGE_VAL;
 }
 
 Residuals allowed_residuals(const std::vector<FitPoint>& points, bool closed, std::size_t n,
                             double noise, double tolerance, double smoothness) {
   const double own = noise_of(points, closed, n, noise);
-  const double error = 1 / std::sqrt(2.0 * static_cast<double>(points.size()));
+  const bool means = n > points.size() && noise > own;
+  const double all = means ? noise : own;
+  const double scatter = means ? std::sqrt(noise * noise - own * own) : 0;
+  // As many errors as their means tell: fewer than points where neighbours err alike.
+  const double error = own / all / std::sqrt(2.0 * static_cast<double>(points.size()));
   const double left = std::max(0.0, tolerance - noise_factor(n) * noise);
   const double calm = std::min(1.0, 2 * smoothness);
   // Offsets spread evenly over the tolerance have this root of their mean square.
   const double most = tolerance / std::numbers::sqrt3;
-  double rms = std::max(std::hypot(own * (1 + calm * error), calm * left), kLeastRms * tolerance);
+  const double allowed = of_means(std::hypot(all * (1 + calm * error), calm * left), scatter);
+  double rms = std::max(allowed, kLeastRms * tolerance);
   if (smoothness > 0.5 && rms < most) rms *= std::pow(most / rms, 2 * smoothness - 1);
-  if (rms >= most) return {0, own, 0};
-  return {rms, own, error};
+  if (rms >= most) return {0, own, scatter, 0};
+  return {rms, own, scatter, error};
 }
 
 }  // namespace keyline::fairing::detail

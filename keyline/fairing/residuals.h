@@ -8,10 +8,12 @@ namespace keyline::fairing::detail {
 
 /// What the offsets of a run's points may be, as roots of mean squares.
 struct Residuals {
-  double rms = 0;             ///< expected; 0: whatever the tolerance leaves
-  double noise = 0;           ///< of the points as they are fitted
-  double standard_error = 0;  ///< of the root of the mean square of so many errors, a part of it
-  /// What the root of the mean square may be: so many standard errors above what is expected.
+  double rms = 0;      ///< expected of the points as they are fitted; 0: as the tolerance has it
+  double noise = 0;    ///< of the same
+  double scatter = 0;  ///< of measured points about the fitted ones that are their means
+  double standard_error = 0;  ///< of the root of the mean square of all errors, a part of it
+  /// What the root of the mean square may be: so many standard errors above what is expected of
+  /// the measured points, less their scatter, which no curve changes.
   double most(double errors) const;
 };
 
@@ -28,6 +30,8 @@ struct Residuals {
 /// the mean square goes on to what the tolerance alone leaves.
 ///
 /// points: as they are fitted, means of several where there are many; noise: of one measured point.
+/// The rule is of the measured points, however many a mean holds: a mean errs by so little that a
+/// curve as near as that would know the shape far better than the points are asked to.
 Residuals allowed_residuals(const std::vector<FitPoint>& points, bool closed, std::size_t n,
                             double noise, double tolerance, double smoothness);
 

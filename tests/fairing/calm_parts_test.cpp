@@ -107,6 +107,24 @@ TEST(Residuals, AreTheNoiseWhereTheToleranceIsMadeForIt) {
   EXPECT_DOUBLE_EQ(r.rms, noise * 1.05);
 }
 
+// 100,000 errors of 1e-3 have a root of their mean square of 1e-3 * (1 + 1 / sqrt(2e5)) to within
+// their standard error; of that, means of a hundred leave what is beyond their scatter,
+// 1e-6 * (1 - 1 / 100). Of five standard errors likewise.
+TEST(Residuals, AreOfTheMeasuredPointsWhereMeansAreFitted) {
+  std::vector<FitPoint> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({.position = {0.001 * i, 0}, .count = 100});
+  const double noise = 1e-3;
+  const Residuals r =
+      allowed_residuals(points, false, 100'000, noise, noise_factor(100'000) * noise, 0.5);
+  EXPECT_NEAR(r.noise, 1e-4, 1e-9);
+  EXPECT_NEAR(r.rms, std::sqrt(1.004477e-6 - 0.99e-6), 1e-8);
+  EXPECT_NEAR(
+      r.most(5),
+      std::sqrt(1e-6 * std::pow(1 + 1 / std::sqrt(2e5), 2) * std::pow(1 + 5 / std::sqrt(2e5), 2) -
+                0.99e-6),
+      1e-8);
+}
+
 TEST(Residuals, GrowWithToleranceAndSmoothness) {
   const auto points = spread(200);
   double last = 0;
