@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -26,12 +28,46 @@ double exp_ratio(double w) { return std::abs(w) < 1e-8 ? 1 + w / 2 : std::expm1(
 
 double slope_at(const LineModel& m, double s) { return s < m.anchor ? m.slope0 : m.slope1; }
 
-/// Turning from the anchor to s.
-double turning_from_anchor(const LineModel& m, double s) {
-  const double x = s - m.anchor;
-  const double alpha = slope_at(m, s);
-  const double stretched = x * log_ratio(-alpha * m.rate * x);
-  return m.curvature * stretched * exp_ratio((1 - alpha) * m.rate * stretched);
+/// A model without its curvature, at the ends of the cells: the turning from the anchor is
+/// curvature
+/// * stretched * ratio.
+struct Shape {
+  LineModel model;
+  std::vector<double> stretched;
+  std::vector<double> ratio;
+};
+
+/// `known`: of another model; what the two share is taken from it.
+Shape shape_of(const LineModel& m, const Shape* known) {
+  Shape shape{m, std::vector<double>(kCells + 1), std::vector<double>(kCells + 1)};
+  const bool near = known && known->model.rate == m.rate && known->model.anchor == m.anchor;
+  for (int i = 0; i <= kCells; ++i) {
+    const double s = static_cast<double>(i) / kCells;
+    const double alpha = slope_at(m, s);
+    if (near && slope_at(known->model, s) == alpha) {
+      shape.stretched[i] = known->stretched[i];
+      shape.ratio[i] = known->ratio[i];
+      continue;
+    }
+    const double x = s - m.anchor;
+    shape.stretched[i] = x * log_ratio(-alpha * m.rate * x);
+    shape.ratio[i] = exp_ratio((1 - alpha) * m.rate * shape.stretched[i]);
+  }
+  return shape;
+}
+
+Eigen::VectorXd turning_of(const Shape& shape) {
+  const auto from_anchor = [&](int i) {
+    return shape.model.curvature * shape.stretched[i] * shape.ratio[i];
+  };
+  Eigen::VectorXd turning(kCells);
+  double before = from_anchor(0);
+  for (int i = 0; i < kCells; ++i) {
+    const double now = from_anchor(i + 1);
+    turning[i] = now - before;
+    before = now;
+  }
+  return turning;
 }
 
 /// Such a frame leaves a model nothing to tell: it has no curvature and any slope.
@@ -43,15 +79,34 @@ LineFit straight_line(const PieceFrame& frame, double slope0, double slope1) {
   return {{0, 0, 0.5, slope0, slope1}, frame.displacement(turning).norm(), none, none};
 }
 
-using Build = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+/// Turnings of line models, by their parameters.
+class Lines {
+ public:
+  using Model = std::function<LineModel(const Eigen::VectorXd&)>;
+  explicit Lines(Model model) : model_(std::move(model)) {}
 
-/// Least squares of frame.displacement(build(x)) with a numeric Jacobian; returns the distance.
-double minimize(const PieceFrame& frame, const Build& build, Eigen::VectorXd& x, int iterations) {
+  Eigen::VectorXd at(const Eigen::VectorXd& x) {
+    last_ = shape_of(model_(x), nullptr);
+    return turning_of(last_);
+  }
+  /// Of parameters some of which are those asked for last.
+  Eigen::VectorXd beside(const Eigen::VectorXd& x) const {
+    return turning_of(shape_of(model_(x), &last_));
+  }
+
+ private:
+  Model model_;
+  Shape last_;
+};
+
+/// Least squares of frame.displacement(build.at(x)) with a numeric Jacobian; returns the distance.
+template <class Build>
+double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int iterations) {
   Eigen::VectorXd known_at;  // a step that is taken is asked for again, with its derivatives
   Eigen::VectorXd known;
   const auto displaced = [&](const Eigen::VectorXd& at) -> const Eigen::VectorXd& {
     if (known_at.size() == at.size() && known_at == at) return known;
-    known = frame.displacement(build(at));
+    known = frame.displacement(build.at(at));
     known_at = at;
     return known;
   };
@@ -64,7 +119,7 @@ double minimize(const PieceFrame& frame, const Build& build, Eigen::VectorXd& x,
       const double step = 1e-7 * std::max(1.0, std::abs(at[k]));
       Eigen::VectorXd beside = at;
       beside[k] += step;
-      j->col(k) = (frame.displacement(build(beside)) - r) / step;
+      j->col(k) = (frame.displacement(build.beside(beside)) - r) / step;
     }
     return j->allFinite();
   };
@@ -75,14 +130,16 @@ double minimize(const PieceFrame& frame, const Build& build, Eigen::VectorXd& x,
 }
 
 /// Standard deviations of x for residuals of standard deviation 1.
-Eigen::VectorXd uncertainty(const PieceFrame& frame, const Build& build, const Eigen::VectorXd& x) {
+Eigen::VectorXd uncertainty(const PieceFrame& frame, Lines build, const Eigen::VectorXd& x) {
+  build.at(x);
   Eigen::MatrixXd j(2 * (kCells + 1), x.size());
   for (int k = 0; k < x.size(); ++k) {
     Eigen::VectorXd up = x;
     Eigen::VectorXd down = x;
     up[k] += 1e-5;
     down[k] -= 1e-5;
-    j.col(k) = (frame.displacement(build(up)) - frame.displacement(build(down))) / 2e-5;
+    j.col(k) =
+        (frame.displacement(build.beside(up)) - frame.displacement(build.beside(down))) / 2e-5;
   }
   const std::optional<Eigen::MatrixXd> inverse = numeric::inverse(j.transpose() * j);
   if (!inverse) {
@@ -145,16 +202,7 @@ double curvature_at(const LineModel& m, double s) {
   return m.curvature * std::exp(m.rate * stretched);
 }
 
-Eigen::VectorXd turning_of(const LineModel& m) {
-  Eigen::VectorXd turning(kCells);
-  double before = turning_from_anchor(m, 0);
-  for (int i = 0; i < kCells; ++i) {
-    const double now = turning_from_anchor(m, (i + 1.0) / kCells);
-    turning[i] = now - before;
-    before = now;
-  }
-  return turning;
-}
+Eigen::VectorXd turning_of(const LineModel& m) { return turning_of(shape_of(m, nullptr)); }
 
 LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
   if (is_straight(frame)) {
@@ -162,7 +210,7 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
     if (!(high > low)) fit.slope_error0 = fit.slope_error1 = 0;
     return fit;
   }
-  const Build build = [&](const Eigen::VectorXd& x) { return turning_of(one_line(x, low, high)); };
+  Lines build([&](const Eigen::VectorXd& x) { return one_line(x, low, high); });
   const double width = high - low;
   LineFit best;
   best.deviation = std::numeric_limits<double>::infinity();
@@ -185,7 +233,7 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
     best.deviation = frame.displacement(turning_of(best.model)).norm();
   } else if (width > 0) {
     best_x[2] = best.model.slope0;
-    const Build free = [&](const Eigen::VectorXd& x) { return turning_of(one_line(x, -99, 99)); };
+    const Lines free([](const Eigen::VectorXd& x) { return one_line(x, -99, 99); });
     best.slope_error0 = best.slope_error1 = uncertainty(frame, free, best_x)[2];
   }
   return best;
@@ -213,7 +261,7 @@ Eigen::VectorXd two_lines_guess(const LineModel& m, const SlopeBounds& b, double
 LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start) {
   if (is_straight(frame))
     return straight_line(frame, (bounds.low0 + bounds.high0) / 2, (bounds.low1 + bounds.high1) / 2);
-  const Build build = [&](const Eigen::VectorXd& x) { return turning_of(two_lines(x, bounds)); };
+  Lines build([&](const Eigen::VectorXd& x) { return two_lines(x, bounds); });
   const double way = bounds.low0 > bounds.low1 ? 1 : -1;
   Eigen::VectorXd best_x;
   double least = std::numeric_limits<double>::infinity();
@@ -236,9 +284,7 @@ LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const 
   fit.deviation = minimize(frame, build, best_x, 100);
   fit.model = two_lines(best_x, bounds);
   best_x.segment(2, 3) << fit.model.slope0, fit.model.slope1, fit.model.anchor;
-  const Build free = [&](const Eigen::VectorXd& x) {
-    return turning_of(two_lines(x, {-99, 99, -99, 99}));
-  };
+  const Lines free([](const Eigen::VectorXd& x) { return two_lines(x, {-99, 99, -99, 99}); });
   const Eigen::VectorXd errors = uncertainty(frame, free, best_x);
   fit.slope_error0 = errors[2];
   fit.slope_error1 = errors[3];
@@ -297,6 +343,11 @@ Eigen::VectorXd turning_of_arcs(const Eigen::VectorXd& x) {
   return turning;
 }
 
+struct Arcs {
+  Eigen::VectorXd at(const Eigen::VectorXd& x) const { return turning_of_arcs(x); }
+  Eigen::VectorXd beside(const Eigen::VectorXd& x) const { return turning_of_arcs(x); }
+};
+
 }  // namespace
 
 ArcsFit fit_arcs(const PieceFrame& frame, int n) {
@@ -314,7 +365,8 @@ ArcsFit fit_arcs(const PieceFrame& frame, int n) {
     if (k + 1 < n) x[n + k] = static_cast<double>(ends[k]) / kCells;
   }
   ArcsFit fit;
-  fit.deviation = minimize(frame, turning_of_arcs, x, 100);
+  const Arcs build;
+  fit.deviation = minimize(frame, build, x, 100);
   fit.curvatures.assign(x.data(), x.data() + n);
   double from = 0;
   for (int k = 0; k + 1 < n; ++k) {

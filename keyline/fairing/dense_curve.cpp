@@ -5,17 +5,12 @@
 #include <numeric>
 
 #include "keyline/core/angle.h"
+#include "keyline/fairing/cell_nodes.h"
 #include "keyline/fairing/local_pose.h"
 #include "keyline/lac/segment/sensitivity.h"
 
 namespace keyline::fairing::detail {
 namespace {
-
-// Gauss and Legendre's four points on [0, 1].
-constexpr std::array<double, 4> kNode = {0.06943184420297371, 0.33000947820757187,
-                                         0.66999052179242813, 0.93056815579702629};
-constexpr std::array<double, 4> kWeight = {0.17392742256872693, 0.32607257743127307,
-                                           0.32607257743127307, 0.17392742256872693};
 
 constexpr double kReach = 0.01;     // of the length: what a first pose is fitted to, either way
 constexpr double kTurn = 0.1;       // that a cell may make, for its sums to hold ten digits…
@@ -24,7 +19,6 @@ constexpr double kSameTurn = 1e-8;  // in sums over a cell and over its halves
 constexpr int kMostParts = 16;      // of a cell: an inflection's neighbours never follow a parabola
 constexpr double kWander = 2;       // a half circle is 1.6 times as long as its chord
 constexpr double kWanderRoom = 4;   // tolerances
-constexpr double kSmallTurn = 0.3;  // whose series of five terms hold to the last digits
 
 }  // namespace
 
@@ -125,47 +119,19 @@ DenseCurve begun_at(const DenseCurve& curve, int node) {
   return next;
 }
 
-namespace {
-
-/// Integrals from 0 to u of the parabolas that are 1 at one of 0, 1/2 and 1 and 0 at the others.
-std::array<double, 3> parabolas(double u) {
-  return {u * (1 + u * (-1.5 + u * (2.0 / 3))), u * u * (2 - u * (4.0 / 3)),
-          u * u * (-0.5 + u * (2.0 / 3))};
-}
-
-/// Cosine and sine, by their series where the angle is small.
-core::Vector2 turned_by(double angle) {
-  if (std::abs(angle) > kSmallTurn) return {std::cos(angle), std::sin(angle)};
-  const double x = angle * angle;
-  const double c = 1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90))));
-  const double s = angle * (1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72))));
-  return {c, s};
-}
-
-core::Vector2 turned(core::Vector2 tangent, double angle) {
-  const core::Vector2 by = turned_by(angle);
-  return {tangent.x * by.x - tangent.y * by.y, tangent.x * by.y + tangent.y * by.x};
-}
-
-double sum_of(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-}  // namespace
-
 CellPlace place_in_cell(const DenseCurve& curve, const CellShape& shape, int cell, double v) {
   const FitJoint& from = curve.joints[cell];
   const double h = curve.at[cell + 1] - curve.at[cell];
   CellPlace place{from.position, 0, {}, {}, {}, 0, 0};
   const double step = curve.length * h * v;
   core::Vector2 along;
+  const Nodes nodes(shape, h, v);
   for (std::size_t q = 0; q < kNode.size(); ++q) {
-    const std::array<double, 3> share = parabolas(v * kNode[q]);
-    const core::Vector2 t = kWeight[q] * turned(shape.tangent, h * sum_of(share, shape.curvature));
+    const core::Vector2 t = nodes.tangent(shape.tangent, q);
     const core::Vector2 n = core::perpendicular_left(t);
     along = along + t;
-    place.by_start = place.by_start + sum_of(share, shape.by_start) * n;
-    place.by_end = place.by_end + sum_of(share, shape.by_end) * n;
+    place.by_start = place.by_start + nodes.sum(q, shape.by_start) * n;
+    place.by_end = place.by_end + nodes.sum(q, shape.by_end) * n;
   }
   const std::array<double, 3> share = parabolas(v);
   const double turn = h * sum_of(share, shape.curvature);
@@ -189,13 +155,11 @@ struct CellPoint {
 CellPoint point_in_cell(const DenseCurve& curve, const CellShape& shape, int cell, double v) {
   const FitJoint& from = curve.joints[cell];
   const double h = curve.at[cell + 1] - curve.at[cell];
-  const auto tangent_at = [&](double u) {
-    return turned(shape.tangent, h * sum_of(parabolas(u), shape.curvature));
-  };
   core::Vector2 along;
-  for (std::size_t q = 0; q < kNode.size(); ++q)
-    along = along + kWeight[q] * tangent_at(v * kNode[q]);
-  return {from.position + curve.length * h * v * along, tangent_at(v)};
+  const Nodes nodes(shape, h, v);
+  for (std::size_t q = 0; q < kNode.size(); ++q) along = along + nodes.tangent(shape.tangent, q);
+  const double turn = h * sum_of(parabolas(v), shape.curvature);
+  return {from.position + curve.length * h * v * along, turned(shape.tangent, turn)};
 }
 
 }  // namespace
