@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@ constexpr double kClearance = 5;        // turn at the corner against its standa
 constexpr double kOwnShare = 0.5;       // of the turn between the arms, at the vertex itself
 constexpr double kKink = 0.17;          // of the corner angle: a kink between very smooth runs
 constexpr double kKinkConcentration = 12;
+constexpr double kUnsampled = 0.5 * std::numbers::pi;  // a bend turns by less at each of its points
 
 /// Polygon read with indices that may run past its ends.
 class Ring {
@@ -74,13 +76,23 @@ Turn turn_at(const Ring& ring, std::ptrdiff_t i, int arm, double noise) {
           1.3 * noise * std::sqrt(1 / before.spread + 1 / after.spread)};
 }
 
-/// Largest turn at the four vertices nearest the arms of vertex i, less what noise explains.
-double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise) {
+double arms_length(const Ring& ring, std::ptrdiff_t i, int arm) {
+  return core::distance(ring[i - arm], ring[i]) + core::distance(ring[i], ring[i + arm]);
+}
+
+/// Largest turn at the four vertices nearest the arms of vertex i, less what noise explains. Where
+/// points stand closer there than at i, which turns by `size`, it is what a curve as bent as there
+/// turns along the arms of i: bends are sampled as it comes. Not where i turns by a right angle or
+/// more: a bend of which one point tells so much is not known to be one.
+double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double size) {
   double beside = 0;
+  const double length = size < kUnsampled ? arms_length(ring, i, arm) : 0;
   for (const std::ptrdiff_t k : {i - 2 * arm, i - arm, i + arm, i + 2 * arm}) {
     if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
     const Turn flank = turn_at(ring, k, arm, noise);
-    beside = std::max(beside, std::abs(flank.angle) - 2 * flank.error);
+    const double turn = std::abs(flank.angle) - 2 * flank.error;
+    const double closer = std::max(1.0, length / arms_length(ring, k, arm));
+    beside = std::max(beside, turn * closer);
   }
   return beside;
 }
@@ -118,7 +130,7 @@ double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
     const double size = std::abs(turn.angle);
     if (turn.error * kClearance > std::max(t.angle, 0.5 * size)) continue;
     if (size < std::max(kKink * t.angle, 2 * kClearance * turn.error)) return 0;
-    const double beside = turn_beside(ring, i, arm, t.noise);
+    const double beside = turn_beside(ring, i, arm, t.noise, size);
     const double rest = std::max(beside, t.usual);
     if (arm == 1 && size >= kKinkConcentration * rest) return turn.angle;
     if (size < t.angle || size < kContrast * t.usual) return 0;

@@ -11,8 +11,9 @@ namespace keyline::acquire {
 /// Vertices of an ordered polygon where its direction jumps: the turn at the vertex is at least
 /// `angle` (radians), twice what its standard error from `noise` allows at 5 sigma, 2.5 times the
 /// turn of the curve on either side and 3 times the usual turn at a vertex, so that a tight but
-/// sampled bend (the nose of an airfoil) is none. A kink between very smooth runs counts from a
-/// sixth of the angle on, if it is 12 times as sharp as all around it.
+/// sampled bend (the nose of an airfoil) is none. Where points beside stand closer, what counts is
+/// what a curve as bent as theirs would turn over the vertex' own arms. A kink between very smooth
+/// runs counts from a sixth of the angle on, if it is 12 times as sharp as all around it.
 /// Increasing; ends of an open polygon are never listed.
 std::vector<std::size_t> find_corners(std::span<const core::Point2> points, bool closed,
                                       double noise, double angle);

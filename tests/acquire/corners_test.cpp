@@ -1,0 +1,99 @@
+#include "keyline/acquire/corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace keyline::acquire {
+namespace {
+
+using core::Point2;
+using Corners = std::vector<std::size_t>;
+
+constexpr double kAngle = 0.6;  // radians, as by default
+
+/// The nose of an ellipse with half axes 1 and 0.09, as wide apart at its tip as `step` (of its
+/// parameter), closer by `closer` beside it, from there on wider again by an eighth each.
+std::vector<Point2> nose(double step, double closer) {
+  std::vector<double> side{step};
+  for (double next = step / closer; side.back() < 2.6; next *= 1.12) {
+    side.push_back(side.back() + next);
+  }
+  std::vector<double> parameters(side.rbegin(), side.rend());
+  for (double& t : parameters) t = -t;
+  parameters.push_back(0);
+  parameters.insert(parameters.end(), side.begin(), side.end());
+  std::vector<Point2> points;
+  for (const double t : parameters) points.push_back({1 - std::cos(t), 0.09 * std::sin(t)});
+  return points;
+}
+
+// An ellipse has no corner, however its points are spread.
+TEST(Corners, NoneAtANoseWithPointsCloserBesideItsTip) {
+  for (const double step : {0.05, 0.08, 0.1, 0.12}) {
+    for (const double closer : {1.0, 1.5, 2.0, 2.5}) {
+      EXPECT_EQ(find_corners(nose(step, closer), false, 0, kAngle), Corners{})
+          << step << " closer by " << closer;
+    }
+  }
+}
+
+/// Two arcs of radius 1 that meet at the origin, where the direction turns by `turn` against the
+/// way they bend; steps along them of `before` and `after`.
+std::vector<Point2> two_arcs(double turn, double before, double after) {
+  std::vector<Point2> points;
+  for (int i = 20; i > 0; --i) {
+    const double s = before * i;
+    points.push_back({-std::sin(s), 1 - std::cos(s)});
+  }
+  for (int i = 0; i <= 20; ++i) {
+    const double s = after * i;
+    const Point2 p{std::sin(s), 1 - std::cos(s)};
+    points.push_back({std::cos(turn) * p.x + std::sin(turn) * p.y,
+                      -std::sin(turn) * p.x + std::cos(turn) * p.y});
+  }
+  return points;
+}
+
+// Arcs that turn by 0.02 to 0.1 at each point: a jump of a right angle less 10 degrees is a corner
+// whichever side has its points closer.
+TEST(Corners, FoundWhereArcsMeetThatAreSampledUnevenly) {
+  const double turn = 80 * std::numbers::pi / 180;
+  for (const double before : {0.02, 0.05, 0.1}) {
+    for (const double after : {0.02, 0.05, 0.1}) {
+      EXPECT_EQ(find_corners(two_arcs(turn, before, after), false, 0, kAngle), Corners{20})
+          << before << ", " << after;
+    }
+  }
+}
+
+/// From the origin on, along the direction given: one long step, then short ones that turn by
+/// `bend` each.
+std::vector<Point2> flank(double direction, double bend) {
+  std::vector<Point2> points{{0.3 * std::cos(direction), 0.3 * std::sin(direction)}};
+  for (int i = 0; i < 12; ++i) {
+    direction += bend * (i < 4 ? 1 : 0);
+    const Point2 last = points.back();
+    points.push_back({last.x + 0.06 * std::cos(direction), last.y + 0.06 * std::sin(direction)});
+  }
+  return points;
+}
+
+// A tip that turns by 150 degrees beside tight bends of closer points: by so much at one point
+// turns no bend that is sampled.
+TEST(Corners, FoundAtATipBesideTightBends) {
+  const double degree = std::numbers::pi / 180;
+  const std::vector<Point2> after = flank(-15 * degree, -40 * degree);
+  const std::vector<Point2> before = flank(15 * degree, 40 * degree);
+  std::vector<Point2> points(before.rbegin(), before.rend());
+  points.push_back({0, 0});
+  points.insert(points.end(), after.begin(), after.end());
+  EXPECT_EQ(find_corners(points, false, 0, kAngle), Corners{before.size()});
+}
+
+}  // namespace
+}  // namespace keyline::acquire
