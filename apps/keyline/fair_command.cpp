@@ -51,8 +51,8 @@ const char* verdict_of(bool near, bool fair) {
 }
 
 std::string comb_of(const operations::FairAnswer& a) {
-  const operations::FairFigures& f = a.fairness;
-  const auto& other = f.smoothing_spline ? *f.smoothing_spline : f.spline;
+  const fairing::FairFigures& f = a.fairness;
+  const analysis::CombFigures& other = f.rival();
   const char* whose = f.smoothing_spline ? "the smoothest spline as near" : "the points' spline";
   return fmt::format("comb: {}, variation {:.3g}, jolt {:.2g}; {}: {}, {:.3g}, {:.2g}{}",
                      core::counted(static_cast<std::size_t>(f.answer.waves), "wave"),

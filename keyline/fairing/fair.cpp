@@ -17,6 +17,7 @@
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
 #include "keyline/fairing/symmetric_run.h"
+#include "keyline/fairing/until_fair.h"
 #include "keyline/lac/chain/chain_graph.h"
 
 namespace keyline::fairing {
@@ -33,10 +34,9 @@ constexpr double kOutside = 1e-9;    // of the length: farther out is no matter 
 void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
   const std::string where = fmt::format("run {}", index);
   const std::string pieces = core::counted(run.chain.pieces.size(), "piece");
-  if (!run.dense.joints.empty())
-    result.notes.push_back(fmt::format("{}: {}, read off the graph of curvature", where, pieces));
-  else
-    result.notes.push_back(fmt::format("{}: {}, merged from {}", where, pieces, run.start_pieces));
+  const std::string how = run.dense.joints.empty() ? fmt::format("merged from {}", run.start_pieces)
+                                                   : "read off the graph of curvature";
+  result.notes.push_back(fmt::format("{}: {}, {}", where, pieces, how));
   if (run.exact)
     result.notes.push_back(where +
                            ": the points are reproduced to rounding, so the chain that "
@@ -64,6 +64,7 @@ class Job {
                             ? *options.sigmas * line.noise
                             : default_tolerance(line.noise, result_.length, line.points.size());
     result_.closed = line.closed || line.ends_meet;
+    result_.smoothness = options.smoothness.value_or(detail::kNearAsNoise);
     result_.notes = line.report.notes;
   }
 
@@ -102,14 +103,13 @@ class Job {
   detail::RunOptions run_options(std::size_t k) const {
     const core::Progress whole = progress_of(k);
     const double share = runs_[k].length / result_.length;
-    const int pieces = options_.pieces == 0
-                           ? 0
-                           : std::max(1, static_cast<int>(std::lround(options_.pieces * share)));
+    const int wanted = static_cast<int>(std::lround(options_.pieces * share));
+    const int pieces = options_.pieces == 0 ? 0 : std::max(1, wanted);
     return {.tolerance = result_.tolerance,
             .noise = line_.noise,
             .pieces = pieces,
             .criterion = options_.criterion,
-            .smoothness = options_.smoothness,
+            .smoothness = result_.smoothness,
             .waves = options_.waves,
             .max_rate = options_.max_rate,
             .slopes = options_.slopes,
@@ -277,10 +277,8 @@ class Job {
   }
 
   Result<FairResult> finish() {
-    if (auto read = read_all(); !read) return std::unexpected(read.error());
-    if (!options_.interpretations.empty()) {
-      if (auto done = reinterpret(); !done) return std::unexpected(done.error());
-    }
+    read_all();
+    if (auto done = reinterpret(); !done) return std::unexpected(done.error());
     note_outside();
     if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
     note_limits();
@@ -341,7 +339,7 @@ class Job {
   }
 
   /// Pieces, offsets and the deviation from the solved runs as they stand.
-  Result<void> read_all() {
+  void read_all() {
     result_.pieces.clear();
     result_.offsets.assign(line_.points.size(), 0);
     result_.within_tolerance = true;
@@ -351,10 +349,10 @@ class Job {
       start += lac::arc_length(solved_[k].chain);
     }
     detail::measure_deviation(result_);
-    return {};
   }
 
   Result<void> reinterpret() {
+    if (options_.interpretations.empty()) return {};
     std::vector<std::vector<detail::PieceWish>> wishes(solved_.size());
     for (const InterpretationOverride& asked : options_.interpretations) {
       if (asked.piece < 0 || asked.piece >= static_cast<int>(result_.pieces.size()))
@@ -372,7 +370,8 @@ class Job {
       if (!wishes[k].empty())
         asked_[k] =
             detail::apply_wishes(solved_[k], runs_[k], wishes[k], run_options(k), result_.notes);
-    return read_all();
+    read_all();
+    return {};
   }
 
   const acquire::KeyLine& line_;
@@ -394,7 +393,8 @@ const char* impression(const FairPiece& piece) {
 
 Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
   if (auto sound = detail::check(line, options); !sound) return std::unexpected(sound.error());
-  return Job(line, options).run();
+  return detail::until_fair(line, options,
+                            [&](const FairOptions& o) { return Job(line, o).run(); });
 }
 
 }  // namespace keyline::fairing

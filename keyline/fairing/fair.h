@@ -16,6 +16,7 @@
 #include "keyline/core/progress.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/fairing/bound.h"
+#include "keyline/fairing/fairness.h"
 #include "keyline/fairing/symmetric.h"
 #include "keyline/fit/fit_spline.h"
 #include "keyline/lac/chain/chain.h"
@@ -83,8 +84,9 @@ struct FairOptions {
       0;  ///< largest distance of a point, in the points' unit; 0: by the default rule
   std::optional<double> sigmas;  ///< the tolerance in standard deviations of the points
   /// From 0, as near as the noise of the points, to 1, as calm as the tolerance allows; between
-  /// them what the tolerance holds beyond the noise is the curve's to depart by.
-  double smoothness = 0.5;
+  /// them what the tolerance holds beyond the noise is the curve's to depart by. Empty: 0.5, and
+  /// more where that answer is not fair (see until_fair).
+  std::optional<double> smoothness;
   /// Waves of curvature between corners, at most; empty: as many as the points ask for.
   std::optional<int> waves;
   /// Fastest that curvature may change along the curve, |dkappa/ds|, in 1/unit^2: undrawable where
@@ -118,7 +120,8 @@ struct FairOptions {
             "the tolerance as so many standard deviations of the points, in place of a length")
             .within(core::kPositive),
         core::field<&FairOptions::smoothness>(
-            "from 0, as near as the noise of the points, to 1, as calm as the tolerance allows")
+            "from 0, as near as the noise of the points, to 1, as calm as the tolerance allows; by "
+            "default 0.5, and more where that is not fair")
             .within(core::from_to(0, 1)),
         core::field<&FairOptions::waves>(
             "waves of curvature between corners, at most; else as many as the points ask for")
@@ -222,6 +225,8 @@ struct FairResult {
   double rms_deviation = 0;
   std::size_t worst_point = 0;
   bool within_tolerance = false;
+  double smoothness = 0;  ///< that was taken
+  FairFigures fairness;
   double rate = 0;  ///< fastest that curvature changes in the faired curves, see FairOptions
   std::optional<FoundSymmetry> symmetry;
   double outside = 0;  ///< by how much the answer passes a bound; 0 where it keeps them

@@ -90,7 +90,8 @@ FairAnswer fair_answer(acquire::KeyLine line, fairing::FairResult result) {
   answer.symmetry = result.symmetry;
   if (std::isfinite(result.rate)) answer.rate = result.rate;
   answer.outside = result.outside;
-  answer.fairness = fair_figures(line, result);
+  answer.smoothness = result.smoothness;
+  answer.fairness = result.fairness;
   answer.cancelled = result.cancelled;
   for (const auto& joint : result.joints) answer.continuity.push_back(joint_of(joint));
   answer.joints = result.joint_rates;

@@ -6,7 +6,6 @@
 
 #include "keyline/acquire/key_line.h"
 #include "keyline/fairing/fair.h"
-#include "keyline/operations/fair_figures.h"
 #include "keyline/operations/joint.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/operation.h"
@@ -76,7 +75,8 @@ struct FairAnswer {
   std::optional<double> rate;
   double outside = 0;
   std::optional<fairing::FoundSymmetry> symmetry;
-  FairFigures fairness;
+  double smoothness = 0;
+  fairing::FairFigures fairness;
   bool cancelled = false;
   fairing::JointRates joints;
   std::vector<Joint> continuity;
@@ -104,6 +104,7 @@ struct FairAnswer {
         core::field<&FairAnswer::outside>("by how much a bound is passed; 0: all are kept")
             .in("length"),
         core::field<&FairAnswer::symmetry>("line in which the points mirror within their noise"),
+        core::field<&FairAnswer::smoothness>("that was taken"),
         core::field<&FairAnswer::fairness>("how calm its comb is, beside others'"),
         core::field<&FairAnswer::cancelled>("stopped: the best found until then"),
         core::field<&FairAnswer::joints>(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/operations/fair_figures.h"
+#include "keyline/fairing/fairness.h"
 
 namespace keyline::presentation::detail {
 namespace {
@@ -36,7 +36,7 @@ std::vector<PieceMarks> piece_marks(const fairing::FairResult& result, core::Int
   std::vector<PieceMarks> marks;
   for (const fairing::FairPiece& piece : result.pieces)
     marks.push_back({0, 0, !piece.seen, at_limit(result, piece, slopes)});
-  for (const analysis::CombMark& mark : operations::comb_marks(result)) {
+  for (const analysis::CombMark& mark : fairing::comb_marks(result)) {
     const auto after = std::find_if(result.pieces.begin(), result.pieces.end(),
                                     [&](const auto& piece) { return piece.start > mark.at; });
     if (after == result.pieces.begin()) continue;
@@ -64,7 +64,7 @@ std::string marks_text(const PieceMarks& marks) {
 void add_marks(figure::SampledCurve& sampled, const fairing::FairResult& result,
                core::Interval slopes) {
   if (sampled.points.empty()) return;
-  for (const analysis::CombMark& mark : operations::comb_marks(result))
+  for (const analysis::CombMark& mark : fairing::comb_marks(result))
     sampled.marks.push_back({sample_at(sampled, mark.at), mark.needle ? "n" : "s"});
   const std::vector<PieceMarks> pieces = piece_marks(result, slopes);
   for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -9,7 +9,6 @@
 #include "keyline/core/text.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/ticks.h"
-#include "keyline/operations/fair_figures.h"
 #include "keyline/presentation/curve_samples.h"
 #include "keyline/presentation/fair_joints.h"
 #include "keyline/presentation/fair_marks.h"
@@ -33,7 +32,6 @@ struct Material {
   const FairResult& result;
   const FairReportOptions& options;
   core::Interval slopes;
-  operations::FairFigures fairness;
   SampledCurve faired;
   SampledCurve spline;
   figure::ChartOptions chart;
@@ -51,19 +49,14 @@ std::size_t count_beyond(const FairResult& result) {
                     [&](double d) { return std::abs(d) > result.tolerance; }));
 }
 
-/// The other spline that the answer's comb is held against.
-const analysis::CombFigures& rival(const Material& m) {
-  return m.fairness.smoothing_spline ? *m.fairness.smoothing_spline : m.fairness.spline;
-}
-
-std::string fairness_line(const Material& m) {
-  const char* whose = m.fairness.smoothing_spline ? "the smoothest spline within the tolerance"
-                                                  : "the spline through the points";
-  if (m.fairness.fair) return fmt::format("Fair: as calm a comb as that of {}, or calmer.", whose);
+std::string fairness_line(const fairing::FairFigures& f) {
+  const char* whose = f.smoothing_spline ? "the smoothest spline within the tolerance"
+                                         : "the spline through the points";
+  if (f.fair) return fmt::format("Fair: as calm a comb as that of {}, or calmer.", whose);
+  const analysis::CombFigures& rival = f.rival();
   return fmt::format("Not fair: {} has a calmer comb ({}, variation {}, jolt {}).", whose,
-                     core::counted(static_cast<std::size_t>(rival(m).waves), "wave"),
-                     figure::short_number(rival(m).energy, 3),
-                     figure::short_number(rival(m).jolt, 2));
+                     core::counted(static_cast<std::size_t>(rival.waves), "wave"),
+                     figure::short_number(rival.energy, 3), figure::short_number(rival.jolt, 2));
 }
 
 void set_verdict(const Material& m, report::Report& report) {
@@ -72,11 +65,11 @@ void set_verdict(const Material& m, report::Report& report) {
   const std::string pieces = core::counted(r.pieces.size(), "piece");
   const std::string cut = r.cancelled ? " The work was cancelled; this is the best found." : "";
   if (r.within_tolerance) {
-    const bool passed = m.fairness.fair && !r.cancelled;
+    const bool passed = r.fairness.fair && !r.cancelled;
     report.verdict = passed ? report::Verdict::good : report::Verdict::caution;
     report.verdict_line =
         fmt::format("Near enough: {} within {} of every point, curvature monotone in each. {}{}",
-                    pieces, length_text(r.tolerance, unit), fairness_line(m), cut);
+                    pieces, length_text(r.tolerance, unit), fairness_line(r.fairness), cut);
     return;
   }
   report.verdict = report::Verdict::bad;
@@ -99,6 +92,12 @@ void set_numbers(const Material& m, report::Report& report) {
   std::string shape = r.closed ? "closed" : "open";
   if (chains > 1) shape += fmt::format(", {} chains between corners", chains);
   if (kept > 0) shape += ", " + core::counted(kept, "part") + " kept as given";
+  const analysis::CombFigures& comb = r.fairness.answer;
+  const analysis::CombFigures& rival = r.fairness.rival();
+  const auto beside = [&](const std::string& figure) {
+    return figure +
+           (r.fairness.smoothing_spline ? " of a spline as near" : " of the points' spline");
+  };
   report.numbers = {
       {"Pieces", fmt::format("{}", r.pieces.size()), shape},
       {"Largest deviation", length_text(r.max_deviation, unit, 3),
@@ -107,12 +106,10 @@ void set_numbers(const Material& m, report::Report& report) {
        fmt::format("of {} points", m.line.points.size())},
       {"Noise of the points", length_text(r.noise, unit, 3),
        r.noise > 0 ? "standard deviation, normal to the curve" : "none found"},
-      {"Waves of curvature", fmt::format("{}", m.fairness.answer.waves),
-       fmt::format("{} of a spline as near", rival(m).waves)},
-      {"Variation of curvature", figure::short_number(m.fairness.answer.energy, 3),
-       fmt::format("{} of a spline as near", figure::short_number(rival(m).energy, 3))},
-      {"Jolt", figure::short_number(m.fairness.answer.jolt, 2),
-       fmt::format("{} of a spline as near", figure::short_number(rival(m).jolt, 2))},
+      {"Waves of curvature", fmt::format("{}", comb.waves), beside(fmt::format("{}", rival.waves))},
+      {"Variation of curvature", figure::short_number(comb.energy, 3),
+       beside(figure::short_number(rival.energy, 3))},
+      {"Jolt", figure::short_number(comb.jolt, 2), beside(figure::short_number(rival.jolt, 2))},
       {"Length", length_text(r.length, unit), {}},
       {"Continuity", order < 0 ? "gap" : fmt::format("G{}", std::min(order, 3)),
        "lowest inside a chain"}};
@@ -362,7 +359,6 @@ report::Report fair_report(const acquire::KeyLine& line, const FairResult& resul
                    result,
                    options,
                    slopes,
-                   operations::fair_figures(line, result),
                    detail::faired_samples(result),
                    detail::spline_samples(result),
                    {.unit = options.unit, .largest_height = kMostHeight}};

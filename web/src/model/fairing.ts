@@ -6,9 +6,13 @@ import type { Store } from "./state.ts";
 
 export type Criterion = NonNullable<FairRequest["criterion"]>;
 
+/** As near as the noise of the points. */
+const kUntilFair = 0.5;
+
 export interface FairWishes {
   /** 0: by the default rule */
   tolerance: number;
+  /** kUntilFair: that, and more where the answer would not be fair */
   smoothness: number;
   criterion: Criterion;
   /** what the curve may not pass, as `fair --keep-inside` has it: y>=0 */
@@ -20,7 +24,7 @@ export interface FairWishes {
 }
 
 export const noWishes = (): FairWishes => ({
-  tolerance: 0, smoothness: defaultsOfFair.smoothness, criterion: defaultsOfFair.criterion, inside: "", symmetric: "off", rate: 0,
+  tolerance: 0, smoothness: kUntilFair, criterion: defaultsOfFair.criterion, inside: "", symmetric: "off", rate: 0,
 });
 
 const textOr = (value: unknown, otherwise: string): string => (typeof value === "string" ? value : otherwise);
@@ -44,7 +48,7 @@ export function requestOf(e: Entity, live: Live, wishes: FairWishes): FairReques
   return {
     ...(e.kind === "scan" ? { line: lineOf(e) } : curve ? { curve } : {}),
     criterion: wishes.criterion,
-    ...(calmest && wishes.smoothness !== defaultsOfFair.smoothness ? { smoothness: wishes.smoothness } : {}),
+    ...(calmest && wishes.smoothness !== kUntilFair ? { smoothness: wishes.smoothness } : {}),
     ...(calmest && wishes.rate > 0 ? { max_rate: wishes.rate } : {}),
     ...(wishes.tolerance > 0 ? { tolerance: wishes.tolerance } : {}),
     ...(wishes.inside ? { keep_inside: wishes.inside } : {}),

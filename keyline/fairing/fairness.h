@@ -5,9 +5,12 @@
 
 #include "keyline/acquire/key_line.h"
 #include "keyline/analysis/comb_figures.h"
-#include "keyline/fairing/fair.h"
+#include "keyline/core/describe.h"
+#include "keyline/curve/bspline.h"
 
-namespace keyline::operations {
+namespace keyline::fairing {
+
+struct FairResult;
 
 /// How fair an answer is: its comb in figures, beside what others make of the same points.
 struct FairFigures {
@@ -26,12 +29,16 @@ struct FairFigures {
             "no more waves than that spline (or the one through the points), energy and jolt at "
             "most half as much again"));
   }
+  /// What the answer is held against.
+  const analysis::CombFigures& rival() const {
+    return smoothing_spline ? *smoothing_spline : spline;
+  }
 };
 
 /// Waves of all members together, energy and jolt of the worst.
-FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult& result);
+FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result);
 
 /// Near-steps and needles of the answer's chains, by arc length from the start of the whole.
-std::vector<analysis::CombMark> comb_marks(const fairing::FairResult& result);
+std::vector<analysis::CombMark> comb_marks(const FairResult& result);
 
-}  // namespace keyline::operations
+}  // namespace keyline::fairing

@@ -1,14 +1,15 @@
-#include "keyline/operations/fair_figures.h"
+#include "keyline/fairing/fairness.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "keyline/curve/concept.h"
 #include "keyline/curve/length.h"
+#include "keyline/fairing/fair.h"
 #include "keyline/fit/smoothing_spline.h"
 #include "keyline/lac/chain/chain_graph.h"
 
-namespace keyline::operations {
+namespace keyline::fairing {
 namespace {
 
 constexpr int kPerSpline = 6000;
@@ -53,9 +54,9 @@ bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
 
 }  // namespace
 
-FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult& result) {
+FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result) {
   FairFigures figures;
-  for (const fairing::FairCurve& member : result.curves)
+  for (const FairCurve& member : result.curves)
     add(figures.answer,
         std::visit([](const auto& c) { return analysis::comb_figures(graph_of(c)); }, member));
   for (const curve::BSpline2& spline : result.splines)
@@ -73,10 +74,10 @@ FairFigures fair_figures(const acquire::KeyLine& line, const fairing::FairResult
   return figures;
 }
 
-std::vector<analysis::CombMark> comb_marks(const fairing::FairResult& result) {
+std::vector<analysis::CombMark> comb_marks(const FairResult& result) {
   std::vector<analysis::CombMark> marks;
   double from = 0;
-  for (const fairing::FairCurve& member : result.curves) {
+  for (const FairCurve& member : result.curves) {
     const auto* chain = std::get_if<lac::Chain>(&member);
     if (!chain) {
       from += curve::arc_length(std::get<curve::BSpline2>(member));
@@ -91,4 +92,4 @@ std::vector<analysis::CombMark> comb_marks(const fairing::FairResult& result) {
   return marks;
 }
 
-}  // namespace keyline::operations
+}  // namespace keyline::fairing

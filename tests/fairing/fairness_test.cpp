@@ -1,4 +1,4 @@
-#include "keyline/operations/fair_figures.h"
+#include "keyline/fairing/fairness.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
-namespace keyline::operations {
+#include "keyline/fairing/fair.h"
+
+namespace keyline::fairing {
 namespace {
 
 /// The loop of Descartes' folium, by the angle from 0 to a right one; both ends are its node, where
@@ -57,7 +59,7 @@ TEST(FairFigures, TheSplineToCompareWithStaysOpenAtACorner) {
   for (const int corner : {0, 37}) {
     SCOPED_TRACE(corner);
     const acquire::KeyLine line = folium(120, corner);
-    fairing::FairResult answer;  // any open chain: only that it is open counts
+    FairResult answer;  // any open chain: only that it is open counts
     answer.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, line.length, 0.1, 0.2}}});
     answer.closed = true;
     answer.tolerance = 1e-4 * line.length;
@@ -69,4 +71,4 @@ TEST(FairFigures, TheSplineToCompareWithStaysOpenAtACorner) {
 }
 
 }  // namespace
-}  // namespace keyline::operations
+}  // namespace keyline::fairing

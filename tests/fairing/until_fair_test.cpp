@@ -1,0 +1,131 @@
+#include "keyline/fairing/until_fair.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace keyline::fairing::detail {
+namespace {
+
+/// Too few points for a spline to compare with: an answer is fair where it has no variation.
+acquire::KeyLine three_points() {
+  acquire::KeyLine line;
+  line.points = {{0, 0}, {1, 0}, {2, 0}};
+  line.length = 2;
+  return line;
+}
+
+/// Answers whose variation a smoothness of `fair_from` ends, and what was asked for on the way.
+struct Solver {
+  double fair_from;
+  double within_up_to = 1;
+  std::vector<double> asked;
+  core::Result<FairResult> operator()(const FairOptions& options) {
+    asked.push_back(options.smoothness.value_or(-1));
+    FairResult result;
+    result.smoothness = asked.back();
+    result.within_tolerance = asked.back() <= within_up_to;
+    const double end = asked.back() >= fair_from ? 0.1 : 0.9 - 0.5 * asked.back();
+    result.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 2, 0.1, end}}});
+    return result;
+  }
+};
+
+using Asked = std::vector<double>;
+
+TEST(UntilFair, StopsAtTheFirstSmoothnessWhoseAnswerIsFair) {
+  for (const auto& [from, asked] :
+       {std::pair<double, Asked>{0.5, {0.5}}, {0.75, {0.5, 0.75}}, {1, {0.5, 0.75, 1}}}) {
+    SCOPED_TRACE(from);
+    Solver solver{from, 1, {}};
+    const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
+    EXPECT_EQ(solver.asked, asked);
+    EXPECT_TRUE(found.fairness.fair);
+    EXPECT_EQ(found.smoothness, from);
+    EXPECT_EQ(found.notes.size(), from > 0.5 ? 1u : 0u);
+  }
+}
+
+TEST(UntilFair, TakesTheSmoothnessAskedForFairOrNot) {
+  Solver solver{1, 1, {}};
+  FairOptions options;
+  options.smoothness = 0.2;
+  const auto found = until_fair(three_points(), options, std::ref(solver)).value();
+  EXPECT_EQ(solver.asked, Asked{0.2});
+  EXPECT_FALSE(found.fairness.fair);
+  EXPECT_TRUE(found.notes.empty());
+}
+
+TEST(UntilFair, SolvesOnceWhereSmoothnessCountsForNothing) {
+  Solver solver{1, 1, {}};
+  FairOptions options;
+  options.pieces = 3;
+  EXPECT_TRUE(until_fair(three_points(), options, std::ref(solver)));
+  options.pieces = 0;
+  options.criterion = Criterion::fewest_pieces;
+  EXPECT_TRUE(until_fair(three_points(), options, std::ref(solver)));
+  EXPECT_EQ(solver.asked.size(), 2u);
+}
+
+TEST(UntilFair, KeepsTheCalmestAndSaysSoWhereNoneIsFair) {
+  Solver solver{2, 1, {}};
+  const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
+  EXPECT_EQ(found.smoothness, 1);
+  EXPECT_FALSE(found.fairness.fair);
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_NE(found.notes[0].find("no answer"), std::string::npos);
+}
+
+TEST(UntilFair, DoesNotLeaveTheToleranceForIt) {
+  Solver solver{1, 0.75, {}};
+  const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
+  EXPECT_EQ(found.smoothness, 0.75);
+  EXPECT_TRUE(found.within_tolerance);
+}
+
+/// A circle of radius 1 out of round by 0.002, neighbours alike, and said to be measured to 0.0004.
+acquire::KeyLine rough_circle(int shape) {
+  constexpr int n = 100;
+  std::vector<double> errors;
+  double largest = 0;
+  for (int i = 0; i < n; ++i) {
+    double e = 0;
+    for (int m = 2; m < 20; ++m)
+      e += std::sin(2 * std::numbers::pi * m * i / n + shape * m * m) / std::sqrt(m);
+    errors.push_back(e);
+    largest = std::max(largest, std::abs(e));
+  }
+  acquire::KeyLine line;
+  line.closed = true;
+  line.noise = 0.0004;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * i / n;
+    const double r = 1 + 0.002 * errors[i] / largest;
+    line.points.push_back({r * std::cos(t), r * std::sin(t)});
+  }
+  return line;
+}
+
+// Where errors of neighbours are alike, as near as the noise is not fair; within the tolerance
+// there is a fair answer.
+TEST(UntilFair, RoughRoundThingsComeOutFair) {
+  for (const int shape : {1, 2}) {
+    SCOPED_TRACE(shape);
+    const acquire::KeyLine line = rough_circle(shape);
+    const FairResult found = fair(line).value();
+    EXPECT_TRUE(found.fairness.fair);
+    EXPECT_TRUE(found.within_tolerance);
+    FairOptions near;
+    near.smoothness = 0.5;
+    const FairResult first = fair(line, near).value();
+    EXPECT_FALSE(first.fairness.fair);
+    EXPECT_GT(found.smoothness, 0.5);
+    EXPECT_LT(found.fairness.answer.energy, 0.5 * first.fairness.answer.energy);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail
