@@ -26,7 +26,7 @@ QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
   std::vector<std::size_t> at = joint_indices(data, closed ? 2 : 1);
   while (true) {
     const int pieces = static_cast<int>(at.size()) - 1;
-    QuinticSolver fit(data, closed, at, options.tolerance);
+    QuinticSolver fit(data, closed, at, options);
     fit.run();
     QuinticChain found = fit.result();
     if (options.calm && found.within_tolerance) {

@@ -11,6 +11,9 @@ struct QuinticChainOptions {
   double tolerance = 0.5;  ///< largest distance of a point from the curve, in the points' unit
   int max_pieces = 48;
   bool calm = false;  ///< the least variation of curvature within the tolerance; else least squares
+  bool free_start =
+      false;              ///< an open chain's start lies anywhere within the tolerance of the first
+  bool free_end = false;  ///< point, its end of the last; else exactly there
 };
 
 struct QuinticChain {

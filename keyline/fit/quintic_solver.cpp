@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "keyline/fit/quintic_rate.h"
+#include "keyline/fit/quintic_room.h"
 #include "keyline/numeric/damped_descent.h"
-#include "keyline/numeric/solve.h"
 
 namespace keyline::fit {
 namespace {
@@ -16,20 +16,21 @@ using core::dot;
 using core::Point2;
 using core::Vector2;
 
-constexpr int kJointSize = 4;  ///< x, y, direction, curvature
-constexpr int kPieceSize = 4;  ///< a, b (end edges), c, d (tangential part of the second edges)
-constexpr int kCalmIterations = 8;     ///< for a weight: the next one goes on from there
-constexpr double kStiffness = 1e-3;    ///< pull of the four lengths to a fifth of the piece
-constexpr double kLeastEdge = 0.5;     ///< of that fifth; shorter end edges hide a cusp behind them
-constexpr std::size_t kAhead = 8;      ///< points that the nearest one is looked for among
-constexpr double kArc = 0.125;         ///< rise of an arc of one radian over its chord
-constexpr double kSlowest = 0.1;       ///< of a piece's mean speed: slower is nearly a cusp
-constexpr double kFirstWeight = 1e-2;  ///< of variation beside the distances, as shares
-constexpr double kWeightStep = 10;     ///< up …
-constexpr int kWeightSteps = 12;       ///< … so often at most
-constexpr int kReweighted = 3;         ///< rounds in which points beyond the tolerance pull harder
-constexpr double kAimed = 0.9;         ///< of the tolerance: from there on they do
-constexpr int kWeightHalvings = 2;     ///< of the last step, in logarithms
+constexpr std::size_t kAhead = 8;  ///< points that the nearest one is looked for among
+constexpr double kArc = 0.125;     ///< rise of an arc of one radian over its chord
+constexpr double kSlowest = 0.1;   ///< of a piece's mean speed: slower is nearly a cusp
+
+constexpr double kCalmRim = 0.8;     ///< of the tolerance, if the chain is within that
+constexpr double kFirstPrice = 0.1;  ///< of room beside variation, as shares of what there is
+constexpr double kPriceStep = 0.1;   ///< down, each time a chain has settled
+constexpr double kSettled = 0.1;     ///< share of the cost that a whole step gains yet
+constexpr double kLastSettled = 0.05;
+constexpr double kCalmEnough = 0.1;    ///< share of variation that could be gained yet
+constexpr double kNoVariation = 1e-3;  ///< curvature times length changes by 0.03: an arc's
+constexpr int kCalmSteps = 60;
+constexpr int kParts = 8;         ///< of a step that are tried, …
+constexpr double kPart = 0.4;     ///< … each so much of the one before
+constexpr double kFirmest = 1e3;  ///< damping from which on no step is short enough
 
 struct Nearest {
   Point2 place;
@@ -49,16 +50,25 @@ Nearest nearest_on_line(const std::vector<Point2>& line, std::size_t at, Point2 
   return best;
 }
 
+std::vector<QuinticPowers> powers_of(const std::vector<JointedQuintic>& pieces) {
+  std::vector<QuinticPowers> powers;
+  powers.reserve(pieces.size());
+  for (const JointedQuintic& piece : pieces) powers.emplace_back(piece.control);
+  return powers;
+}
+
 }  // namespace
 
 QuinticSolver::QuinticSolver(const ChainData& data, bool closed, const std::vector<std::size_t>& at,
-                             double tolerance)
-    : data_(data), tolerance_(tolerance) {
+                             const QuinticChainOptions& options)
+    : data_(data),
+      tolerance_(options.tolerance),
+      free_start_(options.free_start),
+      free_end_(options.free_end) {
   now_.chain.closed = closed;
   for (std::size_t k = 0; k + (closed ? 1 : 0) < at.size(); ++k)
     now_.chain.joints.push_back({data.points[at[k]], data.direction[at[k]], data.curvature[at[k]]});
   now_.feet.resize(data.points.size());
-  pull_.assign(data.points.size(), 1);
   for (std::size_t k = 0; k + 1 < at.size(); ++k) {
     const double length = data.length[at[k + 1]] - data.length[at[k]];
     now_.chain.lengths.push_back({length / 5, length / 5, length / 5, length / 5});
@@ -68,13 +78,13 @@ QuinticSolver::QuinticSolver(const ChainData& data, bool closed, const std::vect
   }
 }
 
-void QuinticSolver::run(double weight, int most) {
-  double least = cost(weight);
-  numeric::FactorDamping rule{.raise = 100, .least = 1e-9, .most = 1e3};
+void QuinticSolver::run(int most) {
+  double least = cost().points;
+  numeric::FactorDamping rule{.raise = 100, .least = 1e-9, .most = kFirmest};
   numeric::damped_descent(rule, most, [&](double damping) -> numeric::StepOutcome {
     const State before = now_;
-    step(weight, damping);
-    const double now = cost(weight);
+    take(step(damping));
+    const double now = cost().points;
     if (!(now <= least * (1 + 1e-9))) {
       now_ = before;
       return {};
@@ -85,45 +95,45 @@ void QuinticSolver::run(double weight, int most) {
   });
 }
 
-bool QuinticSolver::run_within(double weight) {
-  for (int round = 0;; ++round) {
-    run(weight, kCalmIterations);
-    if (result().within_tolerance) return true;
-    if (round == kReweighted) return false;
-    const std::vector<double> off = distances();
-    for (std::size_t i = 0; i < off.size(); ++i)
-      pull_[i] *= std::max(1.0, std::pow(off[i] / (kAimed * tolerance_), 4));
+void QuinticSolver::calm() {
+  double room = 1e-6;
+  double most = 0;
+  for (const double d : distances()) {
+    room += (d / tolerance_) * (d / tolerance_);
+    most = std::max(most, d);
   }
+  rim_ = std::max(kCalmRim * tolerance_, 0.5 * (most + tolerance_));
+  price_ = kFirstPrice * variation() / room;
+  Cost now = price_ > 0 ? cost() : Cost{};
+  numeric::FactorDamping rule{.raise = 100, .least = 1e-9, .most = kFirmest};
+  bool done = !(price_ > 0) || !std::isfinite(now.variation);
+  for (int k = 0; k < kCalmSteps && !done; ++k) {
+    const Progress made = try_step(step(rule.value), now);
+    if (made.taken == 1) rule.on_taken(1);
+    if (made.taken < 0.1) done = !rule.on_refused();
+    const bool last =
+        now.variation <= kNoVariation || price_ * now.gap <= kCalmEnough * now.variation;
+    if (made.taken == 0 || made.gained > (last ? kLastSettled : kSettled) * made.taken) continue;
+    done = done || last;
+    price_ *= kPriceStep;
+  }
+  price_ = 0;
 }
 
-void QuinticSolver::calm() {
-  const double variation_before = variation();
-  if (!(variation_before > 0)) return;
-  const double near = std::max(move_feet(2), 1e-6 * tolerance_ * tolerance_);
-  double weight = kFirstWeight * near / variation_before;
-  double factor = kWeightStep;
-  State best = now_;
-  std::vector<double> best_pull = pull_;
-  double best_variation = variation_before;
-  int halvings = 0;
-  for (int k = 0; k < kWeightSteps && halvings <= kWeightHalvings; ++k) {
-    if (run_within(weight)) {
-      const double calmer = variation();
-      if (calmer < best_variation) {
-        best = now_;
-        best_pull = pull_;
-        best_variation = calmer;
-      }
-    } else {
-      now_ = best;
-      pull_ = best_pull;
-      weight /= factor;
-      factor = std::sqrt(factor);
-      ++halvings;
-    }
-    weight *= factor;
+QuinticSolver::Progress QuinticSolver::try_step(const Eigen::VectorXd& x, Cost& now) {
+  const State before = now_;
+  double part = 1;
+  for (int k = 0; k < kParts; ++k, part *= kPart) {
+    now_ = before;
+    take(part * x);
+    const Cost then = cost();
+    if (!(then.at(price_) < now.at(price_))) continue;
+    const double gained = 1 - then.at(price_) / now.at(price_);
+    now = then;
+    return {part, gained};
   }
-  now_ = best;
+  now_ = before;
+  return {};
 }
 
 std::vector<double> QuinticSolver::distances() const {
@@ -139,7 +149,8 @@ std::vector<double> QuinticSolver::distances() const {
 
 QuinticChain QuinticSolver::result() const {
   QuinticChain out;
-  for (const JointedQuintic& piece : pieces_of(now_.chain))
+  const std::vector<JointedQuintic> pieces = pieces_of(now_.chain);
+  for (const JointedQuintic& piece : pieces)
     out.pieces.push_back({{piece.control.begin(), piece.control.end()}, {}});
   double sum = 0;
   for (const double d : distances()) {
@@ -147,7 +158,8 @@ QuinticChain QuinticSolver::result() const {
     sum += d * d;
   }
   out.rms_deviation = std::sqrt(sum / static_cast<double>(data_.points.size()));
-  out.within_tolerance = out.max_deviation <= tolerance_ && is_sound();
+  out.within_tolerance =
+      out.max_deviation <= tolerance_ && is_lively(pieces) && strays(pieces).empty();
   return out;
 }
 
@@ -169,89 +181,154 @@ double QuinticSolver::variation() const {
   return std::pow(data_.length.back(), 3) * sum;
 }
 
-std::vector<QuinticSolver::Stray> QuinticSolver::strays() const {
-  std::vector<Stray> found;
+std::vector<QuinticSolver::Beside> QuinticSolver::beside(const std::vector<JointedQuintic>& pieces,
+                                                         double from) const {
+  std::vector<Beside> found;
   std::size_t at = 0;
-  for (std::size_t k = 0; k < now_.chain.lengths.size(); ++k) {
-    const JointedQuintic piece = piece_of(now_.chain, k);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
     for (std::size_t j = 0; j < kRateNodes; ++j) {
-      const Point2 p = Point2{} + weighted(piece.control, rate_nodes()[j].place);
+      const Point2 p = Point2{} + weighted(pieces[k].control, rate_nodes()[j].place);
       const auto far = [&](std::size_t i) {
         const Vector2 off = data_.points[i] - p;
         return dot(off, off);
       };
+      double least = far(at);
       for (std::size_t i = at; i < data_.points.size() && i <= at + kAhead; ++i)
-        if (far(i) < far(at)) at = i;
-      if (far(at) <= tolerance_ * tolerance_) continue;
+        if (const double next = far(i); next < least) at = i, least = next;
+      if (least <= from * from) continue;
       const Nearest nearest = nearest_on_line(data_.points, at, p);
-      const Vector2 way = nearest.place - p;
-      const double off = core::norm(way);
-      const double most = tolerance_ + kArc * nearest.edge;
-      if (off > most) found.push_back({k, j, (1 - most / off) * way});
+      found.push_back({k, j, nearest.place - p, tolerance_ + kArc * nearest.edge});
     }
   }
   return found;
 }
 
-/// What strays cost.
-double QuinticSolver::off_line() const {
-  double sum = 0;
-  for (const Stray& stray : strays()) sum += dot(stray.way, stray.way);
-  return sum;
-}
-
-void QuinticSolver::add_strays(const std::vector<JointedQuintic>& pieces,
-                               std::vector<Normal>& parts) const {
-  for (const Stray& stray : strays()) {
-    const QuinticRow row = sensitivity(pieces[stray.piece], rate_nodes()[stray.node].place);
-    Row x, y;
-    for (int c = 0; c < 12; ++c) {
-      x[c] = row[static_cast<std::size_t>(c)].x;
-      y[c] = row[static_cast<std::size_t>(c)].y;
-    }
-    parts[stray.piece].add(x, stray.way.x);
-    parts[stray.piece].add(y, stray.way.y);
-  }
+/// Places too far from the line of the points.
+std::vector<QuinticSolver::Beside> QuinticSolver::strays(
+    const std::vector<JointedQuintic>& pieces) const {
+  std::vector<Beside> found = beside(pieces, tolerance_);
+  std::erase_if(found, [](const Beside& b) { return dot(b.way, b.way) <= b.most * b.most; });
+  return found;
 }
 
 /// End edges that point forwards, and nowhere nearly a halt: no hidden cusp.
-bool QuinticSolver::is_sound() const {
-  const std::vector<JointedQuintic> pieces = pieces_of(now_.chain);
+bool QuinticSolver::is_lively(const std::vector<JointedQuintic>& pieces) const {
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     if (!(pieces[k].lengths.a > 0 && pieces[k].lengths.b > 0)) return false;
-    for (const RatePlace& node : rate_nodes())
-      if (core::norm(weighted(pieces[k].control, node.first)) < kSlowest * 5 * rest_[k])
-        return false;
+    const double slowest = kSlowest * 5 * rest_[k];
+    for (const RatePlace& node : rate_nodes()) {
+      const Vector2 v = weighted(pieces[k].control, node.first);
+      if (dot(v, v) < slowest * slowest) return false;
+    }
   }
-  return strays().empty();
+  return true;
 }
 
-/// Newton steps of every foot towards the nearest point, over joints too; the sum of the squared
-/// distances.
-double QuinticSolver::move_feet(int rounds) {
-  const std::vector<JointedQuintic> h = pieces_of(now_.chain);
-  double sum = 0;
-  for (std::size_t i = 0; i < now_.feet.size(); ++i) {
-    Foot& f = now_.feet[i];
-    const bool closed = now_.chain.closed;
-    const bool end = !closed && (i == 0 || i + 1 == now_.feet.size());
-    Vector2 off = data_.points[i] - place(h[f.piece].control, f.t);
-    for (int round = 0; round < rounds && !end; ++round) {
-      const Vector2 v = weighted(h[f.piece].control, first_weights(f.t));
-      const double speed = dot(v, v);
-      if (!(speed > 0)) break;
-      f.t += dot(off, v) / speed;
-      if (f.t < 0 && (closed || f.piece > 0)) {
-        f = {(f.piece + h.size() - 1) % h.size(), 1};
-      } else if (f.t > 1 && (closed || f.piece + 1 < h.size())) {
-        f = {(f.piece + 1) % h.size(), 0};
-      } else {
-        f.t = std::clamp(f.t, 0.0, 1.0);
-      }
-      off = data_.points[i] - place(h[f.piece].control, f.t);
+QuinticSolver::Cost QuinticSolver::cost() {
+  const std::vector<JointedQuintic> pieces = pieces_of(now_.chain);
+  now_.asked.assign(pieces.size(), {});
+  return price_ > 0 ? calm_cost(pieces) : far_cost(pieces);
+}
+
+/// Newton's steps of a foot towards the nearest place, over joints too.
+QuinticPowers::Passing QuinticSolver::move_foot(std::size_t i,
+                                                const std::vector<QuinticPowers>& pieces,
+                                                int rounds) {
+  Foot& f = now_.feet[i];
+  const bool closed = now_.chain.closed;
+  const bool end = !closed && (i == 0 || i + 1 == now_.feet.size());
+  QuinticPowers::Passing at = pieces[f.piece].pass(f.t, data_.points[i]);
+  for (int round = 0; round < rounds && !end; ++round) {
+    const double square = dot(at.first, at.first);
+    if (!(square > 0)) break;
+    f.t += dot(at.off, at.first) / square;
+    if (f.t < 0 && (closed || f.piece > 0)) {
+      f = {(f.piece + pieces.size() - 1) % pieces.size(), 1};
+    } else if (f.t > 1 && (closed || f.piece + 1 < pieces.size())) {
+      f = {(f.piece + 1) % pieces.size(), 0};
+    } else {
+      f.t = std::clamp(f.t, 0.0, 1.0);
     }
-    sum += pull_[i] * dot(off, off);
+    at = pieces[f.piece].pass(f.t, data_.points[i]);
   }
+  return at;
+}
+
+/// Across the curve; the ends of the line, whose feet are the chain's ends, along it too.
+void QuinticSolver::ask(std::size_t i, const QuinticPowers::Passing& at, double weight,
+                        double pull) {
+  const double square = dot(at.first, at.first);
+  if (!(square > 0)) return;
+  const Foot& f = now_.feet[i];
+  const auto along = [&](Vector2 way) {
+    now_.asked[f.piece].add_place(f.t, way, weight / square, pull * dot(at.off, way) / square);
+  };
+  along(core::perpendicular_left(at.first));
+  if (!now_.chain.closed && (i == 0 || i + 1 == now_.feet.size())) along(at.first);
+}
+
+/// Squares of the distances and of how far places stray.
+QuinticSolver::Cost QuinticSolver::far_cost(const std::vector<JointedQuintic>& pieces) {
+  const std::vector<QuinticPowers> powers = powers_of(pieces);
+  double sum = off_rest();
+  for (std::size_t i = 0; i < now_.feet.size(); ++i) {
+    const QuinticPowers::Passing at = move_foot(i, powers, 2);
+    sum += dot(at.off, at.off);
+    ask(i, at, 1, 1);
+  }
+  for (const Beside& stray : strays(pieces)) {
+    const Vector2 way = (1 - stray.most / core::norm(stray.way)) * stray.way;
+    std::array<Vector2, 6> x, y;
+    for (std::size_t k = 0; k < 6; ++k) {
+      x[k] = {rate_nodes()[stray.node].place[k], 0};
+      y[k] = {0, rate_nodes()[stray.node].place[k]};
+    }
+    now_.asked[stray.piece].add_row(x, way.x);
+    now_.asked[stray.piece].add_row(y, way.y);
+    sum += dot(way, way);
+  }
+  return {sum, 0, 0};
+}
+
+/// Room that points and places take of their tolerances, and variation.
+QuinticSolver::Cost QuinticSolver::calm_cost(const std::vector<JointedQuintic>& pieces) {
+  constexpr Cost kOutside = {HUGE_VAL, HUGE_VAL, 0};
+  if (!is_lively(pieces)) return kOutside;
+  const std::vector<QuinticPowers> powers = powers_of(pieces);
+  const double unit = 1 / (rim_ * rim_);
+  ToleranceRoom room;
+  for (std::size_t i = 0; i < now_.feet.size(); ++i) {
+    // one round: the next step goes on from there
+    const QuinticPowers::Passing at = move_foot(i, powers, 1);
+    if (!room.add(unit * dot(at.off, at.off))) return kOutside;
+    ask(i, at, unit * room.stiffness(), unit * room.pull());
+  }
+  for (const Beside& place : beside(pieces, 0)) {
+    const double square = dot(place.way, place.way);
+    const double own = 1 / (place.most * place.most);
+    if (!room.add(own * square)) return kOutside;
+    if (!(square > 0)) continue;
+    now_.asked[place.piece].add_place((static_cast<double>(place.node) + 0.5) / kRateNodes,
+                                      place.way, own * room.stiffness() / square,
+                                      own * room.pull());
+  }
+  return {room.cost() + unit * off_rest(), ask_variation(pieces), room.gap()};
+}
+
+double QuinticSolver::ask_variation(const std::vector<JointedQuintic>& pieces) {
+  const double scale = std::pow(data_.length.back(), 3);
+  double sum = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const RatePlace& node : rate_nodes()) {
+      const RateNode rate = rate_at(pieces[k], node);
+      const double root = std::sqrt(scale * node.weight);
+      std::array<Vector2, 6> by;
+      for (std::size_t c = 0; c < 6; ++c)
+        by[c] = root * (node.first[c] * rate.by_first + node.second[c] * rate.by_second +
+                        node.third[c] * rate.by_third);
+      now_.asked[k].add_row(by, -root * rate.value);
+      sum += scale * node.weight * rate.value * rate.value;
+    }
   return sum;
 }
 
@@ -260,124 +337,9 @@ double QuinticSolver::off_rest() const {
   double sum = 0;
   for (std::size_t k = 0; k < now_.chain.lengths.size(); ++k) {
     const QuinticLengths& l = now_.chain.lengths[k];
-    for (const double x : {l.a, l.b, l.c, l.d}) sum += kStiffness * (x - rest_[k]) * (x - rest_[k]);
+    for (const double x : {l.a, l.b, l.c, l.d}) sum += (x - rest_[k]) * (x - rest_[k]);
   }
-  return sum;
-}
-
-int QuinticSolver::joint_at(std::size_t j) const {
-  return static_cast<int>(j) * (kJointSize + kPieceSize);
-}
-
-int QuinticSolver::piece_at(std::size_t k) const { return joint_at(k) + kJointSize; }
-
-bool QuinticSolver::held(std::size_t j) const {
-  return !now_.chain.closed && (j == 0 || j + 1 == now_.chain.joints.size());
-}
-
-void QuinticSolver::add(std::size_t piece, const Normal& part, Eigen::MatrixXd& a,
-                        Eigen::VectorXd& g) const {
-  std::array<int, 12> at{};
-  const std::size_t last = (piece + 1) % now_.chain.joints.size();
-  for (std::size_t c = 0; c < 12; ++c) {
-    const int base = c < 4 ? joint_at(piece) : c < 8 ? piece_at(piece) : joint_at(last);
-    at[c] = base + static_cast<int>(c % 4);
-  }
-  for (int r = 0; r < 12; ++r) {
-    const auto to = static_cast<std::size_t>(r);
-    g[at[to]] += part.wanted[r];
-    for (int c = 0; c < 12; ++c) a(at[to], at[static_cast<std::size_t>(c)]) += part.matrix(r, c);
-  }
-}
-
-void QuinticSolver::add_points(const std::vector<JointedQuintic>& pieces,
-                               std::vector<Normal>& parts) const {
-  for (std::size_t i = 0; i < now_.feet.size(); ++i) {
-    const Foot& f = now_.feet[i];
-    const JointedQuintic& piece = pieces[f.piece];
-    const Vector2 v = weighted(piece.control, first_weights(f.t));
-    const double speed = std::sqrt(dot(v, v));
-    if (!(speed > 0)) continue;
-    const QuinticWeights b = place_weights(f.t);
-    const Vector2 normal = (std::sqrt(pull_[i]) / speed) * core::perpendicular_left(v);
-    const QuinticRow row = sensitivity(piece, b);
-    Row d;
-    for (int c = 0; c < 12; ++c) d[c] = dot(row[static_cast<std::size_t>(c)], normal);
-    parts[f.piece].add(d, dot(data_.points[i] - place(piece.control, f.t), normal));
-  }
-}
-
-void QuinticSolver::add_variation(double weight, const std::vector<JointedQuintic>& pieces,
-                                  std::vector<Normal>& parts) const {
-  const double cubed = std::pow(data_.length.back(), 3);
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    for (const RatePlace& node : rate_nodes()) {
-      const RateNode rate = rate_at(pieces[k], node);
-      const double root = std::sqrt(weight * cubed * node.weight);
-      const QuinticRow first = sensitivity(pieces[k], node.first);
-      const QuinticRow second = sensitivity(pieces[k], node.second);
-      const QuinticRow third = sensitivity(pieces[k], node.third);
-      Row d;
-      for (int c = 0; c < 12; ++c) {
-        const auto at = static_cast<std::size_t>(c);
-        d[c] = root * (dot(first[at], rate.by_first) + dot(second[at], rate.by_second) +
-                       dot(third[at], rate.by_third));
-      }
-      parts[k].add(d, -root * rate.value);
-    }
-}
-
-void QuinticSolver::step(double weight, double damping) {
-  const int size = static_cast<int>(kJointSize * now_.chain.joints.size() +
-                                    kPieceSize * now_.chain.lengths.size());
-  const std::vector<JointedQuintic> pieces = pieces_of(now_.chain);
-  std::vector<Normal> parts(pieces.size());
-  add_points(pieces, parts);
-  add_strays(pieces, parts);
-  if (weight > 0) add_variation(weight, pieces, parts);
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(size);
-  for (std::size_t k = 0; k < parts.size(); ++k) add(k, parts[k], a, g);
-  solve(a, g, damping);
-}
-
-void QuinticSolver::solve(Eigen::MatrixXd& a, Eigen::VectorXd& g, double damping) {
-  JointedQuintics& chain = now_.chain;
-  for (std::size_t k = 0; k < chain.lengths.size(); ++k) {
-    const QuinticLengths& l = chain.lengths[k];
-    const std::array<double, 4> now = {l.a, l.b, l.c, l.d};
-    for (int c = 0; c < 4; ++c) {
-      a(piece_at(k) + c, piece_at(k) + c) += kStiffness;
-      g[piece_at(k) + c] += kStiffness * (rest_[k] - now[static_cast<std::size_t>(c)]);
-    }
-  }
-  for (std::size_t j = 0; j < chain.joints.size(); ++j) {
-    if (!held(j)) continue;
-    for (int c = 0; c < 2; ++c) {
-      a.row(joint_at(j) + c).setZero();
-      a.col(joint_at(j) + c).setZero();
-      g[joint_at(j) + c] = 0;
-    }
-  }
-  for (Eigen::Index i = 0; i < a.rows(); ++i) a(i, i) += damping * a(i, i) + 1e-9;
-  const Eigen::VectorXd x = numeric::solve_symmetric(a, g);
-  if (!x.allFinite()) return;
-  for (std::size_t j = 0; j < chain.joints.size(); ++j) {
-    QuinticJoint& joint = chain.joints[j];
-    const int at = joint_at(j);
-    joint.place = joint.place + Vector2{x[at], x[at + 1]};
-    joint.direction += std::clamp(x[at + 2], -0.5, 0.5);
-    joint.curvature += x[at + 3];
-  }
-  for (std::size_t k = 0; k < chain.lengths.size(); ++k) {
-    QuinticLengths& l = chain.lengths[k];
-    const int at = piece_at(k);
-    const double least = kLeastEdge * rest_[k];
-    l.a = std::max(least, l.a + x[at]);
-    l.b = std::max(least, l.b + x[at + 1]);
-    l.c += x[at + 2];
-    l.d += x[at + 3];
-  }
+  return kStiffness * sum;
 }
 
 }  // namespace keyline::fit

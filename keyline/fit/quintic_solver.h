@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -9,22 +8,25 @@
 #include "keyline/fit/chain_data.h"
 #include "keyline/fit/quintic_chain.h"
 #include "keyline/fit/quintic_joints.h"
+#include "keyline/fit/quintic_normal.h"
+#include "keyline/fit/quintic_powers.h"
 
 namespace keyline::fit {
 
-/// Quintics in a row on their way to the points, Gauss–Newton's: least squares of the distances
-/// along the normals and, with a weight, of the curvature's rate.
+/// Quintics in a row on their way to the points, Gauss–Newton's: first least squares of the
+/// distances along the normals, then the least variation of curvature within the tolerance.
 class QuinticSolver {
  public:
   /// Joints at these points of the data, which has to stay.
   QuinticSolver(const ChainData& data, bool closed, const std::vector<std::size_t>& at,
-                double tolerance);
+                const QuinticChainOptions& options);
 
-  /// As near to the points as it goes in so many steps, with that weight on variation().
-  void run(double weight = 0, int most = 12);
+  /// As near to the points as it goes in so many steps.
+  void run(int most = 12);
 
-  /// As calm as the tolerance allows, where run() has come within it: the weight is raised step by
-  /// step, so that every chain starts from one that is nearly as calm.
+  /// As calm as the tolerance allows, where run() has come within it: an interior point method.
+  /// Room within the tolerance has a price beside variation(), which is lowered as the chain
+  /// settles, so that no point is ever farther off.
   void calm();
 
   QuinticChain result() const;
@@ -41,63 +43,80 @@ class QuinticSolver {
     std::size_t piece = 0;
     double t = 0;
   };
-  using Row = Eigen::Matrix<double, 12, 1>;
 
-  /// Normal equations of one piece's unknowns.
-  struct Normal {
-    Eigen::Matrix<double, 12, 12> matrix = Eigen::Matrix<double, 12, 12>::Zero();
-    Row wanted = Row::Zero();
-
-    void add(const Row& row, double value) {
-      matrix.noalias() += row * row.transpose();
-      wanted += value * row;
-    }
+  /// A place of a piece, and its way to the line of the points, which may be so long.
+  struct Beside {
+    std::size_t piece = 0;
+    std::size_t node = 0;
+    core::Vector2 way;
+    double most = 0;
   };
+
   struct State {
     JointedQuintics chain;
     std::vector<Foot> feet;
+    std::vector<QuinticNormal> asked;  ///< by piece, see cost()
+  };
+
+  /// What a chain costs: distances, or room of the tolerance at price 1; and variation().
+  struct Cost {
+    double points = 0;
+    double variation = 0;
+    double gap = 0;  ///< ToleranceRoom's
+    double at(double price) const { return variation + price * points; }
   };
 
   /// Of every point from its foot.
   std::vector<double> distances() const;
 
-  /// run(), points that stay beyond the tolerance pulling harder, until none does; whether.
-  bool run_within(double weight);
+  /// Places of the pieces farther than `from` from the nearest point.
+  std::vector<Beside> beside(const std::vector<JointedQuintic>& pieces, double from) const;
+  std::vector<Beside> strays(const std::vector<JointedQuintic>& pieces) const;
+  bool is_lively(const std::vector<JointedQuintic>& pieces) const;
 
-  /// A place of a piece that lies farther than the tolerance from the line of the points, and the
-  /// way it is too far.
-  struct Stray {
-    std::size_t piece = 0;
-    std::size_t node = 0;
-    core::Vector2 way;
-  };
-  std::vector<Stray> strays() const;
-  bool is_sound() const;
-  double move_feet(int rounds);
-  double off_line() const;
+  /// Of the chain as it is, the feet moved to their places first; what it asks of the unknowns
+  /// stands in `asked` then. Infinite, on the way to a calm chain, where that leaves the tolerance.
+  Cost cost();
+  Cost far_cost(const std::vector<JointedQuintic>& pieces);
+  Cost calm_cost(const std::vector<JointedQuintic>& pieces);
+  QuinticPowers::Passing move_foot(std::size_t i, const std::vector<QuinticPowers>& pieces,
+                                   int rounds);
+  double ask_variation(const std::vector<JointedQuintic>& pieces);
   double off_rest() const;
-  double cost(double weight) {
-    // on the way to a calm chain one round: the next step goes on from there
-    return move_feet(weight > 0 ? 1 : 2) + off_line() + off_rest() +
-           (weight > 0 ? weight * variation() : 0);
-  }
-  void step(double weight, double damping);
-  void add_points(const std::vector<JointedQuintic>& pieces, std::vector<Normal>& parts) const;
-  void add_strays(const std::vector<JointedQuintic>& pieces, std::vector<Normal>& parts) const;
-  void add_variation(double weight, const std::vector<JointedQuintic>& pieces,
-                     std::vector<Normal>& parts) const;
-  void add(std::size_t piece, const Normal& part, Eigen::MatrixXd& a, Eigen::VectorXd& g) const;
-  void solve(Eigen::MatrixXd& a, Eigen::VectorXd& g, double damping);
 
-  /// First unknown of a joint, of a piece. Ends of an open chain hold their place.
+  /// Whether a part of that step was taken: `taken` is how large a one, or 0.
+  struct Progress {
+    double taken = 0;
+    double gained = 0;  ///< share of the cost
+  };
+  Progress try_step(const Eigen::VectorXd& x, Cost& now);
+
+  Eigen::VectorXd step(double damping) const;
+  void add(std::size_t piece, Eigen::MatrixXd& a, Eigen::VectorXd& g) const;
+  void hold(double damping, Eigen::MatrixXd& a, Eigen::VectorXd& g) const;
+  void take(const Eigen::VectorXd& x);
+
+  /// What a squared length counts: at a price it is a share of the tolerance's.
+  double unit() const { return price_ > 0 ? price_ / (rim_ * rim_) : 1; }
+
+  /// What a point asks that its foot moves.
+  void ask(std::size_t i, const QuinticPowers::Passing& at, double weight, double pull);
+
+  /// First unknown of a joint, of a piece. Ends of an open chain hold their place; on the way to a
+  /// calm one those that are free do not.
   int joint_at(std::size_t j) const;
   int piece_at(std::size_t k) const;
   bool held(std::size_t j) const;
 
+  static constexpr double kStiffness = 1e-3;  ///< pull of the lengths to a fifth of the piece
+
   const ChainData& data_;
   double tolerance_;
+  bool free_start_;
+  bool free_end_;
+  double rim_ = 0;  ///< the tolerance of a calm chain, or a little less
   State now_;
-  std::vector<double> pull_;  ///< weights of the points
+  double price_ = 0;          ///< of room within the tolerance; 0: least squares
   std::vector<double> rest_;  ///< a fifth of each piece's length
 };
 

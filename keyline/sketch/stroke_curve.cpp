@@ -21,7 +21,7 @@ void add_line(std::vector<Point2>& points, Point2 p, Point2 q) {
   for (int k = 0; k < steps; ++k) points.push_back(core::mix(p, q, k / static_cast<double>(steps)));
 }
 
-/// Points of a run; its ends are those of its line segments. Near a corner, which the ink rounds,
+/// Points of a run. A corner is where the line segments have it: near it, where the ink is rounded,
 /// the line goes straight on.
 std::vector<Point2> points_of(const SegmentRun& run, const FineStroke& fine) {
   const std::size_t n = fine.points.size();
@@ -29,10 +29,12 @@ std::vector<Point2> points_of(const SegmentRun& run, const FineStroke& fine) {
   for (std::size_t i = run.first; i <= run.last; ++i) part.push_back(fine.points[i % n]);
   if (run.closed) return part;
   const double rounding = 2 + 0.6 * fine.width;
-  const double at_start = fine.closed || run.first > 0 ? rounding : 0.5;
-  const double at_end = fine.closed || run.last + 1 < n ? rounding : 0.5;
-  part.front() = run.vertices.front();
-  part.back() = run.vertices.back();
+  const bool corner_first = fine.closed || run.first > 0;
+  const bool corner_last = fine.closed || run.last + 1 < n;
+  const double at_start = corner_first ? rounding : 0.5;
+  const double at_end = corner_last ? rounding : 0.5;
+  if (corner_first) part.front() = run.vertices.front();
+  if (corner_last) part.back() = run.vertices.back();
   const auto near = [](Point2 p, Point2 end, double reach) {
     return core::distance(p, end) < reach;
   };
@@ -63,7 +65,13 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   const auto part = points_of(run, fine);
   if (part.size() < 4) return pieces;
   const double tolerance = std::max(options.tolerance, options.width_share * fine.width);
-  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed, {tolerance, 48, true});
+  const bool starts = run.first == 0 && !fine.closed;
+  const bool ends = run.last + 1 == fine.points.size() && !fine.closed;
+  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed,
+                                                   {.tolerance = tolerance,
+                                                    .calm = true,
+                                                    .free_start = starts && fine.free_start,
+                                                    .free_end = ends && fine.free_end});
   return chain.within_tolerance ? std::move(chain.pieces) : pieces;
 }
 

@@ -227,7 +227,7 @@ TEST(Sketch, FollowsACurvatureDrawnAsPoints) {
   EXPECT_NE(o.err.find("line 0 moved by up to"), std::string::npos) << o.err;
   const auto error = nlohmann::json::parse(o.out)["strokes"][0]["curvature_error"];
   EXPECT_LT(error["after"], error["before"]);
-  EXPECT_LT(error["after"], 0.1 * 0.0067);  // of the curvature asked for
+  EXPECT_LT(error["after"], 0.15 * 0.0067);  // of the curvature asked for; one quintic
   expect_failure(run_keyline("sketch " + scap + " --target 0,0,0.01 3,1,0.01"), 2,
                  "there are lines 0 to 0");
   expect_failure(run_keyline("sketch " + scap + " --target 0,0,0.01 0,1.5,0.01"), 2, "0 to 1");

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -7,7 +8,9 @@
 #include "keyline/fit/chain_data.h"
 #include "keyline/fit/quintic_chain.h"
 #include "keyline/fit/quintic_joints.h"
+#include "keyline/fit/quintic_normal.h"
 #include "keyline/fit/quintic_rate.h"
+#include "keyline/fit/quintic_room.h"
 #include "keyline/fit/quintic_solver.h"
 
 namespace keyline::fit {
@@ -101,6 +104,22 @@ TEST(CalmChain, PointsAtTheRimOfTheTolerancePullHarder) {
   EXPECT_LT(comb_of(calm.pieces).variation, 1e-2);
 }
 
+/// A straight line whose last point lies 0.4 aside.
+TEST(CalmChain, AFreeEndGoesWhereTheLineDoes) {
+  auto points = drawn(200, 0, [](double) { return 0.0; });
+  points.back().y += 0.4;
+  const QuinticChainOptions held = {.tolerance = 0.5, .calm = true};
+  QuinticChainOptions free = held;
+  free.free_end = true;
+  const QuinticChain exact = fit_quintic_chain(points, false, held);
+  const QuinticChain near = fit_quintic_chain(points, false, free);
+  ASSERT_TRUE(exact.within_tolerance && near.within_tolerance);
+  EXPECT_EQ(exact.pieces.back().control.back(), points.back());
+  EXPECT_EQ(near.pieces.front().control.front(), points.front());
+  EXPECT_LE(core::distance(near.pieces.back().control.back(), points.back()), 0.5);
+  EXPECT_LT(comb_of(near.pieces).variation, 1e-2);
+}
+
 TEST(CalmChain, JointsOfACalmChainStayG2) {
   const auto points = drawn(500, 0.4, [](double s) { return 0.02 * std::sin(s / 40); });
   const auto pieces = fit_quintic_chain(points, false, {0.5, 48, true}).pieces;
@@ -116,11 +135,68 @@ TEST(CalmChain, JointsOfACalmChainStayG2) {
 TEST(QuinticSolver, VariationIsThatOfThePiecesItReturns) {
   const auto points = drawn(300, 0.2, [](double s) { return 0.02 * std::cos(s / 60); });
   const ChainData data = prepare_chain_data(points, false);
-  QuinticSolver solver(data, false, joint_indices(data, 3), 1);
+  QuinticSolver solver(data, false, joint_indices(data, 3), {.tolerance = 1});
   solver.run();
   const Comb comb = comb_of(solver.result().pieces);
   const double scale = std::pow(data.length.back() / comb.length, 3);  // of the data: longer
   EXPECT_NEAR(solver.variation() / (scale * comb.variation), 1, 3e-3);
+}
+
+/// Sums of a few places and a row, beside the same summed one by one in the unknowns.
+TEST(QuinticNormal, GathersWhatEachPlaceAsksFor) {
+  JointedQuintics chain;
+  chain.joints = {{{1, 2}, 0.3, 0.05}, {{20, 9}, 0.9, -0.02}};
+  chain.lengths = {{4, 5, 3.5, 4.5}};
+  const JointedQuintic piece = piece_of(chain, 0);
+  constexpr double kPrice = 3;
+  QuinticNormal sums;
+  QuinticNormal::Matrix wanted_matrix = QuinticNormal::Matrix::Zero();
+  QuinticNormal::Row wanted_row = QuinticNormal::Row::Zero();
+  for (const double t : {0.0, 0.2, 0.55, 1.0}) {
+    const core::Vector2 across = {std::cos(3 * t), std::sin(3 * t)};
+    sums.add_place(t, across, 1 + t, 2 - t);
+    const QuinticRow slopes = sensitivity(piece, place_weights(t));
+    QuinticNormal::Row row;
+    for (std::size_t c = 0; c < 12; ++c) row[static_cast<Eigen::Index>(c)] = dot(slopes[c], across);
+    wanted_matrix += kPrice * (1 + t) * row * row.transpose();
+    wanted_row += kPrice * (2 - t) * row;
+  }
+  const QuinticWeights weights = second_weights(0.4);
+  std::array<core::Vector2, 6> by;
+  for (std::size_t k = 0; k < 6; ++k) by[k] = weights[k] * core::Vector2{0.6, -0.8};
+  sums.add_row(by, 7);
+  const QuinticRow slopes = sensitivity(piece, weights);
+  QuinticNormal::Row row;
+  for (std::size_t c = 0; c < 12; ++c)
+    row[static_cast<Eigen::Index>(c)] = dot(slopes[c], {0.6, -0.8});
+  wanted_matrix += row * row.transpose();
+  wanted_row += 7 * row;
+  QuinticNormal::Matrix matrix;
+  QuinticNormal::Row wanted;
+  sums.gather(piece, kPrice, matrix, wanted);
+  EXPECT_LT((matrix - wanted_matrix).norm(), 1e-12 * wanted_matrix.norm());
+  EXPECT_LT((wanted - wanted_row).norm(), 1e-12 * wanted_row.norm());
+}
+
+/// Slope and second derivative of half the cost, beside differences; many places at once.
+TEST(ToleranceRoom, CostsMinusTheLogarithmOfWhatIsLeft) {
+  const auto cost = [](double d) {
+    ToleranceRoom room;
+    EXPECT_TRUE(room.add(d * d));
+    return room.cost();
+  };
+  for (const double d : {0.1, 0.5, 0.9}) {
+    ToleranceRoom room;
+    ASSERT_TRUE(room.add(d * d));
+    const double h = 1e-4;
+    EXPECT_NEAR(room.pull() * d, (cost(d + h) - cost(d - h)) / (4 * h), 1e-5);
+    EXPECT_NEAR(room.stiffness(), (cost(d + h) - 2 * cost(d) + cost(d - h)) / (2 * h * h), 1e-3);
+    EXPECT_NEAR(room.gap(), 2 * room.pull() * d * (1 - d), 1e-12);
+  }
+  ToleranceRoom room;
+  for (int i = 0; i < 5000; ++i) ASSERT_TRUE(room.add(0.9));
+  EXPECT_NEAR(room.cost(), -5000 * std::log(0.1), 1e-6);
+  EXPECT_FALSE(room.add(1));
 }
 
 /// The value and its change with every unknown, beside differences.

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "keyline/fit/quintic_joints.h"
+
+namespace keyline::fit {
+
+/// A quintic by powers of t, from its first control point: place and slope in one go.
+class QuinticPowers {
+ public:
+  explicit QuinticPowers(const QuinticHandles& h) : start_(h[0]) {
+    constexpr std::array<double, 6> kChoose = {1, 5, 10, 10, 5, 1};
+    std::array<core::Vector2, 6> d;  // differences, of rising order
+    for (std::size_t k = 0; k < 6; ++k) d[k] = h[k] - h[0];
+    for (std::size_t order = 1; order < 6; ++order)
+      for (std::size_t k = 5; k >= order; --k) d[k] = d[k] - d[k - 1];
+    for (std::size_t k = 0; k < 6; ++k) power_[k] = kChoose[k] * d[k];
+  }
+
+  /// From the place at t to a point, and the first derivative there.
+  struct Passing {
+    core::Vector2 off, first;
+  };
+  Passing pass(double t, core::Point2 p) const {
+    core::Vector2 place = power_[5];
+    core::Vector2 first = power_[5];
+    for (std::size_t k = 4; k > 0; --k) {
+      place = t * place + power_[k];
+      first = t * first + place;
+    }
+    return {p - start_ - t * place, first};
+  }
+
+ private:
+  core::Point2 start_;
+  std::array<core::Vector2, 6> power_;
+};
+
+}  // namespace keyline::fit
