@@ -1,8 +1,10 @@
 // keyline-studio: Keyline Studio's server; `keyline studio` executes it.
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <system_error>
 #include <thread>
 
 #include <fcntl.h>
@@ -60,14 +62,32 @@ bool is_loopback(const std::string& address) {
   return address.starts_with("127.") || address == "::1";
 }
 
-/// Blocks the signals that end the program in every thread; one waits for them.
-sigset_t ending_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+/// Where signals that end the program leave a byte. Any thread may get them, also one that a
+/// library started before main, as OpenBLAS does: masks do not keep them from it.
+int told_to_end = -1;
+
+extern "C" void tell_to_end(int) {
+  const int kept = errno;
+  [[maybe_unused]] const auto written = ::write(told_to_end, "", 1);
+  errno = kept;
+}
+
+/// What can be read from once a signal asks to end. Those that are ignored, by nohup, stay so.
+int ending_signals() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "no pipe for signals");
+  told_to_end = ends[1];
+  struct sigaction action{};
+  action.sa_handler = tell_to_end;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before{};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
   std::signal(SIGPIPE, SIG_IGN);
-  return signals;
+  return ends[0];
 }
 
 Settings settings_of(const Options& options, const std::filesystem::path& page) {
@@ -84,7 +104,7 @@ Settings settings_of(const Options& options, const std::filesystem::path& page) 
 }
 
 int serve(const Options& options, const std::filesystem::path& page) {
-  sigset_t signals = ending_signals();
+  const int signals = ending_signals();
   Access access;
   access.token = options.token.empty() ? make_token() : options.token;
   std::unique_ptr<Server> server;  // outlives the works that answer through it
@@ -111,8 +131,8 @@ int serve(const Options& options, const std::filesystem::path& page) {
   std::fflush(stdout);
   if (!options.no_browser) open_browser(url);
   std::jthread ending([&] {
-    int signal = 0;
-    sigwait(&signals, &signal);
+    char byte = 0;
+    while (::read(signals, &byte, 1) < 0 && errno == EINTR) continue;
     studio.stop();
     server->stop();
     std::thread([] {

@@ -2,6 +2,7 @@
 import http.client
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import threading
 import time
 import unittest
 
-from studio_server import KEYLINE, PATIENCE, SEGMENT, SOURCE, TOKEN, Server, ServerTest
+from studio_server import EARLY, KEYLINE, PATIENCE, SEGMENT, SOURCE, TOKEN, Server, ServerTest
 
 
 class StudioServer(ServerTest):
@@ -256,6 +257,13 @@ class StudioStart(unittest.TestCase):
             self.assertEqual(status, 200)
         finally:
             self.assertEqual(server.stop(), 0)
+
+    def test_ends_in_order_whatever_thread_is_told(self):
+        for told in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            with self.subTest(told=told):
+                server = Server(LD_PRELOAD=EARLY)
+                server.process.send_signal(told)
+                self.assertEqual(server.stop(), 0)
 
     def test_ends_when_told_even_at_work(self):
         server = Server()

@@ -1,4 +1,5 @@
-"""Keyline Studio's server started for a test: KEYLINE SOURCE are the test's arguments."""
+"""Keyline Studio's server started for a test: KEYLINE SOURCE EARLY are the test's arguments, EARLY a
+library that starts a thread before main."""
 import http.client
 import json
 import os
@@ -9,20 +10,21 @@ import sys
 import tempfile
 import unittest
 
-KEYLINE, SOURCE = sys.argv[1], sys.argv[2]
+KEYLINE, SOURCE, EARLY = sys.argv[1:4]
 TOKEN = "0123456789abcdef"
 PATIENCE = 300  # seconds: how fast the machine is, is not what is asked
 SEGMENT = {"points": [[0, 0], [2, 0], [3, 1.5]], "alpha": -1}
 
 
 class Server:
-    def __init__(self, *arguments, folder=SOURCE):
+    def __init__(self, *arguments, folder=SOURCE, **surroundings):
         self.state = tempfile.TemporaryDirectory()
         page = os.path.join(self.state.name, "page")
         os.mkdir(page)
         with open(os.path.join(page, "index.html"), "w") as f:
             f.write("<!doctype html><title>page</title>")
-        environment = dict(os.environ, XDG_STATE_HOME=self.state.name, KEYLINE_STUDIO_PAGE=page)
+        environment = dict(os.environ, XDG_STATE_HOME=self.state.name, KEYLINE_STUDIO_PAGE=page,
+                           **surroundings)
         self.log = open(os.path.join(self.state.name, "log"), "w+")
         self.process = subprocess.Popen(
             [KEYLINE, "studio", "--no-browser", "--token", TOKEN, *arguments], cwd=folder,
