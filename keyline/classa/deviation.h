@@ -14,4 +14,7 @@ namespace keyline::classa {
 /// Rigorous up to rounding.
 double deviation_bound(std::span<const curve::Bezier2> row, const curve::Bezier2& q, double wanted);
 
+/// The same of two polynomial Beziers in space, start compared with start and end with end.
+double deviation_bound(const curve::Bezier3& c, const curve::Bezier3& q, double wanted);
+
 }  // namespace keyline::classa

@@ -1,14 +1,13 @@
+#include "keyline/operations/curve_edit_pieces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "keyline/analysis/continuity.h"
 #include "keyline/classa/between_tangents.h"
-#include "keyline/classa/cav.h"
 #include "keyline/classa/deviation.h"
 #include "keyline/core/text.h"
-#include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
 /// A path edited Bezier by Bezier, its joints held: the operation curve.edit_pieces.
@@ -19,105 +18,6 @@ using core::Result;
 using curve::Bezier2;
 using document::Path;
 using document::PlanarCurve;
-
-constexpr int kHighestDegree = 8;  ///< as of the approximation by one Bezier
-
-/// Of the chord, first and last control edge of a target: at coordinates of a thousand chords
-/// rounding still leaves their direction to 2e-9, far below what a joint shows.
-constexpr double kLeastEdge = 1e-4;
-
-struct PiecesRequest {
-  Path curve;
-  double amount = 1;
-  std::optional<double> limit;
-  double alpha_max = classa::kDefaultAlphaMax;
-  std::optional<double> fit_tolerance;
-  static constexpr auto describe() {
-    using Request = PiecesRequest;
-    return core::fields(
-        core::field<&Request::curve>("any planar curve or path, closed or with corners").needed(),
-        core::field<&Request::amount>("0 the given curve to 1 the target")
-            .within(core::from_to(0, 1)),
-        core::field<&Request::limit>("largest departure of a piece; those farther off stay")
-            .in("length")
-            .within(core::at_least(0)),
-        core::field<&Request::alpha_max>("largest rotation, of Tab. 2 and of the plane")
-            .in("radian")
-            .within(core::between(0, core::kPi / 2)),
-        core::field<&Request::fit_tolerance>(
-            "of pieces for what is no polynomial bezier; 0.001 of the size unless given")
-            .in("length")
-            .within(core::kPositive));
-  }
-};
-
-enum class Became { edited, straight, kept };
-constexpr auto choices(const Became*) {
-  return core::words<Became>(
-      {{Became::edited, "edited"}, {Became::straight, "straight"}, {Became::kept, "kept"}});
-}
-
-struct PieceValue {
-  std::optional<int> type;
-  std::optional<double> cav;
-  static constexpr auto describe() {
-    return core::fields(
-        core::field<&PieceValue::type>("1 at the minimum to 5 none; null where it has no value")
-            .null_if_empty(),
-        core::field<&PieceValue::cav>("curve aesthetic value").null_if_empty());
-  }
-};
-
-struct EditedPiece {
-  Became became = Became::kept;
-  int degree = 0;
-  PieceValue before;
-  PieceValue after;
-  double departure = 0;
-  std::optional<std::string> why;
-  static constexpr auto describe() {
-    using Piece = EditedPiece;
-    return core::fields(core::field<&Piece::became>("of the piece"),
-                        core::field<&Piece::degree>("of the Bezier it is now"),
-                        core::field<&Piece::before>("as given"), core::field<&Piece::after>("now"),
-                        core::field<&Piece::departure>("from the given piece").in("length"),
-                        core::field<&Piece::why>("it was kept"));
-  }
-};
-
-/// Joints of an order or more.
-struct JointCount {
-  std::size_t g0 = 0;
-  std::size_t g1 = 0;
-  std::size_t g2 = 0;
-  static constexpr auto describe() {
-    return core::fields(core::field<&JointCount::g0>("that meet"),
-                        core::field<&JointCount::g1>("with one direction"),
-                        core::field<&JointCount::g2>("with one curvature"));
-  }
-};
-
-struct PiecesAnswer {
-  MadeCurve curve;
-  std::vector<EditedPiece> pieces;
-  std::size_t edited = 0;
-  double cav_before = 0;
-  double cav_after = 0;
-  double departure = 0;
-  JointCount joints_before;
-  JointCount joints_after;
-  static constexpr auto describe() {
-    using Answer = PiecesAnswer;
-    return core::fields(core::flattened<&Answer::curve>(),
-                        core::field<&Answer::pieces>("in order along the curve"),
-                        core::field<&Answer::edited>("pieces that were"),
-                        core::field<&Answer::cav_before>("sum over the pieces that have a value"),
-                        core::field<&Answer::cav_after>("the same, now"),
-                        core::field<&Answer::departure>("largest of the pieces").in("length"),
-                        core::field<&Answer::joints_before>("between the pieces, as given"),
-                        core::field<&Answer::joints_after>("now"));
-  }
-};
 
 /// Polynomial Beziers for what is one or can be cut into some; polylines as they stand.
 Result<std::vector<PlanarCurve>> pieces_of(const Path& path, std::optional<double> tolerance) {
@@ -148,7 +48,7 @@ PieceValue place_of(const Bezier2& c, double alpha_max) {
   classa::CavOptions options;
   options.alpha_max = alpha_max;
   const auto value = classa::cav(c, options);
-  return value ? PieceValue{value->type, value->cav} : PieceValue{};
+  return value ? PieceValue{value->type, value->cav, {}} : PieceValue{};
 }
 
 /// The target and the given curve mixed by their control points.
@@ -165,10 +65,10 @@ Bezier2 mixed(const Bezier2& given, const Bezier2& target, double amount) {
 /// The Class A curve between the tangents of the piece, if there is one.
 std::optional<Bezier2> target_of(const Bezier2& c, double alpha_max) {
   const int degree = curve::degree(c);
-  if (degree > kHighestDegree) return std::nullopt;
+  if (degree > kHighestPieceDegree) return std::nullopt;
   classa::BetweenRange range;
   range.lowest_degree = std::max(3, degree);
-  range.highest_degree = kHighestDegree;
+  range.highest_degree = kHighestPieceDegree;
   range.alpha_max = alpha_max;
   const core::Vector2 arriving = curve::unit_tangent(jet(c, 1));
   const auto found = classa::class_a_between(
@@ -192,15 +92,13 @@ EditedPiece edit_piece(Bezier2& c, const PiecesRequest& request) {
   shown.degree = curve::degree(c);
   if (is_straight(c)) {
     shown.became = Became::straight;
-    shown.before = shown.after = {1, 0};
+    shown.before = shown.after = {1, 0, {}};
     return shown;
   }
   shown.before = shown.after = place_of(c, request.alpha_max);
   const auto target = target_of(c, request.alpha_max);
   if (!target) {
-    shown.why =
-        "no Class A curve of degree 3 to 8 between its tangents, with edges of 1e-4 of the chord "
-        "or more";
+    shown.why = kNoTarget;
     return shown;
   }
   Bezier2 moved = mixed(c, *target, request.amount);
@@ -232,10 +130,12 @@ JointCount joints_of(const std::vector<PlanarCurve>& pieces, bool closed) {
 }
 
 Result<PiecesAnswer> run(const PiecesRequest& request, const Context&) {
-  auto pieces = pieces_of(request.curve, request.fit_tolerance);
+  const auto path = planar_path(request.curve);
+  if (!path) return edit_pieces_in_space(request);
+  auto pieces = pieces_of(*path, request.fit_tolerance);
   if (!pieces) return std::unexpected(std::move(pieces.error()));
   PiecesAnswer answer;
-  answer.joints_before = joints_of(*pieces, request.curve.closed);
+  answer.joints_before = joints_of(*pieces, path->closed);
   for (PlanarCurve& c : *pieces) {
     auto* bezier = std::get_if<Bezier2>(&c.value);
     EditedPiece shown;
@@ -243,24 +143,29 @@ Result<PiecesAnswer> run(const PiecesRequest& request, const Context&) {
       shown = edit_piece(*bezier, request);
     else
       shown.why = "a polyline";
-    answer.edited += shown.became == Became::edited;
-    answer.cav_before += shown.before.cav.value_or(0);
-    answer.cav_after += shown.after.cav.value_or(0);
-    answer.departure = std::max(answer.departure, shown.departure);
-    answer.pieces.push_back(std::move(shown));
+    add(answer, std::move(shown));
   }
-  answer.joints_after = joints_of(*pieces, request.curve.closed);
-  answer.curve.curve = simplest({std::move(*pieces), request.curve.closed});
+  answer.joints_after = joints_of(*pieces, path->closed);
+  answer.curve.curve = simplest({std::move(*pieces), path->closed});
   return answer;
 }
 
 }  // namespace
 
+void add(PiecesAnswer& answer, EditedPiece piece) {
+  answer.edited += piece.became == Became::edited;
+  answer.cav_before += piece.before.cav.value_or(0);
+  answer.cav_after += piece.after.cav.value_or(0);
+  answer.departure = std::max(answer.departure, piece.departure);
+  answer.pieces.push_back(std::move(piece));
+}
+
 Operation curve_edit_pieces_operation() {
   return declare<run>(
       {.name = "curve.edit_pieces",
-       .summary = "Takes every Bezier of a path to the Class A curve between its own ends and "
-                  "tangents, so that joints keep their directions; those that have none stay.",
+       .summary = "Takes every Bezier of a path, in the plane or in space, to the Class A curve "
+                  "between its own ends and tangents, so that joints keep their directions; those "
+                  "that have none stay.",
        .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[2,0],[3,1],[3,4]]},
                         "limit":0.5})"}});
 }

@@ -98,10 +98,13 @@ TEST(Edit, CurvesInSpaceGoToTheirMinimum) {
   const Outcome o =
       run_keyline("edit --json " + file + " -o " + made + " -o " + s.path("made.svg"));
   ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_NE(o.err.find("spline left as given"), std::string::npos) << o.err;
   const json all = json::parse(o.out)["curves"];
-  ASSERT_EQ(all.size(), 2U);
-  for (const json& one : all) {
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1]["pieces"].size(), 2U);  // of the spline, each by itself
+  EXPECT_EQ(all[1]["joints_after"]["g1"], 1);
+  for (const json& piece : all[1]["pieces"])
+    EXPECT_TRUE(piece["after"]["monotone"] == "yes" || piece.contains("why")) << piece;
+  for (const json& one : {all[0], all[2]}) {
     EXPECT_EQ(one["before"]["type"], 5);
     EXPECT_EQ(one["after"]["type"], 1);
     const json& points = one["curve"]["points"];
@@ -113,8 +116,10 @@ TEST(Edit, CurvesInSpaceGoToTheirMinimum) {
     for (const json& p : points)  // in the plane of (1, 0, 0) and (22, 14, 9)
       EXPECT_NEAR(14 * p[2].get<double>() - 9 * p[1].get<double>(), 0, 1e-9);
   }
-  EXPECT_EQ(json::parse(run_keyline("convert --json " + made).out)["curves"].size(), 3U);
-  expect_failure(run_keyline("edit " + s.write("spline.json", spline)), 2, "cut the curve");
+  EXPECT_EQ(json::parse(run_keyline("convert --json " + made).out)["curves"].size(),
+            4U);  // pieces in space one by one
+  const std::string rational = spline.substr(0, spline.size() - 1) + R"(,"weights":[1,2,1,1,1]})";
+  expect_failure(run_keyline("edit " + s.write("spline.json", rational)), 2, "without weights");
 }
 
 }  // namespace

@@ -1,0 +1,198 @@
+#include <algorithm>
+
+#include "keyline/analysis/continuity.h"
+#include "keyline/classa/between_in_space.h"
+#include "keyline/classa/deviation.h"
+#include "keyline/classa/farin.h"
+#include "keyline/core/axis.h"
+#include "keyline/core/text.h"
+#include "keyline/operations/curve_edit_pieces.h"
+
+namespace keyline::operations {
+namespace {
+
+using core::Result;
+using core::Vector3;
+using curve::Bezier3;
+using document::SpaceCurve;
+
+/// Of all vertices and control points, the diagonal of their box.
+double size_of(const std::vector<SpaceCurve>& curves) {
+  core::Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const SpaceCurve& c : curves)
+    for (const double from : document::breakpoints(c)) {
+      const core::Point3 p = evaluate(c, from);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  return core::distance(low, high);
+}
+
+std::unexpected<core::Failure> rational() {
+  return core::fail(core::ErrorCode::unsupported,
+                    "a rational curve in space is no row of polynomial Beziers",
+                    "give it without weights", "curve");
+}
+
+/// Polynomial Beziers for what is one or can be cut into some; polylines as they stand.
+Result<std::vector<SpaceCurve>> pieces_of(const std::vector<SpaceCurve>& curves,
+                                          std::optional<double> tolerance) {
+  std::vector<SpaceCurve> all;
+  const auto add = [&all](std::vector<Bezier3> pieces) {
+    for (Bezier3& c : pieces) all.push_back({std::move(c)});
+  };
+  for (const SpaceCurve& c : curves) {
+    if (const auto* spline = std::get_if<curve::BSpline3>(&c.value)) {
+      if (is_rational(*spline)) return rational();
+      add(curve::to_beziers(*spline));
+    } else if (const auto* chain = std::get_if<lac::SpaceChain>(&c.value)) {
+      add(lac::approximate_by_quintics(*chain, tolerance.value_or(1e-3 * lac::arc_length(*chain)))
+              .pieces);
+    } else {
+      const auto* bezier = std::get_if<Bezier3>(&c.value);
+      if (bezier && is_rational(*bezier)) return rational();
+      all.push_back(c);
+    }
+  }
+  return all;
+}
+
+PieceValue value_of(const Bezier3& c, double alpha_max) {
+  classa::CavOptions options;
+  options.alpha_max = alpha_max;
+  PieceValue value;
+  if (const auto found = classa::cav(c, options)) {
+    value.type = found->type;
+    value.cav = found->cav;
+  }
+  value.monotone = verdict_of(classa::certify_monotone_curvature(c).answer);
+  return value;
+}
+
+bool is_straight(const Bezier3& c) {
+  const Vector3 chord = c.control.back() - c.control.front();
+  const double most = 1e-9 * norm(chord) * norm(chord);
+  return std::all_of(c.control.begin(), c.control.end(), [&](const core::Point3& p) {
+    return norm(cross(chord, p - c.control.front())) <= most;
+  });
+}
+
+/// The Class A curve between the tangents of the piece, if there is one.
+std::optional<Bezier3> target_of(const Bezier3& c, double alpha_max) {
+  const int degree = curve::degree(c);
+  if (degree > kHighestPieceDegree) return std::nullopt;
+  classa::BetweenRange range;
+  range.lowest_degree = std::max(3, degree);
+  range.highest_degree = kHighestPieceDegree;
+  range.alpha_max = alpha_max;
+  const Vector3 leaving = jet(c, 0).first;
+  const Vector3 arriving = jet(c, 1).first;
+  if (!(norm(leaving) > 0) || !(norm(arriving) > 0)) return std::nullopt;
+  auto target = classa::class_a_between(
+      classa::SpaceEndTangents{c.control.front(), leaving, c.control.back(), arriving}, range);
+  if (!target) return std::nullopt;
+  auto& points = target->control;
+  const double first = core::distance(points[0], points[1]);
+  const double edge = core::distance(points[points.size() - 2], points.back());
+  if (std::min(first, edge) < kLeastEdge * core::distance(points.front(), points.back()))
+    return std::nullopt;
+  // What the end misses by would turn a short edge: it is set along its tangent.
+  points.back() = c.control.back();
+  points[points.size() - 2] = points.back() - (edge / norm(arriving)) * arriving;
+  return target;
+}
+
+Bezier3 mixed(const Bezier3& given, const Bezier3& target, double amount) {
+  Bezier3 c = target;
+  const Bezier3 from = curve::elevate_degree(given, curve::degree(target) - curve::degree(given));
+  for (std::size_t i = 0; i < c.control.size(); ++i)
+    c.control[i] = core::mix(from.control[i], c.control[i], amount);
+  c.control.front() = given.control.front();
+  c.control.back() = given.control.back();
+  return c;
+}
+
+/// Edits one piece in place.
+EditedPiece edit_piece(Bezier3& c, const PiecesRequest& request) {
+  EditedPiece shown;
+  shown.degree = curve::degree(c);
+  shown.before = shown.after = value_of(c, request.alpha_max);
+  if (is_straight(c)) {
+    shown.became = Became::straight;
+    return shown;
+  }
+  const auto target = target_of(c, request.alpha_max);
+  if (!target) {
+    shown.why = kNoTarget;
+    return shown;
+  }
+  Bezier3 moved = mixed(c, *target, request.amount);
+  const double away =
+      classa::deviation_bound(c, moved, 1e-3 * core::distance(c.control.front(), c.control.back()));
+  if (request.limit && away > *request.limit) {
+    shown.why = "it would depart by " + core::number_text(away, 4);
+    return shown;
+  }
+  shown.became = Became::edited;
+  shown.departure = away;
+  shown.degree = curve::degree(moved);
+  shown.after = value_of(moved, request.alpha_max);
+  c = std::move(moved);
+  return shown;
+}
+
+Vector3 curvature_vector(const curve::Jet3& j) {
+  const double square = dot(j.first, j.first);
+  return cross(cross(j.first, j.second), j.first) / (square * square);
+}
+
+/// As analysis::continuity, with curvature as a vector: its plane counts too.
+JointCount joints_of(const std::vector<SpaceCurve>& pieces, bool closed, double size) {
+  constexpr analysis::ContinuityTolerance kTolerance;
+  JointCount count;
+  const std::size_t n = pieces.size();
+  for (std::size_t i = 0; n > 1 && i + (closed ? 0 : 1) < n; ++i) {
+    const curve::Jet3 end = jet(pieces[i], 1);
+    const curve::Jet3 start = jet(pieces[(i + 1) % n], 0);
+    if (core::distance(end.point, start.point) > kTolerance.gap) continue;
+    ++count.g0;
+    if (!(core::angle_between(end.first, start.first) <= kTolerance.angle)) continue;
+    ++count.g1;
+    const Vector3 before = curvature_vector(end), after = curvature_vector(start);
+    const double most = std::max({norm(before), norm(after), 1 / size});
+    count.g2 += norm(after - before) <= kTolerance.curvature * most;
+  }
+  return count;
+}
+
+}  // namespace
+
+Result<PiecesAnswer> edit_pieces_in_space(const PiecesRequest& request) {
+  SpacePath path;
+  if (const auto* one = std::get_if<SpaceCurve>(&request.curve))
+    path.curves = {*one};
+  else
+    path = std::get<SpacePath>(request.curve);
+  auto pieces = pieces_of(path.curves, request.fit_tolerance);
+  if (!pieces) return std::unexpected(std::move(pieces.error()));
+  const double size = size_of(*pieces);
+  PiecesAnswer answer;
+  answer.joints_before = joints_of(*pieces, path.closed, size);
+  for (SpaceCurve& c : *pieces) {
+    if (auto* bezier = std::get_if<Bezier3>(&c.value)) {
+      add(answer, edit_piece(*bezier, request));
+      continue;
+    }
+    EditedPiece shown;
+    shown.why = "a polyline";
+    add(answer, std::move(shown));
+  }
+  answer.joints_after = joints_of(*pieces, path.closed, size);
+  if (pieces->size() == 1)
+    answer.curve.curve = std::move(pieces->front());
+  else
+    answer.curve.curve = SpacePath{std::move(*pieces), path.closed};
+  return answer;
+}
+
+}  // namespace keyline::operations
