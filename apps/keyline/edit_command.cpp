@@ -78,6 +78,13 @@ std::string pieces_text(const std::string& name, const json& result) {
     text += fmt::format("joints {}  G1 {} to {}  G2 {} to {}\n", before["g0"].get<int>(),
                         before["g1"].get<int>(), after["g1"].get<int>(), before["g2"].get<int>(),
                         after["g2"].get<int>());
+  const auto one_way = [&](const char* when) {
+    return std::ranges::count_if(
+        pieces, [&](const json& piece) { return piece[when].value("monotone", json()) == "yes"; });
+  };
+  if (std::ranges::any_of(pieces, [](const json& p) { return p["before"].contains("monotone"); }))
+    text += fmt::format("curvature runs one way in {} to {} pieces\n", one_way("before"),
+                        one_way("after"));
   std::map<std::string, int> kept;
   for (const json& piece : pieces)
     if (piece.contains("why")) ++kept[piece["why"].get<std::string>()];
@@ -99,7 +106,8 @@ struct EditedCurves {
 /// tolerance was asked for, or the curve is closed.
 bool pieces_may_do(const json& request, const core::Failure& why) {
   if (request.contains("fit_tolerance") || request.contains("target")) return false;
-  if (why.code == core::ErrorCode::unsupported) return false;  // in space
+  // A spline of several pieces in space.
+  if (why.code == core::ErrorCode::unsupported) return why.path == option_name("curve");
   return why.path == option_name("fit_tolerance") ||
          (why.path == option_name("curve") && request["curve"]["type"] != "bezier");
 }
@@ -204,8 +212,9 @@ std::string as_given_text(const std::vector<json>& edits, const json& joints) {
   const bool wanted = std::ranges::any_of(
       edits, [](const json& edit) { return edit["before"]["sav"].get<double>() > 0; });
   return stays && wanted && joints["before"]["joints"].get<int>() > 0
-             ? "all as given: nothing within the limits lowers SAV and keeps the joints; "
-               "--joints G1 or free holds less\n"
+             ? "all as given: nothing within the limit lowers SAV and keeps the joints; --limit "
+               "may "
+               "allow more, --joints G1 or free holds less\n"
              : "";
 }
 

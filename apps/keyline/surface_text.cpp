@@ -74,11 +74,19 @@ std::string tradeoff_text(const json& found) {
   return text;
 }
 
+std::string limit_text(const json& r) {
+  return r["limit"].is_number()
+             ? fmt::format("limit {:.4g} (a hundredth of the size unless --limit says otherwise)\n",
+                           r["limit"].get<double>())
+             : "";
+}
+
 std::string one_patch_text(const json& r) {
   std::string text = fmt::format("SAV {:.5g} to {:.5g}  departure {:.4g}  target {} ({:.3g} %)\n",
                                  r["before"]["sav"].get<double>(), r["after"]["sav"].get<double>(),
                                  r["departure"].get<double>(), r["target"].get<std::string>(),
                                  100 * r["amount"].get<double>());
+  text += limit_text(r);
   text += tradeoff_text(r["tradeoff"]);
   for (const json& m : r["missed"])
     text += fmt::format("{:>31} not found: {}, {}\n", m["target"].get<std::string>(),
@@ -94,6 +102,7 @@ std::string many_patches_text(const json& r) {
   std::string text = fmt::format("{} patches  SAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
                                  patches.size(), r["before"]["sav"].get<double>(),
                                  r["after"]["sav"].get<double>(), r["departure"].get<double>());
+  text += limit_text(r);
   if (const int lost = r["joints"]["lost"].get<int>(); lost > 0)
     text += fmt::format("{} of {} joints lost their order\n", lost,
                         r["joints"]["before"]["joints"].get<int>());
@@ -102,8 +111,8 @@ std::string many_patches_text(const json& r) {
                         r["sav_apart"].get<double>());
   if (r["departure"].get<double>() == 0)
     text +=
-        "as given: nothing of less SAV was found that holds the joints; --joints G1 or free holds "
-        "less of them\n";
+        "as given: nothing of less SAV was found within the limit that holds the joints; --limit "
+        "may allow more, --joints G1 or free holds less of them\n";
   if (r.contains("tradeoff")) text += tradeoff_text(r["tradeoff"]);
   text += fmt::format("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure",
                       "target");

@@ -55,20 +55,44 @@ SurfaceEditAnswer answer_of_one(const surface::EditResult& edited) {
 
 Result<SurfaceEditAnswer> run(const SurfaceEditRequest& request, const Context& context) {
   const bool several = surface::patches_of(request.surface).patches.size() > 1;
-  surface::EditOptions options = surface_edit_options(request.options, several);
+  surface::EditOptions options =
+      surface_edit_options(request.options, std::span(&request.surface, 1), several);
   options.progress = context.progress;
   const auto edit = surface::edit_surface(request.surface, options, context.threads);
   if (!edit) return std::unexpected(edit.error());
-  return surface_edit_answer(*edit);
+  return surface_edit_answer(*edit, options);
 }
 
 }  // namespace
 
-surface::EditOptions surface_edit_options(const SurfaceEditOptions& given, bool several) {
+namespace {
+
+/// Unasked no surface goes farther than the end of a curve may miss its minimum's unasked
+/// (curve.cav's end_tolerance).
+constexpr double kUsualShare = 0.01;  // of the size
+
+double size_of(std::span<const surface::Surface> all) {
+  surface::Net points;
+  for (const surface::Surface& s : all) {
+    const auto& own = surface::net_of(s).points;
+    points.points.insert(points.points.end(), own.begin(), own.end());
+  }
+  return surface::extent(points);
+}
+
+}  // namespace
+
+surface::EditOptions surface_edit_options(const SurfaceEditOptions& given,
+                                          std::span<const surface::Surface> all, bool several) {
   surface::EditOptions options;
   options.keep = given.keep.value_or(several ? surface::Keep::joints : surface::Keep::start);
   options.amount = given.amount;
-  options.limit = given.limit;
+  if (!given.limit) {
+    options.limit = kUsualShare * size_of(all);
+    options.part_of_the_way = false;
+  } else if (const double* limit = std::get_if<double>(&*given.limit)) {
+    options.limit = *limit;
+  }
   options.alpha_max = given.alpha_max;
   options.end_tolerance = given.end_tolerance;
   options.conditions = given.conditions;
@@ -85,14 +109,17 @@ JointsShown shown(const surface::JointSummary& joints) {
           {joints.zebra.jump, joints.zebra.mean_jump, joints.zebra.turn, joints.zebra.mean_turn}};
 }
 
-SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit) {
+SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit,
+                                      const surface::EditOptions& options) {
   const surface::PatchesEdit& all = edit.edited;
   if (all.patches.size() == 1) {
     SurfaceEditAnswer answer = answer_of_one(*all.patches.front().result);
+    answer.limit = options.limit;
     answer.edit = edit;
     return answer;
   }
   SurfaceEditAnswer answer;
+  answer.limit = options.limit;
   answer.before = shown(values_before(edit));
   answer.after = shown(values_after(edit));
   answer.departure = all.departure;

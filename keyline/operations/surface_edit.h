@@ -6,11 +6,15 @@
 /// Class A editing of a surface: the operation surface.edit.
 namespace keyline::operations {
 
+/// For a limit: as far as the target is.
+enum class NoLimit { none };
+constexpr auto choices(const NoLimit*) { return core::words<NoLimit>({{NoLimit::none, "none"}}); }
+
 /// How surfaces are edited.
 struct SurfaceEditOptions {
   std::optional<surface::Keep> keep;
   double amount = 1;
-  std::optional<double> limit;
+  std::optional<std::variant<double, NoLimit>> limit;
   double alpha_max = classa::kDefaultAlphaMax;
   double end_tolerance = 0;
   std::vector<surface::CurveCondition> conditions;
@@ -23,7 +27,11 @@ struct SurfaceEditOptions {
             "stay, but where joints are held those in which patches meet move together; the "
             "default of several) or boundary"),
         core::field<&Request::amount>("0 as given to 1 the target").within(core::from_to(0, 1)),
-        core::field<&Request::limit>("largest departure from the given surface")
+        core::field<&Request::limit>("largest departure from the given surfaces, or \"none\"; a "
+                                     "hundredth of their size (the "
+                                     "diagonal of the box around them) unless given: then what "
+                                     "would go farther stays as given, "
+                                     "where a length given is used up by going part of the way")
             .in("length")
             .within(core::at_least(0)),
         core::field<&Request::alpha_max>("largest rotation, as in surface.sav")
@@ -163,6 +171,7 @@ struct SurfaceEditAnswer {
   SurfaceValueShown before;
   SurfaceValueShown after;
   double departure = 0;
+  std::optional<double> limit;
   std::optional<double> amount;
   std::optional<std::string> target;
   std::optional<std::vector<TradeOffShown>> tradeoff;
@@ -183,6 +192,9 @@ struct SurfaceEditAnswer {
         core::field<&Answer::before>("value of the given surface"),
         core::field<&Answer::after>("value of the edited one"),
         core::field<&Answer::departure>("largest, from the given surface").in("length"),
+        core::field<&Answer::limit>("of the departure, as used; null: none")
+            .in("length")
+            .null_if_empty(),
         core::field<&Answer::amount>("as used, of one patch"),
         core::field<&Answer::target>("that was taken, of one patch"),
         core::field<&Answer::tradeoff>(
@@ -195,10 +207,12 @@ struct SurfaceEditAnswer {
             "with joints held at a price: what each patch for itself would come to"));
   }
 };
-SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit);
+SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit,
+                                      const surface::EditOptions& options);
 
-/// The options of room surface; `several`: there are several patches.
-surface::EditOptions surface_edit_options(const SurfaceEditOptions& given, bool several);
+/// The options of room surface for all these surfaces; `several`: there are several patches.
+surface::EditOptions surface_edit_options(const SurfaceEditOptions& given,
+                                          std::span<const surface::Surface> all, bool several);
 
 /// One of several surfaces: edited, or why it stays as it is.
 struct OneOfSurfaces {

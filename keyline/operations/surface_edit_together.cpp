@@ -54,7 +54,7 @@ Result<SurfaceEdit> taken(SurfaceEdit& edit) {
 /// there is one alone.
 std::vector<SurfaceEdit> as_one_problem(const TogetherRequest& request, const Context& context) {
   if (request.surfaces.size() < 2) return {};
-  surface::EditOptions options = surface_edit_options(request.options, true);
+  surface::EditOptions options = surface_edit_options(request.options, request.surfaces, true);
   options.progress = core::part_of(context.progress, 0, 0.5);
   auto edits =
       surface::edit_surfaces(request.surfaces, options, context.threads, {}, held(request.joints));
@@ -66,7 +66,7 @@ Result<SurfaceEdit> alone(const TogetherRequest& request, std::size_t i, const C
   const auto at = static_cast<double>(i);
   const surface::Surface& one = request.surfaces[i];
   const bool several = request.surfaces.size() > 1 || surface::patches_of(one).patches.size() > 1;
-  surface::EditOptions options = surface_edit_options(request.options, several);
+  surface::EditOptions options = surface_edit_options(request.options, request.surfaces, several);
   options.progress = core::part_of(context.progress, at / count, (at + 1) / count);
   return surface::edit_surface(one, options, context.threads, {}, held(request.joints));
 }
@@ -96,6 +96,7 @@ JointsChange joints_between(const std::vector<OneOfSurfaces>& all, surface::Hold
 /// One that cannot be edited stays as given among others; alone it is a failure.
 Result<SurfacesEditAnswer> run(const TogetherRequest& request, const Context& context) {
   std::vector<SurfaceEdit> together = as_one_problem(request, context);
+  const auto used = surface_edit_options(request.options, request.surfaces, true);
   SurfacesEditAnswer answer;
   std::optional<core::Failure> failure;
   bool any = false;
@@ -103,7 +104,7 @@ Result<SurfacesEditAnswer> run(const TogetherRequest& request, const Context& co
     auto edit = together.empty() ? alone(request, i, context) : taken(together[i]);
     OneOfSurfaces one;
     if (edit) {
-      one.edit = surface_edit_answer(*edit);
+      one.edit = surface_edit_answer(*edit, used);
       any = true;
     } else if (edit.error().code == core::ErrorCode::cancelled) {
       return std::unexpected(edit.error());

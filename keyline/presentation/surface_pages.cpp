@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/text.h"
 #include "keyline/operations/surface_edit.h"
 #include "keyline/presentation/encode.h"
 #include "keyline/presentation/fair_report.h"
@@ -88,6 +89,7 @@ struct Edited {
   std::string name;
   surface::Surface given;
   surface::SurfaceEdit edit;
+  std::optional<double> limit;
 
   /// Where the surface is one patch.
   const surface::EditResult* one() const {
@@ -101,7 +103,7 @@ std::vector<Edited> edited_of(const std::vector<operations::NamedSurfaceValue>& 
   std::vector<Edited> all;
   for (std::size_t i = 0; i < given.size(); ++i)
     if (const auto& edit = answer.surfaces[i].edit)
-      all.push_back({given[i].name, given[i].surface, *edit->edit});
+      all.push_back({given[i].name, given[i].surface, *edit->edit, edit->limit});
   return all;
 }
 
@@ -124,6 +126,9 @@ Result<Report> report_of(const std::vector<Edited>& all, const ReportOptions& gi
     auto made = e.one() ? surface_edit_report(e.edit.grid.patches.front(), *e.one(), options)
                         : surface_edit_report(e.given, e.edit, options);
     if (!made) return made;
+    made->numbers.push_back({"Limit of the departure",
+                             e.limit ? core::number_text(*e.limit, 4) : "none",
+                             "a hundredth of the size unless told"});
     reports.push_back(std::move(*made));
   }
   return joined_report(reports, "Edited surfaces");

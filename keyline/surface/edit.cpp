@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/text.h"
 #include "keyline/surface/departure.h"
 #include "keyline/surface/edit_targets.h"
 #include "keyline/surface/reduce.h"
+#include "keyline/surface/turn_over.h"
 
 namespace keyline::surface {
 
@@ -127,6 +129,10 @@ void add_candidates(const BezierSurface& given, const detail::EditTask& task,
       continue;
     }
     BezierSurface moved{target.net, {}};
+    if (turns_over(given, moved)) {
+      missed.push_back({prefix + target.name, "the patch", "its normal would turn over"});
+      continue;
+    }
     const auto value = value_of(moved, task);
     if (!value) continue;
     const double away = departure_bound(given, moved);
@@ -181,6 +187,9 @@ Result<void> slide(const BezierSurface& s, const Candidate& target, const detail
   if (options.limit)
     result.amount = amount_within(s, target.surface, *options.limit, options.amount);
   result.surface = blend(s, target.surface, result.amount);
+  if (turns_over(s, result.surface))
+    return fail(ErrorCode::undrawable, "the patch would turn over on the way to its target",
+                "go the whole way, or keep less", "amount");
   const Net& net = result.surface.net;
   const bool lower = net.rows != s.net.rows || net.columns != s.net.columns;
   auto after = lower ? value_of(result.surface, {net, options, conditions_by_curve({}, net)})
@@ -209,7 +218,11 @@ Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
   if (all.empty() && (options.conditions.empty() || !given_will_do))
     return nothing_found(result, !options.conditions.empty());
   const Candidate* best = best_of(all, options.limit);
-  if (!best && !all.empty()) best = &all.front();
+  if (!best && !all.empty() && options.part_of_the_way) best = &all.front();
+  if (!best && !given_will_do)
+    return fail(ErrorCode::undrawable, "no net that meets the conditions lies within the limit",
+                "allow a departure of " + core::number_text(all.front().tradeoff.departure, 4),
+                "limit");
   if (!best || (given_will_do && best->tradeoff.sav >= before->sav)) return result;
   if (auto done = slide(s, *best, task, result); !done) return std::unexpected(done.error());
   return result;

@@ -27,6 +27,8 @@ struct EditOptions {
   Keep keep = Keep::start;
   double amount = 1;                 ///< 0 the given net … 1 the target, control points between
   std::optional<double> limit = {};  ///< largest departure (a bound), in the surface's unit
+  /// Where no target lies within the limit: as far towards the nearest as it allows; or as given.
+  bool part_of_the_way = true;
   std::optional<double> end_tolerance = 0;  ///< of each curve's minimum, as in CavOptions; with 0 a
                                             ///< curve at its own minimum scores 0 exactly
   double alpha_max = classa::kDefaultAlphaMax;
@@ -77,15 +79,16 @@ struct EditResult {
 /// the targets of the nearest bicubic patch stand beside, "bicubic, …". Such a target, taken whole,
 /// comes with its own degrees and network curves.
 /// The target of least SAV within the limit is taken, the nearer one of equals; where none lies
-/// within the limit, the nearest of them as far as the limit allows.
+/// within the limit, the nearest of them as far as the limit allows (part_of_the_way). No target
+/// and no part of the way to one turns the patch over (turn_over.h).
 ///
 /// Conditions hold for every target (up to 1e-6) and set the minima the values are measured from;
 /// a curve that has no minimum within its ranges is valued as without them.
 ///
 /// Errors: as sav and validate(conditions); bad_input for amount outside [0, 1], a limit that is
 /// negative or not finite, a row or column with an edge of no length; undrawable where no target
-/// was found, with the curves and conditions that are in the way and the nearest that exists;
-/// cancelled.
+/// was found (within the limit, where the given patch does not meet the conditions), with the
+/// curves and conditions that are in the way and the nearest that exists; cancelled.
 core::Result<EditResult> edit(const BezierSurface& s, const EditOptions& options = {});
 
 /// The result of an edit of `s` that was moved on to another net of the same degrees: value,

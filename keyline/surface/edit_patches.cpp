@@ -48,19 +48,21 @@ core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
   if (patches.empty())
     return fail(ErrorCode::bad_input, "there is no patch to edit", "give one or more", "surface");
   PatchesEdit all;
-  all.patches = detail::edit_each(patches, options, threads);
+  all.joints = joints_of(patches, 10 * tolerance.gap);
+  const bool held = hold != HoldJoints::free && !all.joints.empty();
+  EditOptions own = options;
+  own.part_of_the_way |= held;  // all go together then, and only where it pays
+  all.patches = detail::edit_each(patches, own, threads);
   if (options.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
   if (std::none_of(all.patches.begin(), all.patches.end(),
                    [](const PatchEdit& p) { return p.result.has_value(); }))
     return std::unexpected(all.patches.front().why);
   for (std::size_t i = 0; i < patches.size(); ++i)
     all.surfaces.push_back(all.patches[i].result ? all.patches[i].result->surface : patches[i]);
-  all.joints = joints_of(patches, 10 * tolerance.gap);
   all.before = measure_joints(all.joints, patches, tolerance);
   all.sav_before = sum_of(all.patches, &EditResult::before);
   all.sav_apart = sum_of(all.patches, &EditResult::after);
-  if (hold != HoldJoints::free && !all.joints.empty())
-    detail::edit_as_one({patches, options, threads, tolerance, hold}, all);
+  if (held) detail::edit_as_one({patches, own, threads, tolerance, hold}, all);
   all.lost = lost_orders(all.joints, patches, all.surfaces, order_of(hold), tolerance);
   if (options.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
   all.sav_after = sum_of(all.patches, &EditResult::after);

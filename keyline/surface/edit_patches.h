@@ -32,7 +32,7 @@ struct PatchesEdit {
   JointSummary before;
   JointSummary after;
   std::size_t lost = 0;    ///< joints whose order is lower now, of orders up to order_of(hold)
-  std::size_t folded = 0;  ///< patches whose normal turns over (turn_over.h): joints let go alone
+  std::size_t folded = 0;  ///< patches whose normal turns over (turn_over.h)
   std::size_t turned = 0;  ///< joints at which a zebra turns farther (turned_farther)
   double fold_growth = 0;  ///< largest, of joints that meet before and after, radians
   double departure = 0;    ///< largest of all

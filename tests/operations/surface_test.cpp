@@ -170,7 +170,8 @@ TEST(SurfaceOperations, SavOfASplineGoesByPatch) {
 }
 
 TEST(SurfaceOperations, EditBringsSavDownAndSaysByHowMuchItDeparts) {
-  const json r = result_of({{"op", "surface.edit"}, {"surface", bicubic(5)}});
+  const json r = result_of({{"op", "surface.edit"}, {"surface", bicubic(5)}, {"limit", "none"}});
+  EXPECT_TRUE(r["limit"].is_null());
   EXPECT_GT(r["before"]["sav"].get<double>(), 100);
   EXPECT_LT(r["after"]["sav"].get<double>(), 1e-5);
   EXPECT_GT(r["departure"].get<double>(), 0);
@@ -179,6 +180,42 @@ TEST(SurfaceOperations, EditBringsSavDownAndSaysByHowMuchItDeparts) {
   EXPECT_LE(again["sav"].get<double>(), 1);
   EXPECT_EQ(error_of({{"op", "surface.edit"}, {"surface", bicubic(5)}, {"keep", "all"}})["path"],
             "keep");
+}
+
+/// Diagonal of the box around a net.
+double diagonal(const json& surface) {
+  std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const json& row : surface["points"])
+    for (const json& p : row)
+      for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], p[i].get<double>());
+        high[i] = std::max(high[i], p[i].get<double>());
+      }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+TEST(SurfaceOperations, EditGoesNoFartherThanAHundredthUnasked) {
+  const json patch = bicubic(5);
+  const double size = diagonal(patch);
+  const json r = result_of({{"op", "surface.edit"}, {"surface", patch}});
+  EXPECT_NEAR(r["limit"].get<double>(), 0.01 * size, 1e-12 * size);
+  EXPECT_LE(r["departure"].get<double>(), 0.01 * size);
+  EXPECT_LT(r["after"]["sav"].get<double>(), r["before"]["sav"].get<double>());
+  EXPECT_GT(r["tradeoff"].back()["departure"].get<double>(), 0.01 * size);  // still told
+  // What is farther off than that stays; of a length that is given all is used.
+  const json wild = bicubic(14);
+  const json stays = result_of({{"op", "surface.edit"}, {"surface", wild}});
+  EXPECT_EQ(stays["departure"], 0);
+  EXPECT_EQ(stays["surface"], wild);
+  const double given = 0.01 * diagonal(wild);
+  const json goes = result_of({{"op", "surface.edit"}, {"surface", wild}, {"limit", given}});
+  EXPECT_GT(goes["departure"].get<double>(), 0.9 * given);
+  EXPECT_LE(goes["departure"].get<double>(), given);
+  const json both = result_of({{"op", "surface.edit_together"}, {"surfaces", {patch, wild}}});
+  for (const json& one : both["surfaces"])
+    EXPECT_LE(one["edit"]["departure"].get<double>(), one["edit"]["limit"].get<double>());
+  EXPECT_EQ(error_of({{"op", "surface.edit"}, {"surface", patch}, {"limit", "far"}})["path"],
+            "limit");
 }
 
 TEST(SurfaceOperations, EditOfASplineGoesByPatch) {
@@ -213,7 +250,7 @@ TEST(SurfaceOperations, EditOfASplineGoesByPatch) {
 }
 
 TEST(SurfaceOperations, EditTakesConditionsPerCurve) {
-  json request{{"op", "surface.edit"}, {"surface", bicubic(5)}};
+  json request{{"op", "surface.edit"}, {"surface", bicubic(5)}, {"limit", "none"}};
   request["conditions"] = {{{"curve", "A1"}, {"s", {1.2, 1.3}}}, {{"alpha", {0.0, 1.0}}}};
   const json r = result_of(request);
   EXPECT_LE(r["after"]["curves"][0]["s"].get<double>(), 1.3 + 1e-6);

@@ -202,5 +202,41 @@ TEST(SurfaceEdit, DepartureIsABoundAndTheLimitHolds) {
   }
 }
 
+core::Vector3 normal_at(const BezierSurface& s, double u, double v) {
+  constexpr double h = 1e-5;
+  const core::Vector3 along = evaluate(s, u + h, v) - evaluate(s, u - h, v);
+  return cross(along, evaluate(s, u, v + h) - evaluate(s, u, v - h));
+}
+
+// Of patches pushed far out of shape some targets fold over themselves.
+TEST(SurfaceEdit, TurnsNoPatchOver) {
+  int asked = 0;
+  int told = 0;
+  for (int n = 0; n < 8; ++n) {
+    BezierSurface s = crowned_patch();
+    for (std::size_t k = 0; k < s.net.points.size(); ++k) {
+      const double a = 1.3 * n + 2.3 * static_cast<double>(k);
+      s.net.points[k] =
+          s.net.points[k] + 45 * core::Vector3{std::sin(a), std::cos(1.7 * a), std::sin(2.9 * a)};
+    }
+    for (const Keep keep : {Keep::start, Keep::corners, Keep::joints}) {
+      EditOptions options;
+      options.keep = keep;
+      const auto r = edit(s, options);
+      if (!r) continue;
+      ++asked;
+      SCOPED_TRACE(std::to_string(n) + ' ' + r->target);
+      for (const MissedTarget& m : r->missed) told += m.why == "its normal would turn over";
+      for (int i = 1; i < 16; ++i)
+        for (int j = 1; j < 16; ++j) {
+          const double u = i / 16.0, v = j / 16.0;
+          ASSERT_GE(core::dot(normal_at(s, u, v), normal_at(r->surface, u, v)), 0);
+        }
+    }
+  }
+  EXPECT_GT(asked, 6);
+  EXPECT_GT(told, 1);
+}
+
 }  // namespace
 }  // namespace keyline::surface
