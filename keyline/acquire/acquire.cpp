@@ -81,9 +81,10 @@ bool settle_line(Working& work, const AcquireOptions& options, KeyLine& line) {
 }
 
 /// Closes the outline as its ends ask for: drops the repeated first point, or adds it at a corner.
-void settle_ends(Working& work, std::size_t stride, const AcquireOptions& options, KeyLine& line) {
+void settle_ends(Working& work, std::size_t stride, double noise, const AcquireOptions& options,
+                 KeyLine& line) {
   if (settle_line(work, options, line)) return;
-  Ends ends = recognise_ends(work.points, stride, line.report.reordered || work.scattered);
+  Ends ends = recognise_ends(work.points, stride, line.report.reordered || work.scattered, noise);
   if (options.closed) {
     const bool repeated = ends == Ends::closed_repeated || ends == Ends::corner_repeated;
     ends = *options.closed ? (repeated ? Ends::closed_repeated : Ends::closed) : Ends::apart;
@@ -222,7 +223,7 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   };
   const double noise = noise_now(texture_now());
   if (options.remove_outliers) drop_outliers(work, noise, stride, line);
-  settle_ends(work, stride, options, line);
+  settle_ends(work, stride, noise, options, line);
   const Texture texture = texture_now();
   line.noise = noise_now(texture);
   note_texture(work, texture, line);

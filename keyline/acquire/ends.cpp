@@ -12,6 +12,8 @@ namespace {
 constexpr double kAcross = 0.8;      // radians
 constexpr double kOften = 4.6;       // -ln(0.01): one loop in a hundred has a wider gap
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
+constexpr double kClearance = 4;     // and less than so many standard errors of the turn there
+constexpr double kByChance = 2;      // the same of the turns beside it, which no corner is beside
 
 /// Largest of the steps near both ends.
 double spacing_at_ends(std::span<const core::Point2> points, std::size_t stride) {
@@ -57,7 +59,8 @@ double widest_gap_by_chance(std::size_t n) {
 
 }  // namespace
 
-Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bool scattered) {
+Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bool scattered,
+                    double noise) {
   const std::size_t n = points.size();
   const std::size_t s = std::max<std::size_t>(stride, 1);
   if (n < 4 || n <= 6 * s) return Ends::apart;
@@ -77,7 +80,11 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bo
   const double seam = turn(back(1), back(0), at(0), at(1));
   const double beside = std::max(std::abs(turn(at(0), at(1), at(1), at(2))),
                                  std::abs(turn(back(2), back(1), back(1), back(0))));
-  const bool corner = std::abs(seam) >= kSeamCorner && std::abs(seam) >= 3 * beside;
+  // Of steps without a common end, and of the next ones, which have one that counts twice.
+  const double error = 2 * noise / spacing;
+  const double sure = beside - kByChance * std::sqrt(1.5) * error;
+  const bool corner =
+      std::abs(seam) >= std::max(kSeamCorner, kClearance * error) && std::abs(seam) >= 3 * sure;
   if (repeated) return corner ? Ends::corner_repeated : Ends::closed_repeated;
   if (!corner) return Ends::closed;
   const double at_last = std::abs(turn(back(1), back(0), back(0), at(0)));

@@ -23,7 +23,9 @@ enum class Ends {
 /// spacing (a random sample), so that a gap of a twentieth of the length, or one as wide as a loop
 /// of so many points has by chance in one case of a hundred, still closes where the curve runs
 /// straight across it.
+/// noise: standard deviation of a point's position; what it explains of turns is no corner at the
+/// ends and hides none.
 Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride,
-                    bool scattered = false);
+                    bool scattered = false, double noise = 0);
 
 }  // namespace keyline::acquire

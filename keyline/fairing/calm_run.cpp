@@ -7,6 +7,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/graph_pieces.h"
+#include "keyline/fairing/settle.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -203,24 +204,6 @@ BandReport hold_ends(DenseCurve& curve, const std::vector<FitPoint>& points, dou
 }
 
 namespace {
-
-/// Arcs and lines, solved for with their variation dear, become exactly that.
-void flatten(FitChain& chain) {
-  const std::size_t n = chain.pieces.size();
-  const auto set = [&](std::size_t joint, double curvature) {
-    chain.joints[joint].curvature = curvature;
-    if (chain.closed && joint == 0) chain.joints[n].curvature = curvature;
-    if (chain.closed && joint == n) chain.joints[0].curvature = curvature;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (chain.pieces[i].kind == PieceKind::curve) continue;
-    const double mean = 0.5 * (chain.joints[i].curvature + chain.joints[i + 1].curvature);
-    const double curvature = chain.pieces[i].kind == PieceKind::line ? 0 : mean;
-    set(i, curvature);
-    set(i + 1, curvature);
-    chain.pieces[i].alpha = -1;
-  }
-}
 
 /// A held end is where it is held, to the last digit.
 void settle_end(FitJoint& joint, const FitJoint& held, Hold hold, bool slides) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "keyline/numeric/power_mean.h"
+#include "keyline/lac/segment/piece_curvature.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -19,38 +19,6 @@ constexpr double kBowPrice = 0.1;  // energies: a piece that departs sideways by
 constexpr double kDrift = 0.25;    // of a piece's end beside the curve, as part of a bow as large:
                                    // neighbours can make up for it
 constexpr double kNearInflection = 1e-2;
-
-/// The power mean of two curvatures, made ready to be read at many shares.
-class PowerMean {
- public:
-  PowerMean(double a, double b, double p) : a_(a), b_(b), p_(p), crosses_(a * b <= 0) {
-    if (crosses_) {
-      power_a_ = numeric::signed_power(a, p);
-      power_b_ = numeric::signed_power(b, p);
-      return;
-    }
-    log_ = std::log(b / a);
-    growth_ = std::expm1(p * log_);
-  }
-
-  double at(double v) const {
-    if (v <= 0) return a_;
-    if (v >= 1) return b_;
-    if (crosses_) return numeric::signed_power((1 - v) * power_a_ + v * power_b_, 1 / p_);
-    if (std::abs(p_ * log_) < 1e-7) return a_ * std::exp(v * log_);
-    return a_ * std::exp(std::log1p(v * growth_) / p_);
-  }
-
- private:
-  double a_;
-  double b_;
-  double p_;
-  bool crosses_;
-  double power_a_ = 0;
-  double power_b_ = 0;
-  double log_ = 0;
-  double growth_ = 0;
-};
 
 }  // namespace
 
@@ -125,13 +93,13 @@ GraphPieces::Fit GraphPieces::fit_of(int from, int to, double alpha) const {
   const double a = curve_.value[from];
   const double b = curve_.value[to];
   const double length = curve_.at[to] - curve_.at[from];
-  const PowerMean mean(a, b, -alpha);
+  const lac::PieceCurvature piece(a, b, alpha);
   Fit fit{alpha, 0, 0};
   double last = 0;
   std::vector<double> sideways{0};
   for (int i = from + 1; i <= to; ++i) {
     const double v = (curve_.at[i] - curve_.at[from]) / length;
-    const double off = mean.at(v) - curve_.value[i];
+    const double off = piece.curvature(v) - curve_.value[i];
     const double step = curve_.at[i] - curve_.at[i - 1];
     fit.loss += (off - last) * (off - last) / step;
     sideways.push_back(sideways.back() + step * (fit.turn + 0.25 * step * (off + last)));

@@ -126,6 +126,23 @@ int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Accep
   return Straightener(chain, points, accept).run();
 }
 
+void flatten(FitChain& chain) {
+  const std::size_t n = chain.pieces.size();
+  const auto set = [&](std::size_t joint, double curvature) {
+    chain.joints[joint].curvature = curvature;
+    if (chain.closed && joint == 0) chain.joints[n].curvature = curvature;
+    if (chain.closed && joint == n) chain.joints[0].curvature = curvature;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (chain.pieces[i].kind == PieceKind::curve) continue;
+    const double mean = 0.5 * (chain.joints[i].curvature + chain.joints[i + 1].curvature);
+    const double curvature = chain.pieces[i].kind == PieceKind::line ? 0 : mean;
+    set(i, curvature);
+    set(i + 1, curvature);
+    chain.pieces[i].alpha = -1;
+  }
+}
+
 namespace {
 
 /// Makes a chain fit for laying out: refined, then without gaps.
@@ -205,7 +222,8 @@ class Polisher {
 };
 
 /// The chain laid out from its start, without regard to where it should end.
-lac::Chain laid_forward(const FitChain& chain) {
+lac::Chain laid_forward(FitChain chain) {
+  flatten(chain);
   lac::Chain out;
   out.start = {chain.joints.front().position, chain.joints.front().direction};
   out.closed = chain.closed;

@@ -13,6 +13,9 @@ namespace keyline::fairing::detail {
 /// that. Returns how many.
 int straighten(FitChain& chain, const std::vector<FitPoint>& points, const Acceptance& accept);
 
+/// Arcs and lines that a solve knew as such get one curvature from end to end, to the last digit.
+void flatten(FitChain& chain);
+
 /// Least squares to the last digits; gaps between pieces close. Where the points do not pass then,
 /// those far off are given more weight. True where they pass; else the chain nearest to it.
 ///

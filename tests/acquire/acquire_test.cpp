@@ -42,6 +42,44 @@ TEST(AcquireKeyLine, TooLittleIsBadInput) {
   }
 }
 
+/// Points along a closed outline of a length of about four, each off by the noise.
+template <class Place>
+RawCurve noisy_outline(const Place& place, int count, double noise, std::uint64_t seed) {
+  numeric::Random random(seed);
+  std::vector<core::Point3> points;
+  for (int i = 0; i < count; ++i) {
+    const core::Point2 p = place(static_cast<double>(i) / count);
+    points.push_back({p.x + noise * random.normal(), p.y + noise * random.normal(), 0});
+  }
+  return curve_of(std::move(points));
+}
+
+/// Between two arcs over one chord of 2, each of half a radian, from one tip round to it.
+core::Point2 lens(double share) {
+  const double radius = 1 / std::sin(0.25);
+  const bool upper = share < 0.5;
+  const double angle = (upper ? 1 - 4 * share : 4 * share - 3) * 0.25;
+  const double height = radius * (std::cos(angle) - std::cos(0.25));
+  return {radius * std::sin(angle), upper ? height : -height};
+}
+
+// Steps of five errors: what two of them turn is noise, half a radian often, the tip of three not.
+TEST(AcquireKeyLine, NoiseHidesNoCornerAtTheSeamAndMakesNone) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto tipped = acquire_key_line(noisy_outline(lens, 10'000, 8e-5, seed));
+    ASSERT_TRUE(tipped);
+    EXPECT_FALSE(tipped->closed);
+    const auto circle = [](double share) {
+      const double angle = 2 * core::kPi * share;
+      return core::Point2{0.64 * std::cos(angle), 0.64 * std::sin(angle)};
+    };
+    const auto round = acquire_key_line(noisy_outline(circle, 10'000, 8e-5, seed));
+    ASSERT_TRUE(round);
+    EXPECT_TRUE(round->closed);
+  }
+}
+
 TEST(AcquireKeyLine, FewPointsAreALine) {
   const auto two = acquire_key_line(curve_of({{0, 0, 0}, {1, 0, 0}}));
   ASSERT_TRUE(two);

@@ -9,6 +9,7 @@
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/meet.h"
 #include "keyline/fairing/riccati.h"
+#include "keyline/fairing/settle.h"
 #include "keyline/lac/segment/segment.h"
 #include "keyline/lac/segment/sensitivity.h"
 #include "keyline/numeric/random.h"
@@ -209,6 +210,24 @@ TEST(ChainEdit, WindowsComeBackWhereTheyWereCut) {
   ASSERT_EQ(back.pieces.size(), 2U);
   EXPECT_EQ(back.feet[3].piece, 1);
   EXPECT_EQ(back.joints[1].position, chain.joints[1].position);
+}
+
+// A solve leaves the two ends of an arc what rounding makes of one curvature; who reads the chain
+// asks whether they are one.
+TEST(LayOut, ArcsAndLinesAreThatToTheLastDigit) {
+  FitChain chain;
+  chain.joints = {{{0, 0}, 0, 1},     {{0, 0}, 0, 0.5}, {{0, 0}, 0, 0.5 * (1 + 4e-14)},
+                  {{0, 0}, 0, 1e-15}, {{0, 0}, 0, 0},   {{0, 0}, 0, 2}};
+  chain.pieces.assign(5, {.length = 0.2, .alpha = -1});
+  chain.pieces[1].kind = PieceKind::arc;
+  chain.pieces[3].kind = PieceKind::line;
+  const lac::Chain laid = lay_out(chain, {1, 0, {}}, false);
+  EXPECT_EQ(laid.pieces[1].curvature_start, laid.pieces[1].curvature_end);
+  EXPECT_NEAR(laid.pieces[1].curvature_start, 0.5, 1e-13);
+  EXPECT_EQ(laid.pieces[3].curvature_start, 0);
+  EXPECT_EQ(laid.pieces[3].curvature_end, 0);
+  for (std::size_t i = 0; i + 1 < laid.pieces.size(); ++i)
+    EXPECT_EQ(laid.pieces[i].curvature_end, laid.pieces[i + 1].curvature_start) << i;
 }
 
 TEST(MeetTarget, EndComesToThePlace) {
