@@ -1,6 +1,8 @@
 import { defineConfig } from "vitest/config";
 
 export default defineConfig({
+  // not by a name: systems without /etc/hosts know no localhost
+  server: { host: "127.0.0.1" },
   test: {
     environment: "node",
     // on a machine with much else to do
