@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <Eigen/Core>
 
+#include "keyline/core/angle.h"
 #include "keyline/curve/chain_deviation.h"
 #include "keyline/curve/jet.h"
 #include "keyline/curve/monotone.h"
@@ -252,11 +254,29 @@ Solution keep_monotone(const Problem& problem, const std::vector<LocalTarget>& t
   return best;
 }
 
-}  // namespace
+/// Of the control polygons, from each edge to the next; exactly the opposite in a mirror.
+double turning(const PiecewiseBezier& chain) {
+  double sum = 0;
+  for (const Bezier2& piece : chain.pieces)
+    for (std::size_t i = 2; i < piece.control.size(); ++i)
+      sum += core::angle_between(piece.control[i - 1] - piece.control[i - 2],
+                                 piece.control[i] - piece.control[i - 1]);
+  return sum;
+}
 
-Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
-                                       std::vector<CurvatureTarget> wanted,
-                                       const CurvatureDriveOptions& options) {
+PiecewiseBezier mirrored(PiecewiseBezier chain) {
+  for (Bezier2& piece : chain.pieces)
+    for (core::Point2& p : piece.control) p.y = -p.y;
+  return chain;
+}
+
+std::vector<CurvatureTarget> mirrored(std::vector<CurvatureTarget> targets) {
+  for (CurvatureTarget& t : targets) t.curvature = -t.curvature;
+  return targets;
+}
+
+Result<CurvatureDrive> drive(const PiecewiseBezier& given, std::vector<CurvatureTarget> wanted,
+                             const CurvatureDriveOptions& options) {
   const auto quintics = as_quintics(given);
   if (!quintics) return std::unexpected(quintics.error());
   auto targets = detail::local_targets(std::move(wanted), quintics->pieces.size());
@@ -297,6 +317,21 @@ Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
         "target is met best by none that are");
   if (result.share < 1)
     result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");
+  return result;
+}
+
+}  // namespace
+
+Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
+                                       std::vector<CurvatureTarget> wanted,
+                                       const CurvatureDriveOptions& options) {
+  // Which steps are taken can hang on rounding, as where a certificate stands on its edge: so that
+  // a mirror's are the same, chains that turn right on the whole are driven in the mirror.
+  if (!(turning(given) < 0)) return drive(given, std::move(wanted), options);
+  auto result = drive(mirrored(given), mirrored(std::move(wanted)), options);
+  if (!result) return result;
+  result->chain = mirrored(std::move(result->chain));
+  result->target = mirrored(std::move(result->target));
   return result;
 }
 

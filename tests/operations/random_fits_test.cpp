@@ -227,6 +227,25 @@ TEST(RandomFits, DrivenCurvesStayWithinTheirBoundAndJoints) {
   EXPECT_GT(driven, requests(0.03) / 2);
 }
 
+// Found with seed 7301: a certificate that stood on its edge was given at another share of the way
+// in the mirror.
+TEST(RandomFits, AMirrorIsDrivenAsFar) {
+  const json request = json::parse(R"({"op":"fit.curvature","target":"rhythm","hold_end":true,
+    "keep_monotone":true,"curve":{"type":"path","curves":[{"type":"bezier","points":[
+    [0.29925400516818135,68.3914306364448],[23.69673202103108,65.49411085980334],
+    [50.600337372961356,76.40220911343951],[47.7157363269984,105.28279183148852],
+    [84.78826955651995,109.83349448184958],[144.6798101631314,120.64743518652449]]},
+    {"type":"bezier","points":[[144.6798101631314,120.64743518652449],
+    [152.92562338924694,122.13628877729678],[161.60398307959053,123.74386538832333],
+    [170.6701624801911,125.55000635089803],[180.04821654204565,127.66074523688238],
+    [299.5294413790331,125.79928186087403]]}]}})");
+  json other = request;
+  other["curve"] = mirrored(request["curve"]);
+  const json a = result_of(request), b = result_of(other);
+  EXPECT_NEAR(b["after"].get<double>(), a["after"].get<double>(), 1e-9 * a["before"].get<double>());
+  EXPECT_EQ(b["share"], a["share"]);
+}
+
 TEST(RandomFits, MonotonePiecesStaySo) {
   Random random(own::seed(24));
   int kept = 0;
