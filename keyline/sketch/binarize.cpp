@@ -6,6 +6,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "keyline/sketch/rows.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -125,15 +127,15 @@ Regions automatic_regions(const Gray& dark, double faintest) {
   Regions regions;
   std::array<Otsu, kRegionCount> found;
   std::array<double, kRegionCount> separation{};
-  for (int i = 0; i < kRegionCount; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Histogram h = edge_histogram(dark, region_box(dark, i), 1.2 * faintest);
+  numeric::parallel_for(kRegionCount, 0, [&](std::size_t k) {
+    const Box box = region_box(dark, static_cast<int>(k));
+    const Histogram h = edge_histogram(dark, box, 1.2 * faintest);
     found[k] = otsu(h);
     // ten pixels' worth of edge are no ink yet
     regions.empty[k] = found[k].separation < 1.5 * faintest || h.total < 20 * found[k].separation ||
                        found[k].threshold < faintest;
     if (!regions.empty[k]) separation[k] = found[k].separation;
-  }
+  });
   const double usual = *std::max_element(separation.begin(), separation.end());
   for (std::size_t k = 0; k < kRegionCount; ++k) {
     if (found[k].separation < kBlotShare * usual) regions.empty[k] = true;
@@ -189,9 +191,17 @@ class Nearby {
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x)
         if (disc.at<std::uint8_t>(y, x)) disc_.push_back({x - kLocalRadius, y - kLocalRadius});
+    for (const cv::Point& d : disc_)
+      away_.push_back(static_cast<std::ptrdiff_t>(d.y) * dark.width + d.x);
   }
 
   bool has_darker(int x, int y, double than) const {
+    if (!(than < 65535)) return false;  // nothing is
+    if (x >= kLocalRadius && y >= kLocalRadius && x + kLocalRadius < dark_.width &&
+        y + kLocalRadius < dark_.height) {
+      const std::uint16_t* here = &dark_.at(x, y);
+      return std::ranges::any_of(away_, [&](std::ptrdiff_t step) { return here[step] > than; });
+    }
     return std::ranges::any_of(disc_, [&](const cv::Point& d) {
       return dark_.contains(x + d.x, y + d.y) && dark_.at(x + d.x, y + d.y) > than;
     });
@@ -200,26 +210,29 @@ class Nearby {
  private:
   const Gray& dark_;
   std::vector<cv::Point> disc_;
+  std::vector<std::ptrdiff_t> away_;  ///< the same as steps in the row of all pixels
 };
 
 /// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak).
 void mark(const Gray& dark, const Regions& regions, double faintest, Binary& marks) {
-  Blend threshold(regions, dark.width, dark.height);
   const Nearby nearby(dark);
   const int least = static_cast<int>(std::floor(faintest * kFull));
-  for (int y = 0; y < dark.height; ++y) {
-    threshold.set_row(y);
-    const std::uint16_t* row = &dark.at(0, y);
-    for (int x = 0; x < dark.width; ++x) {
-      if (row[x] < least) continue;  // most pixels
-      const double here = dark.at(x, y) / kFull;
-      if (here < faintest) continue;
-      const double strong = std::max(threshold(x), faintest);
-      if (here < std::max(kWeakShare * strong, faintest)) continue;
-      if (nearby.has_darker(x, y, row[x] / kLocalShare)) continue;
-      marks.at(x, y) = here >= strong ? kStrong : kWeak;
+  for_rows(0, dark.height, [&](int first, int last) {
+    Blend threshold(regions, dark.width, dark.height);
+    for (int y = first; y < last; ++y) {
+      threshold.set_row(y);
+      const std::uint16_t* row = &dark.at(0, y);
+      for (int x = 0; x < dark.width; ++x) {
+        if (row[x] < least) continue;  // most pixels
+        const double here = row[x] / kFull;
+        if (here < faintest) continue;
+        const double strong = std::max(threshold(x), faintest);
+        if (here < std::max(kWeakShare * strong, faintest)) continue;
+        if (nearby.has_darker(x, y, row[x] / kLocalShare)) continue;
+        marks.at(x, y) = here >= strong ? kStrong : kWeak;
+      }
     }
-  }
+  });
 }
 
 /// Weak pixels connected to strong ones become ink, the others paper.
@@ -268,8 +281,12 @@ Gray darkness_raster(const Tone& tone) {
   for (std::size_t i = 0; i < table.size(); ++i)
     table[i] = static_cast<std::uint16_t>(
         std::lround(kFull * darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain)));
-  Gray dark = tone.level;
-  for (std::uint16_t& v : dark.data) v = table[v];
+  Gray dark(tone.level.width, tone.level.height);
+  for_rows(0, dark.height, [&](int first, int last) {
+    const std::size_t end = dark.index(0, last);
+    for (std::size_t i = dark.index(0, first); i < end; ++i)
+      dark.data[i] = table[tone.level.data[i]];
+  });
   return dark;
 }
 

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <vector>
+
+#include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
 namespace {
@@ -35,14 +38,20 @@ Steps steps_of(const Raster<std::uint16_t>& level) {
   std::vector<std::uint64_t> rows(height, 0);
   const std::size_t every_row = 1 + height / kLooks;
   const std::size_t every_column = 1 + width / kLooks;
-  for (std::size_t y = 0; y < height; y += every_row) {
-    const std::uint16_t* row = level.data.data() + y * width;
-    for (std::size_t x = 1; x < width; ++x) columns[x] += square(row[x], row[x - 1]);
-  }
-  for (std::size_t y = 1; y < height; ++y) {
-    const std::uint16_t* row = level.data.data() + y * width;
-    for (std::size_t x = 0; x < width; x += every_column) rows[y] += square(row[x], row[x - width]);
-  }
+  std::mutex adding;  // whole numbers: their sum is the same in any order
+  for_rows(0, level.height, [&](int first, int last) {
+    std::vector<std::uint64_t> across(width, 0);
+    for (auto y = static_cast<std::size_t>(first); y < static_cast<std::size_t>(last); ++y) {
+      const std::uint16_t* row = level.data.data() + y * width;
+      if (y % every_row == 0)
+        for (std::size_t x = 1; x < width; ++x) across[x] += square(row[x], row[x - 1]);
+      if (y == 0) continue;
+      for (std::size_t x = 0; x < width; x += every_column)
+        rows[y] += square(row[x], row[x - width]);
+    }
+    const std::scoped_lock lock(adding);
+    for (std::size_t x = 1; x < width; ++x) columns[x] += across[x];
+  });
   return {{columns.begin(), columns.end()}, {rows.begin(), rows.end()}};
 }
 

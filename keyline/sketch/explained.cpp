@@ -1,9 +1,12 @@
 #include "keyline/sketch/explained.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+
+#include "keyline/numeric/parallel.h"
+#include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
 namespace {
@@ -19,14 +22,37 @@ void take_out(Binary& ink, Point2 p, double reach) {
     const double half = std::sqrt(rest);
     const int left = std::max(0, static_cast<int>(std::ceil(p.x - half - 0.5)));
     const int right = std::min(ink.width - 1, static_cast<int>(std::floor(p.x + half - 0.5)));
-    for (int x = left; x <= right; ++x) ink.at(x, y) = 0;
+    // other lines may take the same pixel out at the same time
+    for (int x = left; x <= right; ++x)
+      std::atomic_ref(ink.at(x, y)).store(0, std::memory_order_relaxed);
   }
 }
 
 double count(const Binary& ink) {
-  return static_cast<double>(
-      std::accumulate(ink.data.begin(), ink.data.end(), std::int64_t{0},
-                      [](std::int64_t sum, std::uint8_t v) { return sum + (v ? 1 : 0); }));
+  std::atomic<std::int64_t> sum = 0;
+  for_rows(0, ink.height, [&](int first, int last) {
+    const std::uint8_t* row = ink.data.data() + ink.index(0, first);
+    sum +=
+        std::count_if(row, row + ink.index(0, last - first), [](std::uint8_t v) { return v != 0; });
+  });
+  return static_cast<double>(sum);
+}
+
+/// The ink that a line explains.
+void take_out(Binary& ink, const Stroke& stroke) {
+  const auto far = [](Point2 a, Point2 b) { return dot(b - a, b - a); };
+  std::size_t at = 0;  // the point of the stroke beside the curve's
+  for (const curve::Bezier2& piece : stroke.curve) {
+    const double chord = distance(piece.control.front(), piece.control.back());
+    const int n = 2 + static_cast<int>(2 * chord);
+    for (int i = 0; i < n; ++i) {
+      const Point2 p = evaluate(piece, (i + 0.5) / n);
+      while (at + 1 < stroke.points.size() &&
+             far(stroke.points[at + 1], p) <= far(stroke.points[at], p))
+        ++at;
+      take_out(ink, p, 0.5 * std::max(stroke.widths[at], stroke.width) + 1);
+    }
+  }
 }
 
 }  // namespace
@@ -34,20 +60,7 @@ double count(const Binary& ink) {
 double explained_ink(Binary& ink, const std::vector<Stroke>& strokes) {
   const double all = count(ink);
   if (!(all > 0)) return 1;
-  for (const Stroke& stroke : strokes) {
-    std::size_t at = 0;  // the point of the stroke beside the curve's
-    for (const curve::Bezier2& piece : stroke.curve) {
-      const double chord = distance(piece.control.front(), piece.control.back());
-      const int n = 2 + static_cast<int>(2 * chord);
-      for (int i = 0; i < n; ++i) {
-        const Point2 p = evaluate(piece, (i + 0.5) / n);
-        while (at + 1 < stroke.points.size() &&
-               distance(stroke.points[at + 1], p) <= distance(stroke.points[at], p))
-          ++at;
-        take_out(ink, p, 0.5 * std::max(stroke.widths[at], stroke.width) + 1);
-      }
-    }
-  }
+  numeric::parallel_for(strokes.size(), 0, [&](std::size_t i) { take_out(ink, strokes[i]); });
   return (all - count(ink)) / all;
 }
 

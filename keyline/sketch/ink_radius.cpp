@@ -4,21 +4,25 @@
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 
+#include "keyline/numeric/parallel.h"
+
 namespace keyline::sketch {
 namespace {
 
-constexpr int kBand = 512;         ///< rows at once
-constexpr int kFirstMargin = 128;  ///< rows beyond them: wider ink is looked at again
+constexpr int kBand = 256;        ///< rows at once
+constexpr int kFirstMargin = 32;  ///< rows beyond them: wider ink is looked at again
 
 }  // namespace
 
 InkRadius::InkRadius(const Binary& lines, const Binary& ink)
     : rows_(static_cast<std::size_t>(lines.height)) {
-  for (int first = 0; first < lines.height; first += kBand) {
+  const std::size_t bands = static_cast<std::size_t>((lines.height + kBand - 1) / kBand);
+  numeric::parallel_for(bands, 0, [&](std::size_t k) {
+    const int first = static_cast<int>(k) * kBand;
     const int last = std::min(first + kBand, lines.height);
     int margin = kFirstMargin;
     while (!add_rows(lines, ink, first, last, margin)) margin *= 2;
-  }
+  });
 }
 
 bool InkRadius::add_rows(const Binary& lines, const Binary& ink, int first, int last, int margin) {

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <vector>
 
+#include "keyline/sketch/rows.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -55,12 +57,12 @@ std::uint64_t eight(const std::uint8_t* row) {
 }
 
 /// Calls see(x, y) for pixels inside the rim that have the value and, not always, none of the other
-/// around them.
+/// around them, in rows [first, last), none of which is the picture's first or last.
 template <class See>
-void visit_borders(const Binary& ink, std::uint8_t value, const See& see) {
+void visit_borders(const Binary& ink, int first, int last, std::uint8_t value, const See& see) {
   constexpr std::uint64_t kAll = 0x0101010101010101;
   const std::uint64_t other = value ? 0 : kAll;
-  for (int y = 1; y + 1 < ink.height; ++y) {
+  for (int y = first; y < last; ++y) {
     const std::uint8_t* above = &ink.at(0, y - 1);
     const std::uint8_t* here = &ink.at(0, y);
     const std::uint8_t* below = &ink.at(0, y + 1);
@@ -82,10 +84,12 @@ void visit_borders(const Binary& ink, std::uint8_t value, const See& see) {
 /// how many.
 long flip_features(Binary& ink, std::uint8_t value) {
   static const Rules kRules;
-  std::vector<std::size_t> flips;
+  const int rows = ink.height - 2;  // the first and the last have none
+  std::vector<std::vector<std::size_t>> flips(
+      rows > 0 ? static_cast<std::size_t>((rows + kRowsAtOnce - 1) / kRowsAtOnce) : 0);
   const unsigned invert = value ? 0U : 255U;
   const auto seen = [&](int x, int y) { return (neighbours_of(ink, x, y) ^ invert) & 255U; };
-  visit_borders(ink, value, [&](int x, int y) {
+  const auto look = [&](int x, int y, std::vector<std::size_t>& found) {
     if (ink.at(x - 1, y) == value && ink.at(x + 1, y) == value && ink.at(x, y - 1) == value &&
         ink.at(x, y + 1) == value)
       return;
@@ -95,10 +99,18 @@ long flip_features(Binary& ink, std::uint8_t value) {
       for (const auto& [dx, dy] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
         flip = flip || (ink.at(x + dx, y + dy) == value && kRules.long_bump[seen(x + dx, y + dy)]);
     }
-    if (flip) flips.push_back(ink.index(x, y));
+    if (flip) found.push_back(ink.index(x, y));
+  };
+  for_rows(1, ink.height - 1, [&](int first, int last) {
+    auto& found = flips[static_cast<std::size_t>((first - 1) / kRowsAtOnce)];
+    visit_borders(ink, first, last, value, [&](int x, int y) { look(x, y, found); });
   });
-  for (const std::size_t i : flips) ink.data[i] = static_cast<std::uint8_t>(1 - value);
-  return static_cast<long>(flips.size());
+  long count = 0;
+  for (const auto& band : flips) {
+    for (const std::size_t i : band) ink.data[i] = static_cast<std::uint8_t>(1 - value);
+    count += static_cast<long>(band.size());
+  }
+  return count;
 }
 
 /// Sets every pixel beside which one of the given value lies to that value.
@@ -161,7 +173,7 @@ int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
   };
   for (int x = 0; x < ink.width; ++x) look(x, 0);
   for (int y = 1; y < ink.height; ++y) look(0, y);
-  visit_borders(ink, value, look);
+  visit_borders(ink, 1, ink.height - 1, value, look);
   for (int y = 1; y < ink.height; ++y) look(ink.width - 1, y);
   for (int x = 0; x < ink.width; ++x) look(x, ink.height - 1);
   return flipped;

@@ -9,6 +9,7 @@
 
 #include "keyline/core/quantile.h"
 #include "keyline/sketch/background.h"
+#include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
 namespace {
@@ -117,7 +118,11 @@ Tone transform_intensity(Image image, const ToneOptions& options) {
   const double paper = std::max(intensity(percentile(tone.level, 0.8)), 2.0);
   tone.gain = options.gain.value_or(1 / std::log(paper));
   const std::vector<std::uint16_t> table = level_table(tone.gain);
-  for (std::uint16_t& v : tone.level.data) v = table[v];
+  for_rows(0, tone.level.height, [&](int first, int last) {
+    const std::size_t end = tone.level.index(0, last);
+    for (std::size_t i = tone.level.index(0, first); i < end; ++i)
+      tone.level.data[i] = table[tone.level.data[i]];
+  });
   tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));
   tone.flattened = flatten_background(tone.level, options.flatten);
   tone.noise = noise_of(tone.level);

@@ -11,6 +11,7 @@
 #include "keyline/numeric/parallel.h"
 #include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
+#include "keyline/sketch/ink_measure.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/meet_lines.h"
 #include "keyline/sketch/morphology.h"
@@ -43,26 +44,6 @@ constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from wh
 constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
 constexpr double kGrainShare = 0.15;   ///< of the width: how far curves may pass from such lines
 constexpr double kGrainBlur = 0.4;     ///< of the lines' width
-
-/// What the ink's area and border tell of its lines.
-struct InkMeasure {
-  double width = 1;   ///< usual width of the lines: twice the ink over its border
-  double border = 0;  ///< pixels of ink beside paper
-};
-
-InkMeasure measure(const Binary& ink) {
-  double area = 0;
-  double border = 0;
-  for (int y = 0; y < ink.height; ++y)
-    for (int x = 0; x < ink.width; ++x) {
-      if (!ink.at(x, y)) continue;
-      ++area;
-      if (x == 0 || y == 0 || x + 1 == ink.width || y + 1 == ink.height || !ink.at(x - 1, y) ||
-          !ink.at(x + 1, y) || !ink.at(x, y - 1) || !ink.at(x, y + 1))
-        ++border;
-    }
-  return {border > 0 ? std::max(1.0, 2 * area / border) : 1, border};
-}
 
 /// Pixels with y down to y up.
 void turn_up(Stroke& stroke, double height) {
@@ -108,7 +89,7 @@ struct Ink {
 Ink ink_of(const Tone& tone, const TraceOptions& options) {
   Ink ink{binarize(tone, options.binarize).ink, 1, false};
   show(options, "binary", ink.picture);
-  const InkMeasure measured = measure(ink.picture);
+  const InkMeasure measured = measure_ink(ink.picture);
   ink.width = measured.width;
   long ragged = 0;
   if (options.smoothing_by == Smoothing::pixels)

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "keyline/sketch/thinning.h"
+
+namespace keyline::sketch {
+
+/// What the ink's area and border tell of its lines.
+struct InkMeasure {
+  double width = 1;   ///< usual width of the lines: twice the ink over its border
+  double border = 0;  ///< pixels of ink beside paper
+};
+
+InkMeasure measure_ink(const Binary& ink);
+
+}  // namespace keyline::sketch
