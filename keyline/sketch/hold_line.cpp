@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "keyline/sketch/align_strokes.h"
 #include "keyline/sketch/whittaker.h"
@@ -23,11 +24,15 @@ constexpr double kFirmer = 3;  ///< weight per round of places that are still to
 
 using Offsets = std::vector<std::optional<double>>;  ///< of a stroke across the line, by sample
 
-/// Offsets of a stroke beside a line; samples stepped over lie between their neighbours'.
+/// Offsets of a stroke beside a line; samples stepped over lie between their neighbours'. Where it
+/// passes twice the nearer pass counts.
 Offsets offsets_of(const SampledStroke& s, const SampledStroke& line, double reach) {
   const Alignment a = align(s, line, reach);
   const std::size_t m = line.points.size();
   Offsets offsets(m);
+  const auto pass = [&offsets](std::size_t k, double off) {
+    if (!offsets[k] || std::abs(off) < std::abs(*offsets[k])) offsets[k] = off;
+  };
   int last = -1;
   double before = 0;
   for (std::size_t i = 0; i < a.at.size(); ++i) {
@@ -38,13 +43,11 @@ Offsets offsets_of(const SampledStroke& s, const SampledStroke& line, double rea
     const auto j = static_cast<std::size_t>(a.at[i]);
     const Point2 p = s.points[a.reversed ? a.at.size() - 1 - i : i];
     const double off = dot(p - line.points[j], core::perpendicular_left(line.tangents[j]));
-    if (distance(p, line.points[j]) < 2 * reach &&
-        (!offsets[j] || std::abs(off) < std::abs(*offsets[j])))
-      offsets[j] = off;
+    if (distance(p, line.points[j]) < 2 * reach) pass(j, off);
     if (last >= 0)
       for (std::size_t k = (static_cast<std::size_t>(last) + 1) % m; k != j; k = (k + 1) % m) {
         if ((j + m - k) % m > 3) break;
-        offsets[k] = 0.5 * (before + off);
+        pass(k, 0.5 * (before + off));
       }
     last = a.at[i];
     before = off;
@@ -52,9 +55,16 @@ Offsets offsets_of(const SampledStroke& s, const SampledStroke& line, double rea
   return offsets;
 }
 
-/// By sample the offset of the stroke the line goes with: least squares of the offsets and, at a
-/// price, of the ways from one stroke to another.
-Offsets choose(const std::vector<Offsets>& all, std::size_t m) {
+/// The stroke that the line goes with at a sample.
+struct Companion {
+  std::size_t stroke = 0;
+  double offset = 0;
+};
+using Companions = std::vector<std::optional<Companion>>;
+
+/// By sample the stroke the line goes with: least squares of the offsets and, at a price, of the
+/// ways from one stroke to another.
+Companions choose(const std::vector<Offsets>& all, std::size_t m) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const std::size_t n = all.size();
   std::vector<std::vector<double>> cost(m, std::vector<double>(n, kNone));
@@ -86,29 +96,50 @@ Offsets choose(const std::vector<Offsets>& all, std::size_t m) {
     }
     through[k] = free_from;
   }
-  Offsets chosen(m);
+  Companions chosen(m);
   std::size_t at = n;
   for (std::size_t k = m; k-- > 0;) {
     if (at == n) at = through[k];
     if (at == n) break;
     if (!all[at][k]) continue;  // no stroke here: wait for the one before
-    chosen[k] = all[at][k];
+    chosen[k] = {at, *all[at][k]};
     at = from[k][at];
   }
   return chosen;
+}
+
+/// Where strokes that lie too far apart to be kept to both are changed, the line may leave them: it
+/// goes over at that angle, as passes of one line do.
+void let_change(double spacing, bool closed, double most, double angle, Companions& chosen) {
+  const Companions all = chosen;
+  const auto m = static_cast<long>(all.size());
+  const auto at = [m](long k) { return static_cast<std::size_t>((k % m + m) % m); };
+  long before = -1;                                  // the last sample that goes with a stroke
+  for (long k = 0; k < (closed ? 2 * m : m); ++k) {  // twice around a closed line: over its seam
+    if (!all[at(k)]) continue;
+    const long last = std::exchange(before, k);
+    if (last < 0 || all[at(last)]->stroke == all[at(k)]->stroke) continue;
+    const double way = std::abs(all[at(last)]->offset - all[at(k)]->offset) - 2 * kWithin * most;
+    const double middle = 0.5 * static_cast<double>(last + k);
+    const double half = 0.5 * way / std::tan(angle) / spacing;
+    for (long i = std::lround(std::ceil(middle - half)); i <= std::lround(middle + half); ++i)
+      if (closed || (i >= 0 && i < m)) chosen[at(i)].reset();
+  }
 }
 
 }  // namespace
 
 std::vector<Point2> hold_to_strokes(const SampledStroke& line,
                                     const std::vector<SampledStroke>& strokes, double most,
-                                    double reach, double calm) {
+                                    double reach, const Going& going) {
   const std::size_t m = line.points.size();
   std::vector<Offsets> all;
   for (const SampledStroke& s : strokes) all.push_back(offsets_of(s, line, reach));
-  const Offsets chosen = choose(all, m);
+  const double spacing = line.length / static_cast<double>(m);
+  Companions chosen = choose(all, m);
+  let_change(spacing, line.closed, most, going.angle, chosen);
   const auto too_far = [&](std::size_t k, double shift) {
-    return chosen[k] && std::abs(shift - *chosen[k]) > most;
+    return chosen[k] && std::abs(shift - chosen[k]->offset) > most;
   };
   std::vector<Point2> shift(m);
   std::vector<Point2> aim(m);
@@ -119,14 +150,13 @@ std::vector<Point2> hold_to_strokes(const SampledStroke& line,
     for (std::size_t k = 0; k < m; ++k) {
       if (!too_far(k, shift[k].x)) continue;
       done = false;
-      const double goal = *chosen[k];
+      const double goal = chosen[k]->offset;
       aim[k].x = std::clamp(shift[k].x, goal - kWithin * most, goal + kWithin * most);
       weight[k] = weight[k] < 1 ? 1 : kFirmer * weight[k];
     }
     if (done) break;
     any = true;
-    const double spacing = line.length / static_cast<double>(m);
-    shift = smooth_points(aim, weight, lambda_of_wavelength(std::max(8.0, calm / spacing)),
+    shift = smooth_points(aim, weight, lambda_of_wavelength(std::max(8.0, going.calm / spacing)),
                           line.closed);
   }
   std::vector<Point2> moved = line.points;

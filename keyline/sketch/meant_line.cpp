@@ -1,6 +1,7 @@
 #include "keyline/sketch/meant_line.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -27,7 +28,9 @@ constexpr double kReachOfSpread = 1.5;  ///< and so many times where the strokes
 constexpr double kAskew = 4;            ///< spreads that a strip cut askew reaches past its end
 constexpr double kMostOff = 1.5;        ///< widths of the pen: what is farther lies on paper
 constexpr double kOffShare = 0.02;      ///< of a line that may lie on paper, or it is none
-constexpr double kOnStroke = 1;         ///< widths: where lines are held, so that curves stay on
+constexpr double kChangesOff = 0.01;    ///< of a line, for going over gently between strokes
+constexpr std::array kSteeper = {1.0, 1.4, 2.0, 4.0};  ///< times the angle; the last a step
+constexpr double kOnStroke = 1;  ///< widths: where lines are held, so that curves stay on
 
 class Line {
  public:
@@ -52,9 +55,21 @@ class Line {
     close();
     close_gap();
     for (int round = 0; round < kRounds; ++round) average();
-    set_line(hold_to_strokes(line_, strokes_, kOnStroke * width_, reach_, 4 * near_), line_.closed);
-    if (share_off(line_.points, line_.closed, strokes_, kMostOff * width_) > kOffShare)
-      take_longest();
+    if (hold() > kOffShare) take_longest();
+  }
+
+  /// Keeps the line to its strokes, going over from one to another as gently as little paper
+  /// allows; the share that lies on paper.
+  double hold() {
+    const SampledStroke before = line_;
+    double off = 0;
+    for (const double steeper : kSteeper) {
+      const Going going{4 * near_, std::min(steeper * angle_, M_PI / 2)};
+      set_line(hold_to_strokes(before, strokes_, kOnStroke * width_, reach_, going), before.closed);
+      off = share_off(line_.points, line_.closed, strokes_, kMostOff * width_);
+      if (off <= kChangesOff) break;
+    }
+    return off;
   }
 
   /// A stroke is a line that lies on strokes, whatever the others do.

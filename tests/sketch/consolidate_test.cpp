@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/polygon.h"
 #include "keyline/numeric/random.h"
 #include "keyline/sketch/align_strokes.h"
@@ -150,6 +151,24 @@ TEST(Consolidate, NeighboursStemsAndCrossingsStayApart) {
   ASSERT_EQ(lines.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(lines[i].members, (std::vector<std::size_t>{i, i + 4, i + 8}));
+}
+
+/// Largest turn between neighbouring edges of a line, its ends left out.
+double sharpest(const MeantLine& line) {
+  double most = 0;
+  const std::vector<Point2>& p = line.points;
+  for (std::size_t i = 2; i + 2 < p.size(); ++i)
+    most = std::max(most, std::abs(core::angle_between(p[i] - p[i - 1], p[i + 1] - p[i])));
+  return most;
+}
+
+// One stroke ends beside the next, too far off to keep to both: a step turned by a right angle.
+TEST(Consolidate, ALineGoesOverGentlyFromStrokeToStroke) {
+  const Curve arc = [](double t) { return Point2{200 * std::cos(t), 200 * std::sin(t)}; };
+  const auto lines = consolidate({drawn(arc, 0, 1.2, 1.8, 0), drawn(arc, 1, 2.4, -1.8, 1)},
+                                 {.width = 1, .measured = true, .apart = 4});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_LT(sharpest(lines[0]), 0.2);
 }
 
 TEST(ShareOff, CountsWhatLiesOnPaper) {
