@@ -139,7 +139,6 @@ Image reduced(const Image& image, const OwnSize& size) {
 void enlarge(TraceResult& trace, int to_width, int to_height) {
   const double across = static_cast<double>(to_width) / trace.width;
   const double down = static_cast<double>(to_height) / trace.height;
-  const double times = std::sqrt(across * down);
   const auto grow = [across, down](core::Point2& p) { p = {across * p.x, down * p.y}; };
   if (trace.sheet)
     for (core::Point2& p : *trace.sheet) grow(p);
@@ -147,20 +146,7 @@ void enlarge(TraceResult& trace, int to_width, int to_height) {
   trace.height = to_height;
   for (DrawnStroke& pass : trace.passes)
     for (core::Point2& p : pass.points) grow(p);
-  for (Stroke& stroke : trace.strokes) {
-    for (core::Point2& p : stroke.points) grow(p);
-    for (core::Point2& p : stroke.segments) grow(p);
-    for (auto& axis : stroke.axes)
-      for (core::Point2& p : axis) grow(p);
-    for (auto* pieces : {&stroke.quadratics, &stroke.curve})
-      for (curve::Bezier2& piece : *pieces)
-        for (core::Point2& p : piece.control) grow(p);
-    for (fit::CurvatureTarget& target : stroke.target) target.curvature /= times;
-    if (stroke.driven)
-      stroke.driven = DriveReport{stroke.driven->before / times, stroke.driven->after / times};
-    stroke.width *= times;
-    for (double& width : stroke.widths) width *= times;
-  }
+  for (Stroke& stroke : trace.strokes) scale(stroke, across, down);
 }
 
 }  // namespace keyline::sketch

@@ -316,4 +316,19 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
   return stroke;
 }
 
+void scale(Stroke& stroke, double across, double down) {
+  const double times = std::sqrt(across * down);
+  const auto grow = [across, down](Point2& p) { p = {across * p.x, down * p.y}; };
+  std::ranges::for_each(stroke.points, grow);
+  std::ranges::for_each(stroke.segments, grow);
+  for (auto& axis : stroke.axes) std::ranges::for_each(axis, grow);
+  for (auto* pieces : {&stroke.quadratics, &stroke.curve})
+    for (curve::Bezier2& piece : *pieces) std::ranges::for_each(piece.control, grow);
+  for (fit::CurvatureTarget& target : stroke.target) target.curvature /= times;
+  if (stroke.driven)
+    stroke.driven = DriveReport{stroke.driven->before / times, stroke.driven->after / times};
+  stroke.width *= times;
+  for (double& width : stroke.widths) width *= times;
+}
+
 }  // namespace keyline::sketch

@@ -61,6 +61,9 @@ struct Stroke {
   std::vector<std::size_t> members;
 };
 
+/// The stroke in other units; curvature and widths by the mean of both scales.
+void scale(Stroke& stroke, double across, double down);
+
 /// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature.
 /// Precondition: at least two points.
 Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options);

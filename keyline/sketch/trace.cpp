@@ -35,6 +35,8 @@ constexpr double kPictureApart = 3.5;
 constexpr double kStub = 1.2;
 constexpr double kLongestStub = 5;
 
+constexpr double kStrokeStep = 0.7;  ///< widths between the points of drawn strokes
+
 constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
 constexpr double kManyPasses = 0.75;       ///< lines per stroke from which passes are told
 
@@ -157,7 +159,7 @@ FineStroke line_of(const MeantLine& line, const std::vector<FineStroke>& strokes
     fine.width += strokes[m].width / static_cast<double>(line.members.size());
     fine.members.insert(fine.members.end(), strokes[m].members.begin(), strokes[m].members.end());
   }
-  resample(line.points, std::vector<double>(line.points.size(), fine.width), 0.7 * width,
+  resample(line.points, std::vector<double>(line.points.size(), fine.width), kStrokeStep * width,
            line.closed, fine.points, fine.widths);
   return fine;
 }
@@ -358,7 +360,7 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
     fine.closed = s.closed;
     fine.width = width;
     fine.members = {i};
-    resample(s.points, std::vector<double>(s.points.size(), width), 0.7 * width, s.closed,
+    resample(s.points, std::vector<double>(s.points.size(), width), kStrokeStep * width, s.closed,
              fine.points, fine.widths);
     lines.push_back(std::move(fine));
   }
@@ -370,10 +372,18 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
     tell_passes(lines, {.width = width}, result);
   result.explained = std::min(1.0, explained / drawn);
   tell_explained("strokes", result);
+  // what counts pixels in pictures counts steps between points here, so that no unit matters
+  const double unit = kStrokeStep * width;
+  for (FineStroke& line : lines) {
+    for (Point2& p : line.points) p = {p.x / unit, p.y / unit};
+    line.width /= unit;
+    for (double& w : line.widths) w /= unit;
+  }
   TraceOptions scaled = options;
-  scaled.curve.straightness *= width;
-  scaled.curve.tolerance *= width;
+  scaled.curve.straightness *= width / unit;
+  scaled.curve.tolerance *= width / unit;
   if (auto done = add_curves(lines, scaled, result); !done) return std::unexpected(done.error());
+  for (Stroke& stroke : result.strokes) scale(stroke, unit, unit);
   return result;
 }
 

@@ -226,6 +226,40 @@ double halfway(const Stroke& stroke) {
   return (near(0.5) - harmonic) / (0.5 * (a + b) - harmonic);
 }
 
+/// A stroke with a corner, and one that waves, in some unit.
+core::Result<TraceResult> traced_in(double unit) {
+  DrawnStroke bent, waving;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 0.5 * i;
+    bent.points.push_back({unit * t, unit * std::abs(t - 50)});
+    waving.points.push_back({unit * t, unit * (80 + 6 * std::sin(0.1 * t))});
+  }
+  return trace_strokes({bent, waving}, 2 * unit);
+}
+
+TEST(Trace, StrokesComeOutTheSameInEveryUnit) {
+  const auto one = traced_in(1);
+  ASSERT_TRUE(one);
+  for (const double unit : {1000.0, 0.001}) {
+    SCOPED_TRACE(unit);
+    const auto other = traced_in(unit);
+    ASSERT_TRUE(other);
+    ASSERT_EQ(other->strokes.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Stroke& a = one->strokes[k];
+      const Stroke& b = other->strokes[k];
+      EXPECT_NEAR(b.width, unit * a.width, 1e-12 * unit);
+      EXPECT_EQ(a.corners, b.corners);
+      ASSERT_EQ(a.curve.size(), b.curve.size());
+      for (std::size_t i = 0; i < a.curve.size(); ++i)
+        for (std::size_t c = 0; c < 6; ++c)
+          EXPECT_LT(core::distance(b.curve[i].control[c], {unit * a.curve[i].control[c].x,
+                                                           unit * a.curve[i].control[c].y}),
+                    1e-4 * unit);
+    }
+  }
+}
+
 // A logarithmic spiral (slope 1) is asked to be accelerating (slope -0.5 and less).
 TEST(Trace, GivesLinesTheRhythmAskedFor) {
   DrawnStroke spiral;
