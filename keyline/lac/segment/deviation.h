@@ -14,7 +14,7 @@ namespace keyline::lac {
 /// is a polynomial through feet of normals, so that the difference is a polynomial of known
 /// degree n, bounded by its values at N = 4n Chebyshev nodes divided by cos(n pi / 2N) = 0.92
 /// ([Ehlich 1964]). Between the nodes nothing is left to luck; the bound is
-/// 0 to 4 % above the distance under this change of parameter, of a rational curve up to 20 %. The
+/// 0 to 4 % above the distance under this change of parameter, of a rational curve some 20 %. The
 /// worst stretch is halved, 64 times at most, where points compared are not the nearest to each
 /// other or weights run far on it. Rounding is covered by 1e-14 of the length. Weights must be
 /// positive. Infinite where the two have nothing to do with each other.
