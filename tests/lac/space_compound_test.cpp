@@ -1,0 +1,60 @@
+#include "keyline/lac/space/space_compound.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace keyline::lac {
+namespace {
+
+const SpaceHermite kData{{0, 0, 0}, {3, 1, 0.5}, {1, 0, 0}, {1, 1, 0.6}};
+
+/// Of a law whose power -slope runs linearly from `from` to `to`, at the share v of the length.
+double law_at(double slope, double from, double to, double v) {
+  return std::pow((1 - v) * std::pow(from, -slope) + v * std::pow(to, -slope), -1 / slope);
+}
+/// Its rate at either end, by the same closed form.
+double law_rate(double slope, double from, double to, double length, double at) {
+  return std::pow(at, 1 + slope) * (std::pow(to, -slope) - std::pow(from, -slope)) /
+         (-slope * length);
+}
+
+TEST(SolveCompoundSpace, OfEqualSlopesIsTheCurveOfOne) {
+  const auto one = solve_g1_space(kData, -1, 0.5, 0.1);
+  const auto two = solve_compound_space(
+      kData, {.alpha = {-1, -1}, .beta = {0.5, 0.5}, .omega = 0.1, .length_share = 0.4});
+  ASSERT_TRUE(one && two);
+  EXPECT_NEAR(two->lambda, one->lambda, 1e-9);
+  EXPECT_NEAR(two->nu, one->nu, 1e-9);
+  EXPECT_NEAR(two->length, one->length, 1e-9);
+  const SpacePiece& p = one->chain.pieces[0];
+  ASSERT_EQ(two->chain.pieces.size(), 2U);
+  const SpacePiece& first = two->chain.pieces[0];
+  EXPECT_NEAR(first.length, 0.4 * p.length, 1e-9);
+  EXPECT_NEAR(first.curvature_end, law_at(-1, p.curvature_start, p.curvature_end, 0.4), 1e-9);
+}
+
+TEST(SolveCompoundSpace, RatesAgreeAtTheJointAndWithTheStandardForm) {
+  const auto r = solve_compound_space(
+      kData, {.alpha = {-1, 0.5}, .beta = {-1, -1}, .omega = 0.1, .length_share = 0.35});
+  ASSERT_TRUE(r) << r.error().hint;
+  const SpacePiece& a = r->chain.pieces[0];
+  const SpacePiece& b = r->chain.pieces[1];
+  EXPECT_NEAR(a.length / (a.length + b.length), 0.35, 1e-12);
+  const double before =
+      law_rate(a.alpha, a.curvature_start, a.curvature_end, a.length, a.curvature_end);
+  const double after =
+      law_rate(b.alpha, b.curvature_start, b.curvature_end, b.length, b.curvature_start);
+  EXPECT_NEAR(after, before, 1e-9 * std::abs(before));
+  // lambda is drho/ds at the start, of whichever unit.
+  const double start =
+      law_rate(a.alpha, a.curvature_start, a.curvature_end, a.length, a.curvature_start);
+  EXPECT_NEAR(r->lambda, -start / (a.curvature_start * a.curvature_start), 1e-9);
+  EXPECT_NEAR(r->length, (a.length + b.length) * a.curvature_start, 1e-9);
+  const SpaceFrame end = frame_at(r->chain, 1);
+  EXPECT_LT(distance(end.position, kData.end), 1e-10);
+  EXPECT_LT(norm(cross(end.tangent, kData.end_tangent)), 1e-10);
+}
+
+}  // namespace
+}  // namespace keyline::lac
