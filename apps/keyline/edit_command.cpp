@@ -213,8 +213,7 @@ std::string as_given_text(const std::vector<json>& edits, const json& joints) {
       edits, [](const json& edit) { return edit["before"]["sav"].get<double>() > 0; });
   return stays && wanted && joints["before"]["joints"].get<int>() > 0
              ? "all as given: nothing within the limit lowers SAV and keeps of the joints what is "
-               "to "
-               "be kept; --limit may allow more, --joints G1 or free keeps less\n"
+               "to be kept; --limit may allow more, --joints G1 or free keeps less\n"
              : "";
 }
 

@@ -75,10 +75,9 @@ std::string tradeoff_text(const json& found) {
 }
 
 std::string limit_text(const json& r) {
-  return r["limit"].is_number()
-             ? fmt::format("limit {:.4g} (a hundredth of the size unless --limit says otherwise)\n",
-                           r["limit"].get<double>())
-             : "";
+  if (!r["limit"].is_number()) return "";
+  const char* usual = "of several patches a hundredth of the size, unless --limit says otherwise";
+  return fmt::format("limit {:.4g} ({})\n", r["limit"].get<double>(), usual);
 }
 
 std::string one_patch_text(const json& r) {

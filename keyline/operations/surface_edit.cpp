@@ -54,9 +54,8 @@ SurfaceEditAnswer answer_of_one(const surface::EditResult& edited) {
 }
 
 Result<SurfaceEditAnswer> run(const SurfaceEditRequest& request, const Context& context) {
-  const bool several = surface::patches_of(request.surface).patches.size() > 1;
   surface::EditOptions options =
-      surface_edit_options(request.options, std::span(&request.surface, 1), several);
+      surface_edit_options(request.options, std::span(&request.surface, 1));
   options.progress = context.progress;
   const auto edit = surface::edit_surface(request.surface, options, context.threads);
   if (!edit) return std::unexpected(edit.error());
@@ -67,8 +66,8 @@ Result<SurfaceEditAnswer> run(const SurfaceEditRequest& request, const Context& 
 
 namespace {
 
-/// Unasked no surface goes farther than the end of a curve may miss its minimum's unasked
-/// (curve.cav's end_tolerance).
+/// Unasked patches that go together go no farther than the end of a curve may miss its minimum's
+/// unasked (curve.cav's end_tolerance).
 constexpr double kUsualShare = 0.01;  // of the size
 
 double size_of(std::span<const surface::Surface> all) {
@@ -80,18 +79,23 @@ double size_of(std::span<const surface::Surface> all) {
   return surface::extent(points);
 }
 
+bool several_patches(std::span<const surface::Surface> all) {
+  return all.size() > 1 || surface::patches_of(all.front()).patches.size() > 1;
+}
+
 }  // namespace
 
 surface::EditOptions surface_edit_options(const SurfaceEditOptions& given,
-                                          std::span<const surface::Surface> all, bool several) {
+                                          std::span<const surface::Surface> all) {
+  const bool several = several_patches(all);
   surface::EditOptions options;
   options.keep = given.keep.value_or(several ? surface::Keep::joints : surface::Keep::start);
   options.amount = given.amount;
-  if (!given.limit) {
+  if (!given.limit && several) {
     options.limit = kUsualShare * size_of(all);
     options.part_of_the_way = false;
-  } else if (const double* limit = std::get_if<double>(&*given.limit)) {
-    options.limit = *limit;
+  } else if (given.limit && std::holds_alternative<double>(*given.limit)) {
+    options.limit = std::get<double>(*given.limit);
   }
   options.alpha_max = given.alpha_max;
   options.end_tolerance = given.end_tolerance;

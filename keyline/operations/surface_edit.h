@@ -27,11 +27,11 @@ struct SurfaceEditOptions {
             "stay, but where joints are held those in which patches meet move together; the "
             "default of several) or boundary"),
         core::field<&Request::amount>("0 as given to 1 the target").within(core::from_to(0, 1)),
-        core::field<&Request::limit>("largest departure from the given surfaces, or \"none\"; a "
-                                     "hundredth of their size (the "
-                                     "diagonal of the box around them) unless given: then what "
-                                     "would go farther stays as given, "
-                                     "where a length given is used up by going part of the way")
+        core::field<&Request::limit>("largest departure from the given surfaces, or \"none\", the "
+                                     "default of a single patch; of several unless given a "
+                                     "hundredth of their size (the diagonal of the box around "
+                                     "them): then what would go farther stays as given, where a "
+                                     "length given is used up by going part of the way")
             .in("length")
             .within(core::at_least(0)),
         core::field<&Request::alpha_max>("largest rotation, as in surface.sav")
@@ -210,9 +210,9 @@ struct SurfaceEditAnswer {
 SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit,
                                       const surface::EditOptions& options);
 
-/// The options of room surface for all these surfaces; `several`: there are several patches.
+/// The options of room surface for all these surfaces, at least one.
 surface::EditOptions surface_edit_options(const SurfaceEditOptions& given,
-                                          std::span<const surface::Surface> all, bool several);
+                                          std::span<const surface::Surface> all);
 
 /// One of several surfaces: edited, or why it stays as it is.
 struct OneOfSurfaces {

@@ -54,7 +54,7 @@ Result<SurfaceEdit> taken(SurfaceEdit& edit) {
 /// there is one alone.
 std::vector<SurfaceEdit> as_one_problem(const TogetherRequest& request, const Context& context) {
   if (request.surfaces.size() < 2) return {};
-  surface::EditOptions options = surface_edit_options(request.options, request.surfaces, true);
+  surface::EditOptions options = surface_edit_options(request.options, request.surfaces);
   options.progress = core::part_of(context.progress, 0, 0.5);
   auto edits =
       surface::edit_surfaces(request.surfaces, options, context.threads, {}, held(request.joints));
@@ -65,8 +65,7 @@ Result<SurfaceEdit> alone(const TogetherRequest& request, std::size_t i, const C
   const auto count = static_cast<double>(request.surfaces.size());
   const auto at = static_cast<double>(i);
   const surface::Surface& one = request.surfaces[i];
-  const bool several = request.surfaces.size() > 1 || surface::patches_of(one).patches.size() > 1;
-  surface::EditOptions options = surface_edit_options(request.options, request.surfaces, several);
+  surface::EditOptions options = surface_edit_options(request.options, request.surfaces);
   options.progress = core::part_of(context.progress, at / count, (at + 1) / count);
   return surface::edit_surface(one, options, context.threads, {}, held(request.joints));
 }
@@ -96,7 +95,7 @@ JointsChange joints_between(const std::vector<OneOfSurfaces>& all, surface::Hold
 /// One that cannot be edited stays as given among others; alone it is a failure.
 Result<SurfacesEditAnswer> run(const TogetherRequest& request, const Context& context) {
   std::vector<SurfaceEdit> together = as_one_problem(request, context);
-  const auto used = surface_edit_options(request.options, request.surfaces, true);
+  const surface::EditOptions used = surface_edit_options(request.options, request.surfaces);
   SurfacesEditAnswer answer;
   std::optional<core::Failure> failure;
   bool any = false;

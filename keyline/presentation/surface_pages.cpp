@@ -128,7 +128,7 @@ Result<Report> report_of(const std::vector<Edited>& all, const ReportOptions& gi
     if (!made) return made;
     made->numbers.push_back({"Limit of the departure",
                              e.limit ? core::number_text(*e.limit, 4) : "none",
-                             "a hundredth of the size unless told"});
+                             "of several patches a hundredth of the size unless told"});
     reports.push_back(std::move(*made));
   }
   return joined_report(reports, "Edited surfaces");

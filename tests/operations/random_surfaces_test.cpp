@@ -109,9 +109,8 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
     const json& result = answer["result"];
     const double told = result["departure"];
     const double rounding = 1e-13 * (size + net_farthest(surface));
-    if (kind != 2) {
-      const double limit = kind < 2 ? request["limit"].get<double>() : 0.01 * size;
-      EXPECT_LE(told, limit * (1 + 1e-12));
+    if (kind < 2) {
+      EXPECT_LE(told, request["limit"].get<double>() * (1 + 1e-12));
     }
     expect_apart_at_most(surface, result["surface"], told, rounding);
     expect_held(surface, result["surface"], keep, 1e-9 * size + rounding);

@@ -170,7 +170,7 @@ TEST(SurfaceOperations, SavOfASplineGoesByPatch) {
 }
 
 TEST(SurfaceOperations, EditBringsSavDownAndSaysByHowMuchItDeparts) {
-  const json r = result_of({{"op", "surface.edit"}, {"surface", bicubic(5)}, {"limit", "none"}});
+  const json r = result_of({{"op", "surface.edit"}, {"surface", bicubic(5)}});
   EXPECT_TRUE(r["limit"].is_null());
   EXPECT_GT(r["before"]["sav"].get<double>(), 100);
   EXPECT_LT(r["after"]["sav"].get<double>(), 1e-5);
@@ -194,28 +194,40 @@ double diagonal(const json& surface) {
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-TEST(SurfaceOperations, EditGoesNoFartherThanAHundredthUnasked) {
+TEST(SurfaceOperations, SeveralPatchesGoNoFartherThanAHundredthUnasked) {
   const json patch = bicubic(5);
-  const double size = diagonal(patch);
-  const json r = result_of({{"op", "surface.edit"}, {"surface", patch}});
-  EXPECT_NEAR(r["limit"].get<double>(), 0.01 * size, 1e-12 * size);
-  EXPECT_LE(r["departure"].get<double>(), 0.01 * size);
-  EXPECT_LT(r["after"]["sav"].get<double>(), r["before"]["sav"].get<double>());
-  EXPECT_GT(r["tradeoff"].back()["departure"].get<double>(), 0.01 * size);  // still told
-  // What is farther off than that stays; of a length that is given all is used.
   const json wild = bicubic(14);
-  const json stays = result_of({{"op", "surface.edit"}, {"surface", wild}});
-  EXPECT_EQ(stays["departure"], 0);
-  EXPECT_EQ(stays["surface"], wild);
-  const double given = 0.01 * diagonal(wild);
-  const json goes = result_of({{"op", "surface.edit"}, {"surface", wild}, {"limit", given}});
-  EXPECT_GT(goes["departure"].get<double>(), 0.9 * given);
-  EXPECT_LE(goes["departure"].get<double>(), given);
-  const json both = result_of({{"op", "surface.edit_together"}, {"surfaces", {patch, wild}}});
-  for (const json& one : both["surfaces"])
-    EXPECT_LE(one["edit"]["departure"].get<double>(), one["edit"]["limit"].get<double>());
+  const auto both = [&](json limit) {
+    json request{{"op", "surface.edit_together"}, {"surfaces", {patch, wild}}};
+    if (!limit.is_null()) request["limit"] = std::move(limit);
+    return result_of(request)["surfaces"];
+  };
+  json all{{"points", patch["points"]}};
+  for (const json& row : wild["points"]) all["points"].push_back(row);
+  const double most = 0.01 * diagonal(all);
+  const json unasked = both(nullptr);
+  for (const json& one : unasked) {
+    EXPECT_NEAR(one["edit"]["limit"].get<double>(), most, 1e-12 * most);
+    EXPECT_LE(one["edit"]["departure"].get<double>(), most);
+  }
+  EXPECT_GT(unasked[0]["edit"]["tradeoff"].back()["departure"].get<double>(), most);  // still told
+  // What is farther off than that stays; of a length that is given all is used.
+  EXPECT_EQ(unasked[1]["edit"]["departure"], 0);
+  EXPECT_EQ(unasked[1]["edit"]["surface"], wild);
+  const json given = both(most);
+  EXPECT_GT(given[1]["edit"]["departure"].get<double>(), 0.9 * most);
+  EXPECT_LE(given[1]["edit"]["departure"].get<double>(), most);
+  EXPECT_GT(both("none")[1]["edit"]["departure"].get<double>(), most);
   EXPECT_EQ(error_of({{"op", "surface.edit"}, {"surface", patch}, {"limit", "far"}})["path"],
             "limit");
+}
+
+TEST(SurfaceOperations, ASinglePatchGoesToItsTarget) {
+  const json wild = bicubic(14);
+  const json r = result_of({{"op", "surface.edit"}, {"surface", wild}});
+  EXPECT_TRUE(r["limit"].is_null());
+  EXPECT_GT(r["departure"].get<double>(), 0.01 * diagonal(wild));
+  EXPECT_LT(r["after"]["sav"].get<double>(), 1e-3 * r["before"]["sav"].get<double>());
 }
 
 TEST(SurfaceOperations, EditOfASplineGoesByPatch) {
@@ -250,7 +262,7 @@ TEST(SurfaceOperations, EditOfASplineGoesByPatch) {
 }
 
 TEST(SurfaceOperations, EditTakesConditionsPerCurve) {
-  json request{{"op", "surface.edit"}, {"surface", bicubic(5)}, {"limit", "none"}};
+  json request{{"op", "surface.edit"}, {"surface", bicubic(5)}};
   request["conditions"] = {{{"curve", "A1"}, {"s", {1.2, 1.3}}}, {{"alpha", {0.0, 1.0}}}};
   const json r = result_of(request);
   EXPECT_LE(r["after"]["curves"][0]["s"].get<double>(), 1.3 + 1e-6);
