@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include <fmt/format.h>
+
+#include "keyline/core/text.h"
 #include "keyline/fairing/joint_rates.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
@@ -151,6 +155,27 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
     const auto outer = analysis::continuity(views, result.closed);
     result.joints.insert(result.joints.end(), outer.begin(), outer.end());
   }
+}
+
+void note_run(FairResult& result, const RunResult& run, std::size_t index) {
+  const std::string where = fmt::format("run {}", index);
+  const std::string pieces = core::counted(run.chain.pieces.size(), "piece");
+  const std::string how = run.dense.joints.empty() ? fmt::format("merged from {}", run.start_pieces)
+                                                   : "read off the graph of curvature";
+  result.notes.push_back(fmt::format("{}: {}, {}", where, pieces, how));
+  if (run.exact)
+    result.notes.push_back(where +
+                           ": the points are reproduced to rounding, so the chain that "
+                           "does so is given rather than a shorter one");
+  if (run.calm_missed)
+    result.notes.push_back(
+        where +
+        ": the calmest chain did not come out within the tolerance, or wandered off "
+        "between points, so the shortest one is given");
+  if (run.straightened > 0)
+    result.notes.push_back(where + ": " +
+                           core::counted(run.straightened, "piece is an exact line or arc",
+                                         "pieces are exact lines or arcs"));
 }
 
 }  // namespace keyline::fairing::detail

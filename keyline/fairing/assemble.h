@@ -33,4 +33,7 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
               const std::optional<curve::BSpline2>& before,
               const std::optional<curve::BSpline2>& after);
 
+/// How a run's chain was found.
+void note_run(FairResult& result, const RunResult& run, std::size_t index);
+
 }  // namespace keyline::fairing::detail

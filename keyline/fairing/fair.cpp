@@ -31,31 +31,11 @@ constexpr double kPlainShare = 0.6;  // of the time, where a symmetric answer is
 constexpr double kAlike = 0.98;      // of a limit: as good as on it
 constexpr double kOutside = 1e-9;    // of the length: farther out is no matter of rounding
 
-void note_run(FairResult& result, const detail::RunResult& run, std::size_t index) {
-  const std::string where = fmt::format("run {}", index);
-  const std::string pieces = core::counted(run.chain.pieces.size(), "piece");
-  const std::string how = run.dense.joints.empty() ? fmt::format("merged from {}", run.start_pieces)
-                                                   : "read off the graph of curvature";
-  result.notes.push_back(fmt::format("{}: {}, {}", where, pieces, how));
-  if (run.exact)
-    result.notes.push_back(where +
-                           ": the points are reproduced to rounding, so the chain that "
-                           "does so is given rather than a shorter one");
-  if (run.calm_missed)
-    result.notes.push_back(
-        where +
-        ": the calmest chain did not come out within the tolerance, or wandered off "
-        "between points, so the shortest one is given");
-  if (run.straightened > 0)
-    result.notes.push_back(where + ": " +
-                           core::counted(run.straightened, "piece is an exact line or arc",
-                                         "pieces are exact lines or arcs"));
-}
-
 /// The whole of one key-line.
 class Job {
  public:
-  Job(const acquire::KeyLine& line, const FairOptions& options) : line_(line), options_(options) {
+  Job(const acquire::KeyLine& line, const FairOptions& options, const FairResult* before = nullptr)
+      : line_(line), options_(options), before_(options.region ? nullptr : before) {
     result_.length = core::polygon_length(line.points, line.closed);
     if (line.length > 0) result_.length = std::min(result_.length, line.length);
     result_.noise = line.noise;
@@ -144,6 +124,10 @@ class Job {
   }
 
   Result<curve::BSpline2> spline_of(std::size_t k) {
+    if (before_) {
+      result_.spline_bic = before_->spline_bic;
+      return before_->splines[k];
+    }
     const detail::Run& run = runs_[k];
     fit::SplineFitOptions fit = options_.spline;
     fit.order = std::min<int>(fit.order, static_cast<int>(run.points.size()));
@@ -170,7 +154,7 @@ class Job {
     }
     split(spline, k);
     solved_.push_back(detail::fair_run(runs_[k], spline, run_options(k)));
-    note_run(result_, solved_.back(), k);
+    detail::note_run(result_, solved_.back(), k);
     if (options_.waves && solved_.back().turns > *options_.waves)
       result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
                                           k, core::counted(std::size_t(*options_.waves), "wave"),
@@ -376,6 +360,7 @@ class Job {
 
   const acquire::KeyLine& line_;
   const FairOptions& options_;
+  const FairResult* before_;  ///< the same with another smoothness, if there was one
   std::vector<detail::Run> runs_;
   std::vector<detail::RunResult> solved_;
   double share_ = 1;                     ///< of the progress that the runs as they are take
@@ -393,8 +378,9 @@ const char* impression(const FairPiece& piece) {
 
 Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
   if (auto sound = detail::check(line, options); !sound) return std::unexpected(sound.error());
-  return detail::until_fair(line, options,
-                            [&](const FairOptions& o) { return Job(line, o).run(); });
+  return detail::until_fair(line, options, [&](const FairOptions& o, const FairResult* before) {
+    return Job(line, o, before).run();
+  });
 }
 
 }  // namespace keyline::fairing

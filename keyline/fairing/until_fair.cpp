@@ -45,15 +45,16 @@ void tell(FairResult& result) {
 
 core::Result<FairResult> until_fair(
     const acquire::KeyLine& line, const FairOptions& options,
-    const std::function<core::Result<FairResult>(const FairOptions&)>& solve) {
+    const std::function<core::Result<FairResult>(const FairOptions&, const FairResult* before)>&
+        solve) {
   const bool calmest = options.criterion == Criterion::least_variation && options.pieces == 0;
-  if (options.smoothness || !calmest) return judged(line, solve(options));
+  if (options.smoothness || !calmest) return judged(line, solve(options, nullptr));
   std::optional<FairResult> best;
   for (const Try& one : kTries) {
     FairOptions asked = options;
     asked.smoothness = one.smoothness;
     asked.progress = core::part_of(options.progress, one.from, one.to);
-    auto found = judged(line, solve(asked));
+    auto found = judged(line, solve(asked, best ? &*best : nullptr));
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
     if (!best || unfairness(*found) < unfairness(*best)) best = std::move(*found);

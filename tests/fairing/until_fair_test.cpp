@@ -23,7 +23,8 @@ struct Solver {
   double fair_from;
   double within_up_to = 1;
   std::vector<double> asked;
-  core::Result<FairResult> operator()(const FairOptions& options) {
+  core::Result<FairResult> operator()(const FairOptions& options, const FairResult* before) {
+    EXPECT_EQ(before != nullptr, !asked.empty());
     asked.push_back(options.smoothness.value_or(-1));
     FairResult result;
     result.smoothness = asked.back();
@@ -60,14 +61,15 @@ TEST(UntilFair, TakesTheSmoothnessAskedForFairOrNot) {
 }
 
 TEST(UntilFair, SolvesOnceWhereSmoothnessCountsForNothing) {
-  Solver solver{1, 1, {}};
-  FairOptions options;
-  options.pieces = 3;
-  EXPECT_TRUE(until_fair(three_points(), options, std::ref(solver)));
-  options.pieces = 0;
-  options.criterion = Criterion::fewest_pieces;
-  EXPECT_TRUE(until_fair(three_points(), options, std::ref(solver)));
-  EXPECT_EQ(solver.asked.size(), 2u);
+  FairOptions short_one;
+  short_one.criterion = Criterion::fewest_pieces;
+  FairOptions counted;
+  counted.pieces = 3;
+  for (const FairOptions& options : {short_one, counted}) {
+    Solver solver{1, 1, {}};
+    EXPECT_TRUE(until_fair(three_points(), options, std::ref(solver)));
+    EXPECT_EQ(solver.asked.size(), 1u);
+  }
 }
 
 TEST(UntilFair, KeepsTheCalmestAndSaysSoWhereNoneIsFair) {
