@@ -8,50 +8,12 @@
 
 #include "keyline/core/error.h"
 #include "keyline/curve/closest_point.h"
+#include "keyline/curve/part_bound.h"
 
 namespace keyline::curve {
 namespace {
 
 using core::Point2;
-using core::Vector2;
-
-constexpr int kMostHalvings = 11;
-
-/// Largest distance of two curves at equal parameter, bounded by their control points.
-double difference(Bezier2 a, Bezier2 b) {
-  const int most = std::max(degree(a), degree(b));
-  a = elevate_degree(a, most - degree(a));
-  b = elevate_degree(b, most - degree(b));
-  double largest = 0;
-  for (std::size_t i = 0; i < a.control.size(); ++i)
-    largest = std::max(largest, distance(a.control[i], b.control[i]));
-  return largest;
-}
-
-/// Foot of p on q near u, kept within [low, high].
-double foot(const Bezier2& q, Point2 p, double u, double low, double high) {
-  for (int i = 0; i < 6; ++i) {
-    const auto j = jet(q, u);
-    const Vector2 off = j.point - p;
-    const double square = dot(j.first, j.first);
-    const double slope = std::max(square + dot(off, j.second), 0.25 * square);
-    if (!(slope > 0)) break;
-    u = std::clamp(u - dot(off, j.first) / slope, low, high);
-  }
-  return u;
-}
-
-/// h against q over [u0, u1].
-double part_bound(const Bezier2& h, const Bezier2& q, double u0, double u1, double wanted,
-                  int halvings) {
-  const double bound = difference(h, subcurve(q, u0, u1));
-  if (bound <= wanted || halvings == kMostHalvings) return bound;
-  const auto [left, right] = split(h, 0.5);
-  const double u = foot(q, left.control.back(), 0.5 * (u0 + u1), u0, u1);
-  const double halves = std::max(part_bound(left, q, u0, u, wanted, halvings + 1),
-                                 part_bound(right, q, u, u1, wanted, halvings + 1));
-  return std::min(bound, halves);
-}
 
 /// Parameters of both chains that belong together.
 struct Pair {
@@ -140,7 +102,7 @@ double stretch_bound(const PiecewiseBezier& a, const PiecewiseBezier& b, const P
     const double a0 = local(pa[i], at), a1 = local(pa[i], end);
     if (a1 > a0)
       largest = std::max(largest, part_bound(subcurve(pa[i].piece, a0, a1), pb[j].piece,
-                                             local(pb[j], at), local(pb[j], end), wanted, 0));
+                                             local(pb[j], at), local(pb[j], end), wanted));
     if (pa[i].to <= end) ++i;
     if (j < pb.size() && pb[j].to <= end) ++j;
     at = end;

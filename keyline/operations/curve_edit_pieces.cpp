@@ -7,7 +7,7 @@
 #include "keyline/analysis/continuity.h"
 #include "keyline/classa/between_tangents.h"
 #include "keyline/classa/deviation.h"
-#include "keyline/core/text.h"
+#include "keyline/operations/edit_piece.h"
 #include "keyline/operations/registry.h"
 
 /// A path edited Bezier by Bezier, its joints held: the operation curve.edit_pieces.
@@ -51,39 +51,15 @@ PieceValue place_of(const Bezier2& c, double alpha_max) {
   return value ? PieceValue{value->type, value->cav, {}} : PieceValue{};
 }
 
-/// The target and the given curve mixed by their control points.
-Bezier2 mixed(const Bezier2& given, const Bezier2& target, double amount) {
-  Bezier2 c = target;
-  const Bezier2 from = curve::elevate_degree(given, curve::degree(target) - curve::degree(given));
-  for (std::size_t i = 0; i < c.control.size(); ++i)
-    c.control[i] = core::mix(from.control[i], c.control[i], amount);
-  c.control.front() = given.control.front();
-  c.control.back() = given.control.back();
-  return c;
-}
-
 /// The Class A curve between the tangents of the piece, if there is one.
 std::optional<Bezier2> target_of(const Bezier2& c, double alpha_max) {
   const int degree = curve::degree(c);
   if (degree > kHighestPieceDegree) return std::nullopt;
-  classa::BetweenRange range;
-  range.lowest_degree = std::max(3, degree);
-  range.highest_degree = kHighestPieceDegree;
-  range.alpha_max = alpha_max;
   const core::Vector2 arriving = curve::unit_tangent(jet(c, 1));
   const auto found = classa::class_a_between(
-      {c.control.front(), curve::unit_tangent(jet(c, 0)), c.control.back(), arriving}, range);
-  if (!found) return std::nullopt;
-  Bezier2 target = classa::to_bezier(*found);
-  auto& points = target.control;
-  const double first = core::distance(points[0], points[1]);
-  const double edge = core::distance(points[points.size() - 2], points.back());
-  if (std::min(first, edge) < kLeastEdge * core::distance(points.front(), points.back()))
-    return std::nullopt;
-  // What the end misses by would turn a short edge: it is set along its tangent.
-  points.back() = c.control.back();
-  points[points.size() - 2] = points.back() - edge * arriving;
-  return target;
+      {c.control.front(), curve::unit_tangent(jet(c, 0)), c.control.back(), arriving},
+      range_for(degree, alpha_max));
+  return found ? set_end(classa::to_bezier(*found), c, arriving) : std::nullopt;
 }
 
 /// Edits one piece in place.
@@ -96,24 +72,12 @@ EditedPiece edit_piece(Bezier2& c, const PiecesRequest& request) {
     return shown;
   }
   shown.before = shown.after = place_of(c, request.alpha_max);
-  const auto target = target_of(c, request.alpha_max);
-  if (!target) {
-    shown.why = kNoTarget;
-    return shown;
-  }
-  Bezier2 moved = mixed(c, *target, request.amount);
-  const double away = classa::deviation_bound(std::span(&c, 1), moved,
-                                              1e-3 * distance(c.control.front(), c.control.back()));
-  if (request.limit && away > *request.limit) {
-    shown.why = "it would depart by " + core::number_text(away, 4);
-    return shown;
-  }
-  shown.became = Became::edited;
-  shown.departure = away;
-  shown.degree = curve::degree(moved);
-  shown.after = place_of(moved, request.alpha_max);
-  c = std::move(moved);
-  return shown;
+  return take(
+      std::move(shown), c, target_of(c, request.alpha_max), request,
+      [&c](const Bezier2& moved, double wanted) {
+        return classa::deviation_bound(std::span(&c, 1), moved, wanted);
+      },
+      [&](const Bezier2& moved) { return place_of(moved, request.alpha_max); });
 }
 
 JointCount joints_of(const std::vector<PlanarCurve>& pieces, bool closed) {

@@ -5,8 +5,7 @@
 #include "keyline/classa/deviation.h"
 #include "keyline/classa/farin.h"
 #include "keyline/core/axis.h"
-#include "keyline/core/text.h"
-#include "keyline/operations/curve_edit_pieces.h"
+#include "keyline/operations/edit_piece.h"
 
 namespace keyline::operations {
 namespace {
@@ -81,35 +80,13 @@ bool is_straight(const Bezier3& c) {
 std::optional<Bezier3> target_of(const Bezier3& c, double alpha_max) {
   const int degree = curve::degree(c);
   if (degree > kHighestPieceDegree) return std::nullopt;
-  classa::BetweenRange range;
-  range.lowest_degree = std::max(3, degree);
-  range.highest_degree = kHighestPieceDegree;
-  range.alpha_max = alpha_max;
   const Vector3 leaving = jet(c, 0).first;
   const Vector3 arriving = jet(c, 1).first;
   if (!(norm(leaving) > 0) || !(norm(arriving) > 0)) return std::nullopt;
-  auto target = classa::class_a_between(
-      classa::SpaceEndTangents{c.control.front(), leaving, c.control.back(), arriving}, range);
-  if (!target) return std::nullopt;
-  auto& points = target->control;
-  const double first = core::distance(points[0], points[1]);
-  const double edge = core::distance(points[points.size() - 2], points.back());
-  if (std::min(first, edge) < kLeastEdge * core::distance(points.front(), points.back()))
-    return std::nullopt;
-  // What the end misses by would turn a short edge: it is set along its tangent.
-  points.back() = c.control.back();
-  points[points.size() - 2] = points.back() - (edge / norm(arriving)) * arriving;
-  return target;
-}
-
-Bezier3 mixed(const Bezier3& given, const Bezier3& target, double amount) {
-  Bezier3 c = target;
-  const Bezier3 from = curve::elevate_degree(given, curve::degree(target) - curve::degree(given));
-  for (std::size_t i = 0; i < c.control.size(); ++i)
-    c.control[i] = core::mix(from.control[i], c.control[i], amount);
-  c.control.front() = given.control.front();
-  c.control.back() = given.control.back();
-  return c;
+  const auto found = classa::class_a_between(
+      classa::SpaceEndTangents{c.control.front(), leaving, c.control.back(), arriving},
+      range_for(degree, alpha_max));
+  return found ? set_end(*found, c, (1 / norm(arriving)) * arriving) : std::nullopt;
 }
 
 /// Edits one piece in place.
@@ -121,24 +98,12 @@ EditedPiece edit_piece(Bezier3& c, const PiecesRequest& request) {
     shown.became = Became::straight;
     return shown;
   }
-  const auto target = target_of(c, request.alpha_max);
-  if (!target) {
-    shown.why = kNoTarget;
-    return shown;
-  }
-  Bezier3 moved = mixed(c, *target, request.amount);
-  const double away =
-      classa::deviation_bound(c, moved, 1e-3 * core::distance(c.control.front(), c.control.back()));
-  if (request.limit && away > *request.limit) {
-    shown.why = "it would depart by " + core::number_text(away, 4);
-    return shown;
-  }
-  shown.became = Became::edited;
-  shown.departure = away;
-  shown.degree = curve::degree(moved);
-  shown.after = value_of(moved, request.alpha_max);
-  c = std::move(moved);
-  return shown;
+  return take(
+      std::move(shown), c, target_of(c, request.alpha_max), request,
+      [&c](const Bezier3& moved, double wanted) {
+        return classa::deviation_bound(c, moved, wanted);
+      },
+      [&](const Bezier3& moved) { return value_of(moved, request.alpha_max); });
 }
 
 Vector3 curvature_vector(const curve::Jet3& j) {
