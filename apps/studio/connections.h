@@ -14,7 +14,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 
-/// What all connections share; of the serving thread alone.
+/// What all connections share; of the serving thread alone, which connections end on too.
 struct Shared {
   Service service;
   Limits limits;

@@ -240,8 +240,10 @@ class Back : public Responder {
  public:
   explicit Back(std::shared_ptr<Session> session)
       : session_(std::move(session)), gone_(session_->gone()), asked_(session_->asked()) {}
+  /// Hands the session over too: it is the serving thread's to end.
   ~Back() override {
-    on_session([asked = asked_](Session& session) { session.abandon(asked); });
+    asio::io_context& io = session_->shared().io;
+    asio::post(io, [session = std::move(session_), asked = asked_] { session->abandon(asked); });
   }
   Back(const Back&) = delete;
   Back& operator=(const Back&) = delete;
