@@ -111,8 +111,7 @@ std::string many_patches_text(const json& r) {
   if (r["departure"].get<double>() == 0)
     text +=
         "as given: nothing of less SAV was found within the limit; --limit may allow more, "
-        "--joints "
-        "G1 or free holds less of the joints\n";
+        "--joints G1 or free holds less of the joints\n";
   if (r.contains("tradeoff")) text += tradeoff_text(r["tradeoff"]);
   text += fmt::format("{:>8} {:>11} {:>11} {:>11}  {}\n", "patch", "SAV", "after", "departure",
                       "target");

@@ -28,9 +28,8 @@ double exp_ratio(double w) { return std::abs(w) < 1e-8 ? 1 + w / 2 : std::expm1(
 
 double slope_at(const LineModel& m, double s) { return s < m.anchor ? m.slope0 : m.slope1; }
 
-/// A model without its curvature, at the ends of the cells: the turning from the anchor is
-/// curvature
-/// * stretched * ratio.
+/// A model without its curvature, at the ends of the cells: there the turning from the anchor is
+/// the product of curvature, stretched and ratio.
 struct Shape {
   LineModel model;
   std::vector<double> stretched;

@@ -48,29 +48,34 @@ std::vector<core::Point2> points_along(const acquire::KeyLine& line, bool open) 
   return points;
 }
 
+/// The splines that any answer is held against.
+FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result) {
+  FairFigures figures;
+  for (const curve::BSpline2& spline : result.splines)
+    add(figures.spline, analysis::comb_figures(graph_of(spline)));
+  if (result.curves.size() != 1) return figures;
+  const auto* chain = std::get_if<lac::Chain>(&result.curves.front());
+  const bool open = chain ? !chain->closed : !result.closed;
+  const auto smooth =
+      fit::smoothing_spline_curvature(points_along(line, open), !open, result.tolerance);
+  if (smooth) figures.smoothing_spline = analysis::comb_figures(*smooth);
+  return figures;
+}
+
 bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
   return a.waves <= b.waves && a.energy <= kAsGood * b.energy && a.jolt <= kAsGood * b.jolt;
 }
 
 }  // namespace
 
-FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result) {
-  FairFigures figures;
+FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result,
+                         const FairFigures* before) {
+  FairFigures figures = before ? *before : rivals_of(line, result);
+  figures.answer = {};
   for (const FairCurve& member : result.curves)
     add(figures.answer,
         std::visit([](const auto& c) { return analysis::comb_figures(graph_of(c)); }, member));
-  for (const curve::BSpline2& spline : result.splines)
-    add(figures.spline, analysis::comb_figures(graph_of(spline)));
-  const bool straight = figures.answer.energy == 0;
-  figures.fair = straight || as_fair(figures.answer, figures.spline);
-  if (result.curves.size() != 1) return figures;
-  const auto* chain = std::get_if<lac::Chain>(&result.curves.front());
-  const bool open = chain ? !chain->closed : !result.closed;
-  const auto smooth =
-      fit::smoothing_spline_curvature(points_along(line, open), !open, result.tolerance);
-  if (!smooth) return figures;
-  figures.smoothing_spline = analysis::comb_figures(*smooth);
-  figures.fair = straight || as_fair(figures.answer, *figures.smoothing_spline);
+  figures.fair = figures.answer.energy == 0 || as_fair(figures.answer, figures.rival());
   return figures;
 }
 

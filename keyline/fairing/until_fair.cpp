@@ -26,8 +26,9 @@ std::tuple<bool, int, double, double> unfairness(const FairResult& result) {
           std::max(f.answer.energy / rival.energy, f.answer.jolt / rival.jolt), f.answer.energy};
 }
 
-core::Result<FairResult> judged(const acquire::KeyLine& line, core::Result<FairResult> found) {
-  if (found) found->fairness = fair_figures(line, *found);
+core::Result<FairResult> judged(const acquire::KeyLine& line, core::Result<FairResult> found,
+                                const FairResult* before) {
+  if (found) found->fairness = fair_figures(line, *found, before ? &before->fairness : nullptr);
   return found;
 }
 
@@ -48,13 +49,14 @@ core::Result<FairResult> until_fair(
     const std::function<core::Result<FairResult>(const FairOptions&, const FairResult* before)>&
         solve) {
   const bool calmest = options.criterion == Criterion::least_variation && options.pieces == 0;
-  if (options.smoothness || !calmest) return judged(line, solve(options, nullptr));
+  if (options.smoothness || !calmest) return judged(line, solve(options, nullptr), nullptr);
   std::optional<FairResult> best;
   for (const Try& one : kTries) {
     FairOptions asked = options;
     asked.smoothness = one.smoothness;
     asked.progress = core::part_of(options.progress, one.from, one.to);
-    auto found = judged(line, solve(asked, best ? &*best : nullptr));
+    const FairResult* before = best ? &*best : nullptr;
+    auto found = judged(line, solve(asked, before), before);
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
     if (!best || unfairness(*found) < unfairness(*best)) best = std::move(*found);

@@ -282,11 +282,7 @@ Gray darkness_raster(const Tone& tone) {
     table[i] = static_cast<std::uint16_t>(
         std::lround(kFull * darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain)));
   Gray dark(tone.level.width, tone.level.height);
-  for_rows(0, dark.height, [&](int first, int last) {
-    const std::size_t end = dark.index(0, last);
-    for (std::size_t i = dark.index(0, first); i < end; ++i)
-      dark.data[i] = table[tone.level.data[i]];
-  });
+  look_up(tone.level, table, dark);
   return dark;
 }
 

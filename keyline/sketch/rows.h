@@ -21,4 +21,13 @@ void for_rows(int from, int to, Body&& body) {
   });
 }
 
+/// Every value of `from` looked up in a table, into `to` of the same size, which may be `from`.
+template <class Pixels, class Table>
+void look_up(const Pixels& from, const Table& table, Pixels& to) {
+  for_rows(0, from.height, [&](int first, int last) {
+    const std::size_t end = from.index(0, last);
+    for (std::size_t i = from.index(0, first); i < end; ++i) to.data[i] = table[from.data[i]];
+  });
+}
+
 }  // namespace keyline::sketch

@@ -118,11 +118,7 @@ Tone transform_intensity(Image image, const ToneOptions& options) {
   const double paper = std::max(intensity(percentile(tone.level, 0.8)), 2.0);
   tone.gain = options.gain.value_or(1 / std::log(paper));
   const std::vector<std::uint16_t> table = level_table(tone.gain);
-  for_rows(0, tone.level.height, [&](int first, int last) {
-    const std::size_t end = tone.level.index(0, last);
-    for (std::size_t i = tone.level.index(0, first); i < end; ++i)
-      tone.level.data[i] = table[tone.level.data[i]];
-  });
+  look_up(tone.level, table, tone.level);
   tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));
   tone.flattened = flatten_background(tone.level, options.flatten);
   tone.noise = noise_of(tone.level);

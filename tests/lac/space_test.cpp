@@ -339,16 +339,21 @@ TEST(SolveG1Space, InAPlaneIsThePlaneCurve) {
   EXPECT_EQ(line->chain.pieces[0].curvature_start, 0);
 }
 
+/// Ends and tangents of a segment that sets out from the origin along x, in the plane z = 0.
+SpaceHermite ends_in_plane(const Segment& s) {
+  const core::Pose2 end = end_pose(s);
+  return {{0, 0, 0},
+          {end.position.x, end.position.y, 0},
+          {1, 0, 0},
+          {std::cos(end.direction), std::sin(end.direction), 0}};
+}
+
 // Curvature k (1 - s/L)^n falls to 0 at the end: drho/ds is n / (k L) at the start.
 TEST(SolveG1Space, InAPlaneTheEndMayHaveNoCurvature) {
   for (const auto& [alpha, n] : {std::pair{-1.0, 1.0}, {-0.5, 2.0}, {-2.0, 0.5}}) {
     for (const double k : {0.8, 0.3, 0.5}) {
       const Segment s{{{0, 0}, 0}, alpha, 1, k, 0};
-      const core::Pose2 end = end_pose(s);
-      const SpaceHermite data{{0, 0, 0},
-                              {end.position.x, end.position.y, 0},
-                              {1, 0, 0},
-                              {std::cos(end.direction), std::sin(end.direction), 0}};
+      const SpaceHermite data = ends_in_plane(s);
       const auto solved = solve_g1_space(data, alpha, 0, 0);
       ASSERT_TRUE(solved);
       EXPECT_NEAR(solved->lambda, n / k, 1e-6) << alpha << ' ' << k;
@@ -364,11 +369,7 @@ TEST(SolveG1Space, InAPlaneTheStartMayHaveNoCurvature) {
     for (const double k : {0.8, -0.8, 0.3, -0.3, 1.7, -1.7}) {
       SCOPED_TRACE(std::to_string(alpha) + ' ' + std::to_string(k));
       const Segment s{{{0, 0}, 0}, alpha, 1, 0, k};
-      const core::Pose2 end = end_pose(s);
-      const SpaceHermite data{{0, 0, 0},
-                              {end.position.x, end.position.y, 0},
-                              {1, 0, 0},
-                              {std::cos(end.direction), std::sin(end.direction), 0}};
+      const SpaceHermite data = ends_in_plane(s);
       const auto solved = solve_g1_space(data, alpha, 0, 0);
       ASSERT_TRUE(solved);
       EXPECT_EQ(solved->lambda, -infinity);
