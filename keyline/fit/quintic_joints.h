@@ -9,6 +9,9 @@
 /// Quintics in a row by what their neighbours share, so that they are G2 whatever the numbers.
 namespace keyline::fit {
 
+/// Five over k.
+inline constexpr std::array<double, 6> kChoose5 = {1, 5, 10, 10, 5, 1};
+
 struct QuinticJoint {
   core::Point2 place;
   double direction = 0;

@@ -7,8 +7,6 @@ namespace {
 
 using core::Vector2;
 
-constexpr std::array<double, 6> kChoose5 = {1, 5, 10, 10, 5, 1};
-
 /// Where the two coordinates of a control point stand.
 constexpr Eigen::Index row_of(std::size_t control) {
   return static_cast<Eigen::Index>(2 * control);

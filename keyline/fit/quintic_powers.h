@@ -11,12 +11,11 @@ namespace keyline::fit {
 class QuinticPowers {
  public:
   explicit QuinticPowers(const QuinticHandles& h) : start_(h[0]) {
-    constexpr std::array<double, 6> kChoose = {1, 5, 10, 10, 5, 1};
     std::array<core::Vector2, 6> d;  // differences, of rising order
     for (std::size_t k = 0; k < 6; ++k) d[k] = h[k] - h[0];
     for (std::size_t order = 1; order < 6; ++order)
       for (std::size_t k = 5; k >= order; --k) d[k] = d[k] - d[k - 1];
-    for (std::size_t k = 0; k < 6; ++k) power_[k] = kChoose[k] * d[k];
+    for (std::size_t k = 0; k < 6; ++k) power_[k] = kChoose5[k] * d[k];
   }
 
   /// From the place at t to a point, and the first derivative there.
