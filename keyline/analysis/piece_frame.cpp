@@ -42,25 +42,36 @@ PieceFrame::PieceFrame(const CurvatureProfile& piece) : turning_(kCells) {
   make_modes();
 }
 
+PieceFrame PieceFrame::coarse() const {
+  PieceFrame few;
+  few.length_ = length_;
+  few.reversed_ = reversed_;
+  few.sign_ = sign_;
+  few.turning_ = turning_.reshaped(cells() / kFewCells, kFewCells).colwise().sum().transpose();
+  few.make_modes();
+  return few;
+}
+
 double PieceFrame::mean_curvature(int from, int to) const {
-  return turning_.segment(from, to - from).mean() * kCells;
+  return turning_.segment(from, to - from).mean() * cells();
 }
 
 void PieceFrame::make_modes() {
+  const int n = cells();
   core::Point2 p;
   double angle = -turning_.sum() / 2;
   std::vector<core::Point2> points = {p};
   core::Vector2 centre;
-  for (int i = 0; i < kCells; ++i) {
+  for (int i = 0; i < n; ++i) {
     const core::Vector2 along = core::unit_vector(angle + turning_[i] / 2);
     normals_.push_back(core::perpendicular_left(along));
-    p = p + (1.0 / kCells) * along;
+    p = p + (1.0 / n) * along;
     angle += turning_[i];
     points.push_back(p);
-    centre = centre + core::Vector2{p.x, p.y} / (kCells + 1.0);
+    centre = centre + core::Vector2{p.x, p.y} / (n + 1.0);
   }
-  turn_mode_.resize(2 * (kCells + 1));
-  for (int i = 0; i <= kCells; ++i) {
+  turn_mode_.resize(2 * (n + 1));
+  for (int i = 0; i <= n; ++i) {
     const core::Vector2 moved =
         core::perpendicular_left(core::Vector2{points[i].x, points[i].y} - centre);
     turn_mode_[2 * i] = moved.x;
@@ -70,26 +81,29 @@ void PieceFrame::make_modes() {
 }
 
 Eigen::VectorXd PieceFrame::displacement(const Eigen::VectorXd& model_turning) const {
-  Eigen::VectorXd r(2 * (kCells + 1));
+  const int n = cells();
+  Eigen::VectorXd r(2 * (n + 1));
   core::Vector2 moved;
   core::Vector2 mean;
   double turned = 0;
   r[0] = 0;
   r[1] = 0;
-  for (int i = 0; i < kCells; ++i) {
+  const double cell = 1.0 / n;
+  for (int i = 0; i < n; ++i) {
     const double more = model_turning[i] - turning_[i];
-    moved = moved + ((turned + more / 2) / kCells) * normals_[i];
+    moved = moved + ((turned + more / 2) * cell) * normals_[i];
     turned += more;
     r[2 * i + 2] = moved.x;
     r[2 * i + 3] = moved.y;
-    mean = mean + moved / (kCells + 1.0);
+    mean = mean + moved;
   }
-  for (int i = 0; i <= kCells; ++i) {
+  mean = mean / (n + 1.0);
+  for (int i = 0; i <= n; ++i) {
     r[2 * i] -= mean.x;
     r[2 * i + 1] -= mean.y;
   }
   r -= turn_mode_ * turn_mode_.dot(r);
-  return r / std::sqrt(kCells + 1.0);
+  return r / std::sqrt(n + 1.0);
 }
 
 }  // namespace keyline::analysis::detail

@@ -13,14 +13,20 @@ namespace keyline::analysis::detail {
 class PieceFrame {
  public:
   static constexpr int kCells = 200;
+  static constexpr int kFewCells = 40;
 
   /// The profile must be complete.
   explicit PieceFrame(const CurvatureProfile& piece);
 
+  /// The same piece in kFewCells cells: where a fit ends is told nearly at a fifth of the cost.
+  PieceFrame coarse() const;
+
+  int cells() const { return static_cast<int>(turning_.size()); }
+
   double length() const { return length_; }    ///< of the original piece
   bool reversed() const { return reversed_; }  ///< the frame runs against the piece
   double sign() const { return sign_; }        ///< of the piece's curvature
-  /// Turning of each cell of length 1 / kCells, in radians.
+  /// Turning of each cell of length 1 / cells(), in radians.
   const Eigen::VectorXd& turning() const { return turning_; }
   /// Mean curvature over the cells [from, to).
   double mean_curvature(int from, int to) const;
@@ -32,6 +38,7 @@ class PieceFrame {
   Eigen::VectorXd displacement(const Eigen::VectorXd& model_turning) const;
 
  private:
+  PieceFrame() = default;
   void make_modes();
 
   double length_ = 1;

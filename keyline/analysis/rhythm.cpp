@@ -47,7 +47,7 @@ class Reader {
   Interpretation straight() const {
     Interpretation i = start(Rhythm::straight, 0);
     i.curvatures = {0, 0};
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(PieceFrame::kCells);
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(frame_.cells());
     return rated(i, frame_.displacement(none).norm());
   }
 
@@ -136,11 +136,11 @@ class Reader {
     return error < kUndetermined ? error : kUndetermined;
   }
 
-  /// The one line that fits best, where two lines start from.
+  /// The one line that fits best, where two lines start from: a few cells tell it well enough.
   LineModel line() const {
     if (!line_) {
       const double limit = options_.slope_limit;
-      line_ = detail::fit_one_line(frame_, -limit, limit).model;
+      line_ = detail::fit_one_line(frame_.coarse(), -limit, limit).model;
     }
     return *line_;
   }

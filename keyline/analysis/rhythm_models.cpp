@@ -16,7 +16,6 @@
 namespace keyline::analysis::detail {
 namespace {
 
-constexpr int kCells = PieceFrame::kCells;
 constexpr double kExact = 1e-9;      // a deviation that no other start will better
 constexpr double kStraight = 1e-13;  // turning in all, radians, that is rounding
 constexpr double kLeastBase = 1e-7;  // of 1 - alpha lambda x, before a cusp or an inflection
@@ -37,11 +36,11 @@ struct Shape {
 };
 
 /// `known`: of another model; what the two share is taken from it.
-Shape shape_of(const LineModel& m, const Shape* known) {
-  Shape shape{m, std::vector<double>(kCells + 1), std::vector<double>(kCells + 1)};
+Shape shape_of(const LineModel& m, int cells, const Shape* known) {
+  Shape shape{m, std::vector<double>(cells + 1), std::vector<double>(cells + 1)};
   const bool near = known && known->model.rate == m.rate && known->model.anchor == m.anchor;
-  for (int i = 0; i <= kCells; ++i) {
-    const double s = static_cast<double>(i) / kCells;
+  for (int i = 0; i <= cells; ++i) {
+    const double s = static_cast<double>(i) / cells;
     const double alpha = slope_at(m, s);
     if (near && slope_at(known->model, s) == alpha) {
       shape.stretched[i] = known->stretched[i];
@@ -59,9 +58,10 @@ Eigen::VectorXd turning_of(const Shape& shape) {
   const auto from_anchor = [&](int i) {
     return shape.model.curvature * shape.stretched[i] * shape.ratio[i];
   };
-  Eigen::VectorXd turning(kCells);
+  const int cells = static_cast<int>(shape.ratio.size()) - 1;
+  Eigen::VectorXd turning(cells);
   double before = from_anchor(0);
-  for (int i = 0; i < kCells; ++i) {
+  for (int i = 0; i < cells; ++i) {
     const double now = from_anchor(i + 1);
     turning[i] = now - before;
     before = now;
@@ -74,23 +74,23 @@ bool is_straight(const PieceFrame& frame) { return frame.turning().cwiseAbs().su
 
 LineFit straight_line(const PieceFrame& frame, double slope0, double slope1) {
   const double none = std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd turning = Eigen::VectorXd::Zero(kCells);
+  const Eigen::VectorXd turning = Eigen::VectorXd::Zero(frame.cells());
   return {{0, 0, 0.5, slope0, slope1}, frame.displacement(turning).norm(), none, none};
 }
 
-/// Turnings of line models, by their parameters.
+/// Turnings of line models, by their parameters, in as many cells as the frame has.
 class Lines {
  public:
   using Model = std::function<LineModel(const Eigen::VectorXd&)>;
   explicit Lines(Model model) : model_(std::move(model)) {}
 
-  Eigen::VectorXd at(const Eigen::VectorXd& x) {
-    last_ = shape_of(model_(x), nullptr);
+  Eigen::VectorXd at(const Eigen::VectorXd& x, int cells) {
+    last_ = shape_of(model_(x), cells, nullptr);
     return turning_of(last_);
   }
   /// Of parameters some of which are those asked for last.
-  Eigen::VectorXd beside(const Eigen::VectorXd& x) const {
-    return turning_of(shape_of(model_(x), &last_));
+  Eigen::VectorXd beside(const Eigen::VectorXd& x, int cells) const {
+    return turning_of(shape_of(model_(x), cells, &last_));
   }
 
  private:
@@ -98,14 +98,15 @@ class Lines {
   Shape last_;
 };
 
-/// Least squares of frame.displacement(build.at(x)) with a numeric Jacobian; returns the distance.
+/// Least squares of the frame's displacement by build.at(x) with a numeric Jacobian; returns the
+/// distance.
 template <class Build>
 double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int iterations) {
   Eigen::VectorXd known_at;  // a step that is taken is asked for again, with its derivatives
   Eigen::VectorXd known;
   const auto displaced = [&](const Eigen::VectorXd& at) -> const Eigen::VectorXd& {
     if (known_at.size() == at.size() && known_at == at) return known;
-    known = frame.displacement(build.at(at));
+    known = frame.displacement(build.at(at, frame.cells()));
     known_at = at;
     return known;
   };
@@ -118,7 +119,7 @@ double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int i
       const double step = 1e-7 * std::max(1.0, std::abs(at[k]));
       Eigen::VectorXd beside = at;
       beside[k] += step;
-      j->col(k) = (frame.displacement(build.beside(beside)) - r) / step;
+      j->col(k) = (frame.displacement(build.beside(beside, frame.cells())) - r) / step;
     }
     return j->allFinite();
   };
@@ -130,15 +131,17 @@ double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int i
 
 /// Standard deviations of x for residuals of standard deviation 1.
 Eigen::VectorXd uncertainty(const PieceFrame& frame, Lines build, const Eigen::VectorXd& x) {
-  build.at(x);
-  Eigen::MatrixXd j(2 * (kCells + 1), x.size());
+  const int cells = frame.cells();
+  build.at(x, cells);
+  Eigen::MatrixXd j(2 * (cells + 1), x.size());
   for (int k = 0; k < x.size(); ++k) {
     Eigen::VectorXd up = x;
     Eigen::VectorXd down = x;
     up[k] += 1e-5;
     down[k] -= 1e-5;
-    j.col(k) =
-        (frame.displacement(build.beside(up)) - frame.displacement(build.beside(down))) / 2e-5;
+    j.col(k) = (frame.displacement(build.beside(up, cells)) -
+                frame.displacement(build.beside(down, cells))) /
+               2e-5;
   }
   const std::optional<Eigen::MatrixXd> inverse = numeric::inverse(j.transpose() * j);
   if (!inverse) {
@@ -149,15 +152,16 @@ Eigen::VectorXd uncertainty(const PieceFrame& frame, Lines build, const Eigen::V
 
 /// One line through the mean curvature of both ends, with the right whole turning.
 LineModel first_guess(const PieceFrame& frame, double slope) {
-  constexpr int tenth = kCells / 20;
-  const double floor = 1e-3 * std::max(frame.mean_curvature(0, kCells), 1e-12);
-  const double start = std::max(frame.mean_curvature(0, tenth), floor);
-  const double end = std::max(frame.mean_curvature(kCells - tenth, kCells), floor);
+  const int cells = frame.cells();
+  const int part = cells / 20;
+  const double floor = 1e-3 * std::max(frame.mean_curvature(0, cells), 1e-12);
+  const double start = std::max(frame.mean_curvature(0, part), floor);
+  const double end = std::max(frame.mean_curvature(cells - part, cells), floor);
   const double q = std::log(end / start);
   LineModel m{1, q, 0.5, slope, slope};
   if (std::abs(slope) > 1e-6) m.rate = 2 / slope * std::tanh(slope * q / 2);
   m.rate = drawable_rate(m);
-  m.curvature = frame.turning().sum() / turning_of(m).sum();
+  m.curvature = frame.turning().sum() / turning_of(m, cells).sum();
   return m;
 }
 
@@ -201,7 +205,9 @@ double curvature_at(const LineModel& m, double s) {
   return m.curvature * std::exp(m.rate * stretched);
 }
 
-Eigen::VectorXd turning_of(const LineModel& m) { return turning_of(shape_of(m, nullptr)); }
+Eigen::VectorXd turning_of(const LineModel& m, int cells) {
+  return turning_of(shape_of(m, cells, nullptr));
+}
 
 LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
   if (is_straight(frame)) {
@@ -211,26 +217,31 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
   }
   Lines build([&](const Eigen::VectorXd& x) { return one_line(x, low, high); });
   const double width = high - low;
-  LineFit best;
-  best.deviation = std::numeric_limits<double>::infinity();
+  const PieceFrame few = frame.coarse();
+  double least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd best_x;
   double last = std::numeric_limits<double>::quiet_NaN();
   for (double wish : {-3.0, -0.5, 0.5, 3.0}) {
     const double start = std::clamp(wish, low + width / 50, high - width / 50);
-    if (start == last || best.deviation < kExact) continue;
+    if (start == last || least < kExact) continue;
     last = start;
     const LineModel guess = first_guess(frame, start);
     Eigen::VectorXd x(3);
     x << std::log(std::max(guess.curvature, 1e-12)), guess.rate, start;
-    const double deviation = minimize(frame, build, x, 60);
-    if (!(deviation < best.deviation)) continue;
-    best = {one_line(x, low, high), deviation, 0, 0};
+    const double deviation = minimize(few, build, x, 60);
+    if (!(deviation < least)) continue;
+    least = deviation;
     best_x = x;
   }
+  LineFit best;
   if (best_x.size() == 0) {
     best.model = first_guess(frame, std::clamp(0.0, low, high));
-    best.deviation = frame.displacement(turning_of(best.model)).norm();
-  } else if (width > 0) {
+    best.deviation = frame.displacement(turning_of(best.model, frame.cells())).norm();
+    return best;
+  }
+  best.deviation = minimize(frame, build, best_x, 60);
+  best.model = one_line(best_x, low, high);
+  if (width > 0) {
     best_x[2] = best.model.slope0;
     const Lines free([](const Eigen::VectorXd& x) { return one_line(x, -99, 99); });
     best.slope_error0 = best.slope_error1 = uncertainty(frame, free, best_x)[2];
@@ -262,13 +273,14 @@ LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const 
     return straight_line(frame, (bounds.low0 + bounds.high0) / 2, (bounds.low1 + bounds.high1) / 2);
   Lines build([&](const Eigen::VectorXd& x) { return two_lines(x, bounds); });
   const double way = bounds.low0 > bounds.low1 ? 1 : -1;
+  const PieceFrame few = frame.coarse();
   Eigen::VectorXd best_x;
   double least = std::numeric_limits<double>::infinity();
   for (double anchor : {0.25, 0.5, 0.75}) {
     for (const auto& [step0, step1] : {std::pair{0.7, -0.7}, {2.0, -0.2}, {0.2, -2.0}}) {
       if (least < kExact) break;
       Eigen::VectorXd x = two_lines_guess(start, bounds, anchor, way * step0, way * step1);
-      const double deviation = minimize(frame, build, x, 15);
+      const double deviation = minimize(few, build, x, 30);
       if (!(deviation < least)) continue;
       least = deviation;
       best_x = x;
@@ -277,7 +289,7 @@ LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const 
   LineFit fit;
   if (best_x.size() == 0) {
     fit.model = start;
-    fit.deviation = frame.displacement(turning_of(start)).norm();
+    fit.deviation = frame.displacement(turning_of(start, frame.cells())).norm();
     return fit;
   }
   fit.deviation = minimize(frame, build, best_x, 100);
@@ -324,7 +336,7 @@ std::vector<int> best_parts(const Eigen::VectorXd& v, int n) {
 }
 
 /// x holds n curvatures and then n - 1 breaks.
-Eigen::VectorXd turning_of_arcs(const Eigen::VectorXd& x) {
+Eigen::VectorXd turning_of_arcs(const Eigen::VectorXd& x, int cells) {
   const int n = (static_cast<int>(x.size()) + 1) / 2;
   const auto turned = [&](double s) {  // up to s
     double angle = 0;
@@ -336,15 +348,19 @@ Eigen::VectorXd turning_of_arcs(const Eigen::VectorXd& x) {
     }
     return angle;
   };
-  Eigen::VectorXd turning(kCells);
-  for (int i = 0; i < kCells; ++i)
-    turning[i] = turned((i + 1.0) / kCells) - turned(static_cast<double>(i) / kCells);
+  Eigen::VectorXd turning(cells);
+  for (int i = 0; i < cells; ++i)
+    turning[i] = turned((i + 1.0) / cells) - turned(static_cast<double>(i) / cells);
   return turning;
 }
 
 struct Arcs {
-  Eigen::VectorXd at(const Eigen::VectorXd& x) const { return turning_of_arcs(x); }
-  Eigen::VectorXd beside(const Eigen::VectorXd& x) const { return turning_of_arcs(x); }
+  Eigen::VectorXd at(const Eigen::VectorXd& x, int cells) const {
+    return turning_of_arcs(x, cells);
+  }
+  Eigen::VectorXd beside(const Eigen::VectorXd& x, int cells) const {
+    return turning_of_arcs(x, cells);
+  }
 };
 
 }  // namespace
@@ -361,7 +377,7 @@ ArcsFit fit_arcs(const PieceFrame& frame, int n) {
   Eigen::VectorXd x(2 * n - 1);
   for (int k = 0; k < n; ++k) {
     x[k] = frame.mean_curvature(k == 0 ? 0 : ends[k - 1], ends[k]);
-    if (k + 1 < n) x[n + k] = static_cast<double>(ends[k]) / kCells;
+    if (k + 1 < n) x[n + k] = static_cast<double>(ends[k]) / frame.cells();
   }
   ArcsFit fit;
   const Arcs build;

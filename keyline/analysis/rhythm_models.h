@@ -24,8 +24,8 @@ struct LineModel {
 double drawable_rate(const LineModel& m);
 /// Curvature at s; the model's rate must be drawable.
 double curvature_at(const LineModel& m, double s);
-/// Turning of every cell.
-Eigen::VectorXd turning_of(const LineModel& m);
+/// Turning of every one of so many cells.
+Eigen::VectorXd turning_of(const LineModel& m, int cells);
 
 struct SlopeBounds {
   double low0, high0, low1, high1;
