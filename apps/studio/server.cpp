@@ -19,7 +19,8 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using Parser = http::request_parser<http::string_body>;
 
-constexpr auto kLastReplies = std::chrono::seconds(2);
+constexpr auto kDrain = std::chrono::seconds(2);
+constexpr auto kLastReplies = std::chrono::seconds(4);  // to works that were told to end
 
 std::string text(beast::string_view v) { return {v.data(), v.size()}; }
 
@@ -77,6 +78,7 @@ class Session : public std::enable_shared_from_this<Session> {
     stream_.expires_after(shared_.limits.body_time);
     http::async_write(stream_, *response,
                       [self = shared_from_this(), response](error_code failed, std::size_t) {
+                        self->owed_.reset();
                         if (failed) return self->close();
                         if (response->need_eof()) return self->leave();
                         self->read_head();
@@ -163,6 +165,7 @@ class Session : public std::enable_shared_from_this<Session> {
       writing_ = false;
       if (!answering_) {
         streaming_ = false;
+        owed_.reset();
         read_head();
       }
       return;
@@ -196,7 +199,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void leave() {
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(kLastReplies);
+    stream_.expires_after(kDrain);
     drain();
   }
 
@@ -214,6 +217,7 @@ class Session : public std::enable_shared_from_this<Session> {
   }
 
   void close() {
+    owed_.reset();
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_both, ignored);
     stream_.close();
@@ -221,6 +225,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   Shared& shared_;
   Counted counted_;
+  std::optional<Owed> owed_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
@@ -279,6 +284,7 @@ void Session::on_body(error_code failed) {
   stream_.expires_never();
   gone_ = core::CancellationToken::make();
   answering_ = true;
+  owed_.emplace(shared_);
   ++asked_;
   watch();
   shared_.service.serve(head_, std::move(parser_->get().body()),
@@ -311,12 +317,14 @@ class BeastServer : public Server {
   void run() override {
     accept();
     shared_.io.run();
+    shared_.stopping = false;  // what ends with io is not to stop it
   }
 
   void stop() override {
     asio::post(shared_.io, [this] {
       shared_.stopping = true;
       acceptor_.close();
+      shared_.stop_if_idle();
       last_.expires_after(kLastReplies);
       last_.async_wait([this](error_code) { shared_.io.stop(); });
     });

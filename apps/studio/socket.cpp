@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket.hpp>
 
@@ -30,6 +32,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   void read() {
     socket_.async_read(buffer_, [self = shared_from_this()](error_code failed, std::size_t) {
       if (failed) return;
+      self->owed_.emplace(self->shared_);
       std::string message = beast::buffers_to_string(self->buffer_.data());
       self->buffer_.consume(self->buffer_.size());
       self->shared_.service.message(std::move(message), [self](std::string answer) {
@@ -46,12 +49,14 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     socket_.text(true);
     socket_.async_write(asio::buffer(answer_),
                         [self = shared_from_this()](error_code failed, std::size_t) {
+                          self->owed_.reset();
                           if (!failed && !self->shared_.stopping) self->read();
                         });
   }
 
   Shared& shared_;
   Counted counted_;
+  std::optional<Owed> owed_;
   websocket::stream<beast::tcp_stream> socket_;
   http::request<http::string_body> request_;  ///< that opened it
   beast::flat_buffer buffer_;

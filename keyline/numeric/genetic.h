@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -55,7 +56,7 @@ struct Individual {
 };
 
 /// Best of one trial. `complete` is false where the observer stopped it before its last
-/// generation; `best` is then the best so far.
+/// generation; `best` is then the best so far, of infinite cost in a trial that did not begin.
 template <class Genome>
 struct GeneticResult {
   Individual<Genome> best;
@@ -65,7 +66,8 @@ struct GeneticResult {
 };
 
 /// Told after every generation of a trial the least cost of that trial so far; false stops the
-/// trial. Called from several threads at once where trials run in parallel.
+/// trial, and none begins after it. Called from several threads at once where trials run in
+/// parallel.
 using GeneticObserver = std::function<bool(int trial, int generation, double best_cost)>;
 
 namespace detail {
@@ -213,7 +215,12 @@ std::vector<GeneticResult<typename P::Genome>> evolve_trials(P& problem,
   const bool trials_in_parallel = options.trials >= 2 * threads;
   std::vector<GeneticResult<typename P::Genome>> results(
       static_cast<std::size_t>(std::max(1, options.trials)));
+  std::atomic<bool> stopped = false;
   const auto run = [&](std::size_t trial, int worker) {
+    if (stopped) {
+      results[trial].complete = false;
+      return;
+    }
     detail::Evolution<P> evolution(problem, options, trial, trials_in_parallel ? 1 : threads,
                                    worker);
     auto& result = evolution.result();
@@ -221,6 +228,7 @@ std::vector<GeneticResult<typename P::Genome>> evolve_trials(P& problem,
       evolution.generation();
       if (observer && !observer(static_cast<int>(trial), result.generations, result.best.cost)) {
         result.complete = result.generations == options.generations;
+        stopped = true;
         break;
       }
     }

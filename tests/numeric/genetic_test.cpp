@@ -174,6 +174,18 @@ TEST(Genetic, StoppedAtTheLastGenerationIsComplete) {
   EXPECT_FALSE(evolve_trials(problem, options, all)[0].complete);
 }
 
+/// A search of many trials is not to draw the first members of all of them once it is to stop.
+TEST(Genetic, NoTrialBeginsAfterOneWasStopped) {
+  Switches problem;
+  GeneticOptions options = small(50, 1);
+  const auto result = evolve_trials(problem, options, [](int, int, double) { return false; });
+  EXPECT_GT(result[0].evaluations, 0U);
+  for (std::size_t trial = 1; trial < result.size(); ++trial) {
+    EXPECT_EQ(result[trial].evaluations, 0U);
+    EXPECT_FALSE(result[trial].complete);
+  }
+}
+
 /// Where no member can be, one of them comes back with its cost.
 TEST(Genetic, ImpossibleMembersHaveNoCost) {
   struct Impossible : Switches {

@@ -274,6 +274,15 @@ class StudioStart(unittest.TestCase):
         self.assertEqual(server.stop(), 0)
         self.assertLess(time.time() - began, 10)
 
+    def test_does_not_wait_for_who_asks_nothing(self):
+        server = Server()
+        idle = server.connection()
+        server.ask("GET", "/api/v1/operations", connection=idle)
+        clock = threading.Timer(1.5, server.process.kill)
+        clock.start()
+        self.assertEqual(server.stop(), 0)
+        clock.cancel()
+
     @staticmethod
     def try_ask(server, body):
         try:
