@@ -8,6 +8,8 @@
 #include "keyline/core/text.h"
 #include "keyline/lac/chain/extend.h"
 #include "keyline/lac/segment/piece_shape.h"
+#include "keyline/lac/space/compound_plane.h"
+#include "keyline/lac/space/space_plane.h"
 #include "keyline/lac/space/space_steer.h"
 
 namespace keyline::lac {
@@ -16,13 +18,19 @@ namespace {
 using core::ErrorCode;
 using core::Result;
 using detail::SpaceUnknowns;
+using detail::space::ChordFrame;
+using detail::space::directions_in;
+using detail::space::in_plane;
 using detail::space::Invariants;
 using detail::space::Miss;
 using detail::space::miss_of;
 using detail::space::moved;
+using detail::space::plane_of;
+using detail::space::PlaneSearch;
 using detail::space::reasonable;
 using detail::space::Setting;
 using detail::space::size_of;
+using detail::space::solve_compound_plane;
 
 /// Both pieces in the standard frame, the radius of curvature at the start being 1; `twist` of the
 /// unknowns is here the torsion at the start times the length. Empty where one ends too early.
@@ -67,13 +75,12 @@ std::optional<Shot> shot_of(const SpaceRhythm& r, const SpaceUnknowns& x,
   return shot;
 }
 
-/// Newton's step by differences. In a plane torsion stays 0, and so does the miss across it.
+/// Newton's step by differences.
 std::optional<Miss> step_of(const SpaceRhythm& r, const SpaceUnknowns& x, const Shot& at,
                             const Setting& setting) {
   constexpr double kSize = 1e-6;
   std::array<std::array<double, 3>, 3> slope{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (setting.planar && i == 1) continue;
     SpaceUnknowns near = x;
     double& unknown = i == 0 ? near.bend : i == 1 ? near.twist : near.length;
     unknown += kSize;
@@ -83,10 +90,6 @@ std::optional<Miss> step_of(const SpaceRhythm& r, const SpaceUnknowns& x, const 
       slope[row][i] = (shot->miss[row] - at.miss[row]) / kSize;
   }
   Miss step = at.miss;
-  if (setting.planar) {
-    slope[2] = {0, 1, 0};
-    step[2] = 0;
-  }
   if (!detail::solve_small(slope, step)) return std::nullopt;
   return size_of(step) < 1e6 ? std::optional(step) : std::nullopt;
 }
@@ -170,6 +173,36 @@ Result<void> check(const SpaceRhythm& r) {
   return {};
 }
 
+std::unexpected<core::Failure> none_in_plane(const PlaneSearch& search) {
+  const core::Interval& starts = search.without_inflection;
+  const bool one_signed = starts.low <= starts.high;
+  if (search.may_inflect)
+    return core::fail(ErrorCode::not_converged,
+                      "no compound curve of these slopes without loops was found in the plane",
+                      "bring the slopes together, or turn the tangents towards the chord");
+  if (!one_signed)
+    return core::fail(ErrorCode::undrawable,
+                      "these directions need an inflection, which no curve of these slopes and "
+                      "this share of the length has",
+                      "give one piece a slope below 0 and more of the length");
+  const auto text = [](double x) { return core::number_text(x, 6); };
+  return core::fail(ErrorCode::undrawable,
+                    "no compound curve of these slopes and this turning leaves its chord as the "
+                    "start tangent does",
+                    "they leave it at " + text(starts.low) + " to " + text(starts.high) + " rad");
+}
+
+/// Whatever beta and omega: a plane curve has no torsion.
+Result<SpaceSolution> solve_in_plane(const Setting& setting, const SpaceRhythm& r) {
+  const ChordFrame plane = plane_of(setting);
+  const auto [first, last] = directions_in(plane, setting.data);
+  PlaneSearch search = solve_compound_plane(first, last, {r.alpha[0], r.alpha[1], r.length_share});
+  if (!search.found) return none_in_plane(search);
+  SpaceSolution solution = in_plane(plane, setting.data, std::move(*search.found), r.beta);
+  solution.iterations = search.iterations;
+  return solution;
+}
+
 }  // namespace
 
 Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const SpaceRhythm& rhythm) {
@@ -177,8 +210,8 @@ Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const Space
   const auto setting =
       detail::space::setting_of(data, rhythm.alpha[0], rhythm.beta[0], rhythm.omega);
   if (!setting) return std::unexpected(setting.error());
-  SpaceRhythm r = rhythm;
-  if (setting->planar) r.omega = 0;
+  if (setting->planar) return solve_in_plane(*setting, rhythm);
+  const SpaceRhythm& r = rhythm;
   const auto& [a0, a1] = r.alpha;
   const auto& [b0, b1] = r.beta;
   double furthest = 0;
@@ -194,7 +227,6 @@ Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const Space
     solution.lambda = reached.x.bend / reached.x.length;
     solution.nu = (setting->mirrored ? -1 : 1) * reached.x.twist / reached.x.length;
     solution.length = reached.x.length;
-    solution.planar = setting->planar;
     solution.iterations = reached.iterations;
     return solution;
   }

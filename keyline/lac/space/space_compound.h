@@ -18,12 +18,14 @@ struct SpaceRhythm {
 /// Compound rhythm in space ([Compound] 6): G1 Hermite data met by two pieces with curvature,
 /// torsion and the rates of both continuous at the joint. lambda, nu and omega are those of the
 /// first piece, conventions and handedness as solve_g1_space; data in one plane give the plane
-/// curve of both slopes, without torsion and without regard to omega.
+/// curve of both slopes, without torsion and without regard to omega, through an inflection where
+/// one of the slopes is below 0, and of several the one that turns least (compound_plane.h).
 ///
-/// Led by Newton's method from a curve of one slope (either piece's, or the mean of both) while the
-/// slopes part. Accuracy: 1e-11 of the chord, 1e-11 rad. 10 to 200 ms.
-/// Fails: bad_input as solve_g1_space and for a share outside (0, 1); not_converged where no such
-/// way leads to the data.
+/// In space led by Newton's method from a curve of one slope (either piece's, or the mean of both)
+/// while the slopes part. Accuracy: 1e-11 of the chord, 1e-11 rad. 10 to 200 ms. Fails: bad_input
+/// as solve_g1_space and for a share outside (0, 1); not_converged where no such way leads to the
+/// data; in a plane undrawable where the data need an inflection that neither slope has, or neither
+/// has one and no rate at the joint serves.
 core::Result<SpaceSolution> solve_compound_space(const SpaceHermite& data,
                                                  const SpaceRhythm& rhythm);
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
 #include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/space/space_plane.h"
 #include "keyline/lac/space/space_steer.h"
 
 namespace keyline::lac {
@@ -19,17 +19,19 @@ using core::Point3;
 using core::Result;
 using core::Vector3;
 using detail::SpaceUnknowns;
-using detail::space::chord_frame;
 using detail::space::ChordFrame;
+using detail::space::directions_in;
+using detail::space::in_plane;
 using detail::space::Invariants;
 using detail::space::Miss;
 using detail::space::miss_of;
 using detail::space::moved;
 using detail::space::newton_step;
+using detail::space::plane_of;
 using detail::space::reasonable;
+using detail::space::Setting;
 using detail::space::size_of;
 using detail::space::steer;
-using detail::space::unit;
 
 /// A curve of the family in the standard frame, integrated exactly.
 struct Member {
@@ -177,53 +179,13 @@ Search find_member(const SpaceStandardForm& form, const Invariants& wanted) {
   return s;
 }
 
-/// The same with no curvature at an end where the inflection lies within rounding of it: what is
-/// left there has a random sign, and the rate of its radius a random size.
-Segment bare_ends(Segment s) {
-  constexpr double kMet = 1e-12;  // radians, as end tangents are met
-  if (!(s.alpha < 0) || s.curvature_start == s.curvature_end) return s;
-  const double turning = std::abs(total_turning(s));
-  // By so much about the tangents turn where the inflection moves on to the end.
-  const auto missed = [&](double k, double other) {
-    return std::pow(std::abs(k / other), -s.alpha) * turning;
-  };
-  if (missed(s.curvature_start, s.curvature_end) < kMet) s.curvature_start = 0;
-  if (missed(s.curvature_end, s.curvature_start) < kMet) s.curvature_end = 0;
-  return s;
-}
-
-/// drho/ds at the start of a plane curve that turns left (sense 1) or right (-1) there.
-double start_rate(const Segment& s, double sense) {
-  if (s.curvature_start == s.curvature_end) return 0;
-  if (s.curvature_start == 0) return -std::numeric_limits<double>::infinity();
-  return -sense * curvature_rate(s, 0) / (s.curvature_start * s.curvature_start);
-}
-
 /// The plane curve, with positive curvature at its start.
-Result<SpaceSolution> solve_in_plane(const SpaceHermite& data, const Invariants& i, double alpha,
-                                     double beta) {
-  const Vector3 wanted = data.end - data.start;
-  const double chord = norm(wanted);
-  const Vector3 side = i.first > 1e-14 ? data.start_tangent : data.end_tangent;
-  const ChordFrame f = chord_frame(wanted, side);
-  const auto angle = [&](Vector3 v) { return std::atan2(dot(v, f.y), dot(v, f.x)); };
-  const auto solved = solve_g1_directions({{0, 0}, angle(data.start_tangent)},
-                                          {{1, 0}, angle(data.end_tangent)}, alpha);
+Result<SpaceSolution> solve_in_plane(const Setting& setting, double alpha, double beta) {
+  const ChordFrame plane = plane_of(setting);
+  const auto [first, last] = directions_in(plane, setting.data);
+  const auto solved = solve_g1_directions({{0, 0}, first}, {{1, 0}, last}, alpha);
   if (!solved) return std::unexpected(solved.error());
-  const Segment s = bare_ends(solved->segment);
-  const double sense =
-      s.curvature_start < 0 || (s.curvature_start == 0 && s.curvature_end < 0) ? -1 : 1;
-  SpaceSolution solution;
-  solution.planar = true;
-  const Vector3 tangent =
-      unit(from(f, {std::cos(s.start.direction), std::sin(s.start.direction), 0}));
-  const Vector3 binormal = sense * f.z;
-  solution.chain = {{data.start, tangent, cross(binormal, tangent), binormal},
-                    {{alpha, beta, s.length * chord, sense * s.curvature_start / chord,
-                      sense * s.curvature_end / chord, 0, 0}}};
-  solution.length = sense * s.curvature_start * s.length;
-  solution.lambda = start_rate(s, sense);
-  return solution;
+  return in_plane(plane, setting.data, chain_of(solved->segment), {beta, beta});
 }
 
 }  // namespace
@@ -233,7 +195,7 @@ Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, do
   const auto setting = detail::space::setting_of(given, alpha, beta, omega);
   if (!setting) return std::unexpected(setting.error());
   const auto& [data, wanted, planar, mirrored] = *setting;
-  if (planar) return solve_in_plane(data, wanted, alpha, beta);
+  if (planar) return solve_in_plane(*setting, alpha, beta);
   const Search search = find_member({alpha, beta, 0, omega, 0}, wanted);
   if (!search.found) {
     return core::fail(ErrorCode::not_converged,
