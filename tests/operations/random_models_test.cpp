@@ -15,11 +15,25 @@ using namespace own;
 
 constexpr double kOpen = 1e-3;  ///< largest gap that still joins, in the model's unit
 
+/// Parameter of the place of the edge u = 0 that lies nearest to a point: edges that were let go
+/// slide along each other.
+double nearest_along(const Patches& s, const Vec& p) {
+  double v = 0, step = 1.0 / 64;
+  const auto away = [&](double x) { return distance(spot(s.patches[0], 0, x).place, p); };
+  for (int k = 1; k <= 64; ++k)
+    if (away(k / 64.0) < away(v)) v = k / 64.0;
+  for (; step > 1e-9; step /= 2)
+    for (const double x : {std::max(v - step, 0.0), std::min(v + step, 1.0)})
+      if (away(x) < away(v)) v = x;
+  return v;
+}
+
 /// Largest fold along the edge u = 1 of one and u = 0 of the other.
 double fold(const Patches& a, const Patches& b) {
   double most = 0;
   for (int k = 0; k <= 40; ++k) {
-    const SurfaceSpot from = spot(a.patches[0], 1, k / 40.0), to = spot(b.patches[0], 0, k / 40.0);
+    const SurfaceSpot from = spot(a.patches[0], 1, k / 40.0);
+    const SurfaceSpot to = spot(b.patches[0], 0, nearest_along(b, from.place));
     const Vec m = cross(from.u, from.v), n = cross(to.u, to.v);
     most = std::max(most, std::atan2(size(cross(m, n)), dot(m, n)));
   }
