@@ -1,7 +1,10 @@
 #include "keyline/surface/departure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <queue>
+#include <utility>
 
 #include "keyline/surface/closest_point.h"
 #include "keyline/surface/tensor.h"
@@ -77,20 +80,29 @@ class Places {
   detail::Strip strip_;
 };
 
+/// The way of Gauss and Newton from (u, v) towards the foot, along the border where it would leave.
+std::pair<double, double> way(const SurfaceJet& j, const Vector3& off, double u, double v) {
+  const double gu = dot(off, j.u), gv = dot(off, j.v);
+  const double a = dot(j.u, j.u), b = dot(j.u, j.v), c = dot(j.v, j.v);
+  const bool along_u = !((u <= 0 && gu > 0) || (u >= 1 && gu < 0)) && a > 0;
+  const bool along_v = !((v <= 0 && gv > 0) || (v >= 1 && gv < 0)) && c > 0;
+  const double det = a * c - b * b;
+  if (along_u && along_v && det > 1e-14 * a * c)
+    return {(b * gv - c * gu) / det, (b * gu - a * gv) / det};
+  return {along_u ? -gu / a : 0, along_v ? -gv / c : 0};
+}
+
 /// Close to the nearest point of the patch to p, from (u, v): any point makes a sound bound.
 SurfacePoint foot(Places& s, const Point3& p, double u, double v) {
+  constexpr int kSteps = 6;
   SurfacePoint at{u, v, s.point(u, v), 0};
   at.distance = distance(at.point, p);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kSteps; ++i) {
     const SurfaceJet j = s.jet(at.u, at.v);
-    const Vector3 off = j.point - p;
-    const double gu = dot(off, j.u), gv = dot(off, j.v);
-    const double a = dot(j.u, j.u), b = dot(j.u, j.v), c = dot(j.v, j.v);
-    const double det = a * c - b * b;
-    if (!(det > 1e-14 * a * c)) break;
+    const auto [du, dv] = way(j, j.point - p, at.u, at.v);
     SurfacePoint next;
-    next.u = std::clamp(at.u + (b * gv - c * gu) / det, 0.0, 1.0);
-    next.v = std::clamp(at.v + (b * gu - a * gv) / det, 0.0, 1.0);
+    next.u = std::clamp(at.u + du, 0.0, 1.0);
+    next.v = std::clamp(at.v + dv, 0.0, 1.0);
     next.point = s.point(next.u, next.v);
     next.distance = distance(next.point, p);
     if (!(next.distance < at.distance)) break;
@@ -101,94 +113,107 @@ SurfacePoint foot(Places& s, const Point3& p, double u, double v) {
   return at;
 }
 
+constexpr int kFinest = 128;      // cells along a side
+constexpr double kSlack = 0.005;  // of the bound
+
+/// One of `cells` by `cells` parts of a patch, with the feet of its corners (0 0), (1 0), (0 1), (1
+/// 1).
+struct Cell {
+  int cells = 1, i = 0, j = 0;
+  std::array<SurfacePoint, 4> foot;
+  double bound = 0;
+  bool operator<(const Cell& other) const { return bound < other.bound; }
+};
+
+/// How the image of a cell runs along one parameter: its own slope, |1 - slope^2| and the slope of
+/// the other parameter, each largest.
+struct Image {
+  double slope = 0, unlike = 0, aside = 0;
+};
+
+/// Along the sides from a0 to a1 and from b0 to b1.
+Image image(int cells, const SurfacePoint& a0, const SurfacePoint& a1, const SurfacePoint& b0,
+            const SurfacePoint& b1, double SurfacePoint::* own, double SurfacePoint::* other) {
+  const double a = (a1.*own - a0.*own) * cells;
+  const double b = (b1.*own - b0.*own) * cells;
+  Image m{std::max(std::abs(a), std::abs(b)), std::max(std::abs(1 - a * a), std::abs(1 - b * b)),
+          cells * std::max(std::abs(a1.*other - a0.*other), std::abs(b1.*other - b0.*other))};
+  if (!(a > 0 && b > 0)) m.unlike = std::max(m.unlike, 1.0);  // 0 lies between them
+  return m;
+}
+
 /// One way: every point of `from` against `onto`, both of the same degrees.
 class OneWay {
  public:
-  OneWay(const BezierSurface& from, const BezierSurface& onto, int cells)
-      : cells_(cells), onto_bounds_(bounds_of(vectors_of(onto.net))) {
+  OneWay(const BezierSurface& from, const BezierSurface& onto)
+      : here_(from), there_(onto), onto_bounds_(bounds_of(vectors_of(onto.net))) {
     VectorNet apart = vectors_of(from.net);
     for (std::size_t i = 0; i < apart.v.size(); ++i)
       apart.v[i] = from.net.points[i] - onto.net.points[i];
     apart_ = bounds_of(apart);
-    Places here(from);
-    Places there(onto);
-    for (int i = 0; i <= cells; ++i)
-      for (int j = 0; j <= cells; ++j)
-        feet_.push_back(foot(there, here.point(share(i), share(j)), share(i), share(j)));
   }
 
-  /// The bound, and how much of it is not distance at a corner.
-  void run() {
-    for (int i = 0; i < cells_; ++i)
-      for (int j = 0; j < cells_; ++j) {
-        const double rest = remainder(i, j);
-        const double corner = std::max({at(i, j).distance, at(i + 1, j).distance,
-                                        at(i, j + 1).distance, at(i + 1, j + 1).distance});
-        if (corner + rest <= bound) continue;
-        bound = corner + rest;
-        slack = rest;
-      }
+  /// The cell of the largest bound is halved until it is as near its corners as is asked, or small.
+  double bound(double wanted) {
+    std::priority_queue<Cell> open;
+    open.push(cell(1, 0, 0, {foot_at(0, 0), foot_at(1, 0), foot_at(0, 1), foot_at(1, 1)}));
+    while (open.top().cells < kFinest &&
+           open.top().bound > std::max(wanted, (1 + kSlack) * farthest_)) {
+      const Cell whole = open.top();
+      open.pop();
+      for (Cell& part : quarters(whole)) open.push(std::move(part));
+    }
+    return open.top().bound;
   }
-
-  double bound = 0;
-  double slack = 0;
 
  private:
-  double share(int i) const { return static_cast<double>(i) / cells_; }
-  const SurfacePoint& at(int i, int j) const {
-    return feet_[static_cast<std::size_t>(i * (cells_ + 1) + j)];
+  SurfacePoint foot_at(double u, double v) {
+    const SurfacePoint p = foot(there_, here_.point(u, v), u, v);
+    farthest_ = std::max(farthest_, p.distance);
+    return p;
   }
 
-  /// How the image runs along one parameter in a cell: its own slope, |1 - slope^2| and the slope
-  /// of the other parameter, each largest.
-  struct Image {
-    double slope = 0, unlike = 0, aside = 0;
-  };
-  Image image(const SurfacePoint& a0, const SurfacePoint& a1, const SurfacePoint& b0,
-              const SurfacePoint& b1, double SurfacePoint::* own,
-              double SurfacePoint::* other) const {
-    const double a = (a1.*own - a0.*own) * cells_;
-    const double b = (b1.*own - b0.*own) * cells_;
-    Image m{std::max(std::abs(a), std::abs(b)), std::max(std::abs(1 - a * a), std::abs(1 - b * b)),
-            cells_ * std::max(std::abs(a1.*other - a0.*other), std::abs(b1.*other - b0.*other))};
-    if (!(a > 0 && b > 0)) m.unlike = std::max(m.unlike, 1.0);  // 0 lies between them
-    return m;
+  Cell cell(int cells, int i, int j, const std::array<SurfacePoint, 4>& feet) const {
+    Cell made{cells, i, j, feet, 0};
+    for (const SurfacePoint& f : feet) made.bound = std::max(made.bound, f.distance);
+    made.bound += remainder(made);
+    return made;
   }
 
-  double remainder(int i, int j) const {
+  std::array<Cell, 4> quarters(const Cell& c) {
+    const int n = 2 * c.cells, i = 2 * c.i, j = 2 * c.j;
+    const auto at = [&](int di, int dj) {
+      return foot_at(static_cast<double>(i + di) / n, static_cast<double>(j + dj) / n);
+    };
+    const auto& [f00, f20, f02, f22] = c.foot;
+    const SurfacePoint f10 = at(1, 0), f01 = at(0, 1), f11 = at(1, 1), f21 = at(2, 1),
+                       f12 = at(1, 2);
+    return {cell(n, i, j, {f00, f10, f01, f11}), cell(n, i + 1, j, {f10, f20, f11, f21}),
+            cell(n, i, j + 1, {f01, f11, f02, f12}), cell(n, i + 1, j + 1, {f11, f21, f12, f22})};
+  }
+
+  double remainder(const Cell& c) const {
     double du = 0, dv = 0;
-    for (const int k : {i, i + 1})
-      for (const int l : {j, j + 1}) {
-        du = std::max(du, std::abs(at(k, l).u - share(k)));
-        dv = std::max(dv, std::abs(at(k, l).v - share(l)));
-      }
+    for (std::size_t k = 0; k < c.foot.size(); ++k) {
+      const int i = c.i + static_cast<int>(k % 2), j = c.j + static_cast<int>(k / 2);
+      du = std::max(du, std::abs(c.foot[k].u - static_cast<double>(i) / c.cells));
+      dv = std::max(dv, std::abs(c.foot[k].v - static_cast<double>(j) / c.cells));
+    }
+    const auto& [f00, f10, f01, f11] = c.foot;
     const DerivativeBounds& b = onto_bounds_;
-    const Image u = image(at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1), &SurfacePoint::u,
-                          &SurfacePoint::v);
-    const Image v = image(at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), &SurfacePoint::v,
-                          &SurfacePoint::u);
+    const Image u = image(c.cells, f00, f10, f01, f11, &SurfacePoint::u, &SurfacePoint::v);
+    const Image v = image(c.cells, f00, f01, f10, f11, &SurfacePoint::v, &SurfacePoint::u);
     const double second_u = apart_.uu + b.uuu * du + b.uuv * dv + b.uu * u.unlike +
                             2 * b.uv * u.slope * u.aside + b.vv * u.aside * u.aside;
     const double second_v = apart_.vv + b.vvv * dv + b.uvv * du + b.vv * v.unlike +
                             2 * b.uv * v.slope * v.aside + b.uu * v.aside * v.aside;
-    return (second_u + second_v) / (8.0 * cells_ * cells_);
+    return (second_u + second_v) / (8.0 * c.cells * c.cells);
   }
 
-  int cells_;
+  Places here_, there_;
   DerivativeBounds onto_bounds_, apart_;
-  std::vector<SurfacePoint> feet_;
+  double farthest_ = 0;  ///< of the feet found
 };
-
-double one_way(const BezierSurface& from, const BezierSurface& onto, double wanted) {
-  double bound = 0;
-  for (int cells = 16; cells <= 128; cells *= 2) {
-    OneWay way(from, onto, cells);
-    way.run();
-    bound = way.bound;
-    if (bound <= wanted || way.slack <= 0.005 * std::max(bound, wanted)) break;
-  }
-  return bound;
-}
 
 }  // namespace
 
@@ -200,7 +225,8 @@ double departure_bound(const BezierSurface& a, const BezierSurface& b, double wa
   const BezierSurface x = elevate_degree(a, rows - a.net.rows, columns - a.net.columns);
   const BezierSurface y = elevate_degree(b, rows - b.net.rows, columns - b.net.columns);
   if (x.net == y.net) return 0;
-  return std::max(one_way(x, y, wanted), one_way(y, x, wanted));
+  const double there = OneWay(x, y).bound(wanted);
+  return std::max(there, OneWay(y, x).bound(std::max(wanted, there)));
 }
 
 }  // namespace keyline::surface
