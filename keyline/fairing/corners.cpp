@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "keyline/fairing/run_again.h"
 #include "keyline/fairing/symmetric_run.h"
+#include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -38,18 +40,35 @@ class Tying {
  public:
   Tying(std::vector<Run>& runs, std::vector<RunResult>& solved,
         const std::vector<curve::BSpline2>& splines, const OptionsOf& options, bool round)
-      : runs_(runs), solved_(solved), splines_(splines), options_(options), round_(round) {}
+      : runs_(runs),
+        solved_(solved),
+        splines_(splines),
+        options_(options),
+        round_(round),
+        trials_(runs.size()) {}
 
   void run() {
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (corner_after(k)) meet(k, kMeetings.front());
+    for_tied([&](std::size_t k) { tried(k); });
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (!reaches(k)) find_place(k);
-    for (std::size_t k = 0; k < runs_.size(); ++k)
-      if (tied(k)) tie_ends(solved_[k], runs_[k], spline(k), options_(k));
+    for_tied([&](std::size_t k) {
+      RunOptions options = options_(k);
+      options.progress.sink = nullptr;
+      tie_ends(solved_[k], tried(k), runs_[k], spline(k), options);
+    });
   }
 
  private:
+  /// Each by itself, several at a time.
+  template <class Work>
+  void for_tied(Work&& work) {
+    numeric::parallel_for(runs_.size(), options_(0).threads, [&](std::size_t k) {
+      if (tied(k)) work(k);
+    });
+  }
+
   std::size_t next(std::size_t k) const { return (k + 1) % runs_.size(); }
   bool corner_after(std::size_t k) const {
     return (next(k) != 0 || round_) && runs_[k].clamp_end == Clamp::none &&
@@ -65,13 +84,23 @@ class Tying {
         meeting(runs_[k], solved_[k], solved_[next(k)], share, options_(k).tolerance);
   }
 
-  /// Whether the run's pieces come to where its ends are tied, with no more waves; only the calmest
-  /// chain's are asked.
-  bool reaches(std::size_t k) const {
-    if (!tied(k) || solved_[k].dense.joints.empty()) return true;
-    RunResult trial = solved_[k];
-    return solve_again(trial, runs_[k], spline(k), 1) &&
-           waves_of({trial}) <= waves_of({solved_[k]});
+  /// The run's pieces brought to where its ends are tied; only the calmest chain's are asked.
+  const RunResult* tried(std::size_t k) {
+    if (solved_[k].dense.joints.empty()) return nullptr;
+    const Run& run = runs_[k];
+    Trial& trial = trials_[k];
+    if (trial.solved && trial.start == run.tie_start && trial.end == run.tie_end)
+      return &*trial.solved;
+    trial = {run.tie_start, run.tie_end, solved_[k]};
+    trial.solved->within_tolerance = solve_again(*trial.solved, run, spline(k), 1);
+    return &*trial.solved;
+  }
+
+  /// Whether they come there, with no more waves.
+  bool reaches(std::size_t k) {
+    if (!tied(k)) return true;
+    const RunResult* trial = tried(k);
+    return !trial || (trial->within_tolerance && waves_of({*trial}) <= waves_of({solved_[k]}));
   }
 
   /// Another place at one of the run's corners to which both its chains come; half way where there
@@ -89,11 +118,19 @@ class Tying {
     }
   }
 
+  /// What came of a run for its ends tied there.
+  struct Trial {
+    std::optional<core::Point2> start;
+    std::optional<core::Point2> end;
+    std::optional<RunResult> solved;
+  };
+
   std::vector<Run>& runs_;
   std::vector<RunResult>& solved_;
   const std::vector<curve::BSpline2>& splines_;
   const OptionsOf& options_;
   bool round_;
+  std::vector<Trial> trials_;
 };
 
 }  // namespace

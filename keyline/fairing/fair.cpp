@@ -16,6 +16,7 @@
 #include "keyline/fairing/joint_rates.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
+#include "keyline/fairing/solve_runs.h"
 #include "keyline/fairing/symmetric_run.h"
 #include "keyline/fairing/until_fair.h"
 #include "keyline/lac/chain/chain_graph.h"
@@ -26,6 +27,8 @@ namespace {
 using core::ErrorCode;
 using core::fail;
 using core::Result;
+
+using Splines = std::vector<curve::BSpline2>;
 
 constexpr double kPlainShare = 0.6;  // of the time, where a symmetric answer is looked for too
 constexpr double kAlike = 0.98;      // of a limit: as good as on it
@@ -56,8 +59,8 @@ class Job {
     if (!mirror) return std::unexpected(mirror.error());
     const bool exactly = *mirror && options_.symmetric.mode != SymmetricMode::off;
     if (exactly) share_ = kPlainShare;
-    for (std::size_t k = 0; k < runs_.size(); ++k)
-      if (auto done = fair_one(k, {}); !done) return std::unexpected(done.error());
+    if (auto done = fair_all(before_ ? before_->splines : Splines{}); !done)
+      return std::unexpected(done.error());
     detail::tie_corners(runs_, solved_, result_.splines, options_of_runs(), result_.closed);
     detail::make_rates_one(result_, solved_, runs_, options_of_runs());
     for (std::size_t k = 0; k < runs_.size(); ++k)
@@ -123,43 +126,34 @@ class Job {
     return {};
   }
 
-  Result<curve::BSpline2> spline_of(std::size_t k) {
-    if (before_) {
-      result_.spline_bic = before_->spline_bic;
-      return before_->splines[k];
-    }
-    const detail::Run& run = runs_[k];
+  fit::SplineFitOptions spline_options() const {
     fit::SplineFitOptions fit = options_.spline;
-    fit.order = std::min<int>(fit.order, static_cast<int>(run.points.size()));
     fit.seed = options_.seed;
     fit.threads = options_.threads;
-    fit.closed = run.closed && run.points.size() > 8;
-    fit.must_pass = run.must_pass;
     fit.rounding = line_.rounding;
-    fit.progress = core::part_of(progress_of(k), 0, 0.4);
-    const auto found = fit::fit_spline(run.points, run.weights, fit);
-    if (!found) return std::unexpected(found.error());
-    result_.spline_bic += found->bic;
-    return found->curve;
+    return fit;
   }
 
-  Result<void> fair_one(std::size_t k, const curve::BSpline2& given) {
-    if (options_.progress.stop_requested() && solved_.empty())
+  /// All runs, with their splines where these are known.
+  Result<void> fair_all(const Splines& known) {
+    if (options_.progress.stop_requested())
       return fail(ErrorCode::cancelled, "cancelled before there was a result", "");
-    curve::BSpline2 spline = given;
-    if (spline.control.empty()) {
-      auto own = spline_of(k);
-      if (!own) return std::unexpected(own.error());
-      spline = std::move(*own);
+    auto found = detail::solve_runs(runs_, known, spline_options(), options_of_runs(),
+                                    core::part_of(options_.progress, 0, share_));
+    if (!found) return std::unexpected(found.error());
+    if (before_) result_.spline_bic = before_->spline_bic;
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      detail::SolvedRun& one = (*found)[k];
+      result_.spline_bic += one.bic;
+      split(one.spline, k);
+      solved_.push_back(std::move(one.chain));
+      detail::note_run(result_, solved_.back(), k);
+      if (options_.waves && solved_.back().turns > *options_.waves)
+        result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
+                                            k, core::counted(std::size_t(*options_.waves), "wave"),
+                                            solved_.back().turns));
+      result_.splines.push_back(std::move(one.spline));
     }
-    split(spline, k);
-    solved_.push_back(detail::fair_run(runs_[k], spline, run_options(k)));
-    detail::note_run(result_, solved_.back(), k);
-    if (options_.waves && solved_.back().turns > *options_.waves)
-      result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
-                                          k, core::counted(std::size_t(*options_.waves), "wave"),
-                                          solved_.back().turns));
-    result_.splines.push_back(std::move(spline));
     return {};
   }
 
@@ -239,24 +233,27 @@ class Job {
     smooth.corners.clear();
     runs_ = {line_.closed ? detail::runs_of(smooth, {}).front()
                           : detail::run_between(smooth, 0, line_.points.size() - 1)};
-    auto whole = spline_of(0);
+    fit::SplineFitOptions of_whole = detail::fit_of(runs_[0], spline_options());
+    of_whole.progress = core::part_of(options_.progress, 0, 0.4);
+    const auto whole = fit::fit_spline(runs_[0].points, runs_[0].weights, of_whole);
     if (!whole) return std::unexpected(whole.error());
-    const auto range = detail::points_in_region(line_.points, line_.closed, region, *whole);
+    result_.spline_bic += whole->bic;
+    const auto range = detail::points_in_region(line_.points, line_.closed, region, whole->curve);
     if (range.last < range.first + 4)
       return fail(ErrorCode::bad_input, "the region holds fewer than five points",
                   "choose a larger region", "region");
-    const curve::BSpline2 inside = subcurve(*whole, range.t_first, range.t_last);
+    const curve::BSpline2 inside = subcurve(whole->curve, range.t_first, range.t_last);
     runs_ = {detail::run_between(line_, range.first, range.last)};
     if (auto sound = bound_runs(); !sound) return std::unexpected(sound.error());
     const bool from_start = range.first == 0 && !line_.closed;
     const bool to_end = range.last + 1 == line_.points.size() && !line_.closed;
     runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
     runs_[0].clamp_end = to_end ? options_.clamp.end : Clamp::g2;
-    if (auto done = fair_one(0, inside); !done) return std::unexpected(done.error());
+    if (auto done = fair_all({inside}); !done) return std::unexpected(done.error());
     detail::make_rates_one(result_, solved_, runs_, options_of_runs());
     detail::place_free_ends(solved_[0], runs_[0], run_options(0));
-    if (range.t_first > 0) kept_before_ = subcurve(*whole, 0, range.t_first);
-    if (range.t_last < 1) kept_after_ = subcurve(*whole, range.t_last, 1);
+    if (range.t_first > 0) kept_before_ = subcurve(whole->curve, 0, range.t_first);
+    if (range.t_last < 1) kept_after_ = subcurve(whole->curve, range.t_last, 1);
     return finish();
   }
 

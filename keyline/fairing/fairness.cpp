@@ -49,7 +49,7 @@ std::vector<core::Point2> points_along(const acquire::KeyLine& line, bool open) 
 }
 
 /// The splines that any answer is held against.
-FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result) {
+FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result, int threads) {
   FairFigures figures;
   for (const curve::BSpline2& spline : result.splines)
     add(figures.spline, analysis::comb_figures(graph_of(spline)));
@@ -57,7 +57,7 @@ FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result) {
   const auto* chain = std::get_if<lac::Chain>(&result.curves.front());
   const bool open = chain ? !chain->closed : !result.closed;
   const auto smooth =
-      fit::smoothing_spline_curvature(points_along(line, open), !open, result.tolerance);
+      fit::smoothing_spline_curvature(points_along(line, open), !open, result.tolerance, threads);
   if (smooth) figures.smoothing_spline = analysis::comb_figures(*smooth);
   return figures;
 }
@@ -69,8 +69,8 @@ bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
 }  // namespace
 
 FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result,
-                         const FairFigures* before) {
-  FairFigures figures = before ? *before : rivals_of(line, result);
+                         const FairFigures* before, int threads) {
+  FairFigures figures = before ? *before : rivals_of(line, result, threads);
   figures.answer = {};
   for (const FairCurve& member : result.curves)
     add(figures.answer,

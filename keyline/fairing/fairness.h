@@ -38,7 +38,7 @@ struct FairFigures {
 /// Waves of all members together, energy and jolt of the worst. `before`: of the same line,
 /// tolerance and splines with another answer, whose rivals are its too.
 FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result,
-                         const FairFigures* before = nullptr);
+                         const FairFigures* before = nullptr, int threads = 0);
 
 /// Near-steps and needles of the answer's chains, by arc length from the start of the whole.
 std::vector<analysis::CombMark> comb_marks(const FairResult& result);

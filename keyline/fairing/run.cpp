@@ -329,8 +329,8 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
   return largest_offset(again, run) < most ? again : result;
 }
 
-void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
-              const RunOptions& options) {
+void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
+              const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
   const RunResult loose = result;
   const auto tie = [](FitJoint& joint, Hold& hold, const HeldEnd& end) {
@@ -339,7 +339,10 @@ void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
     hold = std::max(hold, end.hold);
   };
   if (!result.dense.joints.empty()) {
-    result.within_tolerance = solve_again(result, run, spline, 1);
+    if (moved)
+      result = *moved;
+    else
+      result.within_tolerance = solve_again(result, run, spline, 1);
     if (!result.within_tolerance) {
       result = fair_run(run, spline, options);
       return;

@@ -86,9 +86,10 @@ struct RunResult {
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options);
 
 /// The run once more with its ends tied (tie_start, tie_end of the run): the chain found before is
-/// moved there where the points still pass; else the search starts anew.
-void tie_ends(RunResult& result, const Run& run, const curve::BSpline2& spline,
-              const RunOptions& options);
+/// moved there where the points still pass; else the search starts anew. `moved`: the calmest chain
+/// there already (see solve_again), where that is what was found.
+void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
+              const curve::BSpline2& spline, const RunOptions& options);
 
 /// Solves again with some pieces told what to be; indices count along the result's chain.
 /// Wishes that an inflection or a straight neighbour forbids are not followed; `notes` says so.

@@ -27,8 +27,9 @@ std::tuple<bool, int, double, double> unfairness(const FairResult& result) {
 }
 
 core::Result<FairResult> judged(const acquire::KeyLine& line, core::Result<FairResult> found,
-                                const FairResult* before) {
-  if (found) found->fairness = fair_figures(line, *found, before ? &before->fairness : nullptr);
+                                const FairResult* before, int threads) {
+  if (found)
+    found->fairness = fair_figures(line, *found, before ? &before->fairness : nullptr, threads);
   return found;
 }
 
@@ -49,14 +50,15 @@ core::Result<FairResult> until_fair(
     const std::function<core::Result<FairResult>(const FairOptions&, const FairResult* before)>&
         solve) {
   const bool calmest = options.criterion == Criterion::least_variation && options.pieces == 0;
-  if (options.smoothness || !calmest) return judged(line, solve(options, nullptr), nullptr);
+  if (options.smoothness || !calmest)
+    return judged(line, solve(options, nullptr), nullptr, options.threads);
   std::optional<FairResult> best;
   for (const Try& one : kTries) {
     FairOptions asked = options;
     asked.smoothness = one.smoothness;
     asked.progress = core::part_of(options.progress, one.from, one.to);
     const FairResult* before = best ? &*best : nullptr;
-    auto found = judged(line, solve(asked, before), before);
+    auto found = judged(line, solve(asked, before), before, options.threads);
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
     if (!best || unfairness(*found) < unfairness(*best)) best = std::move(*found);

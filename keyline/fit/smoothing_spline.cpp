@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "keyline/numeric/parallel.h"
 #include "keyline/numeric/solve.h"
 
 namespace keyline::fit {
@@ -65,8 +66,12 @@ class Smoother {
 
   bool within(double penalty, double tolerance) {
     if (!solve(penalty)) return false;
+    if (farther(outside_, tolerance)) return false;
     for (std::size_t i = 0; i < points_.size(); ++i)
-      if (farther(i, tolerance)) return false;
+      if (farther(i, tolerance)) {
+        outside_ = i;
+        return false;
+      }
     return true;
   }
 
@@ -184,6 +189,7 @@ class Smoother {
   Eigen::VectorXd kept_x_;
   Eigen::VectorXd kept_y_;
   std::optional<numeric::SparseSymmetric> factor_;
+  std::size_t outside_ = 0;  ///< the point that was found outside last: the likeliest to be again
 };
 
 /// The smoothest with that parameter.
@@ -208,13 +214,15 @@ std::optional<curve::CurvatureGraph> smoothest(std::span<const core::Point2> poi
 }  // namespace
 
 std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
-    std::span<const core::Point2> points, bool closed, double tolerance) {
+    std::span<const core::Point2> points, bool closed, double tolerance, int threads) {
   if (points.size() < 8) return std::nullopt;
+  std::array<std::optional<curve::CurvatureGraph>, kPowers.size()> all;
+  numeric::parallel_for(all.size(), threads, [&](std::size_t i) {
+    all[i] = smoothest(points, closed, tolerance, kPowers[i]);
+  });
   std::optional<curve::CurvatureGraph> best;
-  for (const double power : kPowers) {
-    auto found = smoothest(points, closed, tolerance, power);
+  for (auto& found : all)
     if (found && (!best || variation(*found) < variation(*best))) best = std::move(found);
-  }
   return best;
 }
 

@@ -20,6 +20,6 @@ namespace keyline::fit {
 /// Source: [Eilers 1996], penalised B-splines: many knots, and differences of the coefficients
 ///         kept small.
 std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
-    std::span<const core::Point2> points, bool closed, double tolerance);
+    std::span<const core::Point2> points, bool closed, double tolerance, int threads = 0);
 
 }  // namespace keyline::fit

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
@@ -48,17 +49,46 @@ void run_parallel(std::size_t count, int threads,
 
 #else
 
+namespace {
+
+/// Threads of the loop whose body this thread is in; 0: in none.
+thread_local int loop_threads = 0;
+
+class InLoop {
+ public:
+  explicit InLoop(int threads) : before_(std::exchange(loop_threads, threads)) {}
+  InLoop(const InLoop&) = delete;
+  InLoop& operator=(const InLoop&) = delete;
+  ~InLoop() { loop_threads = before_; }
+
+ private:
+  int before_;
+};
+
+void loop(std::size_t count, int threads, const std::function<void(std::size_t, int)>& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      const InLoop in(threads);
+                      const int worker = tbb::this_task_arena::current_thread_index();
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, worker);
+                    });
+}
+
+}  // namespace
+
+/// A loop within a loop goes on in the arena of the outer one: who has nothing left to do there
+/// helps. Who waits for the inner one's end takes up nothing of the outer one meanwhile, so that a
+/// worker is in one call of a body at a time.
 void run_parallel(std::size_t count, int threads,
                   const std::function<void(std::size_t, int)>& body) {
   // More than the machine has would only make TBB complain.
-  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        const int worker = tbb::this_task_arena::current_thread_index();
-                        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, worker);
-                      });
-  });
+  const int used = std::min(threads, tbb::info::default_concurrency());
+  if (loop_threads == used) {
+    tbb::this_task_arena::isolate([&] { loop(count, used, body); });
+    return;
+  }
+  tbb::task_arena arena(used);
+  arena.execute([&] { loop(count, used, body); });
 }
 
 #endif

@@ -1,5 +1,7 @@
 #include "keyline/numeric/parallel.h"
 
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <stdexcept>
 #include <vector>
@@ -23,6 +25,26 @@ TEST(ParallelFor, CallsEachIndexOnceWithAWorkerInRange) {
       ASSERT_LT(workers[i], threads);
     }
   }
+}
+
+TEST(ParallelFor, LoopsWithinLoopsKeepTheirWorkersApart) {
+  constexpr int kThreads = 2;
+  std::vector<std::vector<int>> calls(40, std::vector<int>(50, 0));
+  std::atomic<int> overlaps = 0;
+  std::array<std::atomic<bool>, kThreads> outer_busy{};
+  parallel_for(calls.size(), kThreads, [&](std::size_t i, int outer) {
+    if (outer_busy[outer].exchange(true)) ++overlaps;
+    std::array<std::atomic<bool>, kThreads> busy{};
+    parallel_for(calls[i].size(), kThreads, [&](std::size_t k, int inner) {
+      if (busy[inner].exchange(true)) ++overlaps;
+      for (int pause = 0; pause < 200; ++pause) ++calls[i][k];
+      busy[inner] = false;
+    });
+    outer_busy[outer] = false;
+  });
+  EXPECT_EQ(overlaps, 0);
+  for (const auto& row : calls)
+    for (const int count : row) ASSERT_EQ(count, 200);
 }
 
 TEST(ParallelFor, NothingToDo) {
