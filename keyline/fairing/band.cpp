@@ -57,6 +57,23 @@ double root_mean_square(const std::vector<double>& mean_weights,
   return std::sqrt(sum);
 }
 
+double largest_of(const std::vector<FitPoint>& points, const std::vector<double>& offsets) {
+  double most = 0;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    most = std::max(most, offsets[j] + points[j].share * points[j].high);
+    most = std::max(most, -offsets[j] - points[j].share * points[j].low);
+  }
+  return most;
+}
+
+bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
+                 double slack) {
+  for (std::size_t j = 0; j < points.size(); ++j)
+    if (offsets[j] > points[j].highest + slack || offsets[j] < points[j].lowest - slack)
+      return false;
+  return true;
+}
+
 Band::Band(const std::vector<FitPoint>& points, double tolerance, double spring)
     : points_(points), tolerance_(tolerance), spring_(mean_weights(points)), pair_(points.size()) {
   for (double& w : spring_) w *= spring;

@@ -36,6 +36,13 @@ class Limits {
 /// offset itself where a point's share makes it count for more.
 std::vector<double> mean_weights(const std::vector<FitPoint>& points);
 
+/// The largest distance of a point, the spread of what it stands for included.
+double largest_of(const std::vector<FitPoint>& points, const std::vector<double>& offsets);
+
+/// Whether the offsets keep the points' own limits, to that slack.
+bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
+                 double slack);
+
 /// Root of the mean square of the measured points' offsets.
 double root_mean_square(const std::vector<double>& mean_weights,
                         const std::vector<double>& offsets);

@@ -181,13 +181,14 @@ BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
   band.gap = kTrialGap;
   band.patience = kPatience;
   BandReport report;
+  std::vector<std::vector<int>> tried;  // an extremum may move to and fro
   for (int round = 0; round < kRounds; ++round) {
     set_senses(curve, extrema);
     report = least_variation(curve, points, band);
     if (!report.within) return report;
-    const std::vector<int> now = moved_on(curve, extrema);
-    if (now == extrema) break;
-    extrema = now;
+    tried.push_back(std::move(extrema));
+    extrema = moved_on(curve, tried.back());
+    if (std::ranges::count(tried, extrema) > 0) break;
   }
   return report;
 }
@@ -212,12 +213,15 @@ class Calming {
   void keep_to(int turns) {
     options_.most_rms = options_.worth = HUGE_VAL;
     refusals_.clear();
+    in_vain_.clear();
     const auto left = [&] { return static_cast<int>(turns_of(curve_).size()); };
     while (!options_.band.progress.stop_requested() && left() > turns && single());
   }
 
   /// Solves with these extrema alone; takes what is found where it is worth it.
   bool take(const std::vector<int>& extrema, bool any_count = false) {
+    if (std::ranges::count(in_vain_, extrema) > 0) return false;
+    in_vain_.push_back(extrema);
     DenseCurve trial = curve_;
     const BandReport found = solve_without(trial, points_, extrema, report_.spring, options_);
     if (!found.within || found.rms > options_.most_rms ||
@@ -226,6 +230,7 @@ class Calming {
     if (!any_count && turns_of(trial).size() >= turns_of(curve_).size()) return false;
     curve_ = std::move(trial);
     report_ = found;
+    in_vain_.clear();
     return true;
   }
 
@@ -288,6 +293,7 @@ class Calming {
   CalmOptions options_;
   BandReport report_;
   std::vector<double> refusals_;
+  std::vector<std::vector<int>> in_vain_;  ///< extrema that were tried with the curve as it is
   std::size_t most_at_once_ = 1'000'000;
 };
 

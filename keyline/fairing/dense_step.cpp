@@ -30,6 +30,19 @@ DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share) {
   return next;
 }
 
+bool alike(const DenseStep& a, const DenseStep& b, double share) {
+  const auto near = [&](int from, int count) {
+    double apart = 0;
+    double size = 0;
+    for (std::size_t i = 0; i < a.state.size(); ++i) {
+      apart += (a.state[i] - b.state[i]).segment(from, count).squaredNorm();
+      size += b.state[i].segment(from, count).squaredNorm();
+    }
+    return apart < share * share * size;
+  };
+  return near(0, 3) && near(3, 2);
+}
+
 std::vector<double> meant_rises(const DenseCurve& curve, const DenseStep& step) {
   std::vector<double> change;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
@@ -52,6 +65,22 @@ double keeps_side(const DenseCurve& curve, const DenseStep& step) {
     }
   }
   return share;
+}
+
+DenseBoundary boundary_of(const DenseCurve& curve, const Vector6& seam, const Vector6& multiplier,
+                          double weight) {
+  DenseBoundary b;
+  b.closed = curve.closed;
+  const int start = static_cast<int>(curve.hold_start);
+  for (int k = curve.slides_start ? 1 : 0; k < 4; ++k) b.fixed_start[k] = start > 0 && k <= start;
+  b.fixed_start[3] = b.fixed_start[3] || end_of_line(curve, 0);
+  b.fixed_start[4] = flat(curve, 0) || end_of_line(curve, 1);
+  const int end = static_cast<int>(curve.hold_end);
+  for (int k = !curve.closed && curve.slides_end ? 1 : 0; k < 4; ++k)
+    if (curve.closed || (end > 0 && k <= end))
+      b.end_hessian(k, k) = k == 3 ? 1e-2 * weight : weight;
+  b.end_gradient = b.end_hessian * seam + multiplier;
+  return b;
 }
 
 bool end_of_line(const DenseCurve& curve, std::size_t cut) {

@@ -11,6 +11,9 @@ namespace keyline::fairing::detail {
 /// The curve after that share of the step; feet stay.
 DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share);
 
+/// Whether poses and curvatures go nearly where those of the other step do, but for that share.
+bool alike(const DenseStep& a, const DenseStep& b, double share);
+
 /// By how much more each piece's curvature rises after the whole step.
 std::vector<double> meant_rises(const DenseCurve& curve, const DenseStep& step);
 
@@ -19,5 +22,10 @@ double keeps_side(const DenseCurve& curve, const DenseStep& step);
 
 /// Whether a line begins or ends at the cut: its curvature there is 0 and stays it.
 bool end_of_line(const DenseCurve& curve, std::size_t cut);
+
+/// How the curve's ends are held: its start is fixed, its end is drawn by that weight to where it
+/// belongs, `seam` away, beside the multipliers of that.
+DenseBoundary boundary_of(const DenseCurve& curve, const Vector6& seam, const Vector6& multiplier,
+                          double weight);
 
 }  // namespace keyline::fairing::detail

@@ -18,6 +18,9 @@ constexpr double kReach = 1e2;  // the same of where an open curve ends beside i
 constexpr double kBarrierDrop = 0.25;
 constexpr double kExtra = 1e-6;    // of the tolerance: extra width that counts as none
 constexpr double kProgress = 0.9;  // of the extra width after a step that is worth it
+constexpr std::size_t kStuck = 6;  // steps that together leave more…
+constexpr double kDrawnIn = 0.95;  // …than this of the extra width: more would not draw it in
+constexpr double kAlike = 1e-3;    // of a step: as good as the same
 constexpr int kHalvings = 5;
 constexpr double kLeastDamping = 1e-2;
 constexpr double kMostDamping = 1e9;
@@ -64,6 +67,8 @@ class Search {
     limits_ = &band;
     band_ = &band;
     damping_ = 0;
+    refused_.reset();
+    widths_.clear();
     finished_ = false;
     BandReport report;
     while (report.iterations < options_.iterations && !finished_ &&
@@ -74,41 +79,26 @@ class Search {
       const bool idle = before > kExtra * unit_ && band.extra() > kProgress * before;
       idle_ = idle ? idle_ + 1 : 0;
       if (options_.patience > 0 && idle_ >= options_.patience) break;
+      if (options_.warm && stuck()) break;
     }
     report.converged = converged_;
     report.energy = variation(curve_);
     report.max_offset = largest();
     report.rms = root_mean_square(mean_weight_, spots_.offset);
     report.spring = spring_;
-    report.within = report.max_offset <= options_.tolerance && closed_enough() && limits_kept();
+    report.within = report.max_offset <= options_.tolerance && closed_enough() &&
+                    limits_kept(points_, spots_.offset, kExtra * unit_);
     return report;
   }
 
  private:
-  double largest() const {
-    double most = 0;
-    for (std::size_t j = 0; j < points_.size(); ++j) {
-      const double share = points_[j].share;
-      most = std::max(most, spots_.offset[j] + share * points_[j].high);
-      most = std::max(most, -spots_.offset[j] - share * points_[j].low);
-    }
-    return most;
-  }
-
-  /// Whether the offsets keep the points' own limits, to what counts as no extra width.
-  bool limits_kept() const {
-    const double slack = kExtra * unit_;
-    for (std::size_t j = 0; j < points_.size(); ++j) {
-      const double offset = spots_.offset[j];
-      if (offset > points_[j].highest + slack || offset < points_[j].lowest - slack) return false;
-    }
-    return true;
-  }
+  double largest() const { return largest_of(points_, spots_.offset); }
 
   /// The curve that hangs on springs of this weight of the mean square beside the energy's unit.
   void hang(double weight) {
     limits_ = &springs_.emplace(points_, spots_.offset, weight);
     damping_ = 0;
+    refused_.reset();
     finished_ = false;
     for (int i = 0; i < kFollowSteps && !finished_; ++i) iterate();
     hung_ = weight * energy_unit_;
@@ -244,19 +234,7 @@ class Search {
   }
 
   DenseBoundary boundary() const {
-    DenseBoundary b;
-    b.closed = curve_.closed;
-    const int start = static_cast<int>(curve_.hold_start);
-    for (int k = curve_.slides_start ? 1 : 0; k < 4; ++k)
-      b.fixed_start[k] = start > 0 && k <= start;
-    b.fixed_start[3] = b.fixed_start[3] || end_of_line(curve_, 0);
-    b.fixed_start[4] = flat(curve_, 0) || end_of_line(curve_, 1);
-    const int end = static_cast<int>(curve_.hold_end);
-    const double w = kHeld / (unit_ * unit_);
-    for (int k = !curve_.closed && curve_.slides_end ? 1 : 0; k < 4; ++k)
-      if (curve_.closed || (end > 0 && k <= end)) b.end_hessian(k, k) = k == 3 ? 1e-2 * w : w;
-    b.end_gradient = b.end_hessian * gaps_.seam + multiplier_;
-    return b;
+    return boundary_of(curve_, gaps_.seam, multiplier_, kHeld / (unit_ * unit_));
   }
 
   std::vector<double> meant(const DenseStep& step) const {
@@ -266,15 +244,30 @@ class Search {
     return change;
   }
 
+  /// Whether the last steps that were taken hardly drew the band in: more of them would not.
+  bool stuck() {
+    const double extra = band_->extra();
+    if (!refused_) widths_.push_back(extra);
+    if (extra <= kExtra * unit_ || widths_.size() <= kStuck) return false;
+    return extra > kDrawnIn * widths_[widths_.size() - 1 - kStuck];
+  }
+
   void iterate() {
-    std::vector<Cell> cells = model();
+    if (!refused_) cells_ = model();
+    std::vector<Cell> cells = cells_;
     damp(cells);
-    const DenseStep step = solve_cells(cells, boundary());
+    DenseStep step = solve_cells(cells, boundary());
     if (!step.sound) {
       refuse();
       return;
     }
+    const double price = gap_price_;
     gap_price_ = std::max(2 * step.largest_costate, 0.5 * gap_price_);
+    if (refused_ && alike(step, *refused_, kAlike) &&
+        std::abs(gap_price_ - price) < kAlike * price) {
+      refuse();
+      return;
+    }
     const std::vector<double> planned = meant(step);
     const std::vector<double> rises = meant_rises(curve_, step);
     const double before = merit(curve_, spots_, gaps_.sum, 0);
@@ -285,8 +278,10 @@ class Search {
         if (rises_) rises_->move(curve_, rises);
         damping_ = h == 0 ? 0.1 * damping_ : damping_;
         if (damping_ < kLeastDamping) damping_ = 0;
+        refused_.reset();
         return;
       }
+    refused_ = std::move(step);
     refuse();
   }
 
@@ -376,6 +371,9 @@ class Search {
   double energy_unit_ = 1;
   double gap_price_ = 0;
   double damping_ = 0;
+  std::vector<Cell> cells_;           ///< the model without damping
+  std::optional<DenseStep> refused_;  ///< the last step, where it was not taken: all is as before
+  std::vector<double> widths_;        ///< extra widths of the band after the steps taken
   int idle_ = 0;  ///< steps in a row that brought the band hardly nearer to its width
   bool finished_ = false;
   bool converged_ = false;
