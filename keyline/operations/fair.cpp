@@ -63,7 +63,7 @@ core::Result<acquire::KeyLine> key_line_of(const FairRequest& request) {
   auto line = measured_line(request.subject);
   if (!line) return std::unexpected(std::move(line.error()));
   if (*line) return std::move(**line);
-  return sampled_line(*request.subject.curve);
+  return sampled_line(*request.subject.curve, request.options.tolerance);
 }
 
 document::Path fair_curve(const fairing::FairResult& result) {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "keyline/acquire/acquire.h"
-#include "keyline/analysis/continuity.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
+#include "keyline/fairing/fair.h"
 
 namespace keyline::operations {
 namespace {
@@ -72,7 +72,23 @@ bool are_points_of_a_curve(const std::vector<core::Point2>& vertices) {
   return turning <= kOctagon * static_cast<double>(vertices.size() - 2);
 }
 
-Result<acquire::KeyLine> sampled_line(const document::Path& path) {
+namespace {
+
+/// Whether a kink from `end` to `start` is a corner. Within the tolerance an arc of radius
+/// 8 tolerance / angle^2 hides it; where the curve on either side is bent more than that arc,
+/// nobody sees the arc for it.
+bool is_corner(const curve::Jet2& end, const curve::Jet2& start, double tolerance) {
+  constexpr double kSmooth = 0.02;  // radians
+  const double angle =
+      std::abs(core::wrap_angle(curve::tangent_angle(start) - curve::tangent_angle(end)));
+  if (angle <= kSmooth) return false;
+  const double bend = std::min(std::abs(curve::curvature(end)), std::abs(curve::curvature(start)));
+  return !(8 * tolerance * bend >= angle * angle);
+}
+
+}  // namespace
+
+Result<acquire::KeyLine> sampled_line(const document::Path& path, double tolerance) {
   const analysis::CurveView view = analysis::view(path);
   const analysis::ArcLengthTable table(view);
   const double length = table.length();
@@ -83,14 +99,15 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path) {
   line.length = length;
   line.closed = path.closed && core::distance(evaluate(path, 0), evaluate(path, 1)) < 1e-6 * length;
   const int n = std::max<int>(kCurveSamples, 40 * static_cast<int>(path.curves.size()) + 1);
+  if (!(tolerance > 0))
+    tolerance = fairing::default_tolerance(0, length, static_cast<std::size_t>(n));
   std::vector<double> corners;
-  const analysis::ContinuityTolerance smooth{1e-6 * length, 0.02, 1e-3, 1e-2};
-  if (line.closed && analysis::continuity({view}, true, smooth).back().order == 0)
-    corners.push_back(0);
-  const auto joints = analysis::inner_continuity(view, smooth);
-  const auto breaks = breakpoints(path);
-  for (std::size_t k = 0; k < joints.size() && k + 2 < breaks.size() + 1; ++k)
-    if (joints[k].order == 0) corners.push_back(table.length_at(breaks[k + 1]));
+  if (line.closed && is_corner(view.jet_at(1), view.jet_at(0), tolerance)) corners.push_back(0);
+  for (std::size_t k = 1; k + 1 < view.breaks().size(); ++k) {
+    const double t = view.breaks()[k];
+    if (is_corner(view.jet_at(std::nextafter(t, 0.0)), view.jet_at(t), tolerance))
+      corners.push_back(table.length_at(t));
+  }
   std::vector<double> at;
   for (int i = 0; i < n; ++i) at.push_back(length * i / (n - 1));
   at.insert(at.end(), corners.begin(), corners.end());
