@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kTried = 16;  // places of least miss, of each kind
 constexpr double kMostSeriesTurning = 6.2;
-constexpr int kDepth = 5;       // of quarters
-constexpr int kLeaping = 4;     // from this depth on cells in which a miss leaps are quartered too
+constexpr int kDepth = 5;       // of quarters; the first is taken unseen, a miss may dip inside
+constexpr int kLeaping = 1;     // down to this depth cells in which a miss leaps are quartered too
 constexpr double kMet = 1e-11;  // radians
 constexpr double kMostTurning = 1e30;  // of a polygon's piece
 constexpr double kFarthest = 350;      // log of the ratio of polygons' radii
@@ -232,7 +232,7 @@ bool HandleSearch::straddles(const Cell& cell, bool leaping) const {
 }
 
 void HandleSearch::quarter(const Cell& cell, int depth, std::vector<Unknowns>& starts) const {
-  if (!straddles(cell, depth >= kLeaping)) return;
+  if (depth < kDepth && !straddles(cell, depth >= kLeaping)) return;
   if (depth == 0) {
     starts.push_back(cell.at(0.5, 0.5));
     return;
