@@ -113,11 +113,10 @@ void drop_poor(std::vector<Candidate>& all) {
   });
 }
 
-/// The targets of a task that meet its conditions, as far from `given` as they are.
+/// Targets that meet the conditions of a task, as far from `given` as they are.
 void add_candidates(const BezierSurface& given, const detail::EditTask& task,
-                    const std::string& prefix, std::vector<Candidate>& all,
+                    const std::string& prefix, detail::TargetSet found, std::vector<Candidate>& all,
                     std::vector<MissedTarget>& missed) {
-  auto found = detail::edit_targets(task);
   for (MissedTarget& m : found.missed) {
     m.target = prefix + m.target;
     missed.push_back(std::move(m));
@@ -149,14 +148,19 @@ void add_bicubic(const BezierSurface& s, const EditOptions& options, std::vector
   if (detail::solvable(s.net)) return;
   const BezierSurface lower =
       reduced_degree(s, std::min(s.net.rows - 1, 3), std::min(s.net.columns - 1, 3));
-  add_candidates(s, {lower.net, options, conditions_by_curve({}, lower.net)}, "bicubic, ", all,
-                 missed);
+  const detail::EditTask task{lower.net, options, conditions_by_curve({}, lower.net)};
+  add_candidates(s, task, "bicubic, ", detail::edit_targets(task), all, missed);
 }
 
 std::vector<Candidate> candidates_of(const BezierSurface& s, const detail::EditTask& task,
                                      std::vector<MissedTarget>& missed) {
   std::vector<Candidate> all;
-  add_candidates(s, task, "", all, missed);
+  add_candidates(s, task, "", detail::edit_targets(task), all, missed);
+  if (all.empty() && !task.options.conditions.empty()) {
+    detail::TargetSet conditioned;
+    detail::add_conditions(task, conditioned);
+    add_candidates(s, task, "", std::move(conditioned), all, missed);
+  }
   add_bicubic(s, task.options, all, missed);
   drop_poor(all);
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {

@@ -75,12 +75,13 @@ struct EditResult {
 /// (with the other boundary curves, unless these are kept); "boundaries" (joints or corners
 /// kept), the four boundary curves at their minimum and the inside blended from them; "one matrix
 /// inside", the same with the inside solved so that its curves have one matrix each.
-/// From degree 5 on nets of one matrix per curve do not exist for corners at will; with these kept
-/// the targets of the nearest bicubic patch stand beside, "bicubic, …". Such a target, taken whole,
-/// comes with its own degrees and network curves.
-/// The target of least SAV within the limit is taken, the nearer one of equals; where none lies
-/// within the limit, the nearest of them as far as the limit allows (part_of_the_way). No target
-/// and no part of the way to one turns the patch over (turn_over.h).
+/// Where conditions leave none of these: "conditions", the nearest net in which the curves that
+/// have conditions meet them; nothing is asked of the others. From degree 5 on nets of one matrix
+/// per curve do not exist for corners at will; with these kept the targets of the nearest bicubic
+/// patch stand beside, "bicubic, …". Such a target, taken whole, comes with its own degrees and
+/// network curves. The target of least SAV within the limit is taken, the nearer one of equals;
+/// where none lies within the limit, the nearest of them as far as the limit allows
+/// (part_of_the_way). No target and no part of the way to one turns the patch over (turn_over.h).
 ///
 /// Conditions hold for every target (up to 1e-6) and set the minima the values are measured from;
 /// a curve that has no minimum within its ranges is valued as without them.

@@ -90,13 +90,6 @@ void add_translational(const EditTask& task, TargetSet& set) {
   set.targets.push_back({"translational", std::move(moved)});
 }
 
-/// Of a curve that is to come out the same whatever patch it is seen from.
-Sense own_sense(const NetworkCurve& c) {
-  const auto& p = c.control;
-  const bool falls = core::distance(p[p.size() - 2], p.back()) < core::distance(p[0], p[1]);
-  return {falls, falls};
-}
-
 // ---- One way ------------------------------------------------------------------------------
 
 /// Takes rows (columns) of `moved` to their minimum between their ends, which stay; false, with the
@@ -197,6 +190,12 @@ void add_blended(const EditTask& task, TargetSet& set) {
 Sense sense_of(const Net& net, Keep keep) {
   if (keep == Keep::start) return {};
   return {mean_growth(net, true) < 0, mean_growth(net, false) < 0};
+}
+
+Sense own_sense(const NetworkCurve& c) {
+  const auto& p = c.control;
+  const bool falls = core::distance(p[p.size() - 2], p.back()) < core::distance(p[0], p[1]);
+  return {falls, falls};
 }
 
 CurveTask EditTask::curve(const NetworkCurve& c, const Sense& sense) const {

@@ -6,6 +6,7 @@
 
 #include "keyline/surface/edit.h"
 #include "keyline/surface/edit_curve.h"
+#include "keyline/surface/one_matrix.h"
 
 /// Internals of room surface: the nets an edit may take a patch to.
 namespace keyline::surface::detail {
@@ -27,6 +28,8 @@ struct Sense {
   bool columns_from_end = false;
 };
 Sense sense_of(const Net& net, Keep keep);
+/// Of a curve that is to come out the same whatever patch it is seen from: as its edges grow.
+Sense own_sense(const NetworkCurve& c);
 
 /// A patch to be edited, with what is asked of each of its network curves.
 struct EditTask {
@@ -46,6 +49,13 @@ TargetSet edit_targets(const EditTask& task);
 
 /// Whether the net has at least as many freedoms as there are equations.
 bool solvable(const Net& net);
+
+/// How the points of the net may move where the start or the corners are kept.
+std::vector<Freedom> freedom_of(const EditTask& task);
+
+/// "conditions": the nearest net in which the curves with ranges or branches have one matrix each,
+/// within these; nothing is asked of the others. Only added where it meets them.
+void add_conditions(const EditTask& task, TargetSet& set);
 
 /// "one matrix", "towards least energy", "least energy" (one_matrix.h), where the net is
 /// solvable.

@@ -33,12 +33,17 @@ double size_of(const Net& net) {
 
 int degree_of(const Net& net, int curve) { return (curve < net.rows ? net.columns : net.rows) - 1; }
 
+int matrix_count(const OneMatrixProblem& p, int curve) {
+  return p.wishes[curve].loose ? 0 : 3 * std::max(degree_of(p.net, curve) - 2, 0);
+}
+
 /// Equations of one curve: its matrix, then growth, turn and tangent as wished.
 int residual_count(const OneMatrixProblem& p, int curve) {
   const CurveWish& wish = p.wishes[curve];
-  return 3 * std::max(degree_of(p.net, curve) - 2, 0) + (wish.growth ? 1 : 0) +
-         (wish.turn ? 1 : 0) + (wish.tangent ? 3 : 0);
+  return matrix_count(p, curve) + (wish.growth ? 1 : 0) + (wish.turn ? 1 : 0) +
+         (wish.tangent ? 3 : 0) + (wish.turn_within ? 1 : 0) + (wish.growth_within ? 1 : 0);
 }
+double outside(const core::Interval& range, double x) { return x - core::clamp(range, x); }
 
 /// Residuals of the curves and of the departure, with unknowns as shares of the net's size.
 class System {
@@ -132,18 +137,20 @@ class System {
     };
     for (const Vector3& edge : e)
       if (!(norm(edge) > kShortest * size_)) return false;
-    for (std::size_t i = 2; i < e.size(); ++i) {
+    const CurveWish& wish = p_.wishes[curve];
+    for (std::size_t i = 2; i < e.size() && !wish.loose; ++i) {
       const double a = dot(e[i - 2], e[i - 2]);
       put(e[i] - (2 * dot(e[i - 2], e[i - 1]) / a) * e[i - 1] +
           (dot(e[i - 1], e[i - 1]) / a) * e[i - 2]);
     }
-    const CurveWish& wish = p_.wishes[curve];
-    if (wish.growth) {
-      const double steps = std::max<double>(static_cast<double>(e.size()) - 1, 1);
-      const double weight = wish.firm ? equation_weight_ : p_.growth_weight;
-      r[row++] = weight * (std::log(norm(e.back()) / norm(e.front())) / steps - *wish.growth);
-    }
-    if (wish.turn) r[row++] = equation_weight_ * (core::angle_between(e[0], e[1]) - *wish.turn);
+    const double steps = std::max<double>(static_cast<double>(e.size()) - 1, 1);
+    const auto growth = [&] { return std::log(norm(e.back()) / norm(e.front())) / steps; };
+    const auto turn = [&] { return core::angle_between(e[0], e[1]); };
+    if (wish.growth)
+      r[row++] = (wish.firm ? equation_weight_ : p_.growth_weight) * (growth() - *wish.growth);
+    if (wish.turn) r[row++] = equation_weight_ * (turn() - *wish.turn);
+    if (wish.growth_within) r[row++] = equation_weight_ * outside(*wish.growth_within, growth());
+    if (wish.turn_within) r[row++] = equation_weight_ * outside(*wish.turn_within, turn());
     if (wish.tangent) put(e[0] - dot(e[0], *wish.tangent) * *wish.tangent);
     return true;
   }
@@ -188,7 +195,7 @@ std::vector<int> exact_rows(const OneMatrixProblem& p, bool with_growth) {
   for (int c = 0; c < p.net.rows + p.net.columns; ++c) {
     const CurveWish& wish = p.wishes[c];
     const int end = row + residual_count(p, c);
-    for (int i = 0; i < 3 * std::max(degree_of(p.net, c) - 2, 0); ++i) rows.push_back(row++);
+    for (int i = 0; i < matrix_count(p, c); ++i) rows.push_back(row++);
     if (wish.growth && !with_growth && !wish.firm) ++row;
     while (row < end) rows.push_back(row++);
   }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "keyline/core/interval.h"
 #include "keyline/surface/net.h"
 
 /// Internals of room surface: nets all of whose rows and columns have one control matrix each.
@@ -22,6 +23,9 @@ struct CurveWish {
   bool firm = false;                     ///< growth is an equation even without `exact_growth`
   std::optional<double> turn;            ///< alpha >= 0: an equation
   std::optional<core::Vector3> tangent;  ///< unit direction of the first edge: equations
+  /// Where turn and growth may lie: equations once they are outside.
+  std::optional<core::Interval> turn_within, growth_within;
+  bool loose = false;  ///< nothing else is asked of it, not even one matrix
 };
 
 struct OneMatrixProblem {

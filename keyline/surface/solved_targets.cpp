@@ -23,21 +23,6 @@ Freedom start_freedom(const CurveCondition& condition) {
   return condition.tangent.value_or(true) ? Freedom::along : Freedom::free;
 }
 
-std::vector<Freedom> freedom_of(const EditTask& task) {
-  const Net& net = task.net;
-  std::vector<Freedom> freedom(net.points.size(), Freedom::free);
-  freedom[0] = Freedom::held;
-  if (task.options.keep == Keep::start) {
-    freedom[net.index(0, 1)] = start_freedom(task.conditions[0]);
-    freedom[net.index(1, 0)] = start_freedom(task.conditions[static_cast<std::size_t>(net.rows)]);
-    return freedom;
-  }
-  for (const std::size_t corner : {net.index(0, net.columns - 1), net.index(net.rows - 1, 0),
-                                   net.index(net.rows - 1, net.columns - 1)})
-    freedom[corner] = Freedom::held;
-  return freedom;
-}
-
 /// A wish with nothing but the tangent that is to be kept; A1 and the first column slide along
 /// theirs where the start is kept.
 CurveWish bare_wish(const EditTask& task, const NetworkCurve& c) {
@@ -159,6 +144,21 @@ void add_least_energy(const EditTask& task, const Sense& sense, OneMatrixProblem
 }
 
 }  // namespace
+
+std::vector<Freedom> freedom_of(const EditTask& task) {
+  const Net& net = task.net;
+  std::vector<Freedom> freedom(net.points.size(), Freedom::free);
+  freedom[0] = Freedom::held;
+  if (task.options.keep == Keep::start) {
+    freedom[net.index(0, 1)] = start_freedom(task.conditions[0]);
+    freedom[net.index(1, 0)] = start_freedom(task.conditions[static_cast<std::size_t>(net.rows)]);
+    return freedom;
+  }
+  for (const std::size_t corner : {net.index(0, net.columns - 1), net.index(net.rows - 1, 0),
+                                   net.index(net.rows - 1, net.columns - 1)})
+    freedom[corner] = Freedom::held;
+  return freedom;
+}
 
 bool solvable(const Net& net) { return net.points.size() <= kMostSolved; }
 

@@ -1,9 +1,12 @@
 #include "keyline/surface/conditions.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/axis.h"
 #include "keyline/surface/edit.h"
 
 #include "test_surfaces.h"
@@ -115,6 +118,41 @@ TEST(Conditions, EmptySetsAreTold) {
   ASSERT_FALSE(r->missed.empty());
   EXPECT_EQ(r->missed.front().curve, "A1");
   EXPECT_NE(r->missed.front().why.find("the nearest has alpha"), std::string::npos);
+}
+
+/// Turns and ratios of the edges of a curve.
+std::array<double, 4> turns_and_ratios(const std::array<core::Point3, 4>& p) {
+  const auto e0 = p[1] - p[0], e1 = p[2] - p[1], e2 = p[3] - p[2];
+  return {core::angle_between(e0, e1), core::angle_between(e1, e2), norm(e1) / norm(e0),
+          norm(e2) / norm(e1)};
+}
+
+// Rows and columns have conditions, and the boundary stays: "rows" leaves columns without a matrix.
+TEST(Conditions, OfRowsAndColumnsHoldInsideAKeptBoundary) {
+  const BezierSurface s = distorted_patch();
+  EditOptions options;
+  options.keep = Keep::boundary;
+  options.conditions = {{.curve = "A3", .alpha = Interval{0.3, 0.4}},
+                        {.curve = "A6", .alpha = Interval{0.1, 0.2}, .s = Interval{1.1, 1.3}}};
+  const auto r = edit(s, options);
+  ASSERT_TRUE(r) << r.error().message;
+  EXPECT_EQ(r->target, "conditions");
+  const Net& net = r->surface.net;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (i % 3 == 0 || j % 3 == 0) {
+        EXPECT_EQ(net.at(i, j), s.net.at(i, j));
+      }
+  const auto row = turns_and_ratios({net.at(2, 0), net.at(2, 1), net.at(2, 2), net.at(2, 3)});
+  EXPECT_NEAR(row[0], row[1], 1e-7);
+  EXPECT_NEAR(row[2], row[3], 1e-7);
+  EXPECT_TRUE(row[0] > 0.3 - 1e-6 && row[0] < 0.4 + 1e-6) << row[0];
+  const auto column = turns_and_ratios({net.at(0, 1), net.at(1, 1), net.at(2, 1), net.at(3, 1)});
+  EXPECT_NEAR(column[0], column[1], 1e-7);
+  EXPECT_NEAR(column[2], column[3], 1e-7);
+  EXPECT_TRUE(column[0] > 0.1 - 1e-6 && column[0] < 0.2 + 1e-6) << column[0];
+  const double ratio = std::max(column[2], 1 / column[2]);
+  EXPECT_TRUE(ratio > 1.1 - 1e-6 && ratio < 1.3 + 1e-6) << ratio;
 }
 
 TEST(Conditions, PartOfTheWayTellsWhatIsUnmet) {

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <utility>
+
+#include "keyline/core/axis.h"
+#include "keyline/surface/edit_targets.h"
+#include "keyline/surface/one_matrix.h"
+#include "keyline/surface/turn_over.h"
+
+namespace keyline::surface::detail {
+namespace {
+
+using core::cross;
+using core::norm;
+using core::Vector3;
+
+constexpr double kMet = 1e-9;
+constexpr std::size_t kMostPoints = 121;
+constexpr long kMostWays = 4;  ///< curves that are tried growing either way
+
+bool has_ranges(const CurveCondition& c) { return c.alpha || c.s || c.branch; }
+
+std::vector<Freedom> inside_free(const Net& net) {
+  std::vector<Freedom> freedom(net.points.size(), Freedom::held);
+  for (int i = 1; i + 1 < net.rows; ++i)
+    for (int j = 1; j + 1 < net.columns; ++j) freedom[net.index(i, j)] = Freedom::free;
+  return freedom;
+}
+
+/// What the ranges of a condition say of edges that grow from the first point on, or fall.
+struct Ranges {
+  core::Interval turn, growth;  ///< growth: ln s from the first point on
+};
+Ranges ranges_of(const CurveTask& own) {
+  constexpr core::Interval kAnyGrowth{-5, 5};
+  constexpr double kInner = 1e-10;  // so that what meets the equations lies within
+  const CurveCondition& c = own.condition;
+  Ranges r{c.alpha.value_or(core::Interval{0, own.alpha_max}), kAnyGrowth};
+  if (c.s) r.growth = {std::log(c.s->low) + kInner, std::log(c.s->high) - kInner};
+  const bool falls = c.branch == classa::Branch::falling;
+  if (falls)
+    r.growth.high = std::min(r.growth.high, 0.0);
+  else if (c.s || c.branch)
+    r.growth.low = std::max(r.growth.low, 0.0);
+  if (own.from_end) r.growth = {-r.growth.high, -r.growth.low};
+  return r;
+}
+
+/// The task of a curve, read the way its edges grow, or the other way; a branch says that itself.
+CurveTask read(const EditTask& task, const NetworkCurve& c, bool other_way) {
+  Sense sense = own_sense(c);
+  if (other_way) sense = {!sense.rows_from_end, !sense.columns_from_end};
+  return task.curve(c, sense);
+}
+
+/// `other_ways`: a bit for each curve that has ranges.
+OneMatrixProblem problem_of(const EditTask& task, const Net& net, std::vector<Freedom> freedom,
+                            unsigned other_ways) {
+  OneMatrixProblem problem{net, std::move(freedom), {}, 0};
+  const auto given = network_curves(task.net);
+  for (const NetworkCurve& c : network_curves(net)) {
+    const std::size_t i = task.index_of(c);
+    const CurveCondition& condition = task.conditions[i];
+    CurveWish wish;
+    wish.loose = !has_ranges(condition);
+    const Vector3 edge = given[i].control[1] - given[i].control[0];
+    if (condition.tangent.value_or(false)) wish.tangent = edge / norm(edge);
+    if (!wish.loose && c.control.size() > 2) {
+      const Ranges ranges = ranges_of(read(task, c, other_ways & 1U));
+      wish.turn_within = ranges.turn;
+      wish.growth_within = ranges.growth;
+      other_ways >>= 1U;
+    }
+    problem.wishes.push_back(wish);
+  }
+  return problem;
+}
+
+/// The curve between the same ends, in the plane the given one comes nearest to, whose edges turn
+/// and grow as wanted: each is the one before as a complex number times one factor.
+Curve curve_within(const CurveTask& own) {
+  const Curve& given = own.control;
+  const Ranges ranges = ranges_of(own);
+  const Vector3 e0 = given[1] - given[0], e1 = given[2] - given[1];
+  const double turn = core::clamp(ranges.turn, core::angle_between(e0, e1));
+  const double growth = core::clamp(ranges.growth, std::log(norm(e1) / norm(e0)));
+  Vector3 across;
+  for (std::size_t i = 2; i < given.size(); ++i)
+    across = across + cross(given[i - 1] - given[i - 2], given[i] - given[i - 1]);
+  const Vector3 chord = given.back() - given.front();
+  const Vector3 side = cross(across, chord);
+  if (!(norm(side) > 0)) return {};
+  const std::complex<double> factor = std::polar(std::exp(growth), turn);
+  std::complex<double> sum = 0, power = 1;
+  for (std::size_t i = 1; i < given.size(); ++i, power *= factor) sum += power;
+  Curve c = given;
+  std::complex<double> edge = norm(chord) / sum;
+  for (std::size_t i = 1; i + 1 < c.size(); ++i, edge *= factor)
+    c[i] = c[i - 1] + (edge.real() / norm(chord)) * chord + (edge.imag() / norm(side)) * side;
+  return c;
+}
+
+/// The boundary curves as each alone asks for: at its minimum within its ranges, between its ends
+/// and along its tangent; where it has none, within its ranges, or as it is where it has no ranges.
+Net own_borders(const EditTask& task) {
+  Net net = task.net;
+  for (const NetworkCurve& c : network_curves(task.net)) {
+    const int last = (c.is_row ? net.rows : net.columns) - 1;
+    if (c.index != 0 && c.index != last) continue;
+    CurveTask own = task.curve(c, own_sense(c));
+    own.end_tolerance = own.condition.end_tolerance = 0;
+    Curve moved = least_energy_curve(own);
+    const bool may_turn = !own.condition.tangent.value_or(false) && own.control.size() > 2;
+    if (moved.empty() && has_ranges(own.condition) && may_turn) moved = curve_within(own);
+    for (std::size_t i = 1; i + 1 < moved.size(); ++i)
+      (c.is_row ? net.at(c.index, static_cast<int>(i)) : net.at(static_cast<int>(i), c.index)) =
+          moved[i];
+  }
+  return net;
+}
+
+bool moves_none_of(const NetworkCurve& c, const Net& net, const std::vector<Freedom>& freedom) {
+  for (int k = 0; k < static_cast<int>(c.control.size()); ++k)
+    if (freedom[c.is_row ? net.index(c.index, k) : net.index(k, c.index)] != Freedom::held)
+      return false;
+  return true;
+}
+
+MissedTarget missed(const EditTask& task, const OneMatrixNet& best,
+                    const std::vector<Freedom>& freedom) {
+  const NetworkCurve c = network_curves(best.net)[static_cast<std::size_t>(best.worst)];
+  const std::string asked = ranges_text(task.conditions[task.index_of(c)]);
+  return {"conditions", c.name,
+          moves_none_of(c, best.net, freedom)
+              ? "it stays where it is and does not meet " + asked
+              : "no net was found in which it has one matrix with " + asked};
+}
+
+/// The net with rows, or columns, that have ranges within these, as far as they may move.
+Net with_curves_within(const EditTask& task, const Net& start, bool rows, unsigned other_ways,
+                       const std::vector<Freedom>& freedom) {
+  Net net = start;
+  for (const NetworkCurve& c : network_curves(start)) {
+    if (!has_ranges(task.conditions[task.index_of(c)]) || c.control.size() < 3) continue;
+    const Curve moved = c.is_row == rows ? curve_within(read(task, c, other_ways & 1U)) : Curve{};
+    other_ways >>= 1U;
+    for (int k = 0; k < static_cast<int>(moved.size()); ++k) {
+      const std::size_t at = c.is_row ? net.index(c.index, k) : net.index(k, c.index);
+      if (freedom[at] == Freedom::free) net.points[at] = moved[static_cast<std::size_t>(k)];
+    }
+  }
+  return net;
+}
+
+}  // namespace
+
+void add_conditions(const EditTask& task, TargetSet& set) {
+  if (task.net.points.size() > kMostPoints) return;
+  const auto asked = std::ranges::count_if(task.conditions, has_ranges);
+  if (asked == 0) return;
+  const Keep keep = task.options.keep;
+  const bool inside = keep == Keep::joints || keep == Keep::boundary;
+  const Net given = keep == Keep::joints ? own_borders(task) : task.net;
+  const std::vector<Freedom> freedom = inside ? inside_free(given) : freedom_of(task);
+  std::optional<OneMatrixNet> nearest;
+  for (unsigned ways = 0; ways < 1U << std::min<long>(asked, kMostWays); ++ways) {
+    const OneMatrixProblem problem = problem_of(task, given, freedom, ways);
+    for (const Net& start : {given, with_curves_within(task, given, true, ways, freedom),
+                             with_curves_within(task, given, false, ways, freedom)}) {
+      if (task.options.progress.stop_requested()) return;
+      OneMatrixNet found = solve_one_matrix(problem, start, false);
+      if (found.violation <= kMet && !turns_over({task.net, {}}, {found.net, {}})) {
+        set.targets.push_back({"conditions", std::move(found.net)});
+        return;
+      }
+      if (!nearest || found.violation < nearest->violation) nearest = std::move(found);
+    }
+  }
+  set.missed.push_back(missed(task, *nearest, freedom));
+}
+
+}  // namespace keyline::surface::detail

@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "random_patches.h"
+
+/// Refusals of surface.edit where conditions are given, held against a search of another kind (see
+/// random_refusals_test.cpp): angles and ratios of edges as equations, the place within the ranges
+/// an unknown of each curve, Levenberg and Marquardt's steps from many starts.
+namespace keyline::operations {
+namespace {
+
+using namespace own;
+
+using Points = std::array<Vec, 16>;
+
+struct Asked {
+  int curve = 0;                                     ///< 0 to 3: rows, 4 to 7: columns
+  double turn[2] = {0, 1.09}, growth[2] = {0, 1.6};  ///< growth: ln s
+  bool falls = false;                                ///< its edges, from the first point on
+};
+
+struct Problem {
+  Points given;
+  std::vector<int> free;
+  std::vector<Asked> asked;
+  double size = 1;
+};
+
+std::array<Vec, 3> edges(const Points& p, int curve) {
+  const int first = curve < 4 ? 4 * curve : curve - 4, step = curve < 4 ? 1 : 4;
+  std::array<Vec, 3> e;
+  for (int i = 0; i < 3; ++i) e[i] = p[first + (i + 1) * step] - p[first + i * step];
+  return e;
+}
+
+double within(const double range[2], double unknown) {
+  return std::lerp(range[0], range[1], 0.5 - 0.5 * std::cos(unknown));
+}
+
+Points points_at(const Problem& q, const std::vector<double>& x) {
+  Points p = q.given;
+  for (std::size_t i = 0; i < q.free.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) p[q.free[i]][k] += q.size * x[3 * i + k];
+  return p;
+}
+
+/// Six for each curve: both ratios, both angles, one plane, one way round in it.
+std::vector<double> off(const Problem& q, const std::vector<double>& x) {
+  const Points p = points_at(q, x);
+  std::vector<double> r;
+  for (std::size_t c = 0; c < q.asked.size(); ++c) {
+    const Asked& a = q.asked[c];
+    const double turn = within(a.turn, x[3 * q.free.size() + 2 * c]);
+    const double growth = (a.falls ? -1 : 1) * within(a.growth, x[3 * q.free.size() + 2 * c + 1]);
+    const auto e = edges(p, a.curve);
+    const Vec m = cross(e[0], e[1]), n = cross(e[1], e[2]);
+    for (int i = 0; i < 2; ++i) {
+      r.push_back(std::log(size(e[i + 1]) / size(e[i])) - growth);
+      r.push_back(std::atan2(size(cross(e[i], e[i + 1])), dot(e[i], e[i + 1])) - turn);
+    }
+    const Vec apart = (1 / (size(m) + 1e-12)) * m - (1 / (size(n) + 1e-12)) * n;
+    for (std::size_t k = 0; k < 3; ++k) r.push_back(turn < 1e-6 ? 0 : apart[k]);
+  }
+  return r;
+}
+
+double square(const std::vector<double>& r) {
+  double sum = 0;
+  for (const double v : r) sum += v * v;
+  return sum;
+}
+
+/// Gauss's elimination with pivots.
+std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t best = c;
+    for (std::size_t i = c; i < n; ++i)
+      if (std::abs(a[i][c]) > std::abs(a[best][c])) best = i;
+    std::swap(a[c], a[best]);
+    std::swap(b[c], b[best]);
+    for (std::size_t i = c + 1; i < n; ++i) {
+      const double f = a[i][c] / a[c][c];
+      for (std::size_t k = c; k < n; ++k) a[i][k] -= f * a[c][k];
+      b[i] -= f * b[c];
+    }
+  }
+  for (std::size_t c = n; c-- > 0;) {
+    for (std::size_t k = c + 1; k < n; ++k) b[c] -= a[c][k] * b[k];
+    b[c] /= a[c][c];
+  }
+  return b;
+}
+
+/// Levenberg and Marquardt's steps, (J J' + mu) y = r: few equations, many unknowns.
+bool settles(const Problem& q, std::vector<double>& x) {
+  std::vector<double> r = off(q, x);
+  double mu = 1e-2;
+  for (int step = 0; step < 80 && square(r) > 1e-22; ++step) {
+    std::vector<std::vector<double>> by(x.size());
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      std::vector<double> near = x;
+      near[j] += 1e-7;
+      by[j] = off(q, near);
+      for (std::size_t i = 0; i < r.size(); ++i) by[j][i] = (by[j][i] - r[i]) / 1e-7;
+    }
+    bool better = false;
+    for (; !better && mu < 1e6; mu *= better ? 0.1 : 10) {
+      std::vector<std::vector<double>> a(r.size(), std::vector<double>(r.size()));
+      for (std::size_t i = 0; i < r.size(); ++i)
+        for (std::size_t k = 0; k < r.size(); ++k) {
+          for (const auto& column : by) a[i][k] += column[i] * column[k];
+          if (i == k) a[i][k] += mu;
+        }
+      const std::vector<double> y = solved(a, r);
+      std::vector<double> next = x;
+      for (std::size_t j = 0; j < x.size(); ++j)
+        for (std::size_t i = 0; i < r.size(); ++i) next[j] -= by[j][i] * y[i];
+      const std::vector<double> after = off(q, next);
+      better = square(after) < square(r);
+      if (!better) continue;
+      x = next;
+      r = after;
+    }
+    if (!better) break;
+  }
+  return square(r) < 1e-18;
+}
+
+json as_net(const Points& p) {
+  json net = json::array();
+  for (std::size_t i = 0; i < 4; ++i) {
+    json row = json::array();
+    for (std::size_t j = 0; j < 4; ++j)
+      row.push_back({p[4 * i + j][0], p[4 * i + j][1], p[4 * i + j][2]});
+    net.push_back(row);
+  }
+  return {{"type", "bezier-surface"}, {"points", net}};
+}
+
+/// The patch that is found faces as the given one, everywhere.
+bool faces_as(const json& given, const json& found) {
+  const Patches a = patches_of(given), b = patches_of(found);
+  for (int i = 0; i <= 12; ++i)
+    for (int j = 0; j <= 12; ++j) {
+      const SurfaceSpot s = spot(a.patches[0], i / 12.0, j / 12.0);
+      const SurfaceSpot t = spot(b.patches[0], i / 12.0, j / 12.0);
+      if (!(dot(cross(s.u, s.v), cross(t.u, t.v)) > 0)) return false;
+    }
+  return true;
+}
+
+bool finds_net(Problem q, Random& random) {
+  constexpr int kStarts = 12;
+  for (int n = 0; n < kStarts; ++n) {
+    for (Asked& a : q.asked) {
+      const auto e = edges(q.given, a.curve);
+      a.falls = n < kStarts / 2 ? size(e[2]) < size(e[0]) : random() % 2 == 0;
+    }
+    std::vector<double> x(3 * q.free.size() + 2 * q.asked.size());
+    for (double& v : x) v = n == 0 ? 0 : 0.1 * uniform(random, -1, 1);
+    for (std::size_t i = 3 * q.free.size(); i < x.size(); ++i) x[i] = uniform(random, 0.5, 2.6);
+    if (!settles(q, x)) continue;
+    if (faces_as(as_net(q.given), as_net(points_at(q, x)))) return true;
+  }
+  return false;
+}
+
+struct Drawn {
+  json request;
+  Problem problem;
+};
+
+/// A patch with the boundary or the corners kept, and ranges for one to three of its curves.
+Drawn any_drawn(Random& random) {
+  Drawn d;
+  const json patch = any_patch(random, 4, 4, std::array{0.03, 0.1, 0.3, 0.5}[random() % 4]);
+  const bool boundary = random() % 2 == 0;
+  d.request = {{"op", "surface.edit"},
+               {"surface", patch},
+               {"keep", boundary ? "boundary" : "corners"},
+               {"conditions", json::array()}};
+  d.problem.size = net_extent(patch);
+  for (int i = 0; i < 16; ++i) {
+    d.problem.given[i] = vec(patch["points"][i / 4][i % 4]);
+    const bool row = i / 4 == 0 || i / 4 == 3, column = i % 4 == 0 || i % 4 == 3;
+    if (boundary ? !row && !column : !row || !column) d.problem.free.push_back(i);
+  }
+  std::vector<int> curves{0, 1, 2, 3, 4, 5, 6, 7};
+  if (boundary) curves = {1, 2, 5, 6};
+  std::ranges::shuffle(curves, random);
+  curves.resize(1 + random() % 3);
+  for (const int c : curves) {
+    Asked a{.curve = c};
+    json condition{{"curve", "A" + std::to_string(c + 1)}};
+    if (random() % 3 > 0) {
+      a.turn[0] = uniform(random, 0.05, 0.6);
+      a.turn[1] = a.turn[0] + uniform(random, 0.01, 0.3);
+      condition["alpha"] = a.turn;
+    }
+    if (!condition.contains("alpha") || random() % 2 == 0) {
+      const double s = uniform(random, 1.01, 1.8), more = s + uniform(random, 0.01, 0.4);
+      a.growth[0] = std::log(s);
+      a.growth[1] = std::log(more);
+      condition["s"] = {s, more};
+    }
+    d.request["conditions"].push_back(condition);
+    d.problem.asked.push_back(a);
+  }
+  return d;
+}
+
+TEST(RandomRefusals, NoNetOfTheConditionsIsFoundByAnglesAndRatios) {
+  Random random(own::seed(48));
+  const int wanted = own::refusals(8);
+  int refused = 0, asked = 0, disagreed = 0, answered_ = 0, found = 0;
+  for (; refused < wanted && asked < 60 * wanted; ++asked) {
+    const Drawn d = any_drawn(random);
+    SCOPED_TRACE(d.request.dump());
+    const json answer = answered(d.request);
+    if (answer["ok"] == true) {
+      if (answered_ == 10) continue;
+      ++answered_;
+      found += finds_net(d.problem, random);
+      continue;
+    }
+    ASSERT_EQ(answer["error"]["code"], "undrawable") << answer;
+    ++refused;
+    if (!finds_net(d.problem, random)) continue;
+    ++disagreed;
+    std::cout << "found: " << d.request << '\n' << answer["error"]["message"] << '\n';
+  }
+  RecordProperty("asked", std::to_string(asked));
+  RecordProperty("refused", std::to_string(refused));
+  RecordProperty("disagreed", std::to_string(disagreed));
+  // Of patches so disturbed that most nets turn over a few are missed (docs/accuracy.md).
+  EXPECT_LE(disagreed, std::max(1, wanted / 16));
+  EXPECT_GE(found, answered_ / 2);
+}
+
+}  // namespace
+}  // namespace keyline::operations
