@@ -217,12 +217,11 @@ bool SplineSolver::full_rank(std::size_t coefficients) const {
 }
 
 template <class Visit>
-void SplineSolver::for_each_span(Visit visit) const {
+void SplineSolver::for_spans_after(std::size_t span, std::size_t first, Visit visit) const {
   const std::vector<double>& x = weighted_->parameters;
   const auto order = static_cast<std::size_t>(order_);
   const std::size_t coefficients = knot_count_ - order;
-  std::size_t first = 0;
-  for (std::size_t span = order - 1; span < coefficients; ++span) {
+  for (; span < coefficients; ++span) {
     const double end = knots_[span + 1];
     if (!(knots_[span] < end)) continue;
     const auto from = x.begin() + static_cast<std::ptrdiff_t>(first);
@@ -234,6 +233,21 @@ void SplineSolver::for_each_span(Visit visit) const {
   }
 }
 
+/// Band and right-hand sides as the spans left them whose knots are as they were; where to go on.
+template <int order>
+detail::ReductionStages::Stage SplineSolver::resume(std::size_t coefficients) {
+  const std::size_t columns = column_count();
+  const auto known = stages_.resume(knots(), order);
+  const std::size_t used = known ? known->span : 0;  // rows that are not still 0
+  std::fill_n(band_.begin() + used * order, (coefficients + order - used) * order, 0.0);
+  std::fill_n(right_.begin() + used * columns, (coefficients + order - used) * columns, 0.0);
+  if (!known) return {order - 1, 0, 0};
+  const std::size_t open = used + 1 - order;
+  stages_.put_back({band_.data() + open * order, (order - 1) * order},
+                   {right_.data() + open * columns, (order - 1) * columns});
+  return *known;
+}
+
 template <int order>
 double SplineSolver::reduce(std::size_t interior) {
   const std::size_t coefficients = interior + order;
@@ -242,12 +256,14 @@ double SplineSolver::reduce(std::size_t interior) {
     band_.resize(2 * (coefficients + order) * order);
     right_.resize(2 * (coefficients + order) * columns);
   }
-  std::fill_n(band_.begin(), (coefficients + order) * order, 0.0);
-  std::fill_n(right_.begin(), (coefficients + order) * columns, 0.0);
-  double rest = 0;
-  for_each_span([&](std::size_t span, std::size_t first, std::size_t last) {
+  const detail::ReductionStages::Stage from = resume<order>(coefficients);
+  double rest = from.rest;
+  for_spans_after(from.span, from.data, [&](std::size_t span, std::size_t first, std::size_t last) {
     basis_rows<order>(span, first, last);
     eliminate<order>(span + 1 - order, padded(last - first), rest);
+    const std::size_t open = span + 2 - order;
+    stages_.keep({span + 1, last, rest}, {band_.data() + open * order, (order - 1) * order},
+                 {right_.data() + open * columns, (order - 1) * columns});
   });
   return full_rank(coefficients) ? rest : kInfinity;
 }
@@ -280,13 +296,14 @@ double SplineSolver::sum_of_squares(std::span<const double> interior_knots) {
 void SplineSolver::substitute_back(std::size_t coefficients) {
   const auto order = static_cast<std::size_t>(order_);
   const std::size_t columns = column_count();
+  solution_.resize(coefficients * columns);
   for (std::size_t r = coefficients; r-- > 0;) {
     for (std::size_t k = 0; k < columns; ++k) {
       double value = right_[r * columns + k];
       for (std::size_t c = 1; c < order && r + c < coefficients; ++c) {
-        value -= band_[r * order + c] * right_[(r + c) * columns + k];
+        value -= band_[r * order + c] * solution_[(r + c) * columns + k];
       }
-      right_[r * columns + k] = value / band_[r * order];
+      solution_[r * columns + k] = value / band_[r * order];
     }
   }
 }
@@ -298,7 +315,7 @@ bool SplineSolver::solve(std::span<const double> interior_knots) {
 }
 
 double SplineSolver::coefficient(std::size_t i, std::size_t column) const {
-  return right_[i * column_count() + column];
+  return solution_[i * column_count() + column];
 }
 
 template <int order>
@@ -311,7 +328,7 @@ void SplineSolver::residual_rows(std::size_t span, std::size_t first, std::size_
     for (std::size_t i = first; i < last; ++i) target[i] = -weighted_->columns[k][i];
     for (std::size_t j = 0; j < order; ++j) {
       const double* const row = rows_.data() + j * stride_;
-      const double c = right_[(span + 1 - order + j) * columns + k];
+      const double c = solution_[(span + 1 - order + j) * columns + k];
       for (std::size_t i = first; i < last; ++i) target[i] += c * row[i - first];
     }
   }

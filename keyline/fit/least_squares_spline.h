@@ -7,6 +7,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
+#include "keyline/fit/reduction_stages.h"
 
 /// Least-squares splines with given knots.
 ///
@@ -78,6 +79,8 @@ class SplineSolver {
   template <int order>
   double reduce(std::size_t interior);
   template <int order>
+  detail::ReductionStages::Stage resume(std::size_t coefficients);
+  template <int order>
   void basis_rows(std::size_t span, std::size_t first, std::size_t last);
   template <int order>
   void eliminate(std::size_t row, std::size_t rows, double& rest);
@@ -85,7 +88,12 @@ class SplineSolver {
   void residual_rows(std::size_t span, std::size_t first, std::size_t last, std::span<double> out);
   /// Calls visit(span, first, last) for each knot span with data.
   template <class Visit>
-  void for_each_span(Visit visit) const;
+  void for_each_span(Visit visit) const {
+    for_spans_after(static_cast<std::size_t>(order_) - 1, 0, visit);
+  }
+  /// From a span on, up to which so many data belong to others.
+  template <class Visit>
+  void for_spans_after(std::size_t span, std::size_t first, Visit visit) const;
   /// Calls call.template operator()<order>() with the order of the spline.
   template <class Call>
   auto with_order(Call call) const;
@@ -99,9 +107,11 @@ class SplineSolver {
   int order_;
   std::vector<double> knots_;
   std::size_t knot_count_ = 0;
-  std::vector<double> band_;   // row i: entries of columns i … i + order - 1
-  std::vector<double> right_;  // row i: right-hand sides, then coefficients
-  std::vector<double> rows_;   // scratch: columns of the rows of one span
+  std::vector<double> band_;      // row i: entries of columns i … i + order - 1
+  std::vector<double> right_;     // row i: right-hand sides
+  std::vector<double> solution_;  // row i: coefficients
+  detail::ReductionStages stages_;
+  std::vector<double> rows_;  // scratch: columns of the rows of one span
   std::size_t stride_ = 0;
 };
 

@@ -189,5 +189,38 @@ TEST(SplineSolver, RankIsJudgedAgainstTheColumn) {
   EXPECT_FALSE(fitted(0));
 }
 
+/// A solver goes on from where its last knots and the new ones part: that must not show.
+TEST(LeastSquaresSpline, KnotsAfterOtherKnotsGiveTheSameBits) {
+  SplineData data{{}, {{}, {}}, {}};
+  for (int i = 0; i <= 300; ++i) {
+    const double t = i / 300.0;
+    data.parameters.push_back(t);
+    data.columns[0].push_back(std::sin(9 * t));
+    data.columns[1].push_back(std::exp(-t) + 1e-3 * std::cos(7.0 * i));
+  }
+  const std::vector<std::vector<double>> rows = {{0.2, 0.4, 0.6, 0.8},
+                                                 {0.2, 0.4, 0.61, 0.8},
+                                                 {0.2, 0.4, 0.61, 0.8, 0.9},
+                                                 {0.2, 0.4, 0.61, 0.61001},
+                                                 {0.2, 0.4},
+                                                 {0.2, 0.4, 0.4, 0.4, 0.7},
+                                                 {0.2, 0.4, 0.4, 0.7},
+                                                 {0.2, 0.4, 0.6, 0.8, 0.95},
+                                                 {0.1, 0.4, 0.6, 0.8, 0.95}};
+  SplineSolver one(data, {0, 1}, 5);
+  std::vector<double> after(602);
+  std::vector<double> alone(602);
+  for (const auto& knots : rows) {
+    SplineSolver fresh(data, {0, 1}, 5);
+    const bool found = fresh.solve(knots);
+    ASSERT_EQ(one.solve(knots), found);
+    EXPECT_EQ(one.sum_of_squares(knots), fresh.sum_of_squares(knots));
+    if (!found) continue;
+    one.residuals(after);
+    fresh.residuals(alone);
+    EXPECT_EQ(after, alone);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fit
