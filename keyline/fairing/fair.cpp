@@ -286,8 +286,13 @@ class Job {
         "give a larger limit or a larger tolerance", "max_rate");
   }
 
-  /// Which limits bound.
+  /// Which limits bound, and a tolerance that asks for the points' errors.
   void note_limits() {
+    if (result_.tolerance < result_.noise)
+      result_.notes.push_back(
+          fmt::format("the tolerance is smaller than the points' noise, {:.3g}: the curve follows "
+                      "their errors",
+                      result_.noise));
     const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
     if (!std::ranges::all_of(solved_, lacs)) return;
     const auto at_tolerance = std::ranges::count_if(

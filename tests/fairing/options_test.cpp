@@ -141,8 +141,12 @@ TEST(FairOptions, WhatBindsIsTold) {
   EXPECT_THAT(fair(bow(), options)->notes,
               ::testing::Contains(::testing::HasSubstr("calmer: the points' noise")));
   options.sigmas = 2.2;
-  EXPECT_THAT(fair(bow(), options)->notes,
-              ::testing::Contains(::testing::HasSubstr("calmer: the tolerance at")));
+  const auto errors = ::testing::Contains(::testing::HasSubstr("the curve follows their errors"));
+  const std::vector<std::string> tight = fair(bow(), options)->notes;
+  EXPECT_THAT(tight, ::testing::Contains(::testing::HasSubstr("calmer: the tolerance at")));
+  EXPECT_THAT(tight, ::testing::Not(errors));
+  options.sigmas = 0.5;
+  EXPECT_THAT(fair(bow(), options)->notes, errors);
 }
 
 TEST(FairOptions, ARateThatTheToleranceDoesNotAllowIsRefused) {
