@@ -265,9 +265,10 @@ Session list_session() {
 }
 
 Session plain_session(const Operation& operation) {
-  return Session({operation.name, operation.reads_files ? "[FILE...] " : "", operation.summary, "",
+  const bool files = has_field(operation, "file") || has_field(operation, "files");
+  return Session({operation.name, files ? "[FILE...] " : "", operation.summary, "",
                   operations::further_options(operation)},
-                 {{"Options", operation.request, {}}, door_group()}, operation.reads_files);
+                 {{"Options", operation.request, {}}, door_group()}, files);
 }
 
 }  // namespace
