@@ -259,12 +259,13 @@ RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOpt
 }
 
 /// Where points lie a hair outside after pieces have met, the same pieces with that much less room.
-void draw_in(RunResult& result, const Run& run, const curve::BSpline2& spline,
-             const RunOptions& options) {
+/// Returns the largest offset then.
+double draw_in(RunResult& result, const Run& run, const curve::BSpline2& spline,
+               const RunOptions& options) {
   double share = 1;
+  double most = largest_offset(result, run);
   for (int round = 0; round < kTightenings && !options.progress.stop_requested(); ++round) {
-    const double most = largest_offset(result, run);
-    if (most <= options.tolerance || most > kFar * options.tolerance) return;
+    if (most <= options.tolerance || most > kFar * options.tolerance) break;
     share *= 0.998 * options.tolerance / most;
     RunResult again = result;
     if (!solve_again(again, run, spline, share) || largest_offset(again, run) >= most) {
@@ -272,8 +273,12 @@ void draw_in(RunResult& result, const Run& run, const curve::BSpline2& spline,
       tighter.tolerance *= share;
       again = solved_run(run, spline, tighter);
     }
-    if (largest_offset(again, run) < most) result = std::move(again);
+    const double now = largest_offset(again, run);
+    if (!(now < most)) continue;
+    result = std::move(again);
+    most = now;
   }
+  return most;
 }
 
 /// Where the chain passes a border, the same pieces with that much margin; where these cannot keep
@@ -295,12 +300,14 @@ void bring_inside(RunResult& result, const Run& run, const curve::BSpline2& spli
   }
 }
 
-/// The shortest chain, where the calmest leaves a point outside in the end.
+/// The calmest chain in the tolerance and inside what bounds it, as nearly as its pieces come
+/// there; the shortest, where it leaves a point outside in the end.
 void keep_tolerance(RunResult& result, const Run& run, const curve::BSpline2& spline,
                     RunOptions options) {
-  if (options.progress.stop_requested() || options.max_rate ||
-      largest_offset(result, run) <= options.tolerance)
-    return;
+  double most = draw_in(result, run, spline, options);
+  bring_inside(result, run, spline, options);
+  if (!run.inside.empty()) most = largest_offset(result, run);
+  if (options.progress.stop_requested() || options.max_rate || most <= options.tolerance) return;
   options.criterion = Criterion::fewest_pieces;
   RunResult shortest = fair_run(run, spline, options);
   if (largest_offset(shortest, run) > options.tolerance) return;
@@ -313,8 +320,6 @@ void keep_tolerance(RunResult& result, const Run& run, const curve::BSpline2& sp
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   RunResult result = solved_run(run, spline, options);
   if (!result.dense.joints.empty()) {
-    draw_in(result, run, spline, options);
-    bring_inside(result, run, spline, options);
     keep_tolerance(result, run, spline, options);
     return result;
   }
@@ -347,8 +352,6 @@ void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
       result = fair_run(run, spline, options);
       return;
     }
-    draw_in(result, run, spline, options);
-    bring_inside(result, run, spline, options);
     keep_tolerance(result, run, spline, options);
     return;
   }

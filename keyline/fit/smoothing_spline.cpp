@@ -107,7 +107,10 @@ class Smoother {
 
   core::Point2 at(double t, int derivative) const {
     const int k = span(t);
-    const Basis b = basis(t - k, derivative);
+    return sum_of(k, basis(t - k, derivative));
+  }
+
+  core::Point2 sum_of(int k, const Basis& b) const {
     core::Point2 sum{0, 0};
     for (int j = 0; j < 6; ++j) {
       sum.x += b[j] * x_(index(k + j));
@@ -121,7 +124,7 @@ class Smoother {
   /// Whether a point is farther than that from the curve near its parameter.
   bool farther(std::size_t i, double tolerance) const {
     double t = place(i);
-    core::Point2 p = at(t, 0);
+    core::Point2 p = sum_of(span(t), basis_[i]);
     for (int step = 0; step < 4; ++step) {
       if (core::distance(p, points_[i]) <= tolerance) return false;
       const auto [dx, dy] = at(t, 1);
@@ -140,9 +143,10 @@ class Smoother {
     right_x_ = Eigen::VectorXd::Zero(count_);
     right_y_ = Eigen::VectorXd::Zero(count_);
     if (!sound()) return;
+    basis_.reserve(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int k = span(place(i));
-      const Basis b = basis(place(i) - k, 0);
+      const Basis& b = basis_.emplace_back(basis(place(i) - k, 0));
       for (int j = 0; j < 6; ++j) {
         for (int l = 0; l < 6; ++l) normal_[k][j][l] += b[j] * b[l];
         right_x_(index(k + j)) += b[j] * points_[i].x;
@@ -181,6 +185,7 @@ class Smoother {
   double total_ = 0;
   int spans_ = 0;
   int count_ = 0;
+  std::vector<Basis> basis_;                  ///< of every point's parameter
   std::vector<std::array<Basis, 6>> normal_;  ///< of every span: products of its splines
   Eigen::VectorXd right_x_;
   Eigen::VectorXd right_y_;
