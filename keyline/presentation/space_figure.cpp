@@ -1,8 +1,9 @@
 #include "keyline/presentation/space_figure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,38 +15,48 @@ namespace {
 
 using core::Point2;
 using core::Point3;
+using core::Vector3;
 using figure::Drawing;
 
-constexpr int kPoints = 201;
+constexpr int kPoints = 601;
+constexpr std::size_t kTeeth = 12;  ///< points from one tooth to the next
 
-struct View {
-  const char* title;
-  double Point3::* across;
-  double Point3::* up;
+constexpr double kWide = 920;    ///< of the page
+constexpr double kAside = 0.35;  ///< longest tooth of the comb, as share of the curve's box
+
+/// What is drawn in space: the curve, and the ends of the teeth of its comb.
+struct Shown {
+  std::vector<Point3> points, teeth;
 };
 
-/// `extent` is the box's size in every view, so that all have one scale.
-Drawing view_of(const View& view, const std::vector<Point3>& points, double extent) {
-  Drawing drawing;
-  drawing.width = 300;
-  drawing.height = 250;
-  drawing.title = view.title;
-  std::vector<Point2> flat;
-  for (const Point3& p : points) flat.push_back({p.*view.across, p.*view.up});
-  const figure::Box tight = figure::box_of(flat);
-  const Point2 centre = core::mix(tight.min, tight.max, 0.5);
-  const core::Vector2 half{0.5 * extent, 0.5 * extent};
-  const figure::Viewport viewport =
-      figure::fit_viewport({centre + -1.0 * half, centre + half}, {{16, 36}, {284, 234}});
-  drawing.add(figure::Label{.at = {12, 22}, .text = view.title, .size = 14, .bold = true});
-  drawing.add(figure::Shape{.path = figure::polyline(to_page(viewport, flat)),
-                            .stroke = figure::Stroke{figure::palette(0), 1.8, {}}});
-  drawing.add(figure::Marks{.points = {to_page(viewport, flat.front())}, .size = 6});
-  return drawing;
+struct View {
+  std::string title;
+  Vector3 across, up;  ///< z is up in space
+};
+
+Point2 seen(const View& view, const Point3& p) {
+  const Vector3 v = p - Point3{};
+  return {dot(v, view.across), dot(v, view.up)};
 }
 
-Drawing views_of(const lac::SpaceChain& chain) {
-  const std::vector<Point3> points = lac::sample(chain, kPoints);
+/// Points along the curve and, where curvature looks out of it, the ends of a comb as long as
+/// `longest` at most.
+Shown shown(const lac::SpaceChain& chain, double longest) {
+  Shown s;
+  std::vector<double> at;
+  for (int i = 0; i < kPoints; ++i) at.push_back(i / (kPoints - 1.0));
+  const auto frames = lac::frames(chain, at);
+  double most = 0;
+  for (const double t : at) most = std::max(most, std::abs(lac::curvature(chain, t)));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    s.points.push_back(frames[i].position);
+    const double tooth = most > 0 ? longest * lac::curvature(chain, at[i]) / most : 0;
+    s.teeth.push_back(frames[i].position - tooth * frames[i].normal);
+  }
+  return s;
+}
+
+double extent_of(const std::vector<Point3>& points) {
   double extent = 0;
   for (const auto axis : {&Point3::x, &Point3::y, &Point3::z}) {
     const auto [low, high] =
@@ -53,19 +64,82 @@ Drawing views_of(const lac::SpaceChain& chain) {
                             [&](const Point3& a, const Point3& b) { return a.*axis < b.*axis; });
     extent = std::max(extent, (*high).*axis - (*low).*axis);
   }
-  std::vector<Drawing> views;
-  for (const View& view : {View{"From the front: x, y", &Point3::x, &Point3::y},
-                           View{"From above: x, z", &Point3::x, &Point3::z},
-                           View{"From the side: y, z", &Point3::y, &Point3::z}})
-    views.push_back(view_of(view, points, extent));
-  return figure::tile(views, 3);
+  return extent;
+}
+
+/// Directions of the axes, where they do not lie along the page.
+void add_axes(Drawing& drawing, const View& view, Point2 corner) {
+  constexpr double kLength = 24;
+  const std::pair<const char*, Vector3> axes[] = {
+      {"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
+  for (const auto& [name, axis] : axes) {
+    const core::Vector2 way{dot(axis, view.across), -dot(axis, view.up)};
+    const Point2 tip = corner + kLength * way;
+    drawing.add(figure::Shape{.path = figure::polyline(std::vector{corner, tip}),
+                              .stroke = figure::Stroke{figure::kInk, 0.9, {}}});
+    drawing.add(figure::Label{.at = tip + 9.0 * way,
+                              .text = name,
+                              .size = 11,
+                              .anchor = figure::Anchor::middle,
+                              .baseline = figure::Baseline::middle,
+                              .italic = true});
+  }
+}
+
+/// `extent` is the box's size in every view, so that all have one scale.
+Drawing view_of(const View& view, const Shown& what, double extent, bool slanted) {
+  Drawing drawing;
+  drawing.width = (kWide - 16) / 2;
+  drawing.height = 300;
+  drawing.title = view.title;
+  std::vector<Point2> curve, comb, all;
+  for (const Point3& p : what.points) curve.push_back(seen(view, p));
+  for (const Point3& p : what.teeth) comb.push_back(seen(view, p));
+  all = curve;
+  if (slanted) all.insert(all.end(), comb.begin(), comb.end());
+  const figure::Box tight = figure::box_of(all);
+  const Point2 centre = core::mix(tight.min, tight.max, 0.5);
+  const core::Vector2 half{0.5 * extent, 0.5 * extent};
+  const figure::Viewport viewport = figure::fit_viewport({centre + -1.0 * half, centre + half},
+                                                         {{16, 36}, {drawing.width - 16, 284}});
+  drawing.add(figure::Label{.at = {12, 22}, .text = view.title, .size = 14, .bold = true});
+  const auto line = [&](const std::vector<Point2>& points, figure::Color color, double width) {
+    drawing.add(figure::Shape{.path = figure::polyline(to_page(viewport, points)),
+                              .stroke = figure::Stroke{color, width, {}}});
+  };
+  if (slanted) {
+    for (std::size_t i = 0; i < curve.size(); i += kTeeth)
+      line({curve[i], comb[i]}, figure::palette(1), 0.6);
+    line(comb, figure::palette(1), 1);
+    add_axes(drawing, view, {36, 262});
+  }
+  line(curve, figure::palette(0), 1.8);
+  drawing.add(figure::Marks{.points = {to_page(viewport, curve.front())}, .size = 6});
+  return drawing;
+}
+
+Drawing views_of(const lac::SpaceChain& chain) {
+  const double box = extent_of(lac::sample(chain, kPoints));
+  const Shown what = shown(chain, kAside * box);
+  std::vector<Point3> all = what.points;
+  all.insert(all.end(), what.teeth.begin(), what.teeth.end());
+  const double extent = 1.2 * extent_of(all);  // seen at a slant a box is wider
+  // Along the cube's diagonal, from where x comes to the lower right and y goes to the upper right.
+  const double a = std::sqrt(0.5), b = std::sqrt(1.0 / 6);
+  const View slant{"At a slant, with its comb of curvature", {a, a, 0}, {-b, b, 2 * b}};
+  const View along[] = {{"From above: x, y", {1, 0, 0}, {0, 1, 0}},
+                        {"From the front: x, z", {1, 0, 0}, {0, 0, 1}},
+                        {"From the side: y, z", {0, 1, 0}, {0, 0, 1}}};
+  std::vector<Drawing> views{view_of(slant, what, extent, true)};
+  for (const View& view : along) views.push_back(view_of(view, what, box, false));
+  return figure::tile(views, 2);
 }
 
 Drawing laws_of(const lac::SpaceChain& chain, const std::string& unit) {
   figure::Plot plot;
   plot.title = "Curvature and torsion";
-  plot.width = 620;
-  plot.height = 260;
+  plot.width = kWide;
+  plot.height = 320;
   plot.x.title = unit.empty() ? "arc length" : "arc length, " + unit;
   plot.y.title = unit.empty() ? "κ, τ" : "κ, τ in 1/" + unit;
   figure::Series bend{.name = "curvature κ", .color = figure::palette(0), .width = 1.8};
@@ -85,8 +159,8 @@ Drawing laws_of(const lac::SpaceChain& chain, const std::string& unit) {
 Drawing graphs_of(const lac::SpaceChain& chain) {
   figure::Plot plot;
   plot.title = "Logarithmic curvature and torsion graphs";
-  plot.width = 620;
-  plot.height = 260;
+  plot.width = kWide;
+  plot.height = 320;
   plot.x.title = "log ρ, log μ (radii of curvature and torsion)";
   plot.y.title = "log(ρ ds/dρ), log(μ ds/dμ)";
   figure::Series bend{.name = "curvature", .color = figure::palette(0), .width = 1.8};
@@ -141,12 +215,15 @@ report::Report space_report(const lac::SpaceChain& chain, const ReportOptions& o
       row.push_back(fmt::format("{:.6g}", x));
     table.rows.push_back(std::move(row));
   }
-  report.sections = {{"Views",
-                      {"Seen along the three axes at one scale; the dot is the start."},
-                      {{views_of(chain), "The curve from three sides."},
-                       {laws_of(chain, options.unit), "Curvature and torsion along the curve."},
-                       {graphs_of(chain), "Straight lines of the two slopes."}},
-                      {table}}};
+  report.sections = {
+      {"Views",
+       {"At a slant and along the three axes, these at one scale; the dot is the start. Teeth "
+        "stand "
+        "on the curve away from its centre of curvature and are as long as it bends."},
+       {{views_of(chain), "The curve from four sides."},
+        {laws_of(chain, options.unit), "Curvature and torsion along the curve."},
+        {graphs_of(chain), "Straight lines of the two slopes."}},
+       {table}}};
   return report;
 }
 

@@ -8,8 +8,8 @@
 /// Figures of a log-aesthetic space curve.
 namespace keyline::presentation {
 
-/// Views along the three axes at one scale, curvature and torsion against arc length, and the
-/// logarithmic graphs of both.
+/// A view at a slant with the comb of curvature, views along the three axes at one scale, curvature
+/// and torsion against arc length, and the logarithmic graphs of both.
 figure::Drawing space_picture(const lac::SpaceChain& chain, const ReportOptions& options = {});
 
 /// The same with length, end values and slopes, piece by piece.

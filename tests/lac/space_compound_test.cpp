@@ -1,6 +1,7 @@
 #include "keyline/lac/space/space_compound.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,21 @@ TEST(SolveCompoundSpace, RatesAgreeAtTheJointAndWithTheStandardForm) {
   const SpaceFrame end = frame_at(r->chain, 1);
   EXPECT_LT(distance(end.position, kData.end), 1e-10);
   EXPECT_LT(norm(cross(end.tangent, kData.end_tangent)), 1e-10);
+}
+
+// Its first way led to a spiral of a dozen turns.
+TEST(SolveCompoundSpace, WindsNoMoreThanAFamilyOfOneSlope) {
+  const SpaceHermite data{{0, 0, 0}, {3, 0, 1.5}, {1, 1, 0}, {1, 1, 0.3}};
+  const auto r = solve_compound_space(
+      data, {.alpha = {-1, 0.5}, .beta = {-1, -1}, .omega = 0.1, .length_share = 0.5});
+  ASSERT_TRUE(r) << r.error().hint;
+  double turned = 0;
+  constexpr int kPlaces = 1000;
+  const double length = arc_length(r->chain);
+  for (int i = 0; i < kPlaces; ++i)
+    turned += std::abs(curvature(r->chain, (i + 0.5) / kPlaces)) * length / kPlaces;
+  EXPECT_LT(turned, 3 * std::numbers::pi);
+  EXPECT_LT(distance(frame_at(r->chain, 1).position, data.end), 1e-10);
 }
 
 }  // namespace

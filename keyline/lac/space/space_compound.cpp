@@ -32,6 +32,20 @@ using detail::space::Setting;
 using detail::space::size_of;
 using detail::space::solve_compound_plane;
 
+/// As the family of one slope is searched: what winds more is no curve to look at, nor quick to
+/// follow.
+constexpr double kMostTurning = 3 * core::kPi;
+
+/// Of both, to either side: what the tangent turns by, or the frame about it.
+double turning_of(const SpaceChain& chain) {
+  double bend = 0, twist = 0;
+  for (const SpacePiece& p : chain.pieces) {
+    bend += detail::absolute_turning(curvature_law(p));
+    twist += detail::absolute_turning(torsion_law(p));
+  }
+  return std::max(bend, twist);
+}
+
 /// Both pieces in the standard frame, the radius of curvature at the start being 1; `twist` of the
 /// unknowns is here the torsion at the start times the length. Empty where one ends too early.
 std::optional<SpaceChain> chain_of(const SpaceRhythm& r, const SpaceUnknowns& x) {
@@ -54,7 +68,8 @@ std::optional<SpaceChain> chain_of(const SpaceRhythm& r, const SpaceUnknowns& x)
   SpaceChain chain{{},
                    {{r.alpha[0], r.beta[0], first, 1, bend, nu, twist},
                     {r.alpha[1], r.beta[1], second, bend, *last_bend, twist, *last_twist}}};
-  return validate(chain) ? std::optional(std::move(chain)) : std::nullopt;
+  if (!validate(chain) || !(turning_of(chain) <= kMostTurning)) return std::nullopt;
+  return chain;
 }
 
 struct Shot {
@@ -160,6 +175,17 @@ Reached follow(const Setting& setting, const SpaceRhythm& r, double alpha, doubl
   return reached;
 }
 
+SpaceSolution solution_of(const Shot& shot, const Reached& reached, const Setting& setting) {
+  SpaceSolution solution;
+  solution.chain = detail::space::placed(shot.chain, shot.end.position - core::Point3{},
+                                         setting.data, setting.mirrored);
+  solution.lambda = reached.x.bend / reached.x.length;
+  solution.nu = (setting.mirrored ? -1 : 1) * reached.x.twist / reached.x.length;
+  solution.length = reached.x.length;
+  solution.iterations = reached.iterations;
+  return solution;
+}
+
 Result<void> check(const SpaceRhythm& r) {
   if (!(r.length_share > 0 && r.length_share < 1))
     return core::fail(ErrorCode::bad_input, "the share of the length must lie between 0 and 1",
@@ -214,22 +240,18 @@ Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const Space
   const SpaceRhythm& r = rhythm;
   const auto& [a0, a1] = r.alpha;
   const auto& [b0, b1] = r.beta;
-  double furthest = 0;
+  double furthest = 0, least = HUGE_VAL;
+  std::optional<SpaceSolution> best;
   for (const auto& [alpha, beta] : {std::pair{a0, b0}, {a1, b1}, {(a0 + a1) / 2, (b0 + b1) / 2}}) {
     const Reached reached = follow(*setting, r, alpha, beta);
     furthest = std::max(furthest, reached.share);
     if (reached.share < 1) continue;
     const auto shot = shot_of(r, reached.x, setting->wanted);
-    if (!shot) continue;
-    SpaceSolution solution;
-    solution.chain = detail::space::placed(shot->chain, shot->end.position - core::Point3{},
-                                           setting->data, setting->mirrored);
-    solution.lambda = reached.x.bend / reached.x.length;
-    solution.nu = (setting->mirrored ? -1 : 1) * reached.x.twist / reached.x.length;
-    solution.length = reached.x.length;
-    solution.iterations = reached.iterations;
-    return solution;
+    if (!shot || !(turning_of(shot->chain) < 0.999 * least)) continue;
+    least = turning_of(shot->chain);
+    best = solution_of(*shot, reached, *setting);
   }
+  if (best) return *std::move(best);
   return core::fail(ErrorCode::not_converged,
                     "no compound space curve of these slopes was found for the tangents",
                     "one was followed " + core::number_text(100 * furthest, 3) +
