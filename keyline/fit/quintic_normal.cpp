@@ -30,25 +30,31 @@ QuinticNormal::Matrix slopes_of(const JointedQuintic& piece) {
 }  // namespace
 
 void QuinticNormal::add_place(double t, Vector2 across, double weight, double pull) {
+  using Pair = Eigen::Array2d;
   const double u = 1 - t;
-  std::array<double, 11> up;    // powers of t
-  std::array<double, 11> down;  // of 1 - t
-  up[0] = down[0] = 1;
-  for (std::size_t m = 1; m < 11; ++m) {
-    up[m] = up[m - 1] * t;
-    down[m] = down[m - 1] * u;
-  }
-  const double xx = weight * across.x * across.x;
-  const double xy = weight * across.x * across.y;
-  const double yy = weight * across.y * across.y;
-  for (std::size_t m = 0; m < 11; ++m) {
-    const double b = up[m] * down[10 - m];
-    squares_[m][0] += b * xx;
-    squares_[m][1] += b * xy;
-    squares_[m][2] += b * yy;
+  std::array<Pair, 6> up;    // powers of t, from the first on …
+  std::array<Pair, 6> down;  // … and of 1 - t, from the tenth down
+  up[0] = {1, t};
+  down[5] = {1, 0};
+  down[4] = {u * u, u};
+  for (std::size_t i = 1; i < 6; ++i) up[i] = up[i - 1] * (t * t);
+  for (std::size_t i = 4; i-- > 0;) down[i] = down[i + 1] * (u * u);
+  const Vector2 heavy = weight * across;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Pair both = up[i] * down[i];
+    const auto at = static_cast<Eigen::Index>(2 * i);
+    xx_.segment<2>(at) += both * (heavy.x * across.x);
+    xy_.segment<2>(at) += both * (heavy.x * across.y);
+    yy_.segment<2>(at) += both * (heavy.y * across.y);
   }
   const Vector2 pulled = pull * across;
-  for (std::size_t k = 0; k < 6; ++k) pulls_[k] = pulls_[k] + (up[k] * down[5 - k]) * pulled;
+  const std::array<Pair, 3> fifth = {up[0] * (u * down[3]), up[1] * (u * down[4]),
+                                     up[2] * Pair(u, 1)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = static_cast<Eigen::Index>(2 * i);
+    pull_x_.segment<2>(at) += fifth[i] * pulled.x;
+    pull_y_.segment<2>(at) += fifth[i] * pulled.y;
+  }
 }
 
 void QuinticNormal::add_row(const std::array<Vector2, 6>& by, double value) {
@@ -69,14 +75,15 @@ void QuinticNormal::gather(const JointedQuintic& piece, double price, Matrix& ma
     const Eigen::Index r = row_of(k);
     for (std::size_t l = 0; l < 6; ++l) {
       const Eigen::Index c = row_of(l);
+      const auto sum = static_cast<Eigen::Index>(k + l);
       const double times = price * kChoose5[k] * kChoose5[l];
-      controls(r, c) += times * squares_[k + l][0];
-      controls(r, c + 1) += times * squares_[k + l][1];
-      controls(r + 1, c) += times * squares_[k + l][1];
-      controls(r + 1, c + 1) += times * squares_[k + l][2];
+      controls(r, c) += times * xx_[sum];
+      controls(r, c + 1) += times * xy_[sum];
+      controls(r + 1, c) += times * xy_[sum];
+      controls(r + 1, c + 1) += times * yy_[sum];
     }
-    pulls[r] += price * kChoose5[k] * pulls_[k].x;
-    pulls[r + 1] += price * kChoose5[k] * pulls_[k].y;
+    pulls[r] += price * kChoose5[k] * pull_x_[r / 2];
+    pulls[r + 1] += price * kChoose5[k] * pull_y_[r / 2];
   }
   const Matrix slopes = slopes_of(piece);
   const Matrix half = controls * slopes;

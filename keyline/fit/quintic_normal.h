@@ -29,8 +29,13 @@ class QuinticNormal {
  private:
   // Products of Bernstein polynomials of degree 5 are those of degree 10, each but for a constant:
   // eleven of them times xx, xy and yy of the directions are all of a place's part of the matrix.
-  std::array<std::array<double, 3>, 11> squares_{};
-  std::array<core::Vector2, 6> pulls_{};
+  // One more, always 0, makes their number even: they are summed two by two.
+  using Sums = Eigen::Array<double, 12, 1>;
+  Sums xx_ = Sums::Zero();
+  Sums xy_ = Sums::Zero();
+  Sums yy_ = Sums::Zero();
+  Eigen::Array<double, 6, 1> pull_x_ = Eigen::Array<double, 6, 1>::Zero();
+  Eigen::Array<double, 6, 1> pull_y_ = Eigen::Array<double, 6, 1>::Zero();
   Matrix rows_ = Matrix::Zero();
   Row rows_wanted_ = Row::Zero();
 };

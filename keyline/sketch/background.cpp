@@ -15,13 +15,23 @@ using Gray = Raster<std::uint16_t>;
 constexpr int kBlock = 32;
 constexpr double kPaperShare = 0.7;  ///< percentile of a block that is taken for paper
 
-/// Value below which the given share of the pixels of a box lies (every other one is looked at).
-std::uint16_t percentile_in(const Gray& image, int x0, int y0, int x1, int y1, double share,
-                            std::vector<std::uint16_t>& scratch) {
-  scratch.clear();
-  for (int y = y0; y < y1; y += 2)
-    for (int x = x0; x < x1; x += 2) scratch.push_back(image.at(x, y));
-  return core::value_at(scratch, share);
+/// Every other pixel of a box, of every other row.
+void sample_box(const Gray& image, int x0, int y0, int x1, int y1,
+                std::vector<std::uint16_t>& sample) {
+  sample.clear();
+  for (int y = y0; y < y1; y += 2) {
+    const std::uint16_t* row = &image.at(0, y);
+    for (int x = x0; x < x1; x += 2) sample.push_back(row[x]);
+  }
+}
+
+bool is_even(const std::vector<std::uint16_t>& sample) {
+  return std::ranges::all_of(sample, [&](std::uint16_t v) { return v == sample.front(); });
+}
+
+/// Value below which the given share of a sample lies.
+std::uint16_t percentile_of(std::vector<std::uint16_t>& sample, double share) {
+  return is_even(sample) ? sample.front() : core::value_at(sample, share);
 }
 
 constexpr int kRim = 4;  ///< blocks around the picture
@@ -58,9 +68,9 @@ cv::Mat paper_of_blocks(const Gray& level) {
       const auto cut = [](int size, int parts, int i) {
         return static_cast<int>(static_cast<long>(size) * i / parts);
       };
-      paper.at<float>(r, c) = percentile_in(
-          level, cut(level.width, columns, c), cut(level.height, rows, r),
-          cut(level.width, columns, c + 1), cut(level.height, rows, r + 1), kPaperShare, scratch);
+      sample_box(level, cut(level.width, columns, c), cut(level.height, rows, r),
+                 cut(level.width, columns, c + 1), cut(level.height, rows, r + 1), scratch);
+      paper.at<float>(r, c) = percentile_of(scratch, kPaperShare);
     }
   paper = with_rim(paper);
   const cv::Mat square = cv::Mat::ones(5, 5, CV_8U);
@@ -103,11 +113,12 @@ bool is_light_on_dark(const Image& image) {
   const int step = std::max(kBlock, std::max(luminance.width, luminance.height) / 64);
   for (int y = 0; y < luminance.height; y += step)
     for (int x = 0; x < luminance.width; x += step) {
-      const int x1 = std::min(x + step, luminance.width);
-      const int y1 = std::min(y + step, luminance.height);
-      const double middle = percentile_in(luminance, x, y, x1, y1, 0.5, scratch);
-      dark += middle - percentile_in(luminance, x, y, x1, y1, 0.02, scratch);
-      light += percentile_in(luminance, x, y, x1, y1, 0.98, scratch) - middle;
+      sample_box(luminance, x, y, std::min(x + step, luminance.width),
+                 std::min(y + step, luminance.height), scratch);
+      if (is_even(scratch)) continue;
+      const double middle = core::value_at(scratch, 0.5);
+      dark += middle - core::value_at(scratch, 0.02);
+      light += core::value_at(scratch, 0.98) - middle;
     }
   return light > dark;
 }

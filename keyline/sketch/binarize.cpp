@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 
+#include "keyline/sketch/dark_rows.h"
 #include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
@@ -14,12 +16,11 @@ namespace {
 using Gray = Raster<std::uint16_t>;
 
 constexpr int kBins = 256;
-constexpr double kFull = 65535;       ///< darkness of black; paper has 0
 constexpr double kFaintest = 0.05;    ///< least darkness of ink whatever the noise
 constexpr double kNoiseFactor = 4.5;  ///< ink is this many standard deviations off paper
 constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to ink
 constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
-constexpr int kLocalRadius = 3;
+constexpr int kLocalRadius = DarkRows::kMargin;
 constexpr double kBlotShare = 0.2;  ///< of the strongest region's contrast: less is no ink
 constexpr double kBlur = 0.5;       ///< pixels: closes the grain of a pencil
 constexpr double kNoisy = 0.02;     ///< noise in darkness from which more blur helps
@@ -74,26 +75,64 @@ Box region_box(const Gray& g, int index) {
   return {cut(g.width, c), cut(g.height, r), cut(g.width, c + 1), cut(g.height, r + 1)};
 }
 
+constexpr std::size_t kBlock = 16;  ///< pixels whose edges are looked at together
+
+/// Sum of the steps across a pixel, along its row and its column.
+int step_at(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
+            std::size_t x) {
+  return std::abs(here[x + 1] - here[x - 1]) + std::abs(below[x] - above[x]);
+}
+
+/// Whether a step of so much along the row or the column can be in the block from x on.
+bool any_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
+              std::size_t x, std::uint16_t least) {
+  const auto differ = [least](std::uint16_t a, std::uint16_t b) {
+    const auto d = static_cast<std::uint16_t>(a > b ? a - b : b - a);
+    return static_cast<std::uint16_t>(d >= least);
+  };
+  std::uint16_t any = 0;  // as wide as the pixels: the loop has no branches then
+  for (std::size_t k = x; k < x + kBlock; ++k)
+    any |= differ(here[k + 1], here[k - 1]) | differ(below[k], above[k]);
+  return any != 0;
+}
+
 /// Darkness of pixels near edges, weighted by the edge's strength.
-Histogram edge_histogram(const Gray& dark, const Box& box, double floor) {
+Histogram edge_histogram(const Gray& level, const DarknessTable& dark, const Box& box,
+                         double floor) {
   Histogram h;
   const int x0 = std::max(box.x0, 1);
   const int y0 = std::max(box.y0, 1);
-  const int x1 = std::min(box.x1, dark.width - 1);
-  const int y1 = std::min(box.y1, dark.height - 1);
-  const int least = static_cast<int>(std::floor(floor * kFull));
+  const int x1 = std::min(box.x1, level.width - 1);
+  const int y1 = std::min(box.y1, level.height - 1);
+  if (x0 >= x1 || y0 >= y1) return h;
+  // of two steps whose sum counts one is half of that
+  const auto least = static_cast<std::uint16_t>(std::min(0.5 * floor, 1.0) * kBlack);
+  const auto size = static_cast<std::size_t>(x1 - x0 + 2);  // and a pixel on either side
+  std::array<std::vector<std::uint16_t>, 3> rows;
+  for (auto& row : rows) row.resize(size);
+  const auto read = [&](int y) {
+    auto& row = rows[static_cast<std::size_t>(y) % 3];
+    look_up_row(&level.at(x0 - 1, y), size, dark, row.data());
+    return row.data();
+  };
+  const std::uint16_t* above = read(y0 - 1);
+  const std::uint16_t* here = read(y0);
   for (int y = y0; y < y1; ++y) {
-    const std::uint16_t* above = &dark.at(0, y - 1);
-    const std::uint16_t* here = &dark.at(0, y);
-    const std::uint16_t* below = &dark.at(0, y + 1);
-    for (int x = x0; x < x1; ++x) {
-      const int step = std::abs(here[x + 1] - here[x - 1]) + std::abs(below[x] - above[x]);
-      if (step < least) continue;  // most pixels
-      const double edge = step / kFull;
-      if (edge < floor) continue;
-      h.weight[static_cast<std::size_t>(bin_of(here[x] / kFull))] += edge;
+    const std::uint16_t* below = read(y + 1);
+    const auto add = [&](std::size_t x) {
+      const double edge = step_at(above, here, below, x) / kBlack;
+      if (edge < floor) return;
+      h.weight[static_cast<std::size_t>(bin_of(here[x] / kBlack))] += edge;
       h.total += edge;
+    };
+    std::size_t x = 1;
+    for (; x + kBlock < size; x += kBlock) {
+      if (!any_step(above, here, below, x, least)) continue;
+      for (std::size_t k = x; k < x + kBlock; ++k) add(k);
     }
+    for (; x + 1 < size; ++x) add(x);
+    above = here;
+    here = below;
   }
   return h;
 }
@@ -123,13 +162,13 @@ void fill_empty(Regions& regions, double otherwise) {
   }
 }
 
-Regions automatic_regions(const Gray& dark, double faintest) {
+Regions automatic_regions(const Gray& level, const DarknessTable& dark, double faintest) {
   Regions regions;
   std::array<Otsu, kRegionCount> found;
   std::array<double, kRegionCount> separation{};
   numeric::parallel_for(kRegionCount, 0, [&](std::size_t k) {
-    const Box box = region_box(dark, static_cast<int>(k));
-    const Histogram h = edge_histogram(dark, box, 1.2 * faintest);
+    const Box box = region_box(level, static_cast<int>(k));
+    const Histogram h = edge_histogram(level, dark, box, 1.2 * faintest);
     found[k] = otsu(h);
     // ten pixels' worth of edge are no ink yet
     regions.empty[k] = found[k].separation < 1.5 * faintest || h.total < 20 * found[k].separation ||
@@ -176,8 +215,6 @@ class Blend {
   std::array<double, kRegions> row_{};
 };
 
-cv::Mat as_mat(Gray& g) { return {g.height, g.width, CV_16U, g.data.data()}; }
-
 constexpr std::uint8_t kPaper = 0;
 constexpr std::uint8_t kWeak = 2;
 constexpr std::uint8_t kStrong = 1;
@@ -185,81 +222,88 @@ constexpr std::uint8_t kStrong = 1;
 /// Whether some pixel within kLocalRadius is so much darker that a faint one is its line's edge.
 class Nearby {
  public:
-  explicit Nearby(const Gray& dark) : dark_(dark) {
+  explicit Nearby(std::ptrdiff_t stride) {
     const int size = 2 * kLocalRadius + 1;
     const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x)
-        if (disc.at<std::uint8_t>(y, x)) disc_.push_back({x - kLocalRadius, y - kLocalRadius});
-    for (const cv::Point& d : disc_)
-      away_.push_back(static_cast<std::ptrdiff_t>(d.y) * dark.width + d.x);
+        if (disc.at<std::uint8_t>(y, x))
+          away_.push_back((y - kLocalRadius) * stride + x - kLocalRadius);
   }
 
-  bool has_darker(int x, int y, double than) const {
+  bool has_darker(const std::uint16_t* here, double than) const {
     if (!(than < 65535)) return false;  // nothing is
-    if (x >= kLocalRadius && y >= kLocalRadius && x + kLocalRadius < dark_.width &&
-        y + kLocalRadius < dark_.height) {
-      const std::uint16_t* here = &dark_.at(x, y);
-      return std::ranges::any_of(away_, [&](std::ptrdiff_t step) { return here[step] > than; });
-    }
-    return std::ranges::any_of(disc_, [&](const cv::Point& d) {
-      return dark_.contains(x + d.x, y + d.y) && dark_.at(x + d.x, y + d.y) > than;
-    });
+    return std::ranges::any_of(away_, [&](std::ptrdiff_t step) { return here[step] > than; });
   }
 
  private:
-  const Gray& dark_;
-  std::vector<cv::Point> disc_;
-  std::vector<std::ptrdiff_t> away_;  ///< the same as steps in the row of all pixels
+  std::vector<std::ptrdiff_t> away_;  ///< in the row of all pixels
 };
 
-/// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak).
-void mark(const Gray& dark, const Regions& regions, double faintest, Binary& marks) {
-  const Nearby nearby(dark);
-  const int least = static_cast<int>(std::floor(faintest * kFull));
-  for_rows(0, dark.height, [&](int first, int last) {
-    Blend threshold(regions, dark.width, dark.height);
+/// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak); where the latter
+/// is comes back.
+std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const Regions& regions,
+                              double faintest, Binary& marks) {
+  const int least = static_cast<int>(std::floor(faintest * kBlack));
+  const double sigma = tone.noise / tone.gain > kNoisy ? kStrongBlur : kBlur;
+  std::mutex adding;
+  std::vector<std::size_t> weak;
+  for_rows(0, marks.height, [&](int first, int last) {
+    DarkRows rows(tone.level, dark, sigma, least);
+    rows.read(first, last);
+    const Nearby nearby(rows.stride());
+    Blend threshold(regions, marks.width, marks.height);
+    std::vector<std::size_t> found;
     for (int y = first; y < last; ++y) {
       threshold.set_row(y);
-      const std::uint16_t* row = &dark.at(0, y);
-      for (int x = 0; x < dark.width; ++x) {
-        if (row[x] < least) continue;  // most pixels
-        const double here = row[x] / kFull;
-        if (here < faintest) continue;
+      const std::uint16_t* row = rows.row(y);
+      rows.visit(y, [&](int x) {
+        if (row[x] < least) return;
+        const double here = row[x] / kBlack;
+        if (here < faintest) return;
         const double strong = std::max(threshold(x), faintest);
-        if (here < std::max(kWeakShare * strong, faintest)) continue;
-        if (nearby.has_darker(x, y, row[x] / kLocalShare)) continue;
+        if (here < std::max(kWeakShare * strong, faintest)) return;
+        if (nearby.has_darker(row + x, row[x] / kLocalShare)) return;
         marks.at(x, y) = here >= strong ? kStrong : kWeak;
-      }
+        if (here < strong) found.push_back(marks.index(x, y));
+      });
     }
+    const std::scoped_lock lock(adding);  // their order does not matter
+    weak.insert(weak.end(), found.begin(), found.end());
   });
+  return weak;
 }
 
 /// Weak pixels connected to strong ones become ink, the others paper.
-void keep_connected(Binary& marks) {
+void keep_connected(const std::vector<std::size_t>& weak, Binary& marks) {
   std::vector<std::size_t> stack;
   const auto w = static_cast<std::size_t>(marks.width);
-  const auto spread = [&](std::size_t i) {
+  // calls see(j) for the pixels around i that are marked so, until one says stop
+  const auto any_around = [&](std::size_t i, std::uint8_t value, const auto& see) {
     const int x = static_cast<int>(i % w);
     const int y = static_cast<int>(i / w);
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx)
-        if (marks.contains(x + dx, y + dy) && marks.at(x + dx, y + dy) == kWeak) {
-          marks.at(x + dx, y + dy) = kStrong;
-          stack.push_back(marks.index(x + dx, y + dy));
-        }
+    for (int v = y - 1; v <= y + 1; ++v)
+      for (int u = x - 1; u <= x + 1; ++u)
+        if (marks.contains(u, v) && marks.at(u, v) == value && see(marks.index(u, v))) return true;
+    return false;
   };
-  for (std::size_t i = 0; i < marks.data.size(); ++i) {
-    if (marks.data[i] != kStrong) continue;
-    spread(i);
+  const auto keep = [&](std::size_t i) {
+    marks.data[i] = kStrong;
+    stack.push_back(i);
+    return false;
+  };
+  for (const std::size_t i : weak) {
+    if (marks.data[i] != kWeak || !any_around(i, kStrong, [](std::size_t) { return true; }))
+      continue;
+    keep(i);
     while (!stack.empty()) {
       const std::size_t j = stack.back();
       stack.pop_back();
-      spread(j);
+      any_around(j, kWeak, keep);
     }
   }
-  for (std::uint8_t& v : marks.data)
-    if (v == kWeak) v = kPaper;
+  for (const std::size_t i : weak)
+    if (marks.data[i] == kWeak) marks.data[i] = kPaper;
 }
 
 /// Given thresholds over the automatic ones; levels y of the log picture outside, darkness inside.
@@ -273,17 +317,6 @@ void apply_given(const BinarizeOptions& options, double gain, Binarized& result,
             : 0;
     result.empty[i] = regions.empty[i];
   }
-}
-
-/// Darkness of every pixel: with it the grey of a pixel half covered by ink lies halfway.
-Gray darkness_raster(const Tone& tone) {
-  std::vector<std::uint16_t> table(65536);
-  for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = static_cast<std::uint16_t>(
-        std::lround(kFull * darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain)));
-  Gray dark(tone.level.width, tone.level.height);
-  look_up(tone.level, table, dark);
-  return dark;
 }
 
 void plain_threshold(const Gray& level, double threshold, Binary& ink) {
@@ -301,14 +334,12 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
     plain_threshold(tone.level, *options.threshold, result.ink);
     return result;
   }
-  Gray dark = darkness_raster(tone);
+  const DarknessTable dark(tone);
   const double noise = tone.noise / tone.gain;
   const double faintest = std::max(kFaintest, kNoiseFactor * noise);
-  Regions regions = automatic_regions(dark, faintest);
+  Regions regions = automatic_regions(tone.level, dark, faintest);
   apply_given(options, tone.gain, result, regions);
-  cv::GaussianBlur(as_mat(dark), as_mat(dark), {3, 3}, noise > kNoisy ? kStrongBlur : kBlur);
-  mark(dark, regions, faintest, result.ink);
-  keep_connected(result.ink);
+  keep_connected(mark(tone, dark, regions, faintest, result.ink), result.ink);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
@@ -19,6 +20,7 @@ constexpr double kAboveChance = 0.8;
 constexpr double kByChance = 1e-6;  ///< that a drawing's steps all lie so, for any size tried
 /// Of a pixel's middle or its corner; halves are rounded either way.
 constexpr std::array kShifts = {0.5, 0.499, 0.0};
+constexpr double kSurely = 1 - 1e-9;  ///< for the rounding of sums
 constexpr std::size_t kLooks = 1024;  ///< rows, or columns, that are looked at
 
 /// Sums of squared differences between neighbouring columns, and rows.
@@ -38,16 +40,23 @@ Steps steps_of(const Raster<std::uint16_t>& level) {
   std::vector<std::uint64_t> rows(height, 0);
   const std::size_t every_row = 1 + height / kLooks;
   const std::size_t every_column = 1 + width / kLooks;
+  const std::size_t looked_at = (3 + every_column) / every_column * every_column;  // of four
   std::mutex adding;  // whole numbers: their sum is the same in any order
   for_rows(0, level.height, [&](int first, int last) {
     std::vector<std::uint64_t> across(width, 0);
     for (auto y = static_cast<std::size_t>(first); y < static_cast<std::size_t>(last); ++y) {
       const std::uint16_t* row = level.data.data() + y * width;
       if (y % every_row == 0)
-        for (std::size_t x = 1; x < width; ++x) across[x] += square(row[x], row[x - 1]);
+        for (std::size_t x = 1; x < width; ++x) {
+          while (x + 4 < width && word_at(row + x) == word_at(row + x - 1)) x += 4;  // paper
+          across[x] += square(row[x], row[x - 1]);
+        }
       if (y == 0) continue;
-      for (std::size_t x = 0; x < width; x += every_column)
+      for (std::size_t x = 0; x < width; x += every_column) {
+        while (x + 4 + every_column < width && word_at(row + x) == word_at(row + x - width))
+          x += looked_at;  // paper
         rows[y] += square(row[x], row[x - width]);
+      }
     }
     const std::scoped_lock lock(adding);
     for (std::size_t x = 1; x < width; ++x) columns[x] += across[x];
@@ -72,6 +81,9 @@ class Line {
     }
     if (squares > 0) places_ = sum_ * sum_ / squares;
     std::ranges::sort(largest_, std::greater());
+    after_.resize(steps.size());
+    double after = 0;
+    for (std::size_t i = steps.size(); i-- > 0; after += steps[i]) after_[i] = after;
     for (std::size_t i = 1; i < largest_.size(); ++i) largest_[i] += largest_[i - 1];
   }
 
@@ -83,13 +95,17 @@ class Line {
     const double enough = sum_ * (share + kAboveChance * (1 - share));
     if (largest_[static_cast<std::size_t>(own) - 2] < enough) return false;  // wherever they begin
     double there = 0;
-    for (int k = 1; k < own; ++k)
-      there += steps_[static_cast<std::size_t>(std::min(begin_of(k, own, all, shift), all - 1))];
+    for (int k = 1; k < own; ++k) {
+      const auto at = static_cast<std::size_t>(std::min(begin_of(k, own, all, shift), all - 1));
+      there += steps_[at];
+      if (there + after_[at] < kSurely * enough) return false;  // whatever comes
+    }
     return there >= enough;
   }
 
  private:
   const std::vector<double>& steps_;
+  std::vector<double> after_;    ///< what the steps after each weigh
   std::vector<double> largest_;  ///< so many of the largest steps weigh, from one on
   double sum_ = 0;
   double places_ = 0;  ///< so many equal steps weigh the same

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "keyline/numeric/parallel.h"
+#include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
@@ -13,15 +14,23 @@ namespace {
 
 using core::Point2;
 
+/// The least whole number from v and 0 on.
+int whole_up(double v) {
+  if (v <= 0) return 0;
+  const int down = static_cast<int>(v);
+  return down < v ? down + 1 : down;
+}
+
 void take_out(Binary& ink, Point2 p, double reach) {
-  const int top = std::max(0, static_cast<int>(std::floor(p.y - reach)));
-  const int bottom = std::min(ink.height - 1, static_cast<int>(std::floor(p.y + reach)));
-  for (int y = top; y <= bottom; ++y) {
+  const int top = whole_up(p.y - reach - 1);
+  for (int y = top; y < ink.height && y <= p.y + reach; ++y) {
     const double rest = reach * reach - (y + 0.5 - p.y) * (y + 0.5 - p.y);
     if (rest < 0) continue;
     const double half = std::sqrt(rest);
-    const int left = std::max(0, static_cast<int>(std::ceil(p.x - half - 0.5)));
-    const int right = std::min(ink.width - 1, static_cast<int>(std::floor(p.x + half - 0.5)));
+    const double end = p.x + half - 0.5;
+    if (end < 0) continue;
+    const int left = whole_up(p.x - half - 0.5);
+    const int right = std::min(ink.width - 1, static_cast<int>(end));
     // other lines may take the same pixel out at the same time
     for (int x = left; x <= right; ++x)
       std::atomic_ref(ink.at(x, y)).store(0, std::memory_order_relaxed);
@@ -31,9 +40,7 @@ void take_out(Binary& ink, Point2 p, double reach) {
 double count(const Binary& ink) {
   std::atomic<std::int64_t> sum = 0;
   for_rows(0, ink.height, [&](int first, int last) {
-    const std::uint8_t* row = ink.data.data() + ink.index(0, first);
-    sum +=
-        std::count_if(row, row + ink.index(0, last - first), [](std::uint8_t v) { return v != 0; });
+    sum += count_ink(ink.data.data() + ink.index(0, first), ink.index(0, last - first));
   });
   return static_cast<double>(sum);
 }

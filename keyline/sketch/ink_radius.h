@@ -19,6 +19,10 @@ class InkRadius {
   float at(int x, int y) const;
 
  private:
+  /// Rows [first, last) from the pixels of paper around each; false where ink is broader than a
+  /// search is worth.
+  bool add_near(const Binary& lines, const Binary& ink, int first, int last);
+
   /// Rows [first, last) from distances measured `margin` rows farther; false where ink is broader.
   bool add_rows(const Binary& lines, const Binary& ink, int first, int last, int margin);
 

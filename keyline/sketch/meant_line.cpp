@@ -109,8 +109,8 @@ class Line {
         const Point2 p = strokes_[i].points[k];
         const Vector2 t = strokes_[i].tangents[k];
         double least = most;
-        grid.visit(p, most, [&](std::size_t j, std::size_t m) {
-          if (j != i && std::abs(dot(t, strokes_[j].tangents[m])) > std::cos(angle_))
+        grid.visit_others(p, most, i, [&](std::size_t j, std::size_t m) {
+          if (std::abs(dot(t, strokes_[j].tangents[m])) > std::cos(angle_))
             least = std::min(least, core::distance(p, strokes_[j].points[m]));
         });
         if (least < most) nearest.push_back(least);

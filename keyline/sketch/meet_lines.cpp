@@ -155,8 +155,7 @@ class Ends {
   /// Distance from the ink of all strokes but the last part of stroke i's own.
   double off_lines(const StrokeGrid& grid, std::size_t i, Point2 p, double most) const {
     double least = most;
-    grid.visit(p, most, [&](std::size_t j, std::size_t k) {
-      if (j == i) return;
+    grid.visit_others(p, most, i, [&](std::size_t j, std::size_t k) {
       least = std::min(least, distance(lines_[j].points[k], p) - 0.5 * strokes_[j].width);
     });
     return least;

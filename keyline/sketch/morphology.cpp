@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
@@ -49,34 +50,40 @@ struct Rules {
   }
 };
 
-/// Eight pixels of a row at once.
-std::uint64_t eight(const std::uint8_t* row) {
-  std::uint64_t word = 0;
-  std::memcpy(&word, row, sizeof word);
-  return word;
-}
+/// Eight pixels and those beside them across edges, 1 where they have the value that is looked for.
+struct Around {
+  std::uint64_t here, left, right, above, below;
+};
 
-/// Calls see(x, y) for pixels inside the rim that have the value and, not always, none of the other
-/// around them, in rows [first, last), none of which is the picture's first or last.
-template <class See>
-void visit_borders(const Binary& ink, int first, int last, std::uint8_t value, const See& see) {
-  constexpr std::uint64_t kAll = 0x0101010101010101;
-  const std::uint64_t other = value ? 0 : kAll;
+/// Calls see(x, y) for pixels inside the rim that have the value and are chosen, of which
+/// `choose` makes a word of such pixels, in rows [first, last), none of which is the picture's
+/// first or last. What is seen may change the picture if that makes no more pixels be chosen.
+template <class Choose, class See>
+void visit_chosen(const Binary& ink, int first, int last, std::uint8_t value, const Choose& choose,
+                  const See& see) {
+  const std::uint64_t other = value ? 0 : 0x0101010101010101;
   for (int y = first; y < last; ++y) {
     const std::uint8_t* above = &ink.at(0, y - 1);
     const std::uint8_t* here = &ink.at(0, y);
     const std::uint8_t* below = &ink.at(0, y + 1);
-    for (int x = 1; x + 1 < ink.width; ++x) {
-      while (x + 9 < ink.width) {
-        const std::uint64_t word = eight(here + x);
-        const bool inside = (word ^ other) == kAll && eight(above + x) == word &&
-                            eight(below + x) == word && here[x - 1] == value &&
-                            here[x + 8] == value;
-        if (word != other && !inside) break;
-        x += 8;
-      }
-      if (here[x] == value) see(x, y);
+    const auto word = [other](const std::uint8_t* row) { return word_at(row) ^ other; };
+    int x = 1;
+    for (; x + 9 <= ink.width; x += 8) {
+      if (word(here + x) == 0) continue;
+      if (value == 0 && (word_at(here + x - 1) | word_at(here + x + 1) | word_at(above + x) |
+                         word_at(below + x)) == 0)
+        continue;  // most of the paper
+      const Around around{word(here + x), word(here + x - 1), word(here + x + 1), word(above + x),
+                          word(below + x)};
+      const std::uint64_t chosen = around.here & choose(around);
+      if (chosen == 0) continue;
+      std::array<std::uint8_t, 8> pixels{};
+      std::memcpy(pixels.data(), &chosen, sizeof chosen);
+      for (int k = 0; k < 8; ++k)
+        if (pixels[static_cast<std::size_t>(k)]) see(x + k, y);
     }
+    for (; x + 1 < ink.width; ++x)
+      if (here[x] == value) see(x, y);
   }
 }
 
@@ -90,9 +97,6 @@ long flip_features(Binary& ink, std::uint8_t value) {
   const unsigned invert = value ? 0U : 255U;
   const auto seen = [&](int x, int y) { return (neighbours_of(ink, x, y) ^ invert) & 255U; };
   const auto look = [&](int x, int y, std::vector<std::size_t>& found) {
-    if (ink.at(x - 1, y) == value && ink.at(x + 1, y) == value && ink.at(x, y - 1) == value &&
-        ink.at(x, y + 1) == value)
-      return;
     const unsigned n = seen(x, y);
     bool flip = kRules.bump[n];
     if (!flip && kRules.long_bump[n]) {
@@ -103,7 +107,10 @@ long flip_features(Binary& ink, std::uint8_t value) {
   };
   for_rows(1, ink.height - 1, [&](int first, int last) {
     auto& found = flips[static_cast<std::size_t>((first - 1) / kRowsAtOnce)];
-    visit_borders(ink, first, last, value, [&](int x, int y) { look(x, y, found); });
+    visit_chosen(
+        ink, first, last, value,
+        [](const Around& p) { return ~(p.left & p.right & p.above & p.below); },
+        [&](int x, int y) { look(x, y, found); });
   });
   long count = 0;
   for (const auto& band : flips) {
@@ -173,7 +180,8 @@ int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
   };
   for (int x = 0; x < ink.width; ++x) look(x, 0);
   for (int y = 1; y < ink.height; ++y) look(0, y);
-  visit_borders(ink, 1, ink.height - 1, value, look);
+  visit_chosen(
+      ink, 1, ink.height - 1, value, [](const Around& p) { return ~(p.left | p.above); }, look);
   for (int y = 1; y < ink.height; ++y) look(ink.width - 1, y);
   for (int x = 0; x < ink.width; ++x) look(x, ink.height - 1);
   return flipped;

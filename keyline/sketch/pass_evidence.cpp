@@ -71,8 +71,7 @@ class Witness {
     beside_.clear();
     const Point2 p = strokes_[a].points[k];
     const Vector2 t = strokes_[a].tangents[k];
-    grid_.visit(p, seen_, [&](std::size_t b, std::size_t m) {
-      if (b == a) return;
+    grid_.visit_others(p, seen_, a, [&](std::size_t b, std::size_t m) {
       const double d = distance(strokes_[b].points[m], p);
       if (place_[b] == 0) {
         beside_.push_back({b, m, d});

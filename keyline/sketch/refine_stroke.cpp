@@ -1,6 +1,7 @@
 #include "keyline/sketch/refine_stroke.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "keyline/core/polygon.h"
@@ -72,6 +73,57 @@ void hold_guessed_ends(const RawStroke& raw, std::vector<Point2>& centres,
   while (i > 0 && hold(i - 1)) --i;
 }
 
+/// Darkness between four pixels of the picture, bilinear; x and y from the first one's middle.
+class DarkInside {
+ public:
+  DarkInside(const Raster<std::uint16_t>& level, const std::vector<float>& darkness)
+      : pixels_(level.data.data()), width_(level.width), darkness_(darkness.data()) {}
+
+  double operator()(double x, double y) const {
+    const auto x0 = static_cast<std::int32_t>(x);
+    const auto y0 = static_cast<std::int32_t>(y);
+    const double u = x - x0;
+    const double v = y - y0;
+    const std::uint16_t* above = pixels_ + y0 * width_ + x0;
+    const std::uint16_t* below = above + width_;
+    const auto at = [this](std::uint16_t level) -> double { return darkness_[level]; };
+    return (1 - v) * ((1 - u) * at(above[0]) + u * at(above[1])) +
+           v * ((1 - u) * at(below[0]) + u * at(below[1]));
+  }
+
+ private:
+  const std::uint16_t* pixels_;
+  std::ptrdiff_t width_;
+  const float* darkness_;
+};
+
+/// Values along a profile, read as far as they are asked for: of most lines the flanks are near.
+template <class Read>
+class Along {
+ public:
+  Along(int reach, const Read& read) : read_(read) {
+    if (reach > kFew) large_.resize(2 * static_cast<std::size_t>(reach) + 1);
+    middle_ = reach > kFew ? large_.data() + reach : few_.data() + kFew;
+  }
+  Along(const Along&) = delete;
+  Along& operator=(const Along&) = delete;
+
+  double operator()(int k) {
+    while (last_ < k) ++last_, middle_[last_] = read_(last_ * kStep);
+    while (first_ > k) --first_, middle_[first_] = read_(first_ * kStep);
+    return middle_[k];
+  }
+
+ private:
+  static constexpr int kFew = 63;
+  const Read& read_;
+  std::array<double, 2 * kFew + 1> few_;
+  std::vector<double> large_;
+  double* middle_;
+  int first_ = 0;
+  int last_ = -1;
+};
+
 }  // namespace
 
 Refiner::Refiner(const Tone& tone) : tone_(tone), darkness_of_level_(65536) {
@@ -85,6 +137,7 @@ double Refiner::darkness(Point2 p) const {
   const int h = tone_.level.height;
   const double x = std::clamp(p.x - 0.5, 0.0, w - 1.0);
   const double y = std::clamp(p.y - 0.5, 0.0, h - 1.0);
+  if (x < w - 1 && y < h - 1) return DarkInside(tone_.level, darkness_of_level_)(x, y);
   const int x0 = static_cast<int>(x);
   const int y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, w - 1);
@@ -98,11 +151,21 @@ double Refiner::darkness(Point2 p) const {
 
 Refiner::Profile Refiner::profile(Point2 p, Vector2 normal, double half_width) const {
   const int reach = static_cast<int>((1.6 * half_width + 2.5) / kStep);
-  std::vector<double> value(2 * static_cast<std::size_t>(reach) + 1);
-  const auto at = [&](int k) -> double& {
-    return value[static_cast<std::size_t>(k) + static_cast<std::size_t>(reach)];
-  };
-  for (int k = -reach; k <= reach; ++k) at(k) = darkness(p + (k * kStep) * normal);
+  const double beyond = reach * kStep + 1.5;
+  if (p.x > beyond && p.y > beyond && p.x + beyond < tone_.level.width &&
+      p.y + beyond < tone_.level.height) {
+    const auto read = [p, normal, dark = DarkInside(tone_.level, darkness_of_level_)](double s) {
+      const Point2 at = p + s * normal;
+      return dark(at.x - 0.5, at.y - 0.5);
+    };
+    return profile_along(Along(reach, read), reach, half_width);
+  }
+  const auto read = [&](double s) { return darkness(p + s * normal); };
+  return profile_along(Along(reach, read), reach, half_width);
+}
+
+template <class Values>
+Refiner::Profile Refiner::profile_along(Values&& at, int reach, double half_width) {
   const int near = static_cast<int>(std::max(1.0, 0.6 * half_width) / kStep);
   int top = 0;
   for (int k = -near; k <= near; ++k)

@@ -47,6 +47,9 @@ class Refiner {
     double width = 0;
   };
   Profile profile(core::Point2 p, core::Vector2 normal, double half_width) const;
+  /// From its values by steps, which are there up to `reach` of them either way.
+  template <class Values>
+  static Profile profile_along(Values&& at, int reach, double half_width);
   double extension(core::Point2 end, core::Vector2 direction, double half_width) const;
   void trim_end(std::vector<core::Point2>& points, std::vector<double>& widths,
                 double half_width) const;

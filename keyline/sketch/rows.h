@@ -1,9 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "keyline/numeric/parallel.h"
+#include "keyline/sketch/pixel_words.h"
 
 namespace keyline::sketch {
 
@@ -21,12 +25,31 @@ void for_rows(int from, int to, Body&& body) {
   });
 }
 
+/// Values of a row looked up in a table. Paper is of one level for long stretches: four pixels at
+/// once that are as the four before cost a comparison.
+template <class Table>
+void look_up_row(const std::uint16_t* from, std::size_t n, const Table& table, std::uint16_t* to) {
+  std::uint64_t last = 0;
+  std::array<std::uint16_t, 4> found{table[0], table[0], table[0], table[0]};
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    const std::uint64_t word = word_at(from + i);
+    if (word != last) {
+      for (std::size_t k = 0; k < 4; ++k) found[k] = table[from[i + k]];
+      last = word;
+    }
+    std::memcpy(to + i, found.data(), sizeof found);
+  }
+  for (; i < n; ++i) to[i] = table[from[i]];
+}
+
 /// Every value of `from` looked up in a table, into `to` of the same size, which may be `from`.
 template <class Pixels, class Table>
 void look_up(const Pixels& from, const Table& table, Pixels& to) {
   for_rows(0, from.height, [&](int first, int last) {
-    const std::size_t end = from.index(0, last);
-    for (std::size_t i = from.index(0, first); i < end; ++i) to.data[i] = table[from.data[i]];
+    const std::size_t begin = from.index(0, first);
+    look_up_row(from.data.data() + begin, from.index(0, last) - begin, table,
+                to.data.data() + begin);
   });
 }
 

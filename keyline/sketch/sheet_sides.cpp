@@ -99,6 +99,7 @@ void Borders::find_pixels() {
   for (int y = 2; y + 2 < level_.height; ++y)
     for (int x = 2; x + 2 < level_.width; ++x) {
       const Vector2 here = slope(x, y);
+      if (std::abs(here.x) + std::abs(here.y) < kLeastStep) continue;  // most places
       const double steep = core::norm(here);
       if (steep < kLeastStep) continue;
       const Vector2 towards = here / steep;

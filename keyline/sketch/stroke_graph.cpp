@@ -10,6 +10,7 @@
 
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/ink_radius.h"
+#include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/spurs.h"
 
 namespace keyline::sketch {
@@ -48,9 +49,9 @@ class Builder {
     find_nodes();
     for (std::size_t k = 0; k < members_.size(); ++k)
       for (const Pixel p : members_[k]) follow_all(p, static_cast<int>(k));
-    for (int y = 0; y < lines_.height; ++y)
-      for (int x = 0; x < lines_.width; ++x)
-        if (lines_.at(x, y) && !visited_.at(x, y)) closed_line({x, y});
+    visit_lines([&](Pixel p) {
+      if (!visited_.at(p.x, p.y)) closed_line(p);
+    });
     return std::move(graph_);
   }
 
@@ -65,14 +66,20 @@ class Builder {
     return count;
   }
 
+  template <class See>
+  void visit_lines(const See& see) const {
+    for (int y = 0; y < lines_.height; ++y)
+      visit_set(&lines_.data[lines_.index(0, y)], static_cast<std::size_t>(lines_.width),
+                [&](std::size_t x) { see(Pixel{static_cast<int>(x), y}); });
+  }
+
   /// Ends, single pixels, and clusters of touching junction pixels.
   void find_nodes() {
-    for (int y = 0; y < lines_.height; ++y)
-      for (int x = 0; x < lines_.width; ++x) {
-        if (!lines_.at(x, y) || visited_.at(x, y)) continue;
-        const int d = degree({x, y});
-        if (d != 2) add_node({x, y}, d >= 3);
-      }
+    visit_lines([&](Pixel p) {
+      if (visited_.at(p.x, p.y)) return;
+      const int d = degree(p);
+      if (d != 2) add_node(p, d >= 3);
+    });
   }
 
   void add_node(Pixel start, bool junction) {

@@ -35,12 +35,22 @@ class StrokeGrid {
   /// Calls see(stroke, index) for every point within `reach` (at most one cell) of p.
   template <class See>
   void visit(core::Point2 p, double reach, const See& see) const {
+    visit_others(p, reach, strokes_.size(), see);
+  }
+
+  /// The same, without the points of one stroke.
+  template <class See>
+  void visit_others(core::Point2 p, double reach, std::size_t own, const See& see) const {
+    const double far = reach * reach * (1 + 1e-9);  // surely
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const auto found = cells_.find(key({p.x + dx * cell_, p.y + dy * cell_}));
         if (found == cells_.end()) continue;
-        for (const auto& [s, i] : found->second)
-          if (core::distance(strokes_[s].points[i], p) <= reach) see(s, i);
+        for (const auto& [s, i] : found->second) {
+          if (s == own) continue;
+          const core::Vector2 way = strokes_[s].points[i] - p;
+          if (dot(way, way) <= far && core::norm(way) <= reach) see(s, i);
+        }
       }
   }
 

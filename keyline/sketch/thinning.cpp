@@ -129,6 +129,12 @@ unsigned neighbours_of(const Binary& binary, int x, int y) {
   static constexpr std::array<int, 8> kX = {0, 1, 1, 1, 0, -1, -1, -1};
   static constexpr std::array<int, 8> kY = {-1, -1, 0, 1, 1, 1, 0, -1};
   unsigned bits = 0;
+  if (x > 0 && y > 0 && x + 1 < binary.width && y + 1 < binary.height) {
+    const std::uint8_t* here = &binary.data[binary.index(x, y)];
+    for (unsigned k = 0; k < 8; ++k)
+      bits |= (here[kY[k] * static_cast<std::ptrdiff_t>(binary.width) + kX[k]] ? 1U : 0U) << k;
+    return bits;
+  }
   for (unsigned k = 0; k < 8; ++k)
     if (binary.contains(x + kX[k], y + kY[k]) && binary.at(x + kX[k], y + kY[k])) bits |= 1U << k;
   return bits;

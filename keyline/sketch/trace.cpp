@@ -16,6 +16,7 @@
 #include "keyline/sketch/meet_lines.h"
 #include "keyline/sketch/morphology.h"
 #include "keyline/sketch/outline.h"
+#include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/polyline_tools.h"
 #include "keyline/sketch/refine_stroke.h"
 #include "keyline/sketch/straighten.h"
@@ -189,12 +190,22 @@ double merge(std::vector<FineStroke>& strokes, double width, ConsolidateOptions 
   return explained;
 }
 
+/// Longest first, those of one length in their order.
+template <class Line>
+void sort_by_length(std::vector<Line>& lines) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    order.emplace_back(-core::polygon_length(lines[i].points), i);
+  std::ranges::sort(order);
+  std::vector<Line> sorted;
+  for (const auto& [length, i] : order) sorted.push_back(std::move(lines[i]));
+  lines = std::move(sorted);
+}
+
 /// A picture's lines get the numbers that they have in the answer without merging: longest first.
 void number_lines(std::vector<FineStroke>& lines) {
   std::erase_if(lines, [](const FineStroke& s) { return s.points.size() < 2; });
-  std::stable_sort(lines.begin(), lines.end(), [](const FineStroke& a, const FineStroke& b) {
-    return core::polygon_length(a.points) > core::polygon_length(b.points);
-  });
+  sort_by_length(lines);
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i].members = {i};
 }
 
@@ -236,9 +247,7 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
   }
   for (std::optional<Stroke>& curve : curves)
     if (curve) result.strokes.push_back(std::move(*curve));
-  std::stable_sort(result.strokes.begin(), result.strokes.end(), [](const auto& a, const auto& b) {
-    return core::polygon_length(a.points) > core::polygon_length(b.points);
-  });
+  sort_by_length(result.strokes);
   std::size_t straight_ended = 0;
   for (const Stroke& s : result.strokes) straight_ended += s.straight_ended;
   if (straight_ended > 0)
@@ -249,9 +258,8 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
 
 /// A picture of which much is dark, or ink in broad areas, may be no drawing.
 void warn_of_photograph(const Tone& tone, const Binary& ink, double width, TraceResult& result) {
-  std::size_t dark = 0;
-  for (const std::uint8_t v : ink.data) dark += v;
-  const double share = static_cast<double>(dark) / static_cast<double>(ink.data.size());
+  const auto dark = static_cast<double>(count_ink(ink.data.data(), ink.data.size()));
+  const double share = dark / static_cast<double>(ink.data.size());
   const bool broad = width > 0.06 * std::max(ink.width, ink.height);
   const double most = std::max(share, tone.shaded);
   if (most > (broad ? 0.15 : 0.25))
