@@ -1,10 +1,14 @@
 #include "keyline/presentation/sketch_overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "keyline/figure/drawing.h"
+#include "keyline/figure/label_places.h"
 #include "keyline/figure/path.h"
 #include "keyline/figure/plot.h"
 #include "keyline/operations/sketch_trace.h"
@@ -31,15 +35,53 @@ struct Canvas {
                               figure::Stroke{color, width, {}},
                               {}});
   }
-  void number(Point2 at, const std::string& text, figure::Color color, bool bold) {
-    drawing.add(figure::Label{.at = figure::to_page(view, at),
-                              .text = text,
-                              .size = bold ? 1.3 * kText : kText,
-                              .color = color,
-                              .bold = bold,
-                              .halo = 2});
-  }
 };
+
+/// Names of lines and numbers of strokes, where they cover each other least.
+class Names {
+ public:
+  explicit Names(Canvas& canvas)
+      : canvas_(canvas), places_(canvas.drawing.width, canvas.drawing.height) {}
+
+  void avoid(const std::vector<Point2>& line) {
+    places_.avoid(figure::to_page(canvas_.view, line));
+  }
+
+  /// Beside one of the points, earlier ones preferred.
+  void add(const std::vector<Point2>& beside, const std::string& text, figure::Color color,
+           bool bold) {
+    const double size = bold ? 1.3 * kText : kText;
+    const auto place = places_.take(figure::to_page(canvas_.view, beside),
+                                    figure::text_width(text, size, bold) + 2 * kHalo, size);
+    const std::array leader = {place.named, place.middle};
+    if (place.away)
+      canvas_.drawing.add(figure::Shape{figure::polyline(leader, false),
+                                        figure::Stroke{figure::with_alpha(color, 0.6), 0.7, {}},
+                                        {}});
+    canvas_.drawing.add(figure::Label{.at = place.middle,
+                                      .text = text,
+                                      .size = size,
+                                      .color = color,
+                                      .anchor = figure::Anchor::middle,
+                                      .baseline = figure::Baseline::middle,
+                                      .bold = bold,
+                                      .halo = kHalo});
+  }
+
+ private:
+  static constexpr double kHalo = 2;
+  Canvas& canvas_;
+  figure::LabelPlaces places_;
+};
+
+/// Points of a line beside which its name can stand: its middle, then in turn on both sides of it.
+std::vector<Point2> places_along(const std::vector<Point2>& line) {
+  constexpr std::array kShares = {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95};
+  std::vector<Point2> places;
+  for (const double share : kShares)
+    places.push_back(line[static_cast<std::size_t>(share * static_cast<double>(line.size()))]);
+  return places;
+}
 
 /// Of a picture its page, of drawn strokes what they reach over and a rim.
 figure::Box area_of(const sketch::TraceResult& trace) {
@@ -84,7 +126,15 @@ std::vector<std::size_t> lines_of(const sketch::TraceResult& trace) {
   return line;
 }
 
-void add_strokes(Canvas& canvas, const sketch::TraceResult& trace) {
+struct Name {
+  std::vector<Point2> line;
+  std::string text;
+  figure::Color color;
+};
+
+/// Draws the strokes; their numbers come back.
+std::vector<Name> add_strokes(Canvas& canvas, const sketch::TraceResult& trace) {
+  std::vector<Name> numbers;
   const std::vector<std::size_t> line = lines_of(trace);
   const double pen = trace.width > 0 ? 1 : canvas.view.scale * trace.strokes.front().width;
   const auto color = [&](std::size_t i) {
@@ -93,10 +143,10 @@ void add_strokes(Canvas& canvas, const sketch::TraceResult& trace) {
   for (std::size_t i = 0; i < trace.passes.size(); ++i)
     canvas.line(trace.passes[i].points, trace.passes[i].closed, figure::with_alpha(color(i), 0.3),
                 std::max(1.0, pen));
-  if (trace.passes.size() > kMostNumbers) return;
   for (std::size_t i = 0; i < trace.passes.size(); ++i)
-    if (!trace.passes[i].points.empty())
-      canvas.number(trace.passes[i].points.front(), std::to_string(i), color(i), false);
+    if (!trace.passes[i].points.empty() && trace.passes.size() <= kMostNumbers)
+      numbers.push_back({trace.passes[i].points, std::to_string(i), color(i)});
+  return numbers;
 }
 
 /// Chords of a piece, so short that none is seen: a long one of few would leave the ink.
@@ -108,7 +158,9 @@ int steps_of(const curve::Bezier2& piece, double scale) {
   return static_cast<int>(std::clamp(std::ceil(scale * length / kChord), 8.0, 4000.0));
 }
 
-void add_lines(Canvas& canvas, const sketch::TraceResult& trace) {
+/// Draws the lines; their names come back.
+std::vector<Name> add_lines(Canvas& canvas, const sketch::TraceResult& trace) {
+  std::vector<Name> names;
   for (std::size_t i = 0; i < trace.strokes.size(); ++i) {
     std::vector<Point2> points;
     for (const curve::Bezier2& piece : trace.strokes[i].curve)
@@ -116,9 +168,19 @@ void add_lines(Canvas& canvas, const sketch::TraceResult& trace) {
         points.push_back(evaluate(piece, static_cast<double>(k) / n));
     if (points.empty()) continue;
     canvas.line(points, false, figure::palette(i), 1.6);
-    canvas.number(points[points.size() / 2], "stroke" + std::to_string(i + 1), figure::palette(i),
-                  true);
+    names.push_back({std::move(points), "stroke" + std::to_string(i + 1), figure::palette(i)});
   }
+  return names;
+}
+
+/// Lines' names stand beside them anywhere, strokes' numbers at their first points.
+void add_names(Canvas& canvas, const std::vector<Name>& lines, const std::vector<Name>& strokes) {
+  Names names(canvas);
+  for (const Name& line : lines) names.avoid(line.line);
+  for (const Name& stroke : strokes) names.avoid(stroke.line);
+  for (const Name& line : lines) names.add(places_along(line.line), line.text, line.color, true);
+  for (const Name& stroke : strokes)
+    names.add({stroke.line.front()}, stroke.text, stroke.color, false);
 }
 
 }  // namespace
@@ -127,8 +189,9 @@ core::Result<std::string> overlay_picture(const operations::Outcome& outcome) {
   const auto& answer = *outcome.result_as<operations::SketchAnswer>();
   Canvas canvas = canvas_over(area_of(answer.trace));
   add_ink(canvas, answer);
-  add_strokes(canvas, answer.trace);
-  add_lines(canvas, answer.trace);
+  const std::vector<Name> strokes = add_strokes(canvas, answer.trace);
+  const std::vector<Name> lines = add_lines(canvas, answer.trace);
+  add_names(canvas, lines, strokes);
   return figure::write_png(canvas.drawing, 1);
 }
 
