@@ -6,6 +6,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/core/polygon.h"
+#include "keyline/sketch/hand_share.h"
 #include "keyline/sketch/meant_line.h"
 #include "keyline/sketch/pass_evidence.h"
 #include "keyline/sketch/stroke_grid.h"
@@ -80,6 +81,7 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
     if (s.points.size() < 2) throw core::InvalidInput("consolidate needs two points per stroke");
     all.sampled.push_back(sample_stroke(s.points, s.closed, std::max(all.model.width, 1e-12)));
   }
+  all.model.hand = hand_share(all.sampled, all.model);
   all.evidence = pass_evidence(all.sampled, all.model);
   wish(options.wishes, all.evidence);
   return all;

@@ -1,0 +1,56 @@
+#include "keyline/sketch/hand_share.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "keyline/core/quantile.h"
+
+namespace keyline::sketch {
+namespace {
+
+constexpr double kSpread = 10;   ///< farthest passes lie so many times as far apart as nearest ones
+constexpr double kBeside = 0.5;  ///< of a stroke: less beside others says nothing
+constexpr double kAhead = 2;     ///< pens along the stroke: what is farther on lies not beside it
+
+/// How far from a place of a stroke the next other one runs along it, as far as `reach`; more where
+/// none does.
+double nearest_beside(const StrokeGrid& grid, const std::vector<SampledStroke>& strokes,
+                      std::size_t own, std::size_t k, double reach, const PassModel& model) {
+  const core::Point2 p = strokes[own].points[k];
+  const core::Vector2 along = strokes[own].tangents[k];
+  const double least_turn = std::cos(model.angle);
+  double nearest = std::numeric_limits<double>::infinity();
+  grid.visit_others(p, reach, own, [&](std::size_t s, std::size_t i) {
+    const core::Vector2 way = strokes[s].points[i] - p;
+    if (std::abs(dot(along, way)) > kAhead * model.width ||
+        std::abs(dot(along, strokes[s].tangents[i])) < least_turn)
+      return;
+    nearest = std::min(nearest, std::abs(cross(along, way)));
+  });
+  return nearest;
+}
+
+}  // namespace
+
+double hand_share(const std::vector<SampledStroke>& strokes, const PassModel& model) {
+  double longest = 0;
+  for (const SampledStroke& s : strokes) longest = std::max(longest, s.length);
+  const StrokeGrid grid(strokes, pass_distance(model, longest));
+  std::vector<double> shares;
+  std::vector<double> apart;
+  for (std::size_t a = 0; a < strokes.size(); ++a) {
+    const double reach = pass_distance(model, strokes[a].length);
+    apart.clear();
+    for (std::size_t k = 0; k < strokes[a].points.size(); k += 2)
+      if (const double d = nearest_beside(grid, strokes, a, k, reach, model); d <= reach)
+        apart.push_back(d);
+    if (2 * static_cast<double>(apart.size()) >
+        kBeside * static_cast<double>(strokes[a].points.size()))
+      shares.push_back(core::quantile(apart) / strokes[a].length);
+  }
+  if (shares.empty()) return model.hand;
+  return std::min(model.hand, kSpread * core::quantile(shares));
+}
+
+}  // namespace keyline::sketch
