@@ -30,6 +30,7 @@ constexpr double kMostOff = 1.5;        ///< widths of the pen: what is farther 
 constexpr double kOffShare = 0.02;      ///< of a line that may lie on paper, or it is none
 constexpr double kChangesOff = 0.01;    ///< of a line, for going over gently between strokes
 constexpr std::array kSteeper = {1.0, 1.4, 2.0, 4.0};  ///< times the angle; the last a step
+constexpr double kAway = 3;      ///< times how near passes lie: a loop goes so far away, or is none
 constexpr double kOnStroke = 1;  ///< widths: where lines are held, so that curves stay on
 
 class Line {
@@ -135,7 +136,8 @@ class Line {
     for (; i < n; ++i) {
       away = std::max(away, core::distance(p[i], p[0]));
       if (i > 0) turned += core::angle_between(line_.tangents[i - 1], line_.tangents[i]);
-      if (i < n / 3 || away < std::min(4 * near_, 0.2 * line_.length)) continue;
+      if (i < n / 3 || away < std::max(kAway * near_, std::min(4 * near_, 0.2 * line_.length)))
+        continue;
       const double laps = turned / (2 * M_PI);
       if (std::abs(laps - std::round(laps)) > 0.2 || std::abs(laps) > 1.3) continue;
       for (std::size_t j = 0; j < heads; ++j) {

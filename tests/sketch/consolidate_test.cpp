@@ -88,6 +88,23 @@ TEST(Consolidate, EightsCloseAndCrossThemselves) {
               0.04 * length_of(eight, 0, round));
 }
 
+TEST(Consolidate, ShortStrokesBesideEachOtherAreNoLoop) {
+  // hatching: two strokes, twelve pens long and two apart, were closed to a ring of a few pixels
+  for (const double turn : {0.0, 0.6, 2.5}) {
+    std::vector<DrawnStroke> strokes(2);
+    for (int i = 0; i <= 24; ++i) {
+      const core::Vector2 along = (2.0 * i) * core::unit_vector(turn);
+      const core::Vector2 aside = 8 * core::perpendicular_left(core::unit_vector(turn));
+      strokes[0].points.push_back(Point2{} + along);
+      strokes[1].points.push_back(Point2{} + aside + along);
+    }
+    const auto lines = consolidate(strokes, {.width = 4, .measured = true});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_FALSE(lines[0].closed);
+    EXPECT_GT(core::polygon_length(lines[0].points), 44);
+  }
+}
+
 TEST(Consolidate, PiecesMakeOneLineWhateverTheirDirectionAndScale) {
   const Curve wave = [](double t) { return Point2{40 * t, 25 * std::sin(t)}; };
   for (const double scale : {1.0, 4.0, 0.25}) {
