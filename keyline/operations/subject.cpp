@@ -74,16 +74,34 @@ bool are_points_of_a_curve(const std::vector<core::Point2>& vertices) {
 
 namespace {
 
-/// Whether a kink from `end` to `start` is a corner. Within the tolerance an arc of radius
-/// 8 tolerance / angle^2 hides it; where the curve on either side is bent more than that arc,
-/// nobody sees the arc for it.
-bool is_corner(const curve::Jet2& end, const curve::Jet2& start, double tolerance) {
+/// Smallest and largest curvature of a curve at so many places.
+double curvature_range(const analysis::CurveView& view, int places) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (int i = 0; i <= places; ++i) {
+    const double kappa = curve::curvature(view.jet_at(static_cast<double>(i) / places));
+    if (!std::isfinite(kappa)) continue;
+    low = std::min(low, kappa);
+    high = std::max(high, kappa);
+  }
+  return std::max(0.0, high - low);
+}
+
+/// Whether a kink from `end` to `start` is a corner. Within the tolerance d a kink of t is hidden
+/// by a step of curvature there that comes earlier or later by t / step: d = t^2 / (2 step); or by
+/// an arc of curvature t^2 / (8 d), where the curve on either side is bent more, and that is no
+/// wave.
+bool is_corner(const curve::Jet2& end, const curve::Jet2& start, double tolerance, double range) {
   constexpr double kSmooth = 0.02;  // radians
+  constexpr double kWave = 0.02;    // of the range: less is no wave of the comb
   const double angle =
       std::abs(core::wrap_angle(curve::tangent_angle(start) - curve::tangent_angle(end)));
   if (angle <= kSmooth) return false;
-  const double bend = std::min(std::abs(curve::curvature(end)), std::abs(curve::curvature(start)));
-  return !(8 * tolerance * bend >= angle * angle);
+  const double before = curve::curvature(end), after = curve::curvature(start);
+  if (!std::isfinite(before) || !std::isfinite(after)) return true;
+  const double square = angle * angle;
+  if (square <= 2 * tolerance * std::abs(after - before)) return false;
+  const double unseen = std::min({std::abs(before), std::abs(after), kWave * range});
+  return square > 8 * tolerance * unseen;
 }
 
 }  // namespace
@@ -102,10 +120,12 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path, double toleran
   if (!(tolerance > 0))
     tolerance = fairing::default_tolerance(0, length, static_cast<std::size_t>(n));
   std::vector<double> corners;
-  if (line.closed && is_corner(view.jet_at(1), view.jet_at(0), tolerance)) corners.push_back(0);
+  const double range = curvature_range(view, n);
+  if (line.closed && is_corner(view.jet_at(1), view.jet_at(0), tolerance, range))
+    corners.push_back(0);
   for (std::size_t k = 1; k + 1 < view.breaks().size(); ++k) {
     const double t = view.breaks()[k];
-    if (is_corner(view.jet_at(std::nextafter(t, 0.0)), view.jet_at(t), tolerance))
+    if (is_corner(view.jet_at(std::nextafter(t, 0.0)), view.jet_at(t), tolerance, range))
       corners.push_back(table.length_at(t));
   }
   std::vector<double> at;

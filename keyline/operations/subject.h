@@ -61,8 +61,8 @@ bool are_points_of_a_curve(const std::vector<core::Point2>& vertices);
 core::Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject);
 
 /// A curve as a key-line: samples evenly spaced in arc length, no noise, the curve's own corners:
-/// kinks that the tolerance cannot hide in a bend flatter than the curve beside them. Not above 0:
-/// fairing's default tolerance.
+/// kinks that within the tolerance neither a step of curvature beside them hides nor a bend too
+/// slight for a wave. Not above 0: fairing's default tolerance.
 core::Result<acquire::KeyLine> sampled_line(const document::Path& path, double tolerance = 0);
 
 }  // namespace keyline::operations

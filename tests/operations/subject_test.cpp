@@ -20,26 +20,36 @@ curve::Bezier2 quarter(Point2 from, double direction, double radius) {
   return {{from, from + handle * t, to - handle * n, to}, {}};
 }
 
-/// Two quarters, of radius 40 and so much, that meet in a kink of so many degrees.
-std::size_t corners(double radius, double degrees, double tolerance) {
+/// Quarters of radius 40 and of `radius` that meet in a kink of so many degrees, and a smooth one
+/// of `third` beyond.
+std::size_t corners(double radius, double degrees, double tolerance, double third) {
   const double turned = core::kPi / 2 + degrees * core::kPi / 180;
   document::Path path;
   path.curves.push_back({quarter({0, 0}, 0, 40)});
-  path.curves.push_back({quarter({40, 40}, turned, radius)});
+  const curve::Bezier2 next = quarter({40, 40}, turned, radius);
+  path.curves.push_back({next});
+  path.curves.push_back({quarter(next.control[3], turned + core::kPi / 2, third)});
   const auto line = sampled_line(path, tolerance);
   return line ? line->corners.size() : 99;
 }
 
-// A kink of t radians is hidden within d by an arc of radius R, R t^2 / 8 = d: of 5 degrees and 0.4
-// R is 420, of 20 degrees 26.
-TEST(SampledLine, HasNoCornerWhereABendFlatterThanTheCurveHidesIt) {
-  EXPECT_EQ(corners(40, 5, 0.4), 0U);
-  EXPECT_EQ(corners(380, 5, 0.4), 0U);
-  EXPECT_EQ(corners(460, 5, 0.4), 1U);  // its own flat side would show the bend
-  EXPECT_EQ(corners(40, 20, 0.4), 1U);
-  EXPECT_EQ(corners(40, -20, 0.4), 1U);
-  EXPECT_EQ(corners(40, 5, 0.03), 1U);
-  EXPECT_EQ(corners(40, 5, 0), 1U);  // by default a ten-thousandth of the length, 0.013
+// A kink of t radians is hidden within d where the step of curvature beside it is t^2 / (2 d): of 5
+// degrees and 0.4 0.0095, which is that from a radius of 40 to one of 65.
+TEST(SampledLine, HasNoCornerWhereAStepOfCurvatureHidesIt) {
+  EXPECT_EQ(corners(80, 5, 0.4, 80), 0U);
+  EXPECT_EQ(corners(80, -5, 0.4, 80), 0U);
+  EXPECT_EQ(corners(55, 5, 0.4, 55), 1U);
+  EXPECT_EQ(corners(80, 5, 0.2, 80), 1U);
+  EXPECT_EQ(corners(80, 20, 0.4, 80), 1U);
+  EXPECT_EQ(corners(80, 5, 0, 80), 1U);  // by default a ten-thousandth of the length, 0.03
+}
+
+// Or by an arc of curvature t^2 / (8 d): of 5 degrees and 0.4 0.0024, of 8 degrees 0.0061. A
+// fiftieth of the range from a radius of 40 to one of 4 is 0.0045.
+TEST(SampledLine, HasNoCornerWhereABendTooSlightForAWaveHidesIt) {
+  EXPECT_EQ(corners(40, 5, 0.4, 4), 0U);
+  EXPECT_EQ(corners(40, 8, 0.4, 4), 1U);
+  EXPECT_EQ(corners(40, 5, 0.4, 40), 1U);
 }
 
 TEST(SampledLine, HasACornerBetweenLines) {
