@@ -233,22 +233,41 @@ std::array<double, 2> bezier_at(const json& bezier, double t) {
   return {b[0][0] / b[0][2], b[0][1] / b[0][2]};
 }
 
+namespace {
+
+/// Parameters to look at: even ones, and closer and closer ones towards both ends, where a rational
+/// curve of a large weight runs nearly all of its way.
+std::vector<double> places() {
+  std::vector<double> at{0, 1};
+  for (int k = 1; k < 100; ++k) at.push_back(k / 100.0);
+  for (double t = 0.005; t > 1e-12; t *= 0.7) {
+    at.push_back(t);
+    at.push_back(1 - t);
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+}  // namespace
+
 double distance_from_bezier(const json& bezier, const std::array<double, 2>& point) {
   const auto off = [&](double t) {
     const auto p = bezier_at(bezier, std::clamp(t, 0.0, 1.0));
     return std::hypot(p[0] - point[0], p[1] - point[1]);
   };
-  constexpr int kPlaces = 100;
-  int best = 0;
-  for (int k = 1; k <= kPlaces; ++k)
-    if (off(k / 100.0) < off(best / 100.0)) best = k;
+  static const std::vector<double> kPlaces = places();
+  std::vector<double> offs;
+  for (const double t : kPlaces) offs.push_back(off(t));
+  const auto best =
+      static_cast<std::size_t>(std::min_element(offs.begin(), offs.end()) - offs.begin());
   // Not past an end: beyond it all places are the end, and equal.
-  double low = std::max(best - 1, 0) / 100.0, high = std::min(best + 1, kPlaces) / 100.0;
+  double low = kPlaces[best > 0 ? best - 1 : 0];
+  double high = kPlaces[std::min(best + 1, kPlaces.size() - 1)];
   for (int k = 0; k < 60; ++k) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
     (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;
   }
-  return off((low + high) / 2);
+  return std::min(offs[best], off((low + high) / 2));
 }
 
 namespace {

@@ -28,6 +28,9 @@ TEST(OwnNumerics, FindsTheNearestPlaceNextToAnEnd) {
   const own::json line{{"points", {{0, 0}, {1, 0}, {2, 0}}}};
   EXPECT_NEAR(own::distance_from_bezier(line, {1.9984, 0.001}), 0.001, 1e-12);
   EXPECT_NEAR(own::distance_from_bezier(line, {0.0016, 0.001}), 0.001, 1e-12);
+  // half of the way within the first ten-thousandth of the parameter
+  const own::json hasty{{"points", {{0, 0}, {2, 0}, {0.8, 0.1}}}, {"weights", {1, 1e4, 1}}};
+  EXPECT_NEAR(own::distance_from_bezier(hasty, {0.7, 0.001}), 0.001, 1e-6);
 }
 
 }  // namespace
