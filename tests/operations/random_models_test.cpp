@@ -147,7 +147,8 @@ TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
       const double told = one["edit"]["departure"];
       EXPECT_LE(apart(patches_of(given), patches_of(now[i])), told + rounding);
       if (kind != 2) {
-        const double limit = kind < 2 ? request["limit"].get<double>() : 0.01 * size_;
+        const double limit =
+            kind < 2 ? request["limit"].get<double>() : 0.01 * box_diagonal({first, second});
         EXPECT_LE(told, limit * (1 + 1e-12));
       }
       expect_corners(given, now[i], i == 0, hold == "free" || corners, 1e-9 * size_ + rounding);

@@ -38,6 +38,18 @@ inline double net_extent(const json& surface) {
   return most;
 }
 
+inline double box_diagonal(const std::vector<json>& surfaces) {
+  own::Vec low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const json& surface : surfaces)
+    for (const json& row : surface["points"])
+      for (const json& p : row)
+        for (std::size_t k = 0; k < 3; ++k) {
+          low[k] = std::min(low[k], p[k].get<double>());
+          high[k] = std::max(high[k], p[k].get<double>());
+        }
+  return distance(low, high);
+}
+
 inline double net_farthest(const json& surface) {
   double most = 0;
   for (const json& row : surface["points"])
