@@ -28,6 +28,7 @@ class Splitter {
   Splitter(const CurveView& curve, const SplitOptions& options) : curve_(curve), options_(options) {
     result_.threshold = options.noise;
     take_samples();
+    add_turns();
     find_flats();
   }
 
@@ -69,6 +70,26 @@ class Splitter {
     length_ = s;
     for (const Sample& sample : samples_) largest_ = std::max(largest_, std::abs(sample.curvature));
     rounding_ = std::max(options_.rounding * largest_, length_ > 0 ? 1e-9 / length_ : 0);
+  }
+
+  /// A sample where curvature turns between two others, as its rate at both says: a turn in the
+  /// panel beside a breakpoint or an end shows in no other way.
+  void add_turns() {
+    const auto rate = [&](double t) { return curve::curvature_rate(curve_.jet_at(t)); };
+    std::vector<Sample> all{samples_.front()};
+    for (std::size_t i = 1; i < samples_.size(); ++i) {
+      const Sample &a = samples_[i - 1], &b = samples_[i];
+      const double last = std::nextafter(b.t, 0.0);
+      if (a.stretch == b.stretch && rate(a.t) * rate(last) < 0) {
+        const double t = zero_of(rate, a.t, last, a.t);
+        const double kappa = curvature_at(t);
+        const auto [low, high] = std::minmax(a.curvature, b.curvature);
+        if (kappa < low - rounding_ || kappa > high + rounding_)
+          all.push_back({t, arc_length_at(t, i - 1), kappa, a.stretch});
+      }
+      all.push_back(b);
+    }
+    samples_ = std::move(all);
   }
 
   /// Curvature; at a cusp, where it is infinite, that of a place close by.

@@ -63,7 +63,7 @@ struct Split {
 ///
 /// Works on any curve, also where curvature or its rate jumps at breakpoints. Events between
 /// breakpoints are refined to the last bits of t by a bracketed root of curvature or its rate; they
-/// are found where the samples see the change of sign.
+/// are found where the samples see the change of sign, of the rate at them too.
 Split split_monotone(const CurveView& curve, const SplitOptions& options = {});
 
 template <curve::PlanarCurve C>

@@ -69,6 +69,40 @@ TEST(Split, TurnsNextToAKinkAreFoundFromEitherEnd) {
     EXPECT_NEAR(a.pieces[i].t.low, 1 - b.pieces[b.pieces.size() - 1 - i].t.high, 1e-7);
 }
 
+/// Curvature of a spline of degree 5 turns a thousandth before a knot, between the knot and the
+/// sample before it; place and value from its formula at steps of 5e-6.
+TEST(Split, ATurnJustBeforeAKnotIsNotTakenForTheKnot) {
+  const curve::BSpline2 spline{
+      5,
+      {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.29413349272321077, 0.4612177450961429, 0.5701197697922369,
+       0.8948712708313568, 0.8948712708313568, 0.8948712708313568, 0.8948712708313568,
+       0.8948712708313568, 0.8948712708313568},
+      {{-1788.7944662098403, -1526.135230551938},
+       {-1579.100089330436, -1579.054134233186},
+       {-1326.825128423616, -1450.9185620468966},
+       {-1359.7060577277064, -1113.5612515812613},
+       {-1647.9519906763528, -1273.7029057629466},
+       {-1705.2508640249062, -1772.542176605155},
+       {-2235.522398011581, -1821.6402106403639},
+       {-2697.9187193416815, -1898.3359223506448},
+       {-2700.209991364338, -2221.8834810509697}},
+      {}};
+  const Split split = split_monotone(spline);
+  ASSERT_EQ(split.extrema.size(), 3u);
+  EXPECT_NEAR(split.extrema[0].t, 0.328235, 5e-6);
+  EXPECT_NEAR(split.extrema[0].curvature, 0.0220218195, 1e-9);
+}
+
+/// The parabola y = x^2 up to just past its vertex, nearer to the end than any other sample.
+TEST(Split, ATurnJustBeforeAnEndIsFound) {
+  const double x = 2e-4;
+  const curve::Bezier2 parabola{{{-1, 1}, {(x - 1) / 2, -x}, {x, x * x}}, {}};
+  const Split split = split_monotone(parabola);
+  ASSERT_EQ(split.extrema.size(), 1u);
+  EXPECT_NEAR(split.extrema[0].t, 1 / (1 + x), 1e-9);
+  EXPECT_NEAR(split.extrema[0].curvature, 2, 1e-12);
+}
+
 TEST(Split, SmallWavesAreMergedAndReported) {
   // Amplitude 0.5 at wavelength 0.1: the curve moves by 2 * 0.5 * 0.01 / (8 pi^2) = 1.27e-4.
   const auto c = testing::wavy(1, 3, 0.5, 0.1, 1);
