@@ -143,7 +143,7 @@ SideState turned(SideState s) {
 
 void compare(EdgeSample& sample, const SideState& a, SideState b, double size) {
   if (dot(a.frame.along, b.frame.along) < 0) b = turned(b);
-  sample.angle = core::angle_between(a.frame.across, b.frame.across);
+  sample.angle = core::angle_between(a.frame.normal, b.frame.normal);  // edges may run apart
   const CurvatureForm jump{b.form.xx - a.form.xx, b.form.xy - a.form.xy, b.form.yy - a.form.yy};
   sample.curvature_jump = largest_curvature(jump);
   sample.rate_jump = std::abs(b.rate - a.rate);

@@ -43,11 +43,12 @@ struct EdgeTolerance {
 };
 
 /// What happens at one place of the edge, from the first surface to the second. `angle` is the
-/// fold: between the direction out of the first surface and that into the second, both at right
-/// angles to the edge, in [0, pi]. `curvature_jump` is the largest difference of normal curvature
-/// over all directions; `rate_jump` that of the derivative by arc length of the curvature of the
-/// normal section across the edge, in 1/length^2; `stripe_turn` and `stripe_density` are what a
-/// zebra does where it crosses (stripe_turn.h). All of them need a normal on each side: `defined`.
+/// fold: between the tangent planes, in [0, pi], pi where the second surface runs back under the
+/// first; how far the edges' directions differ is none of it. `curvature_jump` is the largest
+/// difference of normal curvature over all directions; `rate_jump` that of the derivative by arc
+/// length of the curvature of the normal section across the edge, in 1/length^2; `stripe_turn` and
+/// `stripe_density` are what a zebra does where it crosses (stripe_turn.h). All of them need a
+/// normal on each side: `defined`.
 struct EdgeSample {
   double along = 0;  ///< parameter of the first edge
   core::Point3 position;

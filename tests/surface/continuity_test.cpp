@@ -43,6 +43,15 @@ TEST(EdgeContinuity, EachRowOfTheNetTakesOneOrder) {
   }
 }
 
+// Two patches of one plane have no fold, though their edges part by half the gap allowed.
+TEST(EdgeContinuity, EdgesThatRunApartInAPlaneDoNotFold) {
+  const BezierSurface a{{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}}, {}};
+  const BezierSurface b{{2, 2, {{1, 0, 0}, {1.0005, 1, 0}, {2, 0, 0}, {2, 1, 0}}}, {}};
+  const EdgeContinuity c = joint(a, b, std::array{Edge::u1, Edge::u0});
+  EXPECT_NEAR(c.gap, 0.0005, 1e-9);
+  EXPECT_LT(c.angle, 1e-12);
+}
+
 TEST(EdgeContinuity, JumpsHaveTheirSize) {
   // A flat top runs into a quarter cylinder: curvature 0 to 1/r, the rate 0 on both sides.
   const double r = 4;
