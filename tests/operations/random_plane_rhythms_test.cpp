@@ -151,6 +151,37 @@ TEST(RandomPlaneRhythms, BeginAtOrGoThroughAnInflection) {
   }
 }
 
+/// Of these several curves meet the data, and one way round found another than the other. The least
+/// turning is that of a search on a grid 8 times as dense.
+TEST(RandomPlaneRhythms, TheCurveThatTurnsLeastIsFoundFromEitherEnd) {
+  struct Known {
+    Rhythm rhythm;
+    own::Place end;
+    double turning;
+  };
+  const auto towards = [](double x, double y, double tx, double ty) {
+    own::Place end;
+    end.x = x;
+    end.y = y;
+    end.direction = std::atan2(ty, tx);
+    return end;
+  };
+  const Known known[] = {
+      {{-2, 2, 0.7813204798899717},
+       towards(0.991711652589218, -0.11656943168402077, 0.9999769792732962, -0.006785346229471649),
+       0.354441},
+      {{-1.758235333382902, -1, 0.8995923274628501},
+       towards(0.999119444242301, -0.03473314283145471, 0.999762388372506, 0.021798320937687996),
+       0.136930}};
+  for (const Known& k : known) {
+    const json request = in_space(k.rhythm, k.end, 1);
+    for (const json& asked : {request, run_back(request)}) {
+      const json curve = own::result_of(asked)["curve"];
+      EXPECT_NEAR(turned(own::walked(flat(curve))), k.turning, 1e-5) << asked;
+    }
+  }
+}
+
 TEST(RandomPlaneRhythms, AnInflectionThatNoRateAllowsIsRefusedWithItsReason) {
   // The second piece bears rates up to 1 / (alpha share) of the curvature; the first would take
   // 1 / share to come out of an inflection.

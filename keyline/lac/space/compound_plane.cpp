@@ -20,10 +20,10 @@ constexpr int kSteps = 16;               // of the rate, from one power of ten t
 constexpr double kLeast = 1e-4;          // rate times length over curvature
 constexpr double kGreatest = 1e4;
 
-/// Where a curve sets out and how it turns, less what is wanted.
+/// Directions at both ends, less what is wanted; the same of the reversed curve.
 struct Off {
-  double start = 0, turning = 0;
-  double size() const { return std::max(std::abs(start), std::abs(turning)); }
+  double start = 0, end = 0;
+  double size() const { return std::max(std::abs(start), std::abs(end)); }
 };
 
 /// The curves of a rhythm, of length 1. `rate` is that of curvature at the joint over curvature
@@ -33,6 +33,12 @@ class Family {
   Family(const PlaneRhythm& r, double from, double to) : r_(r), from_(from), turning_(to - from) {}
 
   double turning() const { return turning_; }
+
+  /// To either side: the tangent is along the chord somewhere.
+  double least_turning() const {
+    const auto to_chord = [](double x) { return std::min(std::abs(x), core::kPi - std::abs(x)); };
+    return std::max({0.001, std::abs(turning_), to_chord(from_) + to_chord(from_ + turning_)});
+  }
 
   /// Empty where a piece ends before its share of the length.
   std::optional<Chain> chain(double rate, double size) const {
@@ -51,7 +57,8 @@ class Family {
     const core::Pose2 end = end_pose(*c);
     const core::Vector2 chord = end.position - core::Point2{};
     if (!(norm(chord) > 1e-6)) return std::nullopt;
-    return Off{core::wrap_angle(-core::direction_of(chord) - from_), end.direction - turning_};
+    const double start = core::wrap_angle(-core::direction_of(chord) - from_);
+    return Off{start, start + end.direction - turning_};
   }
 
   /// Curvature at the joint with which a curve turns as wanted in all.
@@ -97,6 +104,30 @@ double turned(const Chain& c) {
   return absolute_turning(c.pieces[0]) + absolute_turning(c.pieces[1]);
 }
 
+/// The curves with an inflection of one rate, by size.
+struct Column {
+  std::array<double, kSizes> sizes{};
+  std::array<Off, kSizes> offs{};  ///< infinite where there is none
+};
+
+bool is_low(const std::vector<Column>& columns, std::size_t i, int j) {
+  const double here = columns[i].offs[j].size();
+  for (std::size_t a = i == 0 ? 0 : i - 1; a <= std::min(i + 1, columns.size() - 1); ++a)
+    for (int b = std::max(j - 1, 0); b <= std::min(j + 1, kSizes - 1); ++b)
+      if (columns[a].offs[b].size() < here) return false;
+  return here < 2;
+}
+
+/// Whether both directions pass through what is wanted between two columns and from j to j + 1.
+bool passes(const Column& a, const Column& b, int j) {
+  const std::array<Off, 4> corners{a.offs[j], a.offs[j + 1], b.offs[j], b.offs[j + 1]};
+  const auto wanted_between = [&](double Off::* angle) {
+    const auto [low, high] = std::ranges::minmax(corners, {}, angle);
+    return low.*angle <= 0 && high.*angle >= 0 && high.*angle - low.*angle < core::kPi;
+  };
+  return wanted_between(&Off::start) && wanted_between(&Off::end);
+}
+
 class Search {
  public:
   Search(const Family& family, double from) : family_(family), from_(from) {}
@@ -106,6 +137,7 @@ class Search {
   PlaneSearch result() &&;
 
  private:
+  std::vector<Column> columns_of(const std::vector<double>& rates, double side);
   void take(double rate, double size);
   bool settle(double& rate, double& size);
 
@@ -137,8 +169,8 @@ bool Search::settle(double& rate, double& size) {
     if (!r0 || !r1 || !s0 || !s1) break;
     std::array<std::array<double, 2>, 2> slope{
         {{(r1->start - r0->start) / (2 * h), (s1->start - s0->start) / (2 * k)},
-         {(r1->turning - r0->turning) / (2 * h), (s1->turning - s0->turning) / (2 * k)}}};
-    std::array<double, 2> step{at->start, at->turning};
+         {(r1->end - r0->end) / (2 * h), (s1->end - s0->end) / (2 * k)}}};
+    std::array<double, 2> step{at->start, at->end};
     if (!solve_small(slope, step)) break;
     ++iterations_;
     std::optional<Off> next;
@@ -182,33 +214,38 @@ void Search::without_inflection(const std::vector<double>& rates) {
   }
 }
 
-/// Rates and sizes all over, Newton's method from those that miss less than their neighbours.
-void Search::with_inflection(const std::vector<double>& rates) {
-  const double least = std::max(0.02, std::abs(family_.turning()));
-  for (const double side : {1.0, -1.0}) {
-    std::vector<std::array<double, kSizes>> sizes, misses;
-    for (const double rate : rates) {
-      sizes.emplace_back();
-      misses.emplace_back();
-      const auto c = family_.chain(rate, 1);
-      const double whole = c && Family::inflects(*c) ? turned(*c) : 0;
-      inflects_ = inflects_ || whole > 0;
-      for (int j = 0; j < kSizes; ++j) {
-        const double size = side / whole * least * std::pow(kMost / least, j / (kSizes - 1.0));
-        const auto off = whole > 0 ? family_.off(rate, size) : std::nullopt;
-        sizes.back()[j] = size;
-        misses.back()[j] = off ? off->size() : HUGE_VAL;
-      }
+std::vector<Column> Search::columns_of(const std::vector<double>& rates, double side) {
+  const double least = family_.least_turning();
+  std::vector<Column> columns;
+  for (const double rate : rates) {
+    Column& column = columns.emplace_back();
+    const auto c = family_.chain(rate, 1);
+    const double whole = c && Family::inflects(*c) ? turned(*c) : 0;
+    inflects_ = inflects_ || whole > 0;
+    for (int j = 0; j < kSizes; ++j) {
+      const double size = side / whole * least * std::pow(kMost / least, j / (kSizes - 1.0));
+      const auto off = whole > 0 ? family_.off(rate, size) : std::nullopt;
+      column.sizes[j] = size;
+      column.offs[j] = off.value_or(Off{HUGE_VAL, HUGE_VAL});
     }
-    const auto is_low = [&](std::size_t i, int j) {
-      for (std::size_t a = i == 0 ? 0 : i - 1; a <= std::min(i + 1, rates.size() - 1); ++a)
-        for (int b = std::max(j - 1, 0); b <= std::min(j + 1, kSizes - 1); ++b)
-          if (misses[a][b] < misses[i][j]) return false;
-      return misses[i][j] < 2;
-    };
+  }
+  return columns;
+}
+
+/// Rates and sizes all over, Newton's method from those that miss less than their neighbours and
+/// from where both directions pass through what is wanted.
+void Search::with_inflection(const std::vector<double>& rates) {
+  for (const double side : {1.0, -1.0}) {
+    const std::vector<Column> columns = columns_of(rates, side);
     for (std::size_t i = 0; i < rates.size(); ++i)
       for (int j = 0; j < kSizes; ++j)
-        if (is_low(i, j)) take(rates[i], sizes[i][j]);
+        if (is_low(columns, i, j)) take(rates[i], columns[i].sizes[j]);
+    for (std::size_t i = 0; i + 1 < rates.size(); ++i)
+      for (int j = 0; j + 1 < kSizes; ++j) {
+        if (!passes(columns[i], columns[i + 1], j)) continue;
+        const bool nearer = columns[i].offs[j].size() < columns[i + 1].offs[j + 1].size();
+        take(rates[nearer ? i : i + 1], nearer ? columns[i].sizes[j] : columns[i + 1].sizes[j + 1]);
+      }
   }
 }
 
