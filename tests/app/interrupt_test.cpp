@@ -62,6 +62,7 @@ TEST(Interrupt, AtAnyMomentLeavesOneWholeFile) {
   for (int moment = 1; moment <= 20; ++moment) {
     SCOPED_TRACE(moment);
     const pid_t child = started(input, output, s.path("err"), "1");
+    ASSERT_GT(child, 0);  // a signal to -1 would end everything
     wait_for_handler(child);
     std::this_thread::sleep_for(std::chrono::milliseconds(25 * (moment - 1)));
     ::kill(child, SIGINT);
@@ -107,6 +108,7 @@ TEST(Interrupt, TellsHowManyOfManyAreDone) {
     SCOPED_TRACE(moment);
     const std::string output = s.write("out.json", "old");
     const pid_t child = started(input, output, s.path("err"), "2");
+    ASSERT_GT(child, 0);  // a signal to -1 would end everything
     wait_for_handler(child);
     std::this_thread::sleep_for(std::chrono::milliseconds(120 * moment));
     ::kill(child, SIGINT);

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include <fcntl.h>
@@ -145,9 +146,11 @@ struct OnTerminal {
   int status = -1;
   std::string shown;
 };
-OnTerminal interrupted_after(double seconds, std::vector<std::string> arguments) {
+/// Nothing where the system has no terminals to give.
+std::optional<OnTerminal> interrupted_after(double seconds, std::vector<std::string> arguments) {
   int terminal = -1;
   const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child < 0) return std::nullopt;  // a signal to -1 would end everything
   if (child == 0) {
     arguments.insert(arguments.begin(), "keyline");
     std::vector<char*> words;
@@ -189,13 +192,14 @@ TEST(Progress, TellsWhichOfHowManyAndHowLong) {
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"fair", input}, std::vector<std::string>{"analyze", input}}) {
     SCOPED_TRACE(command[0]);
-    const OnTerminal run = interrupted_after(3, command);
-    EXPECT_EQ(run.status, 130);
-    EXPECT_NE(run.shown.find("%  "), std::string::npos) << run.shown;
-    EXPECT_NE(run.shown.find(" of 150: "), std::string::npos) << run.shown;
-    EXPECT_NE(run.shown.find_first_of("0123456789", run.shown.rfind(" of 150: ") + 9),
+    const auto run = interrupted_after(3, command);
+    if (!run) GTEST_SKIP() << "no pseudo terminal: is /dev/pts mounted?";
+    EXPECT_EQ(run->status, 130);
+    EXPECT_NE(run->shown.find("%  "), std::string::npos) << run->shown;
+    EXPECT_NE(run->shown.find(" of 150: "), std::string::npos) << run->shown;
+    EXPECT_NE(run->shown.find_first_of("0123456789", run->shown.rfind(" of 150: ") + 9),
               std::string::npos);  // seconds, gone or left
-    EXPECT_NE(run.shown.find(" of 150 done"), std::string::npos) << run.shown;
+    EXPECT_NE(run->shown.find(" of 150 done"), std::string::npos) << run->shown;
   }
 }
 

@@ -151,6 +151,7 @@ TEST_F(Outputs, KilledAnywhereTheyAreOldOrNew) {
   };
   for (int time = 0; time < 100; ++time) {
     const pid_t child = ::fork();
+    ASSERT_GE(child, 0);  // a signal to -1 would end everything
     if (child == 0) write_for_ever(folder_);
     std::this_thread::sleep_for(std::chrono::microseconds(500 + 173 * time));
     ::kill(child, SIGKILL);

@@ -93,6 +93,7 @@ TEST(LibrarySafety, NothingPromisedIsLostWhenTheWriterIsKilled) {
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);
     const pid_t child = fork();
+    ASSERT_GE(child, 0);  // a signal to -1 would end everything
     if (child == 0) add_for_ever(file, 10'000 * round, ends[1]);
     close(ends[1]);
     // Every other writer is killed only after its first promise, however slow it is.
