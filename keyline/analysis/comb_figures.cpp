@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kGrid = 4000;
 constexpr int kWithin = 20;  // steps of the grid: 0.5 % of the length
-constexpr double kSeen = 0.02;
 constexpr double kTail = 0.005;
 constexpr double kPace = 0.25;  // of the range within 0.5 %: all of it within 2 %
 
@@ -100,7 +99,7 @@ CombFigures comb_figures(const curve::CurvatureGraph& graph) {
   const double range = range_of(grid);
   CombFigures figures;
   if (!(range > 0)) return figures;
-  figures.waves = extrema(grid, kSeen * range);
+  figures.waves = extrema(grid, kSeenWave * range);
   for (std::size_t i = kWithin; i < grid.size(); ++i)
     figures.jolt = std::max(figures.jolt, std::abs(grid[i] - grid[i - kWithin]) / range);
   figures.energy = curve::variation(graph);

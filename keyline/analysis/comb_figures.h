@@ -7,6 +7,9 @@
 
 namespace keyline::analysis {
 
+/// Of a comb's range: a lower extremum is no wave.
+inline constexpr double kSeenWave = 0.02;
+
 /// A comb in three figures, the same for a curve of any size.
 struct CombFigures {
   int waves = 0;      ///< extrema of curvature whose swing is above 2 % of its range

@@ -7,7 +7,6 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kSeen = 0.02;   // of the curvature's range: lower waves are not seen
 constexpr double kTurn = 1e-3;   // of the range: what counts as a turn at all
 constexpr double kLevel = 0.01;  // of the range over the length: rates that count as none
 constexpr int kRounds = 4;       // in which an extremum may move on
@@ -202,7 +201,7 @@ class Calming {
   BandReport run() {
     report_ = least_variation(curve_, points_, options_.band);
     if (!report_.within) return report_;
-    take(extrema_of(curve_, kSeen * range_of(curve_)), true);
+    take(extrema_of(curve_, analysis::kSeenWave * range_of(curve_)), true);
     while (!options_.band.progress.stop_requested() && (together() || single()));
     if (options_.most_turns) keep_to(*options_.most_turns);
     return report_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/acquire/acquire.h"
+#include "keyline/analysis/comb_figures.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
 #include "keyline/fairing/fair.h"
@@ -86,21 +87,40 @@ double curvature_range(const analysis::CurveView& view, int places) {
   return std::max(0.0, high - low);
 }
 
-/// Whether a kink from `end` to `start` is a corner. Within the tolerance d a kink of t is hidden
-/// by a step of curvature there that comes earlier or later by t / step: d = t^2 / (2 step); or by
-/// an arc of curvature t^2 / (8 d), where the curve on either side is bent more, and that is no
-/// wave.
-bool is_corner(const curve::Jet2& end, const curve::Jet2& start, double tolerance, double range) {
+/// Where a curve's direction jumps.
+struct Kink {
+  double at = 0;                 ///< arc length
+  double angle = 0;              ///< of the jump, radians
+  double before = 0, after = 0;  ///< curvatures beside it
+};
+
+std::vector<Kink> kinks_of(const analysis::CurveView& view, const analysis::ArcLengthTable& table,
+                           bool closed) {
   constexpr double kSmooth = 0.02;  // radians
-  constexpr double kWave = 0.02;    // of the range: less is no wave of the comb
-  const double angle =
-      std::abs(core::wrap_angle(curve::tangent_angle(start) - curve::tangent_angle(end)));
-  if (angle <= kSmooth) return false;
-  const double before = curve::curvature(end), after = curve::curvature(start);
-  if (!std::isfinite(before) || !std::isfinite(after)) return true;
-  const double square = angle * angle;
-  if (square <= 2 * tolerance * std::abs(after - before)) return false;
-  const double unseen = std::min({std::abs(before), std::abs(after), kWave * range});
+  std::vector<Kink> kinks;
+  const auto look = [&](double at, const curve::Jet2& end, const curve::Jet2& start) {
+    const double angle =
+        std::abs(core::wrap_angle(curve::tangent_angle(start) - curve::tangent_angle(end)));
+    if (!(angle <= kSmooth))
+      kinks.push_back({at, angle, curve::curvature(end), curve::curvature(start)});
+  };
+  if (closed) look(0, view.jet_at(1), view.jet_at(0));
+  for (std::size_t k = 1; k + 1 < view.breaks().size(); ++k) {
+    const double t = view.breaks()[k];
+    look(table.length_at(t), view.jet_at(std::nextafter(t, 0.0)), view.jet_at(t));
+  }
+  return kinks;
+}
+
+/// Whether a kink is a corner. Within the tolerance d a kink of t is hidden by a step of curvature
+/// there that comes earlier or later by t / step: d = t^2 / (2 step); or by an arc of curvature
+/// t^2 / (8 d), where the curve on either side is bent more, and that is no wave.
+bool is_corner(const Kink& kink, double tolerance, double range) {
+  if (!std::isfinite(kink.before) || !std::isfinite(kink.after)) return true;
+  const double square = kink.angle * kink.angle;
+  if (square <= 2 * tolerance * std::abs(kink.after - kink.before)) return false;
+  const double unseen =
+      std::min({std::abs(kink.before), std::abs(kink.after), analysis::kSeenWave * range});
   return square > 8 * tolerance * unseen;
 }
 
@@ -119,15 +139,11 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path, double toleran
   const int n = std::max<int>(kCurveSamples, 40 * static_cast<int>(path.curves.size()) + 1);
   if (!(tolerance > 0))
     tolerance = fairing::default_tolerance(0, length, static_cast<std::size_t>(n));
+  const std::vector<Kink> kinks = kinks_of(view, table, line.closed);
+  const double range = kinks.empty() ? 0 : curvature_range(view, n);
   std::vector<double> corners;
-  const double range = curvature_range(view, n);
-  if (line.closed && is_corner(view.jet_at(1), view.jet_at(0), tolerance, range))
-    corners.push_back(0);
-  for (std::size_t k = 1; k + 1 < view.breaks().size(); ++k) {
-    const double t = view.breaks()[k];
-    if (is_corner(view.jet_at(std::nextafter(t, 0.0)), view.jet_at(t), tolerance, range))
-      corners.push_back(table.length_at(t));
-  }
+  for (const Kink& kink : kinks)
+    if (is_corner(kink, tolerance, range)) corners.push_back(kink.at);
   std::vector<double> at;
   for (int i = 0; i < n; ++i) at.push_back(length * i / (n - 1));
   at.insert(at.end(), corners.begin(), corners.end());

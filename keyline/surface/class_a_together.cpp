@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/surface/edit_curve.h"
+#include "keyline/surface/edit_targets.h"
 #include "keyline/surface/strands.h"
 
 namespace keyline::surface::detail {
@@ -220,9 +221,9 @@ class Search {
         s.growth.reset();
         s.firm = false;
         if (s.asked != Asked::one_matrix) continue;
-        const auto& p = c.control;
-        const bool falls = core::distance(p[p.size() - 2], p.back()) < core::distance(p[0], p[1]);
-        const CurveTask own{p, falls, {}, task_.options.end_tolerance, task_.options.alpha_max};
+        const bool falls = own_sense(c).rows_from_end;
+        const CurveTask own{
+            c.control, falls, {}, task_.options.end_tolerance, task_.options.alpha_max};
         if (const auto m = minimum_of(own)) s.growth = (falls ? -1 : 1) * std::log(m->s);
       }
   }

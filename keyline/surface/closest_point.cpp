@@ -23,8 +23,9 @@ JetGrid grid_of(const Surface& s) {
 
 double squared(const Vector3& v) { return dot(v, v); }
 
-/// Step of Gauss-Newton with u or v left where they are if they stand at a border and pull out.
-std::array<double, 2> step_from(const SurfaceJet& j, const Vector3& d, double u, double v) {
+}  // namespace
+
+std::array<double, 2> foot_step(const SurfaceJet& j, const Vector3& d, double u, double v) {
   const double gu = dot(d, j.u);
   const double gv = dot(d, j.v);
   const bool fixed_u = (u <= 0 && gu > 0) || (u >= 1 && gu < 0);
@@ -39,8 +40,6 @@ std::array<double, 2> step_from(const SurfaceJet& j, const Vector3& d, double u,
   if (!(det > 1e-14 * a * c)) return {a > 0 ? -gu / a : 0, 0};
   return {(b * gv - c * gu) / det, (b * gu - a * gv) / det};
 }
-
-}  // namespace
 
 ClosestPoint::ClosestPoint(const Surface& s) : surface_(s), grid_(grid_of(s)) {}
 
@@ -62,7 +61,7 @@ SurfacePoint ClosestPoint::operator()(const Point3& p) const {
   at.point = grid_.jets[best].point;
   for (int i = 0; i < 40; ++i) {
     const SurfaceJet j = jet(surface_, at.u, at.v);
-    auto [du, dv] = step_from(j, j.point - p, at.u, at.v);
+    auto [du, dv] = foot_step(j, j.point - p, at.u, at.v);
     bool better = false;
     for (double share = 1; share > 1e-3 && !better; share *= 0.5) {
       const double u = std::clamp(at.u + share * du, 0.0, 1.0);

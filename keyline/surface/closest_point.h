@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "keyline/surface/sample_grid.h"
 #include "keyline/surface/surface.h"
 
@@ -11,6 +13,10 @@ struct SurfacePoint {
   core::Point3 point;
   double distance = 0;
 };
+
+/// Step of Gauss-Newton in (u, v) towards the foot of a point, from the place of the jet, `off` it;
+/// u or v stay where they are if they stand at a border and pull out.
+std::array<double, 2> foot_step(const SurfaceJet& j, const core::Vector3& off, double u, double v);
 
 /// Nearest points of one surface: the nearest of a grid of places, then Gauss-Newton within [0, 1].
 /// Good to rounding where the given point is nearer than the surface's radii of curvature and the

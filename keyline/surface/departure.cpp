@@ -80,18 +80,6 @@ class Places {
   detail::Strip strip_;
 };
 
-/// The way of Gauss and Newton from (u, v) towards the foot, along the border where it would leave.
-std::pair<double, double> way(const SurfaceJet& j, const Vector3& off, double u, double v) {
-  const double gu = dot(off, j.u), gv = dot(off, j.v);
-  const double a = dot(j.u, j.u), b = dot(j.u, j.v), c = dot(j.v, j.v);
-  const bool along_u = !((u <= 0 && gu > 0) || (u >= 1 && gu < 0)) && a > 0;
-  const bool along_v = !((v <= 0 && gv > 0) || (v >= 1 && gv < 0)) && c > 0;
-  const double det = a * c - b * b;
-  if (along_u && along_v && det > 1e-14 * a * c)
-    return {(b * gv - c * gu) / det, (b * gu - a * gv) / det};
-  return {along_u ? -gu / a : 0, along_v ? -gv / c : 0};
-}
-
 /// Close to the nearest point of the patch to p, from (u, v): any point makes a sound bound.
 SurfacePoint foot(Places& s, const Point3& p, double u, double v) {
   constexpr int kSteps = 6;
@@ -99,7 +87,7 @@ SurfacePoint foot(Places& s, const Point3& p, double u, double v) {
   at.distance = distance(at.point, p);
   for (int i = 0; i < kSteps; ++i) {
     const SurfaceJet j = s.jet(at.u, at.v);
-    const auto [du, dv] = way(j, j.point - p, at.u, at.v);
+    const auto [du, dv] = foot_step(j, j.point - p, at.u, at.v);
     SurfacePoint next;
     next.u = std::clamp(at.u + du, 0.0, 1.0);
     next.v = std::clamp(at.v + dv, 0.0, 1.0);
