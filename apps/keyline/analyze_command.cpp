@@ -92,7 +92,7 @@ struct Analysed {
 };
 
 Result<void> analyze_one(Session& session, const json& thing, const core::Progress& progress,
-                         Analysed& all) {
+                         std::size_t count, Analysed& all) {
   json request = session.of(kCurves);
   request.update(subject_of(thing));
   const std::string name = thing["name"].get<std::string>();
@@ -101,9 +101,10 @@ Result<void> analyze_one(Session& session, const json& thing, const core::Progre
   auto shown = shown_of(*outcome);
   if (!shown) return std::unexpected(shown.error());
   const json curve = shown->contains("spline") ? (*shown)["spline"] : thing["curve"];
-  ShownAnalysis page{{name, std::move(*outcome)}, {}};
+  const std::string heading = called(name, "curve", all.shown.size(), count);
+  ShownAnalysis page{{heading, std::move(*outcome)}, {}};
   (*shown)["class_a"] = class_a_of(session, curve, progress, page);
-  all.text += text_of(name, *shown);
+  all.text += text_of(heading, *shown);
   if (!name.empty()) (*shown)["name"] = name;
   all.curves.push_back({{"name", name}, {"curve", curve}});
   all.shown.push_back(std::move(*shown));
@@ -124,7 +125,8 @@ int analyze_curves(Session& session, const ReadFiles& read) {
   if (!things) return report_failure(things.error(), session.files().front());
   for (const json& thing : *things) {
     const std::size_t at = all.shown.size();
-    if (auto done = analyze_one(session, thing, one_of_many(progress, at, things->size()), all);
+    if (auto done = analyze_one(session, thing, one_of_many(progress, at, things->size()),
+                                things->size(), all);
         !done)
       return report_failure(told_how_far(done.error(), at, things->size()),
                             session.files().front());

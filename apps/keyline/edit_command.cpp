@@ -122,13 +122,15 @@ Result<operations::Outcome> edit_one(Session& session, const json& request) {
   return session.perform("curve.edit_pieces", pieces, {});
 }
 
-Result<void> add_curve(Session& session, const json& thing, json& request, EditedCurves& all) {
+/// `heading`: what the curve is called on the terminal and in reports.
+Result<void> add_curve(Session& session, const json& thing, const std::string& heading,
+                       json& request, EditedCurves& all) {
   request["curve"] = curve_of(thing);
   const std::string name = thing["name"].get<std::string>();
   auto outcome = edit_one(session, request);
   if (!outcome) {
     if (all.left.empty()) all.first = outcome.error();
-    all.left.push_back((name.empty() ? "a curve" : name) +
+    all.left.push_back((heading.empty() ? "the curve" : heading) +
                        " left as given: " + outcome.error().message);
     all.curves.push_back(thing);
     return {};
@@ -136,7 +138,7 @@ Result<void> add_curve(Session& session, const json& thing, json& request, Edite
   auto one = shown_of(*outcome);
   if (!one) return std::unexpected(one.error());
   const bool pieces = one->contains("pieces");
-  all.text += pieces ? pieces_text(name, *one) : text_of(name, *one);
+  all.text += pieces ? pieces_text(heading, *one) : text_of(heading, *one);
   json written = thing;
   written["curve"] = (*one)["curve"];
   written.erase("line");
@@ -144,7 +146,7 @@ Result<void> add_curve(Session& session, const json& thing, json& request, Edite
   if (!name.empty()) (*one)["name"] = name;
   all.shown.push_back(std::move(*one));
   if (!pieces && outcome->result_as<operations::CurveEditAnswer>()->edited)
-    all.whole.push_back({name, std::move(*outcome)});
+    all.whole.push_back({heading, std::move(*outcome)});
   return {};
 }
 
@@ -172,9 +174,13 @@ int edit_curves(Session& session, const ReadFiles& read) {
   if (session.door().tolerance && !request.contains("fit_tolerance"))
     request["fit_tolerance"] = *session.door().tolerance;
   EditedCurves all;
-  for (const json& thing : read.shown["curves"])
-    if (auto done = add_curve(session, thing, request, all); !done)
+  const json& curves = read.shown["curves"];
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::string name = curves[i]["name"].get<std::string>();
+    const std::string heading = called(name, "curve", i, curves.size());
+    if (auto done = add_curve(session, curves[i], heading, request, all); !done)
       return report_failure(done.error());
+  }
   if (all.shown.empty() && !all.left.empty())
     return report_failure(all.first, session.files().front());
   if (all.shown.empty())
@@ -232,15 +238,16 @@ int edit_surfaces(Session& session, const ReadFiles& read) {
   std::string text;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::string name = given[i]["name"].get<std::string>();
+    const std::string heading = called(name, "surface", i, given.size());
     const json& one = (*result)["surfaces"][i];
     if (!one.contains("edit")) {
-      say(session.door().quiet,
-          (name.empty() ? "a surface" : name) + " left as given: " + one["why"].get<std::string>());
+      say(session.door().quiet, (heading.empty() ? "the surface" : heading) +
+                                    " left as given: " + one["why"].get<std::string>());
       written.push_back(given[i]);
       continue;
     }
     add_edited(given[i], one["edit"], written);
-    text += surface_edit_text(name, one["edit"]);
+    text += surface_edit_text(heading, one["edit"]);
     shown.push_back(one["edit"]);
     if (!name.empty()) shown.back()["name"] = name;
   }

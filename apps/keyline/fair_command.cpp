@@ -146,7 +146,8 @@ Result<Faired> kept(Answers answers, const std::vector<json>& things) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (!answers[i]) continue;
     if (*answers[i]) {
-      faired.all.push_back({things[i]["name"].get<std::string>(), std::move(**answers[i])});
+      const std::string name = things[i]["name"].get<std::string>();
+      faired.all.push_back({called(name, "curve", i, things.size()), std::move(**answers[i])});
       faired.things.push_back(things[i]);
       continue;
     }
@@ -184,7 +185,7 @@ json document_of(const Faired& faired, const std::vector<json>& shown, const Rea
   double tolerance = answer_of(faired.all.front()).tolerance;
   for (std::size_t i = 0; i < faired.all.size(); ++i) {
     const Shown& one = faired.all[i];
-    json curve{{"name", one.name}, {"curve", shown[i]["curve"]}};
+    json curve{{"name", faired.things[i]["name"]}, {"curve", shown[i]["curve"]}};
     for (const char* look : {"layer", "color", "stroke_width", "plane"})
       if (faired.things[i].contains(look)) curve[look] = faired.things[i][look];
     document["curves"].push_back(std::move(curve));

@@ -189,6 +189,11 @@ Result<std::vector<json>> planar_things(const ReadFiles& read) {
   return things;
 }
 
+std::string called(const std::string& name, const char* kind, std::size_t index,
+                   std::size_t count) {
+  return name.empty() && count > 1 ? fmt::format("{} {}", kind, index + 1) : name;
+}
+
 Result<ReadFiles> read_files(Session& session, json request, bool planar) {
   auto outcome = read_outcome(session, std::move(request), planar);
   if (!outcome) return std::unexpected(outcome.error());

@@ -153,6 +153,10 @@ core::Result<ReadFiles> read_files(Session& session, nlohmann::json request, boo
 /// Points and curves in the plane among what was read, where they are not too many to work on.
 core::Result<std::vector<nlohmann::json>> planar_things(const ReadFiles& read);
 
+/// What a thing of a file is called where it is told of: by its name, else "curve 3", by its place
+/// among those read, from 1. One alone without a name is called nothing.
+std::string called(const std::string& name, const char* kind, std::size_t index, std::size_t count);
+
 /// A curve of document.read as a request for one curve has it, and as one for measured points has.
 nlohmann::json curve_of(const nlohmann::json& thing);
 nlohmann::json subject_of(const nlohmann::json& thing);

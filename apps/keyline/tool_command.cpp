@@ -82,8 +82,15 @@ struct Made {
   std::string text;
 };
 
+/// `name`: of what it is done to; `heading`: what that is called on the terminal.
+struct Of {
+  std::string name;
+  std::string heading;
+};
+
 Result<void> run_one(Session& session, const Operation& operation, const json& request,
-                     const std::string& name, const core::Progress& progress, Made& made) {
+                     const Of& of, const core::Progress& progress, Made& made) {
+  const std::string& name = of.name;
   const auto outcome = session.perform(operation.name, request, progress);
   if (!outcome) return std::unexpected(outcome.error());
   auto result = shown_of(*outcome);
@@ -96,8 +103,8 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
          {"curve", curves[i]}});
   if (result->contains("surface") && (*result)["surface"].is_object())
     made.document["surfaces"].push_back({{"name", name}, {"surface", (*result)["surface"]}});
-  made.text +=
-      (name.empty() ? "" : name + "\n") + summary(*operation.result, outcome->result.get());
+  made.text += (of.heading.empty() ? "" : of.heading + "\n") +
+               summary(*operation.result, outcome->result.get());
   made.shown.push_back(std::move(*result));
   return {};
 }
@@ -149,12 +156,14 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
   json request = session.of(0);
   if (has_field(operation, "curves")) {
     for (const json& thing : things) request["curves"].push_back(curve_of(thing));
-    return run_one(session, operation, request, "", session.progress(), made);
+    return run_one(session, operation, request, {}, session.progress(), made);
   }
   for (std::size_t i = 0; i < things.size(); ++i) {
     request["curve"] = curve_of(things[i]);
-    if (auto done = run_one(session, operation, request, things[i]["name"].get<std::string>(),
-                            one_of_many(session.progress(), i, things.size()), made);
+    const std::string name = things[i]["name"].get<std::string>();
+    if (auto done =
+            run_one(session, operation, request, {name, called(name, "curve", i, things.size())},
+                    one_of_many(session.progress(), i, things.size()), made);
         !done)
       return std::unexpected(told_how_far(done.error(), i, things.size()));
   }
@@ -217,7 +226,7 @@ Result<void> run_across(Session& session, const Operation& operation, Made& made
     for (const json& thing : *curves)
       request[way == 0 ? "along_u" : "along_v"].push_back(curve_of(thing));
   }
-  auto done = run_one(session, operation, request, "", session.progress(), made);
+  auto done = run_one(session, operation, request, {}, session.progress(), made);
   if (!done) done = std::unexpected(of_files(session, done.error()));
   return done;
 }
@@ -320,7 +329,7 @@ int run_plain(const std::string& name, const Words& words) {
   const auto& files = session.files();
   if (!files.empty()) request["file"] = files.size() == 1 ? json(files.front()) : json(files);
   Made made;
-  if (auto done = run_one(session, operation, request, "", session.progress(), made); !done)
+  if (auto done = run_one(session, operation, request, {}, session.progress(), made); !done)
     return report_failure(done.error());
   return finish(session, made);
 }
