@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/text.h"
 #include "keyline/operations/perform.h"
 
 #include "batch.h"
@@ -155,12 +156,13 @@ nlohmann::json defaults_of(const DoorOptions& door) {
 
 void tell(const DoorOptions& door, const BatchReport& report, const Sink& sink) {
   std::string text;
-  if (sink.answers > 0) text = fmt::format("{} lines were answered before; ", sink.answers);
+  if (sink.answers > 0)
+    text = core::counted(static_cast<std::size_t>(sink.answers), "line") + " answered before; ";
   const int workers = workers_of(door);
-  text +=
-      fmt::format("{} lines in {:.3g} s, {:.0f} per second, {} {}", report.lines, report.seconds,
-                  static_cast<double>(report.lines) / std::max(report.seconds, 1e-9), workers,
-                  workers == 1 ? "worker" : "workers");
+  text += fmt::format("{} in {:.3g} s, {:.3g} per second, {}",
+                      core::counted(static_cast<std::size_t>(report.lines), "line"), report.seconds,
+                      static_cast<double>(report.lines) / std::max(report.seconds, 1e-9),
+                      core::counted(static_cast<std::size_t>(workers), "worker"));
   if (report.crashed > 0) text += fmt::format(", {} brought a worker down", report.crashed);
   if (report.expired > 0) text += fmt::format(", {} over the time limit", report.expired);
   say(door.quiet, text);

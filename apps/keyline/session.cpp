@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "keyline/core/version.h"
+#include "keyline/operations/amount.h"
 #include "keyline/operations/schema.h"
 
 #include "terminal.h"

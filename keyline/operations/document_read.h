@@ -147,10 +147,6 @@ struct ReadAnswer {
   }
 };
 
-/// Refuses what would take hours to look at piece by piece (`fair`, `curve.analyze`): planar curves
-/// of more than 10,000 bent spans together, which a small file with many references can hold.
-core::Result<void> check_amount(const ReadAnswer& read);
-
 /// The things of a file: measured points as acquired lines, all else as curves and surfaces.
 core::Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress& progress);
 

@@ -8,6 +8,7 @@
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
 #include "keyline/fairing/fair.h"
+#include "keyline/operations/amount.h"
 
 namespace keyline::operations {
 namespace {
@@ -168,7 +169,13 @@ Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject) {
   if (subject.line) return Line{subject.line};
   const std::vector<core::Point2> points =
       subject.points ? *subject.points : vertices_of(*subject.curve);
-  if (points.empty()) return Line{};
+  if (points.empty()) {
+    if (auto few = check_amount(*subject.curve); !few) {
+      few.error().path = "curve";
+      return std::unexpected(few.error());
+    }
+    return Line{};
+  }
   auto line = acquired(points, subject);
   if (!line) return std::unexpected(line.error());
   return Line{std::move(*line)};

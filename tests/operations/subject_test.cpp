@@ -61,5 +61,21 @@ TEST(SampledLine, HasACornerBetweenLines) {
   EXPECT_EQ(line->corners.size(), 1U);
 }
 
+// Through every door, not of files alone: 20,000 cubics took more than three minutes in a batch.
+TEST(MeasuredLine, RefusesWhatWouldTakeHours) {
+  Subject subject;
+  subject.curve.emplace();
+  document::Path& path = *subject.curve;
+  for (int i = 0; i < 10001; ++i)
+    path.curves.push_back({curve::Bezier2{{{1.0 * i, 0}, {i + 0.5, 1}, {i + 1.0, 0}}, {}}});
+  const auto refused = measured_line(subject);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::ErrorCode::unsupported);
+  EXPECT_EQ(refused.error().path, "curve");
+  EXPECT_EQ(refused.error().message, "a curve of 10001 spans; at most 10000 at a time");
+  path.curves.pop_back();
+  EXPECT_TRUE(measured_line(subject));
+}
+
 }  // namespace
 }  // namespace keyline::operations
