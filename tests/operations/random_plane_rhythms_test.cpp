@@ -172,7 +172,11 @@ TEST(RandomPlaneRhythms, TheCurveThatTurnsLeastIsFoundFromEitherEnd) {
        0.354441},
       {{-1.758235333382902, -1, 0.8995923274628501},
        towards(0.999119444242301, -0.03473314283145471, 0.999762388372506, 0.021798320937687996),
-       0.136930}};
+       0.136930},
+      // All but e^-10 of what the second piece bears: its curvature grows 23,000 times.
+      {{-2, 1, 0.6076109436475291},
+       towards(0.9345921446183115, -0.030756747658308416, 0.5134956143236548, 0.8580922176959609),
+       1.253982}};
   for (const Known& k : known) {
     const json request = in_space(k.rhythm, k.end, 1);
     for (const json& asked : {request, run_back(request)}) {
@@ -191,6 +195,19 @@ TEST(RandomPlaneRhythms, AnInflectionThatNoRateAllowsIsRefusedWithItsReason) {
   EXPECT_EQ(answer["error"]["code"], "undrawable") << answer;
   request["ratio"] = 0.9;
   EXPECT_EQ(answered(request)["ok"], true);
+}
+
+/// What a tangent keeps of its direction across the chord has few digits: 2.7e-6 of it.
+TEST(RandomPlaneRhythms, ATangentNextToTheChordCostsNoDigits) {
+  own::Place end;
+  end.x = 0.9995969987550086;
+  end.y = 2.7028404791656913e-06;
+  end.direction = std::atan2(0.07067542172675434, 0.997499365796162);
+  const json request = in_space({-2, -1.321888890135827, 0.48301886370881986}, end, 1);
+  const own::Place met = own::walked(flat(own::result_of(request)["curve"])).end();
+  EXPECT_NEAR(met.x, end.x, 1e-13);
+  EXPECT_NEAR(met.y, end.y, 1e-13);
+  EXPECT_NEAR(met.direction, end.direction, 1e-13);
 }
 
 /// Equal tangents on one side of the chord: a clothoid with the inflection in its middle.

@@ -4,14 +4,10 @@
 
 #include "keyline/core/interval.h"
 #include "keyline/lac/chain/chain.h"
+#include "keyline/lac/space/compound_family.h"
 
 /// Internals: compound rhythm in a plane between two directions, an inflection allowed.
 namespace keyline::lac::detail::space {
-
-struct PlaneRhythm {
-  double alpha0 = -1, alpha1 = 1;
-  double length_share = 0.5;  ///< of the whole length in the first piece
-};
 
 struct PlaneSearch {
   std::optional<Chain> found;  ///< chord of length 1 along x
@@ -26,10 +22,11 @@ struct PlaneSearch {
 
 /// Two pieces with curvature and its rate equal at the joint, that leave the start of a chord along
 /// x at `from` and reach its end at `to`, radians in (-pi, pi], turning by to - from. Of several
-/// the one that turns least, to either side. Everything but the size follows from the rate at the
-/// joint relative to curvature there: without an inflection one equation, with one two for rate and
-/// size, both looked for over all of them. The mirrored and the reversed problem get the same
-/// curve. Ends are met to 1e-13. 5 to 20 ms.
+/// the one that turns least, to either side. The rate at the joint relative to curvature there
+/// decides the shape, the turning then the size; what is left is one equation, that of the start's
+/// direction, whose roots are looked for along all rates. Where the curve turns as much to either
+/// side as to the other any size turns alike: there the size leads and the rate follows. The
+/// mirrored and the reversed problem get the same curve. Ends are met to 1e-13. About 1 ms.
 PlaneSearch solve_compound_plane(double from, double to, const PlaneRhythm& rhythm);
 
 }  // namespace keyline::lac::detail::space

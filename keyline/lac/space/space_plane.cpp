@@ -41,8 +41,8 @@ double first_sense(const Chain& curve) {
 
 ChordFrame plane_of(const Setting& setting) {
   const SpaceHermite& data = setting.data;
-  const bool along = !(setting.wanted.first > 1e-14);
-  return chord_frame(data.end - data.start, along ? data.end_tangent : data.start_tangent);
+  const bool start_leaves = std::sin(setting.wanted.first) >= std::sin(setting.wanted.last);
+  return chord_frame(data.end - data.start, start_leaves ? data.start_tangent : data.end_tangent);
 }
 
 std::array<double, 2> directions_in(const ChordFrame& plane, const SpaceHermite& data) {

@@ -9,7 +9,8 @@
 /// Internals: plane curves as answers to data in space that lie in one plane.
 namespace keyline::lac::detail::space {
 
-/// The plane of the data: x along the chord, y towards the side a tangent leaves it to.
+/// The plane of the data: x along the chord, y towards the side to which it is left by the tangent
+/// that leaves it more.
 ChordFrame plane_of(const Setting& setting);
 /// Directions of both tangents in that plane, against the chord.
 std::array<double, 2> directions_in(const ChordFrame& plane, const SpaceHermite& data);

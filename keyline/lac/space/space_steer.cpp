@@ -45,7 +45,8 @@ ChordFrame chord_frame(Vector3 chord, Vector3 side) {
   Vector3 across = side - dot(side, x) * x;
   if (norm(across) < 1e-14)
     across = cross(x, std::abs(x.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0});
-  const Vector3 y = unit(across);
+  const Vector3 nearly = unit(across);  // what is small has kept a share of x
+  const Vector3 y = unit(nearly - dot(nearly, x) * x);
   return {x, y, cross(x, y)};
 }
 
