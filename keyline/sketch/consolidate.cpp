@@ -6,7 +6,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/core/polygon.h"
-#include "keyline/sketch/hand_share.h"
+#include "keyline/sketch/hand_seen.h"
 #include "keyline/sketch/meant_line.h"
 #include "keyline/sketch/pass_evidence.h"
 #include "keyline/sketch/stroke_grid.h"
@@ -76,13 +76,13 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
   Passes all;
   all.pen =
       options.measured ? Pen{options.width, options.width} : plausible_pen(strokes, options.width);
-  all.model = {all.pen.counted, options.apart, options.hand, options.angle};
+  const PassModel at_most{all.pen.counted, options.apart, options.hand, options.angle};
   for (const DrawnStroke& s : strokes) {
     if (s.points.size() < 2) throw core::InvalidInput("consolidate needs two points per stroke");
-    all.sampled.push_back(sample_stroke(s.points, s.closed, std::max(all.model.width, 1e-12)));
+    all.sampled.push_back(sample_stroke(s.points, s.closed, std::max(at_most.width, 1e-12)));
   }
-  all.model.hand = hand_share(all.sampled, all.model);
-  all.evidence = pass_evidence(all.sampled, all.model);
+  all.model = hand_seen(all.sampled, at_most);
+  all.evidence = pass_evidence(all.sampled, all.model, at_most);
   wish(options.wishes, all.evidence);
   return all;
 }

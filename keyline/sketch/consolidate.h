@@ -18,7 +18,7 @@ struct DrawnStroke {
 struct ConsolidateOptions {
   double width = 1;         ///< of the pen, in the strokes' unit
   bool measured = false;    ///< the width was measured: it is taken as it is
-  double apart = 4;         ///< widths: farthest apart two passes of one line lie, and …
+  double apart = 4;         ///< widths: farthest apart two passes of one line lie, at most, and …
   double hand = 0.09;       ///< … the share of their length that the hand errs on top, at most
   double angle = 0.45;      ///< radians: strokes that differ more in direction are different lines
   GroupWishes wishes = {};  ///< numbers are places in the strokes given

@@ -16,7 +16,7 @@ using core::Point2;
 using core::Vector2;
 
 constexpr double kAgainst = 0.8;   ///< most that a place speaks against: hands slip
-constexpr double kSeen = 2.5;      ///< distances allowed: what is farther away is not compared
+constexpr double kSeen = 2.5;      ///< distances at most: what is farther away is not compared
 constexpr double kShadowed = 0.5;  ///< of what speaks against is left across a stroke in between
 constexpr double kGoesOn = 0.7;    ///< of what speaks for it, where one ends and the other goes on
 constexpr double kGap = 3;         ///< widths: a line across a longer gap would be off its strokes
@@ -32,10 +32,12 @@ struct Beside {
 
 class Witness {
  public:
-  Witness(const std::vector<SampledStroke>& strokes, const PassModel& model)
+  Witness(const std::vector<SampledStroke>& strokes, const PassModel& model,
+          const PassModel& at_most)
       : strokes_(strokes),
         model_(model),
-        seen_(kSeen * pass_distance(model, longest(strokes))),
+        at_most_(at_most),
+        seen_(kSeen * pass_distance(at_most, longest(strokes))),
         grid_(strokes, seen_),
         place_(strokes.size(), 0) {}
 
@@ -95,8 +97,9 @@ class Witness {
   double speaks(std::size_t a, std::size_t k, std::size_t i) const {
     const Beside& b = beside_[i];
     const SampledStroke& other = strokes_[b.stroke];
-    const double apart = pass_distance(model_, std::min(strokes_[a].length, other.length));
-    if (b.distance > kSeen * apart) return 0;
+    const double shorter = std::min(strokes_[a].length, other.length);
+    if (b.distance > kSeen * pass_distance(at_most_, shorter)) return 0;
+    const double apart = pass_distance(model_, shorter);
     const double turn = b.angle / model_.angle;
     const Vector2 tangent = other.tangents[b.sample];
     const Vector2 from = strokes_[a].points[k] - other.points[b.sample];
@@ -125,6 +128,7 @@ class Witness {
 
   const std::vector<SampledStroke>& strokes_;
   const PassModel& model_;
+  const PassModel& at_most_;
   double seen_;
   StrokeGrid grid_;
   std::vector<Beside> beside_;
@@ -137,8 +141,9 @@ double pass_distance(const PassModel& model, double length) {
   return std::hypot(model.apart * model.width, model.hand * length);
 }
 
-PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model) {
-  return Witness(strokes, model).evidence();
+PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model,
+                           const PassModel& at_most) {
+  return Witness(strokes, model, at_most).evidence();
 }
 
 std::vector<std::vector<std::size_t>> group_by_evidence(const PassEvidence& evidence) {

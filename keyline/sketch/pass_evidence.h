@@ -26,8 +26,10 @@ double pass_distance(const PassModel& model, double length);
 /// lengths of the distance allowed: 1 on top of each other, 0 at that distance or angle, negative
 /// beyond (with the cosine of the angle: crossing lines say nothing), half of that where another
 /// stroke lies in between, nothing where they do not lie beside each other. An end that goes on
-/// where another ends speaks for both, as far as `kGap` widths.
-PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model);
+/// where another ends speaks for both, as far as `kGap` widths. Strokes are compared as far as
+/// passes of any hand may lie apart: lines that touch are kept apart by all of their way.
+PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model,
+                           const PassModel& at_most);
 
 /// Strokes put together, most evidence first, as long as what speaks for two groups being one
 /// outweighs what speaks against (greedy additive contraction, [Keuper 2015]). Groups and

@@ -1,4 +1,4 @@
-#include "keyline/sketch/hand_share.h"
+#include "keyline/sketch/hand_seen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,9 @@
 namespace keyline::sketch {
 namespace {
 
-constexpr double kSpread = 10;   ///< farthest passes lie so many times as far apart as nearest ones
+constexpr double kWidths = 5;   ///< farthest passes lie so many times as far apart as nearest ones,
+constexpr double kSpread = 10;  ///< and so many times as shares of their length
+constexpr double kTouch = 1;    ///< widths: nearer, the ink touches
 constexpr double kBeside = 0.5;  ///< of a stroke: less beside others says nothing
 constexpr double kAhead = 2;     ///< pens along the stroke: what is farther on lies not beside it
 
@@ -33,24 +35,31 @@ double nearest_beside(const StrokeGrid& grid, const std::vector<SampledStroke>& 
 
 }  // namespace
 
-double hand_share(const std::vector<SampledStroke>& strokes, const PassModel& model) {
+PassModel hand_seen(const std::vector<SampledStroke>& strokes, const PassModel& most) {
   double longest = 0;
   for (const SampledStroke& s : strokes) longest = std::max(longest, s.length);
-  const StrokeGrid grid(strokes, pass_distance(model, longest));
-  std::vector<double> shares;
+  const StrokeGrid grid(strokes, pass_distance(most, longest));
+  std::vector<double> shares;   // by stroke
+  std::vector<double> spacing;  // by place of a stroke
   std::vector<double> apart;
   for (std::size_t a = 0; a < strokes.size(); ++a) {
-    const double reach = pass_distance(model, strokes[a].length);
+    const double reach = pass_distance(most, strokes[a].length);
     apart.clear();
     for (std::size_t k = 0; k < strokes[a].points.size(); k += 2)
-      if (const double d = nearest_beside(grid, strokes, a, k, reach, model); d <= reach)
+      if (const double d = nearest_beside(grid, strokes, a, k, reach, most); d <= reach)
         apart.push_back(d);
-    if (2 * static_cast<double>(apart.size()) >
+    if (2 * static_cast<double>(apart.size()) <=
         kBeside * static_cast<double>(strokes[a].points.size()))
-      shares.push_back(core::quantile(apart) / strokes[a].length);
+      continue;
+    shares.push_back(core::quantile(apart) / strokes[a].length);
+    spacing.insert(spacing.end(), apart.begin(), apart.end());
   }
-  if (shares.empty()) return model.hand;
-  return std::min(model.hand, kSpread * core::quantile(shares));
+  PassModel seen = most;
+  if (shares.empty()) return seen;
+  const double widths = kWidths * core::quantile(spacing) / most.width;
+  seen.apart = std::min(most.apart, std::max(kTouch, widths));
+  seen.hand = std::min(most.hand, kSpread * core::quantile(shares));
+  return seen;
 }
 
 }  // namespace keyline::sketch
