@@ -81,8 +81,9 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
     if (s.points.size() < 2) throw core::InvalidInput("consolidate needs two points per stroke");
     all.sampled.push_back(sample_stroke(s.points, s.closed, std::max(at_most.width, 1e-12)));
   }
-  all.model = hand_seen(all.sampled, at_most);
-  all.evidence = pass_evidence(all.sampled, all.model, at_most);
+  const PassReach reach = hand_seen(all.sampled, at_most);
+  all.model = reach.seen;
+  all.evidence = pass_evidence(all.sampled, reach);
   wish(options.wishes, all.evidence);
   return all;
 }

@@ -33,33 +33,41 @@ double nearest_beside(const StrokeGrid& grid, const std::vector<SampledStroke>& 
   return nearest;
 }
 
+/// Distances of what runs beside a stroke along it; none where that is less than half of it.
+std::vector<double> beside(const StrokeGrid& grid, const std::vector<SampledStroke>& strokes,
+                           std::size_t own, const PassModel& model) {
+  const double reach = pass_distance(model, strokes[own].length);
+  const std::size_t n = strokes[own].points.size();
+  std::vector<double> apart;
+  for (std::size_t k = 0; k < n; k += 2)
+    if (const double d = nearest_beside(grid, strokes, own, k, reach, model); d <= reach)
+      apart.push_back(d);
+  if (2 * static_cast<double>(apart.size()) <= kBeside * static_cast<double>(n)) apart.clear();
+  return apart;
+}
+
 }  // namespace
 
-PassModel hand_seen(const std::vector<SampledStroke>& strokes, const PassModel& most) {
+PassReach hand_seen(const std::vector<SampledStroke>& strokes, const PassModel& at_most) {
   double longest = 0;
   for (const SampledStroke& s : strokes) longest = std::max(longest, s.length);
-  const StrokeGrid grid(strokes, pass_distance(most, longest));
-  std::vector<double> shares;   // by stroke
-  std::vector<double> spacing;  // by place of a stroke
-  std::vector<double> apart;
+  const StrokeGrid grid(strokes, pass_distance(at_most, longest));
+  PassReach reach{at_most, at_most, {}};
+  std::vector<double> shares;  // by stroke
+  std::vector<double> places;  // of all strokes
   for (std::size_t a = 0; a < strokes.size(); ++a) {
-    const double reach = pass_distance(most, strokes[a].length);
-    apart.clear();
-    for (std::size_t k = 0; k < strokes[a].points.size(); k += 2)
-      if (const double d = nearest_beside(grid, strokes, a, k, reach, most); d <= reach)
-        apart.push_back(d);
-    if (2 * static_cast<double>(apart.size()) <=
-        kBeside * static_cast<double>(strokes[a].points.size()))
-      continue;
-    shares.push_back(core::quantile(apart) / strokes[a].length);
-    spacing.insert(spacing.end(), apart.begin(), apart.end());
+    const std::vector<double> apart = beside(grid, strokes, a, at_most);
+    const double usual = core::quantile(apart);
+    reach.of_stroke.push_back(apart.empty() ? INFINITY : kSpread * usual);
+    if (!apart.empty()) shares.push_back(usual / strokes[a].length);
+    places.insert(places.end(), apart.begin(), apart.end());
   }
-  PassModel seen = most;
-  if (shares.empty()) return seen;
-  const double widths = kWidths * core::quantile(spacing) / most.width;
-  seen.apart = std::min(most.apart, std::max(kTouch, widths));
-  seen.hand = std::min(most.hand, kSpread * core::quantile(shares));
-  return seen;
+  if (shares.empty()) return reach;
+  const double widths = kWidths * core::quantile(places) / at_most.width;
+  reach.seen.apart = std::min(at_most.apart, std::max(kTouch, widths));
+  reach.seen.hand = std::min(at_most.hand, kSpread * core::quantile(shares));
+  for (double& far : reach.of_stroke) far = std::max(far, reach.seen.apart * at_most.width);
+  return reach;
 }
 
 }  // namespace keyline::sketch

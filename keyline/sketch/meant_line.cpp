@@ -43,7 +43,7 @@ class Line {
     step_ = std::max(options.step, longest / kMostSamples);
     for (const std::size_t m : members)
       strokes_.push_back(sample_stroke(strokes[m].points, strokes[m].closed, step_));
-    const double most = pass_distance(passes_, longest);
+    const double most = std::max(2 * width_, pass_distance(passes_, longest));
     near_ = std::clamp(kReachOfSpacing * spacing(most), 2 * width_, most);
   }
 

@@ -32,12 +32,11 @@ struct Beside {
 
 class Witness {
  public:
-  Witness(const std::vector<SampledStroke>& strokes, const PassModel& model,
-          const PassModel& at_most)
+  Witness(const std::vector<SampledStroke>& strokes, const PassReach& reach)
       : strokes_(strokes),
-        model_(model),
-        at_most_(at_most),
-        seen_(kSeen * pass_distance(at_most, longest(strokes))),
+        model_(reach.seen),
+        reach_(reach),
+        seen_(kSeen * pass_distance(reach.at_most, longest(strokes))),
         grid_(strokes, seen_),
         place_(strokes.size(), 0) {}
 
@@ -98,8 +97,9 @@ class Witness {
     const Beside& b = beside_[i];
     const SampledStroke& other = strokes_[b.stroke];
     const double shorter = std::min(strokes_[a].length, other.length);
-    if (b.distance > kSeen * pass_distance(at_most_, shorter)) return 0;
-    const double apart = pass_distance(model_, shorter);
+    if (b.distance > kSeen * pass_distance(reach_.at_most, shorter)) return 0;
+    const double apart = std::min(pass_distance(model_, shorter),
+                                  std::max(reach_.of_stroke[a], reach_.of_stroke[b.stroke]));
     const double turn = b.angle / model_.angle;
     const Vector2 tangent = other.tangents[b.sample];
     const Vector2 from = strokes_[a].points[k] - other.points[b.sample];
@@ -128,7 +128,7 @@ class Witness {
 
   const std::vector<SampledStroke>& strokes_;
   const PassModel& model_;
-  const PassModel& at_most_;
+  const PassReach& reach_;
   double seen_;
   StrokeGrid grid_;
   std::vector<Beside> beside_;
@@ -141,9 +141,8 @@ double pass_distance(const PassModel& model, double length) {
   return std::hypot(model.apart * model.width, model.hand * length);
 }
 
-PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassModel& model,
-                           const PassModel& at_most) {
-  return Witness(strokes, model, at_most).evidence();
+PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassReach& reach) {
+  return Witness(strokes, reach).evidence();
 }
 
 std::vector<std::vector<std::size_t>> group_by_evidence(const PassEvidence& evidence) {
