@@ -15,6 +15,12 @@ using detail::combination;
 using detail::derivative;
 using detail::product;
 
+double distance(const Box2& b, core::Point2 p) {
+  const double dx = std::max({b.low.x - p.x, p.x - b.high.x, 0.0});
+  const double dy = std::max({b.low.y - p.y, p.y - b.high.y, 0.0});
+  return std::hypot(dx, dy);
+}
+
 Box2 united(const Box2& a, const Box2& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};

@@ -22,6 +22,8 @@ inline double diagonal(const Box2& b) { return norm(b.high - b.low); }
 inline bool contains(const Box2& b, core::Point2 p) {
   return b.low.x <= p.x && p.x <= b.high.x && b.low.y <= p.y && p.y <= b.high.y;
 }
+/// How far a point is from a box; 0 within.
+double distance(const Box2& b, core::Point2 p);
 Box2 united(const Box2& a, const Box2& b);
 Box2 united(const Box2& a, core::Point2 p);
 

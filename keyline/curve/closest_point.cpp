@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "keyline/curve/bernstein.h"
+#include "keyline/curve/bounding_box.h"
 
 namespace keyline::curve {
 
@@ -116,20 +117,11 @@ class BezierSearch {
   double weight_ = 1;
 };
 
-/// Whether the control polygon's box leaves room for a point nearer than `distance`.
-bool may_be_nearer(const Bezier2& c, Point2 p, double distance) {
-  double dx = std::numeric_limits<double>::infinity();
-  double dy = dx;
-  double low_x = dx, low_y = dx, high_x = -dx, high_y = -dx;
-  for (const Point2& q : c.control) {
-    low_x = std::min(low_x, q.x);
-    high_x = std::max(high_x, q.x);
-    low_y = std::min(low_y, q.y);
-    high_y = std::max(high_y, q.y);
-  }
-  dx = std::max({low_x - p.x, p.x - high_x, 0.0});
-  dy = std::max({low_y - p.y, p.y - high_y, 0.0});
-  return std::hypot(dx, dy) <= distance;
+/// Whether the control polygon's box leaves room for a point nearer than `nearest`.
+bool may_be_nearer(const Bezier2& c, Point2 p, double nearest) {
+  Box2 hull{c.control.front(), c.control.front()};
+  for (const Point2 q : c.control) hull = united(hull, q);
+  return distance(hull, p) <= nearest;
 }
 
 }  // namespace

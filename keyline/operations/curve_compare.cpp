@@ -3,7 +3,7 @@
 
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
-#include "keyline/curve/closest_point.h"
+#include "keyline/document/closest_point.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/values.h"
 
@@ -73,12 +73,13 @@ struct CompareResult {
 CompareDeviation deviation_of(const document::Path& judged, const document::Path& held, int n) {
   const analysis::CurveView view = analysis::view(judged);
   const analysis::ArcLengthTable table(view);
+  const document::ClosestSearch nearest(held);
   CompareDeviation d;
   double squares = 0;
   for (int i = 0; i < n; ++i) {
     const double place = static_cast<double>(i) / (n - 1);
     const core::Point2 p = evaluate(judged, table.parameter_at(place * table.length()));
-    const double away = curve::closest_point(held, p).distance;
+    const double away = nearest(p).distance;
     squares += away * away;
     if (away > d.max || i == 0) d = {away, 0, p, place};
   }

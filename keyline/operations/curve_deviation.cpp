@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "keyline/analysis/profile.h"
-#include "keyline/curve/closest_point.h"
+#include "keyline/document/closest_point.h"
 #include "keyline/operations/paper_operations.h"
 #include "keyline/operations/values.h"
 
@@ -42,13 +42,22 @@ struct PointDeviation {
   }
 };
 
-Result<PointDeviation> run(const DeviationRequest& request, const Context&) {
+Result<PointDeviation> run(const DeviationRequest& request, const Context& context) {
+  constexpr std::size_t kLook = 1024;  // points between two looks at whether to go on
   const analysis::CurveView view = analysis::view(request.curve);
   const analysis::ArcLengthTable table(view);
+  const document::ClosestSearch nearest(request.curve);
   PointDeviation result;
   double squares = 0;
   for (const Point2& p : request.points) {
-    const curve::ClosestPoint foot = curve::closest_point(request.curve, p);
+    if (const std::size_t done = result.feet.size(); done % kLook == 0) {
+      if (context.progress.stop_requested())
+        return core::fail(core::ErrorCode::cancelled, "cancelled");
+      context.progress.report(
+          static_cast<double>(done) / static_cast<double>(request.points.size()),
+          "measuring points");
+    }
+    const curve::ClosestPoint foot = nearest(p);
     const double angle = curve::tangent_angle(jet(request.curve, foot.t));
     const core::Vector2 away = p - foot.point;
     const bool left = std::cos(angle) * away.y >= std::sin(angle) * away.x;
