@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "keyline/core/interval.h"
 #include "keyline/numeric/levenberg_marquardt.h"
 #include "keyline/numeric/solve.h"
 
@@ -191,12 +192,16 @@ LineModel two_lines(const Eigen::VectorXd& x, const SlopeBounds& b) {
 }  // namespace
 
 double drawable_rate(const LineModel& m) {
-  double rate = m.rate;
-  for (const auto& [alpha, x] : {std::pair{m.slope0, -m.anchor}, {m.slope1, 1 - m.anchor}}) {
-    const double most = alpha * x;  // 1 - most * rate must stay above kLeastBase
-    if (1 - most * rate < kLeastBase) rate = (1 - kLeastBase) / most;
+  core::Interval all{-HUGE_VAL, HUGE_VAL};
+  for (const double most : {-m.slope0 * m.anchor, m.slope1 * (1 - m.anchor)}) {
+    // 1 - most * rate must stay above kLeastBase
+    if (most > 0) all.high = std::min(all.high, (1 - kLeastBase) / most);
+    if (most < 0) all.low = std::max(all.low, (1 - kLeastBase) / most);
   }
-  return rate;
+  double rate = m.rate;
+  if (rate > all.high) rate = 2 * all.high - rate;
+  if (rate < all.low) rate = 2 * all.low - rate;
+  return std::clamp(rate, all.low, all.high);
 }
 
 double curvature_at(const LineModel& m, double s) {

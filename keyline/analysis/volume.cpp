@@ -21,11 +21,19 @@ double sector(const CurveView& curve, core::Point2 from, core::Interval t, int p
 std::vector<double> chord_crossings(const CurveView& curve, core::Interval t, int panels) {
   const core::Point2 start = curve.jet_at(t.low).point;
   const core::Vector2 chord = curve.jet_at(t.high).point - start;
-  const auto side = [&](double at) { return core::cross(chord, curve.jet_at(at).point - start); };
+  // Over the distances from both ends, where the curve lies on the line: one crossed next to an end
+  // shows by the tangent there.
+  const auto side = [&](double at) {
+    const curve::Jet2 j = curve.jet_at(at);
+    const double width = t.high - t.low;
+    if (at == t.low) return core::cross(chord, j.first) / width;
+    if (at == t.high) return -core::cross(chord, j.first) / width;
+    return core::cross(chord, j.point - start) / ((at - t.low) * (t.high - at));
+  };
   const std::vector<double> ends = detail::panel_ends(curve.breaks(), t, 4 * panels);
   std::vector<double> crossings = {t.low};
   double before = 0;
-  for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
     const double now = side(ends[i]);
     if (before * now < 0) {
       const auto root = numeric::bracketed_root(side, ends[i - 1], ends[i], 0);

@@ -188,9 +188,14 @@ double volume_of(const std::vector<Bezier>& curve) {
     const auto height = [&](double t) { return cross(chord, spot(c, t).place - start)[2]; };
     const auto pace = [&](double t) { return height(t) * dot(chord, spot(c, t).first); };
     constexpr int kSteps = 200;
+    std::vector<double> steps;  // both ends lie on the chord: it may be crossed right behind them
+    for (int k = 1; k < kSteps; ++k) steps.push_back(k / double{kSteps});
+    for (double step = 0.5 / kSteps; step > 1e-6; step /= 2)
+      for (const double t : {step, 1 - step}) steps.push_back(t);
+    std::ranges::sort(steps);
     double from = 0;
-    for (int k = 1; k <= kSteps; ++k) {
-      double low = (k - 1.0) / kSteps, high = k / double{kSteps};
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      double low = steps[k - 1], high = steps[k];
       const double before = height(low), after = height(high);
       if (before * after < 0) {
         for (int n = 0; n < 60; ++n) {

@@ -120,6 +120,31 @@ TEST(RandomCurves, AreMeasuredRight) {
   EXPECT_LT(undecided, 1 + requests(0.01) / 50);
 }
 
+/// Of one of its pieces two slopes are nearly as likely as one, and rounding of the knots decided
+/// which of the two fits was found.
+TEST(RandomCurves, RoundingOfKnotsLeavesTheRhythms) {
+  const double inner[] = {0.4668898026972629, 1.363112107366105, 2.283889225173372};
+  const double whole = 2.57059168570816;
+  const json points = {
+      {-331.88513461428494, -224.59456947260824}, {-273.97041456418117, -300.83427057765556},
+      {-204.3738253543729, -289.8126867201613},   {-180.45967648832186, -325.24916834997543},
+      {-202.29990171442745, -351.1491054348262},  {-204.40717890127814, -388.1645021592459},
+      {-197.29438825943777, -415.49012269832633}, {-165.07163291829374, -414.8708641911635},
+      {-145.73699022410645, -444.8737915156495}};
+  json told = json::array();
+  for (const double off : {0.0, 1e-16, 2e-16, -2e-16}) {
+    json knots(6, 0.0);
+    for (const double k : inner) knots.push_back(k + off);
+    for (int i = 0; i < 6; ++i) knots.push_back(whole);
+    const json curve{{"type", "bspline"}, {"degree", 5}, {"knots", knots}, {"points", points}};
+    for (const bool turned : {false, true})
+      told.push_back(unmoved(
+          result_of({{"op", "curve.analyze"}, {"curve", turned ? own::reversed(curve) : curve}}),
+          turned));
+  }
+  for (const json& other : told) EXPECT_EQ(other, told[0]);
+}
+
 /// A curve of one matrix, whose edges turn by alpha and grow by s.
 json matrix_curve(double alpha, double s, int degree, const Frame2& frame) {
   json points = json::array({frame(0, 0)});
