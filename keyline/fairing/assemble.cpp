@@ -172,6 +172,10 @@ void note_run(FairResult& result, const RunResult& run, std::size_t index) {
         where +
         ": the calmest chain did not come out within the tolerance, or wandered off "
         "between points, so the shortest one is given");
+  if (run.untried)
+    result.notes.push_back(where +
+                           ": more waves of curvature than can be tried one by one; some stay that "
+                           "might have gone");
   if (run.straightened > 0)
     result.notes.push_back(where + ": " +
                            core::counted(run.straightened, "piece is an exact line or arc",

@@ -14,6 +14,11 @@ constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band
 constexpr int kTrialSteps = 40;
 constexpr double kTrialGap = 0.03;
 constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
+// Single waves that are tried. In a row that all stay, least first, twice as many as stood before
+// one that went on any measured profile: wider ones stay too. Of one curve, three times as many as
+// on any: more have only curves that follow their points' errors.
+constexpr int kInRow = 24;
+constexpr int kTries = 100;
 
 std::vector<double> curvatures(const DenseCurve& curve) {
   std::vector<double> k;
@@ -269,9 +274,16 @@ class Calming {
 
   bool single() {
     const std::vector<int> extrema = turns_of(curve_);
+    int in_row = 0;
     for (const Removal& r : removals(curve_, extrema)) {
-      if (r.sideways > kHopeless * options_.band.tolerance) break;
+      if (r.sideways > kHopeless * options_.band.tolerance || in_row == kInRow) break;
       if (refused(r)) continue;
+      if (tries_ == kTries) {
+        report_.untried = true;
+        break;
+      }
+      ++in_row;
+      ++tries_;
       if (take(without(extrema, {r}))) {
         most_at_once_ = std::max<std::size_t>(most_at_once_, 2);
         return true;
@@ -294,6 +306,7 @@ class Calming {
   std::vector<double> refusals_;
   std::vector<std::vector<int>> in_vain_;  ///< extrema that were tried with the curve as it is
   std::size_t most_at_once_ = 1'000'000;
+  int tries_ = 0;  ///< of single waves
 };
 
 }  // namespace

@@ -157,6 +157,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   calm_options.most_turns = options.most_turns;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
   run.band = calm(run.curve, points, calm_options);
+  run.untried = run.band.untried;
   if (!options.members.points.empty() && run.band.within) {
     measure_spread(points, run.curve, options.members);
     BandOptions again = piece_band(run, options);

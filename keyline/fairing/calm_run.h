@@ -25,6 +25,7 @@ struct CalmRun {
   DenseCurve curve;  ///< of log-aesthetic pieces
   BandReport band;
   int turns = 0;           ///< of curvature in the calm curve
+  bool untried = false;    ///< some of them were not tried to be taken out, there were too many
   double calm_energy = 0;  ///< the same without waves that the points do not ask for
 };
 

@@ -295,6 +295,8 @@ class Job {
                       result_.noise));
     const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
     if (!std::ranges::all_of(solved_, lacs)) return;
+    result_.smoothness_counts =
+        std::ranges::any_of(solved_, [](const detail::RunResult& one) { return one.spring > 0; });
     const auto at_tolerance = std::ranges::count_if(
         result_.offsets, [&](double o) { return std::abs(o) > kAlike * result_.tolerance; });
     const auto at_slope = std::ranges::count_if(result_.pieces, [&](const FairPiece& p) {

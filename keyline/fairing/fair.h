@@ -226,6 +226,8 @@ struct FairResult {
   std::size_t worst_point = 0;
   bool within_tolerance = false;
   double smoothness = 0;  ///< that was taken
+  /// Whether another would give another answer: not where the tolerance holds no more than noise.
+  bool smoothness_counts = true;
   FairFigures fairness;
   double rate = 0;  ///< fastest that curvature changes in the faired curves, see FairOptions
   std::optional<FoundSymmetry> symmetry;

@@ -106,17 +106,25 @@ void lay_lines(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>&
 void make_arcs(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>& points,
                const FlatOptions& options) {
   if (curve.kind.empty()) curve.kind.assign(curve.alpha.size(), PieceKind::curve);
-  const auto own = [&](std::size_t p) { return std::abs(energy_of(curve, p).root); };
+  std::vector<double> own(curve.alpha.size());  // roots of the pieces' energies
+  for (std::size_t p = 0; p < own.size(); ++p) own[p] = std::abs(energy_of(curve, p).root);
   const double least = std::max(kFree * band.energy, unseen_energy(curve, options.band.tolerance));
+  // What arcs do not vary their neighbours have to, at more cost: more than that is not worth a
+  // try.
+  const double most =
+      (options.worth - 1) * std::max(band.energy, unseen_energy(curve, options.band.tolerance));
   std::vector<std::size_t> which;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p)
-    if (!flat(curve, p) && own(p) * own(p) < least &&
+    if (!flat(curve, p) && own[p] * own[p] < least &&
         departure(curve, p) < kBandWidth * options.band.tolerance)
       which.push_back(p);
   std::stable_sort(which.begin(), which.end(),
-                   [&](std::size_t a, std::size_t b) { return own(a) < own(b); });
+                   [&](std::size_t a, std::size_t b) { return own[a] < own[b]; });
   for (; !which.empty() && !options.band.progress.stop_requested();
        which.resize(which.size() / 2)) {
+    double given = 0;
+    for (const std::size_t p : which) given += own[p] * own[p];
+    if (given > most) continue;
     DenseCurve trial = curve;
     for (const std::size_t p : which)
       if (alone(trial, p)) make_arc(trial, p);

@@ -212,6 +212,7 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   result.dense = std::move(found.curve);
   result.spring = found.band.spring;
   result.turns = found.turns;
+  result.untried = found.untried;
   result.within_tolerance = found.band.within;
 }
 
@@ -234,7 +235,8 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
     if ((result.within_tolerance && stays) || options.progress.stop_requested()) return;
     if (options.max_rate) return;  // a limit comes before the tolerance
     solve(shortest, run, frame, spline, options);
-    if (!shortest.within_tolerance) return;
+    result.missed = !shortest.within_tolerance;
+    if (result.missed) return;
     result = std::move(shortest);
     result.calm_missed = true;
     return;
@@ -308,6 +310,7 @@ void keep_tolerance(RunResult& result, const Run& run, const curve::BSpline2& sp
   bring_inside(result, run, spline, options);
   if (!run.inside.empty()) most = largest_offset(result, run);
   if (options.progress.stop_requested() || options.max_rate || most <= options.tolerance) return;
+  if (result.missed) return;
   options.criterion = Criterion::fewest_pieces;
   RunResult shortest = fair_run(run, spline, options);
   if (largest_offset(shortest, run) > options.tolerance) return;

@@ -73,10 +73,12 @@ struct RunResult {
   bool within_tolerance = false;
   bool exact = false;        ///< reproduces the points to rounding
   bool calm_missed = false;  ///< no calmest chain was found within the tolerance: the shortest one
+  bool missed = false;       ///< neither that nor the shortest one was found within it
   bool joined = false;       ///< solved again for joints of one rate, in the tolerance alone
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
   int turns = 0;         ///< of the calmest curve's curvature
+  bool untried = false;  ///< some of them, see CalmRun
   double spring = 0;     ///< of the mean square of the offsets, see BandOptions
   DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
 };

@@ -62,7 +62,7 @@ core::Result<FairResult> until_fair(
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
     if (!best || unfairness(*found) < unfairness(*best)) best = std::move(*found);
-    if (best->fairness.fair || best->cancelled) break;
+    if (best->fairness.fair || best->cancelled || !best->smoothness_counts) break;
   }
   if (!best->fairness.fair || best->smoothness > kNearAsNoise) tell(*best);
   return std::move(*best);

@@ -190,6 +190,16 @@ TEST(FairOptions, SlopesThatThePointsDoNotTellStayModerate) {
   }
 }
 
+/// Within less than their errors the points ask for every wave: one smoothness is as good as
+/// another.
+TEST(FairOptions, SmoothnessCountsUnlessTheToleranceHoldsNoMoreThanNoise) {
+  acquire::KeyLine line = bow();
+  FairOptions options;
+  EXPECT_TRUE(fair(line, options).value().smoothness_counts);
+  options.tolerance = 0.5 * line.noise;
+  EXPECT_FALSE(fair(line, options).value().smoothness_counts);
+}
+
 /// A wave that the points ask for goes where it is not wanted and the tolerance holds it; else the
 /// answer says how many stay.
 TEST(FairOptions, WavesBeyondThoseWantedGoWhileTheToleranceHolds) {

@@ -72,6 +72,21 @@ TEST(UntilFair, SolvesOnceWhereSmoothnessCountsForNothing) {
   }
 }
 
+/// A tolerance of less than the points' errors: every smoothness gives the same curve.
+TEST(UntilFair, SolvesOnceWhereTheToleranceHoldsNoMoreThanNoise) {
+  int solved = 0;
+  Solver solver{2, 1, {}};
+  const auto found =
+      until_fair(three_points(), {}, [&](const FairOptions& options, const FairResult* before) {
+        ++solved;
+        auto result = solver(options, before);
+        result->smoothness_counts = false;
+        return result;
+      });
+  EXPECT_EQ(solved, 1);
+  EXPECT_EQ(found->smoothness, 0.5);
+}
+
 TEST(UntilFair, KeepsTheCalmestAndSaysSoWhereNoneIsFair) {
   Solver solver{2, 1, {}};
   const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
