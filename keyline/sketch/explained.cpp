@@ -62,13 +62,27 @@ void take_out(Binary& ink, const Stroke& stroke) {
   }
 }
 
+void take_out(Binary& ink, const FineStroke& stroke) {
+  for (std::size_t i = 0; i < stroke.points.size(); ++i)
+    take_out(ink, stroke.points[i], 0.5 * std::max(stroke.widths[i], stroke.width) + 1);
+}
+
+template <class Line>
+double explained_share(Binary& ink, const std::vector<Line>& lines) {
+  const double all = count(ink);
+  if (!(all > 0)) return 1;
+  numeric::parallel_for(lines.size(), 0, [&](std::size_t i) { take_out(ink, lines[i]); });
+  return (all - count(ink)) / all;
+}
+
 }  // namespace
 
 double explained_ink(Binary& ink, const std::vector<Stroke>& strokes) {
-  const double all = count(ink);
-  if (!(all > 0)) return 1;
-  numeric::parallel_for(strokes.size(), 0, [&](std::size_t i) { take_out(ink, strokes[i]); });
-  return (all - count(ink)) / all;
+  return explained_share(ink, strokes);
+}
+
+double explained_ink(Binary& ink, const std::vector<FineStroke>& strokes) {
+  return explained_share(ink, strokes);
 }
 
 }  // namespace keyline::sketch

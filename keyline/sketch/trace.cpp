@@ -14,6 +14,7 @@
 #include "keyline/sketch/ink_measure.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/meet_lines.h"
+#include "keyline/sketch/merge_strokes.h"
 #include "keyline/sketch/morphology.h"
 #include "keyline/sketch/outline.h"
 #include "keyline/sketch/pixel_words.h"
@@ -35,8 +36,6 @@ constexpr double kPictureApart = 3.5;
 /// Widths and two pixels, pixels at most: shorter lines that start at another are none.
 constexpr double kStub = 1.2;
 constexpr double kLongestStub = 5;
-
-constexpr double kStrokeStep = 0.7;  ///< widths between the points of drawn strokes
 
 constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
 constexpr double kManyPasses = 0.75;       ///< lines per stroke from which passes are told
@@ -150,44 +149,6 @@ std::vector<FineStroke> center_lines(const Ink& found, const Tone& tone,
   }
   end_on_lines(strokes, refiner, found.grainy);
   return strokes;
-}
-
-/// A line of several strokes, as wide as they are on average.
-FineStroke line_of(const MeantLine& line, const std::vector<FineStroke>& strokes, double width) {
-  FineStroke fine;
-  fine.closed = line.closed;
-  for (const std::size_t m : line.members) {
-    fine.width += strokes[m].width / static_cast<double>(line.members.size());
-    fine.members.insert(fine.members.end(), strokes[m].members.begin(), strokes[m].members.end());
-  }
-  resample(line.points, std::vector<double>(line.points.size(), fine.width), kStrokeStep * width,
-           line.closed, fine.points, fine.widths);
-  return fine;
-}
-
-/// Strokes drawn several times become one. Precondition: every stroke has its number for a member.
-/// Returns the length of strokes beside the line they are members of.
-double merge(std::vector<FineStroke>& strokes, double width, ConsolidateOptions passes,
-             const GroupWishes& wishes, std::vector<std::string>& notes) {
-  std::vector<DrawnStroke> drawn;
-  std::vector<std::size_t> numbers;
-  for (const FineStroke& s : strokes) {
-    drawn.push_back({s.points, s.closed});
-    numbers.push_back(s.members.front());
-  }
-  passes.wishes = wishes_among(wishes, numbers);
-  std::vector<FineStroke> lines;
-  std::vector<std::vector<std::size_t>> members;
-  double explained = 0;
-  for (const MeantLine& line : consolidate(drawn, passes)) {
-    explained += line.explained;
-    lines.push_back(line.members.size() == 1 ? strokes[line.members.front()]
-                                             : line_of(line, strokes, width));
-    members.push_back(lines.back().members);
-  }
-  for (std::string& note : unmet_joins(wishes, members)) notes.push_back(std::move(note));
-  strokes = std::move(lines);
-  return explained;
 }
 
 /// Longest first, those of one length in their order.
@@ -315,12 +276,13 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(found, tone, options);
   const ConsolidateOptions passes{
       .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
+  Merged merged;
   if (options.consolidate) {
     number_lines(lines);
     for (const FineStroke& s : lines) result.passes.push_back({s.points, s.closed});
     if (auto sound = check_wishes(options.wishes, lines.size()); !sound)
       return std::unexpected(sound.error());
-    merge(lines, width, passes, options.wishes, result.notes);
+    merged = merge(lines, width, passes, options.wishes, result.notes);
   } else if (options.edge == Edge::center) {
     tell_passes(lines, passes, result);
   }
@@ -334,6 +296,8 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (result.strokes.empty()) return nothing_found();
   if (options.edge == Edge::center) {
     result.explained = explained_ink(found.picture, result.strokes);
+    result.explained +=
+        (1 - result.explained) * merged.beside * explained_ink(found.picture, merged.passes);
     tell_explained("ink", result);
   }
   for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);
@@ -375,7 +339,7 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   if (lines.empty()) return bad("no stroke has any length");
   double explained = drawn;
   if (options.consolidate)
-    explained = merge(lines, width, {.width = width}, options.wishes, result.notes);
+    explained = merge(lines, width, {.width = width}, options.wishes, result.notes).explained;
   else
     tell_passes(lines, {.width = width}, result);
   result.explained = std::min(1.0, explained / drawn);

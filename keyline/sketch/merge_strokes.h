@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "keyline/sketch/consolidate.h"
+#include "keyline/sketch/refine_stroke.h"
+
+namespace keyline::sketch {
+
+constexpr double kStrokeStep = 0.7;  ///< widths between the points of drawn strokes
+
+/// What became of strokes that were drawn several times.
+struct Merged {
+  double explained = 0;            ///< length of strokes beside the line they are members of
+  std::vector<FineStroke> passes;  ///< strokes whose line stands for others too
+  double beside = 1;               ///< share of these passes' length beside their line
+};
+
+/// Strokes drawn several times become one; notes say what wishes could not be met. Precondition:
+/// every stroke has its number for a member.
+Merged merge(std::vector<FineStroke>& strokes, double width, ConsolidateOptions passes,
+             const GroupWishes& wishes, std::vector<std::string>& notes);
+
+}  // namespace keyline::sketch
