@@ -56,6 +56,26 @@ curve::Jet2 jet(const Path& path, double t) {
   return curve::rescaled(own, static_cast<double>(path.curves.size()));
 }
 
+PlacedPath::PlacedPath(const Path& path) : path_(&path) {
+  for (const PlanarCurve& c : path.curves) {
+    const auto* chain = std::get_if<lac::Chain>(&c.value);
+    chains_.push_back(chain ? std::optional(lac::PlacedChain(*chain)) : std::nullopt);
+  }
+}
+
+core::Point2 evaluate(const PlacedPath& placed, double t) {
+  const Share share = share_of(placed.path(), t);
+  const auto& chain = placed.chains()[share.index];
+  return chain ? evaluate(*chain, share.t) : evaluate(placed.path().curves[share.index], share.t);
+}
+
+curve::Jet2 jet(const PlacedPath& placed, double t) {
+  const Share share = share_of(placed.path(), t);
+  const auto& chain = placed.chains()[share.index];
+  const auto own = chain ? jet(*chain, share.t) : jet(placed.path().curves[share.index], share.t);
+  return curve::rescaled(own, static_cast<double>(placed.path().curves.size()));
+}
+
 std::vector<double> breakpoints(const Path& path) {
   std::vector<double> all{0};
   const double n = static_cast<double>(path.curves.size());

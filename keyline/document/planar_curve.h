@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -40,5 +41,28 @@ Path reverse(const Path& path);
 Path transform(const Path& path, const core::Similarity2& map);
 /// Not empty, members valid.
 core::Result<void> validate(const Path& path);
+
+/// A path whose chains have their pieces in their places. Refers to the path, which must outlive
+/// it. Models curve::PlanarCurve.
+class PlacedPath {
+ public:
+  /// Precondition: the path is valid.
+  explicit PlacedPath(const Path& path);
+
+  const Path& path() const { return *path_; }
+  const std::vector<std::optional<lac::PlacedChain>>& chains() const { return chains_; }
+
+ private:
+  const Path* path_;
+  std::vector<std::optional<lac::PlacedChain>> chains_;  ///< one per member; empty for others
+};
+
+core::Point2 evaluate(const PlacedPath& placed, double t);
+curve::Jet2 jet(const PlacedPath& placed, double t);
+inline std::vector<double> breakpoints(const PlacedPath& placed) {
+  return breakpoints(placed.path());
+}
+/// What curve::PlanarView looks at in the path's stead.
+inline PlacedPath prepared(const Path& path) { return PlacedPath(path); }
 
 }  // namespace keyline::document

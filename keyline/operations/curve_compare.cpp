@@ -78,7 +78,7 @@ CompareDeviation deviation_of(const document::Path& judged, const document::Path
   double squares = 0;
   for (int i = 0; i < n; ++i) {
     const double place = static_cast<double>(i) / (n - 1);
-    const core::Point2 p = evaluate(judged, table.parameter_at(place * table.length()));
+    const core::Point2 p = evaluate(view, table.parameter_at(place * table.length()));
     const double away = nearest(p).distance;
     squares += away * away;
     if (away > d.max || i == 0) d = {away, 0, p, place};
@@ -94,7 +94,7 @@ Comb comb_of(const document::Path& path, int n) {
   comb.length = table.length();
   for (int i = 0; i < n; ++i) {
     const double s = table.length() * i / (n - 1);
-    const double bend = curve::curvature(jet(path, table.parameter_at(s)));
+    const double bend = curve::curvature(jet(view, table.parameter_at(s)));
     if (std::isfinite(bend)) comb.plot.push_back({s, bend});  // not at a cusp
   }
   if (comb.plot.empty()) return comb;

@@ -58,7 +58,7 @@ Result<PointDeviation> run(const DeviationRequest& request, const Context& conte
           "measuring points");
     }
     const curve::ClosestPoint foot = nearest(p);
-    const double angle = curve::tangent_angle(jet(request.curve, foot.t));
+    const double angle = curve::tangent_angle(jet(view, foot.t));
     const core::Vector2 away = p - foot.point;
     const bool left = std::cos(angle) * away.y >= std::sin(angle) * away.x;
     result.arc_length.push_back(table.length_at(foot.t));

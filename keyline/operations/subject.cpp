@@ -150,7 +150,7 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path, double toleran
   at.insert(at.end(), corners.begin(), corners.end());
   std::sort(at.begin(), at.end());
   for (const double s : at) {
-    const core::Point2 p = evaluate(path, table.parameter_at(s));
+    const core::Point2 p = evaluate(view, table.parameter_at(s));
     if (!line.points.empty() && core::distance(line.points.back(), p) < 1e-9 * length) continue;
     line.points.push_back(p);
     const bool corner = std::any_of(corners.begin(), corners.end(),

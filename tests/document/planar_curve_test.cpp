@@ -36,5 +36,22 @@ TEST(Path, ValidationNamesTheMember) {
   EXPECT_FALSE(validate(Path{}));
 }
 
+/// What views look at in a path's stead.
+TEST(PlacedPath, GivesTheSameToTheBit) {
+  lac::Chain chain{{{1, 2}, 0.5}, {{-1, 3, 0, 1.5}, {1, 2, 1.5, 0.2}, {0, 1, 0.2, 0.7}}, false};
+  Path path;
+  path.curves.push_back({curve::Bezier2{{{0, 0}, {1, 1}, {1, 2}}, {}}});
+  path.curves.push_back({chain});
+  path.curves.push_back({curve::Polyline2{{{2, 2}, {4, 0}}}});
+  const PlacedPath placed = prepared(path);
+  for (int i = 0; i <= 300; ++i) {
+    const double t = i / 300.0;
+    EXPECT_EQ(evaluate(placed, t), evaluate(path, t));
+    EXPECT_EQ(jet(placed, t).first, jet(path, t).first);
+    EXPECT_EQ(jet(placed, t).third, jet(path, t).third);
+  }
+  EXPECT_EQ(breakpoints(placed), breakpoints(path));
+}
+
 }  // namespace
 }  // namespace keyline::document

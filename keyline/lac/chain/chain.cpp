@@ -12,14 +12,14 @@ namespace {
 using core::Point2;
 using core::Pose2;
 
-/// The piece's parameter in its place: the segment and t within it.
-struct Located {
-  Segment segment;
-  double t = 0;
-};
-Located segment_of(const Chain& chain, double t) {
-  const ChainLocation at = locate(chain, t);
-  return {segment_at(chain, at.piece), at.t};
+/// The derivatives of a chain of that length at t of one of its segments.
+curve::Jet2 jet_within(const Segment& segment, double t, double whole) {
+  const double ratio = whole / segment.length;
+  curve::Jet2 result = jet(segment, t);
+  result.first = ratio * result.first;
+  result.second = ratio * ratio * result.second;
+  result.third = ratio * ratio * ratio * result.third;
+  return result;
 }
 
 }  // namespace
@@ -123,18 +123,23 @@ double tangent_angle(const Chain& chain, double t) {
 }
 
 Point2 evaluate(const Chain& chain, double t) {
-  const Located at = segment_of(chain, t);
-  return evaluate(at.segment, at.t);
+  const ChainLocation at = locate(chain, t);
+  return evaluate(segment_at(chain, at.piece), at.t);
 }
 
 curve::Jet2 jet(const Chain& chain, double t) {
-  const Located at = segment_of(chain, t);
-  const double ratio = arc_length(chain) / at.segment.length;
-  curve::Jet2 result = jet(at.segment, at.t);
-  result.first = ratio * result.first;
-  result.second = ratio * ratio * result.second;
-  result.third = ratio * ratio * ratio * result.third;
-  return result;
+  const ChainLocation at = locate(chain, t);
+  return jet_within(segment_at(chain, at.piece), at.t, arc_length(chain));
+}
+
+Point2 evaluate(const PlacedChain& placed, double t) {
+  const ChainLocation at = locate(placed.chain(), t);
+  return evaluate(placed.segments()[at.piece], at.t);
+}
+
+curve::Jet2 jet(const PlacedChain& placed, double t) {
+  const ChainLocation at = locate(placed.chain(), t);
+  return jet_within(placed.segments()[at.piece], at.t, arc_length(placed.chain()));
 }
 
 std::vector<double> breakpoints(const Chain& chain) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "keyline/core/error.h"
@@ -72,5 +73,29 @@ struct ChainPair {
 };
 ChainPair split(const Chain& chain, double t);
 Chain transform(const Chain& chain, const core::Similarity2& map);
+
+/// A chain with its pieces in their places. Each evaluation of a Chain lays all pieces before the
+/// one asked for end to end again; this one did it once, and gives the same to the bit. Models
+/// curve::PlanarCurve.
+class PlacedChain {
+ public:
+  /// Precondition: the chain is valid.
+  explicit PlacedChain(Chain chain) : chain_(std::move(chain)), segments_(lac::segments(chain_)) {}
+
+  const Chain& chain() const { return chain_; }
+  const std::vector<Segment>& segments() const { return segments_; }
+
+ private:
+  Chain chain_;
+  std::vector<Segment> segments_;
+};
+
+core::Point2 evaluate(const PlacedChain& placed, double t);
+curve::Jet2 jet(const PlacedChain& placed, double t);
+inline std::vector<double> breakpoints(const PlacedChain& placed) {
+  return breakpoints(placed.chain());
+}
+/// What curve::PlanarView looks at in the chain's stead.
+inline PlacedChain prepared(const Chain& chain) { return PlacedChain(chain); }
 
 }  // namespace keyline::lac
