@@ -12,7 +12,42 @@ namespace {
 
 using core::Point2;
 
-constexpr int kEvenPieces = 4;  ///< up to here joints are laid evenly, then where they lack
+constexpr double kNeedle = 158;       ///< variation of a spiral from straight on, once round
+constexpr double kWorthPiece = 0.25;  ///< of it is left, or less, by a piece more
+constexpr int kEvenPieces = 4;        ///< up to here joints are laid evenly, then where they lack
+
+/// A chain and how its curvature varies.
+struct Tried {
+  QuinticChain chain;
+  std::vector<double> deviations;  ///< by piece
+  double variation = 0;
+};
+
+Tried try_chain(const ChainData& data, bool closed, const std::vector<std::size_t>& at,
+                const QuinticChainOptions& options) {
+  QuinticSolver fit(data, closed, at, options);
+  fit.run();
+  Tried tried{fit.result(), fit.deviations(), 0};
+  if (options.calm && tried.chain.within_tolerance) {
+    fit.calm();
+    tried.chain = fit.result();
+    tried.variation = fit.variation();
+  }
+  return tried;
+}
+
+/// Pieces more, as long as they take most of the variation away: too few may follow the points by a
+/// needle of curvature alone.
+QuinticChain with_more_pieces(const ChainData& data, bool closed, Tried best, int most,
+                              const QuinticChainOptions& options) {
+  int pieces = static_cast<int>(best.chain.pieces.size());
+  while (best.variation > kNeedle && pieces < std::min(most, kEvenPieces)) {
+    Tried more = try_chain(data, closed, joint_indices(data, ++pieces), options);
+    if (!more.chain.within_tolerance || more.variation > kWorthPiece * best.variation) break;
+    best = std::move(more);
+  }
+  return std::move(best.chain);
+}
 
 }  // namespace
 
@@ -26,19 +61,15 @@ QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
   std::vector<std::size_t> at = joint_indices(data, closed ? 2 : 1);
   while (true) {
     const int pieces = static_cast<int>(at.size()) - 1;
-    QuinticSolver fit(data, closed, at, options);
-    fit.run();
-    QuinticChain found = fit.result();
-    if (options.calm && found.within_tolerance) {
-      fit.calm();
-      found = fit.result();
-    }
-    if (best.pieces.empty() || found.within_tolerance || found.max_deviation < best.max_deviation)
-      best = std::move(found);
-    if (best.within_tolerance || pieces >= most) return best;
+    Tried tried = try_chain(data, closed, at, options);
+    if (tried.chain.within_tolerance)
+      return with_more_pieces(data, closed, std::move(tried), most, options);
+    if (best.pieces.empty() || tried.chain.max_deviation < best.max_deviation)
+      best = std::move(tried.chain);
+    if (pieces >= most) return best;
     if (pieces < kEvenPieces) {
       at = joint_indices(data, pieces + 1);
-    } else if (!split_worst(data, fit.deviations(), options.tolerance, most, at)) {
+    } else if (!split_worst(data, tried.deviations, options.tolerance, most, at)) {
       return best;
     }
   }

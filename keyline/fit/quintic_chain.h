@@ -33,8 +33,8 @@ struct QuinticChain {
 /// four with joints laid so that each has about its share of length and turning; from there those
 /// pieces are halved that deviate most. Where the chain is to be calm, a weight on L³ ∫ (dκ/ds)² ds
 /// ([Moreton 1992]) is raised then as far as the tolerance allows, points at its rim pulling
-/// harder. No piece slows down to a tenth of its mean speed: there the curvature would have a
-/// needle.
+/// harder, and up to four pieces are taken as long as one more leaves a quarter of it or less. No
+/// piece slows down to a tenth of its mean speed: there the curvature would have a needle.
 ///
 /// points: at least two, no two neighbours equal (InvalidInput otherwise); closed: the first is not
 ///         repeated. An open chain starts and ends exactly in the first and last point.

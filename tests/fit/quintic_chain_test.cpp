@@ -106,6 +106,47 @@ TEST(QuinticChain, PointsBeyondTheEndsAreNearestToThem) {
   EXPECT_NEAR(m.most, 3, 0.3);
 }
 
+/// L³ ∫ (dκ/ds)² ds.
+double variation(const std::vector<curve::Bezier2>& pieces) {
+  constexpr int kParts = 4000;
+  double length = 0;
+  double sum = 0;
+  for (const curve::Bezier2& piece : pieces)
+    for (int i = 0; i < kParts; ++i) {
+      const auto from = jet(piece, i / double{kParts});
+      const auto to = jet(piece, (i + 1) / double{kParts});
+      const double step = core::distance(from.point, to.point);
+      length += step;
+      sum += std::pow(curvature(to) - curvature(from), 2) / step;
+    }
+  return length * length * length * sum;
+}
+
+// The points' own curve lies within any tolerance of them, so the calmest varies no more; one
+// quintic that just follows them bends as four times that at its ends.
+TEST(QuinticChain, TakesAPieceMoreWhereTooFewMakeANeedle) {
+  constexpr int kLength = 360;
+  const auto bend = [](double s) {
+    const auto hump = [](double x) { return std::exp(-x * x / 1600); };
+    return -(0.07 * hump(s) + 0.003 + 0.042 * hump(kLength - s) + 0.002 * std::sin(s / 30));
+  };
+  std::vector<Point2> points{{0, 0}};
+  double direction = 1.2;
+  double own = 0;
+  for (int i = 0; i < kLength; ++i) {
+    if (i > 0) own += std::pow(bend(i) - bend(i - 1), 2);
+    direction += bend(i);
+    points.push_back(points.back() + core::Vector2{std::cos(direction), std::sin(direction)});
+  }
+  own *= std::pow(kLength, 3);
+  const QuinticChain chain = fit_quintic_chain(
+      points, false, {.tolerance = 2.2, .calm = true, .free_start = true, .free_end = true});
+  ASSERT_TRUE(chain.within_tolerance);
+  EXPECT_LT(variation(chain.pieces), own);
+  EXPECT_LE(chain.pieces.size(), 2U);
+  expect_smooth(chain, false);
+}
+
 TEST(QuinticChain, RefusesWhatIsNone) {
   EXPECT_THROW(fit_quintic_chain({{0, 0}}, false), core::InvalidInput);
   EXPECT_THROW(fit_quintic_chain({{0, 0}, {0, 0}, {1, 1}}, false), core::InvalidInput);
