@@ -3,6 +3,7 @@
 #include <complex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "keyline/core/axis.h"
 #include "keyline/surface/edit_targets.h"
@@ -154,6 +155,37 @@ Net with_curves_within(const EditTask& task, const Net& start, bool rows, unsign
   return net;
 }
 
+/// Points that may move, within the boundary, blended from it: from its rows, from its columns, or
+/// from both after Coons; from neither it is the corners. A net far from the given one, whose rows
+/// and columns are like those of the boundary.
+Net blended(const Net& given, double rows, double columns, const std::vector<Freedom>& freedom) {
+  Net net = given;
+  const int m = net.rows - 1, n = net.columns - 1;
+  for (int i = 1; i < m; ++i)
+    for (int j = 1; j < n; ++j) {
+      if (freedom[net.index(i, j)] != Freedom::free) continue;
+      const double u = static_cast<double>(i) / m, v = static_cast<double>(j) / n;
+      const auto at = [&](int a, int b) { return given.at(a, b) - core::Point3{}; };
+      const Vector3 along = (1 - u) * at(0, j) + u * at(m, j);
+      const Vector3 across = (1 - v) * at(i, 0) + v * at(i, n);
+      const Vector3 corners =
+          (1 - u) * ((1 - v) * at(0, 0) + v * at(0, n)) + u * ((1 - v) * at(m, 0) + v * at(m, n));
+      net.at(i, j) =
+          core::Point3{} + rows * along + columns * across + (1 - rows - columns) * corners;
+    }
+  return net;
+}
+
+/// Where to set out from: beside the given net, or far from it.
+std::vector<Net> starts_of(const EditTask& task, const Net& given,
+                           const std::vector<Freedom>& freedom, unsigned other_ways, bool far) {
+  if (far)
+    return {blended(given, 1, 1, freedom), blended(given, 1, 0, freedom),
+            blended(given, 0, 1, freedom), blended(given, 0, 0, freedom)};
+  return {given, with_curves_within(task, given, true, other_ways, freedom),
+          with_curves_within(task, given, false, other_ways, freedom)};
+}
+
 }  // namespace
 
 void add_conditions(const EditTask& task, TargetSet& set) {
@@ -165,19 +197,19 @@ void add_conditions(const EditTask& task, TargetSet& set) {
   const Net given = keep == Keep::joints ? own_borders(task) : task.net;
   const std::vector<Freedom> freedom = inside ? inside_free(given) : freedom_of(task);
   std::optional<OneMatrixNet> nearest;
-  for (unsigned ways = 0; ways < 1U << std::min<long>(asked, kMostWays); ++ways) {
-    const OneMatrixProblem problem = problem_of(task, given, freedom, ways);
-    for (const Net& start : {given, with_curves_within(task, given, true, ways, freedom),
-                             with_curves_within(task, given, false, ways, freedom)}) {
-      if (task.options.progress.stop_requested()) return;
-      OneMatrixNet found = solve_one_matrix(problem, start, false);
-      if (found.violation <= kMet && !turns_over({task.net, {}}, {found.net, {}})) {
-        set.targets.push_back({"conditions", std::move(found.net)});
-        return;
+  for (const bool far : {false, true})
+    for (unsigned ways = 0; ways < 1U << std::min<long>(asked, kMostWays); ++ways) {
+      const OneMatrixProblem problem = problem_of(task, given, freedom, ways);
+      for (const Net& start : starts_of(task, given, freedom, ways, far)) {
+        if (task.options.progress.stop_requested()) return;
+        OneMatrixNet found = solve_one_matrix(problem, start, false);
+        if (found.violation <= kMet && !turns_over({task.net, {}}, {found.net, {}})) {
+          set.targets.push_back({"conditions", std::move(found.net)});
+          return;
+        }
+        if (!nearest || found.violation < nearest->violation) nearest = std::move(found);
       }
-      if (!nearest || found.violation < nearest->violation) nearest = std::move(found);
     }
-  }
   set.missed.push_back(missed(task, *nearest, freedom));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -242,6 +243,51 @@ TEST(RandomRefusals, NoNetOfTheConditionsIsFoundByAnglesAndRatios) {
   // Of patches so disturbed that most nets turn over a few are missed (docs/accuracy.md).
   EXPECT_LE(disagreed, std::max(1, wanted / 16));
   EXPECT_GE(found, answered_ / 2);
+}
+
+/// A net far from the given one, which ways from there did not lead to. Ranges are measured at the
+/// edges that come back.
+TEST(RandomRefusals, ANetFarFromTheGivenOneIsFound) {
+  const json points = {{{11.360773831551768, -9.35718884233174, -3.97573547301237},
+                        {11.583044178054061, -5.553238927928047, -3.8057827473604573},
+                        {11.100543664437192, -2.206134706356008, -3.756489444943138},
+                        {11.307705385159267, 1.8307843509092738, -3.692916910373249}},
+                       {{14.970749093685706, -9.593010033395341, -3.656426125299122},
+                        {15.528206418411992, -5.623141104384918, -3.920360601570779},
+                        {15.38800204507258, -1.9180576559710716, -3.532608065438561},
+                        {15.0259633672827, 2.215090716412288, -2.7629323480116645}},
+                       {{18.868279060033284, -9.882412295032477, -4.4032761677193815},
+                        {19.029125105255225, -5.658708047703938, -3.5696423406273157},
+                        {18.99899344837477, -1.6387665709105919, -3.4191103436079433},
+                        {19.233443154589327, 2.0099375082461317, -3.1903617885174995}},
+                       {{22.478818804934342, -9.249080384390936, -4.536403583751999},
+                        {22.529438136276013, -6.007200571014941, -3.939556246386201},
+                        {22.531723063684407, -1.9053816668069048, -3.7468985281438854},
+                        {23.079761754944766, 2.007306730734817, -3.20058325810331}}};
+  const double turns[2][2] = {{0.30828153255666224, 0.46976953040584046},
+                              {0.5407670037212604, 0.7837545269945437}};
+  const double scales[2] = {1.3997359081913994, 1.5983927698868226};
+  const json result = result_of({{"op", "surface.edit"},
+                                 {"surface", {{"type", "bezier-surface"}, {"points", points}}},
+                                 {"keep", "boundary"},
+                                 {"conditions",
+                                  {{{"curve", "A6"}, {"alpha", turns[0]}},
+                                   {{"curve", "A3"}, {"alpha", turns[1]}, {"s", scales}}}}});
+  Points net;
+  for (std::size_t i = 0; i < 16; ++i) net[i] = vec(result["surface"]["points"][i / 4][i % 4]);
+  for (const auto& [curve, k] : {std::pair{5, 0}, {2, 1}}) {
+    const auto e = edges(net, curve);
+    for (int i = 0; i < 2; ++i) {
+      const double turn = std::atan2(size(cross(e[i], e[i + 1])), dot(e[i], e[i + 1]));
+      EXPECT_GT(turn, turns[k][0] - 1e-8);
+      EXPECT_LT(turn, turns[k][1] + 1e-8);
+    }
+    EXPECT_NEAR(size(e[2]) / size(e[1]), size(e[1]) / size(e[0]), 1e-8);
+  }
+  const auto e = edges(net, 2);
+  const double ratio = size(e[1]) / size(e[0]), s = std::max(ratio, 1 / ratio);
+  EXPECT_GT(s, scales[0] - 1e-8);
+  EXPECT_LT(s, scales[1] + 1e-8);
 }
 
 }  // namespace
