@@ -80,9 +80,8 @@ std::vector<own::Place> finely(const json& curve, int cuts) {
       const double t = static_cast<double>(i) / cuts;
       if (i == 0 || i == cuts) return i == 0 ? k0 : k1;
       if (std::abs(alpha) < 1e-9) return k0 * std::pow(k1 / k0, t);
-      const double side = k0 < 0 ? -1 : 1;
-      return side * std::pow(std::lerp(std::pow(side * k0, -alpha), std::pow(side * k1, -alpha), t),
-                             -1 / alpha);
+      // By their ratio: the power itself of 0.0073 to -150 overflows.
+      return k0 * std::pow(std::lerp(1.0, std::pow(k1 / k0, -alpha), t), -1 / alpha);
     };
     for (int i = 0; i < cuts; ++i)
       fine["pieces"].push_back(piece(alpha, p["length"].get<double>() / cuts, at(i), at(i + 1)));
