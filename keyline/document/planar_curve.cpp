@@ -56,23 +56,29 @@ curve::Jet2 jet(const Path& path, double t) {
   return curve::rescaled(own, static_cast<double>(path.curves.size()));
 }
 
-PlacedPath::PlacedPath(const Path& path) : path_(&path) {
-  for (const PlanarCurve& c : path.curves) {
-    const auto* chain = std::get_if<lac::Chain>(&c.value);
-    chains_.push_back(chain ? std::optional(lac::PlacedChain(*chain)) : std::nullopt);
-  }
+PlacedCurve::PlacedCurve(const PlanarCurve& curve) : curve_(&curve) {
+  if (const auto* chain = std::get_if<lac::Chain>(&curve.value)) chain_.emplace(*chain);
 }
+
+core::Point2 evaluate(const PlacedCurve& placed, double t) {
+  return placed.chain() ? evaluate(*placed.chain(), t) : evaluate(placed.curve(), t);
+}
+
+curve::Jet2 jet(const PlacedCurve& placed, double t) {
+  return placed.chain() ? jet(*placed.chain(), t) : jet(placed.curve(), t);
+}
+
+PlacedPath::PlacedPath(const Path& path)
+    : path_(&path), members_(path.curves.begin(), path.curves.end()) {}
 
 core::Point2 evaluate(const PlacedPath& placed, double t) {
   const Share share = share_of(placed.path(), t);
-  const auto& chain = placed.chains()[share.index];
-  return chain ? evaluate(*chain, share.t) : evaluate(placed.path().curves[share.index], share.t);
+  return evaluate(placed.members()[share.index], share.t);
 }
 
 curve::Jet2 jet(const PlacedPath& placed, double t) {
   const Share share = share_of(placed.path(), t);
-  const auto& chain = placed.chains()[share.index];
-  const auto own = chain ? jet(*chain, share.t) : jet(placed.path().curves[share.index], share.t);
+  const auto own = jet(placed.members()[share.index], share.t);
   return curve::rescaled(own, static_cast<double>(placed.path().curves.size()));
 }
 

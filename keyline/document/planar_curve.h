@@ -42,19 +42,42 @@ Path transform(const Path& path, const core::Similarity2& map);
 /// Not empty, members valid.
 core::Result<void> validate(const Path& path);
 
-/// A path whose chains have their pieces in their places. Refers to the path, which must outlive
-/// it. Models curve::PlanarCurve.
+/// A curve that, where it is a chain, has its pieces in their places. Refers to the curve, which
+/// must outlive it. Models curve::PlanarCurve.
+class PlacedCurve {
+ public:
+  /// Precondition: the curve is valid.
+  explicit PlacedCurve(const PlanarCurve& curve);
+
+  const PlanarCurve& curve() const { return *curve_; }
+  const std::optional<lac::PlacedChain>& chain() const { return chain_; }
+
+ private:
+  const PlanarCurve* curve_;
+  std::optional<lac::PlacedChain> chain_;
+};
+
+core::Point2 evaluate(const PlacedCurve& placed, double t);
+curve::Jet2 jet(const PlacedCurve& placed, double t);
+inline std::vector<double> breakpoints(const PlacedCurve& placed) {
+  return breakpoints(placed.curve());
+}
+/// What curve::PlanarView looks at in the curve's stead.
+inline PlacedCurve prepared(const PlanarCurve& curve) { return PlacedCurve(curve); }
+
+/// A path whose members are placed so. Refers to the path, which must outlive it. Models
+/// curve::PlanarCurve.
 class PlacedPath {
  public:
   /// Precondition: the path is valid.
   explicit PlacedPath(const Path& path);
 
   const Path& path() const { return *path_; }
-  const std::vector<std::optional<lac::PlacedChain>>& chains() const { return chains_; }
+  const std::vector<PlacedCurve>& members() const { return members_; }
 
  private:
   const Path* path_;
-  std::vector<std::optional<lac::PlacedChain>> chains_;  ///< one per member; empty for others
+  std::vector<PlacedCurve> members_;
 };
 
 core::Point2 evaluate(const PlacedPath& placed, double t);

@@ -36,7 +36,7 @@ TEST(Path, ValidationNamesTheMember) {
   EXPECT_FALSE(validate(Path{}));
 }
 
-/// What views look at in a path's stead.
+/// What views look at in a path's stead, and in that of each member.
 TEST(PlacedPath, GivesTheSameToTheBit) {
   lac::Chain chain{{{1, 2}, 0.5}, {{-1, 3, 0, 1.5}, {1, 2, 1.5, 0.2}, {0, 1, 0.2, 0.7}}, false};
   Path path;
@@ -51,6 +51,7 @@ TEST(PlacedPath, GivesTheSameToTheBit) {
     EXPECT_EQ(jet(placed, t).third, jet(path, t).third);
   }
   EXPECT_EQ(breakpoints(placed), breakpoints(path));
+  EXPECT_EQ(evaluate(prepared(path.curves[1]), 0.7), evaluate(path.curves[1], 0.7));
 }
 
 }  // namespace
