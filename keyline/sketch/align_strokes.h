@@ -19,7 +19,8 @@ struct Alignment {
 };
 
 /// The alignment of least sum of squared distances, directions that differ by a right angle costing
-/// `reach` squared, samples before or after the line two reaches squared.
+/// `reach` squared, samples before or after the line, or far off it, two reaches squared: a stroke
+/// that leaves the line is not better laid against it.
 /// Samples of the line are visited in order, at most three on per sample of the stroke. A closed
 /// line may be run round again and again.
 /// Time and memory: the product of both numbers of samples.

@@ -217,5 +217,26 @@ TEST(Align, FollowsTheOrderOfAStroke) {
   }
 }
 
+// A pass that leaves its line sideways lies beside it until then; laid the other way round, its
+// start would go on from the line's start, and the line there and back.
+TEST(Align, LaysAStrokeThatLeavesTheLineAlongIt) {
+  DrawnStroke line{{}, false};
+  DrawnStroke leaves{{}, false};
+  for (int x = 0; x <= 200; ++x) line.points.push_back({1.0 * x, 0});
+  for (int x = 0; x <= 140; ++x) leaves.points.push_back({1.0 * x, 3});
+  for (int y = 1; y <= 60; ++y) leaves.points.push_back({140, 3.0 + y});
+  const Alignment a =
+      align(sample_stroke(leaves.points, false, 2), sample_stroke(line.points, false, 2), 5);
+  EXPECT_FALSE(a.reversed);
+  for (std::size_t i = 0; i < 65; ++i) ASSERT_NEAR(a.at[i], static_cast<double>(i), 3) << i;
+  DrawnStroke again = line;
+  for (Point2& p : again.points) p.y = 1;
+  const auto lines = consolidate({line, again, leaves}, {.width = 2, .measured = true, .hand = 0});
+  ASSERT_EQ(lines.size(), 1U);
+  const std::vector<Point2>& p = lines[0].points;
+  for (std::size_t i = 2; i < p.size(); ++i)  // there and not back
+    ASSERT_GT(dot(p[i] - p[i - 1], p[1] - p[0]), 0) << i;
+}
+
 }  // namespace
 }  // namespace keyline::sketch
