@@ -11,10 +11,11 @@ namespace {
 using core::Point2;
 using core::Vector2;
 
-constexpr int kLargestStep = 3;      ///< samples of the line per sample of the stroke
-constexpr double kOffCost = 4;       ///< reaches squared: of a sample before, after or off the line
-constexpr double kTurnCost = 1;      ///< reaches squared: of a direction off by a right angle
-constexpr std::int8_t kStart = 100;  ///< came from before the line
+constexpr int kLargestStep = 3;       ///< samples of the line per sample of the stroke
+constexpr double kOffCost = 4;        ///< reaches squared: of a sample before or after the line
+constexpr double kTurnCost = 1;       ///< reaches squared: of a direction off by a right angle
+constexpr double kFarCost = 8;        ///< reaches squared: of a sample far off beside the line
+constexpr std::int8_t kStart = 100;   ///< came from before the line
 constexpr std::int8_t kNothing = -1;  ///< no way here
 
 /// Least cost over the states of one sample: before the line, at sample j of it, after it.
@@ -63,7 +64,7 @@ class Way {
     const auto k = static_cast<std::size_t>(j);
     const Vector2 d = p - line_.points[k];
     const double along = core::dot(t, line_.tangents[k]) * (reversed_ ? -1 : 1);
-    return std::min(core::dot(d, d) + kTurnCost * unit_ * (1 - along), kOffCost * unit_);
+    return std::min(core::dot(d, d) + kTurnCost * unit_ * (1 - along), kFarCost * unit_);
   }
 
   /// Least cost of sample i at sample j of the line, from sample i - 1.

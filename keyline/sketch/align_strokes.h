@@ -19,8 +19,9 @@ struct Alignment {
 };
 
 /// The alignment of least sum of squared distances, directions that differ by a right angle costing
-/// `reach` squared, samples before or after the line, or far off it, two reaches squared: a stroke
-/// that leaves the line is not better laid against it.
+/// `reach` squared, samples before or after the line the square of two reaches, ones far off beside
+/// it twice that at most: a stroke that leaves the line is not better laid against it, and one
+/// that goes on where the line ends is laid after it.
 /// Samples of the line are visited in order, at most three on per sample of the stroke. A closed
 /// line may be run round again and again.
 /// Time and memory: the product of both numbers of samples.
