@@ -121,7 +121,7 @@ void add_json(presentation::Pages& pages, const json& shown) {
 int analyze_curves(Session& session, const ReadFiles& read) {
   Analysed all;
   const core::Progress progress = session.progress();
-  const auto things = planar_things(read);
+  const auto things = planar_things(session, read);
   if (!things) return report_failure(things.error(), session.files().front());
   for (const json& thing : *things) {
     const std::size_t at = all.shown.size();
@@ -223,9 +223,8 @@ int run_analyze(const Words& words) {
                             : check_unused({}, session.of(kView), "for surfaces");
       !sound)
     return report_failure(sound.error());
-  if (surfaces) return analyze_surfaces(session, *read);
-  say_skipped(session.door().quiet, read->answer().skipped);
-  return analyze_curves(session, *read);
+  say_read(session.door().quiet, read->answer());
+  return surfaces ? analyze_surfaces(session, *read) : analyze_curves(session, *read);
 }
 
 Manual analyze_manual() { return new_session().manual(); }

@@ -43,7 +43,7 @@ int run_convert(const Words& words) {
   const auto output = output_of(session, read);
   if (!output) return report_failure(output.error());
   say(quiet, session.files().front() + ": " + presentation::contents_of(read));
-  say_skipped(quiet, read.skipped);
+  say_read(quiet, read);
   presentation::ReportOptions options = session.report_options();
   options.title = "Curves";
   const auto written =

@@ -231,11 +231,10 @@ int run_fair(const Words& words) {
   if (auto done = session.check_outputs(); !done) return report_failure(done.error());
   const auto read = read_files(session, session.of(1), true);
   if (!read) return report_failure(read.error());
-  const auto things = planar_things(*read);
+  const auto things = planar_things(session, *read);
   if (!things) return report_failure(things.error(), session.files().front());
   // Measured points tell it among their notes.
-  if (things->empty() || !things->front().contains("line"))
-    say_skipped(session.door().quiet, read->answer().skipped);
+  if (!things->front().contains("line")) say_read(session.door().quiet, read->answer());
   const auto faired = fair_all(session, *things);
   if (!faired) return report_failure(faired.error());
   return finish(session, *read, *faired);

@@ -180,14 +180,40 @@ Result<operations::Outcome> read_outcome(Session& session, json request, bool pl
   return outcome;
 }
 
-Result<std::vector<json>> planar_things(const ReadFiles& read) {
+namespace {
+
+core::Failure nothing_planar(const operations::ReadAnswer& read) {
+  const std::string what = "there is no planar curve in it";
+  if (read.surfaces.empty())
+    return {ErrorCode::bad_input, what, "give curves that lie in a plane", ""};
+  return {ErrorCode::bad_input,
+          fmt::format("{}, but {}", what, core::counted(read.surfaces.size(), "surface")),
+          "--trims takes the curves that cut them; analyze and edit take surfaces", ""};
+}
+
+}  // namespace
+
+Result<std::vector<json>> planar_things(const Session& session, const ReadFiles& read) {
   if (auto few = operations::check_amount(read.answer()); !few) return std::unexpected(few.error());
   std::vector<json> things;
+  std::vector<std::string> others;
   const auto& curves = read.answer().curves;
   for (std::size_t i = 0; i < curves.size(); ++i)
     if (curves[i].line || operations::planar_path(*curves[i].curve))
       things.push_back(read.shown["curves"][i]);
+    else
+      others.push_back(called(curves[i].name, "curve", i, curves.size()) + ": lies in no plane");
+  if (things.empty()) return std::unexpected(nothing_planar(read.answer()));
+  say_some(session.door().quiet, "skipped: ", others, " that lie in no plane");
+  if (const std::size_t surfaces = read.answer().surfaces.size(); surfaces > 0)
+    say(session.door().quiet,
+        core::counted(surfaces, "surface") + " of the file left out beside its curves");
   return things;
+}
+
+void say_read(bool quiet, const operations::ReadAnswer& read) {
+  say_some(quiet, "", read.notes, " curves in planes");
+  say_some(quiet, "skipped: ", read.skipped, "; keyline list names them");
 }
 
 std::string called(const std::string& name, const char* kind, std::size_t index,

@@ -150,8 +150,13 @@ core::Result<operations::Outcome> read_outcome(Session& session, nlohmann::json 
                                                bool planar);
 core::Result<ReadFiles> read_files(Session& session, nlohmann::json request, bool planar);
 
-/// Points and curves in the plane among what was read, where they are not too many to work on.
-core::Result<std::vector<nlohmann::json>> planar_things(const ReadFiles& read);
+/// Points and curves in the plane among what was read, where there are any and not too many to work
+/// on; what is left out beside them is told.
+core::Result<std::vector<nlohmann::json>> planar_things(const Session& session,
+                                                        const ReadFiles& read);
+
+/// Of a file: how curves lie in space, and what was left out.
+void say_read(bool quiet, const operations::ReadAnswer& read);
 
 /// What a thing of a file is called where it is told of: by its name, else "curve 3", by its place
 /// among those read, from 1. One alone without a name is called nothing.

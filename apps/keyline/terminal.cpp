@@ -146,12 +146,12 @@ void say(bool quiet, const std::string& text) {
   std::fprintf(stderr, "keyline: %s\n", one_line(text).c_str());
 }
 
-void say_skipped(bool quiet, const std::vector<std::string>& skipped) {
+void say_some(bool quiet, const std::string& lead, const std::vector<std::string>& lines,
+              const std::string& rest) {
   constexpr std::size_t kMost = 10;
-  for (std::size_t i = 0; i < std::min(kMost, skipped.size()); ++i)
-    say(quiet, "skipped: " + skipped[i]);
-  if (skipped.size() > kMost)
-    say(quiet, fmt::format("skipped: {} more; keyline list names them", skipped.size() - kMost));
+  for (std::size_t i = 0; i < std::min(kMost, lines.size()); ++i) say(quiet, lead + lines[i]);
+  if (lines.size() > kMost)
+    say(quiet, fmt::format("{}{} more{}", lead, lines.size() - kMost, rest));
 }
 
 core::Progress interactive_progress(bool quiet) {

@@ -26,8 +26,9 @@ int report_failure(const core::Failure& failure, const std::string& subject = {}
 /// A message on standard error unless quiet.
 void say(bool quiet, const std::string& text);
 
-/// What was left out of a file, line by line; of more than ten things the first, and how many more.
-void say_skipped(bool quiet, const std::vector<std::string>& skipped);
+/// Each line after `lead`; of more than ten the first, and how many more: `rest` says of what.
+void say_some(bool quiet, const std::string& lead, const std::vector<std::string>& lines,
+              const std::string& rest);
 
 /// Progress that draws a bar on standard error where that is a terminal (and not quiet), and a
 /// token that Ctrl-C cancels; a second Ctrl-C ends the program at once.

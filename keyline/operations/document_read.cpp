@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "keyline/acquire/join.h"
 #include "keyline/acquire/lattice.h"
 #include "keyline/acquire/section.h"
@@ -264,18 +266,21 @@ Result<ReadAnswer> read_curves(const InputRequest& input, const core::Progress& 
     return std::unexpected(done.error());
   if (!input.unit.empty()) document->unit = input.unit;
   if (input.trims) document::add_trim_curves(*document);
-  if (input.planar && document->surfaces.empty()) {
-    const std::size_t plane_already = document->paths.size();
-    const auto planes = exchange::flatten(*document, document->skipped);
-    if (document->paths.empty())
-      return fail(ErrorCode::bad_input, "there is no planar curve in it",
-                  "give curves that lie in a plane", file);
-    ReadAnswer answer = answer_of(std::move(*document));
-    for (std::size_t i = 0; i < planes.size(); ++i)
-      place(answer.curves[plane_already + i], planes[i]);
-    return answer;
+  if (!input.planar) return answer_of(std::move(*document));
+  const std::size_t plane_already = document->paths.size();
+  const auto planes = exchange::flatten(*document);
+  if (document->paths.empty() && document->surfaces.empty())
+    return fail(ErrorCode::bad_input, "there is no planar curve in it",
+                "give curves that lie in a plane", file);
+  ReadAnswer answer = answer_of(std::move(*document));
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    NamedCurve& curve = answer.curves[plane_already + i];
+    place(curve, planes[i]);
+    const std::string& name = curve.name;
+    answer.notes.push_back((name.empty() ? fmt::format("curve {}", plane_already + i + 1) : name) +
+                           ": " + exchange::in_words(planes[i].plane));
   }
-  return answer_of(std::move(*document));
+  return answer;
 }
 
 bool holds_points(const std::string& file) {

@@ -57,7 +57,7 @@ struct InputRequest {
         core::flattened<&Request::acquiring>(),
         core::field<&Request::unit>("of the coordinates; else the file's own"),
         core::field<&Request::planar>(
-            "curves in space that lie in a plane as planar ones, others left out and told"),
+            "curves in space that lie in a plane as planar ones; others stay as they are"),
         core::field<&Request::trims>("also the curves that trim surfaces, as curves"));
   }
 };
@@ -133,6 +133,7 @@ struct ReadAnswer {
   std::vector<NamedCurve> curves;
   std::vector<NamedSurfaceValue> surfaces;
   std::optional<Page> page;
+  std::vector<std::string> notes;
   std::vector<std::string> skipped;
 
   document::Document document;  ///< not part of the public form: for pictures
@@ -143,6 +144,7 @@ struct ReadAnswer {
                         core::field<&Answer::curves>("planar, then in space, in the file's order"),
                         core::field<&Answer::surfaces>("in the file's order"),
                         core::field<&Answer::page>("what a drawing shows"),
+                        core::field<&Answer::notes>("planes of curves in space, in words"),
                         core::field<&Answer::skipped>("what the file holds beside, in words"));
   }
 };

@@ -149,10 +149,9 @@ Result<exchange::Written> formatted(const document::Document& document,
   if (!is_planar_format(extension)) return exchange::format_document(document, extension, how);
   document::Document planar;
   const document::Document* shown = &document;
-  std::vector<std::string> notes;
   if (document.paths.empty()) {
     planar = document;
-    exchange::flatten(planar, notes);
+    exchange::flatten(planar);
     shown = &planar;
   }
   const std::size_t flattened = planar.paths.size();

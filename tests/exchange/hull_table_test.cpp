@@ -90,15 +90,15 @@ TEST(HullCsv, ReadsShipyardsTables) {
 TEST(HullTable, LinesAreMadePlanar) {
   auto d = hull_document(read_hull_csv(kTable).value());
   const std::size_t count = d.space_curves.size();
-  std::vector<std::string> notes;
-  flatten(d, notes);
+  const std::vector<Laid> planes = flatten(d);
   EXPECT_EQ(d.paths.size(), count);
-  EXPECT_THAT(notes.front(), HasSubstr("waterline-2: in the plane z = 1; x and y"));
+  EXPECT_EQ(d.paths[0].label.name, "waterline-2");
+  EXPECT_EQ(in_words(planes.at(0).plane), "in the plane z = 1; x and y");
   EXPECT_EQ(evaluate(d.paths[0].path, 1), (core::Point2{30, 0}));
   document::Document twisted;
   twisted.space_curves.push_back(
       {{"t", "", ""}, {curve::Polyline3{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}}}});
-  flatten(twisted, notes);
+  flatten(twisted);
   EXPECT_EQ(twisted.space_curves.size(), 1U);
 }
 

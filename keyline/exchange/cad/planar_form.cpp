@@ -27,7 +27,9 @@ std::vector<Point2> in_plane(const acquire::Plane& plane, const std::vector<Poin
   return result;
 }
 
-std::string described(const acquire::Plane& plane) {
+}  // namespace
+
+std::string in_words(const acquire::Plane& plane) {
   const auto at = [](double v) { return core::number_text(v + 0.0, 6); };
   if (plane.axis_x == core::Vector3{1, 0, 0} && plane.axis_y == core::Vector3{0, 1, 0})
     return "in the plane z = " + at(plane.origin.z) + "; x and y";
@@ -37,8 +39,6 @@ std::string described(const acquire::Plane& plane) {
     return "in the plane x = " + at(plane.origin.x) + "; y and z";
   return "in a plane of its own";
 }
-
-}  // namespace
 
 std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve) {
   if (const auto* line = std::get_if<curve::Polyline3>(&curve.value)) {
@@ -60,7 +60,7 @@ std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve) {
   return std::nullopt;
 }
 
-std::vector<Laid> flatten(document::Document& document, std::vector<std::string>& notes) {
+std::vector<Laid> flatten(document::Document& document) {
   std::vector<Laid> planes;
   std::vector<document::NamedSpaceCurve> left;
   for (auto& named : document.space_curves) {
@@ -69,7 +69,6 @@ std::vector<Laid> flatten(document::Document& document, std::vector<std::string>
       left.push_back(std::move(named));
       continue;
     }
-    notes.push_back(named.label.name + ": " + described(form->plane));
     planes.push_back({form->plane, named.half_breadth});
     document::NamedPath path;
     path.label = named.label;

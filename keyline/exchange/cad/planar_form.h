@@ -26,10 +26,12 @@ struct Laid {
   bool half_breadth = false;  ///< see document::NamedSpaceCurve
 };
 
-/// Every space curve that lies in a plane becomes a planar path of the same name; notes which
-/// coordinates it now has, for example "waterline-3: in the plane z = 1.5; x and y".
+/// Which plane, and the coordinates of curves told in it: "in the plane z = 1.5; x and y".
+std::string in_words(const acquire::Plane& plane);
+
+/// Every space curve that lies in a plane becomes a planar path of the same name.
 /// Returns: of each where it lay, in the order in which they now end the document's paths.
-std::vector<Laid> flatten(document::Document& document, std::vector<std::string>& notes);
+std::vector<Laid> flatten(document::Document& document);
 
 /// A path of the plane as one curve in space, piecewise cubic within `tolerance` (> 0) of it.
 document::SpaceCurve placed(const document::Path& path, const acquire::Plane& plane,
