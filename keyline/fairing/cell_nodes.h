@@ -15,7 +15,7 @@ inline constexpr std::array<double, 4> kNode = {0.06943184420297371, 0.330009478
 inline constexpr std::array<double, 4> kWeight = {0.17392742256872693, 0.32607257743127307,
                                                   0.32607257743127307, 0.17392742256872693};
 
-inline constexpr double kSmallTurn = 0.3;  // whose series of five terms hold to the last digits
+inline constexpr double kSmallTurn = 0.3;  // whose series below hold to 5e-14
 
 /// Integrals from 0 to u of the parabolas that are 1 at one of 0, 1/2 and 1 and 0 at the others.
 inline std::array<double, 3> parabolas(double u) {

@@ -1,13 +1,17 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "keyline/fairing/cell_nodes.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/least_variation.h"
 #include "keyline/fairing/piece_energy.h"
 #include "keyline/fairing/residuals.h"
+#include "keyline/fairing/rise_barrier.h"
 #include "keyline/fairing/straights.h"
 
 #include "truth.h"
@@ -143,6 +147,37 @@ TEST(Residuals, GrowWithToleranceAndSmoothness) {
   EXPECT_EQ(allowed_residuals(points, false, 200, 1e-3, 5e-3, 1).rms, 0);
 }
 
+// Curvature to the power -alpha is linear in arc length, so that its rate at an end is the
+// difference of the powers times curvature to the power 1 + alpha over -alpha: fastest where that
+// is larger.
+TEST(TooFast, IsTheFastestRateOverTheOneAllowed) {
+  for (const double alpha : {-2.5, -0.5, 0.7})
+    for (const auto& [a, b] : {std::pair{1.0, 4.0}, {3.0, 0.5}}) {
+      DenseCurve curve;
+      curve.at = {0, 0.5};
+      curve.cut = {0, 1};
+      curve.value = {a, b};
+      curve.alpha = {alpha};
+      curve.length = 2;
+      curve.most_rate = 3;
+      const double rise = (std::pow(b, -alpha) - std::pow(a, -alpha)) / -alpha / 0.5;
+      const double fastest = std::max(std::abs(rise) * std::pow(a, 1 + alpha),
+                                      std::abs(rise) * std::pow(b, 1 + alpha));
+      EXPECT_NEAR(too_fast(curve), fastest / (3 * 2 * 2), 1e-12) << alpha;
+    }
+}
+
+// An alternating series errs by less than the first term it leaves out.
+TEST(SmallTurn, IsCosineAndSineToTheTermsLeftOut) {
+  constexpr double kRounding = 2e-16;
+  for (double angle = -kSmallTurn; angle <= kSmallTurn; angle += 0.01) {
+    const core::Vector2 by = small_turn(angle);
+    const double size = std::abs(angle);
+    EXPECT_NEAR(by.x, std::cos(angle), kRounding + std::pow(size, 12) / 479001600) << angle;
+    EXPECT_NEAR(by.y, std::sin(angle), kRounding + std::pow(size, 11) / 39916800) << angle;
+  }
+}
+
 struct Followed {
   std::vector<FitPoint> points;
   DenseCurve curve;
@@ -166,6 +201,19 @@ TEST(Straights, AreFoundWhereTheyAre) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].first, 0);
   EXPECT_NEAR(f.curve.at[found[0].last], 0.4, 0.06);
+}
+
+// Nothing around it is bent, so that nothing but its being the whole tells it.
+TEST(Straights, AllOfAnOpenCurveIsOne) {
+  std::vector<FitPoint> points;
+  for (int i = 0; i <= 40; ++i)
+    points.push_back({.position = {i / 40.0, 1e-4 * ((7 * i) % 5 - 2)}});
+  DenseCurve curve = dense_curve(points, false, 240);
+  least_variation(curve, points, {.tolerance = 1e-3, .progress = {}});
+  const auto found = straight_stretches(curve, points, 1.5e-4);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].first, 0);
+  EXPECT_EQ(found[0].last, static_cast<int>(curve.at.size()) - 1);
 }
 
 TEST(Straights, AreNotFoundAboutAnInflection) {

@@ -190,6 +190,19 @@ TEST(ChainEdit, MergedPieceHasBothLengthsAndTheTurning) {
   EXPECT_DOUBLE_EQ(merged.feet[2].fraction, 0.75);
 }
 
+// Where no slope between the end curvatures turns as far, a clothoid between higher or lower ones
+// does: by its length times the mean of both.
+TEST(ChainEdit, MergedPiecesOfABumpTurnAsFarAsBoth) {
+  FitChain chain = two_clothoids();
+  chain.joints[1].curvature = 4;
+  chain.joints[2].direction = 2.1;
+  const FitChain merged = without_joint(chain, 1);
+  const double a = merged.joints.front().curvature;
+  const double b = merged.joints.back().curvature;
+  EXPECT_EQ(merged.pieces[0].alpha, -1);
+  EXPECT_NEAR(merged.pieces[0].length * (a + b) / 2, 2.1, 1e-12);
+}
+
 TEST(ChainEdit, HeldCurvaturesStayWhenPiecesMerge) {
   FitChain chain = two_clothoids();
   chain.joints[2].direction = 3;  // more than any piece between these curvatures turns
