@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "keyline/analysis/arcs_fit.h"
 #include "keyline/analysis/rhythm_models.h"
 
 namespace keyline::analysis {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -173,6 +174,57 @@ TEST(Rhythm, ReadAsAskedFor) {
   EXPECT_DOUBLE_EQ(two_thirds.slopes[0], 2.0 / 3);
   EXPECT_LT(two_thirds.deviation, 1e-9);
   EXPECT_FALSE(interpret_with_slope(arc, std::nan("")));
+}
+
+/// A cubic that turns by a random angle and whose control polygon grows by a random ratio.
+curve::Bezier2 any_cubic(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> turn(0.05, 0.6), growth(-0.5, 0.5);
+  const double angle = turn(random), ratio = std::exp(growth(random));
+  curve::Bezier2 c{{{0, 0}}, {}};
+  double heading = 0, step = 1;
+  for (int i = 0; i < 3; ++i) {
+    c.control.push_back(c.control.back() + step * core::unit_vector(heading));
+    heading += angle * (i == 0 ? 1 : 1.1);
+    step *= ratio;
+  }
+  return c;
+}
+
+/// Also where the best slope, or the rate, lies at its border.
+TEST(Rhythm, TheBestSlopeIsNoWorseThanAnyGiven) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const CurvatureProfile p = curvature_profile(any_cubic(random));
+    const RhythmReading reading = classify_rhythm(p).value();
+    for (const Interpretation& r : reading.interpretations) {
+      if (r.slopes.size() != 1 || r.rhythm == Rhythm::zero) continue;
+      const double sign = r.rhythm == Rhythm::minus ? -1 : 1;
+      for (const double size : {0.10000001, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0})
+        EXPECT_LE(r.deviation,
+                  interpret_with_slope(p, sign * size)->deviation * (1 + 1e-4) + 1e-12);
+    }
+  }
+}
+
+TEST(Rhythm, ReversalKeepsEveryReadingOfOneSlope) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const CurvatureProfile p = curvature_profile(any_cubic(random));
+    const RhythmReading back = classify_rhythm(reversed(p)).value();
+    const RhythmReading reading = classify_rhythm(p).value();
+    for (const Interpretation& there : reading.interpretations) {
+      if (there.slopes.size() > 1) continue;
+      const auto same = [&](const Interpretation& r) {
+        return r.rhythm == there.rhythm && r.slopes.size() == there.slopes.size();
+      };
+      const auto here = std::ranges::find_if(back.interpretations, same);
+      ASSERT_NE(here, back.interpretations.end());
+      EXPECT_NEAR(here->deviation, there.deviation, 1e-5 * there.deviation + 1e-12)
+          << rhythm_name(there.rhythm);
+    }
+  }
 }
 
 TEST(Rhythm, NamesReadBack) {
