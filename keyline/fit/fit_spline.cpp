@@ -64,6 +64,7 @@ KnotSearchOptions search_options(const SplineFitOptions& o) {
   s.placement = o.knots;
   s.smart_start = o.smart_start;
   s.polish_rounds = o.polish_rounds;
+  s.unite = o.unite;
   s.progress = o.progress;
   return s;
 }
@@ -233,6 +234,7 @@ SplineFitOptions SplineFitOptions::for_fairing() {
   options.polish_rounds = 10;
   options.condense_above = 800;
   options.resolution = 1e-6;
+  options.unite = 2;  // "not worth more than a bare mention" [Kass 1995]
   return options;
 }
 

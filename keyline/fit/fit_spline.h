@@ -38,7 +38,10 @@ struct SplineFitOptions {
   std::size_t condense_above = 4000;
   bool smart_start = false;  ///< start the population near knots found by refinement
   int polish_rounds = 200;   ///< most improvements of the polish per trial
-  bool closed = false;       ///< plane curves: fit a periodic spline, see fit_spline
+  /// Criterion given for knots that are one where no two data lie between them: kinks are multiple
+  /// knots then, and no needles of curvature. 0: none.
+  double unite = 0;
+  bool closed = false;  ///< plane curves: fit a periodic spline, see fit_spline
   /// Indices of points the curve must pass: their weight becomes a million times the largest.
   std::vector<std::size_t> must_pass;
   core::Progress progress;

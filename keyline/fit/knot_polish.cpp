@@ -46,6 +46,24 @@ Knots insertion_sites(const SplineSolver& solver) {
   return fewer;
 }
 
+/// Groups i - 1 and i as one, at the mean place of their knots.
+std::vector<KnotGroup> with_one(std::vector<KnotGroup> groups, std::size_t i) {
+  const std::size_t together = groups[i - 1].multiplicity + groups[i].multiplicity;
+  const double share = static_cast<double>(groups[i].multiplicity) / static_cast<double>(together);
+  groups[i - 1] = {groups[i - 1].at + share * (groups[i].at - groups[i - 1].at), together};
+  groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(i));
+  return groups;
+}
+
+/// Whether no two data lie between groups i - 1 and i, and together they are no more than a kink.
+bool hardly_differ(const std::vector<KnotGroup>& groups, std::size_t i,
+                   const SplineSolver& solver) {
+  const KnotGroup &a = groups[i - 1], &b = groups[i];
+  const auto& x = solver.data().parameters;
+  const auto between = std::ranges::upper_bound(x, b.at) - std::ranges::lower_bound(x, a.at);
+  return between < 2 && a.multiplicity + b.multiplicity < static_cast<std::size_t>(solver.order());
+}
+
 class Polisher {
  public:
   Polisher(std::span<SplineSolver> solvers, const BayesCriterion& criterion,
@@ -155,13 +173,8 @@ class Polisher {
     }
     std::sort(gaps.begin(), gaps.end());
     if (gaps.size() > effort_.merges) gaps.resize(effort_.merges);
-    for (const auto& [gap, i] : gaps) {
-      auto merged = groups;
-      const std::size_t together = groups[i - 1].multiplicity + groups[i].multiplicity;
-      const double share =
-          static_cast<double>(groups[i].multiplicity) / static_cast<double>(together);
-      merged[i - 1] = {groups[i - 1].at + share * gap, together};
-      merged.erase(merged.begin() + static_cast<std::ptrdiff_t>(i));
+    for (const auto& [_, i] : gaps) {
+      const auto merged = with_one(groups, i);
       candidates.push_back({flattened(merged), merged[i - 1].at});
     }
     const double spacing =
@@ -277,6 +290,23 @@ ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& 
                          const std::vector<double>& knots, int rounds,
                          const core::Progress& progress, bool in_pairs) {
   return Polisher(solvers, criterion, progress, in_pairs).run(knots, rounds);
+}
+
+ScoredKnots united_knots(SplineSolver& solver, const BayesCriterion& criterion,
+                         const ScoredKnots& found, double loss) {
+  const auto score = [&](const Knots& knots) {
+    return criterion(solver.sum_of_squares(knots), knots.size());
+  };
+  auto groups = grouped(found.knots);
+  for (std::size_t i = 1; i < groups.size();) {
+    const bool near = hardly_differ(groups, i, solver);
+    if (auto one = with_one(groups, i); near && score(flattened(one)) <= found.bic + loss)
+      groups = std::move(one);
+    else
+      ++i;
+  }
+  const Knots knots = flattened(groups);
+  return {knots, score(knots)};
 }
 
 }  // namespace keyline::fit::detail

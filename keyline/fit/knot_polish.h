@@ -24,6 +24,12 @@ ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& 
                          const std::vector<double>& knots, int rounds,
                          const core::Progress& progress, bool in_pairs = false);
 
+/// Knots with no two data between them made one, up to the multiplicity of a kink, while the
+/// criterion rises by no more than `loss` in all: between knots a millionth apart a curve that
+/// follows the data has needles of curvature of a million.
+ScoredKnots united_knots(SplineSolver& solver, const BayesCriterion& criterion,
+                         const ScoredKnots& found, double loss);
+
 /// Whether a polish of such data is a matter of milliseconds, and tries harder.
 bool is_small(const SplineSolver& solver);
 

@@ -249,6 +249,12 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
     result.knots.clear();
     result.bic = criterion(plain.sum_of_squares({}), 0);
   }
+  if (options.unite > 0) {
+    const detail::ScoredKnots found{result.knots, result.bic};
+    auto united = detail::united_knots(problem.solvers()[0], criterion, found, options.unite);
+    result.knots = std::move(united.knots);
+    result.bic = united.bic;
+  }
   result.cancelled = options.progress.stop_requested();
   return result;
 }

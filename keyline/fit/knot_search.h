@@ -44,6 +44,7 @@ struct KnotSearchOptions {
   KnotPlacement placement = KnotPlacement::polished;
   bool smart_start = false;  ///< seed the population around knots found by refinement
   int polish_rounds = 200;   ///< most improvements per trial
+  double unite = 0;          ///< criterion given for fewer places of knots; 0: none
   core::Progress progress;
 };
 

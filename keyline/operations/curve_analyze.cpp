@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "keyline/curve/monotone.h"
-#include "keyline/fit/fit_spline.h"
+#include "keyline/fairing/points_splines.h"
 #include "keyline/operations/diagram_shown.h"
 #include "keyline/operations/registry.h"
 
@@ -99,19 +99,18 @@ AnalyzedPiece piece_shown(const analysis::PieceAnalysis& piece) {
           readings_of(piece.interpretations)};
 }
 
-/// Points are analysed through their spline, as in steps 2 to 4 of fairing.
-Result<document::Path> spline_of(const acquire::KeyLine& line, const AnalyzeRequest& request,
-                                 const Context& context) {
+/// Points are analysed through their splines, as in steps 2 to 4 of fairing.
+Result<document::Path> splines_of(const acquire::KeyLine& line, const AnalyzeRequest& request,
+                                  const Context& context) {
   fit::SplineFitOptions options = fit::SplineFitOptions::for_fairing();
   options.seed = request.seed;
   options.threads = context.threads;
-  options.closed = line.closed && line.points.size() > 8;
-  options.order = std::min<int>(options.order, static_cast<int>(line.points.size()));
   options.rounding = line.rounding;
   options.progress = context.progress;
-  auto fit = fit::fit_spline(line.points, line.weights, options);
-  if (!fit) return std::unexpected(fit.error());
-  document::Path path = path_of({std::move(fit->curve)});
+  auto splines = fairing::splines_of(line, options);
+  if (!splines) return std::unexpected(splines.error());
+  document::Path path;
+  for (curve::BSpline2& spline : *splines) path.curves.push_back({std::move(spline)});
   path.closed = line.closed;
   return path;
 }
@@ -129,7 +128,7 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
     answer.path = *subject.curve;
     return answer;
   }
-  auto spline = spline_of(**line, request, context);
+  auto spline = splines_of(**line, request, context);
   if (!spline) return std::unexpected(std::move(spline.error()));
   auto found = analyze_path(*spline, (**line).noise, request.plot_samples, context.progress);
   if (!found) return std::unexpected(found.error());

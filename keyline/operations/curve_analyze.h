@@ -173,7 +173,8 @@ struct AnalyzeAnswer {
         core::field<&Answer::monotone>("whether curvature is along the whole, certified"),
         core::field<&Answer::witness>("a parameter where it is not, or not certainly"),
         core::field<&Answer::noise>("of points: their standard deviation").in("length"),
-        core::field<&Answer::spline>("of points: the spline through them, which was analysed"));
+        core::field<&Answer::spline>(
+            "of points: the splines through them, one between two corners, which were analysed"));
   }
 };
 
