@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kRounds = 4;  // of parting pieces
 constexpr int kUntyings = 5;
-constexpr double kFirmBand = 10;       // of the points' offsets where rates are held…
+constexpr double kFirmBand = 5;        // of the points' offsets where rates are held…
 constexpr double kFirmer = 4;          // …and how much more at each untying
 constexpr int kPasses = 2;             // over joints that stay
 constexpr double kSteepPower = 12;     // of the offsets where joints are held one by one
