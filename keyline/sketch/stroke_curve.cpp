@@ -55,6 +55,18 @@ std::vector<Point2> points_of(const SegmentRun& run, const FineStroke& fine) {
   return kept;
 }
 
+/// Of points in one place, as where a corner's vertex lies on a point, the last.
+std::vector<Point2> apart(const std::vector<Point2>& points, bool closed, double reach) {
+  std::vector<Point2> kept;
+  for (const Point2 p : points) {
+    if (!kept.empty() && core::distance(kept.back(), p) <= reach) kept.pop_back();
+    kept.push_back(p);
+  }
+  while (closed && kept.size() > 1 && core::distance(kept.front(), kept.back()) <= reach)
+    kept.pop_back();
+  return kept;
+}
+
 /// Quintics of a run: [Sketch] section 5 as it stands, or as few as follow the points.
 std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke& fine,
                                         const std::vector<curve::Bezier2>& quadratic,
@@ -62,7 +74,8 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   std::vector<curve::Bezier2> pieces = elevated(quadratic);
   make_curvature_continuous(pieces, run.closed);
   if (options.tolerance <= 0) return pieces;
-  const auto part = points_of(run, fine);
+  constexpr double kOnePlace = 1e-6;  // of the width
+  const auto part = apart(points_of(run, fine), run.closed, kOnePlace * fine.width);
   if (part.size() < 4) return pieces;
   const double tolerance = std::max(options.tolerance, options.width_share * fine.width);
   const bool starts = run.first == 0 && !fine.closed;

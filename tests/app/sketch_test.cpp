@@ -309,5 +309,17 @@ TEST(Sketch, FairTakesADrawing) {
       << "curves lie on the drawing";
 }
 
+// A vertex of its corners lies on a point of the line.
+TEST(Sketch, APathThereAndBackIsALine) {
+  const Scratch s;
+  const std::string drawing = s.write(
+      "back.svg",
+      R"(<svg xmlns="http://www.w3.org/2000/svg" height="440" width="659.485" viewBox="0 0 1280 854"
+stroke-width="1.94091"><path d="M146 737l 0 4 0-4z" fill="#e5e5e5"/></svg>)");
+  const Outcome o = run_keyline("sketch " + drawing + " --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(nlohmann::json::parse(o.out)["strokes"].size(), 1U);
+}
+
 }  // namespace
 }  // namespace keyline::app_test
