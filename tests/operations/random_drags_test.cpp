@@ -118,6 +118,7 @@ double outside(std::vector<std::vector<double>> rows, std::vector<double> x) {
 }
 
 /// At the least change the change is a combination of the gradients of what is held (Lagrange).
+/// Differences are small beside a curvature too: next to 0 a piece's shape goes by its power.
 void expect_least(const DragLaw& law, const json& now, std::size_t joint, double told,
                   Worst& worst) {
   const std::vector<double> x = law.numbers(now), from = law.numbers(law.base);
@@ -132,12 +133,13 @@ void expect_least(const DragLaw& law, const json& now, std::size_t joint, double
   std::vector<std::vector<double>> rows(5, std::vector<double>(x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) {
     std::vector<double> up = x, down = x;
-    constexpr double kStep = 1e-5;
-    up[i] += kStep;
-    down[i] -= kStep;
+    const bool curvature = i <= law.pieces() && !law.by_logarithm(i);
+    const double step = curvature ? std::clamp(1e-3 * std::abs(x[i]), 1e-9, 1e-5) : 1e-5;
+    up[i] += step;
+    down[i] -= step;
     const auto a = held_numbers(law.curve(now, up), joint, law.unit);
     const auto b = held_numbers(law.curve(now, down), joint, law.unit);
-    for (std::size_t r = 0; r < 5; ++r) rows[r][i] = (a[r] - b[r]) / (2 * kStep);
+    for (std::size_t r = 0; r < 5; ++r) rows[r][i] = (a[r] - b[r]) / (2 * step);
   }
   worst.expect_below(outside(rows, change), 1e-5);
 }
