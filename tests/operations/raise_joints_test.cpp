@@ -136,6 +136,28 @@ TEST(RaiseJoints, RunsBecomeG3AndKeepTheirJoints) {
   EXPECT_EQ(refused, 0);
 }
 
+/// Rates of both sides differ by 200 beside a piece whose curvature hardly grows: three parts for a
+/// piece do not do, four do, also where no limit is given.
+TEST(RaiseJoints, FourPartsWhereThreeDoNotDo) {
+  const json given = chain(
+      {piece(-1.2746399817545633, 0.7321055716720599, -0.9049558793180952, -1.2199679806186465),
+       piece(0.17593849929187666, 0.30226155232655866, -1.2199679806186465, -2.3554949667015594),
+       piece(-0.48795106535182775, 0.12965112067657275, -2.3554949667015594, -5.1156640824259965),
+       piece(-0.714320444992385, 0.05119271237441505, -5.1156640824259965, -11.705681139003927),
+       piece(-1.0, 0.0643380068823079, -11.705681139003927, -13.599657756062156),
+       piece(-2.5245067213970027, 0.0073108099666444725, -13.599657756062156, -32.94161525391818)});
+  const json result = raised(given);
+  const json& now = result["curve"]["pieces"];
+  EXPECT_EQ(result["raised"], 5);
+  ASSERT_EQ(now.size(), 24u);
+  for (std::size_t i = 1; i < now.size(); ++i)
+    EXPECT_NEAR(rate(now[i], 0) / rate(now[i - 1], 1), 1, 1e-9);
+  EXPECT_LT(largest_miss(given, result["curve"], 4), 1e-11);
+  const double told = result["departure"], length = own::walked(given).length;
+  EXPECT_GE(told + 1e-6 * length, departure(given, result["curve"]));
+  EXPECT_LT(told, 0.01 * length);
+}
+
 TEST(RaiseJoints, WithoutNewPiecesWhereOnlyTheEndsAreHeld) {
   Random random(own::seed(43));
   for (int n = 0; n < own::requests(0.02); ++n) {

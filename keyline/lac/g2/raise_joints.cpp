@@ -133,7 +133,7 @@ class Raising {
     if (hold_ == HeldJoints::ends) return free_run(row);
     Found best;
     for (const detail::Cut cut : kCuts) {
-      if (cut.parts > 3 && best.largest <= limit_) break;
+      if (cut.parts > 3 && std::isfinite(best.largest) && best.largest <= limit_) break;
       auto parts = rate_run_either_way(row, cut);
       if (!parts) continue;
       Found found{std::move(*parts), {}, 0};
