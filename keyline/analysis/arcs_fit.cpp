@@ -86,7 +86,7 @@ ArcsFit fit_arcs(const PieceFrame& frame, int n) {
   }
   ArcsFit fit;
   const Arcs build;
-  fit.deviation = minimize(frame, build, x, 100);
+  fit.deviation = minimize(frame, build, {}, x, 100);
   fit.curvatures.assign(x.data(), x.data() + n);
   double from = 0;
   for (int k = 0; k + 1 < n; ++k) {

@@ -19,10 +19,17 @@ inline double straight_deviation(const PieceFrame& frame) {
   return frame.displacement(Eigen::VectorXd::Zero(frame.cells())).norm();
 }
 
+/// Between which the parameters of a fit stay; empty: anywhere.
+struct Bounds {
+  Eigen::VectorXd low;
+  Eigen::VectorXd high;
+};
+
 /// Least squares of the frame's displacement by build.at(x) with a numeric Jacobian; returns the
 /// distance.
 template <class Build>
-double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int iterations) {
+double minimize(const PieceFrame& frame, Build& build, const Bounds& bounds, Eigen::VectorXd& x,
+                int iterations) {
   Eigen::VectorXd known_at;  // a step that is taken is asked for again, with its derivatives
   Eigen::VectorXd known;
   const auto displaced = [&](const Eigen::VectorXd& at) -> const Eigen::VectorXd& {
@@ -37,7 +44,8 @@ double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int i
     if (!j) return true;
     j->resize(r.size(), at.size());
     for (int k = 0; k < at.size(); ++k) {
-      const double step = 1e-7 * std::max(1.0, std::abs(at[k]));
+      double step = 1e-7 * std::max(1.0, std::abs(at[k]));
+      if (bounds.high.size() > 0 && at[k] + step > bounds.high[k]) step = -step;
       Eigen::VectorXd beside = at;
       beside[k] += step;
       j->col(k) = (frame.displacement(build.beside(beside, frame.cells())) - r) / step;
@@ -46,6 +54,8 @@ double minimize(const PieceFrame& frame, Build& build, Eigen::VectorXd& x, int i
   };
   numeric::LevenbergMarquardtOptions options;
   options.max_iterations = iterations;
+  options.low = bounds.low;
+  options.high = bounds.high;
   numeric::minimize_least_squares(residuals, x, options);
   return displaced(x).norm();
 }

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "keyline/analysis/frame_fit.h"
-#include "keyline/analysis/line_borders.h"
+#include "keyline/analysis/line_fit.h"
 #include "keyline/core/interval.h"
 #include "keyline/numeric/solve.h"
 
@@ -60,16 +60,28 @@ LineModel first_guess(const PieceFrame& frame, double slope) {
   return m;
 }
 
+/// Of a curvature and a rate, which are free, and of what has ranges.
+Bounds bounds_of(const std::vector<core::Interval>& ranges) {
+  const auto count = static_cast<Eigen::Index>(ranges.size()) + 2;
+  Bounds bounds{Eigen::VectorXd::Constant(count, -HUGE_VAL),
+                Eigen::VectorXd::Constant(count, HUGE_VAL)};
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    bounds.low[static_cast<Eigen::Index>(i) + 2] = ranges[i].low;
+    bounds.high[static_cast<Eigen::Index>(i) + 2] = ranges[i].high;
+  }
+  return bounds;
+}
+
 LineModel one_line(const Eigen::VectorXd& x, double low, double high) {
-  const double slope = folded(x[2], low, high);
+  const double slope = std::clamp(x[2], low, high);
   LineModel m{std::exp(x[0]), x[1], 0.5, slope, slope};
   m.rate = drawable_rate(m);
   return m;
 }
 
 LineModel two_lines(const Eigen::VectorXd& x, const SlopeBounds& b) {
-  LineModel m{std::exp(x[0]), x[1], folded(x[4], kAnchors.low, kAnchors.high),
-              folded(x[2], b.low0, b.high0), folded(x[3], b.low1, b.high1)};
+  LineModel m{std::exp(x[0]), x[1], std::clamp(x[4], kAnchors.low, kAnchors.high),
+              std::clamp(x[2], b.low0, b.high0), std::clamp(x[3], b.low1, b.high1)};
   m.rate = drawable_rate(m);
   return m;
 }
@@ -82,8 +94,8 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
     if (!(high > low)) fit.slope_error0 = fit.slope_error1 = 0;
     return fit;
   }
-  const Lines::Model model = [&](const Eigen::VectorXd& x) { return one_line(x, low, high); };
-  Lines build(model);
+  const LineModels lines{[&](const Eigen::VectorXd& x) { return one_line(x, low, high); },
+                         bounds_of({{low, high}})};
   const double width = high - low;
   const PieceFrame few = frame.coarse();
   double least = std::numeric_limits<double>::infinity();
@@ -96,7 +108,7 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
     const LineModel guess = first_guess(frame, start);
     Eigen::VectorXd x(3);
     x << std::log(std::max(guess.curvature, 1e-12)), guess.rate, start;
-    const double deviation = minimize(few, build, x, 60);
+    const double deviation = fit(few, lines, x, 60);
     if (!(deviation < least)) continue;
     least = deviation;
     best_x = x;
@@ -107,11 +119,10 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
     best.deviation = frame.displacement(turning_of(best.model, frame.cells())).norm();
     return best;
   }
-  best.deviation = minimize(frame, build, best_x, 60);
-  best.deviation = settle_at_borders(frame, model, {{2, {low, high}}}, best.deviation, best_x);
+  best.deviation = fit(frame, lines, best_x, 60);
+  best.deviation = settle_at_last_rate(frame, lines, best.deviation, best_x);
   best.model = one_line(best_x, low, high);
   if (width > 0) {
-    best_x[2] = best.model.slope0;
     const Lines free([](const Eigen::VectorXd& x) { return one_line(x, -99, 99); });
     best.slope_error0 = best.slope_error1 = uncertainty(frame, free, best_x)[2];
   }
@@ -140,10 +151,9 @@ Eigen::VectorXd two_lines_guess(const LineModel& m, const SlopeBounds& b, double
 LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start) {
   if (is_straight(frame))
     return straight_line(frame, (bounds.low0 + bounds.high0) / 2, (bounds.low1 + bounds.high1) / 2);
-  const Lines::Model model = [&](const Eigen::VectorXd& x) { return two_lines(x, bounds); };
-  const std::vector<Fold> folds = {
-      {2, {bounds.low0, bounds.high0}}, {3, {bounds.low1, bounds.high1}}, {4, kAnchors}};
-  Lines build(model);
+  const LineModels lines{
+      [&](const Eigen::VectorXd& x) { return two_lines(x, bounds); },
+      bounds_of({{bounds.low0, bounds.high0}, {bounds.low1, bounds.high1}, kAnchors})};
   const double way = bounds.low0 > bounds.low1 ? 1 : -1;
   const PieceFrame few = frame.coarse();
   Eigen::VectorXd best_x;
@@ -152,27 +162,26 @@ LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const 
     for (const auto& [step0, step1] : {std::pair{0.7, -0.7}, {2.0, -0.2}, {0.2, -2.0}}) {
       if (least < kExact) break;
       Eigen::VectorXd x = two_lines_guess(start, bounds, anchor, way * step0, way * step1);
-      const double deviation = minimize(few, build, x, 30);
+      const double deviation = fit(few, lines, x, 80);
       if (!(deviation < least)) continue;
       least = deviation;
       best_x = x;
     }
   }
-  LineFit fit;
+  LineFit best;
   if (best_x.size() == 0) {
-    fit.model = start;
-    fit.deviation = frame.displacement(turning_of(start, frame.cells())).norm();
-    return fit;
+    best.model = start;
+    best.deviation = frame.displacement(turning_of(start, frame.cells())).norm();
+    return best;
   }
-  fit.deviation = minimize(frame, build, best_x, 100);
-  fit.deviation = settle_at_borders(frame, model, folds, fit.deviation, best_x);
-  fit.model = two_lines(best_x, bounds);
-  best_x.segment(2, 3) << fit.model.slope0, fit.model.slope1, fit.model.anchor;
+  best.deviation = fit(frame, lines, best_x, 100);
+  best.deviation = settle_at_last_rate(frame, lines, best.deviation, best_x);
+  best.model = two_lines(best_x, bounds);
   const Lines free([](const Eigen::VectorXd& x) { return two_lines(x, {-99, 99, -99, 99}); });
   const Eigen::VectorXd errors = uncertainty(frame, free, best_x);
-  fit.slope_error0 = errors[2];
-  fit.slope_error1 = errors[3];
-  return fit;
+  best.slope_error0 = errors[2];
+  best.slope_error1 = errors[3];
+  return best;
 }
 
 }  // namespace keyline::analysis::detail

@@ -33,16 +33,45 @@ struct Step {
   Eigen::VectorXd x;
   Eigen::VectorXd scaled;  // in the scaled unknowns
   double length = 0;
+  double predicted = 0;  // decrease of the linearised cost
 };
 
-Step damped_step(const NormalEquations& normal, double damping, const Eigen::VectorXd& x) {
+Eigen::VectorXd within(const Eigen::VectorXd& x, const LevenbergMarquardtOptions& bounds) {
+  if (bounds.low.size() == 0) return x;
+  return x.cwiseMax(bounds.low).cwiseMin(bounds.high);
+}
+
+/// Takes out the unknowns that are at a bound beyond which the cost would fall.
+void hold_at_bounds(NormalEquations& normal, const Eigen::VectorXd& x,
+                    const LevenbergMarquardtOptions& bounds) {
+  if (bounds.low.size() == 0) return;
+  for (int k = 0; k < x.size(); ++k) {
+    const bool held = (x[k] <= bounds.low[k] && normal.gradient[k] > 0) ||
+                      (x[k] >= bounds.high[k] && normal.gradient[k] < 0);
+    if (!held) continue;
+    normal.gradient[k] = 0;
+    normal.matrix.row(k).setZero();
+    normal.matrix.col(k).setZero();
+    normal.matrix(k, k) = 1;
+  }
+}
+
+Step damped_step(const NormalEquations& normal, double damping, const Eigen::VectorXd& x,
+                 const LevenbergMarquardtOptions& bounds) {
   Eigen::MatrixXd damped = normal.matrix;
   damped.diagonal().array() += damping;
   Step step;
   step.scaled = solve_symmetric(damped, -normal.gradient);
-  const Eigen::VectorXd move = normal.scale.cwiseProduct(step.scaled);
-  step.length = move.norm();
+  step.predicted = step.scaled.dot(damping * step.scaled - normal.gradient) / 2;
+  Eigen::VectorXd move = normal.scale.cwiseProduct(step.scaled);
   step.x = x + move;
+  if (bounds.low.size() > 0) {
+    step.x = within(step.x, bounds);
+    move = step.x - x;
+    step.scaled = move.cwiseQuotient(normal.scale);
+    step.predicted = -step.scaled.dot(normal.gradient + normal.matrix * step.scaled / 2);
+  }
+  step.length = move.norm();
   return step;
 }
 
@@ -56,29 +85,34 @@ LevenbergMarquardtReport minimize_least_squares(const ResidualFunction& function
                                                 Eigen::VectorXd& x,
                                                 const LevenbergMarquardtOptions& options) {
   LevenbergMarquardtReport report;
+  x = within(x, options);
   Eigen::VectorXd residuals;
   Eigen::VectorXd trial_residuals;
   Eigen::MatrixXd jacobian;
   if (!function(x, residuals, &jacobian)) return report;
   report.cost = residuals.squaredNorm() / 2;
   report.status = LevenbergMarquardtStatus::iteration_limit;
-  NormalEquations normal = assemble(jacobian, residuals);
+  const auto equations = [&] {
+    NormalEquations all = assemble(jacobian, residuals);
+    hold_at_bounds(all, x, options);
+    return all;
+  };
+  NormalEquations normal = equations();
   const auto flat = [&] { return is_flat(normal, report.cost, options.gradient_tolerance); };
   GainDamping rule{options.initial_damping};
   const auto take_step = [&](double damping) -> StepOutcome {
-    const Step step = damped_step(normal, damping, x);
+    const Step step = damped_step(normal, damping, x, options);
     if (step.length <= options.step_tolerance * (x.norm() + options.step_tolerance))
       return {StepEnd::settled};
     const bool inside = step.x.allFinite() && function(step.x, trial_residuals, nullptr);
     const double cost = inside ? trial_residuals.squaredNorm() / 2 : report.cost;
-    const double predicted = step.scaled.dot(damping * step.scaled - normal.gradient) / 2;
-    const double gain = inside && std::isfinite(cost) ? (report.cost - cost) / predicted : -1;
+    const double gain = inside && std::isfinite(cost) ? (report.cost - cost) / step.predicted : -1;
     if (!(gain > 0)) return {};
     x = step.x;
     const bool settled = report.cost - cost <= options.cost_tolerance * report.cost;
     report.cost = cost;
     if (settled || !function(x, residuals, &jacobian)) return {StepEnd::settled};
-    normal = assemble(jacobian, residuals);
+    normal = equations();
     return {flat() ? StepEnd::settled : StepEnd::taken, gain};
   };
   const DescentEnd end = damped_descent(rule, flat() ? 0 : options.max_iterations, take_step);

@@ -17,6 +17,8 @@ struct LevenbergMarquardtOptions {
   double gradient_tolerance = 1e-12;  ///< largest cosine between residual and a Jacobian column
   double step_tolerance = 1e-12;      ///< |step| relative to |x|
   double cost_tolerance = 1e-14;      ///< relative decrease of the cost
+  Eigen::VectorXd low{};              ///< x stays from low to high; empty: without bounds
+  Eigen::VectorXd high{};
 };
 
 enum class LevenbergMarquardtStatus { converged, iteration_limit, no_start };
@@ -32,8 +34,9 @@ struct LevenbergMarquardtReport {
 /// Damped normal equations with the columns scaled to unit length ([Marquardt 1963]) and the gain
 /// ratio controlling the damping ([Nielsen 1999]). For small and moderate dense problems; a rank
 /// deficient Jacobian is harmless (the damping regularises it), but precision of x is then
-/// limited to about the square root of rounding. no_start: the function refused the start, x is
-/// untouched.
+/// limited to about the square root of rounding. Bounds: steps end at them, and an unknown that is
+/// at one and would pass it stays there while the others move. no_start: the function refused the
+/// start, x is untouched.
 LevenbergMarquardtReport minimize_least_squares(const ResidualFunction& function,
                                                 Eigen::VectorXd& x,
                                                 const LevenbergMarquardtOptions& options = {});

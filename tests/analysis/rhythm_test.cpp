@@ -207,7 +207,7 @@ TEST(Rhythm, TheBestSlopeIsNoWorseThanAnyGiven) {
   }
 }
 
-TEST(Rhythm, ReversalKeepsEveryReadingOfOneSlope) {
+TEST(Rhythm, ReversalKeepsEveryReading) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
@@ -215,13 +215,14 @@ TEST(Rhythm, ReversalKeepsEveryReadingOfOneSlope) {
     const RhythmReading back = classify_rhythm(reversed(p)).value();
     const RhythmReading reading = classify_rhythm(p).value();
     for (const Interpretation& there : reading.interpretations) {
-      if (there.slopes.size() > 1) continue;
       const auto same = [&](const Interpretation& r) {
         return r.rhythm == there.rhythm && r.slopes.size() == there.slopes.size();
       };
       const auto here = std::ranges::find_if(back.interpretations, same);
       ASSERT_NE(here, back.interpretations.end());
-      EXPECT_NEAR(here->deviation, there.deviation, 1e-5 * there.deviation + 1e-12)
+      // Of two slopes and a break on nearly even ground the last digits cost nothing.
+      const double share = there.slopes.size() > 1 ? 1e-2 : 1e-5;
+      EXPECT_NEAR(here->deviation, there.deviation, share * there.deviation + 1e-12)
           << rhythm_name(there.rhythm);
     }
   }

@@ -43,6 +43,52 @@ TEST(LevenbergMarquardt, StaysInTheDomain) {
   EXPECT_NEAR(x[0], 1e-4, 1e-9);
 }
 
+/// (x - 2)^2 + (x + y - 1)^2 is least at (2, -1); with x at most 1 at (1, 0), with y from 0.5 on
+/// too at (1, 0.5).
+TEST(LevenbergMarquardt, StaysWithinBoundsAndMovesAlongThem) {
+  const auto f = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+    r.resize(2);
+    r << x[0] - 2, x[0] + x[1] - 1;
+    if (j) {
+      j->resize(2, 2);
+      *j << 1, 0, 1, 1;
+    }
+    return x[0] <= 1 && r.allFinite();  // never asked beyond
+  };
+  LevenbergMarquardtOptions options;
+  options.low = Eigen::Vector2d(-5, -HUGE_VAL);
+  options.high = Eigen::Vector2d(1, HUGE_VAL);
+  Eigen::VectorXd x = Eigen::Vector2d(-3, 4);
+  EXPECT_EQ(minimize_least_squares(f, x, options).status, LevenbergMarquardtStatus::converged);
+  EXPECT_EQ(x[0], 1);
+  EXPECT_NEAR(x[1], 0, 1e-9);
+  options.low[1] = 0.5;
+  x = Eigen::Vector2d(7, 4);  // brought within
+  minimize_least_squares(f, x, options);
+  EXPECT_EQ(x[0], 1);
+  EXPECT_EQ(x[1], 0.5);
+}
+
+/// An unknown leaves a bound it started at where that is what makes the cost fall.
+TEST(LevenbergMarquardt, LeavesABound) {
+  const auto f = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+    r.resize(2);
+    r << 10 * (x[1] - x[0] * x[0]), 1 - x[0];
+    if (j) {
+      j->resize(2, 2);
+      *j << -20 * x[0], 10, -1, 0;
+    }
+    return true;
+  };
+  LevenbergMarquardtOptions options;
+  options.low = Eigen::Vector2d(-1.2, -0.2);
+  options.high = Eigen::Vector2d(3, 3);
+  Eigen::VectorXd x = Eigen::Vector2d(-1.2, -0.2);
+  minimize_least_squares(f, x, options);
+  EXPECT_NEAR(x[0], 1, 1e-9);
+  EXPECT_NEAR(x[1], 1, 1e-9);
+}
+
 TEST(LevenbergMarquardt, RefusedStartIsReported) {
   const auto never = [](const Eigen::VectorXd&, Eigen::VectorXd&, Eigen::MatrixXd*) {
     return false;
