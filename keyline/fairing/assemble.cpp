@@ -172,7 +172,7 @@ void note_run(FairResult& result, const RunResult& run, std::size_t index) {
         where +
         ": the calmest chain did not come out within the tolerance, or wandered off "
         "between points, so the shortest one is given");
-  if (run.untried)
+  if (run.waves.untried)
     result.notes.push_back(where +
                            ": more waves of curvature than can be tried one by one; some stay that "
                            "might have gone");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "keyline/analysis/comb_figures.h"
+
 namespace keyline::fairing::detail {
 namespace {
 
@@ -203,16 +205,19 @@ class Calming {
   Calming(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options)
       : curve_(curve), points_(points), options_(options) {}
 
-  BandReport run() {
+  Calmed run() {
     report_ = least_variation(curve_, points_, options_.band);
-    if (!report_.within) return report_;
-    take(extrema_of(curve_, analysis::kSeenWave * range_of(curve_)), true);
-    while (!options_.band.progress.stop_requested() && (together() || single()));
-    if (options_.most_turns) keep_to(*options_.most_turns);
-    return report_;
+    if (report_.within) take_waves();
+    return {report_, {static_cast<int>(turns_of(curve_).size()), untried_}};
   }
 
  private:
+  void take_waves() {
+    take(extrema_of(curve_, analysis::kSeenWave * range_of(curve_)), true);
+    while (!options_.band.progress.stop_requested() && (together() || single()));
+    if (options_.most_turns) keep_to(*options_.most_turns);
+  }
+
   /// Further waves go for the asking, while the tolerance holds.
   void keep_to(int turns) {
     options_.most_rms = options_.worth = HUGE_VAL;
@@ -275,13 +280,12 @@ class Calming {
   bool single() {
     const std::vector<int> extrema = turns_of(curve_);
     int in_row = 0;
+    untried_ = false;
     for (const Removal& r : removals(curve_, extrema)) {
-      if (r.sideways > kHopeless * options_.band.tolerance || in_row == kInRow) break;
+      if (r.sideways > kHopeless * options_.band.tolerance) break;
       if (refused(r)) continue;
-      if (tries_ == kTries) {
-        report_.untried = true;
-        break;
-      }
+      untried_ = in_row == kInRow || tries_ == kTries;
+      if (untried_) break;
       ++in_row;
       ++tries_;
       if (take(without(extrema, {r}))) {
@@ -307,12 +311,12 @@ class Calming {
   std::vector<std::vector<int>> in_vain_;  ///< extrema that were tried with the curve as it is
   std::size_t most_at_once_ = 1'000'000;
   int tries_ = 0;  ///< of single waves
+  bool untried_ = false;
 };
 
 }  // namespace
 
-BandReport calm(DenseCurve& curve, const std::vector<FitPoint>& points,
-                const CalmOptions& options) {
+Calmed calm(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options) {
   return Calming(curve, points, options).run();
 }
 

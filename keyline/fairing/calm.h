@@ -22,9 +22,20 @@ struct CalmOptions {
   double worth = 1.5;  ///< a wave stays where the energy without it is more than so many times
 };
 
+/// Waves that a curve is left with.
+struct WavesLeft {
+  int turns = 0;         ///< of its curvature
+  bool untried = false;  ///< some were not tried to be taken out, there were too many
+};
+
+struct Calmed {
+  BandReport band;
+  WavesLeft waves;
+};
+
 /// Takes waves of curvature out of the curve of least variation, lowest first, each by solving
 /// again without it, as long as the points stay within the tolerance and the energy does not rise
 /// by `worth`.
-BandReport calm(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options);
+Calmed calm(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options);
 
 }  // namespace keyline::fairing::detail

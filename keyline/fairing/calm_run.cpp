@@ -156,8 +156,9 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   calm_options.worth = kWorth;
   calm_options.most_turns = options.most_turns;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
-  run.band = calm(run.curve, points, calm_options);
-  run.untried = run.band.untried;
+  const Calmed calmed = calm(run.curve, points, calm_options);
+  run.band = calmed.band;
+  run.waves = calmed.waves;
   if (!options.members.points.empty() && run.band.within) {
     measure_spread(points, run.curve, options.members);
     BandOptions again = piece_band(run, options);
@@ -173,7 +174,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   flat.noise = std::max(options.residuals.noise, kLeastNoise * options.tolerance);
   if (run.band.within) lay_lines(run.curve, run.band, points, flat);
   run.calm_energy = run.band.energy;
-  run.turns = static_cast<int>(turns_of(run.curve).size());
+  run.waves.turns = static_cast<int>(turns_of(run.curve).size());
   run.curve.sense.clear();
   choose_pieces(run, points, options);
   flat.band.spring = run.band.spring;

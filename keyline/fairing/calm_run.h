@@ -24,8 +24,7 @@ struct CalmRunOptions {
 struct CalmRun {
   DenseCurve curve;  ///< of log-aesthetic pieces
   BandReport band;
-  int turns = 0;           ///< of curvature in the calm curve
-  bool untried = false;    ///< some of them were not tried to be taken out, there were too many
+  WavesLeft waves;         ///< in the calm curve
   double calm_energy = 0;  ///< the same without waves that the points do not ask for
 };
 

@@ -148,10 +148,10 @@ class Job {
       split(one.spline, k);
       solved_.push_back(std::move(one.chain));
       detail::note_run(result_, solved_.back(), k);
-      if (options_.waves && solved_.back().turns > *options_.waves)
+      if (options_.waves && solved_.back().waves.turns > *options_.waves)
         result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
                                             k, core::counted(std::size_t(*options_.waves), "wave"),
-                                            solved_.back().turns));
+                                            solved_.back().waves.turns));
       result_.splines.push_back(std::move(one.spline));
     }
     return {};

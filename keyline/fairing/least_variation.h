@@ -28,7 +28,6 @@ struct BandReport {
   double max_offset = 0;  ///< largest distance of a point, spread included
   double rms = 0;         ///< root of the mean square of the offsets
   double spring = 0;      ///< weight of its square's half that was taken
-  bool untried = false;   ///< waves were left that `calm` did not try to take out any more
 };
 
 /// The curve of least variation of curvature within the tolerance of the points, from the one

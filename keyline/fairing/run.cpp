@@ -211,8 +211,7 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   result.start_pieces = static_cast<int>(result.fit.pieces.size());
   result.dense = std::move(found.curve);
   result.spring = found.band.spring;
-  result.turns = found.turns;
-  result.untried = found.untried;
+  result.waves = found.waves;
   result.within_tolerance = found.band.within;
 }
 

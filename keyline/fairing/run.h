@@ -6,6 +6,7 @@
 #include "keyline/core/half_plane.h"
 #include "keyline/core/interval.h"
 #include "keyline/core/similarity.h"
+#include "keyline/fairing/calm.h"
 #include "keyline/fairing/chain_search.h"
 #include "keyline/fairing/dense_curve.h"
 #include "keyline/fairing/fair.h"
@@ -77,8 +78,7 @@ struct RunResult {
   bool joined = false;       ///< solved again for joints of one rate, in the tolerance alone
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
-  int turns = 0;         ///< of the calmest curve's curvature
-  bool untried = false;  ///< some of them, see CalmRun
+  WavesLeft waves;       ///< in the calmest curve
   double spring = 0;     ///< of the mean square of the offsets, see BandOptions
   DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
 };

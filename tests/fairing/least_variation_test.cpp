@@ -87,7 +87,7 @@ TEST(LeastVariation, WavesGoWhereThePointsDoNotAskForThem) {
     const auto points = rippled(height);
     DenseCurve curve = detail::dense_curve(points, false, 200);
     const BandReport report =
-        detail::calm(curve, points, {.band = {.tolerance = 1e-3, .progress = {}}});
+        detail::calm(curve, points, {.band = {.tolerance = 1e-3, .progress = {}}}).band;
     EXPECT_TRUE(report.within);
     return detail::extrema_of(curve, 1e-2).size();
   };
