@@ -180,6 +180,10 @@ Texture estimate_texture(std::span<const core::Point2> points, bool closed) {
   return {least, nearest, nearest};
 }
 
+bool noise_stays(std::span<const core::Point2> points, bool closed, double noise) {
+  return estimate_noise(points, closed, 2 * noise_stride(points, closed)) <= kStays * noise;
+}
+
 double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride) {
   std::array<double, kWindows.size()> variance;
   double least = std::numeric_limits<double>::infinity();

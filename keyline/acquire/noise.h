@@ -31,6 +31,10 @@ struct Texture {
 /// curve; where nothing stays before that, the estimate of neighbours is all there is.
 Texture estimate_texture(std::span<const core::Point2> points, bool closed);
 
+/// Whether points twice as far apart err by about as much as that: else neighbours err alike, or
+/// what counts as noise is shape that few points tell.
+bool noise_stays(std::span<const core::Point2> points, bool closed, double noise);
+
 /// Number of points from one window point to the next at which steps along the curve stand clear
 /// of the noise: 1 for ordinary data, larger where points are denser than their noise.
 std::size_t noise_stride(std::span<const core::Point2> points, bool closed);

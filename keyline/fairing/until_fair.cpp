@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "keyline/acquire/noise.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -15,7 +19,31 @@ struct Try {
   double smoothness;
   double from, to;  // of the progress
 };
-constexpr std::array<Try, 3> kTries{{{kNearAsNoise, 0, 0.8}, {0.75, 0.8, 0.9}, {1, 0.9, 1}}};
+// From the noise on twice as far each time. The first step lets the mean square grow by about a
+// tenth, as much as the noise may be told wrongly: more than the least that is fair leaves points
+// for nothing. Where they do not tell their noise, two wide steps do.
+constexpr std::array<Try, 5> kTries{{{kNearAsNoise, 0, 0.7},
+                                     {0.5625, 0.7, 0.8},
+                                     {0.625, 0.8, 0.9},
+                                     {0.75, 0.9, 0.95},
+                                     {1, 0.95, 1}}};
+constexpr double kWide = 0.75;
+
+/// The largest root of the offsets' mean square that leaves a curve nearer to the shape than one of
+/// its points is: errors and the curve's own departure add in squares, and that is no more than the
+/// noise, or than what the tolerance holds beyond the errors. Farther off only a fair answer
+/// counts.
+double most_rms(const acquire::KeyLine& line, const FairResult& result) {
+  const std::size_t n = line.points.size();
+  const double left = std::max(0.0, result.tolerance - noise_factor(n) * result.noise);
+  return std::hypot(std::numbers::sqrt2 * result.noise, left);
+}
+
+double rms_of(const FairResult& result) {
+  double square = 0;
+  for (const double offset : result.offsets) square += offset * offset;
+  return std::sqrt(square / std::max<double>(1, static_cast<double>(result.offsets.size())));
+}
 
 /// How far an answer is from fair, the worse the greater.
 std::tuple<bool, int, double, double> unfairness(const FairResult& result) {
@@ -52,8 +80,10 @@ core::Result<FairResult> until_fair(
   const bool calmest = options.criterion == Criterion::least_variation && options.pieces == 0;
   if (options.smoothness || !calmest)
     return judged(line, solve(options, nullptr), nullptr, options.threads);
+  const bool told = acquire::noise_stays(line.points, line.closed, line.noise);
   std::optional<FairResult> best;
   for (const Try& one : kTries) {
+    if (!told && one.smoothness > kNearAsNoise && one.smoothness < kWide) continue;
     FairOptions asked = options;
     asked.smoothness = one.smoothness;
     asked.progress = core::part_of(options.progress, one.from, one.to);
@@ -61,7 +91,9 @@ core::Result<FairResult> until_fair(
     auto found = judged(line, solve(asked, before), before, options.threads);
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
-    if (!best || unfairness(*found) < unfairness(*best)) best = std::move(*found);
+    const bool near = !told || rms_of(*found) <= most_rms(line, *found);
+    const bool worth = near || found->fairness.fair;
+    if (!best || (worth && unfairness(*found) < unfairness(*best))) best = std::move(*found);
     if (best->fairness.fair || best->cancelled || !best->smoothness_counts) break;
   }
   if (!best->fairness.fair || best->smoothness > kNearAsNoise) tell(*best);

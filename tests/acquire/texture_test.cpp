@@ -45,6 +45,15 @@ TEST(Texture, ErrorsOfNeighboursAlikeAreSeenFartherApart) {
   }
 }
 
+TEST(NoiseStays, UnlessNeighboursErrAlike) {
+  EXPECT_TRUE(noise_stays(rough_ellipse(1), true, kRoughness));
+  for (const int width : {4, 8}) {
+    const auto points = rough_ellipse(width);
+    EXPECT_FALSE(noise_stays(points, true, estimate_noise(points, true))) << width;
+    EXPECT_TRUE(noise_stays(points, true, kRoughness)) << width;
+  }
+}
+
 TEST(Texture, ChanceIsChanceAndShapeIsShape) {
   const Texture chance = estimate_texture(rough_ellipse(1), true);
   EXPECT_EQ(chance.stride, 1U);

@@ -38,14 +38,16 @@ struct Solver {
 using Asked = std::vector<double>;
 
 TEST(UntilFair, StopsAtTheFirstSmoothnessWhoseAnswerIsFair) {
-  for (const auto& [from, asked] :
-       {std::pair<double, Asked>{0.5, {0.5}}, {0.75, {0.5, 0.75}}, {1, {0.5, 0.75, 1}}}) {
+  for (const auto& [from, asked] : {std::pair<double, Asked>{0.5, {0.5}},
+                                    {0.5625, {0.5, 0.5625}},
+                                    {0.7, {0.5, 0.5625, 0.625, 0.75}},
+                                    {1, {0.5, 0.5625, 0.625, 0.75, 1}}}) {
     SCOPED_TRACE(from);
     Solver solver{from, 1, {}};
     const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
     EXPECT_EQ(solver.asked, asked);
     EXPECT_TRUE(found.fairness.fair);
-    EXPECT_EQ(found.smoothness, from);
+    EXPECT_EQ(found.smoothness, asked.back());
     EXPECT_EQ(found.notes.size(), from > 0.5 ? 1u : 0u);
   }
 }
@@ -87,6 +89,27 @@ TEST(UntilFair, SolvesOnceWhereTheToleranceHoldsNoMoreThanNoise) {
   EXPECT_EQ(found->smoothness, 0.5);
 }
 
+/// Answers farther off the smoother, the two smoothest by more than the noise's square root of two.
+double rms_at(double smoothness) { return smoothness < 0.7 ? 1 + smoothness / 2 : 1.5; }
+
+// Farther from the points than errors and a departure as large as theirs explain, only what is fair
+// is worth it.
+TEST(UntilFair, DepartsByMoreThanTheNoiseOnlyWhereThatIsFair) {
+  for (const auto& [fair_from, taken] : {std::pair{2.0, 0.625}, {1.0, 1.0}}) {
+    Solver solver{fair_from, 1, {}};
+    const auto found =
+        until_fair(three_points(), {}, [&](const FairOptions& options, const FairResult* before) {
+          auto result = solver(options, before);
+          result->noise = 1;
+          result->tolerance = noise_factor(3);
+          result->offsets.assign(3, rms_at(result->smoothness));
+          return result;
+        });
+    EXPECT_EQ(found->smoothness, taken);
+    EXPECT_EQ(found->fairness.fair, fair_from == 1);
+  }
+}
+
 TEST(UntilFair, KeepsTheCalmestAndSaysSoWhereNoneIsFair) {
   Solver solver{2, 1, {}};
   const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
@@ -124,6 +147,15 @@ acquire::KeyLine rough_circle(int shape) {
     line.points.push_back({r * std::cos(t), r * std::sin(t)});
   }
   return line;
+}
+
+TEST(UntilFair, TakesWideStepsWherePointsDoNotTellTheirNoise) {
+  Solver solver{0.7, 1, {}};
+  acquire::KeyLine line = rough_circle(1);
+  line.noise = 1e-5;  // they err by more
+  const auto found = until_fair(line, {}, std::ref(solver)).value();
+  EXPECT_EQ(solver.asked, (Asked{0.5, 0.75}));
+  EXPECT_TRUE(found.fairness.fair);
 }
 
 // Where errors of neighbours are alike, as near as the noise is not fair; within the tolerance
