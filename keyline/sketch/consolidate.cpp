@@ -10,12 +10,17 @@
 #include "keyline/sketch/meant_line.h"
 #include "keyline/sketch/pass_evidence.h"
 #include "keyline/sketch/stroke_grid.h"
+#include "keyline/sketch/two_lines.h"
 
 namespace keyline::sketch {
 namespace {
 
 using core::distance;
 using core::Point2;
+
+/// Lengths of overlap: more than any evidence for two strokes that are of two lines, less than a
+/// wish.
+constexpr double kTwoLines = 1e6;
 
 /// Widths of pens that are probable: from the first to the second times the geometric mean of a
 /// drawing's size and the mean length of its strokes.
@@ -64,13 +69,39 @@ std::vector<std::vector<std::size_t>> groups_among(const std::vector<std::size_t
   return groups;
 }
 
-/// Strokes and what speaks for or against their being passes of one line.
+/// Strokes, what speaks for or against their being passes of one line, and the groups it makes.
 struct Passes {
   Pen pen;
   PassModel model;
   std::vector<SampledStroke> sampled;
   PassEvidence evidence;
+  std::vector<std::vector<std::size_t>> groups;
 };
+
+/// Says that strokes are of two lines; true if nothing said so of some, nor a wish joins two.
+bool tell_apart(const TwoLines& lines, PassEvidence& evidence) {
+  for (const std::size_t a : lines.one)
+    for (const std::size_t b : lines.other)
+      if (evidence[a][b] >= kTwoLines) return false;
+  bool more = false;
+  for (const std::size_t a : lines.one)
+    for (const std::size_t b : lines.other) {
+      if (evidence[a][b] <= -kTwoLines) continue;
+      evidence[a][b] = evidence[b][a] = -kTwoLines;
+      more = true;
+    }
+  return more;
+}
+
+/// Groups by the evidence, with what makes them two lines added to it until nothing does.
+void group(const PassModel& at_most, Passes& all) {
+  for (bool settled = false; !settled;) {
+    settled = true;
+    all.groups = group_by_evidence(all.evidence);
+    for (const TwoLines& lines : two_lines(all.sampled, all.groups, at_most))
+      if (tell_apart(lines, all.evidence)) settled = false;
+  }
+}
 
 Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptions& options) {
   Passes all;
@@ -85,6 +116,7 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
   all.model = reach.seen;
   all.evidence = pass_evidence(all.sampled, reach);
   wish(options.wishes, all.evidence);
+  group(at_most, all);
   return all;
 }
 
@@ -92,13 +124,13 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
 
 std::size_t count_lines(const std::vector<DrawnStroke>& strokes,
                         const ConsolidateOptions& options) {
-  return group_by_evidence(passes_of(strokes, options).evidence).size();
+  return passes_of(strokes, options).groups.size();
 }
 
 std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
                                    const ConsolidateOptions& options) {
-  const auto [pen, model, sampled, evidence] = passes_of(strokes, options);
-  std::vector<std::vector<std::size_t>> open = group_by_evidence(evidence);
+  const auto [pen, model, sampled, evidence, groups] = passes_of(strokes, options);
+  std::vector<std::vector<std::size_t>> open = groups;
   std::vector<MeantLine> lines;
   std::vector<std::size_t> strays;
   while (!open.empty()) {  // strays of a line are lines of their own

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "keyline/sketch/pass_evidence.h"
+#include "keyline/sketch/stroke_grid.h"
+
+namespace keyline::sketch {
+
+/// Strokes of two lines, by index.
+struct TwoLines {
+  std::vector<std::size_t> one;
+  std::vector<std::size_t> other;
+};
+
+/// What of groups of strokes is two lines and not passes of one.
+///
+/// Strokes of a group are put together anew, nearest first by the mean square of their distance
+/// where they run beside each other in the same direction. Two parts are two lines, however often
+/// they touch or cross, if their strokes lie more than three times as far apart as those within the
+/// parts, and two widths at least (nearer, no stroke has room between): halves of an even spread
+/// lie √7 = 2.65 times as far apart, so more is a gap. How far apart strokes and parts usually are
+/// that are put together in the drawing counts as found within, along as much of the way as the two
+/// parts run beside each other: two strokes alone are judged by that. Where fewer than eight times
+/// something is put together, nothing is usual, and nothing told.
+///
+/// at_most: strokes farther apart than passes of any hand do not run beside each other.
+std::vector<TwoLines> two_lines(const std::vector<SampledStroke>& strokes,
+                                const std::vector<std::vector<std::size_t>>& groups,
+                                const PassModel& at_most);
+
+}  // namespace keyline::sketch
