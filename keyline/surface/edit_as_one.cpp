@@ -261,7 +261,7 @@ class AsOne {
   std::vector<BezierSurface> blend(const std::vector<BezierSurface>& held, double share) const {
     std::vector<BezierSurface> moved(given_.begin(), given_.end());
     for (std::size_t p = 0; p < moved.size(); ++p)
-      for (std::size_t i = 0; i < moved[p].net.points.size(); ++i)
+      for (std::size_t i = 0; i < moved[p].net.points.size() && held[p] != given_[p]; ++i)
         moved[p].net.points[i] = core::mix(given_[p].net.points[i], held[p].net.points[i], share);
     return moved;
   }

@@ -115,9 +115,14 @@ void close_joints(std::span<const BezierSurface> given, std::span<const HeldJoin
       if (apart(one[i], two[i]) <= near) clusters.join(one[i], two[i]);
   }
   Eigen::MatrixX3d after = detail::coordinates(moved);
-  for (std::size_t i = 0; i < base.back(); ++i)
-    after.row(static_cast<Eigen::Index>(i)) = after.row(static_cast<Eigen::Index>(clusters.of(i)));
+  const auto row = [&](std::size_t i) { return after.row(static_cast<Eigen::Index>(i)); };
+  for (std::size_t p = 0; p < given.size(); ++p)
+    for (std::size_t i = base[p]; i < base[p + 1] && is_rational(given[p]); ++i)
+      row(clusters.of(i)) = row(i);
+  for (std::size_t i = 0; i < base.back(); ++i) row(i) = row(clusters.of(i));
   moved = detail::with_coordinates(moved, after);
+  for (std::size_t p = 0; p < given.size(); ++p)
+    if (is_rational(given[p])) moved[p] = given[p];
 }
 
 }  // namespace keyline::surface

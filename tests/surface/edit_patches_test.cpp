@@ -246,6 +246,40 @@ TEST(EditPatches, LessKeptTellsTheGaps) {
   EXPECT_EQ(edit->edited.surfaces.size(), 4U);
 }
 
+/// A quarter of a cylinder about y, and a bent cubic patch that goes on from its edge
+/// z = 1, whose points lie off it by rounding.
+std::vector<Surface> cylinder_and_more() {
+  const double w = std::sqrt(0.5);
+  BezierSurface round;
+  round.net.rows = 3;
+  round.net.columns = 2;
+  round.net.points = {{1, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}, {0, 0, 1}, {0, 1, 1}};
+  round.weights = {1, 1, w, w, 1, 1};
+  BezierSurface bent;
+  bent.net.rows = 4;
+  bent.net.columns = 2;
+  for (const core::Point3 p : {core::Point3{0, 0, 1}, {-0.3, 0, 1.1}, {-1, 0, 1.2}, {-2, 0, 0.7}})
+    for (const double y : {0.0, 1 + 1e-14}) bent.net.points.push_back({p.x, y, p.z - 1e-14});
+  for (BezierSurface* s : {&round, &bent})
+    for (core::Point3& p : s->net.points) p = {1.1 * p.x + 0.37, 1.1 * p.y, 1.1 * p.z + 0.7};
+  return {round, bent};
+}
+
+TEST(EditPatches, RationalOnesStayToTheBit) {
+  const auto given = cylinder_and_more();
+  EditOptions near;
+  near.limit = 1e-3;
+  for (const EditOptions& options : {EditOptions{}, near}) {
+    const auto edits = edit_surfaces(given, options, 1, {}, HoldJoints::G1);
+    ASSERT_TRUE(edits) << edits.error().message;
+    EXPECT_EQ(edits->at(0).edited.surfaces.at(0), std::get<BezierSurface>(given[0]));
+    EXPECT_FALSE(edits->at(0).edited.patches.at(0).result);
+    if (!options.limit) {
+      EXPECT_NE(edits->at(1).edited.surfaces.at(0), std::get<BezierSurface>(given[1]));
+    }
+  }
+}
+
 TEST(EditPatches, OnePatchIsAPatch) {
   const auto edit = edit_surface(distorted_patch());
   ASSERT_TRUE(edit);
