@@ -7,19 +7,20 @@
 namespace keyline::numeric {
 namespace {
 
+bool rosenbrock(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+  r.resize(2);
+  r << 10 * (x[1] - x[0] * x[0]), 1 - x[0];
+  if (j) {
+    j->resize(2, 2);
+    *j << -20 * x[0], 10, -1, 0;
+  }
+  return true;
+}
+
 TEST(LevenbergMarquardt, RosenbrockFromTheUsualStart) {
-  const auto f = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
-    r.resize(2);
-    r << 10 * (x[1] - x[0] * x[0]), 1 - x[0];
-    if (j) {
-      j->resize(2, 2);
-      *j << -20 * x[0], 10, -1, 0;
-    }
-    return true;
-  };
   Eigen::VectorXd x(2);
   x << -1.2, 1;
-  const auto report = minimize_least_squares(f, x);
+  const auto report = minimize_least_squares(rosenbrock, x);
   EXPECT_EQ(report.status, LevenbergMarquardtStatus::converged);
   EXPECT_NEAR(x[0], 1, 1e-9);
   EXPECT_NEAR(x[1], 1, 1e-9);
@@ -71,20 +72,11 @@ TEST(LevenbergMarquardt, StaysWithinBoundsAndMovesAlongThem) {
 
 /// An unknown leaves a bound it started at where that is what makes the cost fall.
 TEST(LevenbergMarquardt, LeavesABound) {
-  const auto f = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
-    r.resize(2);
-    r << 10 * (x[1] - x[0] * x[0]), 1 - x[0];
-    if (j) {
-      j->resize(2, 2);
-      *j << -20 * x[0], 10, -1, 0;
-    }
-    return true;
-  };
   LevenbergMarquardtOptions options;
   options.low = Eigen::Vector2d(-1.2, -0.2);
   options.high = Eigen::Vector2d(3, 3);
   Eigen::VectorXd x = Eigen::Vector2d(-1.2, -0.2);
-  minimize_least_squares(f, x, options);
+  minimize_least_squares(rosenbrock, x, options);
   EXPECT_NEAR(x[0], 1, 1e-9);
   EXPECT_NEAR(x[1], 1, 1e-9);
 }
