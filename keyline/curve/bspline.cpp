@@ -99,9 +99,9 @@ Jet<P> jet(const BSpline<P>& c, double t) {
   require_counts(c);
   const auto [span, u] = locate(c, t);
   const double scale = core::length(domain(c));
-  const auto in_knots = [&, span = span, u = u](auto d) {
+  const auto in_knots = [&c, at = span, parameter = u](auto d) {
     return detail::to_jet<P>(
-        detail::spline_derivatives(d.data(), c.knots.data(), c.degree, span, u));
+        detail::spline_derivatives(d.data(), c.knots.data(), c.degree, at, parameter));
   };
   return rescaled(is_rational(c) ? in_knots(local_lifted(c, span)) : in_knots(local_plain(c, span)),
                   scale);

@@ -159,8 +159,8 @@ std::vector<fit::CurvatureTarget> targets_beside(const std::vector<curve::Bezier
   const curve::PiecewiseBezier chain{pieces, 0};
   const std::size_t n = line.size();
   const std::size_t count = kTargets * pieces.size();
-  const auto nearer = [&line](Point2 p) {
-    return [&line, p](Point2 a, Point2 b) { return core::distance(a, p) < core::distance(b, p); };
+  const auto nearer = [](Point2 p) {
+    return [p](Point2 a, Point2 b) { return core::distance(a, p) < core::distance(b, p); };
   };
   const Point2 start = evaluate(chain, 0.5 / static_cast<double>(count));
   auto at = static_cast<std::size_t>(std::ranges::min_element(line, nearer(start)) - line.begin());
