@@ -14,6 +14,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "keyline/core/sanitized.h"
+
 namespace keyline::numeric {
 
 int thread_count(int requested) {
@@ -23,7 +25,7 @@ int thread_count(int requested) {
 
 namespace detail {
 
-#ifdef __SANITIZE_THREAD__
+#ifdef KEYLINE_THREAD_SANITIZED
 
 // TBB is built without the sanitizer, which takes what it hands from thread to thread for races.
 // The starts and ends of plain threads it sees, and so the races of what runs on them.

@@ -1,3 +1,5 @@
+#include "keyline/core/sanitized.h"
+
 #include "run_keyline.h"
 
 namespace keyline::app_test {
@@ -72,7 +74,7 @@ TEST(BadInput, BinaryFile) {
 }
 
 TEST(BadInput, EndlessLineInBoundedMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef KEYLINE_SHADOWED
   GTEST_SKIP() << "the sanitizer's shadow memory is larger than the limit";
 #endif
   // 1 GB without a line end, under a limit of 800 MB of address space.

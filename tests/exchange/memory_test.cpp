@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/acquire/plane.h"
+#include "keyline/core/sanitized.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/mesh/mesh.h"
 
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef KEYLINE_SHADOWED
 constexpr bool kSanitized = true;
 #else
 constexpr bool kSanitized = false;

@@ -26,8 +26,8 @@ TEST(Random, BitsAreThoseOfXoshiro) {
 TEST(Random, UniformIsOfTheUpperBits) {
   Random random(7, 3);
   EXPECT_EQ(random.uniform(), static_cast<double>(0x4ae1831a097518U >> 11) / 9007199254740992.0);
-  EXPECT_NEAR(random.uniform(-2, 6), -2 + 8 * (0xba9e00f4b6757ce0U / 18446744073709551616.0),
-              1e-14);
+  EXPECT_NEAR(random.uniform(-2, 6),
+              -2 + 8 * (static_cast<double>(0xba9e00f4b6757ce0U) / 18446744073709551616.0), 1e-14);
 }
 
 TEST(Random, StreamsAndSeedsDiffer) {

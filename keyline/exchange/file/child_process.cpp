@@ -18,6 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "keyline/core/sanitized.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -82,7 +84,7 @@ void limit(int resource, std::size_t most) {
                          const std::array<int, 3>& ends, const ChildLimits& limits) {
   for (int i = 0; i < 3; ++i)
     if (::dup2(ends[static_cast<std::size_t>(i)], i) < 0) ::_exit(127);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // shadow memory is larger
+#ifndef KEYLINE_SHADOWED
   limit(RLIMIT_AS, limits.memory);
 #endif
   limit(RLIMIT_CORE, 0);
