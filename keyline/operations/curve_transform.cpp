@@ -39,8 +39,12 @@ Result<TransformedCurve> run(const TransformRequest& request, const Context&) {
   core::Similarity2 map{request.scale, request.turn, {}};
   map.offset =
       request.about - apply(map, request.about) + core::Vector2{request.shift.x, request.shift.y};
+  const document::Path moved = transform(request.curve, map);
+  if (!validate(moved))
+    return core::fail(core::ErrorCode::bad_input, "the curve would leave the range of numbers",
+                      "give a scale nearer 1, or a smaller shift", "scale");
   TransformedCurve answer;
-  answer.curve.curve = simplest(transform(request.curve, map));
+  answer.curve.curve = simplest(moved);
   return answer;
 }
 

@@ -105,6 +105,15 @@ TEST(CurveTransform, MovesAChainByWhatItIsMadeOf) {
   EXPECT_EQ(answer["error"]["path"], "scale") << answer;
 }
 
+// Found by the studio's server asked at random: a result of infinities was answered `internal`.
+TEST(CurveTransform, BeyondTheNumbersTheRequestIsWrong) {
+  const json line{{"type", "bezier"}, {"points", {{0, 0}, {1, 2}, {3, 2}, {4, 0}}}};
+  const json answer = answered({{"op", "curve.transform"}, {"curve", line}, {"scale", 1e308}});
+  ASSERT_EQ(answer["ok"], false);
+  EXPECT_EQ(answer["error"]["code"], "bad-input") << answer;
+  EXPECT_EQ(answer["error"]["path"], "scale");
+}
+
 TEST(RandomCurves, AreWorkedOnAsTheyStand) {
   Random random(own::seed(16));
   for (int n = 0; n < requests(0.04); ++n) {
