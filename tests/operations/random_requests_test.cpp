@@ -199,6 +199,21 @@ TEST(RandomRequests, HermiteCurvesMeetBothDirections) {
   }
 }
 
+// Found with seed 9121: beside a circle that is nearly full the last step of the search took the
+// chord's length as it was a step before.
+TEST(RandomRequests, CurvesBesideAFullCircleMeetTheirEnds) {
+  Worst worst("end");
+  for (const double alpha : {-0.01, -4.464175814052281e-05, 0.0, 0.5, 1.0})
+    for (int n = 1; n <= 40; ++n) {
+      const double from = -2.8458959107719206, to = 2.8458959107719206 + 2e-4 * n;
+      json request{{"op", "lac.hermite"}, {"start", {1, 2}}, {"end", {4, 2}}, {"alpha", alpha}};
+      request["directions"] = {from, to};
+      SCOPED_TRACE(request.dump());
+      const own::Track track = own::walked(own::result_of(request)["curve"]);
+      worst.expect_below(std::hypot(track.end().x - 4, track.end().y - 2) / 3, kExact);
+    }
+}
+
 TEST(RandomRequests, SplinesPassTheirPoints) {
   Random random(own::seed(4));
   Worst worst("points");

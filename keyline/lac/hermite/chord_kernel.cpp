@@ -18,6 +18,10 @@ using core::Vector2;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Below it the slope of the chord is taken as a circle's, which is off by q; as a difference it is
+/// off by eps / q.
+constexpr double kNextToCircle = 1.5e-8;
+
 Arm unit_arm(const Decays& d, double theta, double q) {
   Arm arm;
   arm.a = d.a;
@@ -103,7 +107,7 @@ ChordValue chord_value(const Decays& d, double theta, double q) {
   }
   chord = chord / arm.arc_total;
   moment = moment / arm.arc_total;
-  if (q * std::max(d.a, std::abs(d.b)) < 1e-3) {
+  if (q * std::max(d.a, std::abs(d.b)) < kNextToCircle) {
     const double slope = (d.b > d.a ? 1 : -1) * circle_slope(theta);
     return {chord, slope * core::perpendicular_left(chord)};
   }
