@@ -108,7 +108,7 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
     const LineModel guess = first_guess(frame, start);
     Eigen::VectorXd x(3);
     x << std::log(std::max(guess.curvature, 1e-12)), guess.rate, start;
-    const double deviation = fit(few, lines, x, 60);
+    const double deviation = settle_at_last_rate(few, lines, fit(few, lines, x, 60), x);
     if (!(deviation < least)) continue;
     least = deviation;
     best_x = x;
@@ -162,7 +162,7 @@ LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const 
     for (const auto& [step0, step1] : {std::pair{0.7, -0.7}, {2.0, -0.2}, {0.2, -2.0}}) {
       if (least < kExact) break;
       Eigen::VectorXd x = two_lines_guess(start, bounds, anchor, way * step0, way * step1);
-      const double deviation = fit(few, lines, x, 80);
+      const double deviation = settle_at_last_rate(few, lines, fit(few, lines, x, 80), x);
       if (!(deviation < least)) continue;
       least = deviation;
       best_x = x;
