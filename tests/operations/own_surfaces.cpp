@@ -103,6 +103,13 @@ double closed_in(const Patch& patch, const Vec& point, Foot at, double step) {
   return at.distance;
 }
 
+/// How far the surface goes within half a step of a place either way, were it as steep as there.
+double reach(const Patch& patch, const Foot& at, double step) {
+  const SurfaceSpot s = spot(patch, at.u, at.v);
+  return 0.5 * step * (size(s.u) + size(s.v)) +
+         0.125 * step * step * (size(s.uu) + 2 * size(s.uv) + size(s.vv));
+}
+
 }  // namespace
 
 double distance_from(const Patches& surface, const Vec& point) {
@@ -115,7 +122,9 @@ double distance_from(const Patches& surface, const Vec& point) {
         const double u = i / double{kPlaces}, v = j / double{kPlaces};
         feet.push_back({distance(spot(patch, u, v).place, point), u, v});
       }
-    // From the nearest that do not neighbour each other.
+    // From the nearest that do not neighbour each other; then from every place that a nearer one
+    // may lie beside: where a surface folds back, both sheets pass within a few places of the
+    // nearest.
     std::ranges::sort(feet, {}, &Foot::distance);
     std::vector<Foot> starts;
     for (const Foot& f : feet) {
@@ -128,6 +137,9 @@ double distance_from(const Patches& surface, const Vec& point) {
       if (best == 0) break;
       best = std::min(best, closed_in(patch, point, f, 1.0 / kPlaces));
     }
+    for (const Foot& f : feet)
+      if (f.distance - reach(patch, f, 1.0 / kPlaces) < best - 1e-12 * f.distance)
+        best = std::min(best, closed_in(patch, point, f, 0.5 / kPlaces));
   }
   return best;
 }
