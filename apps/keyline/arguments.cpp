@@ -137,7 +137,7 @@ Result<void> Arguments::put(const Known& known, const std::vector<std::string>& 
   typed_.emplace_back(known.field.name, joined(values));
   for (const Known& same : fields_) {
     if (same.field.name != known.field.name) continue;
-    auto value = value_of(same.field, values);
+    auto value = value_of(same.field, values, option_files_);
     if (!value) return std::unexpected(value.error());
     json& to = given_[same.record][std::string(same.field.name)];
     if (to.is_array() && value->is_array() && kind_of(same.field).kind == Kind::list)

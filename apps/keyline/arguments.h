@@ -11,6 +11,7 @@
 #include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 
+#include "option_files.h"
 #include "words.h"
 
 /// A command line read by described records: no option is stated twice.
@@ -44,6 +45,9 @@ class Arguments {
   const nlohmann::json& of(std::size_t record) const { return given_[record]; }
   std::vector<std::string> files;
 
+  /// Files that options name.
+  const OptionFiles& option_files() const { return option_files_; }
+
   /// What was typed, option and value, for reports.
   const std::vector<std::pair<std::string, std::string>>& typed() const { return typed_; }
 
@@ -72,6 +76,7 @@ class Arguments {
   std::vector<Known> fields_;
   std::vector<nlohmann::json> given_;
   std::vector<std::pair<std::string, std::string>> typed_;
+  OptionFiles option_files_;
 };
 
 }  // namespace keyline::app

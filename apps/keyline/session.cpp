@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/text.h"
 #include "keyline/core/version.h"
 #include "keyline/operations/amount.h"
 #include "keyline/operations/schema.h"
@@ -99,6 +100,9 @@ std::optional<int> Session::begin(const Words& words) {
   if (!takes_files_ && !files().empty())
     return report_failure(
         {ErrorCode::bad_input, "this word belongs to no option", usage_hint(), files().front()});
+  for (const auto& [word, outcome] : arguments_.option_files().read())
+    say_read(door_.quiet, *outcome.result_as<operations::ReadAnswer>());
+  for (const std::string& note : arguments_.option_files().notes()) say(door_.quiet, note);
   return {};
 }
 
@@ -227,13 +231,6 @@ Result<ReadFiles> read_files(Session& session, json request, bool planar) {
   auto shown = shown_of(*outcome);
   if (!shown) return std::unexpected(shown.error());
   return ReadFiles{std::move(*outcome), std::move(*shown)};
-}
-
-json curve_of(const json& thing) {
-  if (thing.contains("curve")) return thing["curve"];
-  json points = thing["line"]["points"];
-  if (thing["line"].value("closed", false)) points.push_back(points.front());
-  return {{"type", "polyline"}, {"points", std::move(points)}};
 }
 
 json subject_of(const json& thing) {

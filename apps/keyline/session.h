@@ -162,8 +162,7 @@ void say_read(bool quiet, const operations::ReadAnswer& read);
 /// among those read, from 1. One alone without a name is called nothing.
 std::string called(const std::string& name, const char* kind, std::size_t index, std::size_t count);
 
-/// A curve of document.read as a request for one curve has it, and as one for measured points has.
-nlohmann::json curve_of(const nlohmann::json& thing);
+/// A curve of document.read as a request for measured points has it.
 nlohmann::json subject_of(const nlohmann::json& thing);
 
 /// {"curves": […]} of several, each with its name; the one alone.

@@ -248,9 +248,9 @@ Session tool_session(const Tool& tool) {
 
 std::string text_of(const json& listed) {
   const auto text = [](const json& j) { return j.is_string() ? j.get<std::string>() : ""; };
-  std::string all =
-      fmt::format("{:>4} {:<12} {:<24} {:<26} {:>12}  {}\n", "", "kind", "name", "type", "length",
-                  "bounding box" + (listed["unit"] == "" ? "" : " in " + text(listed["unit"])));
+  std::string all = fmt::format(
+      "{:>4} {:<12} {:<24} {:<26} {:>12}  {}\n", "", "kind", "name", "type", "length",
+      "bounding box" + (text(listed["unit"]).empty() ? "" : " in " + text(listed["unit"])));
   int number = 0;
   for (const json& thing : listed["things"]) {
     const json& low = thing["box"]["low"];
@@ -258,7 +258,8 @@ std::string text_of(const json& listed) {
     all += fmt::format(
         "{:>4} {:<12} {:<24} {:<26} {:>12}  {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n",
         ++number, text(thing["kind"]),
-        text(thing["name"]) + (thing["layer"] == "" ? "" : " [" + text(thing["layer"]) + "]"),
+        text(thing["name"]) +
+            (text(thing["layer"]).empty() ? "" : " [" + text(thing["layer"]) + "]"),
         text(thing["type"]),
         thing.contains("length") ? core::number_text(thing["length"].get<double>(), 6) : "",
         low[0].get<double>(), low[1].get<double>(), low[2].get<double>(), high[0].get<double>(),
@@ -330,6 +331,7 @@ int run_plain(const std::string& name, const Words& words) {
   const auto& files = session.files();
   if (!files.empty()) request["file"] = files.size() == 1 ? json(files.front()) : json(files);
   Made made;
+  made.document["unit"] = session.arguments().option_files().unit();
   if (auto done = run_one(session, operation, request, {}, session.progress(), made); !done)
     return report_failure(done.error());
   return finish(session, made);

@@ -9,7 +9,6 @@
 
 #include "keyline/core/text.h"
 #include "keyline/operations/json_form.h"
-#include "keyline/operations/perform.h"
 #include "keyline/operations/schema.h"
 
 namespace keyline::app {
@@ -36,7 +35,7 @@ std::vector<std::string> split(const std::string& text, char at) {
 /// Turns the words of one option into JSON.
 class Words {
  public:
-  explicit Words(const Field& field) : field_(field) {}
+  Words(const Field& field, OptionFiles& files) : field_(field), files_(files) {}
 
   Result<json> value(const Type& type, const std::vector<std::string>& words) const {
     if (words.size() == 1 && (words[0].starts_with('[') || words[0].starts_with('{'))) {
@@ -99,7 +98,7 @@ class Words {
       case Kind::one_of:
         return one_of(type, word);
       case Kind::value:
-        return from_file(type, word);
+        return files_.first(word, things_of(type), option_name(field_.name));
       case Kind::list:
         return list(type, {word});
       case Kind::text:
@@ -130,6 +129,7 @@ class Words {
   Result<json> list(const Type& type, const std::vector<std::string>& words) const {
     const Kind item =
         type.item().kind == Kind::optional ? type.item().item().kind : type.item().kind;
+    if (item == Kind::value) return of_files(type.item(), words);
     const bool plain = item == Kind::number || item == Kind::integer || item == Kind::boolean ||
                        item == Kind::text || item == Kind::choice;
     json all = json::array();
@@ -147,24 +147,22 @@ class Words {
     return all;
   }
 
-  /// The first thing of the kind in the file, by document.read.
-  Result<json> from_file(const Type& type, const std::string& word) const {
-    const std::size_t hash = word.find('#');
-    json request{{"file", word.substr(0, hash)}};
-    if (hash != std::string::npos) request["select"] = word.substr(hash + 1);
-    const auto read = operations::perform("document.read", request, {});
-    if (!read) return std::unexpected(read.error());
-    const bool surface = type.name == "Surface";
-    const json& things = (*read)[surface ? "surfaces" : "curves"];
-    for (const json& thing : things) {
-      if (surface) return thing["surface"];
-      if (thing.contains("curve")) return thing["curve"];
-      return json{{"type", "polyline"}, {"points", thing["line"]["points"]}};
+  Result<json> of_files(const Type& type, const std::vector<std::string>& words) const {
+    json all = json::array();
+    for (const std::string& word : words) {
+      const auto things = files_.all(word, things_of(type), option_name(field_.name));
+      if (!things) return std::unexpected(things.error());
+      for (const json& thing : *things) all.push_back(thing);
     }
-    return wrong(word, surface ? "give a file that holds a surface" : "give a file with a curve");
+    return all;
+  }
+
+  static OptionFiles::Kind things_of(const Type& type) {
+    return type.name == "Surface" ? OptionFiles::Kind::surfaces : OptionFiles::Kind::curves;
   }
 
   const Field& field_;
+  OptionFiles& files_;
 };
 
 std::string placeholder(const Type& type) {
@@ -247,8 +245,9 @@ std::string option_name(std::string_view field) {
   return name;
 }
 
-Result<json> value_of(const Field& field, const std::vector<std::string>& words) {
-  return Words(field).value(field.type(), words);
+Result<json> value_of(const Field& field, const std::vector<std::string>& words,
+                      OptionFiles& files) {
+  return Words(field, files).value(field.type(), words);
 }
 
 OptionText option_text(const Field& field, const void* member) {

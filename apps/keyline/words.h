@@ -8,6 +8,8 @@
 #include "keyline/core/describe.h"
 #include "keyline/core/error.h"
 
+#include "option_files.h"
+
 /// Options of a command line made from described fields: --must-pass 3,8 for must_pass.
 namespace keyline::app {
 
@@ -16,10 +18,11 @@ std::string option_name(std::string_view field);
 
 /// What was typed for a field as the JSON its reader takes: numbers, points 1,2, lists 1,2,3 or
 /// several words, ranges a:b, words of a choice; curves and surfaces as the name of a file that
-/// holds one, FILE or FILE#NAME; JSON itself where it begins with [ or {. No word at all is `true`.
-/// Fails: bad_input with the option as path.
+/// holds one, FILE or FILE#NAME, read into `files`; in a list of curves or surfaces a FILE stands
+/// for all of its own. JSON itself where it begins with [ or {. No word at all is `true`.
+/// Fails: bad_input with the option as path, or as OptionFiles does.
 core::Result<nlohmann::json> value_of(const core::Field& field,
-                                      const std::vector<std::string>& words);
+                                      const std::vector<std::string>& words, OptionFiles& files);
 
 /// An option as help, completion and manual pages tell it.
 struct OptionText {
