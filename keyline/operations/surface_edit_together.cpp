@@ -34,9 +34,9 @@ surface::HoldJoints held(Joints joints) {
     case Joints::free:
       return surface::HoldJoints::free;
     case Joints::g1:
-      return surface::HoldJoints::G1;
+      return surface::HoldJoints::g1;
     case Joints::g2:
-      return surface::HoldJoints::G2;
+      return surface::HoldJoints::g2;
     case Joints::zebra:
       break;
   }

@@ -176,9 +176,9 @@ class Search {
     std::vector<int> all;
     for (const BezierSurface& s : with_coordinates(task_.given, x_)) {
       const auto value = sav(s, options);
-      const auto count = static_cast<std::size_t>(s.net.rows + s.net.columns);
-      for (std::size_t i = 0; i < count; ++i)
-        all.push_back(value ? value->curves[i].value.type : 5);
+      const int count = s.net.rows + s.net.columns;
+      for (int i = 0; i < count; ++i)
+        all.push_back(value ? value->curves[static_cast<std::size_t>(i)].value.type : 5);
     }
     return all;
   }

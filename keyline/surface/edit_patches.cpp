@@ -33,9 +33,9 @@ int order_of(HoldJoints hold) {
   switch (hold) {
     case HoldJoints::free:
       return 0;
-    case HoldJoints::G1:
+    case HoldJoints::g1:
       return 1;
-    case HoldJoints::G2:
+    case HoldJoints::g2:
     case HoldJoints::zebra:
       break;
   }

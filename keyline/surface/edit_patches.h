@@ -18,7 +18,7 @@ struct PatchEdit {
 /// What of the joints stays: nothing but what Keep says; the tangent planes of joints that have one
 /// in common; their curvature too, where that is in common; and that, and no stripe of a zebra
 /// turns farther at any joint than it did, whatever of its curvature is in common.
-enum class HoldJoints { free, G1, G2, zebra };
+enum class HoldJoints { free, g1, g2, zebra };
 
 /// Order of joints that counts as lost where it is lower after an edit; of joints let go 0, that
 /// their edges meet.

@@ -65,9 +65,9 @@ TEST(Streams, NothingIsLeftOfWhatCameIn) {
 
 TEST(Streams, StandardOutputTakesEveryFormat) {
   const Scratch s;
+  const std::string command = "convert " + example("cubic.json") + " -o ";
   for (const std::string kind : {"svg", "json", "dxf", "csv", "step", "pdf", "html"}) {
     SCOPED_TRACE(kind);
-    const std::string command = "convert " + example("cubic.json") + " -o ";
     ASSERT_EQ(run_keyline(command + s.path("a." + kind)).status, 0);
     const Outcome streamed = run_keyline(command + kind + ":-");
     EXPECT_EQ(streamed.status, 0) << streamed.err;

@@ -17,7 +17,6 @@ namespace keyline::exchange {
 namespace {
 
 using core::Point3;
-using testing::HasSubstr;
 
 constexpr const char* kTable =
     "waterline,0,10,20,30\n"

@@ -24,7 +24,7 @@ std::vector<FitPoint> fit_points(const std::vector<core::Point2>& points) {
 
 // Points of one clothoid: the cells that it is followed in are never its pieces.
 TEST(CalmRun, StoppedAtItsStartIsOfFewPiecesToo) {
-  auto points = fit_points(lac::sample({{{0, 0}, 0.3}, {{-1, 1, 0.5, 4.5}}, false}, 60));
+  auto points = fit_points(lac::sample(lac::Chain{{{0, 0}, 0.3}, {{-1, 1, 0.5, 4.5}}, false}, 60));
   CalmRunOptions options;
   options.tolerance = 1e-3;
   const CalmRun whole = solve_calm(points, false, options);

@@ -14,7 +14,6 @@
 namespace keyline::fairing {
 namespace {
 
-using detail::BandOptions;
 using detail::BandReport;
 using detail::DenseCurve;
 

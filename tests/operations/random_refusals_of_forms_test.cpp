@@ -244,7 +244,7 @@ TEST(RandomRefusals, NoTaylorFormIsFoundByTurnsRoundCells) {
 TEST(RandomRefusals, RationalCubicsAreFoundOverAllHandles) {
   Random random(own::seed(47));
   int asked = 0;
-  for (int n = 0; asked < refusals(60); ++n) {
+  while (asked < refusals(60)) {
     const json request{{"op", "lac.quasi"},
                        {"points", any_handles(random).points()},
                        {"alpha", uniform(random, -3, 3)},

@@ -78,7 +78,7 @@ TEST(EditPatches, JointsHeldStayTangent) {
   for (const Keep keep : {Keep::joints, Keep::boundary}) {
     EditOptions options;
     options.keep = keep;
-    const auto edit = edit_surface(s, options, 2, {}, HoldJoints::G1);
+    const auto edit = edit_surface(s, options, 2, {}, HoldJoints::g1);
     ASSERT_TRUE(edit) << edit.error().message;
     const PatchesEdit& all = edit->edited;
     EXPECT_EQ(all.before.order_at_least[1], 4U);
@@ -161,7 +161,7 @@ TEST(EditPatches, CurvatureIsHeldOnRequest) {
   const BSplineSurface s = four_patches();
   EditOptions options;
   options.keep = Keep::joints;
-  const auto edit = edit_surface(s, options, 2, {}, HoldJoints::G2);
+  const auto edit = edit_surface(s, options, 2, {}, HoldJoints::g2);
   ASSERT_TRUE(edit) << edit.error().message;
   EXPECT_EQ(edit->edited.before.order_at_least[2], 4U);
   EXPECT_EQ(edit->edited.after.order_at_least[2], 4U);
@@ -187,7 +187,7 @@ TEST(EditPatches, StripesTurnNoFartherUnlessAskedFor) {
   EXPECT_EQ(held->turned, 0U);
   EXPECT_LT(held->after.zebra.turn, held->before.zebra.turn + 0.005);
   EXPECT_LT(held->sav_after, held->sav_before);
-  const auto tangent = edit_patches(patches, options, 2, {}, HoldJoints::G1);
+  const auto tangent = edit_patches(patches, options, 2, {}, HoldJoints::g1);
   ASSERT_TRUE(tangent) << tangent.error().message;
   EXPECT_EQ(tangent->after.order_at_least[1], 4U);
   EXPECT_GT(tangent->turned, 0U);
@@ -214,7 +214,7 @@ TEST(EditPatches, SurfacesOfAFileAreHeldTogether) {
   EditOptions options;
   options.keep = Keep::joints;
   PatchesEdit together;
-  const auto edits = edit_surfaces(surfaces, options, 1, {}, HoldJoints::G1, &together);
+  const auto edits = edit_surfaces(surfaces, options, 1, {}, HoldJoints::g1, &together);
   ASSERT_TRUE(edits) << edits.error().message;
   ASSERT_EQ(edits->size(), 2U);
   EXPECT_EQ(together.before.order_at_least[1], 1U);
@@ -270,7 +270,7 @@ TEST(EditPatches, RationalOnesStayToTheBit) {
   EditOptions near;
   near.limit = 1e-3;
   for (const EditOptions& options : {EditOptions{}, near}) {
-    const auto edits = edit_surfaces(given, options, 1, {}, HoldJoints::G1);
+    const auto edits = edit_surfaces(given, options, 1, {}, HoldJoints::g1);
     ASSERT_TRUE(edits) << edits.error().message;
     EXPECT_EQ(edits->at(0).edited.surfaces.at(0), std::get<BezierSurface>(given[0]));
     EXPECT_FALSE(edits->at(0).edited.patches.at(0).result);
