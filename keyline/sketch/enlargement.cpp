@@ -52,10 +52,11 @@ Steps steps_of(const Raster<std::uint16_t>& level) {
           across[x] += square(row[x], row[x - 1]);
         }
       if (y == 0) continue;
+      const std::uint16_t* above = row - width;
       for (std::size_t x = 0; x < width; x += every_column) {
-        while (x + 4 + every_column < width && word_at(row + x) == word_at(row + x - width))
+        while (x + 4 + every_column < width && word_at(row + x) == word_at(above + x))
           x += looked_at;  // paper
-        rows[y] += square(row[x], row[x - width]);
+        rows[y] += square(row[x], above[x]);
       }
     }
     const std::scoped_lock lock(adding);

@@ -84,6 +84,8 @@ TEST(HullCsv, ReadsShipyardsTables) {
   EXPECT_FALSE(is_hull_csv("station,x,y\n1,2,3\n"));
   EXPECT_FALSE(is_hull_csv("x,y\n1,2\n"));
   EXPECT_FALSE(is_hull_csv("1,2\n3,4\n"));
+  EXPECT_FALSE(is_hull_csv(";\n1;2\n"));
+  EXPECT_TRUE(read_hull_csv(";\nwaterline;0;10\n1;2;3\n2;3;4\n"));
 }
 
 TEST(HullTable, LinesAreMadePlanar) {

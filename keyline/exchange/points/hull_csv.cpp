@@ -71,6 +71,7 @@ class HullCsv {
       const char separator = semicolon ? ';' : line.find('\t') != line.npos ? '\t' : ',';
       style_ = {separator, semicolon};
       header_ = detail::split(line, style_);
+      if (header_.empty()) continue;  // nothing but separators
       if (is_axis(header_.front()) && header_.size() > 1) return true;
       if (header_.size() > 2) return false;
       take_unit(header_.back());
