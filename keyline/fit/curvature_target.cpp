@@ -49,26 +49,26 @@ std::vector<double> low_pass(const Profile& p, double sigma, bool closed) {
   const auto value = [&](long i, double& s, double& weight) {
     const long m = static_cast<long>(n);
     const auto at = [](long k) { return static_cast<std::size_t>(k); };
-    const auto step = [&](long k) {
+    const auto twice_its_share = [&](long k) {
       const double before = k > 0 ? p.length[at(k - 1)] : -p.length[at(0)];
       const double after = k + 1 < m ? p.length[at(k + 1)] : 2 * whole - p.length[at(k)];
-      return 0.5 * (after - before);
+      return after - before;
     };
     if (i >= 0 && i < m) {
       s = p.length[at(i)];
-      weight = step(i);
+      weight = twice_its_share(i);
       return p.curvature[at(i)];
     }
     if (closed) {
       const long k = ((i % m) + m) % m;
       s = p.length[at(k)] + (i < 0 ? -whole : whole);
-      weight = step(k);
+      weight = twice_its_share(k);
       return p.curvature[at(k)];
     }
     const long k = i < 0 ? -1 - i : 2 * m - 1 - i;
     const double end = i < 0 ? p.curvature.front() : p.curvature.back();
     s = i < 0 ? -p.length[at(k)] : 2 * whole - p.length[at(k)];
-    weight = step(k);
+    weight = twice_its_share(k);
     return 2 * end - p.curvature[at(k)];
   };
   for (std::size_t i = 0; i < n; ++i) {

@@ -174,19 +174,23 @@ TEST(LeastSquaresSpline, BadInputIsRefused) {
 
 // Two data delta apart in the last span decide two coefficients: the part of the last column that
 // the one before does not hold is 2 delta / (|c1| |c2|) = 4 delta of its length. The limit is 1e-7.
+// In the first span it is the second column's.
 TEST(SplineSolver, RankIsJudgedAgainstTheColumn) {
-  const auto fitted = [](double delta) {
-    SplineData data;
-    data.parameters = {0, 0.75, 0.75 + delta};
-    data.columns = {{1, 2, 3}};
-    SplineSolver solver(data, {0, 1}, 2);
-    const double knots[] = {0.5};
-    return std::isfinite(solver.sum_of_squares(knots));
-  };
-  EXPECT_TRUE(fitted(1e-3));
-  EXPECT_TRUE(fitted(4e-8));
-  EXPECT_FALSE(fitted(1.5e-8));
-  EXPECT_FALSE(fitted(0));
+  for (const bool first : {false, true}) {
+    const auto fitted = [first](double delta) {
+      SplineData data;
+      data.parameters = {0, 0.75, 0.75 + delta};
+      if (first) data.parameters = {0.25 - delta, 0.25, 1};
+      data.columns = {{1, 2, 3}};
+      SplineSolver solver(data, {0, 1}, 2);
+      const double knots[] = {0.5};
+      return std::isfinite(solver.sum_of_squares(knots));
+    };
+    EXPECT_TRUE(fitted(1e-3));
+    EXPECT_TRUE(fitted(4e-8));
+    EXPECT_FALSE(fitted(1.5e-8));
+    EXPECT_FALSE(fitted(0));
+  }
 }
 
 /// A solver goes on from where its last knots and the new ones part: that must not show.
