@@ -3,13 +3,16 @@
 # the sources that hold them.
 set(KEYLINE_UNITY_SIZE 20 CACHE STRING "Most sources compiled as one; more take more memory")
 
+# Rooms whose files ./dev mutate changes one at a time: compiled file by file, in half of the time.
+set(KEYLINE_APART "" CACHE STRING "Rooms compiled file by file and at -O1, whatever KEYLINE_UNITY says")
+
 # What reads words and draws pages: nobody waits for the optimiser there but who builds.
 set(KEYLINE_LIGHTLY keyline keyline-cad keyline_studio keyline_presentation keyline_report)
 
 # Puts into `result` what a target compiles: the sources as they are, or those that hold them. Alone
 # stay sources with properties of their own, which have to be set before.
 function(keyline_sources target result)
-  if(NOT KEYLINE_UNITY)
+  if(NOT KEYLINE_UNITY OR target IN_LIST KEYLINE_APART)
     set(${result} ${ARGN} PARENT_SCOPE)
     return()
   endif()

@@ -4,13 +4,14 @@ tests notice?
 
 Puts one fault at a time into the sources of a room (an operator, a constant or a condition turned),
 builds the room's tests, runs them, the quickest first, until one fails, and names the faults they
-let pass. Works in a copy of the tree under build/mutate, so that nothing is left behind.
+let pass. Works in a copy of the tree for each room
+under build/mutate, so that nothing is left behind and rooms may run side by side.
 Deterministic: the same tree and seed give the same faults in the same order, N of them spread over
 the room by a hash of their place. --only tries those faults of the sample again whose file, line or
 change holds TEXT.
 
-A fault that does not compile counts for nothing. A survivor may be explained in
-tests/house/mutants_explained.txt (file | line | change | why): it then counts as explained.
+A fault that does not compile counts for nothing. One that is explained in
+tests/house/mutants_explained.txt (file | line | change | why) is not tried: it counts as explained.
 """
 import argparse
 import fcntl
@@ -67,6 +68,8 @@ def sites_of(path, text):
     found = []
     for old, new in SWAPS:
         for m in re.finditer(re.escape(old), code):
+            if old == " + " and '"' in (text[m.start() - 1], text[m.end()]):
+                continue  # of texts: nothing else would compile
             found.append((m.start(), m.end(), new))
     for m in NUMBER.finditer(code):
         line = code[code.rfind("\n", 0, m.start()) + 1:code.find("\n", m.end())]
@@ -94,18 +97,25 @@ def chosen(sites, count, seed, root):
 
 
 class Copy:
-    """A tree of its own with a build folder of its own."""
+    """A tree of its own for a room, with a build folder of its own: rooms may run side by side."""
 
-    def __init__(self, root, jobs):
+    def __init__(self, root, room, jobs):
         self.root = root
+        self.room = room
         self.jobs = jobs
-        self.tree = root / "build" / "mutate" / "tree"
+        self.tree = root / "build" / "mutate" / room / "tree"
         self.build = self.tree / "build" / "release"  # as in every tree: a compiler's cache knows it
+        self.said = ""  # by the last run of ninja
+        self.tree.mkdir(parents=True, exist_ok=True)
+        self.lock = open(self.tree.parent / "lock", "w")
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            sys.exit(f"mutate: another run is at work in {self.tree.parent}")
 
     def refresh(self):
         """The tree as it is now. What changes is newer than anything built from what it was, and
         what is gone from the tree goes from the copy too."""
-        self.tree.mkdir(parents=True, exist_ok=True)
         listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=self.root,
                                 check=True, capture_output=True, text=True).stdout.split("\n")
         files = {name for name in listed if name and (self.root / name).is_file()}
@@ -124,23 +134,26 @@ class Copy:
                     path.unlink()
 
     def configure(self):
+        """The room is compiled file by file, for one is compiled for each fault, and at -O1, which
+        takes half the time of -O3. The others are as in every tree: a compiler's cache knows them."""
         shared = self.tree.parent / "shared"  # beside the tree, as with the tree itself
         if not shared.is_symlink() and (self.root.parent / "shared").exists():
             shared.symlink_to(self.root.parent / "shared")
         if (self.build / "build.ninja").exists():
             return
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        # File by file, for one is compiled for each fault; -O1 takes half the time of -O3.
-        subprocess.run(["cmake", "--preset", "release", "-DKEYLINE_UNITY=OFF",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", *launcher],
+        subprocess.run(["cmake", "--preset", "release", "-DKEYLINE_UNITY=ON",
+                        f"-DKEYLINE_APART=keyline_{self.room}", *launcher],
                        cwd=self.tree, check=True, stdout=subprocess.DEVNULL)
 
     def make(self, target, faulty=False):
         # A compiler's cache gives back what is sound and keeps nothing that is not.
         environment = {**os.environ, **({"CCACHE_READONLY": "1"} if faulty else {})}
-        return subprocess.run(["ninja", "-C", self.build, "-j", str(self.jobs), target],
-                              env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True).returncode == 0
+        run = subprocess.run(["ninja", "-C", self.build, "-j", str(self.jobs), target],
+                             env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             text=True)
+        self.said = run.stdout
+        return run.returncode == 0
 
 
 class Tests:
@@ -148,7 +161,7 @@ class Tests:
 
     def __init__(self, copy, room):
         self.program = copy.build / "tests" / room / f"keyline_{room}_tests"
-        times = self.kept(copy.tree.parent / f"times_{room}.json")
+        times = self.kept(copy.tree.parent / "times.json")
         whole = sum(times.values())
         self.parts = []
         names, spent, part = [], 0.0, 0.0
@@ -219,12 +232,15 @@ def explanations(root):
 
 
 def told(root, text, site):
-    """(file, line as it is, change) of a fault, for people and for explanations."""
+    """(file, line as it is, change) of a fault, for people and for explanations. Of several of a kind
+    in one line the second and those behind it are numbered."""
     path, start, end, new = site
     begin = text.rfind("\n", 0, start) + 1
     line = text[begin:text.find("\n", start)].strip()
+    before = text[begin:start].count(text[start:end])
+    change = f"{text[start:end].strip()} → {new.strip()}" + (f" ({before + 1})" if before else "")
     return (str(path.relative_to(root)), line.replace("|", "¦"),
-            f"{text[start:end].strip()} → {new.strip()}".replace("\n", " ").replace("|", "¦"))
+            change.replace("\n", " ").replace("|", "¦"))
 
 
 def faults_of(root, room):
@@ -246,11 +262,14 @@ def outcome_of(copy, tests, target, site, text):
         path.write_text(text)
 
 
-def run_room(copy, room, options, report):
+def run_room(room, options, report):
+    copy = Copy(options.root.resolve(), room, options.jobs)
+    copy.refresh()
+    copy.configure()
     root = copy.tree
     target = f"keyline_{room}_tests"
     if not copy.make(target):
-        sys.exit(f"mutate: {target} does not build")
+        sys.exit(f"mutate: {target} does not build\n{copy.said[-2000:]}")
     tests = Tests(copy, room)
     known = explanations(copy.root)
     sites = faults_of(root, room)
@@ -261,9 +280,8 @@ def run_room(copy, room, options, report):
         name = told(root, text, site)
         if not any(options.only in part for part in name):
             continue
-        outcome = outcome_of(copy, tests, target, site, text)
-        if outcome == "survived" and name in known:
-            outcome = "explained"
+        outcome = "explained" if name in known else outcome_of(copy, tests, target, site, text)
+        if outcome == "explained":
             result[outcome].append((*name, known[name]))
         elif outcome == "survived":
             result[outcome].append(name)
@@ -301,17 +319,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="compilers at once")
     parser.add_argument("--page", type=pathlib.Path, help="where the table goes too")
     options = parser.parse_intermixed_args()
-    copy = Copy(options.root.resolve(), options.jobs)
-    copy.tree.mkdir(parents=True, exist_ok=True)
-    lock = open(copy.tree.parent / "lock", "w")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        sys.exit("mutate: another run is at work in build/mutate")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("mutate: ended"))  # what is changed goes back
-    copy.refresh()
-    copy.configure()
-    results = [run_room(copy, room, options, sys.stderr) for room in options.rooms or ROOMS]
+    results = [run_room(room, options, sys.stderr) for room in options.rooms or ROOMS]
     page = page_of(results)
     print(page, end="")
     if options.page:
