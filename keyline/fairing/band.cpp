@@ -23,7 +23,8 @@ Springs::Springs(const std::vector<FitPoint>& points, std::vector<double> offset
     ++count;
   }
   for (std::size_t j = 0; j < points.size(); ++j)
-    weight_[j] = weight * (points[j].count > 0 ? points[j].weight / sum : 1 / count);
+    weight_[j] =
+        weight * (points[j].count > 0 ? points[j].pull * points[j].weight / sum : 1 / count);
 }
 
 Pull Springs::pull(std::size_t j) const { return {weight_[j], weight_[j] * offset_[j]}; }
@@ -76,7 +77,7 @@ bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>&
 
 Band::Band(const std::vector<FitPoint>& points, double tolerance, double spring)
     : points_(points), tolerance_(tolerance), spring_(mean_weights(points)), pair_(points.size()) {
-  for (double& w : spring_) w *= spring;
+  for (std::size_t j = 0; j < points.size(); ++j) spring_[j] *= points[j].pull * spring;
 }
 
 double Band::room_high(std::size_t j, double offset) const {

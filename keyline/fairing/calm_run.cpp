@@ -7,6 +7,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/graph_pieces.h"
+#include "keyline/fairing/leaning_ends.h"
 #include "keyline/fairing/settle.h"
 
 namespace keyline::fairing::detail {
@@ -29,6 +30,7 @@ constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken
 constexpr int kPieceSteps = 40;
 constexpr int kFootSteps = 4;
 constexpr int kStiffenings = 3;
+constexpr int kPulls = 6;  // sixty-four times as strong: what leans then, other limits hold
 constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
 constexpr double kFirstLoss = 1.6;     // what cutting may lose at first, in energies: solved for
                                        // again, pieces win most of it back; halved so many times,
@@ -141,14 +143,38 @@ void measure_spread(std::vector<FitPoint>& points, DenseCurve curve, const Membe
 
 namespace {
 
+/// The dense curve that a run starts from.
+DenseCurve first_curve(const std::vector<FitPoint>& points, bool closed,
+                       const CalmRunOptions& options) {
+  DenseCurve curve = dense_curve(points, closed, kLeastCells);
+  curve.most_rate = options.most_rate;
+  put_end(curve, options.start, true);
+  put_end(curve, options.end, false);
+  return curve;
+}
+
+/// The curve of least variation without waves that the points do not ask for, leaning nowhere at
+/// its free ends. The springs' weight is the same each time: elsewhere nothing becomes softer.
+Calmed calm_curve(DenseCurve& curve, std::vector<FitPoint>& points, bool closed,
+                  const CalmRunOptions& options, CalmOptions calm_options) {
+  curve = first_curve(points, closed, options);
+  Calmed calmed = calm(curve, points, calm_options);
+  for (int i = 0; i < kPulls && calmed.band.within; ++i) {
+    if (!pull_leaning_ends(points, curve, options.residuals)) break;
+    calm_options.band.spring = calmed.band.spring;
+    DenseCurve pulled = first_curve(points, closed, options);
+    const Calmed found = calm(pulled, points, calm_options);
+    if (!found.band.within) break;
+    curve = std::move(pulled);
+    calmed = found;
+  }
+  return calmed;
+}
+
 /// The calm curve in that share of the tolerance, in pieces in all of it.
 CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
                  const CalmRunOptions& options) {
   CalmRun run;
-  run.curve = dense_curve(points, closed, kLeastCells);
-  run.curve.most_rate = options.most_rate;
-  put_end(run.curve, options.start, true);
-  put_end(run.curve, options.end, false);
   CalmOptions calm_options;
   calm_options.band.tolerance = room * options.tolerance;
   calm_options.band.rms = options.residuals.rms;
@@ -156,7 +182,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   calm_options.worth = kWorth;
   calm_options.most_turns = options.most_turns;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
-  const Calmed calmed = calm(run.curve, points, calm_options);
+  const Calmed calmed = calm_curve(run.curve, points, closed, options, calm_options);
   run.band = calmed.band;
   run.waves = calmed.waves;
   if (!options.members.points.empty() && run.band.within) {

@@ -25,6 +25,7 @@ struct FitPoint {
   double share = 1;           ///< offsets from this point count this much; below 1 for guides
   double lowest = -HUGE_VAL;  ///< limits of its offset (times its share) beside the tolerance
   double highest = HUGE_VAL;
+  double pull = 1;  ///< times as much as others its spring pulls
 };
 
 /// Slopes beyond this are not told apart from it by any data.

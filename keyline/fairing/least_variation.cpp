@@ -54,7 +54,8 @@ class Search {
       hang(weight);
       if (largest() < kFollowed * unit_ && closed_enough()) break;
     }
-    if (options_.rms > 0) loosen(hung_);
+    if (spring_ > 0) hang_on(spring_);
+    if (spring_ == 0 && options_.rms > 0) loosen(hung_);
   }
 
   BandReport run() {

@@ -14,7 +14,7 @@ struct BandOptions {
   int patience = 0;
   bool warm = false;  ///< the curve given follows the points already
   /// Root of the mean square of the offsets that the curve is to keep before the tolerance is
-  /// looked at, by springs beside the energy; 0: none. Not where `warm`: then `spring` counts.
+  /// looked at, by springs beside the energy; 0: none. Not where `spring` is told.
   double rms = 0;
   double spring = 0;  ///< weight of half the mean square of the offsets beside the energy
   core::Progress progress;

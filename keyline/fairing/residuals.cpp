@@ -49,8 +49,8 @@ Residuals allowed_residuals(const std::vector<FitPoint>& points, bool closed, st
   const double allowed = of_means(std::hypot(all * (1 + calm * error), calm * left), scatter);
   double rms = std::max(allowed, kLeastRms * tolerance);
   if (smoothness > 0.5 && rms < most) rms *= std::pow(most / rms, 2 * smoothness - 1);
-  if (rms >= most) return {0, own, scatter, 0};
-  return {rms, own, scatter, error};
+  if (rms >= most) return {0, own, scatter, left, 0};
+  return {rms, own, scatter, left, error};
 }
 
 }  // namespace keyline::fairing::detail
