@@ -233,6 +233,31 @@ TEST(SolveG1, BadInputIsNormalInput) {
   EXPECT_EQ(circle->segment.curvature_start, circle->segment.curvature_end);
 }
 
+// Turned round, a curve has its other chord angle: the nearest answers are the same ones.
+TEST(NearestDrawable, IsDrawableAndTheSameFromEitherEnd) {
+  for (const double alpha : {-3.0, -1.0, -0.3, 1.4, 2.0, 5.0})
+    for (const double theta : {0.4, 1.5, 2.8}) {
+      const core::Interval region = drawable_region(alpha, theta);
+      for (const double share : {0.01, 0.3, 0.9}) {
+        const double psi = region.high + share * (theta - region.high);
+        if (!(psi > region.high)) continue;
+        const NearestDrawable n = nearest_drawable(alpha, theta, psi);
+        const NearestDrawable other = nearest_drawable(alpha, theta, theta - psi);
+        EXPECT_NEAR(other.alpha, n.alpha, 1e-8 * (1 + std::abs(alpha)));
+        EXPECT_NEAR(other.chord_angle, theta - n.chord_angle, 1e-12);
+        EXPECT_FALSE(solve_g1(angles_of(theta, psi), alpha));
+        EXPECT_TRUE(solve_g1(angles_of(theta, n.chord_angle), alpha));
+        // The slope's region holds the angle, that of one a little nearer to the wanted does not.
+        EXPECT_LT(psi, drawable_region(n.alpha, theta).high + 1e-12);
+        const double nearer = n.alpha + 1e-3 * (alpha - n.alpha);
+        EXPECT_TRUE(n.alpha == 0 || n.alpha == 1 || psi > drawable_region(nearer, theta).high)
+            << alpha << " " << theta << " " << psi << " " << n.alpha;
+      }
+      // Inside its region a slope is its own nearest.
+      EXPECT_EQ(nearest_drawable(alpha, theta, 0.5 * theta).alpha, alpha);
+    }
+}
+
 TEST(DrawableRegion, ClosedForms) {
   for (const double theta : {0.1, 1.0, 2.5}) {
     for (const double alpha : {0.0, 0.5, 1.0}) {

@@ -1,6 +1,9 @@
 #include "keyline/lac/chain/offset.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -77,6 +80,50 @@ TEST(Intersections, FindsEveryOneOnASpiralAndAnS) {
   ASSERT_EQ(three.size(), 3u);
   EXPECT_NEAR(three[1], 0.5, 1e-12);
   EXPECT_EQ(intersections(chain_of(s), chord).size(), 3u);
+}
+
+/// Of any slope; every other one changes the sign of its curvature.
+Segment any_segment(std::mt19937& random, bool inflects) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double alpha = inflects ? -0.3 - 2 * unit(random) : 4 * unit(random) - 2;
+  const double end = (inflects ? -1 : 1) * (0.5 + 3 * unit(random));
+  return {{{unit(random), unit(random)}, 7 * unit(random)}, alpha, 3, 0.2 + unit(random), end};
+}
+
+TEST(Intersections, OfRandomLinesAreThoseThatSamplesFind) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 60; ++n) {
+    const Segment s = any_segment(random, n % 2 == 0);
+    const Pose2 line{evaluate(s, unit(random)), 7 * unit(random)};
+    std::vector<double> crossed;
+    constexpr int kSamples = 4000;
+    double before = to_local(line, evaluate(s, 0)).y;
+    for (int i = 1; i <= kSamples; ++i) {
+      const double here = to_local(line, evaluate(s, static_cast<double>(i) / kSamples)).y;
+      if (before * here < 0) crossed.push_back((i - 0.5) / kSamples);
+      before = here;
+    }
+    const auto found = intersections(s, line);
+    ASSERT_EQ(found.size(), crossed.size()) << n;
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], crossed[i], 1e-3);
+  }
+}
+
+// A tangent touches: no sample changes its side.
+TEST(Intersections, FindWhereALineTouches) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 60; ++n) {
+    const Segment s = any_segment(random, n % 2 == 0);
+    const double t = unit(random);
+    if (std::abs(curvature(s, t)) < 0.05) continue;
+    for (const double turned : {0.0, core::kPi}) {
+      const auto found = intersections(s, Pose2{evaluate(s, t), tangent_angle(s, t) + turned});
+      EXPECT_TRUE(std::ranges::any_of(found, [t](double v) { return std::abs(v - t) < 1e-6; }))
+          << n << " " << t;
+    }
+  }
 }
 
 TEST(Intersections, AStraightPieceOnTheLineCountsWithItsEnds) {

@@ -88,6 +88,33 @@ TEST(SolveVolume, NamesTheNearestVolume) {
   EXPECT_TRUE(solve_volume({{0, 0}, 0.8}, {1, 0}, 2, nearest * 1.0001));
 }
 
+// An area: what a chord of one reaches, one of seven reaches 49 times, wherever it lies.
+TEST(SolveVolume, WhatIsReachedGrowsAsTheSquareOfTheChord) {
+  const core::Vector2 way = 7 * core::unit_vector(2.2);
+  for (const double alpha : {-2.0, -1.0, 1.5, 3.0})
+    for (const double angle : {-0.8, 0.5, 1.4}) {
+      const auto small = solve_volume({{0, 0}, angle}, {1, 0}, alpha, 0.12);
+      const auto large =
+          solve_volume({{3, -4}, 2.2 + angle}, core::Point2{3, -4} + way, alpha, 49 * 0.12);
+      ASSERT_EQ(small.has_value(), large.has_value());
+      if (!small) continue;
+      EXPECT_NEAR(large->volume, 49 * small->volume, 1e-9);
+      EXPECT_NEAR(large->reachable.smallest, 49 * small->reachable.smallest, 1e-9);
+      EXPECT_NEAR(large->reachable.largest, 49 * small->reachable.largest,
+                  1e-9 * large->reachable.largest);
+      // Both ends are reached, and nothing beyond them.
+      const VolumeRange range = large->reachable;
+      const auto reached = [&](double volume) {
+        return solve_volume({{3, -4}, 2.2 + angle}, core::Point2{3, -4} + way, alpha, volume)
+            .has_value();
+      };
+      EXPECT_TRUE(reached(range.largest * (1 - 1e-9)));
+      EXPECT_FALSE(reached(range.largest * (1 + 1e-6)));
+      EXPECT_TRUE(reached(range.smallest * (1 + 1e-9) + 1e-12));
+      EXPECT_FALSE(range.smallest > 1e-9 && reached(range.smallest * (1 - 1e-6)));
+    }
+}
+
 TEST(SolveVolume, RefusesBadInput) {
   const Pose2 start{{0, 0}, 0.3};
   const auto code = [&](core::Point2 end, double alpha, double volume) {

@@ -123,7 +123,7 @@ std::optional<G1Chain> clamped_at_inflection(double from, double to, double alph
   const auto arms = detail::solve_inflecting_arms(from, to, alpha);
   if (!arms) return {};
   G1Chain answer;
-  answer.chain = {{{0, 0}, from}, {arms->begin(), arms->end()}, false};
+  answer.chain.pieces.assign(arms->begin(), arms->end());
   for (Piece& piece : answer.chain.pieces) {
     if (std::abs(piece.curvature_start) < 1e-280) piece.curvature_start = 0;
     if (std::abs(piece.curvature_end) < 1e-280) piece.curvature_end = 0;

@@ -100,7 +100,6 @@ class Fit {
   /// Deviation from which on, of the length, other starts are worth their time.
   static constexpr double kGood = 1e-9;
   static constexpr double kExact = 1e-15;
-  static constexpr std::size_t kStarts = 6;
   static constexpr double kHopeless = 40;  ///< times the nearest so far
   static constexpr double kSame = 0.01;    ///< of the largest distance
 
@@ -180,7 +179,6 @@ class Fit {
     }
     std::sort(all.begin(), all.end(),
               [](const Start& a, const Start& b) { return a.miss < b.miss; });
-    if (all.size() > kStarts) all.resize(kStarts);
     return all;
   }
 
