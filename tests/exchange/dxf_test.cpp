@@ -150,6 +150,19 @@ TEST(DxfReader, UnitsAndColours) {
   EXPECT_EQ(detail::aci_color(0), "");
 }
 
+// Groups 1000 behind 1001 hold what the application named there keeps; ours a name.
+TEST(DxfReader, NamesAreOursAlone) {
+  const std::string line = "0 LINE 8 0 10 0 20 0 11 1 21 0 ";
+  const Document d = read(drawing(
+      line + "1001 OTHER 1000 theirs " + line + "1001 KEYLINE 1000 roof 1001 OTHER 1000 theirs " +
+      line + "1000 nobodys " + line + "1001 OTHER 1000 x 1001 KEYLINE 1000 sill"));
+  ASSERT_EQ(d.paths.size(), 4U);
+  EXPECT_EQ(d.paths[0].label.name, "line-1");
+  EXPECT_EQ(d.paths[1].label.name, "roof");
+  EXPECT_EQ(d.paths[2].label.name, "line-3");
+  EXPECT_EQ(d.paths[3].label.name, "sill");
+}
+
 TEST(DxfReader, SaysWhatItLeavesOut) {
   const Document d =
       read(drawing("0 TEXT 8 0 1 hello 0 TEXT 8 0 1 x 0 CIRCLE 8 0 40 -1 0 LINE 8 0 67 1 10 0 11 1 "

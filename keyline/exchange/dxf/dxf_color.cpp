@@ -10,7 +10,7 @@
 namespace keyline::exchange::detail {
 namespace {
 
-int channel(double value) { return static_cast<int>(255 * std::clamp(value, 0.0, 1.0) + 1e-9); }
+int channel(double value) { return static_cast<int>(255 * value + 1e-9); }  // from 0 to 1
 
 /// Share of one primary at a hue in degrees: 1 within 60 of it, falling to 0 at 120.
 double primary(double hue, double own) {

@@ -63,7 +63,7 @@ std::string rgb(std::string_view text) {
     if (!scan.number(value)) return {};
     if (scan.peek() == '%') {
       scan.take();
-      value *= 2.55;
+      value = value * 255 / 100;  // 50 % are 127.5: 2.55 would round them down
     }
     const auto byte = static_cast<unsigned>(std::lround(std::clamp(value, 0.0, 255.0)));
     color += {kDigits[byte >> 4], kDigits[byte & 15]};

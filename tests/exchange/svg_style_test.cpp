@@ -1,0 +1,106 @@
+#include "keyline/exchange/svg/svg_style.h"
+
+#include <gtest/gtest.h>
+
+namespace keyline::exchange::detail {
+namespace {
+
+TEST(CssColor, OfEveryNotation) {
+  struct Case {
+    const char *text, *color;
+  };
+  for (const Case& c : {
+           Case{"#F80", "#ff8800"},
+           {"#f80c", "#ff8800"},
+           {"#A1b2C3", "#a1b2c3"},
+           {"#a1b2c3d4", "#a1b2c3"},
+           {"#", ""},
+           {"#12", ""},
+           {"#12345", ""},
+           {"#1234567", ""},
+           {"#123456789", ""},
+           {"#12g", ""},
+           {"rgb(0,128,255)", "#0080ff"},
+           {"rgb( 1 2 , 3 )", "#010203"},
+           {"rgba(300, -4, 10, 0.5)", "#ff000a"},
+           {"rgb(0%, 50%, 100%)", "#0080ff"},
+           {"rgb(1,2)", ""},
+           {"rgb(a,b,c)", ""},
+           {"rgb(254.6,0.4,9.5)", "#ff000a"},
+           {"red", "#ff0000"},
+           {"NAVY", "#000080"},
+           {"Grey", "#808080"},
+           {"none", ""},
+           {"url(#p)", ""},
+           {"", ""},
+       })
+    EXPECT_EQ(css_color(c.text), c.color) << c.text;
+}
+
+/// Paint of <path attributes/> under a sheet, within one drawn in black, 3 wide.
+SvgPaint painted(std::string_view sheet, const std::string& attributes) {
+  SvgStyles styles;
+  styles.add_sheet(sheet);
+  pugi::xml_document xml;
+  EXPECT_TRUE(xml.load_string(("<path " + attributes + "/>").c_str()));
+  return styles.paint(xml.child("path"), {"#000000", "#ffffff", 3});
+}
+
+struct PaintCase {
+  const char *sheet, *attributes, *stroke, *fill;
+  double width;
+};
+constexpr PaintCase kPaints[] = {
+    {"", "", "#000000", "#ffffff", 3},
+    {"", "stroke='red'", "#ff0000", "#ffffff", 3},
+    {"", "fill='red'", "#000000", "#ff0000", 3},
+    {"", "stroke-width='5'", "#000000", "#ffffff", 5},
+    {"", "stroke-width='0'", "#000000", "#ffffff", 0},
+    {"", "stroke-width='-1'", "#000000", "#ffffff", 3},
+    {"", "stroke-width='wide'", "#000000", "#ffffff", 3},
+    {"", "stroke-width='1in'", "#000000", "#ffffff", 96},
+    {"", "stroke='inherit' fill='' stroke-width='inherit'", "#000000", "#ffffff", 3},
+    {"", "stroke='none' fill='none'", "", "", 3},
+    {"", "style='stroke:red;fill:lime;stroke-width:7'", "#ff0000", "#00ff00", 7},
+    {"", "style=' stroke : red ; ; fill:lime ; nonsense; '", "#ff0000", "#00ff00", 3},
+    // The last word: attribute, name, class, id, style.
+    {"path{stroke:blue}", "stroke='red'", "#0000ff", "#ffffff", 3},
+    {"path{stroke:blue} .a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".a{stroke:lime}path{stroke:blue}", "class='a'", "#00ff00", "#ffffff", 3},
+    {"#i{stroke:navy}.a{stroke:lime}", "class='a' id='i'", "#000080", "#ffffff", 3},
+    {"#i{stroke:navy}", "id='i' style='stroke:red'", "#ff0000", "#ffffff", 3},
+    {".a{stroke:lime}.b{fill:red}", "class=' b  a '", "#00ff00", "#ff0000", 3},
+    {".a{stroke:lime}.b{stroke:red}", "class='c b'", "#ff0000", "#ffffff", 3},
+    // Of one selector the later rule; what it leaves out stays.
+    {".a{stroke:lime;fill:red}.a{stroke:navy}", "class='a'", "#000080", "#ff0000", 3},
+    // A rule ends at its own bracket, a comment at its own end, a list at its comma.
+    {".a{stroke:lime}.b{fill:red}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".a{stroke:lime;stroke-width:4}.b{fill:red}", "class='a b'", "#00ff00", "#ff0000", 4},
+    {"/* .a{fill:red} */.a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".a{/**/stroke:lime/*;*/;fill:red}", "class='a'", "#00ff00", "#ff0000", 3},
+    {".a{stroke:lime}/* .a{fill:red}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".x , .a,#i{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".a{stroke:lime", "class='a'", "#000000", "#ffffff", 3},
+    {".a{stroke:lime !important}", "class='a'", "#00ff00", "#ffffff", 3},
+    // Selectors of more than one word are let pass.
+    {"g .a{stroke:lime} g>path{stroke:lime} path:hover{stroke:lime} path[d]{stroke:lime}",
+     "class='a'", "#000000", "#ffffff", 3},
+};
+
+TEST(SvgStyles, TheLastWordIsThatOfTheCascade) {
+  for (const PaintCase& c : kPaints) {
+    SCOPED_TRACE(std::string(c.sheet) + " " + c.attributes);
+    const SvgPaint paint = painted(c.sheet, c.attributes);
+    EXPECT_EQ(paint.stroke, c.stroke);
+    EXPECT_EQ(paint.fill, c.fill);
+    EXPECT_DOUBLE_EQ(paint.width, c.width);
+  }
+}
+
+TEST(SvgPaint, AnOutlineHasTheColourOfItsStrokeElseOfItsFill) {
+  EXPECT_EQ((SvgPaint{"#000001", "#000002", 1}).color(), "#000001");
+  EXPECT_EQ((SvgPaint{"", "#000002", 1}).color(), "#000002");
+}
+
+}  // namespace
+}  // namespace keyline::exchange::detail
