@@ -54,6 +54,28 @@ TEST(ArcLength, InverseGoesBack) {
   }
 }
 
+// A power of two changes no digit of any number that is measured: what differs has a size of its
+// own.
+TEST(ArcLength, HasNoSizeOfItsOwn) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const BSpline2 c = random_spline(seed, 3 + static_cast<int>(seed % 3), 9, seed % 2 == 1);
+    const ArcLengthMap map = arc_length_map(c);
+    for (const double scale : {0x1p-40, 0x1p-12, 0x1p30}) {
+      const BSpline2 scaled = transform(c, {scale, 0, {0, 0}});
+      for (const double tolerance : {1e-6, 1e-12, 1e-15})
+        EXPECT_EQ(arc_length(scaled, 0.1, 0.9, tolerance),
+                  scale * arc_length(c, 0.1, 0.9, tolerance));
+      const ArcLengthMap its = arc_length_map(scaled);
+      EXPECT_EQ(total_length(its), scale * total_length(map));
+      for (const double f : {0.01, 0.3, 0.5, 0.97}) {
+        const double t = parameter_at_length(c, map, f * total_length(map));
+        EXPECT_EQ(parameter_at_length(scaled, its, f * total_length(its)), t);
+        EXPECT_EQ(length_at_parameter(scaled, its, t), scale * length_at_parameter(c, map, t));
+      }
+    }
+  }
+}
+
 TEST(ArcLength, EqualLengthParametersOfACircle) {
   const auto t = equal_length_parameters(quarter_circle(), 5);
   for (int i = 0; i < 5; ++i)
