@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "keyline/fit/near_data.h"
 #include "keyline/fit/periodic.h"
 
 namespace keyline::fit::detail {
@@ -61,10 +62,8 @@ double sum_of_weights(const SplineData& data) {
 std::optional<LeastSquaresSpline> final_fit(const SplineData& data, core::Interval domain,
                                             std::vector<double> knots, int order) {
   SplineSolver solver(data, domain, order);
-  while (!solver.solve(knots)) {
-    if (knots.empty()) return std::nullopt;
-    remove_closest(knots);
-  }
+  while (!knots.empty() && !solver.solve_near_data(knots)) remove_closest(knots);
+  if (knots.empty() && !solver.solve(knots)) return std::nullopt;
   LeastSquaresSpline result;
   result.order = order;
   result.knots.assign(solver.knots().begin(), solver.knots().end());
@@ -82,7 +81,8 @@ std::optional<LeastSquaresSpline> closed_fit(const SplineData& open, std::vector
   const SplineData data = with_both_ends(open);
   add_to_a_loop(knots);
   while (knots.size() >= kLoop) {
-    if (auto spline = periodic_spline(data, knots, order)) return spline;
+    auto spline = periodic_spline(data, knots, order);
+    if (spline && (stays_near(*spline, data) || knots.size() == kLoop)) return spline;
     remove_closest(knots);
   }
   return std::nullopt;

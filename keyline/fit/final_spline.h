@@ -12,7 +12,8 @@ namespace keyline::fit::detail {
 double sum_of_weights(const SplineData& data);
 
 /// The least-squares spline of the knots. Where rounding puts them just beyond the limit of rank,
-/// the closest pair loses one; empty only where the data do not even carry a spline without knots.
+/// or their spline leaves the data, the closest pair loses one; empty only where the data do not
+/// even carry a spline without knots.
 std::optional<LeastSquaresSpline> final_fit(const SplineData& data, core::Interval domain,
                                             std::vector<double> knots, int order);
 

@@ -93,7 +93,7 @@ class Polisher {
 
   double score(const Knots& knots, int worker) {
     SplineSolver& solver = solvers_[static_cast<std::size_t>(worker)];
-    return criterion_(solver.sum_of_squares(knots), knots.size());
+    return criterion_(solver.sum_near_data(knots), knots.size());
   }
 
  private:
@@ -295,7 +295,7 @@ ScoredKnots polish_knots(std::span<SplineSolver> solvers, const BayesCriterion& 
 ScoredKnots united_knots(SplineSolver& solver, const BayesCriterion& criterion,
                          const ScoredKnots& found, double loss) {
   const auto score = [&](const Knots& knots) {
-    return criterion(solver.sum_of_squares(knots), knots.size());
+    return criterion(solver.sum_near_data(knots), knots.size());
   };
   auto groups = grouped(found.knots);
   for (std::size_t i = 1; i < groups.size();) {

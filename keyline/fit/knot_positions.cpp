@@ -28,7 +28,7 @@ class PositionProblem {
     SplineSolver& solver = solvers_[0];
     const std::size_t size = solver.data_count() * solver.column_count();
     residuals.resize(static_cast<Eigen::Index>(size));
-    if (!solver.solve(flattened(moved))) return false;
+    if (!solver.solve_near_data(flattened(moved))) return false;
     solver.residuals({residuals.data(), size});
     if (jacobian == nullptr) return true;
     jacobian->setZero(residuals.size(), at.size());

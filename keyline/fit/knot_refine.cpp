@@ -12,7 +12,7 @@ namespace {
 using Knots = std::vector<double>;
 
 double score(SplineSolver& solver, const BayesCriterion& criterion, const Knots& knots) {
-  return criterion(solver.sum_of_squares(knots), knots.size());
+  return criterion(solver.sum_near_data(knots), knots.size());
 }
 
 /// Spans of largest squared residual get a knot at the middle of their data.

@@ -80,7 +80,7 @@ class KnotProblem {
   }
 
   double cost(const Genome& knots, int worker) {
-    return criterion_(solvers_[static_cast<std::size_t>(worker)].sum_of_squares(knots),
+    return criterion_(solvers_[static_cast<std::size_t>(worker)].sum_near_data(knots),
                       knots.size());
   }
 

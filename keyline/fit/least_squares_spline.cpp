@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "keyline/fit/near_data.h"
+
 namespace keyline::fit {
 namespace {
 
@@ -95,6 +97,7 @@ SplineSolver::SplineSolver(SplineData data, core::Interval domain, int order)
   for (auto& column : weighted.columns) {
     for (std::size_t i = 0; i < weighted.weights.size(); ++i) column[i] *= weighted.weights[i];
   }
+  room_ = detail::room_about(data);
   stride_ = padded(data.parameters.size());
   rows_.resize(stride_ * (static_cast<std::size_t>(order) + data.columns.size() + 1));
   data_ = std::make_shared<const SplineData>(std::move(data));

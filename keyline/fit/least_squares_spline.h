@@ -55,6 +55,13 @@ class SplineSolver {
   /// The same, and makes coefficients() and residuals() those of these knots. False: no fit.
   bool solve(std::span<const double> interior_knots);
 
+  /// The same two, but the knots have no fit either where their spline leaves the data: where,
+  /// between the first of them and the last, it goes farther from their bounding box than this is
+  /// long. Near knots and few data can determine a coefficient so barely that what is left of the
+  /// data at a neighbour's foot sends it billions of lengths away.
+  double sum_near_data(std::span<const double> interior_knots);
+  bool solve_near_data(std::span<const double> interior_knots);
+
   /// After solve(): coefficient i of a column, i in [0, n + m).
   double coefficient(std::size_t i, std::size_t column) const;
 
@@ -100,9 +107,11 @@ class SplineSolver {
   bool set_knots(std::span<const double> interior);
   bool full_rank(std::size_t coefficients) const;
   void substitute_back(std::size_t coefficients);
+  bool stays_near_data() const;
 
   std::shared_ptr<const SplineData> data_;      // as given
   std::shared_ptr<const SplineData> weighted_;  // columns times sqrt(w), weights = sqrt(w)
+  std::vector<core::Interval> room_;            // of each column, for a spline near the data
   core::Interval domain_;
   int order_;
   std::vector<double> knots_;
