@@ -35,7 +35,9 @@ class Splitter {
   Split run() {
     std::size_t from = 0;
     for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
-      if (samples_[i].stretch == samples_[i + 1].stretch || !is_corner(i)) continue;
+      if (samples_[i].stretch == samples_[i + 1].stretch ||
+          !is_corner(curve_, samples_[i].t, options_.corner))
+        continue;
       const double t = samples_[i + 1].t;
       result_.corners.push_back({Kind::corner, t, samples_[i].s, samples_[i].curvature, {t, t}});
       cuts_.push_back(t);
@@ -98,13 +100,6 @@ class Splitter {
     if (std::isfinite(kappa)) return kappa;
     const double beside = curve::curvature(curve_.jet_at(t < 0.5 ? t + 1e-7 : t - 1e-7));
     return std::isfinite(beside) ? beside : 0;
-  }
-
-  bool is_corner(std::size_t i) const {
-    const double t = samples_[i].t;
-    const double before = curve::tangent_angle(curve_.jet_at(std::nextafter(t, 0.0)));
-    const double after = curve::tangent_angle(curve_.jet_at(t));
-    return std::abs(core::wrap_angle(after - before)) > options_.corner;
   }
 
   void find_flats() {
@@ -300,6 +295,12 @@ class Splitter {
 };
 
 }  // namespace
+
+bool is_corner(const CurveView& curve, double t, double angle) {
+  const double before = curve::tangent_angle(curve.jet_at(std::nextafter(t, 0.0)));
+  const double after = curve::tangent_angle(curve.jet_at(t));
+  return std::abs(core::wrap_angle(after - before)) > angle;
+}
 
 Split split_monotone(const CurveView& curve, const SplitOptions& options) {
   return Splitter(curve, options).run();

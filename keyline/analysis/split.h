@@ -57,6 +57,9 @@ struct Split {
   double threshold = 0;  ///< the sideways movement below which a wave was merged
 };
 
+/// Whether the tangent turns by more than that angle at a breakpoint, or at any other parameter.
+bool is_corner(const CurveView& curve, double t, double angle = SplitOptions{}.corner);
+
 /// Splits a curve at corners, inflections and extrema of curvature, and where exact circular arcs
 /// or straight stretches end (arcs of growing or falling curvature that follow each other stay one
 /// piece). Smallest waves are merged first, each judged after its neighbours are gone.

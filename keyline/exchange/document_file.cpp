@@ -202,6 +202,9 @@ Result<Written> format_document(const Document& document, const std::string& ext
     if (written && !unit.empty() && !(document::millimetres(unit) > 0))
       written->notes.push_back("the unit " + unit +
                                " is unknown: the numbers are written as they are");
+    const bool has_none = extension == ".csv" || extension == ".glif";
+    if (written && has_none && !unit.empty())
+      written->notes.push_back("unit of the numbers, which the format does not tell: " + unit);
     const bool takes_mm =
         unit.empty() && (extension.starts_with(".st") || extension.starts_with(".ig"));
     if (written && takes_mm)

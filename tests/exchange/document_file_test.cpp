@@ -260,7 +260,7 @@ TEST_F(Files, ATableHoldsEveryCurve) {
   ASSERT_TRUE(csv);
   EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 1 + 3 * 11 + 2);
   EXPECT_TRUE(csv->content.starts_with("id,x,y,z\n"));
-  EXPECT_EQ(csv->notes.size(), 1U);
+  EXPECT_EQ(csv->notes.size(), 2U);  // a surface that is left out, the unit
   EXPECT_GT(csv->deviation, 0);
   d.paths.clear();
   const auto space = format_document(d, ".csv");
@@ -268,6 +268,25 @@ TEST_F(Files, ATableHoldsEveryCurve) {
   EXPECT_EQ(space->content, "x,y,z\n0,0,1\n1,2,3\n");
   EXPECT_EQ(space->deviation, 0);
   EXPECT_FALSE(format_document(d, ".svg", {}));
+}
+
+// A polygon of two cubics that are lines of 3 and 4 with a right angle between, 8 samples: the
+// corner is one, at 3, and every step is 1.
+TEST_F(Files, ATableHoldsTheCorners) {
+  Document d;
+  d.unit = "in";
+  const curve::Bezier2 along{{{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {}};
+  const curve::Bezier2 up{{{3, 0}, {3, 1}, {3, 2}, {3, 4}}, {}};
+  d.paths.push_back({{"l", "", ""}, {{{along}, {up}}, false}, 0});
+  const auto csv = format_document(d, ".csv", {.samples = 8});
+  ASSERT_TRUE(csv);
+  EXPECT_THAT(csv->content, HasSubstr("\n3,0,3,\n"));
+  EXPECT_EQ(std::count(csv->content.begin(), csv->content.end(), '\n'), 9);
+  EXPECT_LE(csv->deviation, 1e-12);
+  EXPECT_THAT(csv->notes.at(0), HasSubstr("does not tell: in"));
+  const auto few = format_document(d, ".csv", {.samples = 2});
+  ASSERT_TRUE(few);
+  EXPECT_LE(few->deviation, 1e-12);
 }
 
 TEST_F(Files, NamesComeBackFromATable) {

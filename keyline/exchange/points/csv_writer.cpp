@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/analysis/profile.h"
+#include "keyline/analysis/split.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/points/points_writer.h"
 
@@ -22,9 +23,9 @@ std::string field(const std::string& name) {
   return quoted + '"';
 }
 
-void add_row(std::string& text, const std::string& id, const curve::Jet2& at, double s) {
-  const double bend = curvature(at);
-  text += id + shortest(at.point.x) + ',' + shortest(at.point.y) + ',' + shortest(s) + ',';
+/// Without a curvature where that has two values, or none.
+void add_row(std::string& text, const std::string& id, core::Point2 p, double s, double bend) {
+  text += id + shortest(p.x) + ',' + shortest(p.y) + ',' + shortest(s) + ',';
   if (std::isfinite(bend)) text += shortest(bend);
   text += '\n';
 }
@@ -45,19 +46,47 @@ double sagitta(Point a, Point b, double from, double to, At&& at) {
   return most;
 }
 
-/// Samples at equal steps of arc length. Returns how far the polygon through them is off.
+/// Arc lengths of the corners between the ends.
+std::vector<double> corners_of(const analysis::CurveView& view,
+                               const analysis::ArcLengthTable& table) {
+  std::vector<double> corners;
+  for (const double t : view.breaks())
+    if (t > 0 && t < 1 && analysis::is_corner(view, t)) corners.push_back(table.length_at(t));
+  return corners;
+}
+
+/// Arc lengths of that many samples: the corners, and between them equal steps, as nearly as comes
+/// out the same for all of them. More where there are more corners.
+std::vector<double> places_of(const std::vector<double>& corners, double length, int samples) {
+  std::vector<double> places{0};
+  double from = 0;
+  for (std::size_t i = 0; i <= corners.size(); ++i) {
+    const double to = i < corners.size() ? corners[i] : length;
+    const double done = static_cast<double>(places.size() - 1);
+    const double share = from < length ? (to - from) / (length - from) : 1;
+    const int steps = std::max(1, static_cast<int>(std::lround(share * (samples - 1 - done))));
+    for (int k = 1; k < steps; ++k) places.push_back(from + (to - from) * k / steps);
+    places.push_back(to);
+    from = to;
+  }
+  return places;
+}
+
+/// Samples along the arc length, corners among them. Returns how far the polygon through them is
+/// off.
 double add_path(std::string& text, const std::string& id, const document::Path& path, int samples) {
   const analysis::CurveView view = analysis::view(path);
   const analysis::ArcLengthTable table(view);
+  const std::vector<double> corners = corners_of(view, table);
   double deviation = 0;
   double last_parameter = 0;
   core::Point2 last;
-  for (int i = 0; i < samples; ++i) {
-    const double s = table.length() * i / (samples - 1);
+  for (const double s : places_of(corners, table.length(), samples)) {
     const double parameter = table.parameter_at(s);
     const curve::Jet2 at = jet(view, parameter);
-    add_row(text, id, at, s);
-    if (i > 0)
+    const bool corner = std::ranges::binary_search(corners, s);
+    add_row(text, id, at.point, s, corner ? NAN : curvature(at));
+    if (s > 0)
       deviation = std::max(deviation, sagitta(last, at.point, last_parameter, parameter,
                                               [&](double t) { return jet(view, t).point; }));
     last = at.point;
@@ -76,7 +105,7 @@ void add_polyline(std::string& text, const std::string& id, const curve::Polylin
   for (std::size_t i = 0; i < line.points.size(); ++i) {
     const core::Point2 p = line.points[i];
     if (i > 0) s += distance(p, line.points[i - 1]);
-    text += id + shortest(p.x) + ',' + shortest(p.y) + ',' + shortest(s) + ",\n";
+    add_row(text, id, p, s, NAN);
   }
 }
 
