@@ -57,7 +57,7 @@ def with_links(text, page, places):
 
 def with_lists(text):
     """A list directly under a paragraph, as GitHub takes it, gets the empty line the site needs."""
-    return re.sub(r"(?m)^((?!\s*(?:[-*]|\d+\.) |\s*$|#|\|).+)\n(- )", r"\1\n\n\2", text)
+    return re.sub(r"(?m)^((?!\s|[-*] |\d+\. |#|\|).+)\n( ?- )", r"\1\n\n\2", text)
 
 
 def gather():
@@ -167,6 +167,15 @@ def headers():
     (folder.parent / "headers.md").write_text("\n".join(listed) + "\n")
 
 
+def torn(site):
+    """Paragraphs that were meant as tables or lists, a line each."""
+    for page in sorted(site.rglob("*.html")):
+        text = re.sub(r"<(pre|code)>.*?</\1>", "", page.read_text(), flags=re.S)
+        for found in re.findall(r"<p>(.*?)</p>", text, re.S):
+            if re.search(r"(?m)^\|.* \| |^ *- |\]\(", found):
+                yield f"{page.relative_to(site)}: {found[:80]}"
+
+
 def check(site):
     """Pages that would ask the network for something, a line each."""
     asks = re.compile(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=[\"'](?:https?:)?//[^\"']*", re.I)
@@ -180,7 +189,7 @@ def check(site):
 
 
 if len(sys.argv) > 3:
-    found = list(check(pathlib.Path(sys.argv[3])))
+    found = [*check(pathlib.Path(sys.argv[3])), *torn(pathlib.Path(sys.argv[3]))]
     print("\n".join(found))
     sys.exit(1 if found else 0)
 gather()
