@@ -1,10 +1,12 @@
 #include "keyline/fit/quintic_chain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "keyline/core/error.h"
 #include "keyline/fit/chain_data.h"
+#include "keyline/fit/quintic_powers.h"
 #include "keyline/fit/quintic_solver.h"
 
 namespace keyline::fit {
@@ -12,9 +14,11 @@ namespace {
 
 using core::Point2;
 
-constexpr double kNeedle = 158;       ///< variation of a spiral from straight on, once round
-constexpr double kWorthPiece = 0.25;  ///< of it is left, or less, by a piece more
-constexpr int kEvenPieces = 4;        ///< up to here joints are laid evenly, then where they lack
+constexpr double kNeedle = 158;          ///< variation of a spiral from straight on, once round
+constexpr double kWorthPiece = 0.25;     ///< of it is left, or less, by a piece more
+constexpr std::size_t kFewestKept = 24;  ///< points: fewer would hold back the number of pieces
+constexpr int kFootRounds = 3;
+constexpr int kEvenPieces = 4;  ///< up to here joints are laid evenly, then where they lack
 
 /// A chain and how its curvature varies.
 struct Tried {
@@ -49,11 +53,8 @@ QuinticChain with_more_pieces(const ChainData& data, bool closed, Tried best, in
   return std::move(best.chain);
 }
 
-}  // namespace
-
-QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
-                               const QuinticChainOptions& options) {
-  if (points.size() < 2) throw core::InvalidInput("fit_quintic_chain needs at least two points");
+QuinticChain follow_all(const std::vector<Point2>& points, bool closed,
+                        const QuinticChainOptions& options) {
   const ChainData data = prepare_chain_data(points, closed);
   const int most =
       std::clamp(static_cast<int>(points.size()) / 3, closed ? 2 : 1, options.max_pieces);
@@ -73,6 +74,46 @@ QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
       return best;
     }
   }
+}
+
+/// Distances of points from the chain that follows them, by feet that go on from point to point. A
+/// foot that lost the nearest place makes a distance too long: the points are all followed then.
+void measure(const std::vector<Point2>& points, bool closed, double tolerance,
+             QuinticChain& chain) {
+  std::vector<QuinticPowers> pieces;
+  for (const curve::Bezier2& piece : chain.pieces) {
+    QuinticHandles handles;
+    std::ranges::copy(piece.control, handles.begin());
+    pieces.emplace_back(handles);
+  }
+  QuinticFoot foot;
+  double most = 0;
+  double sum = 0;
+  for (const Point2 p : points) {
+    const core::Vector2 off = follow(pieces, closed, p, kFootRounds, foot).off;
+    most = std::max(most, dot(off, off));
+    sum += dot(off, off);
+  }
+  chain.max_deviation = std::sqrt(most);
+  chain.rms_deviation = std::sqrt(sum / static_cast<double>(points.size()));
+  chain.within_tolerance = chain.within_tolerance && chain.max_deviation <= tolerance;
+}
+
+}  // namespace
+
+QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
+                               const QuinticChainOptions& options) {
+  if (points.size() < 2) throw core::InvalidInput("fit_quintic_chain needs at least two points");
+  const std::size_t every = std::max<std::size_t>(1, options.every);
+  if (every > 1 && points.size() >= every * kFewestKept) {
+    std::vector<Point2> kept;
+    for (std::size_t i = 0; i + every < points.size(); i += every) kept.push_back(points[i]);
+    kept.push_back(points.back());
+    QuinticChain chain = follow_all(kept, closed, options);
+    if (chain.within_tolerance) measure(points, closed, options.tolerance, chain);
+    if (chain.within_tolerance) return chain;
+  }
+  return follow_all(points, closed, options);
 }
 
 }  // namespace keyline::fit

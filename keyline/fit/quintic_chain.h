@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "keyline/core/point.h"
@@ -10,6 +11,9 @@ namespace keyline::fit {
 struct QuinticChainOptions {
   double tolerance = 0.5;  ///< largest distance of a point from the curve, in the points' unit
   int max_pieces = 48;
+  /// Only every such point is looked at, and the last, where that comes within the tolerance of
+  /// all: points that were smoothed say the same as their neighbours.
+  std::size_t every = 1;
   bool calm = false;  ///< the least variation of curvature within the tolerance; else least squares
   bool free_start =
       false;              ///< an open chain's start lies anywhere within the tolerance of the first

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -40,5 +42,31 @@ class QuinticPowers {
   Pair start_;
   std::array<Pair, 6> power_;
 };
+
+/// Where a point's nearest place on a chain is: on which piece, and where on it.
+struct QuinticFoot {
+  std::size_t piece = 0;
+  double t = 0;
+};
+
+/// Newton's steps of a foot towards the place nearest to p, over joints too.
+inline QuinticPowers::Passing follow(const std::vector<QuinticPowers>& pieces, bool closed,
+                                     core::Point2 p, int rounds, QuinticFoot& f) {
+  QuinticPowers::Passing at = pieces[f.piece].pass(f.t, p);
+  for (int round = 0; round < rounds; ++round) {
+    const double square = dot(at.first, at.first);
+    if (!(square > 0)) break;
+    f.t += dot(at.off, at.first) / square;
+    if (f.t < 0 && (closed || f.piece > 0)) {
+      f = {(f.piece + pieces.size() - 1) % pieces.size(), 1};
+    } else if (f.t > 1 && (closed || f.piece + 1 < pieces.size())) {
+      f = {(f.piece + 1) % pieces.size(), 0};
+    } else {
+      f.t = std::clamp(f.t, 0.0, 1.0);
+    }
+    at = pieces[f.piece].pass(f.t, p);
+  }
+  return at;
+}
 
 }  // namespace keyline::fit

@@ -33,19 +33,22 @@ constexpr double kPart = 0.4;     ///< … each so much of the one before
 constexpr double kFirmest = 1e3;  ///< damping from which on no step is short enough
 
 struct Nearest {
-  Point2 place;
-  double edge = 0;  ///< length of the edge it lies on
+  Vector2 way;
+  double square = 0;  ///< of the way's length
+  double edge = 0;    ///< square of the length of the edge it leads to
 };
 
 /// Of the two edges at a point of the line.
 Nearest nearest_on_line(const std::vector<Point2>& line, std::size_t at, Point2 p) {
-  Nearest best{line[at], 0};
+  const Vector2 to = line[at] - p;
+  Nearest best{to, dot(to, to), 0};
   for (const std::size_t from : {at > 0 ? at - 1 : at, at}) {
     if (from + 1 >= line.size()) continue;
     const Vector2 edge = line[from + 1] - line[from];
-    const double share = std::clamp(dot(p - line[from], edge) / dot(edge, edge), 0.0, 1.0);
-    const Point2 q = line[from] + share * edge;
-    if (distance(p, q) <= distance(p, best.place)) best = {q, core::norm(edge)};
+    const double length = dot(edge, edge);
+    const double share = std::clamp(dot(p - line[from], edge) / length, 0.0, 1.0);
+    const Vector2 way = line[from] + share * edge - p;
+    if (const double square = dot(way, way); square <= best.square) best = {way, square, length};
   }
   return best;
 }
@@ -141,7 +144,7 @@ std::vector<double> QuinticSolver::distances() const {
   std::vector<double> off;
   off.reserve(now_.feet.size());
   for (std::size_t i = 0; i < now_.feet.size(); ++i) {
-    const Foot& f = now_.feet[i];
+    const QuinticFoot& f = now_.feet[i];
     off.push_back(distance(place(pieces[f.piece].control, f.t), data_.points[i]));
   }
   return off;
@@ -197,7 +200,7 @@ std::vector<QuinticSolver::Beside> QuinticSolver::beside(const std::vector<Joint
         if (const double next = far(i); next < least) at = i, least = next;
       if (least <= from * from) continue;
       const Nearest nearest = nearest_on_line(data_.points, at, p);
-      found.push_back({k, j, nearest.place - p, tolerance_ + kArc * nearest.edge});
+      found.push_back({k, j, nearest.way, tolerance_ + kArc * std::sqrt(nearest.edge)});
     }
   }
   return found;
@@ -230,28 +233,13 @@ QuinticSolver::Cost QuinticSolver::cost() {
   return price_ > 0 ? calm_cost(pieces) : far_cost(pieces);
 }
 
-/// Newton's steps of a foot towards the nearest place, over joints too.
+/// Feet at the ends of an open chain stay.
 QuinticPowers::Passing QuinticSolver::move_foot(std::size_t i,
                                                 const std::vector<QuinticPowers>& pieces,
                                                 int rounds) {
-  Foot& f = now_.feet[i];
   const bool closed = now_.chain.closed;
   const bool end = !closed && (i == 0 || i + 1 == now_.feet.size());
-  QuinticPowers::Passing at = pieces[f.piece].pass(f.t, data_.points[i]);
-  for (int round = 0; round < rounds && !end; ++round) {
-    const double square = dot(at.first, at.first);
-    if (!(square > 0)) break;
-    f.t += dot(at.off, at.first) / square;
-    if (f.t < 0 && (closed || f.piece > 0)) {
-      f = {(f.piece + pieces.size() - 1) % pieces.size(), 1};
-    } else if (f.t > 1 && (closed || f.piece + 1 < pieces.size())) {
-      f = {(f.piece + 1) % pieces.size(), 0};
-    } else {
-      f.t = std::clamp(f.t, 0.0, 1.0);
-    }
-    at = pieces[f.piece].pass(f.t, data_.points[i]);
-  }
-  return at;
+  return follow(pieces, closed, data_.points[i], end ? 0 : rounds, now_.feet[i]);
 }
 
 /// Across the curve; the ends of the line, whose feet are the chain's ends, along it too.
@@ -259,7 +247,7 @@ void QuinticSolver::ask(std::size_t i, const QuinticPowers::Passing& at, double 
                         double pull) {
   const double square = dot(at.first, at.first);
   if (!(square > 0)) return;
-  const Foot& f = now_.feet[i];
+  const QuinticFoot& f = now_.feet[i];
   const auto along = [&](Vector2 way) {
     now_.asked[f.piece].add_place(f.t, way, weight / square, pull * dot(at.off, way) / square);
   };

@@ -38,12 +38,6 @@ class QuinticSolver {
   double variation() const;
 
  private:
-  /// A point of the data: which piece it belongs to and where on it.
-  struct Foot {
-    std::size_t piece = 0;
-    double t = 0;
-  };
-
   /// A place of a piece, and its way to the line of the points, which may be so long.
   struct Beside {
     std::size_t piece = 0;
@@ -54,7 +48,7 @@ class QuinticSolver {
 
   struct State {
     JointedQuintics chain;
-    std::vector<Foot> feet;
+    std::vector<QuinticFoot> feet;
     std::vector<QuinticNormal> asked;  ///< by piece, see cost()
   };
 

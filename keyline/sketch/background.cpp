@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "keyline/core/quantile.h"
+#include "keyline/numeric/parallel.h"
+#include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
 namespace {
@@ -62,8 +65,9 @@ cv::Mat paper_of_blocks(const Gray& level) {
   const int columns = std::max(1, level.width / kBlock);
   const int rows = std::max(1, level.height / kBlock);
   cv::Mat paper(rows, columns, CV_32F);
-  std::vector<std::uint16_t> scratch;
-  for (int r = 0; r < rows; ++r)
+  numeric::parallel_for(static_cast<std::size_t>(rows), 0, [&](std::size_t row) {
+    const auto r = static_cast<int>(row);
+    std::vector<std::uint16_t> scratch;
     for (int c = 0; c < columns; ++c) {
       const auto cut = [](int size, int parts, int i) {
         return static_cast<int>(static_cast<long>(size) * i / parts);
@@ -72,6 +76,7 @@ cv::Mat paper_of_blocks(const Gray& level) {
                  cut(level.width, columns, c + 1), cut(level.height, rows, r + 1), scratch);
       paper.at<float>(r, c) = percentile_of(scratch, kPaperShare);
     }
+  });
   paper = with_rim(paper);
   const cv::Mat square = cv::Mat::ones(5, 5, CV_8U);
   cv::morphologyEx(paper, paper, cv::MORPH_CLOSE, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
@@ -83,44 +88,48 @@ cv::Mat paper_of_blocks(const Gray& level) {
 void subtract(Gray& level, const cv::Mat& paper) {
   const double sx = static_cast<double>(paper.cols - 2 * kRim) / level.width;
   const double sy = static_cast<double>(paper.rows - 2 * kRim) / level.height;
-  std::vector<float> row(static_cast<std::size_t>(paper.cols));
-  for (int y = 0; y < level.height; ++y) {
-    const double v = std::clamp((y + 0.5) * sy - 0.5 + kRim, 0.0, paper.rows - 1.0);
-    const int r0 = static_cast<int>(v);
-    const int r1 = std::min(r0 + 1, paper.rows - 1);
-    const auto fy = static_cast<float>(v - r0);
-    for (int c = 0; c < paper.cols; ++c)
-      row[static_cast<std::size_t>(c)] =
-          (1 - fy) * paper.at<float>(r0, c) + fy * paper.at<float>(r1, c);
-    for (int x = 0; x < level.width; ++x) {
-      const double u = std::clamp((x + 0.5) * sx - 0.5 + kRim, 0.0, paper.cols - 1.0);
-      const auto c0 = static_cast<std::size_t>(u);
-      const std::size_t c1 = std::min(c0 + 1, row.size() - 1);
-      const double base = row[c0] + (u - static_cast<double>(c0)) * (row[c1] - row[c0]);
-      const double flat = level.at(x, y) - base + Tone::kWhite;
-      level.at(x, y) = static_cast<std::uint16_t>(std::clamp(flat, 0.0, 65535.0));
+  for_rows(0, level.height, [&](int first, int last) {
+    std::vector<float> row(static_cast<std::size_t>(paper.cols));
+    for (int y = first; y < last; ++y) {
+      const double v = std::clamp((y + 0.5) * sy - 0.5 + kRim, 0.0, paper.rows - 1.0);
+      const int r0 = static_cast<int>(v);
+      const int r1 = std::min(r0 + 1, paper.rows - 1);
+      const auto fy = static_cast<float>(v - r0);
+      for (int c = 0; c < paper.cols; ++c)
+        row[static_cast<std::size_t>(c)] =
+            (1 - fy) * paper.at<float>(r0, c) + fy * paper.at<float>(r1, c);
+      for (int x = 0; x < level.width; ++x) {
+        const double u = std::clamp((x + 0.5) * sx - 0.5 + kRim, 0.0, paper.cols - 1.0);
+        const auto c0 = static_cast<std::size_t>(u);
+        const std::size_t c1 = std::min(c0 + 1, row.size() - 1);
+        const double base = row[c0] + (u - static_cast<double>(c0)) * (row[c1] - row[c0]);
+        const double flat = level.at(x, y) - base + Tone::kWhite;
+        level.at(x, y) = static_cast<std::uint16_t>(std::clamp(flat, 0.0, 65535.0));
+      }
     }
-  }
+  });
 }
 
 }  // namespace
 
 bool is_light_on_dark(const Image& image) {
   const Gray& luminance = image.luminance;
-  std::vector<std::uint16_t> scratch;
-  double dark = 0;
-  double light = 0;
   const int step = std::max(kBlock, std::max(luminance.width, luminance.height) / 64);
-  for (int y = 0; y < luminance.height; y += step)
+  const int rows = (luminance.height + step - 1) / step;
+  std::vector<double> lighter(static_cast<std::size_t>(rows));  // by row of blocks
+  numeric::parallel_for(lighter.size(), 0, [&](std::size_t row) {
+    const int y = static_cast<int>(row) * step;
+    std::vector<std::uint16_t> scratch;
     for (int x = 0; x < luminance.width; x += step) {
       sample_box(luminance, x, y, std::min(x + step, luminance.width),
                  std::min(y + step, luminance.height), scratch);
       if (is_even(scratch)) continue;
       const double middle = core::value_at(scratch, 0.5);
-      dark += middle - core::value_at(scratch, 0.02);
-      light += core::value_at(scratch, 0.98) - middle;
+      const double dark = middle - core::value_at(scratch, 0.02);
+      lighter[row] += core::value_at(scratch, 0.98) - middle - dark;
     }
-  return light > dark;
+  });
+  return std::accumulate(lighter.begin(), lighter.end(), 0.0) > 0;
 }
 
 bool flatten_background(Gray& level, Flatten flatten) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/sketch/rows.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -14,11 +16,11 @@ int mirrored(int i, int n) {
 
 }  // namespace
 
-DarknessTable::DarknessTable(const Tone& tone) : table_(65536) {
-  for (std::size_t i = 0; i < table_.size(); ++i)
-    table_[i] = static_cast<std::uint16_t>(
-        std::lround(kBlack * darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain)));
-}
+DarknessTable::DarknessTable(const Tone& tone)
+    : table_(level_table<std::uint16_t>([&](double level) {
+        return static_cast<std::uint16_t>(
+            std::lround(kBlack * darkness_of(level / Tone::kWhite, tone.gain)));
+      })) {}
 
 int DarknessTable::highest_level(int darkness) const {
   const auto lighter = std::ranges::partition_point(table_, [&](int d) { return d >= darkness; });

@@ -51,7 +51,7 @@ void take_out(Binary& ink, const Stroke& stroke) {
   std::size_t at = 0;  // the point of the stroke beside the curve's
   for (const curve::Bezier2& piece : stroke.curve) {
     const double chord = distance(piece.control.front(), piece.control.back());
-    const int n = 2 + static_cast<int>(2 * chord);
+    const int n = 2 + static_cast<int>(chord);
     for (int i = 0; i < n; ++i) {
       const Point2 p = evaluate(piece, (i + 0.5) / n);
       while (at + 1 < stroke.points.size() &&

@@ -72,6 +72,7 @@ std::vector<FineStroke> outlines(const Binary& ink, const Tone& tone) {
     line = smooth_points(moved, ones, lambda, true);
     FineStroke stroke;
     stroke.closed = true;
+    stroke.wave = kWavelength;
     resample(line, std::vector<double>(n, 0), 1.0, true, stroke.points, stroke.widths);
     strokes.push_back(std::move(stroke));
   }

@@ -7,6 +7,7 @@
 #include "keyline/core/polygon.h"
 #include "keyline/core/quantile.h"
 #include "keyline/sketch/polyline_tools.h"
+#include "keyline/sketch/rows.h"
 #include "keyline/sketch/whittaker.h"
 
 namespace keyline::sketch {
@@ -126,11 +127,10 @@ class Along {
 
 }  // namespace
 
-Refiner::Refiner(const Tone& tone) : tone_(tone), darkness_of_level_(65536) {
-  for (std::size_t i = 0; i < darkness_of_level_.size(); ++i)
-    darkness_of_level_[i] =
-        static_cast<float>(darkness_of(static_cast<double>(i) / Tone::kWhite, tone.gain));
-}
+Refiner::Refiner(const Tone& tone)
+    : tone_(tone), darkness_of_level_(level_table<float>([&](double level) {
+        return static_cast<float>(darkness_of(level / Tone::kWhite, tone.gain));
+      })) {}
 
 double Refiner::darkness(Point2 p) const {
   const int w = tone_.level.width;
@@ -255,6 +255,7 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
   const std::size_t n = raw.points.size();
   const std::vector<double> usual = usual_radii(raw);
   const double half = core::quantile(usual);
+  const double wave = 5 + 1.2 * half;
   std::vector<double> weights(n, 1);
   std::vector<Point2> centres = raw.points;
   std::vector<double> widths(usual);
@@ -286,9 +287,10 @@ FineStroke Refiner::refine(const RawStroke& raw) const {
       for (std::size_t i = 0; i < n; ++i)
         if (weights[i] == 0) weights[i] = raw.sure[i] ? 0.1 : 0.01, centres[i] = raw.points[i];
     hold_guessed_ends(raw, centres, weights);
-    line = smooth_points(centres, weights, lambda_of_wavelength(5 + 1.2 * half), raw.closed);
+    line = smooth_points(centres, weights, lambda_of_wavelength(wave), raw.closed);
   }
   FineStroke fine;
+  fine.wave = wave;
   fine.closed = raw.closed;
   fine.free_start = raw.free_start;
   fine.free_end = raw.free_end;

@@ -14,6 +14,7 @@ struct FineStroke {
   std::vector<core::Point2> points;  ///< pixels, y down
   std::vector<double> widths;
   double width = 0;  ///< median
+  double wave = 0;   ///< pixels: shortest that was not smoothed away
   bool closed = false;
   bool free_start = true;  ///< ends in paper, not at another line
   bool free_end = true;

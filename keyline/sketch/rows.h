@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "keyline/numeric/parallel.h"
 #include "keyline/sketch/pixel_words.h"
@@ -23,6 +24,19 @@ void for_rows(int from, int to, Body&& body) {
     const int first = from + static_cast<int>(k) * kRowsAtOnce;
     body(first, std::min(first + kRowsAtOnce, to));
   });
+}
+
+/// What a function makes of every level that a pixel may have, on all of the machine's threads.
+template <class T, class Of>
+std::vector<T> level_table(Of&& of) {
+  constexpr std::size_t kLevels = 65536;
+  constexpr std::size_t kAtOnce = 4096;
+  std::vector<T> table(kLevels);
+  numeric::parallel_for(kLevels / kAtOnce, 0, [&](std::size_t k) {
+    for (std::size_t i = k * kAtOnce; i < (k + 1) * kAtOnce; ++i)
+      table[i] = of(static_cast<double>(i));
+  });
+  return table;
 }
 
 /// Values of a row looked up in a table. Paper is of one level for long stretches: four pixels at

@@ -15,6 +15,8 @@ namespace {
 
 using core::Point2;
 
+constexpr double kPerWave = 3;  ///< points, of the shortest; two would do for a sine
+
 /// Points along the straight line from p to q, a pixel apart, q left out.
 void add_line(std::vector<Point2>& points, Point2 p, Point2 q) {
   const int steps = std::max(1, static_cast<int>(core::distance(p, q)));
@@ -80,11 +82,13 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   const double tolerance = std::max(options.tolerance, options.width_share * fine.width);
   const bool starts = run.first == 0 && !fine.closed;
   const bool ends = run.last + 1 == fine.points.size() && !fine.closed;
-  fit::QuinticChain chain = fit::fit_quintic_chain(part, run.closed,
-                                                   {.tolerance = tolerance,
-                                                    .calm = true,
-                                                    .free_start = starts && fine.free_start,
-                                                    .free_end = ends && fine.free_end});
+  fit::QuinticChain chain =
+      fit::fit_quintic_chain(part, run.closed,
+                             {.tolerance = tolerance,
+                              .every = static_cast<std::size_t>(fine.wave / kPerWave),
+                              .calm = true,
+                              .free_start = starts && fine.free_start,
+                              .free_end = ends && fine.free_end});
   return chain.within_tolerance ? std::move(chain.pieces) : pieces;
 }
 

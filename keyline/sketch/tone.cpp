@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,43 +23,51 @@ constexpr int kImpulse = 9000;  ///< salt and pepper differ by this much from al
 
 constexpr double kAlone = 0.35;  ///< of a dark pixel's depth: a neighbour with more is its line
 
-/// Pixels much darker or much lighter than every neighbour become the neighbours' median. Dark
-/// ones only where all neighbours are paper: along a hairline the grey swells and fades.
+/// What a pixel that stands out of all of its neighbours becomes: their median. Dark ones only
+/// where all neighbours are paper: along a hairline the grey swells and fades.
+std::optional<std::uint16_t> without_impulse(const Gray& image, std::size_t at) {
+  const auto w = static_cast<std::size_t>(image.width);
+  const std::uint16_t* above = &image.data[at - w];
+  const std::uint16_t* here = &image.data[at];
+  const std::uint16_t* below = &image.data[at + w];
+  const int value = here[0];
+  const bool darker = here[-1] - value >= kImpulse;
+  if (!darker && value - here[-1] < kImpulse) return {};
+  std::array<std::uint16_t, 8> around = {above[-1], above[0],  above[1], here[-1],
+                                         here[1],   below[-1], below[0], below[1]};
+  if (!std::ranges::all_of(
+          around, [&](int other) { return (darker ? other - value : value - other) >= kImpulse; }))
+    return {};
+  std::nth_element(around.begin(), around.begin() + 4, around.end());
+  const int usual = around[4];
+  const int darkest = *std::min_element(around.begin(), around.begin() + 4);
+  if (darker && usual - darkest > kAlone * (usual - value)) return {};
+  return around[4];
+}
+
+/// Single pixels much darker or much lighter than every neighbour go.
 void remove_impulses(Gray& image) {
   const int w = image.width;
   const int h = image.height;
   if (w < 3 || h < 3) return;
-  std::vector<std::uint16_t> above;
-  std::vector<std::uint16_t> here;
-  const auto copy_row = [&](int y, std::vector<std::uint16_t>& row) {
-    const std::uint16_t* from = image.data.data() + image.index(0, y);
-    row.assign(from, from + w);
-  };
-  copy_row(0, above);
-  copy_row(1, here);
-  for (int y = 1; y + 1 < h; ++y) {
-    const std::uint16_t* below = &image.at(0, y + 1);
-    for (int x = 1; x + 1 < w; ++x) {
-      while (x + 5 < w && word_at(&here[x]) == word_at(&here[x - 1])) x += 4;  // most of the paper
-      const int value = here[x];
-      const bool darker = here[x - 1] - value >= kImpulse;
-      if (!darker && value - here[x - 1] < kImpulse) continue;
-      std::array<std::uint16_t, 8> around = {above[x - 1], above[x],    above[x + 1],
-                                             here[x - 1],  here[x + 1], below[x - 1],
-                                             below[x],     below[x + 1]};
-      if (!std::all_of(around.begin(), around.end(), [&](int other) {
-            return (darker ? other - value : value - other) >= kImpulse;
-          }))
-        continue;
-      std::nth_element(around.begin(), around.begin() + 4, around.end());
-      const int usual = around[4];
-      const int darkest = *std::min_element(around.begin(), around.begin() + 4);
-      if (darker && usual - darkest > kAlone * (usual - value)) continue;
-      image.at(x, y) = around[4];
+  std::vector<std::pair<std::size_t, std::uint16_t>> mended;  // as the picture was before
+  std::mutex adding;
+  for_rows(1, h - 1, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const std::size_t row = image.index(0, y);
+      const std::uint16_t* here = &image.data[row];
+      for (int x = 1; x + 1 < w; ++x) {
+        while (x + 5 < w && word_at(here + x) == word_at(here + x - 1))
+          x += 4;  // most of the paper
+        const std::size_t at = row + static_cast<std::size_t>(x);
+        if (const auto usual = without_impulse(image, at)) {
+          const std::scoped_lock lock(adding);
+          mended.emplace_back(at, *usual);
+        }
+      }
     }
-    above.swap(here);
-    if (y + 2 < h) copy_row(y + 1, here);
-  }
+  });
+  for (const auto& [at, usual] : mended) image.data[at] = usual;
 }
 
 /// Luminance to x of the formula, 1 … 256.
@@ -95,13 +105,11 @@ double noise_of(const Gray& level) {
   return std::max(noise_at_lag(level, 1), noise_at_lag(level, 4));
 }
 
-std::vector<std::uint16_t> level_table(double gain) {
-  std::vector<std::uint16_t> table(65536);
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const double y = gain * std::log(intensity(static_cast<double>(i)));
-    table[i] = static_cast<std::uint16_t>(std::clamp(y * Tone::kWhite, 0.0, 65535.0));
-  }
-  return table;
+std::vector<std::uint16_t> tones(double gain) {
+  return level_table<std::uint16_t>([gain](double luminance) {
+    const double y = gain * std::log(intensity(luminance));
+    return static_cast<std::uint16_t>(std::clamp(y * Tone::kWhite, 0.0, 65535.0));
+  });
 }
 
 }  // namespace
@@ -120,8 +128,7 @@ Tone transform_intensity(Image image, const ToneOptions& options) {
   remove_impulses(tone.level);
   const double paper = std::max(intensity(percentile(tone.level, 0.8)), 2.0);
   tone.gain = options.gain.value_or(1 / std::log(paper));
-  const std::vector<std::uint16_t> table = level_table(tone.gain);
-  look_up(tone.level, table, tone.level);
+  look_up(tone.level, tones(tone.gain), tone.level);
   tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));
   tone.flattened = flatten_background(tone.level, options.flatten);
   tone.noise = noise_of(tone.level);

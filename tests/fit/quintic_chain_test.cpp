@@ -79,6 +79,30 @@ TEST(QuinticChain, FollowsAnEllipseWithinTheTolerance) {
   }
 }
 
+// Of smooth points every third says enough; what is left out is measured all the same, and a point
+// left out that lies off is followed as by looking at all.
+TEST(QuinticChain, PointsLeftOutAreKeptToAsWell) {
+  for (const bool closed : {false, true}) {
+    SCOPED_TRACE(closed);
+    auto points = closed ? ellipse(900, 0, 2 * M_PI * 899 / 900) : ellipse(700, 0.3, 4);
+    for (const bool calm : {false, true}) {
+      const QuinticChain some =
+          fit_quintic_chain(points, closed, {.tolerance = 0.5, .every = 3, .calm = calm});
+      EXPECT_TRUE(some.within_tolerance);
+      const Measured m = measured(points, some);
+      EXPECT_LE(m.most, 0.5);
+      EXPECT_NEAR(some.max_deviation, m.most, 0.01 * m.most);
+      EXPECT_NEAR(some.rms_deviation, m.rms, 0.01 * m.rms);
+    }
+    points[301] = {1.005 * points[301].x,
+                   1.005 * points[301].y};  // every third from 0 on is 300, 303, …
+    const QuinticChain all = fit_quintic_chain(points, closed, {.tolerance = 0.5});
+    const QuinticChain some = fit_quintic_chain(points, closed, {.tolerance = 0.5, .every = 3});
+    EXPECT_EQ(some.within_tolerance, all.within_tolerance);
+    EXPECT_EQ(some.max_deviation, all.max_deviation);
+  }
+}
+
 // A quintic can come within a ten-thousandth of the length (fit_bezier's within 1e-6 of it).
 TEST(QuinticChain, OnePieceIsNearWhatOneCanBe) {
   for (const double to : {1.5, 2.2, 3.0}) {
