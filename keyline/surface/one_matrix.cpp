@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -231,6 +232,25 @@ void polish(const System& system, const std::vector<int>& rows, Eigen::VectorXd&
   }
 }
 
+/// The net at x, moved on to meet the equations, and how far it does.
+OneMatrixNet polished(const OneMatrixProblem& problem, double size, bool exact_growth,
+                      Eigen::VectorXd x) {
+  OneMatrixProblem plain = problem;
+  plain.growth_weight = 1;
+  const System system(plain, size, 1);
+  polish(system, exact_rows(problem, exact_growth), x);
+  OneMatrixNet result{system.net_at(x)};
+  Eigen::VectorXd r;
+  if (!system.evaluate(x, r, nullptr)) return {problem.net, 1, 1};
+  for (const int row : exact_rows(problem, false)) {
+    if (!(std::abs(r[row]) > result.violation)) continue;
+    result.violation = std::abs(r[row]);
+    result.worst = curve_of_row(problem, row);
+  }
+  result.growth_error = r.head(system.equations()).lpNorm<Eigen::Infinity>();
+  return result;
+}
+
 }  // namespace
 
 OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start,
@@ -247,20 +267,12 @@ OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start,
     };
     numeric::minimize_least_squares(f, x, options);
   }
-  OneMatrixProblem plain = problem;
-  plain.growth_weight = 1;
-  const System system(plain, size, 1);
-  polish(system, exact_rows(problem, exact_growth), x);
-  OneMatrixNet result{system.net_at(x)};
-  Eigen::VectorXd r;
-  if (!system.evaluate(x, r, nullptr)) return {problem.net, 1, 1};
-  for (const int row : exact_rows(problem, false)) {
-    if (!(std::abs(r[row]) > result.violation)) continue;
-    result.violation = std::abs(r[row]);
-    result.worst = curve_of_row(problem, row);
-  }
-  result.growth_error = r.head(system.equations()).lpNorm<Eigen::Infinity>();
-  return result;
+  return polished(problem, size, exact_growth, std::move(x));
+}
+
+OneMatrixNet meet_growth(const OneMatrixProblem& problem, const Net& start) {
+  const double size = size_of(problem.net);
+  return polished(problem, size, true, System(problem, size, 1).coordinates(start));
 }
 
 }  // namespace keyline::surface::detail
