@@ -68,6 +68,20 @@ TEST(SplitPieces, LeavesInflectionsInTheEnds) {
   EXPECT_EQ(splits, 0);
 }
 
+// f'' = t - at: an inflection a ten millionth from an end is one of the end.
+TEST(SplitPieces, LeavesWhatNobodyCouldSeeOf) {
+  for (const double at : {1e-7, 0.5, 1 - 1e-7}) {
+    std::array<double, 6> y{};
+    for (int k = 0; k < 4; ++k) y[k + 2] = 2 * y[k + 1] - y[k] + (k / 3.0 - at);
+    const PiecewiseBezier chain{{graph(0, 1, y)}};
+    std::vector<LocalTarget> targets;
+    int splits = 0;
+    const PiecewiseBezier cut = split_pieces(chain, targets, splits);
+    EXPECT_EQ(splits, at == 0.5 ? 1 : 0) << at;
+    EXPECT_EQ(cut.pieces.size(), at == 0.5 ? 2u : 1u);
+  }
+}
+
 TEST(LocalTargets, ComeBackOverAll) {
   std::vector<CurvatureTarget> targets;
   for (int i = 0; i <= 40; ++i) targets.push_back({i / 40.0, std::sin(i)});

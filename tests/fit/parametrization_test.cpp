@@ -87,16 +87,18 @@ TEST(Parametrization, SmoothChordsWithoutNoiseAreChords) {
 }
 
 TEST(Parametrization, SmoothChordsDoNotKnowWhereTheDataLieNorFromWhichEnd) {
-  const auto points = noisy_half_circle(700, 0.01, 4);
-  const auto t = parametrize(points, Parametrization::smooth_chord);
-  EXPECT_NE(t, parametrize(points, Parametrization::chord));
-  std::vector<Point2> moved;
-  for (const Point2& p : points) moved.push_back({3 + 7 * p.y, -2 - 7 * p.x});
-  const auto same = parametrize(moved, Parametrization::smooth_chord);
-  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(same[i], t[i], 1e-12);
-  std::ranges::reverse(moved);
-  const auto back = parametrize(moved, Parametrization::smooth_chord);
-  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(1 - back[t.size() - 1 - i], t[i], 1e-12);
+  for (const int n : {130, 170, 700}) {  // a window of one to either side, of two, of more
+    const auto points = noisy_half_circle(n, 7.0 / n, 4);
+    const auto t = parametrize(points, Parametrization::smooth_chord);
+    EXPECT_NE(t, parametrize(points, Parametrization::chord)) << n;
+    std::vector<Point2> moved;
+    for (const Point2& p : points) moved.push_back({3 + 7 * p.y, -2 - 7 * p.x});
+    const auto same = parametrize(moved, Parametrization::smooth_chord);
+    for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(same[i], t[i], 1e-12);
+    std::ranges::reverse(moved);
+    const auto back = parametrize(moved, Parametrization::smooth_chord);
+    for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(1 - back[t.size() - 1 - i], t[i], 1e-12);
+  }
 }
 
 }  // namespace

@@ -205,6 +205,11 @@ TEST(Genetic, RatesFollowSrinivasAndPatnaik) {
   EXPECT_DOUBLE_EQ(
       detail::adaptive_rate(std::numeric_limits<double>::infinity(), costs, 0.5, 0.5, 0.01), 0.5);
   EXPECT_DOUBLE_EQ(detail::adaptive_rate(10, {10, 10}, 1, 1, 0.01), 0.01);
+  const GeneticOptions theirs;
+  EXPECT_EQ(theirs.k1, 1);
+  EXPECT_EQ(theirs.k2, 0.5);
+  EXPECT_EQ(theirs.k3, 1);
+  EXPECT_EQ(theirs.k4, 0.5);
 }
 
 }  // namespace

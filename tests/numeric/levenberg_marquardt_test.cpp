@@ -131,6 +131,31 @@ TEST(LevenbergMarquardt, DampingFallsWhereStepsAreForeseen) {
   EXPECT_NEAR(x[0], (0.3 / 1.3) * (0.1 / 1.1), 1e-15);
 }
 
+// x^2 from 1 with damping 1/4: s = -1 / (1 + 1/4) of the scaled column, to x = 1 + s / 2 = 0.6. The
+// cost falls by (1 - 0.6^4) / 2 where (1 - damping s) (-s) / 2 = 0.48 were foreseen; the damping
+// falls by 1 - (2 gain - 1)^3 ([Nielsen 1999]).
+TEST(LevenbergMarquardt, DampingFollowsTheGain) {
+  const ResidualFunction square = [](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                     Eigen::MatrixXd* j) {
+    r.resize(1);
+    r[0] = x[0] * x[0];
+    if (j) {
+      j->resize(1, 1);
+      (*j)(0, 0) = 2 * x[0];
+    }
+    return true;
+  };
+  Eigen::VectorXd x(1);
+  x << 1;
+  LevenbergMarquardtOptions options;
+  options.max_iterations = 2;
+  options.initial_damping = 0.25;
+  minimize_least_squares(square, x, options);
+  const double gain = (1 - std::pow(0.6, 4)) / 2 / 0.48;
+  const double damping = 0.25 * (1 - std::pow(2 * gain - 1, 3));
+  EXPECT_NEAR(x[0], 0.6 - 0.3 / (1 + damping), 1e-14);
+}
+
 /// The cosine between residual and column at x is x / sqrt(x^2 + 1): at 0.1 it is 0.0995.
 TEST(LevenbergMarquardt, FlatStartsAreLeftAlone) {
   Eigen::VectorXd x(1);

@@ -27,6 +27,18 @@ TEST(BracketedRoot, InfiniteValuesCountAsLarge) {
   for (const double x : asked) EXPECT_TRUE(x >= 0 && x <= 1) << x;
 }
 
+TEST(BracketedRoot, SignsAreTheirOwnHoweverSmallOrLarge) {
+  for (const double size : {1e-250, 1e-12, 0.4, 1.0, 1e12, 1e99})
+    for (const double sign : {-1.0, 1.0}) {
+      const auto root =
+          bracketed_root([&](double x) { return sign * size * (x - 0.3); }, 0, 1, 1e-15);
+      ASSERT_TRUE(root) << sign * size;
+      EXPECT_NEAR(*root, 0.3, 2e-15);
+      EXPECT_FALSE(bracketed_root([&](double x) { return sign * size * (x + 0.3); }, 0, 1, 1e-15));
+    }
+  EXPECT_FALSE(bracketed_root([](double x) { return x; }, 1, -1, 1e-15));
+}
+
 TEST(BracketedRoot, ZerosAtTheEndsAreFoundAtOnce) {
   int asked = 0;
   const auto line = [&](double x) { return ++asked, x - 1; };
