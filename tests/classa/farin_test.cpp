@@ -37,6 +37,24 @@ TEST(Farin, ConditionsDoNotImplyMonotoneCurvature) {
   EXPECT_GT(rise, 0.05);
 }
 
+TEST(Farin, AChangeWithinTheToleranceIsLeftUndecided) {
+  const curve::Bezier3 c = to_bezier(kCounterexample);
+  const MonotoneVerdict no = certify_monotone_curvature(c);
+  EXPECT_EQ(no.direction, -1);
+  EXPECT_GT(curvature(c, no.witness + 1e-4), curvature(c, no.witness - 1e-4));
+  for (const double share : {0.5, 1 - 1e-9, 1 + 1e-9, 2.0}) {
+    const MonotoneVerdict verdict = certify_monotone_curvature(c, share * no.backward);
+    EXPECT_EQ(verdict.answer, share < 1 ? MonotoneVerdict::no : MonotoneVerdict::undecided);
+    EXPECT_EQ(verdict.direction, no.direction);
+    EXPECT_EQ(verdict.witness, no.witness);
+    EXPECT_EQ(verdict.backward, no.backward);
+  }
+  const MonotoneVerdict back = certify_monotone_curvature(reverse(c));
+  EXPECT_EQ(back.answer, MonotoneVerdict::no);
+  EXPECT_EQ(back.direction, 1);
+  EXPECT_NEAR(back.backward, no.backward, 1e-9);
+}
+
 /// A planar matrix in space is judged as in the plane.
 TEST(Farin, AgreesWithThePlanarCertificate) {
   numeric::Random random(4);
