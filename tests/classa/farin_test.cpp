@@ -1,5 +1,6 @@
 #include "keyline/classa/farin.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,43 @@ TEST(Farin, AChangeWithinTheToleranceIsLeftUndecided) {
   EXPECT_EQ(back.answer, MonotoneVerdict::no);
   EXPECT_EQ(back.direction, 1);
   EXPECT_NEAR(back.backward, no.backward, 1e-9);
+}
+
+// What is certified turns where curvature does, found by looking at curvature alone.
+TEST(Farin, TurnsWhereCurvatureDoes) {
+  numeric::Random random(7);
+  int tried = 0;
+  for (int n = 0; n < 60; ++n) {
+    curve::Bezier3 c;
+    for (int k = 0; k <= 3 + n % 3; ++k)
+      c.control.push_back(
+          {k + random.uniform(-0.3, 0.3), random.uniform(-1, 1), random.uniform(-1, 1)});
+    // Each largest or least curvature inside: between two places, to a billionth.
+    constexpr int kPlaces = 200;
+    for (int i = 2; i + 2 < kPlaces; ++i) {
+      const auto at = [&](int j) { return curvature(c, static_cast<double>(j) / kPlaces); };
+      const double sign = at(i) > at(i - 1) ? 1 : -1;
+      if (!(sign * (at(i) - at(i - 2)) > 0 && sign * (at(i) - at(i + 2)) > 0 &&
+            sign * (at(i) - at(i + 1)) > 0))
+        continue;
+      double low = (i - 1.0) / kPlaces, high = (i + 1.0) / kPlaces;
+      for (int k = 0; k < 40; ++k) {
+        const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
+        (sign * curvature(c, a) > sign * curvature(c, b) ? high : low) =
+            sign * curvature(c, a) > sign * curvature(c, b) ? b : a;
+      }
+      const double turn = 0.5 * (low + high);
+      const auto answer = [&](double from, double to) {
+        return certify_monotone_curvature(subcurve(c, from, to)).answer;
+      };
+      constexpr double kNear = 1e-3, kFar = 3e-3;
+      EXPECT_EQ(answer(turn - kFar, turn - kNear), MonotoneVerdict::yes) << n << " " << turn;
+      EXPECT_EQ(answer(turn + kNear, turn + kFar), MonotoneVerdict::yes) << n << " " << turn;
+      EXPECT_EQ(answer(turn - kNear, turn + kNear), MonotoneVerdict::no) << n << " " << turn;
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 40);
 }
 
 /// A planar matrix in space is judged as in the plane.

@@ -29,13 +29,46 @@ std::vector<Group> groups_of(const std::string& dxf) {
   return groups;
 }
 
-std::string written() {
+std::string written(const char* unit = "mm") {
   document::Document d;
-  d.unit = "mm";
+  d.unit = unit;
   for (const char* layer : {"body", "glass", "body"})
     d.paths.push_back(
         {{"a", layer, "#fe0101"}, {{{curve::Bezier2{{{0, 0}, {1, 2}, {3, 0}}, {}}}}, false}, 0});
   return write_dxf(d, {.tolerance = 1e-3}).value().content;
+}
+
+// DXF reference, "HEADER section group codes".
+TEST(DxfFrame, HeaderVariablesHaveTheirGroupsAndValues) {
+  struct Case {
+    const char *unit, *number, *metric;
+  };
+  for (const Case& c : {Case{"mm", "4", "1"},
+                        {"cm", "5", "1"},
+                        {"m", "6", "1"},
+                        {"in", "1", "0"},
+                        {"ft", "2", "0"}}) {
+    const std::vector<Group> groups = groups_of(written(c.unit));
+    int seen = 0;
+    for (std::size_t i = 0; i + 1 < groups.size(); ++i) {
+      if (groups[i].code != 9) continue;
+      const auto& [code, value] = groups[i + 1];
+      const std::string& name = groups[i].value;
+      ++seen;
+      const int wanted = name == "$ACADVER"       ? 1
+                         : name == "$DWGCODEPAGE" ? 3
+                         : name == "$HANDSEED"    ? 5
+                                                  : 70;
+      EXPECT_EQ(code, wanted) << name;
+      if (name == "$INSUNITS") {
+        EXPECT_EQ(std::stoi(value), std::stoi(c.number)) << c.unit;
+      }
+      if (name == "$MEASUREMENT") {
+        EXPECT_EQ(std::stoi(value), std::stoi(c.metric)) << c.unit;
+      }
+    }
+    EXPECT_EQ(seen, 5);
+  }
 }
 
 // DXF reference, "General DXF file structure": what begins with group 0 ends with group 0.

@@ -139,6 +139,8 @@ TEST(SvgReader, SaysWhatThePageShows) {
   using Sides = std::array<double, 4>;
   EXPECT_EQ(page(""), Sides{});
   EXPECT_EQ(page("width='200mm'"), Sides{});
+  EXPECT_EQ(page("width='0' height='30'"), Sides{});
+  EXPECT_EQ(page("width='40' height='0'"), Sides{});
   EXPECT_EQ(page("width='40' height='30'"), (Sides{0, -30, 40, 0}));
   EXPECT_EQ(page("viewBox='1e308 0 1e308 10'"), Sides{});  // no numbers for its right side
   EXPECT_EQ(page("viewBox='5 6 40 20'"), (Sides{5, -26, 45, -6}));

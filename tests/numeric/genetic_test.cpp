@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -194,6 +197,31 @@ TEST(Genetic, ImpossibleMembersHaveNoCost) {
   const auto result = evolve_trials(problem, small(1, 1));
   EXPECT_EQ(result[0].best.cost, std::numeric_limits<double>::infinity());
   EXPECT_EQ(result[0].generations, 40);
+}
+
+/// Counts where two costs are asked for of one worker at once.
+struct OneAtATime : Switches {
+  std::array<std::atomic<int>, 4> busy{};
+  std::atomic<int> clashes = 0, strangers = 0;
+  double cost(const Genome& g, int worker) {
+    if (worker < 0 || worker > 3) return ++strangers, 0;
+    if (busy[static_cast<std::size_t>(worker)]++ > 0) ++clashes;
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+    --busy[static_cast<std::size_t>(worker)];
+    return Switches::cost(g, worker);
+  }
+};
+
+// A worker has scratch of its own, which two threads may not write to at once.
+TEST(Genetic, AWorkerDoesOneThingAtATime) {
+  for (const int trials : {1, 4}) {
+    OneAtATime problem;
+    GeneticOptions options = small(trials, 4);
+    options.generations = 4;
+    evolve_trials(problem, options);
+    EXPECT_EQ(problem.clashes, 0) << trials;
+    EXPECT_EQ(problem.strangers, 0) << trials;
+  }
 }
 
 TEST(Genetic, RatesFollowSrinivasAndPatnaik) {

@@ -26,6 +26,8 @@ TEST(PushedWeight, GrowsWithTheSquareOfTheShare) {
   EXPECT_DOUBLE_EQ(pushed_weight(3, 1, 0.5, {0.25, 2}), 3 * 0.75);
   EXPECT_DOUBLE_EQ(pushed_weight(3, 1, 2, {0.25, 2}), 3 * 8.25);
   EXPECT_EQ(pushed_weight(9e3, 1, 2, {0.25, 2}), 1e4);  // of what it was at the start
+  EXPECT_EQ(pushed_weight(9e3, 0.5, 2, {0.25, 2}), 5e3);
+  EXPECT_DOUBLE_EQ(pushed_weight(9e3, 40, 2, {0.25, 2}), 9e3 * 8.25);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "keyline/numeric/levenberg_marquardt.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -154,6 +155,26 @@ TEST(LevenbergMarquardt, DampingFollowsTheGain) {
   const double gain = (1 - std::pow(0.6, 4)) / 2 / 0.48;
   const double damping = 0.25 * (1 - std::pow(2 * gain - 1, 3));
   EXPECT_NEAR(x[0], 0.6 - 0.3 / (1 + damping), 1e-14);
+}
+
+// The first step of the same takes 1 - 0.6^4 = 87 % of the cost away.
+TEST(LevenbergMarquardt, EndsWhereAStepGainsTooLittle) {
+  const ResidualFunction square = [](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                     Eigen::MatrixXd* j) {
+    r = x.cwiseAbs2();
+    if (j) *j = 2 * x;
+    return true;
+  };
+  for (const auto& [tolerance, steps] : {std::pair{0.875, 1}, {0.865, 2}}) {
+    Eigen::VectorXd x(1);
+    x << 1;
+    LevenbergMarquardtOptions options;
+    options.max_iterations = 2;
+    options.initial_damping = 0.25;
+    options.cost_tolerance = tolerance;
+    const auto report = minimize_least_squares(square, x, options);
+    EXPECT_EQ(report.iterations, steps);
+  }
 }
 
 /// The cosine between residual and column at x is x / sqrt(x^2 + 1): at 0.1 it is 0.0995.
