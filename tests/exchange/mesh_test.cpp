@@ -181,6 +181,13 @@ TEST(Mesh, BadFilesAreFailuresWithThePlace) {
   EXPECT_EQ(read_obj("v 1 2 3\nv 1 x 3\n").error().path, "line 2");
   EXPECT_FALSE(read_stl(stl_of(m).substr(0, 300)));
   EXPECT_EQ(read_stl("solid\nfacet\nouter loop\nvertex 1 2 3\nendloop\n").error().path, "line 5");
+  const std::string loop = "solid\nfacet\nouter loop\n", vertex = "vertex 1 2 3\n";
+  const auto few = read_stl(loop + "vertex 1 2\n");
+  EXPECT_EQ(few.error().message, "a vertex needs three numbers");
+  EXPECT_EQ(few.error().path, "line 4");
+  const auto many = read_stl(loop + vertex + vertex + vertex + vertex);
+  EXPECT_EQ(many.error().message, "a triangle has three vertices");
+  EXPECT_EQ(many.error().path, "line 7");
   std::string huge =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3000000000\nproperty float "
       "x\nend_header\n";

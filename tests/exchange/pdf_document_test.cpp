@@ -1,5 +1,6 @@
 #include "keyline/exchange/pdf/pdf_document.h"
 
+#include <cstdio>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -45,6 +46,29 @@ TEST(PdfDocument, IsInRealSizeWithLayersAndColours) {
   EXPECT_THAT(pdf, HasSubstr("/Name <FEFF007200F60064>"));
   EXPECT_EQ(sound_references(pdf), 5);
   EXPECT_TRUE(written->notes.empty());
+}
+
+// The middle of what is drawn lies in the middle of the page, wherever it was drawn.
+TEST(PdfDocument, TheDrawingStandsInTheMiddleOfThePage) {
+  for (const core::Point2 low : {core::Point2{0, 0}, {100, 200}, {-3000, 70}}) {
+    document::Document d;
+    d.unit = "mm";
+    const core::Point2 high{low.x + 40, low.y + 30};
+    d.paths.push_back({{"c", "", ""}, {{{curve::Bezier2{{low, high}, {}}}}, false}, 0});
+    const auto written = write_pdf_document(d, 1e-3);
+    ASSERT_TRUE(written);
+    const std::string& pdf = written->content;
+    double width = 0, height = 0, x = 0, y = 0;
+    const std::size_t box = pdf.find("/MediaBox [");
+    const std::size_t move = pdf.find(" m\n");
+    ASSERT_TRUE(box != std::string::npos && move != std::string::npos);
+    ASSERT_EQ(std::sscanf(pdf.c_str() + box, "/MediaBox [0 0 %lf %lf]", &width, &height), 2);
+    const std::size_t line = pdf.rfind('\n', move - 1) + 1;
+    ASSERT_EQ(std::sscanf(pdf.c_str() + line, "%lf %lf m", &x, &y), 2);
+    constexpr double kPoints = 72 / 25.4;
+    EXPECT_NEAR(x + 20, width / kPoints / 2, 1e-6);
+    EXPECT_NEAR(y + 15, height / kPoints / 2, 1e-6);
+  }
 }
 
 TEST(PdfDocument, ALargeDrawingIsScaledAndSaysSo) {

@@ -87,6 +87,18 @@ TEST(Cad, QuinticsNeedFewerPieces) {
   }
 }
 
+// A cubic's error falls with the sixth power of its width, a quintic's with the tenth: no cubics
+// under another name.
+TEST(Cad, QuinticsOfGentleSegmentsAreFewer) {
+  for (const double alpha : {-1.0, 0.0, 1.0, 2.0}) {
+    const Segment s{{{1, 1}, 2}, alpha, 1, 0.7, 1.2};
+    const auto quintics = to_beziers(s, {5, 1e-10, false});
+    const auto cubics = to_beziers(s, {3, 1e-10, false});
+    ASSERT_TRUE(quintics && cubics);
+    EXPECT_LT(quintics->pieces.size(), cubics->pieces.size()) << alpha;
+  }
+}
+
 TEST(Cad, BoundHoldsOnRandomSegments) {
   EXPECT_TRUE(rc::check([] {
     const double alpha = *rc::gen::inRange(-500, 501) / 100.0;
