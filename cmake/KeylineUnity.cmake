@@ -45,8 +45,8 @@ function(keyline_sources target result)
     set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_${group}.cpp")
     add_custom_command(
       OUTPUT "${file}"
-      COMMAND "${KEYLINE_PYTHON3}" "${PROJECT_SOURCE_DIR}/cmake/unity.py" "${file}" ${part}
-      DEPENDS ${part} "${PROJECT_SOURCE_DIR}/cmake/unity.py"
+      COMMAND "${KEYLINE_PYTHON3}" "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/unity.py" "${file}" ${part}
+      DEPENDS ${part} "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/unity.py"
       COMMENT "Putting sources of ${target} together"
       VERBATIM)
     # g++ gets the memory a source needs before it looks for what it can spare: an eighth of the time.

@@ -14,3 +14,4 @@ set(libraries "${KEYLINE_ARM64}/usr/lib/aarch64-linux-gnu")
 set(CMAKE_CROSSCOMPILING_EMULATOR
     "qemu-aarch64-static;-L;/usr/aarch64-linux-gnu;-E;LD_LIBRARY_PATH=${libraries}")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-L${libraries}")
+set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)  # notes on what GCC 10 changed

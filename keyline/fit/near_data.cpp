@@ -31,6 +31,9 @@ struct Column {
     return d[order - 1];
   }
 };
+// For clang before 17, which does not deduce it of a struct without constructors.
+template <class Coefficient>
+Column(std::span<const double>, std::size_t, Coefficient) -> Column<Coefficient>;
 
 /// Whether the column keeps within its room on the shown part of its domain: surely where its
 /// coefficients do, otherwise by its value at the extrema of Chebyshev's polynomial of degree
