@@ -11,13 +11,13 @@ namespace keyline::fit {
 struct QuinticChainOptions {
   double tolerance = 0.5;  ///< largest distance of a point from the curve, in the points' unit
   int max_pieces = 48;
-  /// Only every such point is looked at, and the last, where that comes within the tolerance of
-  /// all: points that were smoothed say the same as their neighbours.
-  std::size_t every = 1;
   bool calm = false;  ///< the least variation of curvature within the tolerance; else least squares
   bool free_start =
       false;              ///< an open chain's start lies anywhere within the tolerance of the first
   bool free_end = false;  ///< point, its end of the last; else exactly there
+  /// Only every such point is looked at, and the last, where that comes within the tolerance of
+  /// all: points that were smoothed say the same as their neighbours.
+  std::size_t every = 1;
 };
 
 struct QuinticChain {

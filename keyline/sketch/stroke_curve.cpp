@@ -85,10 +85,10 @@ std::vector<curve::Bezier2> quintics_of(const SegmentRun& run, const FineStroke&
   fit::QuinticChain chain =
       fit::fit_quintic_chain(part, run.closed,
                              {.tolerance = tolerance,
-                              .every = static_cast<std::size_t>(fine.wave / kPerWave),
                               .calm = true,
                               .free_start = starts && fine.free_start,
-                              .free_end = ends && fine.free_end});
+                              .free_end = ends && fine.free_end,
+                              .every = static_cast<std::size_t>(fine.wave / kPerWave)});
   return chain.within_tolerance ? std::move(chain.pieces) : pieces;
 }
 

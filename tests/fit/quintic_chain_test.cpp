@@ -87,7 +87,7 @@ TEST(QuinticChain, PointsLeftOutAreKeptToAsWell) {
     auto points = closed ? ellipse(900, 0, 2 * M_PI * 899 / 900) : ellipse(700, 0.3, 4);
     for (const bool calm : {false, true}) {
       const QuinticChain some =
-          fit_quintic_chain(points, closed, {.tolerance = 0.5, .every = 3, .calm = calm});
+          fit_quintic_chain(points, closed, {.tolerance = 0.5, .calm = calm, .every = 3});
       EXPECT_TRUE(some.within_tolerance);
       const Measured m = measured(points, some);
       EXPECT_LE(m.most, 0.5);
