@@ -11,7 +11,7 @@ struct Residuals {
   double rms = 0;      ///< expected of the points as they are fitted; 0: as the tolerance has it
   double noise = 0;    ///< of the same
   double scatter = 0;  ///< of measured points about the fitted ones that are their means
-  double left = 0;  ///< what the tolerance holds beyond the errors
+  double left = 0;     ///< what the tolerance holds beyond the errors
   double standard_error = 0;  ///< of the root of the mean square of all errors, a part of it
   /// What the root of the mean square may be: so many standard errors above what is expected of
   /// the measured points, less their scatter, which no curve changes.
