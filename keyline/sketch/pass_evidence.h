@@ -33,7 +33,8 @@ struct PassReach {
 /// lengths of the distance allowed, which is `seen`'s for the shorter one or the larger of_stroke
 /// if that is less: 1 on top of each other, 0 at that distance or angle, negative beyond (with the
 /// cosine of the angle: crossing lines say nothing), half of that where another stroke lies in
-/// between, nothing where they do not lie beside each other. An end that goes on where another ends
+/// between, nothing where they do not lie beside each other, nor for them along a stretch that they
+/// leave in two directions, none of them ending. An end that goes on where another ends
 /// speaks for both, as far as `kGap` widths. Strokes are compared as far as `at_most` may matter:
 /// lines that touch are kept apart by all of their way.
 PassEvidence pass_evidence(const std::vector<SampledStroke>& strokes, const PassReach& reach);

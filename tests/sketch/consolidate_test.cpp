@@ -12,6 +12,7 @@
 #include "keyline/numeric/random.h"
 #include "keyline/sketch/align_strokes.h"
 #include "keyline/sketch/hold_line.h"
+#include "keyline/sketch/pass_evidence.h"
 
 namespace keyline::sketch {
 namespace {
@@ -138,6 +139,37 @@ TEST(Consolidate, BranchesStayLines) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].members, (std::vector<std::size_t>{0, 2, 4, 6}));
   EXPECT_EQ(lines[1].members, (std::vector<std::size_t>{1, 3, 5, 7}));
+}
+
+/// What speaks for two strokes being passes of one line, of a pen 2 wide.
+double evidence_between(const std::vector<Point2>& one, const std::vector<Point2>& other) {
+  const PassModel model{.width = 2};
+  const std::vector<SampledStroke> strokes{sample_stroke(one, false, 2),
+                                           sample_stroke(other, false, 2)};
+  const PassEvidence evidence = pass_evidence(strokes, {model, model, {INFINITY, INFINITY}});
+  const auto found = evidence[0].find(1);
+  return found == evidence[0].end() ? 0 : found->second;
+}
+
+// A bottle's band nestles against its side and leaves it at right angles: while both go on, that
+// speaks for nothing. A pass that hooks off at its end is one of the line, and where the side ends
+// the band goes on with it.
+TEST(Consolidate, WhatNestlesAgainstALineIsNoPassOfIt) {
+  const auto side = [](double length) {
+    std::vector<Point2> points;
+    for (int x = 0; x <= length; ++x) points.push_back({1.0 * x, 0});
+    return points;
+  };
+  const auto band = [](double beside, double across) {  // from x = 200 - beside on, off at x = 200
+    std::vector<Point2> points;
+    for (int x = 0; x <= beside; ++x) points.push_back({200 - beside + x, 1});
+    for (int y = 1; y <= across; ++y) points.push_back({200, 1.0 + y});
+    return points;
+  };
+  EXPECT_LE(evidence_between(side(400), band(30, 150)), 0);
+  EXPECT_GT(evidence_between(side(400), band(150, 30)), 5);
+  EXPECT_GT(evidence_between(side(202), band(30, 150)), 0);
+  EXPECT_GT(evidence_between(side(400), band(30, 0)), 0);
 }
 
 // Two passes far apart make one line, which goes with one of them and not between.
