@@ -69,9 +69,13 @@ Drawing bars_of(const lac::Chain& chain, double width = 200) {
   bars.bar_width = analysis::kLddcBarWidth;
   for (const analysis::LddcBar& bar : lddc.bars)
     if (bar.count > 0) bars.points.push_back({bar.low + 0.5 * analysis::kLddcBarWidth, bar.height});
-  if (bars.points.size() == 1) {  // of an arc: all of the length, log 1 = 0 high
-    bars.kind = figure::SeriesKind::points;
+  if (bars.points.size() ==
+      1) {  // of an arc: all of the length, log 1 = 0 high; no range of its own
     plot.title = "one bar";
+    plot.x.low = bars.points[0].x - 0.4;
+    plot.x.high = bars.points[0].x + 0.4;
+    plot.y.low = -2;
+    plot.y.high = 0;
   }
   plot.series = {std::move(bars), c_curve(lddc, 1)};
   return figure::draw(plot);

@@ -168,11 +168,11 @@ def headers():
 
 
 def torn(site):
-    """Paragraphs that were meant as tables or lists, a line each."""
+    """Paragraphs meant as tables or lists, and stars of a formula taken for emphasis, a line each."""
     for page in sorted(site.rglob("*.html")):
         text = re.sub(r"<(pre|code)>.*?</\1>", "", page.read_text(), flags=re.S)
         for found in re.findall(r"<p>(.*?)</p>", text, re.S):
-            if re.search(r"(?m)^\|.* \| |^ *- |\]\(", found):
+            if re.search(r"(?m)^\|.* \| |^ *- |\]\(|<em>[\s,;=)]", found):
                 yield f"{page.relative_to(site)}: {found[:80]}"
 
 

@@ -3,16 +3,21 @@
 import re
 
 CODE = re.compile(r"(<pre>.*?</pre>)|<code>(.*?)</code>", re.S)
+HEADING = re.compile(r"(<h[1-6][^>]*>)([^<]*)(?=</h)")
 OPTION = re.compile(r"(?<!\S)'?-[\w-]+")
 NAME = re.compile(r"[\w./:]{16,}")
 BETWEEN = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[./_:])(?=\w)")
 LONGEST = 24  # no narrow column holds more
 
 
+def parted(text):
+    return NAME.sub(lambda n: BETWEEN.sub("<wbr>", n[0]), text)
+
+
 def whole(found):
     if found[1]:
         return found[0]
-    text = NAME.sub(lambda n: BETWEEN.sub("<wbr>", n[0]), found[2])
+    text = parted(found[2])
     text = OPTION.sub(lambda o: f"<span>{o[0]}</span>" if len(o[0]) <= LONGEST else o[0], text)
     if len(text) <= LONGEST and "-" in text and not re.search(r"\s", text):
         text = f"<span>{text}</span>"
@@ -20,4 +25,4 @@ def whole(found):
 
 
 def on_page_content(html, **_):
-    return CODE.sub(whole, html)
+    return HEADING.sub(lambda h: h[1] + parted(h[2]), CODE.sub(whole, html))

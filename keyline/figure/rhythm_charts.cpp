@@ -93,7 +93,7 @@ Drawing lddc_chart(const LddcPiece& piece, double width, double height) {
   }
   const core::Interval range = axis_range(heights, Scale::linear);
   plot.y.low = range.low - 0.08 * length(range);
-  plot.y.high = range.high + 0.04 * length(range);
+  plot.y.high = std::min(0.0, range.high + 0.04 * length(range));  // a share is 1 at most
   return draw(plot);
 }
 

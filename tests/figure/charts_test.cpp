@@ -173,5 +173,22 @@ TEST(RhythmCharts, LabelTheirSlopes) {
   EXPECT_GT(painted(lddc_chart({})), 100);
 }
 
+TEST(RhythmCharts, ABarOfNearlyAllTheLengthIsTheTallest) {
+  const LddcPiece nearly_an_arc{.bars = {{-1, -0.02}, {-0.95, -1.3}}, .bin_width = 0.05};
+  for (const Item& item : lddc_chart(nearly_an_arc).items) {
+    const auto* shape = std::get_if<Shape>(&item.value);
+    if (!shape || shape->fill != lighter(palette(0), 0.6) || shape->path.steps.size() < 10)
+      continue;
+    std::vector<double> tall;
+    for (std::size_t i = 0; i + 2 < shape->path.steps.size(); i += 5)
+      tall.push_back(
+          std::abs(shape->path.steps[i + 2].point[2].y - shape->path.steps[i].point[2].y));
+    ASSERT_EQ(tall.size(), 2U);
+    EXPECT_GT(tall[0], 3 * tall[1]);  // -0.02 and -1.3 above -1.5 or so
+    return;
+  }
+  FAIL() << "no bars";
+}
+
 }  // namespace
 }  // namespace keyline::figure

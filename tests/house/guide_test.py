@@ -3,7 +3,7 @@
 Commands are the lines of blocks marked `sh` that start with `keyline` or `./dev run`, and those in the table of
 examples; programs are the blocks marked `python` of pages about Python. Each page's run one after the other in a
 folder of its own beside the examples; each must end with status 0 and write the files it names with -o.
-With KEYLINE_TIMES set, each command's time is told.
+With KEYLINE_TIMES set, each command's time is told. What the README counts under its picture is what `fair` counts.
 """
 
 import os
@@ -65,9 +65,24 @@ def faults_of(page, environment):
                     yield f"Python of {page.name}: {fault}"
 
 
+def miscounted():
+    """What the README says came of the scan, and what does."""
+    words = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen".split()
+    said = re.search(r"(\w+) strays dropped, (\w+) pieces out.*?(\w+) waves where.*?has (\w+)",
+                     (root / "README.md").read_text(), re.S)
+    command = [keyline, "fair", root / "examples/bonnet-scan.csv", "-o", "svg:-"]
+    told = subprocess.run(command, capture_output=True, text=True).stderr
+    counted = re.search(r"(\d+) stray points.*?(\d+) pieces in.*?comb: (\d+) waves.*?as near: (\d+) waves", told, re.S)
+    if not said or not counted:
+        return ["README.md: its counts, or those of `fair`, are not found"]
+    numbers = [words.index(word) if word in words else word for word in said.groups()]
+    return [] if numbers == [*map(int, counted.groups())] else [f"README.md counts {numbers}, `fair` {counted.groups()}"]
+
+
 with tempfile.TemporaryDirectory() as programs:
     (pathlib.Path(programs) / "keyline").symlink_to(keyline)
     environment = os.environ | {"PATH": f"{programs}:{os.environ['PATH']}", "MPLBACKEND": "agg"}
     found = [f"{page.relative_to(root)}: {fault}" for page in pages() for fault in faults_of(page, environment)]
+    found += miscounted()
 print("\n".join(found))
 sys.exit(1 if found else 0)
