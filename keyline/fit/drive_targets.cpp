@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "keyline/curve/jet.h"
@@ -53,6 +54,39 @@ std::vector<double> inflections(const Bezier2& piece) {
   return found;
 }
 
+/// Whether the part from `from` to `to` still has the curvature of its piece: of one too short the
+/// rounding of its control points hides it.
+bool holds_curvature(const Bezier2& piece, double from, double to) {
+  constexpr double kLost = 1e-3;  // of the largest: joints are held as G2 up to this
+  const Bezier2 part = subcurve(piece, from, to);
+  double most = 0;
+  double off = 0;
+  for (const double u : {0.0, 0.5, 1.0}) {
+    const double kappa = curvature(jet(piece, from + u * (to - from)));
+    most = std::max(most, std::abs(kappa));
+    off = std::max(off, std::abs(curvature(jet(part, u)) - kappa));
+  }
+  return off <= kLost * most;
+}
+
+/// Where a piece is split, 0 and 1 included: at its inflections, but for those that would leave a
+/// part too short. Of one beside an end the end alone is left, of two beside each other none.
+std::vector<double> cuts_of(const Bezier2& piece) {
+  std::vector<double> cuts = inflections(piece);
+  cuts.insert(cuts.begin(), 0);
+  cuts.push_back(1);
+  for (std::size_t k = 0; cuts.size() > 2 && k + 1 < cuts.size();) {
+    if (holds_curvature(piece, cuts[k], cuts[k + 1])) {
+      ++k;
+      continue;
+    }
+    if (k + 2 < cuts.size()) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    if (k > 0) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(k));
+    k = 0;
+  }
+  return cuts;
+}
+
 }  // namespace
 
 PiecewiseBezier split_pieces(const PiecewiseBezier& chain, std::vector<LocalTarget>& targets,
@@ -60,10 +94,8 @@ PiecewiseBezier split_pieces(const PiecewiseBezier& chain, std::vector<LocalTarg
   PiecewiseBezier out;
   std::vector<LocalTarget> moved;
   for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
-    std::vector<double> cuts = inflections(chain.pieces[i]);
-    splits += static_cast<int>(cuts.size());
-    cuts.insert(cuts.begin(), 0);
-    cuts.push_back(1);
+    const std::vector<double> cuts = cuts_of(chain.pieces[i]);
+    splits += static_cast<int>(cuts.size()) - 2;
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const bool last = k + 2 == cuts.size();
       for (const LocalTarget& t : targets)

@@ -22,7 +22,7 @@ core::Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget
                                                      std::size_t pieces);
 
 /// The pieces split where their curvature changes sign, how often added to `splits`; targets
-/// follow their place.
+/// follow their place. No part is split off that is too short to keep its curvature.
 curve::PiecewiseBezier split_pieces(const curve::PiecewiseBezier& chain,
                                     std::vector<LocalTarget>& targets, int& splits);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +80,28 @@ TEST(SplitPieces, LeavesWhatNobodyCouldSeeOf) {
     const PiecewiseBezier cut = split_pieces(chain, targets, splits);
     EXPECT_EQ(splits, at == 0.5 ? 1 : 0) << at;
     EXPECT_EQ(cut.pieces.size(), at == 0.5 ? 2u : 1u);
+  }
+}
+
+// Of a part of a hundred thousandth rounding of its points would say what curvature it has.
+TEST(SplitPieces, LeavesNoPartWithoutACurvature) {
+  const auto pieces = [](const std::array<double, 4>& second) {  // f'' / 20, as a Bézier function
+    std::array<double, 6> y{1, 1};
+    for (int k = 0; k < 4; ++k) y[k + 2] = 2 * y[k + 1] - y[k] + second[k];
+    const PiecewiseBezier chain{{graph(0, 1, y)}};
+    std::vector<LocalTarget> targets{{0, 0.25, 1}, {0, 0.75, 2}};
+    int splits = 0;
+    const std::size_t count = split_pieces(chain, targets, splits).pieces.size();
+    EXPECT_EQ(count, static_cast<std::size_t>(splits) + 1);
+    return count;
+  };
+  for (const auto& [at, parts] : {std::pair{2e-6, 1u}, {1e-2, 2u}}) {  // t - at
+    EXPECT_EQ(pieces({-at, 1 / 3.0 - at, 2 / 3.0 - at, 1 - at}), parts) << at;
+    EXPECT_EQ(pieces({1 - at, 2 / 3.0 - at, 1 / 3.0 - at, -at}), parts) << at;
+  }
+  for (const auto& [half, parts] : {std::pair{1e-5, 1u}, {0.1, 3u}}) {  // (t - 0.5)^2 - half^2
+    const double less = half * half;
+    EXPECT_EQ(pieces({0.25 - less, -1 / 12.0 - less, -1 / 12.0 - less, 0.25 - less}), parts);
   }
 }
 
