@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -275,10 +274,8 @@ TEST(Sketch, WarnsOfAPhotographInBoundedTime) {
         y < hill ? 200 - 0.2 * y : 60 + 30 * std::sin(0.05 * x) * std::sin(0.07 * y);
     return static_cast<int>(light) + noise(x / 3, y / 3) % 24;
   };
-  const auto start = std::chrono::steady_clock::now();
-  const Outcome o =
-      run_keyline("sketch --json " + s.write("p.tif", tiff(1200, 800, photograph)), "timeout 60");
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 60);
+  const std::string file = s.write("p.tif", tiff(1200, 800, photograph));
+  const Outcome o = run_keyline("sketch --json " + file, "ulimit -t 60;");  // of the processor
   EXPECT_TRUE(o.status == 1 || o.err.find("warning: ") != std::string::npos) << o.status << o.err;
 }
 
