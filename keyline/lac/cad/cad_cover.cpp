@@ -34,8 +34,8 @@ std::array<double, A + B - 1> product(const std::array<double, A>& a,
   return c;
 }
 
-/// True where the numerator of dkappa/dt, (C' x C''')(C' . C') - 3 (C' x C'')(C' . C''), has
-/// Bernstein coefficients of one sign, well above rounding: enough for monotone curvature.
+}  // namespace
+
 bool plainly_monotone(const Cubic& c) {
   const auto& b = c.control;
   const std::array<Vector2, 3> d{b[1] - b[0], b[2] - b[1], b[3] - b[2]};  // C' / 3
@@ -68,6 +68,8 @@ bool plainly_monotone(const Cubic& c) {
   }
   return least > 1e-12 * size || most < -1e-12 * size;
 }
+
+namespace {
 
 bool is_monotone(const Cubic& c) {
   if (plainly_monotone(c)) return true;

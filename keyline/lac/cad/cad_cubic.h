@@ -60,6 +60,10 @@ inline double step_foot(const Cubic& c, core::Vector2 p, core::Vector2 direction
   return pace > 0 ? t - dot(value(c, t) - p, direction) / pace : t;
 }
 
+/// True where the numerator of dkappa/dt, (C' x C''')(C' . C') - 3 (C' x C'')(C' . C''), has
+/// Bernstein coefficients of one sign, well above rounding: enough for monotone curvature.
+bool plainly_monotone(const Cubic& cubic);
+
 struct CubicTry {
   Cubic cubic;
   bool sound = false;  ///< handles of sensible length, feet found
