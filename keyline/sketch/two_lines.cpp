@@ -18,7 +18,9 @@ namespace {
 constexpr double kTwo = 3;          ///< times as far apart as within: two lines
 constexpr double kRoom = 2;         ///< widths: nearer, no stroke has room between them
 constexpr std::size_t kEnough = 8;  ///< unions: fewer do not say what is usual
-constexpr std::size_t kBack = 3;    ///< samples: so near a place its nearest's nearest is the same
+constexpr double kGoesOn = 0.3;   ///< of the shorter stroke at least is beside its line's next pass
+constexpr double kWhole = 0.9;    ///< of a line's extent: a pass of all of it
+constexpr std::size_t kBack = 3;  ///< samples: so near a place its nearest's nearest is the same
 
 /// How far apart strokes lie where they run beside each other.
 struct Spread {
@@ -199,6 +201,70 @@ class Parts {
   std::priority_queue<Pair, std::vector<Pair>, std::greater<>> open_;
 };
 
+/// From the point farthest from the middle to the one farthest from that.
+double extent(const std::vector<SampledStroke>& some, const std::vector<std::size_t>& which) {
+  core::Vector2 sum{};
+  double count = 0;
+  for (const std::size_t s : which)
+    for (const core::Point2 p : some[s].points) {
+      sum = sum + (p - core::Point2{});
+      ++count;
+    }
+  core::Point2 from = core::Point2{} + (1 / count) * sum;
+  double far = 0;
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    far = 0;
+    core::Point2 end = from;
+    for (const std::size_t s : which)
+      for (const core::Point2 p : some[s].points)
+        if (const double d = core::distance(from, p); d > far) {
+          far = d;
+          end = p;
+        }
+    from = end;
+  }
+  return far;
+}
+
+/// Strokes of a group, put together where they run beside each other for long enough.
+std::vector<std::vector<std::size_t>> parts_beside(const AllBetween& between,
+                                                   const std::vector<SampledStroke>& some) {
+  std::vector<std::size_t> part(some.size());
+  std::iota(part.begin(), part.end(), std::size_t{0});
+  for (std::size_t a = 0; a < some.size(); ++a)
+    for (const auto& [b, spread] : between[a]) {
+      const double shorter = std::min(some[a].length, some[b].length);
+      if (part[a] == part[b] || spread.nearer().length < kGoesOn * shorter) continue;
+      const auto [low, high] = std::minmax({part[a], part[b]});
+      std::replace(part.begin(), part.end(), high, low);
+    }
+  std::map<std::size_t, std::vector<std::size_t>> parts;
+  for (std::size_t a = 0; a < some.size(); ++a) parts[part[a]].push_back(a);
+  std::vector<std::vector<std::size_t>> all;
+  for (auto& [name, members] : parts) all.push_back(std::move(members));
+  return all;
+}
+
+bool is_drawn_whole_twice(const std::vector<SampledStroke>& some,
+                          const std::vector<std::size_t>& part) {
+  if (part.size() < 2) return false;
+  const double whole = kWhole * extent(some, part);
+  return std::count_if(part.begin(), part.end(),
+                       [&](std::size_t s) { return extent(some, {s}) >= whole; }) >= 2;
+}
+
+/// Adds the parts of a group that go on in each other, each drawn whole more than once.
+void tell_ends(const AllBetween& between, const std::vector<SampledStroke>& some,
+               const std::vector<std::size_t>& numbers, std::vector<TwoLines>& found) {
+  auto parts = parts_beside(between, some);
+  if (parts.size() < 2) return;
+  std::erase_if(parts, [&](const auto& part) { return !is_drawn_whole_twice(some, part); });
+  for (auto& part : parts)
+    for (std::size_t& s : part) s = numbers[s];
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = i + 1; j < parts.size(); ++j) found.push_back({parts[i], parts[j]});
+}
+
 }  // namespace
 
 std::vector<TwoLines> two_lines(const std::vector<SampledStroke>& strokes,
@@ -207,15 +273,16 @@ std::vector<TwoLines> two_lines(const std::vector<SampledStroke>& strokes,
   constexpr double kAnything = std::numeric_limits<double>::infinity();
   std::vector<AllBetween> between;  // by group
   std::vector<double> squares;
+  std::vector<TwoLines> found;
   for (const auto& group : groups) {
     std::vector<SampledStroke> some;
     for (const std::size_t s : group) some.push_back(strokes[s]);
     between.push_back(all_between(some, at_most));
+    tell_ends(between.back(), some, group, found);
     Parts all(between.back(), kAnything);  // as if it were one line
     all.unite(kAnything);
     squares.insert(squares.end(), all.united().begin(), all.united().end());
   }
-  std::vector<TwoLines> found;
   if (squares.size() < kEnough) return found;
   const double usual = core::quantile(squares);
   for (std::size_t g = 0; g < groups.size(); ++g) {

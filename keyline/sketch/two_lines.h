@@ -25,6 +25,11 @@ struct TwoLines {
 /// parts run beside each other: two strokes alone are judged by that. Where fewer than eight times
 /// something is put together, nothing is usual, and nothing told.
 ///
+/// Lines that go on in each other are two where the hand was lifted between them time and again: a
+/// part whose strokes run beside each other, though beside no other stroke for three tenths of the
+/// shorter one's length, is a line of its own beside another such part if either was drawn whole at
+/// least twice. A line made of short strokes one after the other stays one.
+///
 /// at_most: strokes farther apart than passes of any hand do not run beside each other.
 std::vector<TwoLines> two_lines(const std::vector<SampledStroke>& strokes,
                                 const std::vector<std::vector<std::size_t>>& groups,

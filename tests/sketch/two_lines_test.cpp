@@ -57,6 +57,28 @@ std::vector<TwoLines> told(const std::vector<DrawnStroke>& strokes, double pen =
   return found;
 }
 
+// A cup's side and its bottom, each drawn three times, go on in each other; an outline of single
+// strokes, each a little over the last one's end, is one line.
+TEST(TwoLines, TellsLinesThatTheHandWasLiftedBetween) {
+  const auto part = [](double from, double to, double offset) {
+    return drawn([offset](double x) { return Point2{x, offset + 100 * std::cos(x / 200)}; }, from,
+                 to);
+  };
+  const std::vector<DrawnStroke> lifted = {part(0, 300, 0),   part(4, 304, 2),
+                                           part(-3, 290, -2), part(298, 600, 1),
+                                           part(305, 590, 3), part(301, 598, -1)};
+  const auto found = told(lifted);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].one, (Places{0, 1, 2}));
+  EXPECT_EQ(found[0].other, (Places{3, 4, 5}));
+  std::vector<DrawnStroke> crossed = lifted;
+  crossed.push_back(part(200, 420, 1));
+  EXPECT_TRUE(told(crossed).empty());
+  std::vector<DrawnStroke> in_turn;
+  for (int k = 0; k < 8; ++k) in_turn.push_back(part(80 * k, 80 * k + 100, k % 3));
+  EXPECT_TRUE(told(in_turn).empty());
+}
+
 // A construction line through a car's sill: it runs along it for a third of its way.
 TEST(TwoLines, TellsALineThatLeavesOthersGently) {
   std::vector<DrawnStroke> strokes = passes({0, 3, -3, 1});
