@@ -223,7 +223,7 @@ int run_analyze(const Words& words) {
                             : check_unused({}, session.of(kView), "for surfaces");
       !sound)
     return report_failure(sound.error());
-  say_read(session.door().quiet, read->answer());
+  session.note_read(read->answer());
   return surfaces ? analyze_surfaces(session, *read) : analyze_curves(session, *read);
 }
 

@@ -285,7 +285,7 @@ int run_edit(const Words& words) {
                        : check_unused(session.of(kCurves), session.of(kSurfaces), "for surfaces");
       !sound)
     return report_failure(sound.error());
-  say_read(session.door().quiet, read->answer());
+  session.note_read(read->answer());
   return surfaces ? edit_surfaces(session, *read) : edit_curves(session, *read);
 }
 

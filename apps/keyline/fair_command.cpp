@@ -234,7 +234,7 @@ int run_fair(const Words& words) {
   const auto things = planar_things(session, *read);
   if (!things) return report_failure(things.error(), session.files().front());
   // Measured points tell it among their notes.
-  if (!things->front().contains("line")) say_read(session.door().quiet, read->answer());
+  if (!things->front().contains("line")) session.note_read(read->answer());
   const auto faired = fair_all(session, *things);
   if (!faired) return report_failure(faired.error());
   return finish(session, *read, *faired);

@@ -58,6 +58,11 @@ std::vector<OptionGroup> with_forms(std::vector<OptionGroup> groups, const core:
   return groups;
 }
 
+// What of a file is said, and what stands for the rest of many.
+constexpr const char* kSkipped = "skipped: ";
+constexpr const char* kNamed = "; keyline list names them";
+constexpr const char* kPlanes = " curves in planes";
+
 }  // namespace
 
 Session::Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes_files)
@@ -101,8 +106,8 @@ std::optional<int> Session::begin(const Words& words) {
     return report_failure(
         {ErrorCode::bad_input, "this word belongs to no option", usage_hint(), files().front()});
   for (const auto& [word, outcome] : arguments_.option_files().read())
-    say_read(door_.quiet, *outcome.result_as<operations::ReadAnswer>());
-  for (const std::string& note : arguments_.option_files().notes()) say(door_.quiet, note);
+    note_read(*outcome.result_as<operations::ReadAnswer>());
+  for (const std::string& note : arguments_.option_files().notes()) this->note(note);
   return {};
 }
 
@@ -167,11 +172,30 @@ Result<json> Session::write(const presentation::Pages& pages, json document, End
   return write(pages, *output, ending);
 }
 
+void Session::note(const std::string& text) {
+  say(door_.quiet, text);
+  notes_.push_back(text);
+}
+
+void Session::note_some(const std::string& lead, const std::vector<std::string>& lines,
+                        const std::string& rest) {
+  say_some(door_.quiet, lead, lines, rest);
+  for (const std::string& line : lines) notes_.push_back(lead + line);
+}
+
+void Session::note_read(const operations::ReadAnswer& read) {
+  note_some("", read.notes, kPlanes);
+  note_some(kSkipped, read.skipped, kNamed);
+}
+
 void Session::print(const json& shown, const std::string& text) const {
-  if (door_.json)
-    fmt::print("{}\n", shown.dump(-1, ' ', false, json::error_handler_t::replace));
-  else if (!door_.quiet)
+  if (door_.json) {
+    json whole = shown;
+    for (const std::string& note : notes_) whole["notes"].push_back(note);
+    fmt::print("{}\n", whole.dump(-1, ' ', false, json::error_handler_t::replace));
+  } else if (!door_.quiet) {
     fmt::print("{}", text);
+  }
 }
 
 Result<operations::Outcome> read_outcome(Session& session, json request, bool planar) {
@@ -197,7 +221,7 @@ core::Failure nothing_planar(const operations::ReadAnswer& read) {
 
 }  // namespace
 
-Result<std::vector<json>> planar_things(const Session& session, const ReadFiles& read) {
+Result<std::vector<json>> planar_things(Session& session, const ReadFiles& read) {
   if (auto few = operations::check_amount(read.answer()); !few) return std::unexpected(few.error());
   std::vector<json> things;
   std::vector<std::string> others;
@@ -208,16 +232,15 @@ Result<std::vector<json>> planar_things(const Session& session, const ReadFiles&
     else
       others.push_back(called(curves[i].name, "curve", i, curves.size()) + ": lies in no plane");
   if (things.empty()) return std::unexpected(nothing_planar(read.answer()));
-  say_some(session.door().quiet, "skipped: ", others, " that lie in no plane");
+  session.note_some(kSkipped, others, " that lie in no plane");
   if (const std::size_t surfaces = read.answer().surfaces.size(); surfaces > 0)
-    say(session.door().quiet,
-        core::counted(surfaces, "surface") + " of the file left out beside its curves");
+    session.note(core::counted(surfaces, "surface") + " of the file left out beside its curves");
   return things;
 }
 
 void say_read(bool quiet, const operations::ReadAnswer& read) {
-  say_some(quiet, "", read.notes, " curves in planes");
-  say_some(quiet, "skipped: ", read.skipped, "; keyline list names them");
+  say_some(quiet, "", read.notes, kPlanes);
+  say_some(quiet, kSkipped, read.skipped, kNamed);
 }
 
 std::string called(const std::string& name, const char* kind, std::size_t index,

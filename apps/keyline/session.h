@@ -118,7 +118,14 @@ class Session {
   core::Result<nlohmann::json> write(const presentation::Pages& pages, nlohmann::json document,
                                      Ending ending = Ending::cancellable) const;
 
-  /// With --json the object, else the text unless quiet.
+  /// Says it, and keeps it for the notes of the result; of many lines some are said (say_some()).
+  void note(const std::string& text);
+  void note_some(const std::string& lead, const std::vector<std::string>& lines,
+                 const std::string& rest);
+  /// The same of what a file tells: how curves lie in space, and what was left out.
+  void note_read(const operations::ReadAnswer& read);
+
+  /// With --json the object, what was noted among its "notes"; else the text unless quiet.
   void print(const nlohmann::json& shown, const std::string& text) const;
 
   /// The command as completion and manual pages tell it.
@@ -134,6 +141,7 @@ class Session {
   DoorOptions door_;
   std::string typed_;
   std::function<std::string(const std::string&)> explain_;
+  std::vector<std::string> notes_;
 };
 
 /// Files of a session through document.read.
@@ -152,10 +160,9 @@ core::Result<ReadFiles> read_files(Session& session, nlohmann::json request, boo
 
 /// Points and curves in the plane among what was read, where there are any and not too many to work
 /// on; what is left out beside them is told.
-core::Result<std::vector<nlohmann::json>> planar_things(const Session& session,
-                                                        const ReadFiles& read);
+core::Result<std::vector<nlohmann::json>> planar_things(Session& session, const ReadFiles& read);
 
-/// Of a file: how curves lie in space, and what was left out.
+/// Of a file whose result tells it too: how curves lie in space, and what was left out.
 void say_read(bool quiet, const operations::ReadAnswer& read);
 
 /// What a thing of a file is called where it is told of: by its name, else "curve 3", by its place

@@ -177,7 +177,7 @@ Result<json> read_one(Session& session, const std::string& file, Made& made) {
   const auto read = session.perform("document.read", request, session.progress());
   end_progress();
   if (!read) return std::unexpected(read.error());
-  say_read(session.door().quiet, *read->result_as<operations::ReadAnswer>());
+  session.note_read(*read->result_as<operations::ReadAnswer>());
   auto shown = shown_of(*read);
   if (!shown) return std::unexpected(shown.error());
   if ((*shown)["curves"].empty())

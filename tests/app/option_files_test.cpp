@@ -35,6 +35,10 @@ TEST(OptionFiles, TellWhichOfSeveralCurvesIsTaken) {
   EXPECT_THAT(named.err, Not(HasSubstr("takes the first")));
   EXPECT_NEAR(json::parse(named.out)["length"].get<double>(), 10, 1e-9);
   EXPECT_THAT(run_keyline("curve.show --quiet --curve " + two).err, "");
+  const json told = json::parse(run_keyline("curve.analyze --quiet --json --curve " + two).out);
+  ASSERT_EQ(told.value("notes", json::array()).size(), 1) << told;
+  EXPECT_THAT(told["notes"][0].get<std::string>(), HasSubstr("--curve takes the first of 2"));
+  EXPECT_FALSE(json::parse(named.out).contains("notes"));
 }
 
 TEST(OptionFiles, InListsStandForAllOfTheirCurves) {
@@ -51,6 +55,12 @@ TEST(OptionFiles, WhatTheFileHoldsBesideIsTold) {
   const Scratch s;
   const std::string text = s.write("text.svg", drawing("<text>hi</text>" + kLong));
   EXPECT_THAT(run_keyline("curve.show --curve " + text).err, HasSubstr("skipped: line 1: text"));
+  for (const std::string command : {"curve.analyze --curve ", "analyze ", "curve.trim --curve "}) {
+    SCOPED_TRACE(command);
+    const json told = json::parse(run_keyline(command + text + " --json --quiet").out);
+    ASSERT_EQ(told.value("notes", json::array()).size(), 1) << told;
+    EXPECT_THAT(told["notes"][0].get<std::string>(), HasSubstr("skipped: line 1: text"));
+  }
 }
 
 TEST(OptionFiles, AreReadFromStandardInputToo) {
