@@ -61,10 +61,21 @@ macro(keyline_room_is name)
   set_property(GLOBAL PROPERTY KEYLINE_${name}_INCLUDES ${ARG_INCLUDES})
 endmacro()
 
-# One test program per room: every *_test.cpp of the folder.
+# One test program per room: every *_test.cpp of the folder. ABOVE: rooms above it that the sources BY_THEM need,
+# which are left out where those rooms are not built.
 function(keyline_tests name)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;ABOVE;BY_THEM" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  foreach(room IN LISTS ARG_ABOVE)
+    if(TARGET keyline::${room})
+      list(APPEND ARG_LINK keyline::${room})
+    elseif(ARG_BY_THEM)
+      message(STATUS "Tests of ${name} without room ${room}: ${ARG_BY_THEM} left out")
+      list(TRANSFORM ARG_BY_THEM PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+      list(REMOVE_ITEM sources ${ARG_BY_THEM})
+      set(ARG_BY_THEM "")
+    endif()
+  endforeach()
   set(target keyline_${name}_tests)
   if(KEYLINE_APART)
     set(CMAKE_CXX_FLAGS_RELEASE "-O1 -DNDEBUG" PARENT_SCOPE)

@@ -122,7 +122,7 @@ def in_words(comment, keys):
     """A contract as text: its parts (Units:, Fails:) on lines of their own, its sources as links."""
     pieces = re.split(r"(`[^`]*`)", "\n".join(comment))
     for i in range(0, len(pieces), 2):  # between pieces of code
-        pieces[i] = re.sub(r"([\\*_<|])", r"\\\1", pieces[i])
+        pieces[i] = re.sub(r"([\\*_|])", r"\\\1", pieces[i]).replace("<", "&lt;")
         pieces[i] = re.sub(r"\[([^\]\[]+)\]", lambda m: keys.get(m[1], "\\" + m[0]), pieces[i])
     text = re.sub(r"(?m)^([A-Z][a-z]+): +", r"\n**\1** ", "".join(pieces))
     return with_lists(re.sub(r"(?m)^ {2,}", "", text))

@@ -8,6 +8,7 @@ OPTION = re.compile(r"(?<!\S)'?-[\w-]+")
 NAME = re.compile(r"[\w./:]{16,}")
 BETWEEN = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[./_:])(?=\w)")
 LONGEST = 24  # no narrow column holds more
+SHORT = 14  # a column of a table is so wide
 
 
 def parted(text):
@@ -19,7 +20,7 @@ def whole(found):
         return found[0]
     text = parted(found[2])
     text = OPTION.sub(lambda o: f"<span>{o[0]}</span>" if len(o[0]) <= LONGEST else o[0], text)
-    if len(text) <= LONGEST and "-" in text and not re.search(r"\s", text):
+    if len(text) <= (LONGEST if "-" in text else SHORT) and not re.search(r"\s", text):
         text = f"<span>{text}</span>"
     return f"<code>{text}</code>"
 

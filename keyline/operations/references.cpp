@@ -1,6 +1,5 @@
 #include "keyline/operations/references.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -215,17 +214,18 @@ std::string range_text(const core::Bounds& b) {
   return text.substr(text.find("number") + 7);
 }
 
+/// What a field means beside its name; its kind with unit and range; its default.
 std::string field_row(const Field& field, const void* member) {
   const json value = default_of(field, member);
-  std::string type = typescript_type(field.type(), field);
-  for (std::size_t at = type.find('|'); at != std::string::npos; at = type.find('|', at + 2))
-    type.insert(at, "\\");
-  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", field.name, type, field.unit,
-                     range_text(field.bounds),
+  std::string kind = typescript_type(field.type(), field);
+  for (std::size_t at = kind.find('|'); at != std::string::npos; at = kind.find('|', at + 2))
+    kind.insert(at, "\\");
+  for (const std::string& more : {std::string(field.unit), range_text(field.bounds)})
+    if (!more.empty()) kind += ", " + more;
+  return fmt::format("| `{}` | {} | {} | {} |\n", field.name, field.text, kind,
                      field.required    ? "needed"
                      : value.is_null() ? ""
-                                       : "`" + value.dump() + "`",
-                     field.text);
+                                       : "`" + value.dump() + "`");
 }
 
 /// What fields that are left out are, as a constant that costs nothing where it is not used.
@@ -334,7 +334,7 @@ json openapi_document() {
 }
 
 std::string reference_page(const Operation& operation) {
-  const char* head = "| field | kind | unit | range | default | |\n|---|---|---|---|---|---|\n";
+  const char* head = "| field | means | kind, unit, range | default |\n|---|---|---|---|\n";
   std::string text =
       fmt::format("# {}\n\n{}\n\n## Request\n\n{}", operation.name, operation.summary, head);
   detail::Whole whole(operation);

@@ -22,3 +22,12 @@ list(TRANSFORM wanted PREPEND libkeyline_)
 if(NOT built STREQUAL wanted)
   message(FATAL_ERROR "built: ${built}\nwanted: ${wanted}")
 endif()
+
+# And their tests need no room above them.
+execute_process(
+  COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/tested" -G "${GENERATOR}"
+          "-DCMAKE_CXX_COMPILER=${COMPILER}" -DKEYLINE_ROOMS=fairing -DKEYLINE_TESTS=ON
+  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "the tests of room fairing and those below it want more rooms:\n${output}")
+endif()
