@@ -107,7 +107,8 @@ LevenbergMarquardtReport minimize_least_squares(const ResidualFunction& function
     const bool inside = step.x.allFinite() && function(step.x, trial_residuals, nullptr);
     const double cost = inside ? trial_residuals.squaredNorm() / 2 : report.cost;
     const double gain = inside && std::isfinite(cost) ? (report.cost - cost) / step.predicted : -1;
-    if (!(gain > 0)) return {};
+    // A step cut off at a bound can be one that is predicted to be worse, and is.
+    if (!(step.predicted > 0 && gain > 0)) return {};
     x = step.x;
     const bool settled = report.cost - cost <= options.cost_tolerance * report.cost;
     report.cost = cost;

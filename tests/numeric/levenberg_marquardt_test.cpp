@@ -82,6 +82,25 @@ TEST(LevenbergMarquardt, LeavesABound) {
   EXPECT_NEAR(x[1], 1, 1e-9);
 }
 
+// r = (x + y, (x - y - 200) / 1000): a valley along x + y = 0 down to x = 100, far beyond x <= 1.
+// The first step, cut off there, leaves y at -100 and climbs out of the valley.
+TEST(LevenbergMarquardt, TakesNoStepThatABoundMakesWorse) {
+  const auto function = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+    r = Eigen::Vector2d(x[0] + x[1], (x[0] - x[1] - 200) / 1000);
+    if (j) *j = (Eigen::Matrix2d() << 1, 1, 1e-3, -1e-3).finished();
+    return true;
+  };
+  LevenbergMarquardtOptions options;
+  options.low = Eigen::Vector2d(-HUGE_VAL, -HUGE_VAL);
+  options.high = Eigen::Vector2d(1, HUGE_VAL);
+  Eigen::VectorXd x = Eigen::Vector2d(0.9, -0.9);
+  const LevenbergMarquardtReport report = minimize_least_squares(function, x, options);
+  EXPECT_EQ(report.status, LevenbergMarquardtStatus::converged);
+  EXPECT_EQ(x[0], 1);
+  EXPECT_NEAR(x[1], -(1 + 199e-6) / (1 + 1e-6), 1e-9);  // the derivative by y is 0
+  EXPECT_NEAR(report.cost, 0.5 * 199 * 199 * 1e-6, 0.01);
+}
+
 TEST(LevenbergMarquardt, RefusedStartIsReported) {
   const auto never = [](const Eigen::VectorXd&, Eigen::VectorXd&, Eigen::MatrixXd*) {
     return false;
