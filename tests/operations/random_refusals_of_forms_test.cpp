@@ -265,5 +265,26 @@ TEST(RandomRefusals, RationalCubicsAreFoundOverAllHandles) {
   }
 }
 
+// Found with seed 9112: end curvatures 3e8 times apart, which weights below 1e4 give only where
+// both handles end beside the third one given.
+TEST(RandomRefusals, ARationalCubicWithHandlesNearTheirMeetingIsFound) {
+  const json request = json::parse(R"({"op":"lac.quasi","form":"rational-cubic",
+    "alpha":-0.22487142777552682,"points":[[0,0],[0.8527908142208221,-0.07048413162100069],[1,0]]})");
+  const json result = own::result_of(request);
+  const json& bend = result["target"]["pieces"][0]["curvature"];
+  const std::vector<std::array<double, 2>> p = result["curve"]["points"];
+  const std::vector<double> w = result["curve"]["weights"];
+  // Farin, Curves and Surfaces for CAGD: 4/3 w0 w2 / w1^2 times the area of the three over the cube
+  const auto curvature = [&](std::size_t i, std::size_t j, std::size_t k) {
+    const double x = p[j][0] - p[i][0], y = p[j][1] - p[i][1];
+    const double area = (x * (p[k][1] - p[j][1]) - y * (p[k][0] - p[j][0])) / 2;
+    return 4.0 / 3 * w[i] * w[k] / (w[j] * w[j]) * area / std::pow(std::hypot(x, y), 3);
+  };
+  EXPECT_NEAR(curvature(0, 1, 2) / bend[0].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(-curvature(3, 2, 1) / bend[1].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(p[1][1] / p[1][0], -0.07048413162100069 / 0.8527908142208221, 1e-12);
+  EXPECT_NEAR(p[2][1] / (1 - p[2][0]), -0.07048413162100069 / (1 - 0.8527908142208221), 1e-9);
+}
+
 }  // namespace
 }  // namespace keyline::operations

@@ -30,6 +30,16 @@ class Family {
         k0_(unit.piece.curvature_start),
         k1_(unit.piece.curvature_end) {}
 
+  /// Lengths up to where both tangents meet, beyond which no handle ends; of tangents that do not
+  /// meet ahead twice the chord.
+  std::array<double, 2> longest() const {
+    const double sine = tangent_.y;
+    const double first = cross(end_, tangent_) / sine;
+    const double last = end_.y / sine;
+    if (!(first > 0 && last > 0)) return {2, 2};
+    return {first, last};
+  }
+
   /// False where a weight would not be positive, or beyond what leaves a curve but corners.
   bool member(double a, double b, RationalCubic& c) const {
     const Vector2 b1{a, 0};
@@ -105,18 +115,21 @@ using Handles = std::array<double, 2>;
 
 /// Where the variance is least of a grid of handles: what is left to start from where a guess has
 /// no graph.
+/// Close where handles end beside that of both tangents' meeting as where they are short.
 std::vector<Handles> scanned(const Variance& variance) {
-  constexpr int kSteps = 28;
+  constexpr int kSteps = 40;
   constexpr std::size_t kStarts = 4;
   struct Place {
     Handles handles;
     double cost = 0;
   };
+  const auto most = variance.family.longest();
+  const auto log_share = [](int i) { return -std::log1p(std::exp(12 - 24.0 * i / kSteps)); };
   std::vector<Place> places;
   for (int i = 0; i <= kSteps; ++i)
     for (int j = 0; j <= kSteps; ++j) {
-      const double first = std::log(2.0) - 12.0 * i / kSteps;
-      const double last = std::log(2.0) - 12.0 * j / kSteps;
+      const double first = std::log(most[0]) + log_share(i);
+      const double last = std::log(most[1]) + log_share(j);
       Eigen::VectorXd r;
       if (variance.value(Eigen::Vector2d(first, last), r))
         places.push_back({{first, last}, r.squaredNorm()});
