@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include <jpeglib.h>
@@ -74,7 +75,11 @@ std::string png_of(int color_type, int depth, const std::vector<unsigned char>& 
   return out;
 }
 
-std::string jpeg_of(const std::vector<unsigned char>& rgb, int orientation) {
+/// A JPEG of `samples` bytes a pixel; `adjust` sets what else it is to have, `begun` writes what
+/// stands before the rows.
+std::string written_jpeg(int samples, J_COLOR_SPACE space, const std::vector<unsigned char>& pixels,
+                         const std::function<void(jpeg_compress_struct&)>& adjust,
+                         const std::function<void(jpeg_compress_struct&)>& begun) {
   jpeg_compress_struct info{};
   jpeg_error_mgr errors{};
   info.err = jpeg_std_error(&errors);
@@ -84,20 +89,16 @@ std::string jpeg_of(const std::vector<unsigned char>& rgb, int orientation) {
   jpeg_mem_dest(&info, &data, &size);
   info.image_width = kWidth;
   info.image_height = kHeight;
-  info.input_components = 3;
-  info.in_color_space = JCS_RGB;
+  info.input_components = samples;
+  info.in_color_space = space;
   jpeg_set_defaults(&info);
   jpeg_set_quality(&info, 100, TRUE);
-  info.density_unit = 1;
-  info.X_density = info.Y_density = 254;
+  adjust(info);
   jpeg_start_compress(&info, TRUE);
-  if (orientation > 0) {
-    const std::string marker = std::string("Exif\0\0", 6) + exif(orientation);
-    jpeg_write_marker(&info, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(marker.data()),
-                      static_cast<unsigned>(marker.size()));
-  }
+  begun(info);
+  const std::size_t stride = static_cast<std::size_t>(samples) * kWidth;
   while (info.next_scanline < info.image_height) {
-    JSAMPROW row = const_cast<unsigned char*>(rgb.data()) + 3 * kWidth * info.next_scanline;
+    JSAMPROW row = const_cast<unsigned char*>(pixels.data()) + stride * info.next_scanline;
     jpeg_write_scanlines(&info, &row, 1);
   }
   jpeg_finish_compress(&info);
@@ -105,6 +106,20 @@ std::string jpeg_of(const std::vector<unsigned char>& rgb, int orientation) {
   jpeg_destroy_compress(&info);
   std::free(data);
   return out;
+}
+
+std::string jpeg_of(const std::vector<unsigned char>& rgb, int orientation) {
+  const auto density = [](jpeg_compress_struct& info) {
+    info.density_unit = 1;
+    info.X_density = info.Y_density = 254;
+  };
+  const auto turned = [&](jpeg_compress_struct& info) {
+    if (orientation <= 0) return;
+    const std::string marker = std::string("Exif\0\0", 6) + exif(orientation);
+    jpeg_write_marker(&info, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(marker.data()),
+                      static_cast<unsigned>(marker.size()));
+  };
+  return written_jpeg(3, JCS_RGB, rgb, density, turned);
 }
 
 std::string file_content(const fs::path& file) {
@@ -180,37 +195,17 @@ std::string webp_with_exif(int orientation) {
 }
 
 std::string cmyk_jpeg(bool adobe) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* data = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&info, &data, &size);
-  info.image_width = kWidth;
-  info.image_height = kHeight;
-  info.input_components = 4;
-  info.in_color_space = JCS_CMYK;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, 100, TRUE);
-  info.write_Adobe_marker = adobe ? TRUE : FALSE;
-  jpeg_start_compress(&info, TRUE);
   const auto rgb = rgb_pixels();
-  std::vector<unsigned char> line(4 * kWidth);
-  for (std::size_t y = 0; y < kHeight; ++y) {
-    for (std::size_t x = 0; x < kWidth; ++x)
-      for (std::size_t c = 0; c < 4; ++c) {
-        const unsigned char v = c < 3 ? rgb[3 * (y * kWidth + x) + c] : 255;
-        line[4 * x + c] = adobe ? v : static_cast<unsigned char>(255 - v);
-      }
-    JSAMPROW row = line.data();
-    jpeg_write_scanlines(&info, &row, 1);
-  }
-  jpeg_finish_compress(&info);
-  std::string out(reinterpret_cast<char*>(data), size);
-  jpeg_destroy_compress(&info);
-  std::free(data);
-  return out;
+  std::vector<unsigned char> cmyk;
+  for (std::size_t i = 0; i < kWidth * kHeight; ++i)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const unsigned char v = c < 3 ? rgb[3 * i + c] : 255;
+      cmyk.push_back(adobe ? v : static_cast<unsigned char>(255 - v));
+    }
+  const auto marked = [&](jpeg_compress_struct& info) {
+    info.write_Adobe_marker = adobe ? TRUE : FALSE;
+  };
+  return written_jpeg(4, JCS_CMYK, cmyk, marked, [](jpeg_compress_struct&) {});
 }
 
 }  // namespace keyline::exchange::testing
