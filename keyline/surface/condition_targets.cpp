@@ -131,6 +131,7 @@ bool moves_none_of(const NetworkCurve& c, const Net& net, const std::vector<Free
 
 MissedTarget missed(const EditTask& task, const OneMatrixNet& best,
                     const std::vector<Freedom>& freedom) {
+  if (best.violation <= kMet) return {"conditions", "the patch", "its normal would turn over"};
   const NetworkCurve c = network_curves(best.net)[static_cast<std::size_t>(best.worst)];
   const std::string asked = ranges_text(task.conditions[task.index_of(c)]);
   return {"conditions", c.name,
@@ -186,6 +187,44 @@ std::vector<Net> starts_of(const EditTask& task, const Net& given,
           with_curves_within(task, given, false, other_ways, freedom)};
 }
 
+/// How nets are sought, one after the other until one is found. The one nearest to the given may
+/// turn over where the one nearest to a start does not.
+struct Search {
+  bool by_shortest_steps = false;
+  bool far = false;
+};
+constexpr Search kSearches[] = {{false, false}, {false, true}, {true, false}, {true, true}};
+
+/// Of the nets found the one to take or, where there is none yet, the one that meets its equations
+/// best.
+struct Sought {
+  std::optional<OneMatrixNet> best;
+  bool met = false;
+
+  /// Returns whether the net is one to take.
+  bool add(const EditTask& task, OneMatrixNet net) {
+    met = net.violation <= kMet && !turns_over({task.net, {}}, {net.net, {}});
+    if (met || !best || net.violation < best->violation) best = std::move(net);
+    return met;
+  }
+};
+
+Sought seek(const EditTask& task, const Net& given, const std::vector<Freedom>& freedom,
+            unsigned all_ways) {
+  Sought sought;
+  for (const Search& search : kSearches)
+    for (unsigned ways = 0; ways < all_ways; ++ways) {
+      const OneMatrixProblem problem = problem_of(task, given, freedom, ways);
+      for (const Net& start : starts_of(task, given, freedom, ways, search.far)) {
+        if (task.options.progress.stop_requested()) return sought;
+        if (sought.add(task, search.by_shortest_steps ? meet_by_shortest_steps(problem, start)
+                                                      : solve_one_matrix(problem, start, false)))
+          return sought;
+      }
+    }
+  return sought;
+}
+
 }  // namespace
 
 void add_conditions(const EditTask& task, TargetSet& set) {
@@ -196,21 +235,11 @@ void add_conditions(const EditTask& task, TargetSet& set) {
   const bool inside = keep == Keep::joints || keep == Keep::boundary;
   const Net given = keep == Keep::joints ? own_borders(task) : task.net;
   const std::vector<Freedom> freedom = inside ? inside_free(given) : freedom_of(task);
-  std::optional<OneMatrixNet> nearest;
-  for (const bool far : {false, true})
-    for (unsigned ways = 0; ways < 1U << std::min<long>(asked, kMostWays); ++ways) {
-      const OneMatrixProblem problem = problem_of(task, given, freedom, ways);
-      for (const Net& start : starts_of(task, given, freedom, ways, far)) {
-        if (task.options.progress.stop_requested()) return;
-        OneMatrixNet found = solve_one_matrix(problem, start, false);
-        if (found.violation <= kMet && !turns_over({task.net, {}}, {found.net, {}})) {
-          set.targets.push_back({"conditions", std::move(found.net)});
-          return;
-        }
-        if (!nearest || found.violation < nearest->violation) nearest = std::move(found);
-      }
-    }
-  set.missed.push_back(missed(task, *nearest, freedom));
+  Sought sought = seek(task, given, freedom, 1U << std::min<long>(asked, kMostWays));
+  if (sought.met)
+    set.targets.push_back({"conditions", std::move(sought.best->net)});
+  else if (sought.best && !task.options.progress.stop_requested())
+    set.missed.push_back(missed(task, *sought.best, freedom));
 }
 
 }  // namespace keyline::surface::detail

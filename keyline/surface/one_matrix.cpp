@@ -270,7 +270,7 @@ OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start,
   return polished(problem, size, exact_growth, std::move(x));
 }
 
-OneMatrixNet meet_growth(const OneMatrixProblem& problem, const Net& start) {
+OneMatrixNet meet_by_shortest_steps(const OneMatrixProblem& problem, const Net& start) {
   const double size = size_of(problem.net);
   return polished(problem, size, true, System(problem, size, 1).coordinates(start));
 }

@@ -47,9 +47,10 @@ struct OneMatrixNet {
 /// the wanted growth counts as equations too. Nets with an edge of no length are not changed.
 OneMatrixNet solve_one_matrix(const OneMatrixProblem& problem, const Net& start, bool exact_growth);
 
-/// Gauss-Newton alone, growth being equations: the net beside `start` that meets all of them, by
-/// shortest steps. What is wanted may then follow the net round by round and come to rest, where
-/// penalty steps would seek another net each time among those that meet nearly dependent equations.
-OneMatrixNet meet_growth(const OneMatrixProblem& problem, const Net& start);
+/// Gauss-Newton alone, wanted growth being equations: the net beside `start` that meets all of
+/// them, by shortest steps, wherever problem.net is. What is wanted may then follow the net round
+/// by round and come to rest, where penalty steps would seek another net each time among those that
+/// meet nearly dependent equations.
+OneMatrixNet meet_by_shortest_steps(const OneMatrixProblem& problem, const Net& start);
 
 }  // namespace keyline::surface::detail

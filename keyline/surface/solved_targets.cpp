@@ -132,8 +132,8 @@ void add_least_energy(const EditTask& task, const Sense& sense, OneMatrixProblem
     const auto wanted = wishes_of(task, found.net, sense, problem.wishes);
     if (met && same(wanted, problem.wishes)) break;
     problem.wishes = wanted;
-    found =
-        round == 0 ? solve_one_matrix(problem, found.net, true) : meet_growth(problem, found.net);
+    found = round == 0 ? solve_one_matrix(problem, found.net, true)
+                       : meet_by_shortest_steps(problem, found.net);
     met = found.violation <= kMet && found.growth_error <= 1e-9;
   }
   if (!met) return miss(task, "least energy", found, set);

@@ -245,6 +245,51 @@ TEST(RandomRefusals, NoNetOfTheConditionsIsFoundByAnglesAndRatios) {
   EXPECT_GE(found, answered_ / 2);
 }
 
+Points points_of(const json& surface) {
+  Points net;
+  for (std::size_t i = 0; i < 16; ++i) net[i] = vec(surface["points"][i / 4][i % 4]);
+  return net;
+}
+
+void expect_one_matrix(const Points& net, int curve, const double (&range)[2]) {
+  const auto e = edges(net, curve);
+  for (int i = 0; i < 2; ++i) {
+    const double turn = std::atan2(size(cross(e[i], e[i + 1])), dot(e[i], e[i + 1]));
+    EXPECT_GT(turn, range[0] - 1e-8);
+    EXPECT_LT(turn, range[1] + 1e-8);
+  }
+  EXPECT_NEAR(size(e[2]) / size(e[1]), size(e[1]) / size(e[0]), 1e-8);
+}
+
+/// Of the nets nearest to this one, in each of its valleys, the normal turns over; of another that
+/// meets the ranges too it does not.
+TEST(RandomRefusals, ANetThatDoesNotTurnOverIsFound) {
+  const json request = json::parse(R"({"op":"surface.edit","keep":"corners","conditions":[
+    {"curve":"A4","alpha":[0.5312945829888092,0.8016528048862832]},
+    {"curve":"A6","alpha":[0.2344642391977751,0.41260872330089404]}],
+    "surface":{"type":"bezier-surface","points":[[[4.584204796312008,-6.4375646563480196,6.569314366161633],
+    [5.776791348237151,-5.174338006738296,6.665572907348272],
+    [5.937527834838835,-2.1700223702624966,7.210290011381533],
+    [3.6376934647262944,2.456941484200552,7.382620090797284]],
+    [[7.2466440751095895,-5.96873159677379,6.911747412876203],
+    [9.045438717745315,-4.62979694639706,5.720000464897087],
+    [7.131200141383866,0.0855683538605347,5.6391984778358175],
+    [7.928922171579716,1.6343866556358444,6.241154459598916]],
+    [[9.68766667254502,-7.102393724953521,7.706425060866332],
+    [9.308513686545902,-2.4212302140632325,6.563093016845628],
+    [9.831486509156965,0.4530867368882133,7.591378232181792],
+    [11.739825089073848,2.2126328304950404,5.316688998852638]],
+    [[12.620252559973004,-6.258625529243605,6.8045960609948954],
+    [14.886345810160927,-4.230926055678636,8.007386731579558],
+    [12.57330905856718,0.35216638063343797,5.303312151021645],
+    [12.357033084183772,0.7186484764981786,5.613976981326738]]]}})");
+  const json result = result_of(request);
+  const Points net = points_of(result["surface"]);
+  expect_one_matrix(net, 3, {0.5312945829888092, 0.8016528048862832});
+  expect_one_matrix(net, 5, {0.2344642391977751, 0.41260872330089404});
+  EXPECT_TRUE(faces_as(request["surface"], result["surface"]));
+}
+
 /// A net far from the given one, which ways from there did not lead to. Ranges are measured at the
 /// edges that come back.
 TEST(RandomRefusals, ANetFarFromTheGivenOneIsFound) {
@@ -273,17 +318,9 @@ TEST(RandomRefusals, ANetFarFromTheGivenOneIsFound) {
                                  {"conditions",
                                   {{{"curve", "A6"}, {"alpha", turns[0]}},
                                    {{"curve", "A3"}, {"alpha", turns[1]}, {"s", scales}}}}});
-  Points net;
-  for (std::size_t i = 0; i < 16; ++i) net[i] = vec(result["surface"]["points"][i / 4][i % 4]);
-  for (const auto& [curve, k] : {std::pair{5, 0}, {2, 1}}) {
-    const auto e = edges(net, curve);
-    for (int i = 0; i < 2; ++i) {
-      const double turn = std::atan2(size(cross(e[i], e[i + 1])), dot(e[i], e[i + 1]));
-      EXPECT_GT(turn, turns[k][0] - 1e-8);
-      EXPECT_LT(turn, turns[k][1] + 1e-8);
-    }
-    EXPECT_NEAR(size(e[2]) / size(e[1]), size(e[1]) / size(e[0]), 1e-8);
-  }
+  const Points net = points_of(result["surface"]);
+  expect_one_matrix(net, 5, turns[0]);
+  expect_one_matrix(net, 2, turns[1]);
   const auto e = edges(net, 2);
   const double ratio = size(e[1]) / size(e[0]), s = std::max(ratio, 1 / ratio);
   EXPECT_GT(s, scales[0] - 1e-8);
