@@ -174,8 +174,9 @@ std::string joints_text(const json& joints) {
   text += fmt::format("zebra at joints, in degrees: jumps {} (at most {})  turns {} (at most {})\n",
                       change("mean_jump"), change("jump"), change("mean_turn"), change("turn"));
   if (count(after, "G0") < count(before, "G0"))
-    text += fmt::format("warning: {} of {} joints are open now\n",
-                        count(before, "G0") - count(after, "G0"), count(before, "G0"));
+    text +=
+        fmt::format("warning: {} of {} joints are open now; --joints zebra, G1 or G2 keeps them\n",
+                    count(before, "G0") - count(after, "G0"), count(before, "G0"));
   if (count(after, "G1") < count(before, "G1"))
     text += fmt::format("warning: {} of {} tangent joints are lost\n",
                         count(before, "G1") - count(after, "G1"), count(before, "G1"));

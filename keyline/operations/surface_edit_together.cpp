@@ -80,16 +80,17 @@ JointsChange joints_between(const std::vector<OneOfSurfaces>& all, surface::Hold
     given.insert(given.end(), e.grid.patches.begin(), e.grid.patches.end());
     edited.insert(edited.end(), e.edited.surfaces.begin(), e.edited.surfaces.end());
   }
-  const auto joints = surface::joints_of(given, 10 * surface::EdgeTolerance{}.gap);
+  const surface::EdgeTolerance joined = surface::with_gap({}, given);
+  const auto joints = surface::joints_of(given, joined);
   std::size_t folded = 0;
   for (const OneOfSurfaces& one : all)
     if (one.edit) folded += one.edit->edit->edited.folded;
-  return {shown(measure_joints(joints, given)),
-          shown(measure_joints(joints, edited)),
-          lost_orders(joints, given, edited, order_of(hold)),
-          turned_farther(joints, given, edited),
+  return {shown(measure_joints(joints, given, joined)),
+          shown(measure_joints(joints, edited, joined)),
+          lost_orders(joints, given, edited, order_of(hold), joined),
+          turned_farther(joints, given, edited, joined),
           folded,
-          fold_growth(joints, given, edited)};
+          fold_growth(joints, given, edited, joined)};
 }
 
 /// One that cannot be edited stays as given among others; alone it is a failure.

@@ -99,8 +99,9 @@ Result<NetworkAnswer> run(const NetworkRequest& request, const Context& context)
   answer.patches = values->size();
   for (const surface::PatchValue& patch : *values) answer.sav += patch.value.sav;
   const auto patches = surface::patches_of(answer.surface).patches;
-  answer.joints = shown(surface::measure_joints(
-      surface::joints_of(patches, 10 * surface::EdgeTolerance{}.gap), patches));
+  const surface::EdgeTolerance joined = surface::with_gap({}, patches);
+  answer.joints =
+      shown(surface::measure_joints(surface::joints_of(patches, joined), patches, joined));
   return answer;
 }
 

@@ -194,7 +194,7 @@ std::array<Edge, 2> nearest_edges(const Surface& first, const Surface& second) {
 }
 
 int order_of(const EdgeContinuity& e) {
-  if (!(e.gap <= e.tolerance.gap)) return -1;
+  if (!(e.gap <= *e.tolerance.gap)) return -1;
   if (!(e.angle <= e.tolerance.angle)) return 0;
   if (!(e.relative_curvature_jump <= e.tolerance.curvature)) return 1;
   return e.relative_rate_jump <= e.tolerance.curvature_rate ? 3 : 2;
@@ -204,7 +204,7 @@ Result<void> check(const EdgeTolerance& t, int count) {
   if (count < 2 || count > 100'000)
     return fail(ErrorCode::bad_input, "the number of places is out of range",
                 "give a whole number from 2 to 100000", "samples");
-  for (const auto& [name, value] : {std::pair{"gap", t.gap},
+  for (const auto& [name, value] : {std::pair{"gap", t.gap.value_or(0)},
                                     {"angle", t.angle},
                                     {"curvature", t.curvature},
                                     {"curvature_rate", t.curvature_rate}})
@@ -238,6 +238,11 @@ void sum_stripes(EdgeContinuity& e) {
 
 }  // namespace
 
+EdgeTolerance with_gap(EdgeTolerance tolerance, double size) {
+  if (!tolerance.gap) tolerance.gap = kUsualGap * size;
+  return tolerance;
+}
+
 std::array<double, 2> edge_parameters(Edge edge, double along) {
   switch (edge) {
     case Edge::u0:
@@ -268,7 +273,7 @@ Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& seco
                                        const EdgeTolerance& tolerance, int count) {
   if (auto sound = check(tolerance, count); !sound) return std::unexpected(sound.error());
   EdgeContinuity result;
-  result.tolerance = tolerance;
+  result.tolerance = with_gap(tolerance, std::max(extent(net_of(first)), extent(net_of(second))));
   result.edges = edges ? *edges : nearest_edges(first, second);
   const auto [a, b] = result.edges;
   const EdgeProjection onto(second, b);

@@ -20,16 +20,18 @@ constexpr auto choices(const Edge*) {
 
 /// How far two surfaces may differ along a common edge and still count as joined. Curvature and its
 /// rate across the edge are compared relative to the larger of the two, curvature no smaller than
-/// 1 / size, its rate than 1 / size^2, with size the length of the edge. Gap and angle are the
-/// usual class A ones, for lengths in millimetres.
+/// 1 / size, its rate than 1 / size^2, with size the length of the edge. The angle is the usual one
+/// of class A; so is the gap, 0.001 mm of a panel of 100 mm, but in no unit: a share of the size.
 struct EdgeTolerance {
-  double gap = 0.001;
+  std::optional<double> gap;  ///< unless set, kUsualGap of the size of what is compared
   double angle = 0.016 * 3.14159265358979323846 / 180;
   double curvature = 0.01;       ///< relative
   double curvature_rate = 0.05;  ///< relative
   static constexpr auto describe() {
     return core::fields(
-        core::field<&EdgeTolerance::gap>("largest gap that still joins")
+        core::field<&EdgeTolerance::gap>(
+            "largest gap that still joins; unless given, 1e-5 of the size of the larger surface "
+            "(the diagonal of the box around its control points)")
             .in("length")
             .within(core::at_least(0)),
         core::field<&EdgeTolerance::angle>("largest fold of a G1 joint")
@@ -41,6 +43,11 @@ struct EdgeTolerance {
             .within(core::at_least(0)));
   }
 };
+
+constexpr double kUsualGap = 1e-5;
+
+/// With the gap that holds where something of that size is compared.
+EdgeTolerance with_gap(EdgeTolerance tolerance, double size);
 
 /// What happens at one place of the edge, from the first surface to the second. `angle` is the
 /// fold: between the tangent planes, in [0, pi], pi where the second surface runs back under the
@@ -72,14 +79,14 @@ struct EdgeContinuity {
   double gap = 0, angle = 0, curvature_jump = 0, rate_jump = 0;
   double relative_curvature_jump = 0, relative_rate_jump = 0;
   double stripe_turn = 0, turning = 0;
-  double length = 0;  ///< of the first edge
-  EdgeTolerance tolerance;
+  double length = 0;        ///< of the first edge
+  EdgeTolerance tolerance;  ///< its gap is set
   int order = -1;
 };
 
 /// Compares `count` places of the first edge with the nearest ones of the second edge, in whichever
 /// sense that runs; a second edge that is longer is compared over the common part. Without edges
-/// the pair with the least gap is taken.
+/// the pair with the least gap is taken. A gap that is not set is kUsualGap of the larger extent.
 /// Fails: bad_input for count < 2 or above 100,000, a tolerance that is negative or not finite.
 core::Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& second,
                                              const std::optional<std::array<Edge, 2>>& edges = {},

@@ -44,11 +44,12 @@ int order_of(HoldJoints hold) {
 
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options, int threads,
-                                       const EdgeTolerance& tolerance, HoldJoints hold) {
+                                       const EdgeTolerance& asked, HoldJoints hold) {
   if (patches.empty())
     return fail(ErrorCode::bad_input, "there is no patch to edit", "give one or more", "surface");
+  const EdgeTolerance tolerance = with_gap(asked, patches);
   PatchesEdit all;
-  all.joints = joints_of(patches, 10 * tolerance.gap);
+  all.joints = joints_of(patches, tolerance);
   const bool held = hold != HoldJoints::free && !all.joints.empty();
   EditOptions own = options;
   own.part_of_the_way |= held;  // all go together then, and only where it pays
@@ -142,8 +143,8 @@ PatchesEdit part_of_edit(const PatchesEdit& all, std::span<const BezierSurface> 
 
 core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> surfaces,
                                                      const EditOptions& options, int threads,
-                                                     const EdgeTolerance& tolerance,
-                                                     HoldJoints hold, PatchesEdit* together) {
+                                                     const EdgeTolerance& asked, HoldJoints hold,
+                                                     PatchesEdit* together) {
   std::vector<BezierSurface> patches;
   std::vector<SurfaceEdit> edits;
   for (const Surface& s : surfaces) {
@@ -151,6 +152,7 @@ core::Result<std::vector<SurfaceEdit>> edit_surfaces(std::span<const Surface> su
     const auto& own = edits.back().grid.patches;
     patches.insert(patches.end(), own.begin(), own.end());
   }
+  const EdgeTolerance tolerance = with_gap(asked, patches);
   auto all = edit_patches(patches, options, threads, tolerance, hold);
   if (!all) return std::unexpected(all.error());
   std::size_t first = 0;

@@ -57,8 +57,9 @@ struct PatchesEdit {
 /// Keep::joints they move and stay closed (unless conditions of single curves say otherwise), with
 /// less kept they may open; tangent planes across them change. Keep::start keeps the corner b00 of
 /// every patch, its tangents as far as the joints let it. `before` and `after` say by how much.
-/// Joints are edges that lie within ten times tolerance.gap of one another. Errors: the first
-/// patch's where no patch could be edited; unsupported for a rational patch; cancelled.
+/// Joints are edges that lie within ten times the gap of one another, which unless set is a share
+/// of the size of all patches (joints.h). Errors: the first patch's where no patch could be edited;
+/// unsupported for a rational patch; cancelled.
 core::Result<PatchesEdit> edit_patches(std::span<const BezierSurface> patches,
                                        const EditOptions& options = {}, int threads = 1,
                                        const EdgeTolerance& tolerance = {},

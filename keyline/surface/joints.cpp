@@ -121,6 +121,18 @@ std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches, double
   return joints;
 }
 
+EdgeTolerance with_gap(const EdgeTolerance& tolerance, std::span<const BezierSurface> patches) {
+  Net all;
+  for (const BezierSurface& s : patches)
+    all.points.insert(all.points.end(), s.net.points.begin(), s.net.points.end());
+  return with_gap(tolerance, extent(all));
+}
+
+std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches,
+                                  const EdgeTolerance& tolerance) {
+  return joints_of(patches, 10 * *with_gap(tolerance, patches).gap);
+}
+
 std::vector<JointState> joint_states(std::span<const PatchJoint> joints,
                                      std::span<const BezierSurface> patches,
                                      const EdgeTolerance& tolerance) {

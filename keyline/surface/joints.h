@@ -24,6 +24,14 @@ struct PatchJoint {
 /// found.
 std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches, double gap);
 
+/// With the gap that holds between the patches of a list: kUsualGap of the size of all of them (the
+/// diagonal of the box around their control points), unless it is set.
+EdgeTolerance with_gap(const EdgeTolerance& tolerance, std::span<const BezierSurface> patches);
+
+/// Pairs of edges that lie within ten times that gap of one another.
+std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches,
+                                  const EdgeTolerance& tolerance = {});
+
 /// How a zebra breaks at joints, whatever the light, in radians. Stripes jump where there is a
 /// fold: a mirrored ray by up to twice the fold. They turn where curvature jumps across a common
 /// tangent plane: in the mean over all stripes of all lights that cross (stripe_turn.h).

@@ -102,6 +102,10 @@ TEST(SurfaceOperations, ContinuityPassesOrFails) {
   EXPECT_EQ(r["stripe_turn"], 0);
   EXPECT_EQ(r["turning"], 0);  // no stripe crosses a line on which the normal stands still
   r = result_of({{"op", "surface.continuity"}, {"surfaces", {plane(0, 1), plane(1.0005, 2)}}});
+  EXPECT_EQ(r["pass"]["G0"], false);  // 5e-4 of a size of about 1.4
+  EXPECT_LT(r["tolerance"]["gap"].get<double>(), 1e-4);
+  r = result_of(
+      {{"op", "surface.continuity"}, {"surfaces", {plane(0, 1), plane(1.0005, 2)}}, {"gap", 1e-3}});
   EXPECT_EQ(r["pass"]["G0"], true);
   EXPECT_NEAR(r["gap"].get<double>(), 0.0005, 1e-12);
   r = result_of(

@@ -112,6 +112,23 @@ TEST(EdgeContinuity, TolerancesAreTheCallers) {
   EXPECT_FALSE(edge_named("w"));
 }
 
+// A panel of 100 mm may gape by 0.001 mm: so may the same panel told in metres or inches.
+TEST(EdgeContinuity, GapsCountInEveryUnitTheSame) {
+  for (const double unit : {1.0, 1e-3, 1 / 25.4, 1e3}) {
+    SCOPED_TRACE(unit);
+    const auto order_at = [unit](double gap) {
+      BezierSurface left{{2, 2, {{0, 0, 0}, {0, 100, 0}, {100, 0, 0}, {100, 100, 0}}}, {}};
+      BezierSurface right = left;
+      for (auto& p : right.net.points) p.x += 100 + gap;
+      for (BezierSurface* s : {&left, &right})
+        for (auto& p : s->net.points) p = {unit * p.x, unit * p.y, unit * p.z};
+      return joint(left, right).order;
+    };
+    EXPECT_EQ(order_at(0.001), 3);
+    EXPECT_EQ(order_at(0.002), -1);
+  }
+}
+
 TEST(EdgeContinuity, CollapsedEdgesAreComparedByPosition) {
   const Surface s = sphere_octant(1);
   const EdgeContinuity c = joint(s, s, std::array{Edge::v1, Edge::v1});

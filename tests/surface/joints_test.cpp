@@ -179,5 +179,28 @@ TEST(HoldJoints, MovesOnePatchWithItsNeighbour) {
   EXPECT_EQ(measure_joints(joints, loose).order_at_least[1], 0U);
 }
 
+// What joins does not hang on the unit: patches a hundred thousandth of all apart are joined, those
+// a thousandth apart are not found.
+TEST(Joints, AreFoundInEveryUnitTheSame) {
+  for (const double unit : {1.0, 1e-3, 1e3}) {
+    SCOPED_TRACE(unit);
+    const auto three = [unit](double gap) {
+      std::vector<BezierSurface> patches;
+      for (int i = 0; i < 3; ++i) {
+        BezierSurface s{{2, 2, {{0, 0, 0}, {0, 100, 0}, {100, 0, 0}, {100, 100, 0}}}, {}};
+        for (auto& p : s.net.points) p = {unit * (p.x + (100 + gap) * i), unit * p.y, 0};
+        patches.push_back(s);
+      }
+      return patches;
+    };
+    const auto patches = three(0.002);
+    const EdgeTolerance joined = with_gap({}, patches);
+    const auto joints = joints_of(patches, joined);
+    ASSERT_EQ(joints.size(), 2U);
+    EXPECT_EQ(measure_joints(joints, patches, joined).order_at_least[0], 2U);
+    EXPECT_TRUE(joints_of(three(0.3), with_gap({}, three(0.3))).empty());
+  }
+}
+
 }  // namespace
 }  // namespace keyline::surface
