@@ -99,6 +99,23 @@ void measure(const std::vector<Point2>& points, bool closed, double tolerance,
   chain.within_tolerance = chain.within_tolerance && chain.max_deviation <= tolerance;
 }
 
+/// One of so many points, in the mean of those about it: where it lies for itself is chance. Ends
+/// of an open line stay.
+std::vector<Point2> thinned(const std::vector<Point2>& points, bool closed, std::size_t every) {
+  const std::size_t n = points.size();
+  const std::size_t half = every / 2;
+  std::vector<Point2> kept;
+  if (!closed) kept.push_back(points.front());
+  for (std::size_t i = closed ? 0 : every; i + (closed ? half : every) < n; i += every) {
+    core::Vector2 sum{};
+    for (std::size_t k = i + n - half; k <= i + n + half; ++k)
+      sum = sum + (points[k % n] - points[i]);
+    kept.push_back(points[i] + sum / static_cast<double>(2 * half + 1));
+  }
+  if (!closed) kept.push_back(points.back());
+  return kept;
+}
+
 }  // namespace
 
 QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
@@ -106,10 +123,7 @@ QuinticChain fit_quintic_chain(const std::vector<Point2>& points, bool closed,
   if (points.size() < 2) throw core::InvalidInput("fit_quintic_chain needs at least two points");
   const std::size_t every = std::max<std::size_t>(1, options.every);
   if (every > 1 && points.size() >= every * kFewestKept) {
-    std::vector<Point2> kept;
-    for (std::size_t i = 0; i + every < points.size(); i += every) kept.push_back(points[i]);
-    kept.push_back(points.back());
-    QuinticChain chain = follow_all(kept, closed, options);
+    QuinticChain chain = follow_all(thinned(points, closed, every), closed, options);
     if (chain.within_tolerance) measure(points, closed, options.tolerance, chain);
     if (chain.within_tolerance) return chain;
   }

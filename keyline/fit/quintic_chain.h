@@ -15,8 +15,8 @@ struct QuinticChainOptions {
   bool free_start =
       false;              ///< an open chain's start lies anywhere within the tolerance of the first
   bool free_end = false;  ///< point, its end of the last; else exactly there
-  /// Only every such point is looked at, and the last, where that comes within the tolerance of
-  /// all: points that were smoothed say the same as their neighbours.
+  /// Only every such point is looked at, in the mean of its neighbours, and an open line's ends,
+  /// where that comes within the tolerance of all: points that were smoothed say the same as they.
   std::size_t every = 1;
 };
 

@@ -103,6 +103,27 @@ TEST(QuinticChain, PointsLeftOutAreKeptToAsWell) {
   }
 }
 
+// Points in turn inside and outside of a circle: every second one lies outside.
+TEST(QuinticChain, PointsLeftOutSayWhereTheirNeighboursLie) {
+  constexpr double kRadius = 100;
+  for (const bool closed : {false, true}) {
+    SCOPED_TRACE(closed);
+    std::vector<Point2> points;
+    for (int i = 0; i < 600; ++i) {
+      const double r = kRadius + (i % 2 == 0 ? 0.3 : -0.3);
+      const double a = (closed ? 2 * M_PI : 3) * i / 600;
+      points.push_back({r * std::cos(a), r * std::sin(a)});
+    }
+    const QuinticChain chain =
+        fit_quintic_chain(points, closed, {.tolerance = 1, .calm = true, .every = 2});
+    ASSERT_TRUE(chain.within_tolerance);
+    double sum = 0;
+    for (const curve::Bezier2& piece : chain.pieces)
+      for (int k = 0; k < 64; ++k) sum += norm(evaluate(piece, (k + 0.5) / 64) - Point2{});
+    EXPECT_NEAR(sum / (64.0 * static_cast<double>(chain.pieces.size())), kRadius, 0.15);
+  }
+}
+
 // A quintic can come within a ten-thousandth of the length (fit_bezier's within 1e-6 of it).
 TEST(QuinticChain, OnePieceIsNearWhatOneCanBe) {
   for (const double to : {1.5, 2.2, 3.0}) {
