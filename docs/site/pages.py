@@ -11,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 
 root, keyline = pathlib.Path(sys.argv[1]), sys.argv[2]
 out = root / "build/site/pages"
@@ -115,12 +116,25 @@ def declarations(header):
                 break
             if depth > 0 and len(declared) == 1 and code.startswith("namespace"):
                 break
+            if 'R"' in code:  # a whole file in a string: a page's style or script
+                declared[-1] = code[:code.index('R"')] + '"…";'
+                depth = 0
+                break
+        if depth > 0 and declared and not declared[0].startswith("namespace"):
+            declared.append("  …")
         yield comment, declared
 
 
 def in_words(comment, keys):
-    """A contract as text: its parts (Units:, Fails:) on lines of their own, its sources as links."""
-    pieces = re.split(r"(`[^`]*`)", "\n".join(comment))
+    """A contract as text: paragraphs, and code where all lines of one stand in from the margin."""
+    paragraphs = re.split(r"\n[ \t]*\n", "\n".join(comment))
+    return "\n\n".join(f"```cpp\n{textwrap.dedent(p)}\n```" if re.fullmatch(r"(?: {2,}.*\n?)+", p) else paragraph(p, keys)
+                       for p in paragraphs)
+
+
+def paragraph(text, keys):
+    """Its parts (Units:, Fails:) on lines of their own, its sources as links."""
+    pieces = re.split(r"(`[^`]*`)", text)
     for i in range(0, len(pieces), 2):  # between pieces of code
         pieces[i] = re.sub(r"([\\*_|])", r"\\\1", pieces[i]).replace("<", "&lt;")
         pieces[i] = re.sub(r"\[([^\]\[]+)\]", lambda m: keys.get(m[1], "\\" + m[0]), pieces[i])
