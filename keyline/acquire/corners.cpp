@@ -80,17 +80,19 @@ double arms_length(const Ring& ring, std::ptrdiff_t i, int arm) {
   return core::distance(ring[i - arm], ring[i]) + core::distance(ring[i], ring[i + arm]);
 }
 
-/// Largest turn at the four vertices nearest the arms of vertex i, less what noise explains. Where
-/// points stand closer there than at i, which turns by `size`, it is what a curve as bent as there
-/// turns along the arms of i: bends are sampled as it comes. Not where i turns by a right angle or
-/// more: a bend of which one point tells so much is not known to be one.
+/// Largest turn at the four vertices nearest the arms of vertex i. What noise adds to it stays in:
+/// of a turn that is told by five standard errors (kClearance) it is no share that counts, and
+/// taken off it made corners of tips that are bends. Where points stand closer there than at i,
+/// which turns by `size`, it is what a curve as bent as there turns along the arms of i: bends are
+/// sampled as it comes. Not where i turns by a right angle or more: a bend of which one point tells
+/// so much is not known to be one.
 double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double size) {
   double beside = 0;
   const double length = size < kUnsampled ? arms_length(ring, i, arm) : 0;
   for (const std::ptrdiff_t k : {i - 2 * arm, i - arm, i + arm, i + 2 * arm}) {
     if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
     const Turn flank = turn_at(ring, k, arm, noise);
-    const double turn = std::abs(flank.angle) - 2 * flank.error;
+    const double turn = std::abs(flank.angle);
     const double closer = std::max(1.0, length / arms_length(ring, k, arm));
     beside = std::max(beside, turn * closer);
   }
@@ -113,13 +115,15 @@ struct Thresholds {
   double usual;
 };
 
-/// True where the turn between longer arms happens at the vertex itself.
-bool is_own_turn(const Ring& ring, std::ptrdiff_t i, double size) {
+/// True where the turn between longer arms happens at the vertex itself, to a standard error: noise
+/// as large as the single turns of a bend singles one of them out.
+bool is_own_turn(const Ring& ring, std::ptrdiff_t i, double size, double noise) {
   const auto own = [&](std::ptrdiff_t k) {
     if (!ring.has(k - 1) || !ring.has(k + 1)) return 0.0;
     return std::abs(core::angle_between(ring[k] - ring[k - 1], ring[k + 1] - ring[k]));
   };
-  return own(i) >= kOwnShare * size && own(i) >= 1.5 * std::max(own(i - 1), own(i + 1));
+  const double sure = own(i) - turn_at(ring, i, 1, noise).error;
+  return sure >= kOwnShare * size && own(i) >= 1.5 * std::max(own(i - 1), own(i + 1));
 }
 
 /// Turn at vertex i if it is a corner, else 0. The arm is the shortest that beats the noise.
@@ -134,7 +138,7 @@ double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
     const double rest = std::max(beside, t.usual);
     if (arm == 1 && size >= kKinkConcentration * rest) return turn.angle;
     if (size < t.angle || size < kContrast * t.usual) return 0;
-    if (arm > 1 && !is_own_turn(ring, i, size)) return 0;
+    if (arm > 1 && !is_own_turn(ring, i, size, t.noise)) return 0;
     return size >= kConcentration * beside ? turn.angle : 0;
   }
   return 0;

@@ -10,19 +10,53 @@ namespace keyline::fairing::detail {
 namespace {
 
 constexpr std::array<double, 3> kShortened{0.03, 0.1, 0.2};  // parts of a line left at either end
+constexpr double kBeside = 0.25;  // of a line's length: how far beyond its ends it is felt
+constexpr double kNear = 0.1;     // of it: reach of what is compared with twice as far around
 constexpr double kBandWidth = 2;  // in tolerances: what a piece may give up within the band
 constexpr double kFree = 0.01;    // of the energy: what a piece that may be an arc has at most
 constexpr double kUnseen = 0.1;   // of the tolerance: a departure from an arc that is not seen
 constexpr double kArc = 32;       // length^2 * change of curvature over an arc's departure
 
+/// Energy of the cells whose middles are within `reach` of a share of the length.
+double energy_near(const DenseCurve& curve, double place, double reach) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < curve.at.size(); ++i) {
+    const double h = curve.at[i + 1] - curve.at[i];
+    double away = curve.at[i] + 0.5 * h - place;
+    if (curve.closed) away = std::remainder(away, 1.0);
+    const double change = curve.joints[i + 1].curvature - curve.joints[i].curvature;
+    if (std::abs(away) < reach) sum += change * change / h;
+  }
+  return sum;
+}
+
+/// Whether a line costs what it may wherever it is felt, beside what the curve varies nearby: a
+/// needle at its end is nothing beside a sharp bend elsewhere.
+bool worth_about(const DenseCurve& trial, const DenseCurve& curve, const Straight& line,
+                 const FlatOptions& options) {
+  const double length = curve.at[line.last] - curve.at[line.first];
+  const double reach = kNear * length;
+  const double unseen = unseen_energy(curve, options.band.tolerance) / std::pow(4 * reach, 5);
+  const int steps = static_cast<int>(std::ceil((1 + 2 * kBeside) / kNear));
+  for (int k = 0; k <= steps; ++k) {
+    const double place = curve.at[line.first] + length * ((1 + 2 * kBeside) * k / steps - kBeside);
+    const double nearby = std::max(energy_near(curve, place, 2 * reach), unseen);
+    if (energy_near(trial, place, reach) > options.worth * nearby) return false;
+  }
+  return true;
+}
+
 /// Takes the trial over where it is solved within what it may cost.
 bool take(DenseCurve trial, DenseCurve& curve, BandReport& band,
-          const std::vector<FitPoint>& points, const FlatOptions& options) {
+          const std::vector<FitPoint>& points, const FlatOptions& options,
+          const std::vector<Straight>& lines = {}) {
   const double before = std::max(band.energy, unseen_energy(curve, options.band.tolerance));
   const BandReport found = least_variation(trial, points, options.band);
   if (!found.within || found.rms > options.most_rms || found.energy > options.worth * before)
     return false;
   if (turns_of(trial).size() > turns_of(curve).size()) return false;
+  for (const Straight& line : lines)
+    if (!worth_about(trial, curve, line, options)) return false;
   curve = std::move(trial);
   band = found;
   return true;
@@ -90,14 +124,14 @@ void lay_lines(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>&
   if (arc && take(one_arc(curve), curve, band, points, options)) return;
   if (lines.empty()) return;
   for (const double share : kShortened)
-    if (take(with_lines(curve, lines, share), curve, band, points, options)) return;
+    if (take(with_lines(curve, lines, share), curve, band, points, options, lines)) return;
   if (lines.size() == 1) return;
   std::vector<Straight> kept;
   const DenseCurve free = curve;
   for (const Straight& line : lines) {
     kept.push_back(line);
     const bool taken = std::any_of(kShortened.begin(), kShortened.end(), [&](double share) {
-      return take(with_lines(free, kept, share), curve, band, points, options);
+      return take(with_lines(free, kept, share), curve, band, points, options, {line});
     });
     if (!taken) kept.pop_back();
   }
