@@ -13,6 +13,7 @@ constexpr double kAcross = 0.8;      // radians
 constexpr double kOften = 4.6;       // -ln(0.01): one loop in a hundred has a wider gap
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
 constexpr double kClearance = 4;     // and less than so many standard errors of the turn there
+constexpr double kAbout = 0.7;       // of the steps at the ends: about as long as those
 constexpr double kByChance = 2;      // the same of the turns beside it, which no corner is beside
 
 /// Largest of the steps near both ends.
@@ -27,27 +28,49 @@ double spacing_at_ends(std::span<const core::Point2> points, std::size_t stride)
   return most;
 }
 
-/// Turn of the polygon from step a-b to step c-d.
-double turn(core::Point2 a, core::Point2 b, core::Point2 c, core::Point2 d) {
-  return core::angle_between(b - a, d - c);
-}
+/// The points from one end inwards.
+class FromEnd {
+ public:
+  FromEnd(std::span<const core::Point2> points, bool first) : points_(points), first_(first) {}
 
-/// Direction of the curve near one end, from the end inwards: to the first point at least a quarter
-/// of the gap away.
-core::Vector2 inwards(std::span<const core::Point2> points, bool at_first, double gap) {
-  const std::size_t n = points.size();
-  const auto at = [&](std::size_t k) { return at_first ? points[k] : points[n - 1 - k]; };
-  std::size_t k = 1;
-  while (k + 1 < n / 4 && core::distance(at(0), at(k)) < 0.25 * gap) ++k;
-  return at(k) - at(0);
+  core::Point2 operator[](std::size_t k) const {
+    return first_ ? points_[k] : points_[points_.size() - 1 - k];
+  }
+
+  /// The first point, from the one with that index on, that is at least so far away.
+  std::size_t away(double distance, std::size_t from = 1) const {
+    std::size_t k = from;
+    while (k + 1 < points_.size() / 4 && core::distance((*this)[0], (*this)[k]) < distance) ++k;
+    return k;
+  }
+
+ private:
+  std::span<const core::Point2> points_;
+  bool first_;
+};
+
+/// An end of an outline: the direction of the step inwards, and how far the next one turns from it.
+struct EndStep {
+  core::Vector2 inwards;
+  double turn = 0;
+};
+
+/// A step goes to the first point that is so far away: in shorter ones the points' errors may make
+/// any direction.
+EndStep end_step(const FromEnd& at, double away, std::size_t stride) {
+  const std::size_t k = at.away(away, stride);
+  const core::Vector2 step = at[k] - at[0];
+  return {step, std::abs(core::angle_between(step, at[2 * k] - at[k]))};
 }
 
 /// True where the chord between the ends goes on from the curve before it and into that after it.
 bool runs_across(std::span<const core::Point2> points) {
   const core::Vector2 chord = points.front() - points.back();
-  const double gap = core::norm(chord);
-  return std::abs(core::angle_between(-inwards(points, false, gap), chord)) < kAcross &&
-         std::abs(core::angle_between(chord, inwards(points, true, gap))) < kAcross;
+  const double away = 0.25 * core::norm(chord);
+  const EndStep last = end_step({points, false}, away, 1);
+  const EndStep first = end_step({points, true}, away, 1);
+  return std::abs(core::angle_between(-last.inwards, chord)) < kAcross &&
+         std::abs(core::angle_between(chord, first.inwards)) < kAcross;
 }
 
 /// The widest gap that points scattered evenly over a loop leave, as a share of its length: of n it
@@ -75,20 +98,21 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bo
   const bool facing = n >= 8 && gap <= widest && runs_across(points);
   if (!repeated && !near && !facing) return Ends::apart;
 
-  const auto at = [&](std::size_t k) { return points[k * s]; };
-  const auto back = [&](std::size_t k) { return points[n - 1 - k * s]; };
-  const double seam = turn(back(1), back(0), at(0), at(1));
-  const double beside = std::max(std::abs(turn(at(0), at(1), at(1), at(2))),
-                                 std::abs(turn(back(2), back(1), back(1), back(0))));
+  const double away = std::max({gap, kAbout * spacing, 2 * kClearance / kSeamCorner * noise});
+  const EndStep last = end_step({points, false}, away, s);
+  const EndStep first = end_step({points, true}, away, s);
+  const double seam = core::angle_between(-last.inwards, first.inwards);
+  const double beside = std::max(last.turn, first.turn);
   // Of steps without a common end, and of the next ones, which have one that counts twice.
-  const double error = 2 * noise / spacing;
+  const double error = 2 * noise / away;
   const double sure = beside - kByChance * std::sqrt(1.5) * error;
   const bool corner =
       std::abs(seam) >= std::max(kSeamCorner, kClearance * error) && std::abs(seam) >= 3 * sure;
   if (repeated) return corner ? Ends::corner_repeated : Ends::closed_repeated;
   if (!corner) return Ends::closed;
-  const double at_last = std::abs(turn(back(1), back(0), back(0), at(0)));
-  const double at_first = std::abs(turn(back(0), at(0), at(0), at(1)));
+  const core::Vector2 chord = points.front() - points.back();
+  const double at_last = std::abs(core::angle_between(-last.inwards, chord));
+  const double at_first = std::abs(core::angle_between(chord, first.inwards));
   if (std::min(at_last, at_first) >= 0.3 * std::max(at_last, at_first)) return Ends::blunt;
   return at_first > at_last ? Ends::corner_at_first : Ends::corner_at_last;
 }

@@ -1,6 +1,7 @@
 #include "keyline/acquire/acquire.h"
 
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -61,6 +62,36 @@ core::Point2 lens(double share) {
   const double angle = (upper ? 1 - 4 * share : 4 * share - 3) * 0.25;
   const double height = radius * (std::cos(angle) - std::cos(0.25));
   return {radius * std::sin(angle), upper ? height : -height};
+}
+
+/// A Joukowski aerofoil from its cusp round to it, chord 4, closest to each other where it ends:
+/// the steps there shrink as if they were squares.
+core::Point2 joukowski(double share) {
+  const std::complex<double> middle{-0.08, 0.05};
+  const double from = std::arg(1.0 - middle);
+  const auto at = middle + std::polar(std::abs(1.0 - middle), from + 2 * core::kPi * share);
+  const auto place = at + 1.0 / at;
+  return {place.real(), place.imag()};
+}
+
+// What errors make of steps smaller than they are is no way round the trailing edge.
+TEST(AcquireKeyLine, NoiseClosesNoAerofoilRoundItsTrailingEdge) {
+  int wrong = 0;
+  for (const int count : {60, 120, 240}) {
+    for (const double noise : {2e-4, 8e-4, 2e-3}) {
+      for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        numeric::Random random(seed);
+        std::vector<core::Point3> points;
+        for (int i = 0; i <= count; ++i) {
+          const core::Point2 p = joukowski(static_cast<double>(i) / count);
+          points.push_back({p.x + noise * random.normal(), p.y + noise * random.normal(), 0});
+        }
+        const KeyLine line = acquire_key_line(curve_of(std::move(points))).value();
+        if (line.closed || !line.corners.empty()) ++wrong;
+      }
+    }
+  }
+  EXPECT_LE(wrong, 2) << "of 90";
 }
 
 // Steps of five errors: what two of them turn is noise, half a radian often, the tip of three not.
