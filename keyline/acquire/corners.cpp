@@ -18,6 +18,7 @@ constexpr std::array<int, 4> kArms{1, 2, 3, 4};
 constexpr double kConcentration = 2.5;  // turn at the corner against the turn beside it
 constexpr double kContrast = 3;         // and against the usual turn of the whole polygon
 constexpr double kClearance = 5;        // turn at the corner against its standard error
+constexpr double kByChance = 2;         // standard errors that a turn may be off by chance
 constexpr double kOwnShare = 0.5;       // of the turn between the arms, at the vertex itself
 constexpr double kKink = 0.17;          // of the corner angle: a kink between very smooth runs
 constexpr double kKinkConcentration = 12;
@@ -80,21 +81,26 @@ double arms_length(const Ring& ring, std::ptrdiff_t i, int arm) {
   return core::distance(ring[i - arm], ring[i]) + core::distance(ring[i], ring[i + arm]);
 }
 
-/// Largest turn at the four vertices nearest the arms of vertex i. What noise adds to it stays in:
-/// of a turn that is told by five standard errors (kClearance) it is no share that counts, and
-/// taken off it made corners of tips that are bends. Where points stand closer there than at i,
-/// which turns by `size`, it is what a curve as bent as there turns along the arms of i: bends are
-/// sampled as it comes. Not where i turns by a right angle or more: a bend of which one point tells
-/// so much is not known to be one.
+/// Largest turn at the four vertices nearest the arms of vertex i; of a farther one no more than
+/// the nearer one's may be by chance, for a bend about i fades with the distance: what turns more
+/// there is another. What noise adds stays in: of a turn that is told by five standard errors
+/// (kClearance) it is no share that counts, and taken off it made corners of tips that are bends.
+/// Where points stand closer there than at i, which turns by `size`, it is what a curve as bent as
+/// there turns along the arms of i: bends are sampled as it comes. Not where i turns by a right
+/// angle or more: a bend of which one point tells so much is not known to be one.
 double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double size) {
   double beside = 0;
   const double length = size < kUnsampled ? arms_length(ring, i, arm) : 0;
-  for (const std::ptrdiff_t k : {i - 2 * arm, i - arm, i + arm, i + 2 * arm}) {
-    if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
-    const Turn flank = turn_at(ring, k, arm, noise);
-    const double turn = std::abs(flank.angle);
-    const double closer = std::max(1.0, length / arms_length(ring, k, arm));
-    beside = std::max(beside, turn * closer);
+  for (const std::ptrdiff_t way : {-arm, arm}) {
+    double most = HUGE_VAL;
+    for (const std::ptrdiff_t k : {i + way, i + 2 * way}) {
+      if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
+      const Turn flank = turn_at(ring, k, arm, noise);
+      const double closer = std::max(1.0, length / arms_length(ring, k, arm));
+      const double turn = std::abs(flank.angle) * closer;
+      beside = std::max(beside, std::min(turn, most));
+      most = turn + kByChance * flank.error * closer;
+    }
   }
   return beside;
 }

@@ -43,6 +43,18 @@ TEST(Corners, NoneAtANoseWithPointsCloserBesideItsTip) {
   }
 }
 
+// The foot of a letter: what turns as much two arms on is a corner of its own, not a bend about the
+// first. With this noise an arm is two points long.
+TEST(Corners, MayStandTwoArmsApart) {
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Point2> points;
+    for (int i = 0; i < 10; ++i) points.push_back({static_cast<double>(i), 0});
+    for (int i = 0; i < 4; ++i) points.push_back({10, static_cast<double>(i)});
+    for (int i = 0; i <= 10; ++i) points.push_back({10 + side * i, 4});
+    EXPECT_EQ(find_corners(points, false, 0.1, kAngle), (Corners{10, 14})) << side;
+  }
+}
+
 // The radius of its tips is more than twice the distance of the points there, which err by a ninth
 // of that.
 TEST(Corners, HardlyEverAtTheTipsOfAMeasuredEllipse) {
