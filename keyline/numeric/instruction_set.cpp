@@ -20,11 +20,21 @@ bool has_avx2() {
 #endif
 }
 
+bool has_avx512() {
+#if defined(__x86_64__)
+  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+#else
+  return false;
+#endif
+}
+
 }  // namespace
 
 std::string_view instruction_set_name(InstructionSet set) {
   if (set == InstructionSet::scalar) return "scalar";
   if (set == InstructionSet::avx2) return "avx2";
+  if (set == InstructionSet::avx512) return "avx512";
 #if defined(__aarch64__)
   return "neon";
 #else
@@ -36,6 +46,7 @@ std::vector<InstructionSet> instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::scalar};
   if (kHasBaseline) sets.push_back(InstructionSet::baseline);
   if (has_avx2()) sets.push_back(InstructionSet::avx2);
+  if (has_avx512()) sets.push_back(InstructionSet::avx512);
   return sets;
 }
 

@@ -12,9 +12,10 @@ enum class InstructionSet {
   scalar,    ///< plain doubles, every processor
   baseline,  ///< what every processor of this build's family has: SSE2 on amd64, NEON on arm64
   avx2,      ///< AVX2 with FMA, amd64 alone
+  avx512,    ///< AVX-512 F, CD, DQ and BW beside these; what has no kernel for it runs as avx2
 };
 
-/// "scalar", "sse2" or "neon", "avx2".
+/// "scalar", "sse2" or "neon", "avx2", "avx512".
 std::string_view instruction_set_name(InstructionSet set);
 
 /// Those this processor and its system can run, the best one last.

@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "keyline/lac/lanes/batch_lanes_body.h"
 #include "keyline/numeric/instruction_set.h"
 
@@ -16,8 +18,14 @@ extern template void BatchKernel::operator()<Avx2>(Avx2, ChordBlock*, std::size_
 extern template PanelSums PanelKernel::operator()<Avx2>(Avx2, double, double, double, double,
                                                         double, double, const GaussNodes*,
                                                         int) const;
+using Avx512 = xsimd::avx512dq;
+// chord_lanes_avx512.cpp has these.
+extern template void AngleKernel::operator()<Avx512>(Avx512, const double*, const double*, double*,
+                                                     std::size_t) const;
+extern template void BatchKernel::operator()<Avx512>(Avx512, ChordBlock*, std::size_t) const;
 #else
 using Avx2 = BaselineArch;  // never asked for
+using Avx512 = BaselineArch;
 #endif
 
 namespace {
@@ -27,6 +35,10 @@ template <class Kernel, class... Arguments>
 auto run(const Kernel& kernel, Arguments... arguments) {
   static const InstructionSet set = numeric::instruction_set();
   switch (set) {
+    case InstructionSet::avx512:
+      // the few nodes of one panel are no faster in eight lanes
+      if constexpr (!std::is_same_v<Kernel, PanelKernel>) return kernel(Avx512{}, arguments...);
+      [[fallthrough]];
     case InstructionSet::avx2:
       return kernel(Avx2{}, arguments...);
     case InstructionSet::baseline:
