@@ -135,7 +135,8 @@ SurfaceEditAnswer surface_edit_answer(const surface::SurfaceEdit& edit,
   answer.joints = JointsChange{shown(all.before), shown(all.after), all.lost,
                                all.turned,        all.folded,       all.fold_growth};
   if (!all.tradeoff.empty()) answer.tradeoff = tradeoff_shown(all.tradeoff);
-  if (all.sav_apart < answer.after.sav) answer.sav_apart = all.sav_apart;
+  if (all.sav_apart < all.sav_after)  // both without patches that cannot be edited
+    answer.sav_apart = answer.after.sav - (all.sav_after - all.sav_apart);
   answer.edit = edit;
   return answer;
 }

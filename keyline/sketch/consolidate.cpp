@@ -94,7 +94,7 @@ bool tell_apart(const TwoLines& lines, PassEvidence& evidence) {
 }
 
 /// Groups by the evidence, with what makes them two lines added to it until nothing does.
-void group(const PassModel& at_most, Passes& all) {
+void settle_groups(const PassModel& at_most, Passes& all) {
   for (bool settled = false; !settled;) {
     settled = true;
     all.groups = group_by_evidence(all.evidence);
@@ -116,7 +116,7 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
   all.model = reach.seen;
   all.evidence = pass_evidence(all.sampled, reach);
   wish(options.wishes, all.evidence);
-  group(at_most, all);
+  settle_groups(at_most, all);
   return all;
 }
 

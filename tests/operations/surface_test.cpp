@@ -226,6 +226,25 @@ TEST(SurfaceOperations, SeveralPatchesGoNoFartherThanAHundredthUnasked) {
             "limit");
 }
 
+// A patch without any Class A net beside one with: joints let go of cost nothing.
+TEST(SurfaceOperations, JointsLetGoOfHaveNoPrice) {
+  json rows = bicubic(200)["points"];
+  const json more = bicubic(5)["points"];
+  for (std::size_t i = 1; i < more.size(); ++i) {
+    rows.push_back(more[i]);
+    for (json& p : rows.back()) p[0] = p[0].get<double>() + 300;
+  }
+  const json spline{{"type", "bspline-surface"},
+                    {"degree", {3, 3}},
+                    {"knots", {{0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2}, {0, 0, 0, 0, 1, 1, 1, 1}}},
+                    {"points", rows}};
+  const json r =
+      result_of({{"op", "surface.edit_together"}, {"surfaces", {spline}}, {"joints", "free"}});
+  const json& edit = r["surfaces"][0]["edit"];
+  EXPECT_TRUE(edit["patch_edits"][0].contains("why"));
+  EXPECT_FALSE(edit.contains("sav_apart"));
+}
+
 TEST(SurfaceOperations, ASinglePatchGoesToItsTarget) {
   const json wild = bicubic(14);
   const json r = result_of({{"op", "surface.edit"}, {"surface", wild}});
