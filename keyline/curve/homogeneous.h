@@ -74,35 +74,53 @@ Derivatives<V> bezier_derivatives(V* b, int degree, double t) {
   return d;
 }
 
-/// De Boor's scheme of the given degree on span [knots[span], knots[span+1]), which is not empty;
-/// d[0..degree] are the control values span-degree … span and are overwritten.
+/// Level r of de Boor's scheme on span [knots[span], knots[span+1]), which is not empty:
+/// d[r..degree] from d[r-1..degree] of the level before.
+template <class V>
+void de_boor_level(V* d, const double* knots, int degree, int span, int r, double u) {
+  for (int j = degree; j >= r; --j) {
+    const double low = knots[span - degree + j];
+    const double a = (u - low) / (knots[span + 1 - r + j] - low);
+    d[j] = (1 - a) * d[j - 1] + a * d[j];
+  }
+}
+
+/// De Boor's scheme of the given degree; d[0..degree] are the control values span-degree … span and
+/// are overwritten.
 template <class V>
 V de_boor(V* d, const double* knots, int degree, int span, double u) {
-  for (int r = 1; r <= degree; ++r) {
-    for (int j = degree; j >= r; --j) {
-      const double low = knots[span - degree + j];
-      const double high = knots[span + 1 - r + j];
-      const double a = (u - low) / (high - low);
-      d[j] = (1 - a) * d[j - 1] + a * d[j];
-    }
-  }
+  for (int r = 1; r <= degree; ++r) de_boor_level(d, knots, degree, span, r, u);
   return d[degree];
 }
 
-/// Value and three derivatives in u; d as in de_boor. O(degree^2), no allocation.
+/// Derivative of that order from d[degree-order..degree] of the scheme's level degree - order:
+/// values of the blossom whose other arguments are neighbouring knots, so that each difference over
+/// the knots' distance takes one argument for a direction.
+template <class V>
+V difference_of(const V* d, const double* knots, int degree, int span, int order) {
+  std::array<V, 4> w;
+  for (int i = 0; i <= order; ++i) w[i] = d[degree - order + i];
+  for (int q = 1; q <= order; ++q)
+    for (int i = order; i >= q; --i) {
+      const double width = knots[span + 1 - q + i] - knots[span - order + i];
+      w[i] = ((degree - order + q) / width) * (w[i] - w[i - 1]);
+    }
+  return w[order];
+}
+
+/// Value and three derivatives in u, from the last levels of one scheme; d as in de_boor. Control
+/// values are taken from the first one, so that differences keep their digits far from the origin.
+/// O(degree^2), no allocation.
 template <class V>
 Derivatives<V> spline_derivatives(V* d, const double* knots, int degree, int span, double u) {
+  const V first = d[0];
+  for (int j = 0; j <= degree; ++j) d[j] = d[j] - first;
   Derivatives<V> result{};
-  std::array<V, kMaxDegree + 1> work;
-  for (int order = 0; order <= 3 && order <= degree; ++order) {
-    const int p = degree - order;
-    for (int j = 0; j <= p; ++j) work[j] = d[j];
-    result[order] = de_boor(work.data(), knots, p, span, u);
-    for (int j = 0; j < p; ++j) {
-      const double width = knots[span + 1 + j] - knots[span + 1 + j - p];
-      d[j] = (p / width) * (d[j + 1] - d[j]);
-    }
+  for (int r = 0; r <= degree; ++r) {
+    if (r > 0) de_boor_level(d, knots, degree, span, r, u);
+    if (degree - r <= 3) result[degree - r] = difference_of(d, knots, degree, span, degree - r);
   }
+  result[0] = first + result[0];
   return result;
 }
 

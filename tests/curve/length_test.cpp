@@ -48,8 +48,8 @@ TEST(ArcLength, InverseGoesBack) {
     const ArcLengthMap map = arc_length_map(c);
     for (const double f : {0.0, 0.1, 0.33, 0.5, 0.9, 0.999, 1.0}) {
       const double t = parameter_at_length(c, map, f * total_length(map));
-      EXPECT_NEAR(arc_length(c, 0, t), f * total_length(map), 1e-11 * total_length(map));
-      EXPECT_NEAR(length_at_parameter(c, map, t), f * total_length(map), 1e-11 * total_length(map));
+      EXPECT_NEAR(arc_length(c, 0, t), f * total_length(map), 1e-14 * total_length(map));
+      EXPECT_NEAR(length_at_parameter(c, map, t), f * total_length(map), 1e-14 * total_length(map));
     }
   }
 }

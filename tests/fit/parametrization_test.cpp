@@ -101,5 +101,18 @@ TEST(Parametrization, SmoothChordsDoNotKnowWhereTheDataLieNorFromWhichEnd) {
   }
 }
 
+// There and back on the same places: where it turns the averages before and behind are one point.
+// Numbers of few binary digits, so that they are exactly.
+TEST(Parametrization, SmoothChordsTurnWhereTheDataDo) {
+  std::mt19937 random(3);
+  std::vector<Point2> points;
+  for (int i = 0; i <= 400; ++i)
+    points.push_back({i / 16.0, static_cast<double>(random() % 64) / 64.0});
+  for (int i = 399; i >= 0; --i) points.push_back(points[i]);
+  const auto t = parametrize(points, Parametrization::smooth_chord);
+  EXPECT_NE(t, parametrize(points, Parametrization::chord));
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(t[i], 1 - t[t.size() - 1 - i], 1e-12) << i;
+}
+
 }  // namespace
 }  // namespace keyline::fit
