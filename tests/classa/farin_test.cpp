@@ -123,5 +123,16 @@ TEST(Farin, StraightAndBad) {
   EXPECT_FALSE(validate(bad));
 }
 
+// Control points on a line whose coordinates were rounded, large ones and small: curvature is 0.
+TEST(Farin, StraightUpToTheRoundingOfItsPoints) {
+  for (const double size : {1e6, 1e-6}) {
+    curve::Bezier3 c;
+    for (const double t : {0.0, 0.1, 0.4, 1.0})
+      c.control.push_back(
+          {size * (0.7 + 0.3 * t), size * (-0.9 + 0.7 * t), size * (0.3 - 0.13 * t)});
+    EXPECT_EQ(certify_monotone_curvature(c).answer, MonotoneVerdict::yes) << size;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::classa

@@ -197,20 +197,5 @@ TEST(QuinticChain, RefusesWhatIsNone) {
   EXPECT_THROW(fit_quintic_chain({{0, 0}, {0, 0}, {1, 1}}, false), core::InvalidInput);
 }
 
-// Every other point lies across the ellipse by less than the tolerance. The chain of those that lie
-// on it is the ellipse: what is left is what was put beside it.
-TEST(QuinticChain, OfEveryOtherPointFollowsThoseAlone) {
-  constexpr double kBeside = 0.3;
-  std::vector<Point2> points = ellipse(401, 0, 2);
-  const std::vector<Point2> on = points;
-  for (std::size_t i = 1; i < points.size(); i += 2)
-    points[i].x += i % 4 == 1 ? kBeside : kBeside / 2;
-  const QuinticChain chain =
-      fit_quintic_chain(points, false, {.tolerance = 2 * kBeside, .every = 2});
-  const QuinticChain all = fit_quintic_chain(points, false, {.tolerance = 2 * kBeside, .every = 1});
-  EXPECT_TRUE(chain.within_tolerance);
-  EXPECT_LT(measured(on, chain).rms, 0.6 * measured(on, all).rms);
-}
-
 }  // namespace
 }  // namespace keyline::fit
