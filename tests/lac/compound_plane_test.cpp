@@ -42,5 +42,17 @@ TEST(CompoundPlane, ReversedDataGiveTheSameCurve) {
   EXPECT_GT(found, 200);
 }
 
+TEST(CompoundPlane, AlongTheChordItIsTheChord) {
+  const auto line = solve_compound_plane(0, 0, {-1, 0.5, 0.4});
+  ASSERT_TRUE(line.found);
+  ASSERT_EQ(line.found->pieces.size(), 2U);
+  EXPECT_NEAR(line.found->pieces[0].length, 0.4, 1e-15);
+  EXPECT_NEAR(line.found->pieces[1].length, 0.6, 1e-15);
+  for (const Piece& p : line.found->pieces) {
+    EXPECT_EQ(p.curvature_start, 0);
+    EXPECT_EQ(p.curvature_end, 0);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::lac::detail::space
