@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -384,25 +383,6 @@ TEST(Cav, AnyPointsAtAll) {
     }
   }
   EXPECT_GT(valued, 380);  // the points of a few coincide
-}
-
-// Ratios of lengths 5 and 5 (1 + d) lie 5 d / 2 from their mean; the tolerance is that of s = 1.
-TEST(Cav, MatricesAreOneUpToTheToleranceTimesTheirSize) {
-  CavOptions options;
-  options.tolerance = 1e-3;
-  for (const auto& [d, type] : {std::pair{1.6e-3, 3}, {2.4e-3, 4}}) {
-    const Point2 first{1, 0};
-    const Point2 second{1 + 5 * std::cos(0.3), 5 * std::sin(0.3)};
-    const double length = 25 * (1 + d);
-    const curve::Bezier2 c{{{0, 0},
-                            first,
-                            second,
-                            {second.x + length * std::cos(0.6), second.y + length * std::sin(0.6)}},
-                           {}};
-    const auto reading = read_curve(c, options);
-    ASSERT_TRUE(reading);
-    EXPECT_EQ(reading->matrix.type, type) << d;
-  }
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "keyline/classa/nearest.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
+
+#include "keyline/classa/cav.h"
 
 namespace keyline::classa {
 namespace {
@@ -40,6 +43,25 @@ TEST(ControlMatrix, ClassAIsOneOfTwoRangesOfS) {
   EXPECT_FALSE(is_class_a({alpha, 0}, 0));
   EXPECT_FALSE(is_class_a({alpha, -2 / c}, 0));
   EXPECT_FALSE(is_class_a({2, 5}, 0));
+}
+
+// Ratios of lengths 5 and 5 (1 + d) lie 5 d / 2 from their mean; the tolerance is that of s = 1.
+TEST(Cav, MatricesAreOneUpToTheToleranceTimesTheirSize) {
+  CavOptions options;
+  options.tolerance = 1e-3;
+  for (const auto& [d, type] : {std::pair{1.6e-3, 3}, {2.4e-3, 4}}) {
+    const core::Point2 first{1, 0};
+    const core::Point2 second{1 + 5 * std::cos(0.3), 5 * std::sin(0.3)};
+    const double length = 25 * (1 + d);
+    const Bezier2 c{{{0, 0},
+                     first,
+                     second,
+                     {second.x + length * std::cos(0.6), second.y + length * std::sin(0.6)}},
+                    {}};
+    const auto reading = read_curve(c, options);
+    ASSERT_TRUE(reading);
+    EXPECT_EQ(reading->matrix.type, type) << d;
+  }
 }
 
 }  // namespace
