@@ -135,6 +135,7 @@ void drop_outliers(Working& work, double noise, std::size_t stride, KeyLine& lin
     }
     line.report.outliers += strays.size();
     detail::remove_points(work, strays);
+    merge(work, line);  // those that had a stray between them
   }
   std::sort(line.report.outlier_sources.begin(), line.report.outlier_sources.end());
   if (line.report.outliers > 0) {

@@ -27,15 +27,18 @@ struct Neighbours {
   double spacing = 0;  // largest step between neighbours on one side
 };
 
-/// Neighbours of the run [first, last], `stride` apart; false near the ends of open curves.
+/// Neighbours of the run [first, last], `stride` apart; false near the ends of open curves. Where
+/// the points come back from a single one to where they left, that place is a neighbour once.
 bool collect(std::span<const core::Point2> points, bool closed, std::size_t first, std::size_t last,
              std::size_t stride, Neighbours& out) {
   const std::size_t n = points.size();
   const std::size_t reach = kSide * stride;
-  if (!closed && (first < reach || last + reach >= n)) return false;
+  const bool back = first == last && points[(first + n - 1) % n] == points[(last + 1) % n];
+  const std::size_t next = back ? last + 1 : last;
+  if (!closed && (first < reach || next + reach >= n)) return false;
   for (std::size_t k = 1; k <= kSide; ++k) {
     out.points[kSide - k] = points[(first + n - k * stride) % n];
-    out.points[kSide - 1 + k] = points[(last + k * stride) % n];
+    out.points[kSide - 1 + k] = points[(next + k * stride) % n];
   }
   out.spacing = 0;
   for (std::size_t k = 1; k < kSide; ++k) {

@@ -74,6 +74,23 @@ core::Point2 joukowski(double share) {
   return {place.real(), place.imag()};
 }
 
+// A point that was written twice, with a stray in between.
+TEST(AcquireKeyLine, StraysBetweenTheCopiesOfAPointGo) {
+  std::vector<core::Point3> points;
+  for (int i = 0; i < 60; ++i) {
+    const double t = 2 * core::kPi * i / 60;
+    points.push_back({3 * std::cos(t), std::sin(t), 0});
+    if (i != 20) continue;
+    points.push_back({9, 8, 0});
+    points.push_back(points[20]);
+  }
+  const KeyLine line = acquire_key_line(curve_of(std::move(points))).value();
+  EXPECT_EQ(line.points.size(), 60U);
+  EXPECT_EQ(line.report.outliers, 1U);
+  EXPECT_EQ(line.report.outlier_sources, std::vector<std::size_t>{21});
+  EXPECT_TRUE(line.closed);
+}
+
 // What errors make of steps smaller than they are is no way round the trailing edge.
 TEST(AcquireKeyLine, NoiseClosesNoAerofoilRoundItsTrailingEdge) {
   int wrong = 0;
