@@ -71,8 +71,30 @@ Result<void> refuse_newer(std::int64_t version, std::size_t ours) {
                     "use the keyline that wrote it, or a newer one");
 }
 
-/// Version 0 is a file with nothing in it, or somebody else's.
+/// All that is read while it lives is of one state of the file, in a transaction or not.
+class OneState {
+ public:
+  explicit OneState(Database& database) : database_(database) {
+    begun_ = database.execute("SAVEPOINT one_state");
+  }
+  ~OneState() {
+    if (begun_) static_cast<void>(database_.execute("RELEASE one_state"));
+  }
+  OneState(const OneState&) = delete;
+  OneState& operator=(const OneState&) = delete;
+
+  const Result<void>& begun() const { return begun_; }
+
+ private:
+  Database& database_;
+  Result<void> begun_;
+};
+
+/// Version 0 is a file with nothing in it, or somebody else's. Read in one state: between two reads
+/// another program may make the file a library.
 Result<std::int64_t> version_of(Database& database) {
+  const OneState state(database);
+  if (!state.begun()) return std::unexpected(state.begun().error());
   const auto application = database.integer("PRAGMA application_id");
   if (!application) return std::unexpected(application.error());
   const auto things = database.integer("SELECT count(*) FROM sqlite_schema");
