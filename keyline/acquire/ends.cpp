@@ -13,8 +13,8 @@ constexpr double kAcross = 0.8;      // radians
 constexpr double kOften = 4.6;       // -ln(0.01): one loop in a hundred has a wider gap
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
 constexpr double kClearance = 4;     // and less than so many standard errors of the turn there
-constexpr double kAbout = 0.7;       // of the steps at the ends: about as long as those
 constexpr double kByChance = 2;      // the same of the turns beside it, which no corner is beside
+constexpr double kAbout = 0.7;       // of the steps at the ends: about as long as those
 
 /// Largest of the steps near both ends.
 double spacing_at_ends(std::span<const core::Point2> points, std::size_t stride) {
@@ -38,7 +38,7 @@ class FromEnd {
   }
 
   /// The first point, from the one with that index on, that is at least so far away.
-  std::size_t away(double distance, std::size_t from = 1) const {
+  std::size_t away(double distance, std::size_t from) const {
     std::size_t k = from;
     while (k + 1 < points_.size() / 4 && core::distance((*this)[0], (*this)[k]) < distance) ++k;
     return k;

@@ -122,6 +122,7 @@ std::vector<PatchJoint> joints_of(std::span<const BezierSurface> patches, double
 }
 
 EdgeTolerance with_gap(const EdgeTolerance& tolerance, std::span<const BezierSurface> patches) {
+  if (tolerance.gap) return tolerance;
   Net all;
   for (const BezierSurface& s : patches)
     all.points.insert(all.points.end(), s.net.points.begin(), s.net.points.end());

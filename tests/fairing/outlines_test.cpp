@@ -21,38 +21,46 @@ namespace {
 
 using testing::line_through;
 
-/// NACA 23012 at an angle from the leading edge, -pi (lower trailing edge) to pi. Source: Jacobs
-/// and Pinkerton, NACA Report 537 (1935).
-core::Point2 naca_23012(double angle) {
-  constexpr double kThickness = 0.12;
-  constexpr double kReach = 0.2025;
-  constexpr double kCamber = 15.957;
+/// Where a mean line runs: how high, and how fast it rises.
+struct Mean {
+  double height = 0;
+  double rise = 0;
+};
+
+/// NACA aerofoil of that thickness about a mean line (of x), at an angle from the leading edge, -pi
+/// (lower trailing edge) to pi. Source: Jacobs, Ward and Pinkerton, NACA Report 460 (1933).
+template <class MeanLine>
+core::Point2 naca(double angle, double thickness, const MeanLine& mean_line) {
   const double x = 0.5 * (1 - std::cos(angle));
   const double side = angle < 0 ? -1 : 1;
   const double even = x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1015 * x)));
-  const double half = 5 * kThickness * (0.2969 * std::sin(angle / 2) + side * even);
-  const double r = kReach;
-  const bool fore = x < r;
-  const double mean = fore ? x * x * x - 3 * r * x * x + r * r * (3 - r) * x : r * r * r * (1 - x);
-  const double rise = fore ? 3 * x * x - 6 * r * x + r * r * (3 - r) : -r * r * r;
-  const double slope = std::atan(kCamber / 6 * rise);
-  return {x - half * std::sin(slope), kCamber / 6 * mean + half * std::cos(slope)};
+  const double half = 5 * thickness * (0.2969 * std::sin(angle / 2) + side * even);
+  const Mean mean = mean_line(x);
+  const double slope = std::atan(mean.rise);
+  return {x - half * std::sin(slope), mean.height + half * std::cos(slope)};
 }
 
-/// NACA 6406 at an angle from the leading edge, as above. Source: Jacobs, Ward and Pinkerton, NACA
-/// Report 460 (1933).
+/// Source of the mean line: Jacobs and Pinkerton, NACA Report 537 (1935).
+core::Point2 naca_23012(double angle) {
+  return naca(angle, 0.12, [](double x) {
+    constexpr double r = 0.2025;
+    constexpr double kCamber = 15.957 / 6;
+    const bool fore = x < r;
+    const double mean =
+        fore ? x * x * x - 3 * r * x * x + r * r * (3 - r) * x : r * r * r * (1 - x);
+    const double rise = fore ? 3 * x * x - 6 * r * x + r * r * (3 - r) : -r * r * r;
+    return Mean{kCamber * mean, kCamber * rise};
+  });
+}
+
 core::Point2 naca_6406(double angle) {
-  constexpr double kCamber = 0.06;
-  constexpr double kCrest = 0.4;
-  constexpr double kThickness = 0.06;
-  const double x = 0.5 * (1 - std::cos(angle));
-  const double side = angle < 0 ? -1 : 1;
-  const double even = x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1015 * x)));
-  const double half = 5 * kThickness * (0.2969 * std::sin(angle / 2) + side * even);
-  const double part = x < kCrest ? kCrest : 1 - kCrest;
-  const double away = (x - kCrest) / part;
-  const double slope = std::atan(-2 * kCamber * away / part);
-  return {x - half * std::sin(slope), kCamber * (1 - away * away) + half * std::cos(slope)};
+  return naca(angle, 0.06, [](double x) {
+    constexpr double kCamber = 0.06;
+    constexpr double kCrest = 0.4;
+    const double part = x < kCrest ? kCrest : 1 - kCrest;
+    const double away = (x - kCrest) / part;
+    return Mean{kCamber * (1 - away * away), -2 * kCamber * away / part};
+  });
 }
 
 /// L^3 times the integral of (d curvature / ds)^2 of the aerofoil, by differences.
