@@ -105,7 +105,6 @@ double scale_at_end_angle(double alpha, double angle, int degree, const core::In
   if (!(s.low < s.high)) return s.low;
   if ((degree - 1) * alpha > core::kPi) {  // winding: the angle itself tells the turns apart
     const auto f = [&](double x) { return end_angle({alpha, std::exp(x)}, degree) - angle; };
-    if (f(std::log(s.low)) >= 0) return s.low;
     if (f(std::log(s.high)) <= 0) return s.high;
     const auto root = numeric::bracketed_root(f, std::log(s.low), std::log(s.high), 1e-16);
     return std::exp(root.value_or(std::log(s.low)));

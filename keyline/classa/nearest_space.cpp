@@ -28,17 +28,12 @@ struct Plane {
   Point3 lifted(Point2 p) const { return origin + (p.x * x + p.y * y); }
 };
 
-Vector3 any_normal(Vector3 a) {
-  const Vector3 axis = std::abs(a.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-  return cross(a, axis) / norm(cross(a, axis));
-}
-
 /// The direction across the chord in which the points spread most, the smaller eigenvalue's at
 /// right angles to it: both from one angle, as across the chord there are only two dimensions.
 Plane plane_through_ends(const std::vector<Point3>& points) {
   Plane plane{points.front(), points.back() - points.front(), {}, {}};
   plane.x = plane.x / norm(plane.x);
-  const Vector3 a = any_normal(plane.x);
+  const Vector3 a = core::any_normal(plane.x);
   const Vector3 b = cross(plane.x, a);
   double aa = 0, ab = 0, bb = 0;
   for (const Point3& p : points) {

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/axis.h"
+
 namespace keyline::classa::detail {
 
 using core::Point3;
 using core::Vector3;
 
 namespace {
-
-/// A unit vector at right angles to the unit vector a.
-Vector3 any_normal(Vector3 a) {
-  const Vector3 axis = std::abs(a.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-  const Vector3 n = cross(a, axis);
-  return n / norm(n);
-}
 
 template <class Length>
 Vector3 longest(std::span<const Point3> points, const Length& length) {
@@ -42,7 +37,7 @@ Flattened flatten(std::span<const Point3> points) {
   const auto beside = [&x](Vector3 v) { return v - dot(v, x) * x; };
   const Vector3 off = beside(longest(points, [&](Vector3 v) { return norm(beside(v)); }));
   const bool line = norm(off) <= 1e-14 * flat.size;
-  const Vector3 y = line ? any_normal(x) : off / norm(off);
+  const Vector3 y = line ? core::any_normal(x) : off / norm(off);
   const Vector3 z = cross(x, y);
   flat.origin = points.front();
   flat.x = x;

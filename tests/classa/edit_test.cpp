@@ -1,5 +1,6 @@
 #include "keyline/classa/edit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -105,6 +106,33 @@ TEST(Edit, TargetsByHand) {
   ASSERT_TRUE(start);
   EXPECT_NEAR(start->after.matrix->s, 1.5, 1e-12);
   EXPECT_NEAR(start_direction(start->curve), std::atan2(2, 1), 1e-12);
+}
+
+// A place whose curve misses the end by no more than the tolerance is taken as it is, its end the
+// nearest on its ray; any other turns the ray as far as the tolerance allows, by asin of it.
+TEST(Edit, EndsTurnTowardsTheTargetAsFarAsTheyMay) {
+  const auto given = to_bezier(kOya);
+  const core::Vector2 chord = given.control.back() - given.control.front();
+  constexpr double kSlack = 0.02;
+  for (const double off : {-0.05, -0.015, 0.0, 0.015, 0.05}) {
+    SCOPED_TRACE(off);
+    EditOptions options;
+    options.cav.end_tolerance = kSlack * norm(chord);
+    const double middle = end_angle(kOya.matrix, 3);
+    const double s = scale_at_end_angle(0.7, middle + off, 3, {1e-3, 1e3});
+    options.target = ControlMatrix{0.7, s};
+    const auto edited = edit(given, options);
+    ASSERT_TRUE(edited) << edited.error().message;
+    const core::Vector2 reached = edited->curve.control.back() - given.control.front();
+    const double most = std::asin(kSlack);
+    const double turn = std::clamp(off, -most, most);
+    EXPECT_NEAR(core::angle_between(chord, reached), turn, 1e-9);
+    EXPECT_NEAR(norm(reached), norm(chord) * std::cos(turn), 1e-9);
+    if (turn == off)
+      EXPECT_EQ(edited->target, *options.target);
+    else
+      EXPECT_GT(plane_distance(edited->target, *options.target), 1e-3);
+  }
 }
 
 TEST(Edit, FreeFormReachesItsMinimum) {

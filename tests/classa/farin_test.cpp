@@ -43,7 +43,7 @@ TEST(Farin, AChangeWithinTheToleranceIsLeftUndecided) {
   const MonotoneVerdict no = certify_monotone_curvature(c);
   EXPECT_EQ(no.direction, -1);
   EXPECT_GT(curvature(c, no.witness + 1e-4), curvature(c, no.witness - 1e-4));
-  for (const double share : {0.5, 1 - 1e-9, 1 + 1e-9, 2.0}) {
+  for (const double share : {0.5, 1 - 1e-9, 1.0, 1 + 1e-9, 2.0}) {
     const MonotoneVerdict verdict = certify_monotone_curvature(c, share * no.backward);
     EXPECT_EQ(verdict.answer, share < 1 ? MonotoneVerdict::no : MonotoneVerdict::undecided);
     EXPECT_EQ(verdict.direction, no.direction);
