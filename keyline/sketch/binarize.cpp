@@ -241,9 +241,10 @@ class Nearby {
 };
 
 /// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak); where the latter
-/// is comes back.
+/// is comes back. What else is darker than paper becomes faint.
 std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const Regions& regions,
-                              double faintest, Binary& marks) {
+                              double faintest, Binarized& result) {
+  Binary& marks = result.ink;
   const int least = static_cast<int>(std::floor(faintest * kBlack));
   const double sigma = tone.noise / tone.gain > kNoisy ? kStrongBlur : kBlur;
   std::mutex adding;
@@ -262,8 +263,11 @@ std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const
         const double here = row[x] / kBlack;
         if (here < faintest) return;
         const double strong = std::max(threshold(x), faintest);
-        if (here < std::max(kWeakShare * strong, faintest)) return;
-        if (nearby.has_darker(row + x, row[x] / kLocalShare)) return;
+        if (here < std::max(kWeakShare * strong, faintest) ||
+            nearby.has_darker(row + x, row[x] / kLocalShare)) {
+          result.faint.set(x, y);
+          return;
+        }
         marks.at(x, y) = here >= strong ? kStrong : kWeak;
         if (here < strong) found.push_back(marks.index(x, y));
       });
@@ -274,8 +278,9 @@ std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const
   return weak;
 }
 
-/// Weak pixels connected to strong ones become ink, the others paper.
-void keep_connected(const std::vector<std::size_t>& weak, Binary& marks) {
+/// Weak pixels connected to strong ones become ink, the others faint.
+void keep_connected(const std::vector<std::size_t>& weak, Binarized& result) {
+  Binary& marks = result.ink;
   std::vector<std::size_t> stack;
   const auto w = static_cast<std::size_t>(marks.width);
   // calls see(j) for the pixels around i that are marked so, until one says stop
@@ -302,8 +307,11 @@ void keep_connected(const std::vector<std::size_t>& weak, Binary& marks) {
       any_around(j, kWeak, keep);
     }
   }
-  for (const std::size_t i : weak)
-    if (marks.data[i] == kWeak) marks.data[i] = kPaper;
+  for (const std::size_t i : weak) {
+    if (marks.data[i] != kWeak) continue;
+    marks.data[i] = kPaper;
+    result.faint.set(static_cast<int>(i % w), static_cast<int>(i / w));
+  }
 }
 
 /// Given thresholds over the automatic ones; levels y of the log picture outside, darkness inside.
@@ -339,7 +347,8 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
   const double faintest = std::max(kFaintest, kNoiseFactor * noise);
   Regions regions = automatic_regions(tone.level, dark, faintest);
   apply_given(options, tone.gain, result, regions);
-  keep_connected(mark(tone, dark, regions, faintest, result.ink), result.ink);
+  result.faint = FaintPixels(result.ink.width, result.ink.height);
+  keep_connected(mark(tone, dark, regions, faintest, result), result);
   return result;
 }
 

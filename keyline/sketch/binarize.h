@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "keyline/sketch/faint_ink.h"
 #include "keyline/sketch/thinning.h"
 #include "keyline/sketch/tone.h"
 
@@ -23,6 +24,7 @@ struct BinarizeOptions {
 
 struct Binarized {
   Binary ink;
+  FaintPixels faint;  ///< darker than paper, but no ink; none where one threshold is given for all
   std::array<double, kRegionCount> thresholds{};
   std::array<bool, kRegionCount> empty{};  ///< regions without ink: threshold of their neighbours
 };

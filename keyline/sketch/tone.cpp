@@ -21,6 +21,8 @@ using Gray = Raster<std::uint16_t>;
 
 constexpr int kImpulse = 9000;  ///< salt and pepper differ by this much from all neighbours
 
+constexpr double kPaperShare = 0.8;  ///< of the picture, no lighter than its paper
+
 constexpr double kAlone = 0.35;  ///< of a dark pixel's depth: a neighbour with more is its line
 
 /// What a pixel that stands out of all of its neighbours becomes: their median. Dark ones only
@@ -125,8 +127,9 @@ Tone transform_intensity(Image image, const ToneOptions& options) {
   tone.level = std::move(image.luminance);
   if (tone.light_on_dark)
     for (std::uint16_t& v : tone.level.data) v = static_cast<std::uint16_t>(65535 - v);
+  tone.margins = clear_margins(tone.level, percentile(tone.level, kPaperShare));
   remove_impulses(tone.level);
-  const double paper = std::max(intensity(percentile(tone.level, 0.8)), 2.0);
+  const double paper = std::max(intensity(percentile(tone.level, kPaperShare)), 2.0);
   tone.gain = options.gain.value_or(1 / std::log(paper));
   look_up(tone.level, tones(tone.gain), tone.level);
   tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));

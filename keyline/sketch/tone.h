@@ -5,6 +5,7 @@
 
 #include "keyline/core/describe.h"
 #include "keyline/sketch/image.h"
+#include "keyline/sketch/margins.h"
 
 namespace keyline::sketch {
 
@@ -35,6 +36,7 @@ struct Tone {
   double gain = 0;
   bool light_on_dark = false;
   bool flattened = false;
+  Margins margins;    ///< that were made as light as the paper
   double noise = 0;   ///< standard deviation of y on paper
   double shaded = 0;  ///< share of the picture a third darker than paper, before flattening
 
@@ -46,8 +48,8 @@ struct Tone {
 double darkness_of(double y, double gain);
 
 /// Light intensity transformation y = a·log x ([Sketch] Eq. 11), after single stray pixels (salt
-/// and pepper) were taken out; on request or need the paper's own brightness, estimated from
-/// blocks, is divided out.
+/// and pepper) and dark margins were taken out; on request or need the paper's own brightness,
+/// estimated from blocks, is divided out.
 Tone transform_intensity(Image image, const ToneOptions& options = {});
 
 /// Blurs the levels (sigma in pixels), which closes the grain of a pencil, and measures the noise

@@ -14,11 +14,14 @@
 #include "keyline/sketch/enlargement.h"
 
 #include "kinds_generator.h"
+#include "page.h"
 
 namespace keyline::sketch {
 namespace {
 
 using core::Point2;
+using testing::blank_page;
+using testing::draw_line;
 
 /// White paper with black rings, drawn with soft edges.
 Image rings(int size, const std::vector<double>& radii, double width) {
@@ -48,26 +51,6 @@ TEST(Trace, FindsRingsAsClosedStrokes) {
       for (const double t : {0.0, 0.3, 0.6})
         EXPECT_NEAR(core::distance(evaluate(piece, t), {200, 200}), radii[i], 0.5);
   }
-}
-
-/// A page with lines drawn into it: darkness 0 … 1 by distance from the line.
-void draw_line(Image& image, Point2 from, Point2 to, double width, double ink = 0.9) {
-  const core::Vector2 d = to - from;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) {
-      const Point2 p{x + 0.5, y + 0.5};
-      const double u = std::clamp(core::dot(p - from, d) / core::dot(d, d), 0.0, 1.0);
-      const double off = core::distance(p, from + u * d);
-      const double cover = std::clamp(0.5 + 0.5 * width - off, 0.0, 1.0);
-      std::uint16_t& v = image.luminance.at(x, y);
-      v = static_cast<std::uint16_t>(v * (1 - ink * cover));
-    }
-}
-
-Image blank_page(int width, int height) {
-  Image page;
-  page.luminance = Raster<std::uint16_t>(width, height, 65535);
-  return page;
 }
 
 // Along a hairline the grey swells and fades: its dark pixels are no pepper.

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "keyline/sketch/thinning.h"
+
+namespace keyline::sketch {
+
+/// Pixels seen to be darker than paper that are no ink: the soft border of lines, and what is too
+/// faint beside or below darker ink. A bit each; rows may be written to at the same time.
+class FaintPixels {
+ public:
+  FaintPixels() = default;
+  FaintPixels(int width, int height) : width_(width), bits_((width + 7) / 8, height) {}
+
+  bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < bits_.height; }
+  bool at(int x, int y) const { return (bits_.at(x / 8, y) >> (x % 8) & 1) != 0; }
+  void set(int x, int y) { bits_.at(x / 8, y) |= static_cast<std::uint8_t>(1 << (x % 8)); }
+  void clear(int x, int y) { bits_.at(x / 8, y) &= static_cast<std::uint8_t>(~(1 << (x % 8))); }
+
+  int height() const { return bits_.height; }
+  /// Calls see(x) for every pixel of a row that is set; it may clear that one.
+  template <class See>
+  void visit(int y, const See& see) const {
+    for (int b = 0; b < bits_.width; ++b) {
+      if (bits_.at(b, y) == 0) continue;
+      for (int x = 8 * b; x < 8 * b + 8; ++x)
+        if (at(x, y)) see(x);
+    }
+  }
+
+ private:
+  int width_ = 0;
+  Raster<std::uint8_t> bits_;
+};
+
+/// How many faint pixels are ink of their own that was lost: farther than `reach` from all ink,
+/// in pieces (8-connected) of at least `specks` pixels. The faint pixels are spent.
+std::size_t count_lost(FaintPixels& faint, const Binary& ink, double reach, int specks);
+
+}  // namespace keyline::sketch

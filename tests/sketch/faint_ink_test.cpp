@@ -1,0 +1,88 @@
+#include "keyline/sketch/faint_ink.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "keyline/sketch/trace.h"
+
+#include "page.h"
+
+namespace keyline::sketch {
+namespace {
+
+using testing::blank_page;
+using testing::draw_line;
+
+bool warns(const TraceResult& result) {
+  return std::ranges::any_of(result.notes, [](const std::string& note) {
+    return note.starts_with("warning: the lines explain");
+  });
+}
+
+// Pencil of an eighth of the paper's light beside and across ink: too faint to become a line
+// there, so it has to be missed.
+TEST(FaintInk, IsMissedWhereItIsLost) {
+  for (const double beside : {8.0, 12.0, 40.0}) {
+    SCOPED_TRACE(beside);
+    Image page = blank_page(400, 300);
+    draw_line(page, {40, 100}, {360, 140}, 4, 0.125);
+    draw_line(page, {40, 100 + beside}, {360, 140 + beside}, 4, 0.95);
+    const auto result = trace(page);
+    ASSERT_TRUE(result);
+    if (result->strokes.size() == 1) {
+      // half of what was drawn, less the pencil's soft border and what is next to the ink
+      EXPECT_NEAR(result->explained, 0.5, 0.15);
+      EXPECT_TRUE(warns(*result));
+    } else {
+      EXPECT_GT(result->explained, 0.97);
+    }
+  }
+}
+
+TEST(FaintInk, IsNotSeenInTheBordersOfLines) {
+  for (const double width : {1.0, 2.0, 5.0, 12.0, 20.0}) {
+    SCOPED_TRACE(width);
+    Image page = blank_page(400, 300);
+    draw_line(page, {40, 100}, {360, 140}, width);
+    const auto sharp = trace(page);
+    ASSERT_TRUE(sharp);
+    EXPECT_GT(sharp->explained, 0.99);
+    Image soft = page;  // out of focus
+    const int reach = static_cast<int>(0.5 * width);
+    for (int y = 0; y < page.height(); ++y)
+      for (int x = 0; x < page.width(); ++x) {
+        double sum = 0;
+        int count = 0;
+        for (int v = std::max(0, y - reach); v <= std::min(page.height() - 1, y + reach); ++v) {
+          sum += page.luminance.at(x, v);
+          ++count;
+        }
+        soft.luminance.at(x, y) = static_cast<std::uint16_t>(sum / count);
+      }
+    const auto blurred = trace(soft);
+    ASSERT_TRUE(blurred);
+    EXPECT_FALSE(warns(*blurred)) << blurred->explained;
+  }
+}
+
+TEST(FaintInk, IsCountedByPieces) {
+  Binary ink(40, 30);
+  for (int x = 0; x < 40; ++x) ink.at(x, 10) = 1;
+  FaintPixels faint(40, 30);
+  const auto fill = [&](int y, int from, int to) {
+    for (int x = from; x < to; ++x) faint.set(x, y);
+  };
+  fill(11, 0, 40);  // the ink's border
+  fill(13, 0, 40);
+  fill(20, 3, 17);  // 14 pixels, and 6 more across a corner
+  fill(21, 17, 23);
+  fill(25, 30, 37);  // 7
+  FaintPixels again = faint;
+  EXPECT_EQ(count_lost(faint, ink, 3, 8), 20U);
+  EXPECT_EQ(count_lost(again, ink, 2.5, 1), 67U);
+}
+
+}  // namespace
+}  // namespace keyline::sketch
