@@ -77,6 +77,12 @@ TEST(TwoLines, TellsLinesThatTheHandWasLiftedBetween) {
   std::vector<DrawnStroke> in_turn;
   for (int k = 0; k < 8; ++k) in_turn.push_back(part(80 * k, 80 * k + 100, k % 3));
   EXPECT_TRUE(told(in_turn).empty());
+  // two stretches of strokes that overlap by more than a third; none is drawn whole by one stroke
+  std::vector<DrawnStroke> overlapping;
+  for (const double begin : {0.0, 270.0})
+    for (int k = 0; k < 4; ++k)
+      overlapping.push_back(part(begin + 60 * k, begin + 60 * k + 100, k % 3));
+  EXPECT_TRUE(told(overlapping).empty());
 }
 
 // A construction line through a car's sill: it runs along it for a third of its way.
