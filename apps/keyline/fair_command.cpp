@@ -138,9 +138,20 @@ int verdict_of(const Faired& faired, const std::string& file) {
 
 using Answers = std::vector<std::optional<Result<operations::Outcome>>>;
 
+/// A failure of the curve that was read: told by the file and, of many, by the curve's name instead
+/// of the option that a request gives it with.
+core::Failure of_file(core::Failure failure, const std::string& file, const json& thing,
+                      bool many) {
+  const bool of_curve = failure.path.empty() || failure.path.starts_with("--points") ||
+                        failure.path.starts_with("--curve");
+  if (!of_curve) return failure;
+  failure.path = many ? file + ": " + thing["name"].get<std::string>() : file;
+  return failure;
+}
+
 /// Those that there are. What failed decides for all, the first of them first; work that was
 /// cancelled has come to something where one of those at work had a best until then.
-Result<Faired> kept(Answers answers, const std::vector<json>& things) {
+Result<Faired> kept(Answers answers, const std::vector<json>& things, const std::string& file) {
   Faired faired{{}, {}, things.size()};
   core::Failure cancelled{core::ErrorCode::cancelled, "cancelled", "", ""};
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -152,7 +163,7 @@ Result<Faired> kept(Answers answers, const std::vector<json>& things) {
       continue;
     }
     if (answers[i]->error().code != core::ErrorCode::cancelled)
-      return std::unexpected(answers[i]->error());
+      return std::unexpected(of_file(answers[i]->error(), file, things[i], things.size() > 1));
     cancelled = answers[i]->error();
   }
   const std::size_t done = faired.done();
@@ -175,7 +186,7 @@ Result<Faired> fair_all(Session& session, const std::vector<json>& things) {
   };
   operations::work_on_all(session.progress(), things.size(), session.door().threads, fair_one);
   end_progress();
-  return kept(std::move(answers), things);
+  return kept(std::move(answers), things, session.files().front());
 }
 
 /// A request of document.write, within a tenth of the tolerance: what is written is faired too.

@@ -59,7 +59,7 @@ std::vector<std::size_t> finite_points(const RawCurve& raw) {
 }
 
 std::size_t merge_repeated(Working& work) {
-  const double least = 1e-9 * extent_of(work.points);
+  const double least = 1e-9 * middle_extent_of(work.points);
   std::size_t kept = 0;
   const std::size_t n = work.points.size();
   for (std::size_t i = 0; i < n; ++i) {

@@ -24,8 +24,9 @@ core::Result<void> check_input(const RawCurve& raw);
 /// Indices of the points whose coordinates (and weights) are finite.
 std::vector<std::size_t> finite_points(const RawCurve& raw);
 
-/// Joins neighbours at the same place (within 1e-9 of the extent), adding weights; returns how
-/// many went. The last point is kept even where it repeats the first.
+/// Joins neighbours at the same place (within 1e-9 of the extent of the middle halves of the
+/// coordinates), adding weights; returns how many went. The last point is kept even where it
+/// repeats the first.
 std::size_t merge_repeated(Working& work);
 
 /// Removes the given indices (increasing).

@@ -22,6 +22,9 @@ constexpr double kRunAside = 0.6;  // or a run of strays
 constexpr double kBridge = 1.5;  // longest such gap, in steps: across a wider one nothing is known
 constexpr double kBend = 0.9;    // largest turn at the ends of the gap, radians
 
+constexpr double kJump = 12;           // far away: this many times the steps around
+constexpr std::ptrdiff_t kAround = 5;  // of which there are so many on each side
+
 struct Neighbours {
   std::array<core::Point2, 2 * kSide> points;
   double spacing = 0;  // largest step between neighbours on one side
@@ -102,20 +105,52 @@ double usual_residual(std::span<const core::Point2> points, bool closed, double 
   return core::quantile(std::move(residuals), 3, 4);
 }
 
-/// Single end points of an open curve that lie many steps away from the rest.
-void add_end_strays(std::span<const core::Point2> points, std::vector<std::size_t>& strays) {
+/// Steps between up to kAround + 1 points in a row, from `from` on by `by`, added to `steps`.
+void add_steps(std::span<const core::Point2> points, bool closed, std::size_t from, int by,
+               std::vector<double>& steps) {
+  const auto n = static_cast<std::ptrdiff_t>(points.size());
+  for (std::ptrdiff_t k = 0; k < kAround; ++k) {
+    std::ptrdiff_t a = static_cast<std::ptrdiff_t>(from) + k * by, b = a + by;
+    if (closed) {
+      a = (a + 2 * n) % n;
+      b = (b + 2 * n) % n;
+    }
+    if (std::min(a, b) < 0 || std::max(a, b) >= n) break;
+    steps.push_back(core::distance(points[a], points[b]));
+  }
+}
+
+/// Whether an end of an open curve lies many times its largest step away.
+bool is_far_end(std::span<const core::Point2> points, bool first) {
+  const std::size_t end = first ? 0 : points.size() - 1;
+  const std::size_t next = first ? 1 : end - 1;
+  std::vector<double> steps;
+  add_steps(points, false, next, first ? 1 : -1, steps);
+  return core::distance(points[end], points[next]) > kJump * *std::ranges::max_element(steps);
+}
+
+/// Single points many steps away from the rest: an end of an open curve, and what lies between two
+/// neighbours that are not much farther from each other than others are.
+void add_far_strays(std::span<const core::Point2> points, bool closed,
+                    std::vector<std::size_t>& strays) {
   const std::size_t n = points.size();
   if (n < 10) return;
-  const auto jump = [&](std::size_t a, std::size_t b) {
-    return core::distance(points[a], points[b]);
-  };
-  double first = 0, last = 0;
-  for (std::size_t k = 1; k <= 5; ++k) {
-    first = std::max(first, jump(k, k + 1));
-    last = std::max(last, jump(n - 1 - k, n - 2 - k));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!closed && (i == 0 || i + 1 == n)) {
+      if (is_far_end(points, i == 0)) strays.push_back(i);
+      continue;
+    }
+    const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+    const double jump = std::min(core::distance(points[before], points[i]),
+                                 core::distance(points[i], points[after]));
+    const double bridge = core::distance(points[before], points[after]);
+    if (2 * kBridge * jump <= kJump * bridge) continue;
+    std::vector<double> steps;
+    add_steps(points, closed, before, -1, steps);
+    add_steps(points, closed, after, 1, steps);
+    const double usual = core::quantile(std::move(steps));
+    if (bridge <= 2 * kBridge * usual && jump > kJump * usual) strays.push_back(i);
   }
-  if (jump(0, 1) > 12 * first) strays.push_back(0);
-  if (jump(n - 1, n - 2) > 12 * last) strays.push_back(n - 1);
 }
 
 }  // namespace
@@ -136,7 +171,7 @@ std::vector<std::size_t> find_outliers(std::span<const core::Point2> points, boo
     for (std::size_t k = 0; k < run; ++k) strays.push_back(i + k);
     i += std::max<std::size_t>(run, 1);
   }
-  if (!closed) add_end_strays(points, strays);
+  add_far_strays(points, closed, strays);
   std::sort(strays.begin(), strays.end());
   strays.erase(std::unique(strays.begin(), strays.end()), strays.end());
   return strays;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
+#include <vector>
 
 #include "keyline/core/point.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::acquire::detail {
 
@@ -16,6 +19,20 @@ inline double extent_of(std::span<const core::Point2> points) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   return core::distance(low, high);
+}
+
+/// The same of the box of middle halves of the coordinates: what a stray, however far, leaves
+/// alone.
+inline double middle_extent_of(std::span<const core::Point2> points) {
+  std::vector<double> x, y;
+  for (const core::Point2& p : points) {
+    x.push_back(p.x);
+    y.push_back(p.y);
+  }
+  const auto middle = [](const std::vector<double>& values) {
+    return core::quantile(values, 3, 4) - core::quantile(values, 1, 4);
+  };
+  return std::hypot(middle(x), middle(y));
 }
 
 }  // namespace keyline::acquire::detail

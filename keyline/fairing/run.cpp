@@ -235,7 +235,10 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
     if (options.max_rate) return;  // a limit comes before the tolerance
     solve(shortest, run, frame, spline, options);
     result.missed = !shortest.within_tolerance;
-    if (result.missed) return;
+    if (result.missed) {
+      if (winds(result, run) && !winds(shortest, run)) result = std::move(shortest);
+      return;
+    }
     result = std::move(shortest);
     result.calm_missed = true;
     return;
@@ -255,7 +258,7 @@ RunResult solved_run(const Run& run, const curve::BSpline2& spline, const RunOpt
   result.point_of.resize(run.points.size());
   const std::vector<std::size_t> held = holders(result, frame);
   for (std::size_t j = 0; j < frame.order.size(); ++j) result.point_of[frame.order[j]] = held[j];
-  result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
+  if (!winds(result, run)) result.chain = lay_out(result.fit, result.to_canonical, result.reversed);
   return result;
 }
 
@@ -294,7 +297,7 @@ void bring_inside(RunResult& result, const Run& run, const curve::BSpline2& spli
     RunResult again = result;
     if (!solve_inside(again, drawn, spline) || passed_most(again, run) >= most) {
       again = solved_run(drawn, spline, options);
-      if (again.dense.joints.empty()) return;
+      if (again.dense.joints.empty() || winds(again, run)) return;
     }
     if (passed_most(again, run) < most && largest_offset(again, run) <= options.tolerance)
       result = std::move(again);
@@ -319,8 +322,13 @@ void keep_tolerance(RunResult& result, const Run& run, const curve::BSpline2& sp
 
 }  // namespace
 
+bool winds(const RunResult& result, const Run& run) {
+  return !(turned(result.fit) <= core::kPi * static_cast<double>(run.points.size() + 1));
+}
+
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options) {
   RunResult result = solved_run(run, spline, options);
+  if (winds(result, run)) return result;
   if (!result.dense.joints.empty()) {
     keep_tolerance(result, run, spline, options);
     return result;
@@ -352,6 +360,7 @@ void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
       result.within_tolerance = solve_again(result, run, spline, 1);
     if (!result.within_tolerance) {
       result = fair_run(run, spline, options);
+      if (winds(result, run)) result = loose;
       return;
     }
     keep_tolerance(result, run, spline, options);
@@ -361,8 +370,10 @@ void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
   tie(chain.joints.front(), chain.hold_start, held_end(run, frame, spline, true));
   tie(chain.joints.back(), chain.hold_end, held_end(run, frame, spline, false));
   result.within_tolerance = polish(chain, result.points, result.accept, result.exact);
-  if (!result.within_tolerance && loose.within_tolerance)
-    result = fair_run(run, spline, options);
+  RunResult other;
+  if (!result.within_tolerance && loose.within_tolerance) other = fair_run(run, spline, options);
+  if (!other.chain.pieces.empty())
+    result = std::move(other);
   else
     result.chain = lay_out(chain, result.to_canonical, result.reversed);
 }

@@ -83,6 +83,10 @@ struct RunResult {
   DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
 };
 
+/// Whether the chain turns more than the run's points can tell, half a circle from one to the next:
+/// what came of a solution that ran away, and no answer.
+bool winds(const RunResult& result, const Run& run);
+
 /// The shortest chain within the tolerance, solved in a frame of the run's own (size 1, direction
 /// of travel by the shape), polished and laid out as one exact forward chain.
 RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptions& options);

@@ -64,6 +64,7 @@ FitChain closed_chain(const DenseCurve& curve, const std::vector<FitPoint>& poin
 }
 
 double largest_offset(const RunResult& result, const Run& run) {
+  if (result.chain.pieces.empty()) return HUGE_VAL;  // it winds, and was not laid out
   double most = 0;
   for (const PointPlace& place : place_points(result, run))
     most = std::max(most, std::abs(place.offset));

@@ -247,6 +247,13 @@ bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& ac
   return Polisher(chain, points, accept, exact).run();
 }
 
+double turned(const FitChain& chain) {
+  double sum = 0;
+  for (const lac::Piece& piece : laid_forward(chain).pieces)
+    sum += std::abs(lac::total_turning(piece));
+  return sum;
+}
+
 lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed) {
   lac::Chain out = laid_forward(chain);
   const FitJoint& last = chain.joints.back();

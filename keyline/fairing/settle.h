@@ -24,6 +24,9 @@ void flatten(FitChain& chain);
 /// tolerance); not where `exact`, nor where the points do not pass then.
 bool polish(FitChain& chain, std::vector<FitPoint>& points, const Acceptance& accept, bool exact);
 
+/// Sum of what the pieces turn, each taken as positive, radians.
+double turned(const FitChain& chain);
+
 /// One forward chain, G2 at its joints by construction, in the frame `to_canonical` maps from,
 /// run the other way where `reversed`; closed chains and held ends meet their targets to rounding.
 lac::Chain lay_out(const FitChain& chain, const core::Similarity2& to_canonical, bool reversed);

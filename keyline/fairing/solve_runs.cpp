@@ -5,6 +5,10 @@
 #include <functional>
 #include <mutex>
 
+#include <fmt/format.h>
+
+#include "keyline/core/quantile.h"
+#include "keyline/core/text.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
@@ -37,6 +41,23 @@ class Together {
   std::vector<double> told_;  ///< of every task
   double done_ = 0;
 };
+
+/// Why nothing follows the run's points: names the widest step between them.
+core::Failure no_chain(const Run& run) {
+  std::vector<double> steps;
+  for (std::size_t j = 1; j < run.points.size(); ++j)
+    steps.push_back(core::distance(run.points[j - 1], run.points[j]));
+  const auto widest = static_cast<std::size_t>(std::ranges::max_element(steps) - steps.begin());
+  const double most = steps[widest];
+  const core::Point2 after = run.points[widest + 1];
+  return {
+      core::ErrorCode::undrawable,
+      fmt::format("no chain was found that follows the points without winding between them; the "
+                  "widest step, {} to the point at ({:.6g}, {:.6g}), is {} times the usual one",
+                  core::number_text(most, 4), after.x, after.y,
+                  core::number_text(most / core::quantile(std::move(steps)), 3)),
+      "leave out points that do not belong to the line, or give points in its gaps", "points"};
+}
 
 class Solving {
  public:
@@ -96,6 +117,7 @@ class Solving {
     options.progress = together_.of(runs_.size() + k, (1 - kSplineShare) * share());
     solved_[k].chain =
         fair_run(runs_[k], alone(k) ? curve::BSpline2{} : solved_[k].spline, options);
+    if (winds(solved_[k].chain, runs_[k])) failure_[k] = no_chain(runs_[k]);
   }
 
   const std::vector<Run>& runs_;

@@ -145,6 +145,7 @@ std::vector<Run> half_runs(const HalfLine& half, const core::Pose2& axis,
 std::vector<RunResult> unfolded_runs(const std::vector<RunResult>& half_solved,
                                      const HalfLine& half, const core::Pose2& axis,
                                      const std::vector<Run>& runs) {
+  if (half_solved.empty()) return {};
   std::vector<lac::Chain> solved;
   for (const RunResult& one : half_solved) solved.push_back(one.chain);
   const std::vector<lac::Chain> chains =
@@ -161,14 +162,16 @@ std::vector<RunResult> unfolded_runs(const std::vector<RunResult>& half_solved,
   return all;
 }
 
-/// The runs of one half solved, corners and ends in their places.
+/// The runs of one half solved, corners and ends in their places; empty where one has no chain.
 std::vector<RunResult> solve_half(const HalfLine& half, const core::Pose2& axis, const Run& first,
                                   const OptionsOf& options) {
   std::vector<Run> sides = half_runs(half, axis, first.inside);
   if (half.start == HalfEnd::free) sides.front().tie_start = first.tie_start;
   std::vector<RunResult> solved;
-  for (std::size_t k = 0; k < sides.size(); ++k)
+  for (std::size_t k = 0; k < sides.size(); ++k) {
     solved.push_back(fair_run(sides[k], {}, options(k)));
+    if (winds(solved.back(), sides[k])) return {};
+  }
   tie_corners(sides, solved, {}, options, false);
   if (half.start == HalfEnd::free) place_free_ends(solved[0], sides[0], options(0));
   return solved;

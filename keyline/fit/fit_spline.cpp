@@ -14,6 +14,14 @@
 namespace keyline::fit {
 namespace {
 
+std::unexpected<core::Failure> too_few_places(int order) {
+  return core::fail(ErrorCode::bad_input,
+                    "the points lie at too few places, as far apart as they are, for a spline of "
+                    "order " +
+                        std::to_string(order),
+                    "give at least as many points as the order; leave out what lies far off");
+}
+
 using core::ErrorCode;
 using core::Point2;
 
@@ -98,8 +106,7 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
   found.report.data_used = condensed.data.parameters.size();
   SplineSolver solver(std::move(condensed.data), {0, 1}, options.order);
   if (!std::isfinite(solver.sum_of_squares({}))) {
-    return core::fail(ErrorCode::bad_input, "too few different points for a spline of this order",
-                      "give at least as many points as the order");
+    return too_few_places(options.order);
   }
   KnotSearchResult searched = search_knots(solver, criterion, search_options(options), rates);
   found.knots = detail::given_direction(canonical, std::move(searched.knots));
@@ -270,7 +277,7 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
                           ? detail::closed_fit(data, one_turn(found->knots), options.order)
                           : detail::final_fit(data, {0, 1}, found->knots, options.order);
   if (!spline) {
-    return core::fail(ErrorCode::bad_input, "too few different points for a spline of this order");
+    return too_few_places(options.order);
   }
   fit.interior_knots = detail::interior_of(*spline);
   fit.curve = planar_curve(*spline, points.front());

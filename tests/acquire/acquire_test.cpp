@@ -91,6 +91,50 @@ TEST(AcquireKeyLine, StraysBetweenTheCopiesOfAPointGo) {
   EXPECT_TRUE(line.closed);
 }
 
+// However far off a stray is, it is no measure of what points are repeated.
+TEST(AcquireKeyLine, AFarStrayMergesNoPoints) {
+  for (const double far : {1e5, 1e10, 1e20, 1e90}) {
+    std::vector<core::Point3> points;
+    for (int i = 0; i < 80; ++i) {
+      points.push_back({0.1 * i, std::cosh(0.1 * i - 4) / 30, 0});
+    }
+    points[33].x = far;
+    const KeyLine line = acquire_key_line(curve_of(std::move(points))).value();
+    EXPECT_EQ(line.report.duplicates, 0U) << far;
+    EXPECT_EQ(line.report.outlier_sources, std::vector<std::size_t>{33}) << far;
+    EXPECT_EQ(line.points.size(), 79U) << far;
+  }
+}
+
+// Of few points each turns much: what lies dozens of steps off is none of them all the same.
+TEST(AcquireKeyLine, AFarStrayOfFewPointsGoes) {
+  for (const bool open : {false, true}) {
+    for (std::size_t stray = 1; stray < 11; ++stray) {
+      std::vector<core::Point3> points;
+      for (int i = 0; i < 12; ++i) {
+        const double t = (open ? 0.6 : 1) * 2 * core::kPi * i / 12;
+        points.push_back({3 * std::cos(t), 2 * std::sin(t), 0});
+      }
+      points[stray] = {80, 120, 0};
+      const KeyLine line = acquire_key_line(curve_of(std::move(points))).value();
+      EXPECT_EQ(line.report.outlier_sources, std::vector<std::size_t>{stray}) << open;
+    }
+  }
+}
+
+// A sector of a disc, its arc measured finely: its point is as far off as a stray, and none.
+TEST(AcquireKeyLine, ThePointOfASectorIsNoStray) {
+  std::vector<core::Point3> points;
+  const auto arc = [](int i) {
+    return core::Point3{std::cos(core::kPi / 200 * i), std::sin(core::kPi / 200 * i), 0};
+  };
+  for (int i = 20; i <= 40; ++i) points.push_back(arc(i));
+  points.push_back({0, 0, 0});
+  for (int i = 0; i < 20; ++i) points.push_back(arc(i));
+  const KeyLine line = acquire_key_line(curve_of(std::move(points))).value();
+  EXPECT_EQ(line.report.outliers, 0U);
+}
+
 // What errors make of steps smaller than they are is no way round the trailing edge.
 TEST(AcquireKeyLine, NoiseClosesNoAerofoilRoundItsTrailingEdge) {
   int wrong = 0;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/acquire/acquire.h"
+#include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/lac/chain/chain.h"
 
@@ -19,6 +20,31 @@ acquire::KeyLine line_through(const std::vector<core::Point2>& points) {
 
 const lac::Chain kTruth{
     {{10, 5}, 0.3}, {{0.5, 40, 0.01, 0.03}, {-1, 30, 0.03, 0}, {-2, 50, 0, -0.025}}, false};
+
+// Waves of few points, one of them far off: no chain is given that winds between them.
+TEST(Fair, NoChainIsAReasonAndNoTangle) {
+  int refused = 0;
+  for (const double far : {1e3, 1e4, 1e5, 1e6, 1e7, 1e9}) {
+    for (const std::size_t stray : {2U, 3U, 5U}) {
+      std::vector<core::Point2> points;
+      for (int i = 0; i < 7; ++i) points.push_back({4.0 / 3 * i, 0.3 * std::sin(4.0 / 3 * i)});
+      points[stray] = {-0.8 * far, -0.6 * far};
+      const auto result = fair(line_through(points));
+      if (!result) {
+        if (result.error().code == core::ErrorCode::bad_input) continue;  // no spline either
+        ++refused;
+        EXPECT_NE(result.error().message.find("the widest step"), std::string::npos);
+        continue;
+      }
+      double turned = 0;
+      for (const auto& curve : result->curves)
+        for (const lac::Piece& piece : std::get<lac::Chain>(curve).pieces)
+          turned += std::abs(lac::total_turning(piece));
+      EXPECT_LE(turned, core::kPi * 8) << far << ' ' << stray;
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
 
 TEST(Fair, ExactChainComesBack) {
   const FairResult result = fair(line_through(lac::sample(kTruth, 400))).value();
