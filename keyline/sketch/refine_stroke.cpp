@@ -22,6 +22,9 @@ constexpr double kStep = 0.25;  ///< of a profile, pixels
 /// Half widths, and pixels for their rounding: in a knot wider ink is that of two lines.
 constexpr double kAloneWidth = 2.2;
 constexpr double kAloneRounding = 0.6;
+/// Of a normal across the picture's rim, from which a line runs along it (within 10 degrees):
+/// beyond there is paper then. What crosses the rim goes on.
+constexpr double kAlongRim = 0.985;
 constexpr double kGuessWeight = 0.1;  ///< of a guessed place, where a measured one has 1
 
 /// Index clamped, or wrapped round.
@@ -160,7 +163,15 @@ Refiner::Profile Refiner::profile(Point2 p, Vector2 normal, double half_width) c
     };
     return profile_along(Along(reach, read), reach, half_width);
   }
-  const auto read = [&](double s) { return darkness(p + s * normal); };
+  const auto is_off = [](double at, double across, int size) {
+    return std::abs(across) > kAlongRim && (at < 0 || at > size);
+  };
+  const auto read = [&](double s) {
+    const Point2 at = p + s * normal;
+    const bool off =
+        is_off(at.x, normal.x, tone_.level.width) || is_off(at.y, normal.y, tone_.level.height);
+    return off ? 0 : darkness(at);
+  };
   return profile_along(Along(reach, read), reach, half_width);
 }
 

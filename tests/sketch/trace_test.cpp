@@ -53,6 +53,24 @@ TEST(Trace, FindsRingsAsClosedStrokes) {
   }
 }
 
+// A close cut: beyond the rim of the picture there is paper.
+TEST(Trace, LinesAlongTheRimStayInThePicture) {
+  Image page = blank_page(300, 200);
+  draw_line(page, {150, 2}, {260, 40}, 4);
+  draw_line(page, {30, 2}, {150, 2}, 4);
+  draw_line(page, {2, 60}, {2, 170}, 4);
+  draw_line(page, {60, 198}, {200, 198}, 4);
+  const auto result = trace(page);
+  ASSERT_TRUE(result);
+  EXPECT_GT(result->explained, 0.98);
+  ASSERT_EQ(result->strokes.size(), 3U);
+  for (const Stroke& stroke : result->strokes)
+    for (const Point2 p : stroke.points) {
+      if (p.x > 145 && p.y > 100) continue;  // that leaves the rim
+      EXPECT_NEAR(std::min({p.x, p.y, 200 - p.y}), 2, 0.3) << p.x << " " << p.y;
+    }
+}
+
 // Along a hairline the grey swells and fades: its dark pixels are no pepper.
 TEST(Trace, HairlinesStayWhole) {
   for (const double angle : {0.1, 0.25, 0.4, 0.7}) {
