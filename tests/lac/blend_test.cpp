@@ -108,5 +108,32 @@ TEST(Blend, RunsBothWays) {
   EXPECT_LT(distance(evaluate(there->chain, 0.3), evaluate(back->chain, 0.7)), 1e-9);
 }
 
+/// Directions pi - e off the chord at both ends: an arc of (pi - e) / sin e chords, 4,503.6 (1e-12
+/// by the 2.2e-16 of doubles) at e = 6.9756e-4.
+TEST(Blend, RefusesACircleNearlyFullAndTellsTheNearest) {
+  const auto ask = [](double e, double curvature, BlendOrder order) {
+    return solve_blend({{{0, 0}, core::kPi - e}, curvature, 0},
+                       {{{2, 0}, -core::kPi + e}, curvature, 0}, order, -1);
+  };
+  EXPECT_TRUE(ask(7.0e-4, 0, BlendOrder::g1));
+  for (const double e : {6.95e-4, 1e-7, 1e-11}) {
+    const auto none = ask(e, 0, BlendOrder::g1);
+    ASSERT_FALSE(none) << e;
+    EXPECT_EQ(none.error().code, core::ErrorCode::undrawable);
+    EXPECT_NE(none.error().hint.find("0.001395 rad"), std::string::npos) << none.error().hint;
+  }
+  for (const BlendOrder order : {BlendOrder::g2, BlendOrder::g3}) EXPECT_FALSE(ask(1e-9, 0, order));
+}
+
+/// A loop of the radius that is asked for is no longer than that, however near its ends lie.
+TEST(Blend, GoesRoundACircleThatIsAskedFor) {
+  const double e = 1e-5;  // half the angle over the chord, radius 1
+  const auto loop =
+      solve_blend({{{0, 0}, core::kPi - e}, -1, 0}, {{{2 * std::sin(e), 0}, -core::kPi + e}, -1, 0},
+                  BlendOrder::g2, -1);
+  ASSERT_TRUE(loop) << loop.error().message;
+  EXPECT_NEAR(arc_length(loop->chain), 2 * core::kPi - 2 * e, 1e-9);
+}
+
 }  // namespace
 }  // namespace keyline::lac

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/chain/extend.h"
 #include "keyline/lac/g2/g2_hermite.h"
 #include "keyline/lac/hermite/hermite.h"
@@ -97,12 +99,46 @@ core::Result<BlendSolution> blend_g3(const BlendEnd& from, const BlendEnd& to, d
                     alpha < 0 ? "use order G2" : "use order G2 or slope -1");
 }
 
+constexpr double kMet = 1e-12;  // how well an end is met, as a share of the size of what is asked
+
+/// The size of what is asked: the chord, or a radius given at an end. A curvature within rounding
+/// of none (1e-12 of that of the chord) gives no radius.
+double size_asked(const BlendEnd& from, const BlendEnd& to, BlendOrder order) {
+  const double chord = distance(from.pose.position, to.pose.position);
+  double size = chord;
+  if (order == BlendOrder::g1) return size;
+  for (const double curvature : {std::abs(from.curvature), std::abs(to.curvature)})
+    if (curvature * chord > kMet) size = std::max(size, 1 / curvature);
+  return size;
+}
+
+/// A curve so long that rounding of its own points passes kMet: a circle nearly full, its ends
+/// nearly opposite to the chord. Its length falls as the turning that is left up to 2 pi grows.
+core::Result<BlendSolution> within_reach(core::Result<BlendSolution> blend, double size,
+                                         double chord) {
+  if (!blend) return blend;
+  const double length = arc_length(blend->chain);
+  const double longest = kMet / std::numeric_limits<double>::epsilon() * size;
+  if (length <= longest) return blend;
+  const double left = (2 * core::kPi - blend->absolute_turning) * (length / longest);
+  return core::fail(
+      ErrorCode::undrawable,
+      "the blend would be " + core::number_text(length / chord, 2) +
+          " times as long as its chord: rounding alone would move its end by more than 1e-12 of "
+          "what is asked",
+      "turn the ends, nearly opposite to the chord now, away from that by " +
+          core::number_text(left, 4) + " rad together, towards each other");
+}
+
 }  // namespace
 
 core::Result<BlendSolution> solve_blend(const BlendEnd& from, const BlendEnd& to, BlendOrder order,
                                         double alpha) {
-  if (order == BlendOrder::g1) return blend_g1(from, to, alpha);
-  return order == BlendOrder::g2 ? blend_g2(from, to, alpha) : blend_g3(from, to, alpha);
+  auto blend = order == BlendOrder::g1   ? blend_g1(from, to, alpha)
+               : order == BlendOrder::g2 ? blend_g2(from, to, alpha)
+                                         : blend_g3(from, to, alpha);
+  return within_reach(std::move(blend), size_asked(from, to, order),
+                      distance(from.pose.position, to.pose.position));
 }
 
 }  // namespace keyline::lac

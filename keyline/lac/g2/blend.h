@@ -54,8 +54,10 @@ struct BlendSolution {
 /// inside are G2. Where curvature is (nearly) zero at an end no slope but -1 has a finite rate
 /// other than zero: the outer piece there gets -1. Accuracy: as solve_g2; the rates within 1e-9
 /// relative of the larger of rate and curvature/chord. Fails: bad_input, undrawable as
-/// solve_g1_directions and solve_g2; not_converged where none of the lengths tried meets the rates,
-/// which proves nothing.
+/// solve_g1_directions and solve_g2, and where the blend would be so long that rounding of its
+/// points passes 1e-12 of the chord and of the radii given (4,500 times these: a circle nearly
+/// full), with the directions that serve in the hint; not_converged where none of the lengths tried
+/// meets the rates, which proves nothing.
 core::Result<BlendSolution> solve_blend(const BlendEnd& from, const BlendEnd& to, BlendOrder order,
                                         double alpha);
 
