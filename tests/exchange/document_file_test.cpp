@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/exchange/json/json_document.h"
+#include "keyline/exchange/json/json_text.h"
 #include "keyline/exchange/svg/svg_document.h"
 #include "keyline/exchange/svg/svg_reader.h"
 
@@ -151,6 +152,23 @@ TEST(JsonDocument, RefusesDeepNesting) {
   const auto refused = read_json("{\n\"a\": " + std::string(100'000, '['));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().path, "line 2");
+  // Two hundred lists or objects in each other are read, whatever stands beside them; no more.
+  const auto nested = [](int depth, const std::string& open, const std::string& close) {
+    std::string text;
+    for (int i = 0; i < depth; ++i) text += open;
+    text += "1";
+    for (int i = 0; i < depth; ++i) text += close;
+    return parse_json(text).has_value();
+  };
+  for (const auto& [open, close] : {std::pair{"[1, 2, ", "]"},
+                                    {"[", ", {}, 3]"},
+                                    {"{\"a\": \"}\", \"b\": ", "}"},
+                                    {"{\"a\": ", ", \"b\": []}"}}) {
+    EXPECT_TRUE(nested(199, open, close)) << open;
+    EXPECT_TRUE(nested(200, "[", "]"));
+    EXPECT_FALSE(nested(202, open, close)) << open;
+  }
+  EXPECT_FALSE(nested(201, "[", "]"));
   // Brackets within strings do not count.
   const auto wrong = read_json("{\"type\": \"\\\"" + std::string(1000, '[') + "\"}");
   ASSERT_FALSE(wrong);

@@ -13,6 +13,8 @@
 namespace keyline::exchange {
 namespace {
 
+using detail::dxf_name;
+using detail::dxf_text;
 using testing::ElementsAre;
 using testing::IsSupersetOf;
 
@@ -120,6 +122,27 @@ TEST(DxfFrame, HandlesAreOfOneObjectEach) {
   for (const std::string& owner : owners) EXPECT_TRUE(handles.contains(owner)) << owner;
   for (const std::string& handle : handles)
     EXPECT_LT(std::stoul(handle, nullptr, 16), std::stoul(next, nullptr, 16));
+}
+
+// Printable ASCII as it is, the rest by the escape of AutoCAD's text: \\U+ and four digits of
+// UTF-16, of which what lies beyond the first 65,536 characters takes two (U+1F600 is D83D DE00
+// there).
+TEST(DxfText, HoldsNothingButPrintableAscii) {
+  EXPECT_EQ(dxf_text(" ~A"), " ~A");
+  EXPECT_EQ(dxf_text("a\tb\x1f\x7f"), "a b  ");
+  EXPECT_EQ(dxf_text("\xc2\x80"), "\\U+0080");
+  EXPECT_EQ(dxf_text("\xc3\xa9t"), "\\U+00E9t");
+  EXPECT_EQ(dxf_text("\xef\xbf\xbd"), "\\U+FFFD");
+  EXPECT_EQ(dxf_text("\xf0\x90\x80\x80"), "\\U+D800\\U+DC00");
+  EXPECT_EQ(dxf_text("\xf0\x9f\x98\x80"), "\\U+D83D\\U+DE00");
+}
+
+// What a table's name may not hold (DXF reference, symbol table entries) is a dash; nothing is "0".
+TEST(DxfText, NamesHaveNoSignsOfTheirOwnMeaning) {
+  EXPECT_EQ(dxf_name("a<b>c/d\\e\"f:g;h?i*j|k=l`m"), "a_b_c_d_e_f_g_h_i_j_k_l_m");
+  EXPECT_EQ(dxf_name("\xc3\xa9*"), "\\U+00E9_");
+  EXPECT_EQ(dxf_name("\\U"), "_U");
+  EXPECT_EQ(dxf_name(""), "0");
 }
 
 }  // namespace

@@ -88,6 +88,20 @@ TEST(HullCsv, ReadsShipyardsTables) {
   EXPECT_TRUE(read_hull_csv(";\nwaterline;0;10\n1;2;3\n2;3;4\n"));
 }
 
+// Twelve inches are a foot and eight eighths an inch: who writes them means something else.
+TEST(HullCsv, FeetHaveTwelveInchesOfEightEighths) {
+  const auto first = [](const std::string& cell) {
+    const auto table = read_hull_csv("units,ft\nStation\\WL,1,2\n0," + cell + ",1\n1,1,1\n");
+    return table ? table->half_breadth.front() : -1;
+  };
+  EXPECT_DOUBLE_EQ(first("3-11-7"), 3 + (11 + 7.0 / 8) / 12);
+  EXPECT_DOUBLE_EQ(first("3-11-7+"), 3 + (11 + 7.5 / 8) / 12);
+  EXPECT_DOUBLE_EQ(first("3-11-7-"), 3 + (11 + 6.5 / 8) / 12);
+  EXPECT_DOUBLE_EQ(first("0-0-1"), 1.0 / 96);
+  for (const char* none : {"3-12-0", "3-0-8", "3-11-7*", "3-1", "3--1", "1/0", "1 1/", "1 1/2x"})
+    EXPECT_EQ(first(none), -1) << none;
+}
+
 TEST(HullTable, LinesAreMadePlanar) {
   auto d = hull_document(read_hull_csv(kTable).value());
   const std::size_t count = d.space_curves.size();
