@@ -106,6 +106,23 @@ TEST(BetweenInSpace, FindsClassACurvesForTheEndsOfOne) {
   EXPECT_GT(same, asked / 2);
 }
 
+// Whatever is found lies in the range of scales; where the range holds that of the curve the ends
+// were taken from, one is.
+TEST(BetweenInSpace, KeepsToTheRangeOfScales) {
+  const Vector3 axis{0.6, 0, 0.8};
+  for (const double s : {0.6, 1.6}) {
+    const SpaceEndTangents ends = ends_of(of_matrix({1, 0.3, 0.2}, axis, 0.4, s, 4));
+    const auto scale_in = [&](core::Interval range) {
+      const auto c = class_a_between(ends, {.lowest_degree = 4, .highest_degree = 4, .s = range});
+      return c ? norm(c->control[2] - c->control[1]) / norm(c->control[1] - c->control[0]) : 0;
+    };
+    EXPECT_NEAR(scale_in({0.01, 100}), s, 1e-8);
+    EXPECT_NEAR(scale_in({s - 0.01, s + 0.01}), s, 1e-8);
+    EXPECT_EQ(scale_in({s + 0.01, s + 0.02}), 0);
+    EXPECT_EQ(scale_in({s - 0.02, s - 0.01}), 0);
+  }
+}
+
 TEST(BetweenInSpace, InAPlaneIsThePlaneCurve) {
   const Vector3 x{2 / 3.0, 2 / 3.0, 1 / 3.0}, y{-2 / 3.0, 1 / 3.0, 2 / 3.0};
   const auto lifted = [&](double a, double b) { return a * x + b * y; };

@@ -289,6 +289,7 @@ TEST(Cav, BadInput) {
   for (const double alpha_max : {0.0, -1.0, kPi / 2, 2.0, nan}) {
     options.alpha_max = alpha_max;
     EXPECT_EQ(code(cav(kOya, options)), ErrorCode::bad_input);
+    EXPECT_EQ(cav(kOya, options).error().path, "alpha_max");
   }
   EXPECT_EQ(code(cav(kOya, with_end_tolerance(-1))), ErrorCode::bad_input);
   EXPECT_EQ(code(cav(kOya, with_end_tolerance(100))), ErrorCode::bad_input);

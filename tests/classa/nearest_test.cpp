@@ -47,6 +47,15 @@ TEST(ControlMatrix, ClassAIsOneOfTwoRangesOfS) {
   EXPECT_FALSE(is_class_a({2, 5}, 0));
 }
 
+TEST(ControlMatrix, TheFirstEdgeIsTheTangentUnlessABetaIsGiven) {
+  MatrixCurve c;
+  c.tangent = {1, 2};
+  EXPECT_EQ(to_bezier(c).control[1], (core::Point2{1, 2}));
+  EXPECT_EQ(to_bezier(c).control.back(), (core::Point2{3, 6}));
+  c.beta = 0.5;
+  EXPECT_EQ(to_bezier(c).control[1], (core::Point2{0.5, 1}));
+}
+
 // Three edges that turn by 1.4 each point at 2.8 at most, whatever their lengths: from there on the
 // nearer end of the range is the upper one, and the lower one below what it reaches itself.
 TEST(ControlMatrix, ScalesBeyondWhatIsReachedAreTheNearerEnd) {

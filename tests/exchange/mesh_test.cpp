@@ -278,6 +278,31 @@ struct FileCase {
   std::size_t skipped;
 };
 
+// A binary file is told by its size, whatever its header says, and by bytes no text has where the
+// size is wrong: what is there of it is read.
+TEST(Mesh, BinaryStlIsToldByItsSize) {
+  const float corners[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};  // a normal, three corners
+  for (const std::string name : {"solid facet", "made elsewhere"}) {
+    SCOPED_TRACE(name);
+    std::string bytes = name + std::string(80 - name.size(), ' ');
+    const std::uint32_t count = 1;
+    bytes.append(reinterpret_cast<const char*>(&count), 4);
+    bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
+    bytes.append(2, '\0');
+    ASSERT_EQ(bytes.size(), 134U);
+    const auto mesh = read_stl(bytes);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->triangles.size(), 1U);
+    EXPECT_THAT(mesh->points,
+                testing::UnorderedElementsAre(Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{0, 1, 0}));
+    const auto longer = read_stl(bytes + "behind");
+    ASSERT_EQ(longer.has_value(), !name.starts_with("solid"));
+    if (longer) {
+      EXPECT_EQ(longer->triangles.size(), 1U);
+    }
+  }
+}
+
 // Counts by hand: lines "v" and "f" (polygons of n corners as n - 2 triangles), PLY headers, STL
 // facets.
 constexpr FileCase kFiles[] = {

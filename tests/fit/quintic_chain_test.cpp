@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -121,6 +122,31 @@ TEST(QuinticChain, PointsLeftOutSayWhereTheirNeighboursLie) {
     for (const curve::Bezier2& piece : chain.pieces)
       for (int k = 0; k < 64; ++k) sum += norm(evaluate(piece, (k + 0.5) / 64) - Point2{});
     EXPECT_NEAR(sum / (64.0 * static_cast<double>(chain.pieces.size())), kRadius, 0.15);
+  }
+}
+
+// Means of three neighbours on a circle, h apart, lie (1 + 2 cos h) / 3 of its radius from the
+// middle, of five (1 + 2 cos h + 2 cos 2h) / 5: the chain through every second, or fourth, is as
+// much smaller.
+TEST(QuinticChain, PointsLeftOutCountAsMuchAsThoseKept) {
+  constexpr double kRadius = 100;
+  const int n = 120;
+  const double h = 2 * M_PI / n;
+  const double three = (1 + 2 * std::cos(h)) / 3;
+  const double five = (1 + 2 * std::cos(h) + 2 * std::cos(2 * h)) / 5;
+  for (const auto& [every, share] : {std::pair{1, 1.0}, {2, three}, {4, five}}) {
+    SCOPED_TRACE(every);
+    std::vector<Point2> points;
+    for (int i = 0; i < n; ++i)
+      points.push_back({kRadius * std::cos(i * h), kRadius * std::sin(i * h)});
+    const QuinticChain chain = fit_quintic_chain(
+        points, true, {.tolerance = 0.35, .every = static_cast<std::size_t>(every)});
+    ASSERT_TRUE(chain.within_tolerance);
+    double sum = 0;
+    for (const curve::Bezier2& piece : chain.pieces)
+      for (int k = 0; k < 64; ++k) sum += norm(evaluate(piece, (k + 0.5) / 64) - Point2{});
+    EXPECT_NEAR(sum / (64.0 * static_cast<double>(chain.pieces.size())), share * kRadius,
+                0.1 * (1 - three) * kRadius);
   }
 }
 
