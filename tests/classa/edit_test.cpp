@@ -276,6 +276,9 @@ TEST(FreeForm, SpiralHasANearCurve) {
   EXPECT_FALSE(approximation->exact);
   EXPECT_LE(approximation->deviation, 1e-4);
   EXPECT_EQ(approximation->curve.control.front(), points.front());
+  const auto plain = approximate(curve::PlanarView(spiral));  // a thousandth of the size
+  ASSERT_TRUE(plain) << plain.error().message;
+  EXPECT_LE(plain->deviation, 1e-3 * distance(points.front(), points.back()));
   const auto evaluation = evaluate_curve(*approximation, {});
   ASSERT_TRUE(evaluation) << evaluation.error().message;
   EXPECT_GE(evaluation->value.type, 4);

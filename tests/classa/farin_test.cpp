@@ -56,6 +56,19 @@ TEST(Farin, AChangeWithinTheToleranceIsLeftUndecided) {
   EXPECT_NEAR(back.backward, no.backward, 1e-9);
 }
 
+// By how much curvature runs back is told in shares of itself: a curve of any size is judged alike.
+TEST(Farin, HasNoSizeOfItsOwn) {
+  const curve::Bezier3 c = to_bezier(kCounterexample);
+  const MonotoneVerdict plain = certify_monotone_curvature(c);
+  for (const double size : {1e-9, 1e9}) {
+    curve::Bezier3 scaled = c;
+    for (auto& p : scaled.control) p = {size * p.x, size * p.y, size * p.z};
+    const MonotoneVerdict verdict = certify_monotone_curvature(scaled);
+    EXPECT_EQ(verdict.answer, plain.answer) << size;
+    EXPECT_NEAR(verdict.backward, plain.backward, 1e-9) << size;
+  }
+}
+
 // What is certified turns where curvature does, found by looking at curvature alone.
 TEST(Farin, TurnsWhereCurvatureDoes) {
   numeric::Random random(7);
