@@ -210,7 +210,9 @@ int curve_of_row(const OneMatrixProblem& p, int row) {
   return c;
 }
 
-/// Shortest steps that meet the linearised equations, shortened until they help.
+/// Shortest steps that meet the linearised equations, shortened until they leave at most half of
+/// what they should be rid of: where equations are nearly dependent longer ones zigzag, and
+/// rounding grows into another net.
 void polish(const System& system, const std::vector<int>& rows, Eigen::VectorXd& x) {
   constexpr double kDependent = 1e-7;  // differences do not tell flatter directions from rounding
   Eigen::VectorXd r;
@@ -225,7 +227,7 @@ void polish(const System& system, const std::vector<int>& rows, Eigen::VectorXd&
       const Eigen::VectorXd next = x - share * whole;
       Eigen::VectorXd after;
       if (!system.evaluate(next, after, nullptr)) continue;
-      better = Eigen::VectorXd(after(rows)).norm() < left.norm();
+      better = Eigen::VectorXd(after(rows)).norm() < (1 - 0.5 * share) * left.norm();
       if (better) x = next;
     }
     if (!better) return;
