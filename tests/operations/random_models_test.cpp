@@ -14,7 +14,7 @@ namespace {
 
 using namespace own;
 
-constexpr double kOpen = 1e-3;  ///< largest gap that still joins, in the model's unit
+constexpr double kOpen = 1e-5;  ///< largest gap that still joins, as share of the model's size
 
 /// Parameter of the place of the edge at u that lies nearest to a point: edges that were let go
 /// slide along each other.
@@ -97,7 +97,7 @@ void expect_corners(const json& given, const json& now, bool first, bool all, do
 
 /// Joint of both as they are now: what is held is, and what is told is so.
 void expect_joint(const json& now, const json& joints, const std::string& hold, bool may_open,
-                  double rounding) {
+                  double joining, double rounding) {
   const Patches a = patches_of(now[0]), b = patches_of(now[1]);
   const json& told = joints["after"];
   if (!may_open) {
@@ -105,8 +105,8 @@ void expect_joint(const json& now, const json& joints, const std::string& hold, 
   }
   const double open = gap(a, b);  // both are of places: neither is the largest to the last digit
   EXPECT_NEAR(told["gap"].get<double>(), open, 0.05 * open + 1e-5 * net_extent(now[0]) + rounding);
-  if (std::abs(open - kOpen) > 0.1 * kOpen) {
-    EXPECT_EQ(joints["lost"], open > kOpen && joints["before"]["G0"] == 1 ? 1 : 0) << open;
+  if (std::abs(open - joining) > 0.1 * joining) {
+    EXPECT_EQ(joints["lost"], open > joining && joints["before"]["G0"] == 1 ? 1 : 0) << open;
   }
   if (told["G0"] == 1) {  // the largest of its own places
     const auto [low, high] = std::ranges::minmax(folds(a, b));
@@ -163,7 +163,8 @@ TEST(RandomModels, AreEditedTogetherWithTheirJointHeld) {
     }
     // Free patches stop at the limit each for itself (docs/limits.md), edges go with the patch.
     const bool may_open = hold == "free" && (kind != 2 || corners);
-    expect_joint(now, result["joints"], hold, may_open, 1e-9 * size_ + rounding);
+    expect_joint(now, result["joints"], hold, may_open, kOpen * box_diagonal({first, second}),
+                 1e-9 * size_ + rounding);
   }
   EXPECT_GT(edited, count / 2);
 }
