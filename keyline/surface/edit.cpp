@@ -205,9 +205,12 @@ Result<void> slide(const BezierSurface& s, const Candidate& target, const detail
   return {};
 }
 
-}  // namespace
+BezierSurface moved_by(BezierSurface s, core::Vector3 by) {
+  for (core::Point3& p : s.net.points) p = p + by;
+  return s;
+}
 
-Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
+Result<EditResult> edit_here(const BezierSurface& s, const EditOptions& options) {
   if (auto sound = sav(s, classa::CavOptions{.alpha_max = options.alpha_max}); !sound)
     return std::unexpected(sound.error());
   if (auto sound = check(s, options); !sound) return std::unexpected(sound.error());
@@ -229,6 +232,30 @@ Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
                 "limit");
   if (!best || (given_will_do && best->tradeoff.sav >= before->sav)) return result;
   if (auto done = slide(s, *best, task, result); !done) return std::unexpected(done.error());
+  return result;
+}
+
+/// Put back where it was: points that did not move keep their last digits.
+BezierSurface put_back(const BezierSurface& s, const BezierSurface& here, BezierSurface edited,
+                       core::Vector3 by) {
+  const bool alike = edited.net.points.size() == here.net.points.size();
+  for (std::size_t i = 0; i < edited.net.points.size(); ++i) {
+    core::Point3& p = edited.net.points[i];
+    p = alike && p == here.net.points[i] ? s.net.points[i] : p + by;
+  }
+  return edited;
+}
+
+}  // namespace
+
+/// About its first corner: far from the origin rounding of the places is more than nearly dependent
+/// equations bear.
+Result<EditResult> edit(const BezierSurface& s, const EditOptions& options) {
+  if (s.net.points.empty()) return edit_here(s, options);
+  const core::Vector3 away = s.net.points[0] - core::Point3{};
+  const BezierSurface here = moved_by(s, -away);
+  auto result = edit_here(here, options);
+  if (result) result->surface = put_back(s, here, std::move(result->surface), away);
   return result;
 }
 

@@ -119,6 +119,23 @@ TEST(SurfaceEdit, AMirrorComesToTheSameLeastEnergy) {
   }
 }
 
+// A net of least energy does not depend on where the patch lies: a million edges from the origin
+// another target had been taken, its SAV 0.7 to 100. Rounding of the places there is 1e-10.
+TEST(SurfaceEdit, FarFromTheOriginComesToTheSameLeastEnergy) {
+  EditOptions options;
+  options.keep = kPanels[2].keep;
+  const BezierSurface s{{4, 4, kPanels[2].points}, {}};
+  const EditResult r = edited(s, options);
+  BezierSurface far = s;
+  for (core::Point3& p : far.net.points) p = p + core::Vector3{2e5, -2e5, 2e5};
+  const EditResult there = edited(far, options);
+  EXPECT_EQ(there.target, r.target);
+  EXPECT_NEAR(there.after.sav, r.after.sav, 1e-6);
+  EXPECT_NEAR(there.departure, r.departure, 5e-3 * r.departure);
+  for (const auto& [i, j] : {std::pair{0, 0}, {0, 3}, {3, 0}, {3, 3}})
+    EXPECT_EQ(there.surface.net.at(i, j), far.net.at(i, j));
+}
+
 TEST(SurfaceEdit, CornersKeptTradesSavAgainstDeparture) {
   const BezierSurface s = distorted_patch();
   EditOptions options;
