@@ -64,10 +64,13 @@ double total_turning(const Chain& chain) {
   return sum;
 }
 
-ChainLocation locate(const Chain& chain, double t) {
+namespace {
+
+/// Where t lies on the chain of this length.
+ChainLocation located(const Chain& chain, double whole, double t) {
   const std::size_t last = chain.pieces.size() - 1;
   if (t >= 1) return {last, 1};
-  double left = std::max(t, 0.0) * arc_length(chain);
+  double left = std::max(t, 0.0) * whole;
   for (std::size_t i = 0; i < last; ++i) {
     const double length = chain.pieces[i].length;
     if (left < length) return {i, left / length};
@@ -75,6 +78,10 @@ ChainLocation locate(const Chain& chain, double t) {
   }
   return {last, std::min(1.0, left / chain.pieces[last].length)};
 }
+
+}  // namespace
+
+ChainLocation locate(const Chain& chain, double t) { return located(chain, arc_length(chain), t); }
 
 std::vector<Segment> segments(const Chain& chain) {
   std::vector<Segment> placed;
@@ -133,13 +140,13 @@ curve::Jet2 jet(const Chain& chain, double t) {
 }
 
 Point2 evaluate(const PlacedChain& placed, double t) {
-  const ChainLocation at = locate(placed.chain(), t);
+  const ChainLocation at = located(placed.chain(), placed.length(), t);
   return evaluate(placed.segments()[at.piece], at.t);
 }
 
 curve::Jet2 jet(const PlacedChain& placed, double t) {
-  const ChainLocation at = locate(placed.chain(), t);
-  return jet_within(placed.segments()[at.piece], at.t, arc_length(placed.chain()));
+  const ChainLocation at = located(placed.chain(), placed.length(), t);
+  return jet_within(placed.segments()[at.piece], at.t, placed.length());
 }
 
 std::vector<double> breakpoints(const Chain& chain) {

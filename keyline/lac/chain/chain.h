@@ -80,14 +80,19 @@ Chain transform(const Chain& chain, const core::Similarity2& map);
 class PlacedChain {
  public:
   /// Precondition: the chain is valid.
-  explicit PlacedChain(Chain chain) : chain_(std::move(chain)), segments_(lac::segments(chain_)) {}
+  explicit PlacedChain(Chain chain)
+      : chain_(std::move(chain)),
+        segments_(lac::segments(chain_)),
+        length_(lac::arc_length(chain_)) {}
 
   const Chain& chain() const { return chain_; }
+  double length() const { return length_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
  private:
   Chain chain_;
   std::vector<Segment> segments_;
+  double length_;
 };
 
 core::Point2 evaluate(const PlacedChain& placed, double t);
