@@ -1,5 +1,5 @@
 /** The box about chosen things, the band a hand draws, and how far things have been carried. */
-import type { Point } from "../model/document.ts";
+import type { Pixel } from "../model/document.ts";
 import type { State } from "../model/state.ts";
 import { type BoxPart, type TurnBox, turnerOf } from "../gestures/box.ts";
 import type { Viewport } from "../view/viewport.ts";
@@ -12,14 +12,14 @@ const kCorner = 3.5; // half a corner's side, in pixels
 const kTurner = 4.5;
 const kPivot = 5;
 
-function outline(g: Pen, at: readonly Point[]): void {
+function outline(g: Pen, at: readonly Pixel[]): void {
   g.beginPath();
   for (const p of at) g.lineTo(...p);
   g.closePath();
   g.stroke();
 }
 
-function paintPivot(g: Pen, [x, y]: Point, hot: boolean, colors: Palette): void {
+function paintPivot(g: Pen, [x, y]: Pixel, hot: boolean, colors: Palette): void {
   g.strokeStyle = colors.handle;
   g.lineWidth = hot ? 2 : 1.25;
   g.beginPath();

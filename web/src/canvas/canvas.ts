@@ -4,7 +4,7 @@ import { gestureFor } from "../gestures/draw.ts";
 import { type BoxPart, turnBox, turnerOf } from "../gestures/box.ts";
 import { handleAt, type HandleHit, partAt } from "../gestures/pick.ts";
 import { snapped } from "../gestures/snap.ts";
-import type { Point } from "../model/document.ts";
+import type { Pixel, Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
 import { h } from "../ui/dom.ts";
 import { Latency } from "./latency.ts";
@@ -21,7 +21,7 @@ export class Canvas {
   private cursor: Pointer | null = null;
   private byKeys = false;
   private spaced = false; // the space bar is down: what is dragged is the view
-  private readonly touches = new Map<number, Point>();
+  private readonly touches = new Map<number, Pixel>();
   private scheduled = false;
   private readonly images = new Map<string, HTMLImageElement>();
   /** what is said below it may be another */
@@ -55,7 +55,7 @@ export class Canvas {
   }
 
   /** Where the box about what is chosen can be taken hold of, on the canvas. */
-  parts(): { corners: Point[]; turner: Point; pivot: Point } | null {
+  parts(): { corners: Pixel[]; turner: Pixel; pivot: Pixel } | null {
     const { view } = this.table;
     const box = turnBox(this.table);
     return box && { corners: box.corners.map((c) => view.toScreen(c)), turner: turnerOf(view, box.corners).at, pivot: view.toScreen(box.pivot) };
@@ -118,7 +118,7 @@ export class Canvas {
   }
 
   /** The pointer moved by keys, in pixels: from where it is, else from the middle. */
-  step(by: Point): void {
+  step(by: Pixel): void {
     const { view } = this.table;
     const at = this.cursor?.at ?? [view.width / 2, view.height / 2];
     const within = (v: number, most: number) => Math.min(Math.max(v, 0), most);
@@ -168,7 +168,7 @@ export class Canvas {
   }
 
   /** Control does the opposite of what the snap is set to. */
-  private pointerAt(at: Point, otherwise = false): Pointer {
+  private pointerAt(at: Pixel, otherwise = false): Pointer {
     const snaps = this.table.store.state.looks.snap !== otherwise;
     const bare = { at, snaps, shift: false, alt: false, button: 0, coarse: false, time: performance.now() };
     if (this.gesture.placesItself) return { ...bare, place: this.table.view.toModel(at) };
@@ -251,10 +251,10 @@ export class Canvas {
     const other = [...this.touches].find(([id]) => id !== e.pointerId)?.[1];
     const last = this.touches.get(e.pointerId);
     if (!other || !last) return;
-    const now: Point = [e.clientX, e.clientY];
+    const now: Pixel = [e.clientX, e.clientY];
     const box = this.element.getBoundingClientRect();
-    const middle: Point = [(now[0] + other[0]) / 2 - box.left, (now[1] + other[1]) / 2 - box.top];
-    const apart = (p: Point) => Math.max(10, Math.hypot(p[0] - other[0], p[1] - other[1]));
+    const middle: Pixel = [(now[0] + other[0]) / 2 - box.left, (now[1] + other[1]) / 2 - box.top];
+    const apart = (p: Pixel) => Math.max(10, Math.hypot(p[0] - other[0], p[1] - other[1]));
     this.table.view.panBy((now[0] - last[0]) / 2, (now[1] - last[1]) / 2);
     this.table.view.zoomAt(middle, apart(now) / apart(last));
     this.touches.set(e.pointerId, now);

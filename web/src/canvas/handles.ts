@@ -1,4 +1,4 @@
-import { type Entity, handlesOf, type Point } from "../model/document.ts";
+import { type Entity, handlesOf, type Pixel, type Point } from "../model/document.ts";
 import type { Viewport } from "../view/viewport.ts";
 import type { Palette } from "./palette.ts";
 
@@ -36,8 +36,8 @@ export function paintHandles(g: Pen, view: Viewport, e: Entity, colors: Palette,
   if (e.kind === "mirror") g.setLineDash([8, 4, 2, 4]);
   g.beginPath();
   for (const [a, b] of legs(e)) {
-    g.moveTo(...(at[a] as Point));
-    g.lineTo(...(at[b] as Point));
+    g.moveTo(...(at[a] as Pixel));
+    g.lineTo(...(at[b] as Pixel));
   }
   g.stroke();
   g.setLineDash([]);
@@ -56,7 +56,7 @@ export function paintHandles(g: Pen, view: Viewport, e: Entity, colors: Palette,
 }
 
 /** A diamond: it slides along the curve instead of standing free. */
-function paintJoint(g: Pen, [x, y]: Point, colors: Palette): void {
+function paintJoint(g: Pen, [x, y]: Pixel, colors: Palette): void {
   g.beginPath();
   for (const [dx, dy] of [[0, -7], [7, 0], [0, 7], [-7, 0]] as const) g.lineTo(x + dx, y + dy);
   g.closePath();

@@ -1,5 +1,5 @@
 /** What is read at a place: its numbers beside it, the circle that touches the curve there. */
-import type { Comb, Point } from "../model/document.ts";
+import type { Comb, Pixel, Point } from "../model/document.ts";
 import type { Viewport } from "../view/viewport.ts";
 import type { Palette } from "./palette.ts";
 
@@ -41,7 +41,7 @@ export function paintCard(g: Pen, view: Viewport, at: Point, outward: Point, lin
   const left = inner[0] >= 0 ? x + kAway : x - kAway - width;
   const top = inner[1] >= 0 ? y - kAway - height : y + kAway;
   const within = (v: number, most: number) => Math.min(Math.max(v, 26), Math.max(26, most - 4));
-  const box: Point = [within(left, view.width - width), within(top, view.height - height)];
+  const box: Pixel = [within(left, view.width - width), within(top, view.height - height)];
   g.fillStyle = colors.ruler;
   g.globalAlpha = 0.92;
   g.beginPath();

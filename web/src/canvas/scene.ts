@@ -1,7 +1,7 @@
 /** All that stands on the canvas, back to front. */
 import type { BoxPart, TurnBox } from "../gestures/box.ts";
 import { jointOf } from "../gestures/joint.ts";
-import { type Comb, type Entity, entityOf, isHeld, isShown, lineOf, type Point } from "../model/document.ts";
+import { type Comb, type Entity, entityOf, isHeld, isShown, lineOf, type Pixel, type Point } from "../model/document.ts";
 import type { DeviationTold } from "../model/deviation.ts";
 import type { Live } from "../model/live.ts";
 import type { DrawableRegion } from "../model/region.ts";
@@ -162,7 +162,7 @@ function paintSymmetry(g: CanvasRenderingContext2D, { state, view }: Scene, colo
   if (!found?.point) return;
   const [x, y] = view.toScreen(found.point as Point);
   const far = view.width + view.height + Math.hypot(x, y);
-  const along: Point = [Math.cos(found.direction ?? 0) * far, -Math.sin(found.direction ?? 0) * far];
+  const along: Pixel = [Math.cos(found.direction ?? 0) * far, -Math.sin(found.direction ?? 0) * far];
   g.strokeStyle = colors.evolute;
   g.lineWidth = found.exact ? 1.25 : 1;
   g.setLineDash(found.exact ? [14, 4, 3, 4] : [3, 5]);

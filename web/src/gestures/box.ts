@@ -1,5 +1,5 @@
 /** The box about what is chosen, with places to turn and scale it by, on the screen. */
-import { entityOf, handlesOf, isHeld, isMovable, isShown, type Point } from "../model/document.ts";
+import { entityOf, handlesOf, isHeld, isMovable, isShown, type Pixel, type Point } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
 import type { Store } from "../model/state.ts";
 import { boxOf, type Viewport } from "../view/viewport.ts";
@@ -62,18 +62,18 @@ export function turnBox(seen: Seen): TurnBox | null {
 }
 
 /** On the screen: a stem upwards from the middle of the upper edge. */
-export function turnerOf(view: Viewport, corners: readonly Point[]): { foot: Point; at: Point } {
+export function turnerOf(view: Viewport, corners: readonly Point[]): { foot: Pixel; at: Pixel } {
   const [a, b] = [view.toScreen(corners[3] as Point), view.toScreen(corners[2] as Point)];
-  const foot: Point = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
-  const along: Point = [b[0] - a[0], b[1] - a[1]];
+  const foot: Pixel = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+  const along: Pixel = [b[0] - a[0], b[1] - a[1]];
   const length = Math.hypot(...along) || 1;
   return { foot, at: [foot[0] + (along[1] / length) * kStem, foot[1] - (along[0] / length) * kStem] };
 }
 
 export type BoxPart = "turn" | "pivot" | 0 | 1 | 2 | 3;
 
-export function boxPartAt(view: Viewport, box: TurnBox, at: Point, reach: number): BoxPart | null {
-  const near = (p: Point) => Math.hypot(p[0] - at[0], p[1] - at[1]) <= reach;
+export function boxPartAt(view: Viewport, box: TurnBox, at: Pixel, reach: number): BoxPart | null {
+  const near = (p: Pixel) => Math.hypot(p[0] - at[0], p[1] - at[1]) <= reach;
   if (near(turnerOf(view, box.corners).at)) return "turn";
   const pivot = view.toScreen(box.pivot);
   for (const i of [0, 1, 2, 3] as const) {

@@ -1,5 +1,5 @@
 /** Drawing tools: so many clicks make a thing. */
-import { added, type Doc, type Fresh, type Point } from "../model/document.ts";
+import { added, type Doc, type Fresh, type Pixel, type Point } from "../model/document.ts";
 import type { ToolName } from "../model/state.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Measuring } from "./measure.ts";
@@ -114,7 +114,7 @@ export class Drawing implements Gesture {
 }
 
 class PanningWithin extends Panning {
-  constructor(table: Table, at: Point, private readonly back: Gesture) {
+  constructor(table: Table, at: Pixel, private readonly back: Gesture) {
     super(table, at);
   }
   override up(): Gesture {

@@ -3,14 +3,14 @@
  * gesture holds no more than what it began with.
  */
 import type { Client } from "../api/client.ts";
-import type { Point } from "../model/document.ts";
+import type { Pixel, Point } from "../model/document.ts";
 import type { Live } from "../model/live.ts";
 import type { Store } from "../model/state.ts";
 import type { Viewport } from "../view/viewport.ts";
 
 export interface Pointer {
   /** on the canvas, in pixels */
-  at: Point;
+  at: Pixel;
   /** in the model, snapped where that is wanted */
   place: Point;
   shift: boolean;

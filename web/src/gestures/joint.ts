@@ -1,5 +1,5 @@
 /** The joint of a compound rhythm as a handle: it slides along the curve, and the share of the turning follows. */
-import { type Compound, type Entity, entityOf, isHeld, isShown, type Point, withEntity } from "../model/document.ts";
+import { type Compound, type Entity, entityOf, isHeld, isShown, type Pixel, type Point, withEntity } from "../model/document.ts";
 import { nearestSample } from "../view/nearest.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Idle } from "./select.ts";
@@ -14,7 +14,7 @@ export function jointOf(table: Pick<Table, "live">, e: Entity): Point | null {
   return Array.isArray(joint) ? (joint as Point) : null;
 }
 
-export function jointAt(table: Table, at: Point, coarse = false): Compound | null {
+export function jointAt(table: Table, at: Pixel, coarse = false): Compound | null {
   const { store, view } = table;
   for (const id of store.state.selection) {
     const e = entityOf(store.doc, id);

@@ -1,5 +1,5 @@
 /** What lies under the pointer. */
-import { type Comb, type Entity, handlesOf, isHeld, isShown, type Point } from "../model/document.ts";
+import { type Comb, type Entity, handlesOf, isHeld, isShown, type Pixel, type Point } from "../model/document.ts";
 import { nearestSample } from "../view/nearest.ts";
 import { type BoxPart, boxPartAt, turnBox } from "./box.ts";
 import type { Table } from "./gesture.ts";
@@ -14,7 +14,7 @@ export interface HandleHit {
   handle: number;
 }
 
-export function handleAt(table: Table, at: Point, coarse = false): HandleHit | null {
+export function handleAt(table: Table, at: Pixel, coarse = false): HandleHit | null {
   const reach = coarse ? kFinger : kHandle;
   const { store, view } = table;
   const doc = store.doc;
@@ -31,7 +31,7 @@ export function handleAt(table: Table, at: Point, coarse = false): HandleHit | n
 }
 
 /** Of the box about what is chosen. */
-export function partAt(table: Table, at: Point, coarse = false): BoxPart | null {
+export function partAt(table: Table, at: Pixel, coarse = false): BoxPart | null {
   const box = turnBox(table);
   return box && boxPartAt(table.view, box, at, coarse ? kFinger : kHandle);
 }
@@ -42,7 +42,7 @@ export interface CurveHit {
   distance: number;
 }
 
-function nearestOf(table: Table, entities: readonly Entity[], at: Point, within: number): CurveHit | null {
+function nearestOf(table: Table, entities: readonly Entity[], at: Pixel, within: number): CurveHit | null {
   let best: CurveHit | null = null;
   for (const e of entities) {
     const comb: Comb | undefined = table.live.of(e.id)?.comb;
@@ -53,7 +53,7 @@ function nearestOf(table: Table, entities: readonly Entity[], at: Point, within:
   return best;
 }
 
-export function entityAt(table: Table, at: Point, coarse = false): number | null {
+export function entityAt(table: Table, at: Pixel, coarse = false): number | null {
   const reach = coarse ? kFinger : kCurve;
   const doc = table.store.doc;
   const visible = doc.entities.filter((e) => isShown(doc, e));
@@ -70,7 +70,7 @@ export function entityAt(table: Table, at: Point, coarse = false): number | null
 }
 
 /** The place on a selected curve (else on any) that is near enough to be read. */
-export function hoverAt(table: Table, at: Point): CurveHit | null {
+export function hoverAt(table: Table, at: Pixel): CurveHit | null {
   const doc = table.store.doc;
   const visible = doc.entities.filter((e) => isShown(doc, e));
   const chosen = visible.filter((e) => table.store.state.selection.includes(e.id));

@@ -1,5 +1,5 @@
 /** Select: hover, take hold of a handle or of the box, pick, draw a band, pan. */
-import { entityOf, isHeld, isMovable, type Point, withEntity, withHandle, withPoint } from "../model/document.ts";
+import { entityOf, isHeld, isMovable, type Pixel, withEntity, withHandle, withPoint } from "../model/document.ts";
 import { controlsOf } from "../model/controls.ts";
 import { nearestSample } from "../view/nearest.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
@@ -84,7 +84,7 @@ export class Idle implements Gesture {
     const e = entityOf(store.doc, entity);
     const comb = live.of(entity)?.comb;
     if (e?.kind !== "spline" || !comb || isHeld(store.doc, e) || !store.state.selection.includes(entity)) return false;
-    const sampleAt = (at: Point) => nearestSample(view, comb, at)?.sample ?? 0;
+    const sampleAt = (at: Pixel) => nearestSample(view, comb, at)?.sample ?? 0;
     const here = sampleAt(p.at);
     const places = e.points.map((point) => sampleAt(view.toScreen(point)));
     if (e.closed) places[0] = 0; // the start is the end, too
@@ -96,7 +96,7 @@ export class Idle implements Gesture {
 
 export class Panning implements Gesture {
   readonly cursor = "grabbing";
-  constructor(private readonly table: Table, private last: Point) {}
+  constructor(private readonly table: Table, private last: Pixel) {}
 
   move(p: Pointer): Gesture {
     this.table.view.panBy(p.at[0] - this.last[0], p.at[1] - this.last[1]);

@@ -1,6 +1,6 @@
 /** Where a hand means to be: an end, a handle or a joint of what is drawn, else a crossing of the grid. */
 import { gridStep } from "../canvas/grid.ts";
-import { handlesOf, isShown, type Point } from "../model/document.ts";
+import { handlesOf, isShown, type Pixel, type Point } from "../model/document.ts";
 import type { Table } from "./gesture.ts";
 
 const kReach = 9; // pixels
@@ -25,7 +25,7 @@ function* targets(table: Table, except: readonly number[]): Generator<{ place: P
   }
 }
 
-function nearestTarget(table: Table, at: Point, except: readonly number[]): (Snapped & { distance: number }) | null {
+function nearestTarget(table: Table, at: Pixel, except: readonly number[]): (Snapped & { distance: number }) | null {
   let best: (Snapped & { distance: number }) | null = null;
   for (const { place, to } of targets(table, except)) {
     const [x, y] = table.view.toScreen(place);
@@ -40,7 +40,7 @@ function onGrid(table: Table, [x, y]: Point): Point {
   return [Math.round(x / step) * step, Math.round(y / step) * step];
 }
 
-export function snapped(table: Table, at: Point): Snapped {
+export function snapped(table: Table, at: Pixel): Snapped {
   const best = nearestTarget(table, at, []);
   return best ? { place: best.place, to: best.to } : { place: onGrid(table, table.view.toModel(at)), to: "" };
 }

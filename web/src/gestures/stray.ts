@@ -1,5 +1,5 @@
 /** Clicks on measured points: one that is no part of the curve goes out, clicked again it comes back. */
-import { entityOf, type Point, type Scan, toggledStray, withEntity } from "../model/document.ts";
+import { entityOf, type Pixel, type Point, type Scan, toggledStray, withEntity } from "../model/document.ts";
 import type { Gesture, Pointer, Table } from "./gesture.ts";
 import { Idle } from "./select.ts";
 
@@ -36,7 +36,7 @@ export class ClickingStrays implements Gesture {
     return new Idle(this.table);
   }
 
-  private nearest(points: readonly Point[], at: Point): number | null {
+  private nearest(points: readonly Point[], at: Pixel): number | null {
     let best: { index: number; distance: number } | null = null;
     points.forEach((p, index) => {
       const [x, y] = this.table.view.toScreen(p);

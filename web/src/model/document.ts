@@ -6,7 +6,12 @@ import type {
 import { controlsOf, withControl } from "./controls.ts";
 import { before, carried, followedBy, type Placement, still } from "./placement.ts";
 
-export type Point = [number, number];
+/** A coordinate in one space, which no variable of another takes. */
+type In<Space extends string> = number & { readonly space?: Space };
+/** In the model: x to the right, y up, in the document's unit. */
+export type Point = [x: In<"model">, y: In<"model">];
+/** On the canvas: in pixels from its upper left corner, y down. */
+export type Pixel = [x: In<"canvas">, y: In<"canvas">];
 
 interface Common {
   id: number;

@@ -1,5 +1,5 @@
 /** Which sample is meant by a place on the screen: comparisons of drawn points. */
-import type { Comb, Point } from "../model/document.ts";
+import type { Comb, Pixel, Point } from "../model/document.ts";
 import type { Viewport } from "./viewport.ts";
 
 /** Index of the value nearest to v in a list that does not fall. */
@@ -20,9 +20,9 @@ export interface Near {
 }
 
 /** The sample nearest to the screen point; its distance is to the drawn line, in pixels. */
-export function nearestSample(view: Viewport, comb: Comb, at: Point): Near | null {
+export function nearestSample(view: Viewport, comb: Comb, at: Pixel): Near | null {
   let best: Near | null = null;
-  let before: Point | null = null;
+  let before: Pixel | null = null;
   comb.points.forEach((p, i) => {
     const q = view.toScreen(p as Point);
     const toPoint = Math.hypot(q[0] - at[0], q[1] - at[1]);
@@ -36,8 +36,8 @@ export function nearestSample(view: Viewport, comb: Comb, at: Point): Near | nul
   return best;
 }
 
-function toEdge(a: Point, b: Point, p: Point): number {
-  const along: Point = [b[0] - a[0], b[1] - a[1]];
+function toEdge(a: Pixel, b: Pixel, p: Pixel): number {
+  const along: Pixel = [b[0] - a[0], b[1] - a[1]];
   const length = along[0] ** 2 + along[1] ** 2;
   if (length === 0) return Infinity;
   const t = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / length;

@@ -1,5 +1,5 @@
 /** Where the model stands on the screen: x to the right, y up, lengths in the document's unit. */
-import type { Point } from "../model/document.ts";
+import type { Pixel, Point } from "../model/document.ts";
 
 export interface Box {
   low: Point;
@@ -23,14 +23,14 @@ export class Viewport {
   scale = 1;
   center: Point = [0, 0];
 
-  toScreen([x, y]: Point): Point {
+  toScreen([x, y]: Point): Pixel {
     return [
       this.width / 2 + (x - this.center[0]) * this.scale,
       this.height / 2 - (y - this.center[1]) * this.scale,
     ];
   }
 
-  toModel([x, y]: Point): Point {
+  toModel([x, y]: Pixel): Point {
     return [
       this.center[0] + (x - this.width / 2) / this.scale,
       this.center[1] - (y - this.height / 2) / this.scale,
@@ -42,7 +42,7 @@ export class Viewport {
   }
 
   /** What lies under the screen point stays there. */
-  zoomAt(at: Point, factor: number): void {
+  zoomAt(at: Pixel, factor: number): void {
     const under = this.toModel(at);
     this.scale = Math.min(kLargest, Math.max(kSmallest, this.scale * factor));
     const now = this.toModel(at);
@@ -50,14 +50,14 @@ export class Viewport {
   }
 
   fit(box: Box, margins: Margins): void {
-    const room: Point = [
+    const room: Pixel = [
       Math.max(40, this.width - margins.left - margins.right),
       Math.max(40, this.height - margins.top - margins.bottom),
     ];
     const size: Point = [box.high[0] - box.low[0], box.high[1] - box.low[1]];
     if (!(size[0] > 0) && !(size[1] > 0)) return;
     this.scale = Math.min(room[0] / Math.max(size[0], 1e-12), room[1] / Math.max(size[1], 1e-12));
-    const offset: Point = [(margins.left - margins.right) / 2, (margins.top - margins.bottom) / 2];
+    const offset: Pixel = [(margins.left - margins.right) / 2, (margins.top - margins.bottom) / 2];
     this.center = [
       (box.low[0] + box.high[0]) / 2 - offset[0] / this.scale,
       (box.low[1] + box.high[1]) / 2 + offset[1] / this.scale,

@@ -16,6 +16,18 @@ describe("viewport", () => {
     expect(y).toBeCloseTo(9.5, 12);
   });
 
+  it("takes no place of the canvas for one of the model", () => {
+    const view = new Viewport();
+    const place: Point = [1, 2];
+    const pixel = view.toScreen(place);
+    // @ts-expect-error: seen by the compiler, not here
+    view.toScreen(pixel);
+    // @ts-expect-error
+    view.zoomAt(place, 2);
+    // @ts-expect-error
+    view.center = [pixel[0], place[1]];
+  });
+
   it("zooms about the place under the cursor", () => {
     const view = new Viewport();
     const under = view.toModel([120, 77]);
