@@ -87,6 +87,7 @@ export class FairPanel {
       slider({
         id: "tolerance", label: `Tolerance${unit ? `, ${unit}` : ""}`, value: Math.log10(now / size), min: -5, max: -1.5,
         show: (v) => measure(size * 10 ** v, 3), read: (typed) => Math.log10(typed / size),
+        unset: this.wishes.tolerance || told ? undefined : "auto",
         onInput: (v) => put({ tolerance: size * 10 ** v }), onDone: () => {},
       }),
       choice({

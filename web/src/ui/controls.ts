@@ -12,6 +12,8 @@ export interface SliderOptions {
   stops?: readonly { at: number; name: string }[];
   /** the number beside it */
   show?: (value: number) => string;
+  /** stands for the number until one is given */
+  unset?: string | undefined;
   /** the slider's place of a typed number, where they differ */
   read?: (typed: number) => number;
   onInput: (value: number) => void;
@@ -20,12 +22,13 @@ export interface SliderOptions {
 
 /** A slider with a number that can be typed, and named stops. Catches at a stop when near it. */
 export function slider(o: SliderOptions): HTMLElement {
+  const begun = () => (o.unset === undefined ? (o.show ?? String)(o.value) : "");
   const track = h("input", {
     type: "range", id: o.id, min: o.min, max: o.max, step: o.step ?? "any", value: o.value,
     "aria-label": o.label,
   });
   const number = h("input", {
-    type: "text", class: "number", inputmode: "decimal", value: (o.show ?? String)(o.value),
+    type: "text", class: "number", inputmode: "decimal", value: begun(), placeholder: o.unset ?? "",
     id: `${o.id}-number`, "aria-label": `${o.label}, number`,
   });
   const put = (value: number) => {
@@ -46,7 +49,7 @@ export function slider(o: SliderOptions): HTMLElement {
       put(value);
       o.onDone();
     } else {
-      number.value = (o.show ?? String)(o.value);
+      number.value = begun();
     }
   });
   const stops = o.stops?.map((s) => {

@@ -139,9 +139,11 @@ onStage("fairing what is symmetric", [], (stage) => {
     await (await choosing).setFiles({ name: "bow.csv", mimeType: "text/csv", buffer: Buffer.from(points.join("\n")) });
     await page.waitForSelector("#symmetric");
     await page.selectOption("#symmetric", "auto");
+    expect(await page.inputValue("#tolerance-number")).toBe(""); // none is known before
     await page.click("#fair");
     await page.waitForSelector("#verdict");
     await settled(page);
+    expect(Number(await page.inputValue("#tolerance-number"))).toBeCloseTo((await told())?.tolerance ?? 0, 2);
     const { symmetry, id } = (await told()) ?? { symmetry: null, id: 0 };
     expect(symmetry?.exact).toBe(true);
     expect(await page.locator(".fact.symmetry").textContent()).toContain("Symmetric about");
