@@ -71,5 +71,152 @@ TEST(Band, WhatIsPassedIsTakenBack) {
   EXPECT_NEAR(band.pull(1).slope, mu / 2.25 - (mu + mu / least * second) / least, 1e-12);
 }
 
+// Half the weight times a mean of squares: of two points of weights 1 and 3 the second counts
+// thrice, a point that pulls twice as much twice, a guide as one point more.
+TEST(Springs, AreAMeanOfSquares) {
+  auto given = points(3);
+  given[1].weight = 3;
+  given[1].pull = 2;
+  given[2].count = 0;
+  given[2].weight = 99;
+  Springs springs(given, {0.1, 0.2, 0.3}, 8);
+  const std::vector<double> weight{8 * 1 / 4.0, 8 * 2 * 3 / 4.0, 8 / 2.0};
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_NEAR(springs.pull(j).weight, weight[j], 1e-14);
+    EXPECT_NEAR(springs.pull(j).slope, weight[j] * 0.1 * double(j + 1), 1e-14);
+  }
+  EXPECT_NEAR(springs.merit({1, 2, 3}, 1), 0.5 * (weight[0] + 4 * weight[1] + 9 * weight[2]),
+              1e-13);
+  springs.move({1, 2, 3}, {}, 1);
+  EXPECT_NEAR(springs.pull(1).slope, 2 * weight[1], 1e-14);
+  EXPECT_EQ(springs.longest({9, 9, 9}), 1);
+  EXPECT_TRUE(springs.allows({9, 9, 9}, 1));
+}
+
+// Offsets come times their share, which the mean is not.
+TEST(MeanWeights, MakeTheRootMeanSquareOfTheMeasured) {
+  auto given = points(3);
+  given[0].weight = 2;
+  given[1].share = 0.5;
+  given[2].count = 0;
+  const auto weight = mean_weights(given);
+  EXPECT_NEAR(weight[0], 2 / 3.0, 1e-15);
+  EXPECT_NEAR(weight[1], 4 / 3.0, 1e-15);
+  EXPECT_EQ(weight[2], 0);
+  EXPECT_NEAR(root_mean_square(weight, {0.3, 0.1, 7}), std::sqrt((2 * 0.09 + 0.04) / 3), 1e-15);
+}
+
+TEST(LargestOf, CountsTheSpreadToEitherSide) {
+  auto given = points(2);
+  EXPECT_EQ(largest_of(given, {0.1, -0.3}), 0.3);
+  given[0].high = 0.4;
+  EXPECT_NEAR(largest_of(given, {0.1, -0.3}), 0.5, 1e-15);
+  given[1].low = -0.5;
+  EXPECT_NEAR(largest_of(given, {0.1, -0.3}), 0.8, 1e-15);
+  given[1].share = 0.1;
+  EXPECT_NEAR(largest_of(given, {0.1, -0.3}), 0.5, 1e-15);
+}
+
+TEST(LimitsKept, ToTheirSlack) {
+  auto given = points(2);
+  given[0].highest = 0.2;
+  given[1].lowest = -0.1;
+  EXPECT_TRUE(limits_kept(given, {0.2, -0.1}, 0));
+  EXPECT_FALSE(limits_kept(given, {0.21, 0}, 0));
+  EXPECT_FALSE(limits_kept(given, {0, -0.11}, 0));
+  EXPECT_TRUE(limits_kept(given, {0.21, -0.11}, 0.02));
+  EXPECT_FALSE(limits_kept(given, {0.23, 0}, 0.02));
+  EXPECT_FALSE(limits_kept(given, {0, -0.13}, 0.02));
+}
+
+// The whole step, or 0.995 of the way to the nearer limit.
+TEST(Band, StepsEndBeforeALimit) {
+  const auto given = points(2);
+  Band band(given, 1.0, 0);
+  band.start({0.5, -0.5}, 0.1);
+  EXPECT_EQ(band.longest({0.4, -0.4}), 1);
+  EXPECT_NEAR(band.longest({2, 0}), 0.995 * 0.5 / 2, 1e-14);
+  EXPECT_NEAR(band.longest({-2, 0}), 0.995 * 1.5 / 2, 1e-14);
+  EXPECT_NEAR(band.longest({0, -4}), 0.995 * 0.5 / 4, 1e-14);
+  EXPECT_NEAR(band.longest({2, -4}), 0.995 * 0.5 / 4, 1e-14);
+  EXPECT_TRUE(band.allows({0.9, -0.9}, 1));
+  EXPECT_FALSE(band.allows({1.0, 0}, 1));
+  EXPECT_FALSE(band.allows({0, -1.0}, 1));
+  // A thousandth of the room has to be left.
+  EXPECT_TRUE(band.allows({1 - 0.0006, 0}, 1));
+  EXPECT_FALSE(band.allows({1 - 0.0004, 0}, 1));
+  EXPECT_FALSE(band.allows({-1 + 0.0014, 0}, 1));
+}
+
+// A limit that is passed by 0.5 has extra width 0.5 + half the tolerance; a whole step takes all of
+// that back, half a step half of it.
+TEST(Band, ExtraWidthGoesAsTheStepDoes) {
+  const auto given = points(1);
+  Band band(given, 1.0, 0);
+  band.start({1.5}, 0.1);
+  EXPECT_NEAR(band.extra(), 1.0, 1e-15);
+  // Newton's whole step to 0.9 means -0.6 and takes the extra width of 1: room 0.1 of 0.5.
+  EXPECT_EQ(band.longest({-0.6}), 1);
+  EXPECT_NEAR(band.longest({0.0}), 0.995 * 0.5 / 1.0, 1e-14);
+  EXPECT_TRUE(band.allows({0.9}, 1));
+  EXPECT_FALSE(band.allows({1.5}, 1));
+  EXPECT_TRUE(band.allows({1.3}, 0.5));   // room -0.3 + half of 1
+  EXPECT_FALSE(band.allows({1.6}, 0.5));  // room -0.6 + half of 1
+  band.move({1.2}, {-0.6}, 0.5);
+  EXPECT_NEAR(band.extra(), 0.5, 1e-15);
+}
+
+// Extra width has its price beside the logarithms: as much as twice the largest multiplier.
+TEST(Band, ExtraWidthHasItsPrice) {
+  const auto given = points(1);
+  Band band(given, 1.0, 0);
+  band.start({1.5}, 0.1);
+  const double logs = -0.1 * std::log(0.5 * 2.5);  // slack 0.5 above, 2.5 below
+  EXPECT_NEAR(band.merit({1.5}, 0), 2 * 0.1 / 0.5 * 1.0 + logs, 1e-13);
+  const double after = -0.1 * std::log((1 - 1.2 + 0.5) * 2.2);
+  EXPECT_NEAR(band.merit({1.2}, 0.5), 0.4 * 0.5 + after, 1e-13);
+  band.rescale(3);
+  EXPECT_NEAR(band.merit({1.2}, 0.5), 3 * 0.4 * 0.5 + after, 1e-13);
+}
+
+// Multipliers after a whole step of Newton's solve the linearised equations slack * multiplier =
+// barrier: m' = (barrier + m * meant) / slack above, (barrier - m * meant) / slack below.
+TEST(Band, MultipliersMoveAsNewtonsMethodMeans) {
+  const auto given = points(1);
+  Band band(given, 1.0, 0);
+  band.start({0.2}, 0.1);
+  const double meant = 0.1;
+  const double high = 0.1 / 0.8, low = 0.1 / 1.2;
+  const double next_high = (0.1 + high * meant) / 0.8, next_low = (0.1 - low * meant) / 1.2;
+  band.move({0.3}, {meant}, 1);
+  EXPECT_NEAR(band.pull(0).weight, next_high / 0.7 + next_low / 1.3, 1e-14);
+  EXPECT_NEAR(band.pull(0).slope, 0.1 / 0.7 - 0.1 / 1.3, 1e-14);
+  // In another unit of the energy weights are counted in that.
+  const double before = band.pull(0).weight;
+  band.rescale(5);
+  EXPECT_NEAR(band.pull(0).weight, 5 * before, 1e-13);
+  band.set_barrier(0.3);
+  EXPECT_EQ(band.barrier(), 0.3);
+}
+
+// A step that means more than a multiplier can lose goes as far as 0.995 of it, all alike.
+TEST(Band, MultipliersStayPositive) {
+  const auto given = points(2);
+  Band band(given, 1.0, 0);
+  band.start({0, 0}, 0.1);
+  band.move({0, 0}, {4, 0}, 0.01);
+  // Above m' = (0.1 + 0.4) / 1, below (0.1 - 0.4) / 1: a loss of 0.4 of 0.1, so the share is
+  // 0.995 * 0.1 / 0.4.
+  const double share = 0.995 * 0.1 / 0.4;
+  EXPECT_NEAR(band.pull(0).weight, (0.1 + share * 0.4) + (0.1 - share * 0.4), 1e-14);
+  EXPECT_NEAR(band.pull(1).weight, 0.2, 1e-14);
+  // Springs count in the slope too, with the weight of their mean.
+  Band sprung(given, 1.0, 3);
+  sprung.start({0.5, 0}, 0.1);
+  EXPECT_NEAR(sprung.pull(0).slope, 0.1 / 0.5 - 0.1 / 1.5 + 1.5 * 0.5, 1e-14);
+  sprung.rescale(2);
+  EXPECT_NEAR(sprung.pull(1).weight, 2 * (0.1 + 0.1 + 1.5), 1e-14);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

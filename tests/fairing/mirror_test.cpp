@@ -1,0 +1,105 @@
+#include "keyline/fairing/mirror.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+
+/// Mirror symmetry of points.
+namespace keyline::fairing {
+namespace {
+
+using core::Point2;
+
+TEST(Mirror, ImagesInALine) {
+  const core::Pose2 line{{1, 2}, std::numbers::pi / 4};  // y = x + 1
+  const Point2 image = mirrored(line, {5, 1});
+  EXPECT_NEAR(image.x, 0, 1e-14);
+  EXPECT_NEAR(image.y, 6, 1e-14);
+  EXPECT_NEAR(beside(line, {5, 1}), -5 / std::numbers::sqrt2, 1e-14);
+  EXPECT_NEAR(beside(line, image), 5 / std::numbers::sqrt2, 1e-14);
+  EXPECT_NEAR(beside(line, {7, 8}), 0, 1e-14);
+}
+
+/// A pear about a line through (2, 1) at an angle, which no other line halves.
+std::vector<Point2> pear(double angle, int n, double from) {
+  std::vector<Point2> points;
+  for (int i = 0; i < n; ++i) {
+    const double t = from + 2 * std::numbers::pi * i / n;
+    const double r = 3 + std::cos(t) + 0.3 * std::cos(2 * t);
+    points.push_back({2 + r * std::cos(t + angle), 1 + r * std::sin(t + angle)});
+  }
+  return points;
+}
+
+TEST(Mirror, LineOfAPearIsItsAxis) {
+  for (const double angle : {0.0, 0.7, 2.5})
+    for (const double from : {0.0, 0.03}) {
+      const auto found = best_mirror(pear(angle, 120, from), true);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(std::sin(found->line.direction - angle), 0, 1e-5) << angle;
+      EXPECT_NEAR(beside({{2, 1}, angle}, found->line.position), 0, 1e-4) << angle;
+      EXPECT_LT(found->rms, 1e-4);
+      EXPECT_LE(found->rms, found->largest);
+      EXPECT_LT(found->largest, 1e-3);
+    }
+}
+
+// Pushed out at one side alone, the mean square tells by how much.
+TEST(Mirror, MisfitIsWhatTheSidesDifferBy) {
+  auto points = pear(0, 200, 0);
+  for (Point2& p : points)
+    if (p.y > 1) p.y += 0.01 * std::sin((p.y - 1) / 3);
+  const auto found = best_mirror(points, true);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->rms, 5e-4);
+  EXPECT_LT(found->rms, 1e-2);
+  EXPECT_GT(found->largest, found->rms);
+}
+
+TEST(Mirror, OpenLinesChangeEnds) {
+  std::vector<Point2> arch;
+  for (int i = 0; i <= 50; ++i) {
+    const double x = 0.02 * i - 0.5;
+    arch.push_back({x, 1 - x * x});
+  }
+  const auto found = best_mirror(arch, false);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(std::abs(std::sin(found->line.direction)), 1, 1e-9);
+  EXPECT_NEAR(found->line.position.x, 0, 1e-9);
+  EXPECT_LT(found->largest, 1e-6);
+}
+
+TEST(Mirror, SixPointsAreTheFewest) {
+  std::vector<Point2> hexagon;
+  for (int i = 0; i < 6; ++i)
+    hexagon.push_back({std::cos(core::kPi / 3 * i), std::sin(core::kPi / 3 * i)});
+  EXPECT_TRUE(best_mirror(hexagon, true));
+  hexagon.pop_back();
+  EXPECT_FALSE(best_mirror(hexagon, true));
+}
+
+// In that very line: moved by d from the axis every image moves by 2 d across.
+TEST(Mirror, MeasuredInALineThatIsNotTheAxis) {
+  std::vector<Point2> circle;
+  for (int i = 0; i < 360; ++i) {
+    const double t = core::kPi / 180 * i;
+    circle.push_back({std::cos(t), std::sin(t)});
+  }
+  const double d = 0.003;
+  const Mirror off = measured_in({{0, d}, 0}, circle, true);
+  EXPECT_NEAR(off.largest, 2 * d, 2e-5);
+  EXPECT_NEAR(off.rms, 2 * d / std::numbers::sqrt2, 2e-5);  // sin^2 has the mean 1/2
+  EXPECT_EQ(off.line.position.y, d);
+  const Mirror on = measured_in({{0, 0}, 1}, circle, true);
+  EXPECT_LT(on.largest, 1e-4);
+  std::vector<Point2> level;
+  for (int i = 0; i <= 20; ++i) level.push_back({0.1 * i, 0});
+  const Mirror open = measured_in({{1, 0}, core::kPi / 2}, level, false);
+  EXPECT_LT(open.largest, 1e-12);
+}
+
+}  // namespace
+}  // namespace keyline::fairing

@@ -1,0 +1,201 @@
+#include "keyline/fairing/rise_barrier.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+/// Limits on the rise of curvature.
+namespace keyline::fairing::detail {
+namespace {
+
+/// Clothoids between these curvatures, evenly spaced.
+DenseCurve of(const std::vector<double>& values, const std::vector<int>& senses) {
+  DenseCurve curve;
+  const auto pieces = static_cast<int>(values.size()) - 1;
+  for (int i = 0; i <= pieces; ++i) {
+    curve.at.push_back(double(i) / pieces);
+    curve.cut.push_back(i);
+  }
+  curve.joints.resize(values.size());
+  curve.value = values;
+  curve.alpha.assign(static_cast<std::size_t>(pieces), -1);
+  curve.sense.assign(senses.begin(), senses.end());
+  return curve;
+}
+
+// One limit a piece: its rise the way it is to run is above 0.
+TEST(RiseBarrier, PullsAsItsMeritRises) {
+  const DenseCurve curve = of({1, 2, 4, 3}, {1, 1, -1});
+  const RiseBarrier barrier(curve, 0.2);
+  EXPECT_EQ(barrier.count(), 3);
+  const std::vector<double> room{1, 2, 1}, way{1, 1, -1};
+  for (std::size_t p = 0; p < 3; ++p) {
+    EXPECT_NEAR(barrier.pull(p).slope, -way[p] * 0.2 / room[p], 1e-14);
+    EXPECT_NEAR(barrier.pull(p).weight, 0.2 / (room[p] * room[p]), 1e-14);
+  }
+  EXPECT_EQ(barrier.merit(curve), 0);
+  EXPECT_NEAR(barrier.merit(of({1, 2.5, 4, 3}, {})), -0.2 * std::log(1.5 * 0.75), 1e-14);
+}
+
+// A piece that may run either way, and one that runs the wrong way, have no limit.
+TEST(RiseBarrier, LimitsThatAreNotKeptAreLeftOut) {
+  const RiseBarrier barrier(of({1, 2, 1, 3}, {0, 1, 1}), 0.1);
+  EXPECT_EQ(barrier.count(), 1);
+  EXPECT_EQ(barrier.pull(0).weight, 0);
+  EXPECT_EQ(barrier.pull(1).weight, 0);
+  EXPECT_GT(barrier.pull(2).weight, 0);
+  EXPECT_EQ(RiseBarrier(of({1, 2}, {}), 0.1).count(), 0);
+  EXPECT_EQ(RiseBarrier(of({1, 2}, {}), 0.1).pull(0).weight, 0);
+}
+
+// A limit of the rate is one of the rise either way: rate times width times length squared.
+TEST(RiseBarrier, RatesLimitBothWays) {
+  DenseCurve curve = of({1, 2, 1.5}, {});
+  curve.length = 2;
+  curve.most_rate = 1.5;  // most rise 1.5 * 4 / 2 = 3
+  const RiseBarrier barrier(curve, 0.1);
+  EXPECT_EQ(barrier.count(), 4);
+  EXPECT_NEAR(barrier.pull(0).slope, -0.1 / (3 + 1) + 0.1 / (3 - 1), 1e-14);
+  EXPECT_NEAR(barrier.pull(1).slope, -0.1 / (3 - 0.5) + 0.1 / (3 + 0.5), 1e-14);
+}
+
+TEST(RiseBarrier, StepsEndBeforeALimit) {
+  const RiseBarrier barrier(of({1, 2, 4, 3}, {1, 1, -1}), 0.1);
+  EXPECT_EQ(barrier.longest({-0.5, -1, 0.5}), 1);
+  EXPECT_NEAR(barrier.longest({-2, 0, 0}), 0.995 / 2, 1e-14);
+  EXPECT_NEAR(barrier.longest({-2, -8, 0}), 0.995 * 2 / 8, 1e-14);
+  EXPECT_NEAR(barrier.longest({0, 0, 5}), 0.995 / 5, 1e-14);
+  EXPECT_EQ(barrier.longest({9, 9, -9}), 1);
+}
+
+// After a whole step multipliers are (barrier - multiplier * meant) / room, as far as all stay
+// positive.
+TEST(RiseBarrier, MultipliersMoveAsNewtonsMethodMeans) {
+  RiseBarrier barrier(of({1, 2}, {1}), 0.1);
+  barrier.move(of({1, 2.2}, {1}), {0.3});
+  EXPECT_NEAR(barrier.pull(0).weight, (0.1 - 0.1 * 0.3) / 1 / 1.2, 1e-14);
+  EXPECT_NEAR(barrier.pull(0).slope, -0.1 / 1.2, 1e-14);
+  barrier.rescale(3);
+  EXPECT_NEAR(barrier.pull(0).weight, 3 * 0.07 / 1.2, 1e-14);
+  barrier.set_barrier(0.5);
+  EXPECT_NEAR(barrier.pull(0).slope, -0.5 / 1.2, 1e-14);
+  RiseBarrier other(of({1, 2}, {1}), 0.1);
+  other.move(of({1, 2}, {1}), {4});  // would be -0.3: a loss of 0.4, of which 0.995 * 0.1 are taken
+  EXPECT_NEAR(other.pull(0).weight, 0.1 - 0.995 * 0.1, 1e-14);
+}
+
+bool keeps_senses(const DenseCurve& curve) {
+  for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
+    const double rise = curve.value[p + 1] - curve.value[p];
+    if (curve.sense[p] * rise < 0 || (curve.sense[p] != 0 && rise == 0)) return false;
+  }
+  return true;
+}
+
+TEST(KeepRises, LeavesWhatRunsAsItShould) {
+  DenseCurve curve = of({1, 2, 4, 3, 0}, {1, 1, -1, -1});
+  keep_rises(curve);
+  EXPECT_EQ(curve.value, (std::vector<double>{1, 2, 4, 3, 0}));
+}
+
+// Pooling adjacent violators: 1, 3, 2, 4 to rise are 1, 2.5, 2.5, 4, tilted so that they rise.
+TEST(KeepRises, PoolsNeighboursThatRunTheOtherWay) {
+  DenseCurve curve = of({1, 3, 2, 4}, {1, 1, 1});
+  keep_rises(curve);
+  EXPECT_TRUE(keeps_senses(curve));
+  EXPECT_EQ(curve.value[0], 1);
+  EXPECT_EQ(curve.value[3], 4);
+  EXPECT_NEAR(0.5 * (curve.value[1] + curve.value[2]), 2.5, 1e-14);
+  EXPECT_NEAR(curve.value[2] - curve.value[1], 2 * 1e-2 * 3, 1e-12);  // a hundredth of the range
+  DenseCurve down = of({4, 2, 3, 1}, {-1, -1, -1});
+  keep_rises(down);
+  EXPECT_TRUE(keeps_senses(down));
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(down.value[i], curve.value[3 - i], 1e-14);
+}
+
+// More than two in one block: 3, 2, 1 between 0 and 9 all become 2 in the mean.
+TEST(KeepRises, BlocksGrowWhileTheyMust) {
+  DenseCurve curve = of({0, 3, 2, 1, 9}, {1, 1, 1, 1});
+  keep_rises(curve);
+  EXPECT_TRUE(keeps_senses(curve));
+  EXPECT_NEAR(curve.value[2], 2, 1e-14);
+  EXPECT_NEAR(curve.value[1] + curve.value[3], 4, 1e-14);
+}
+
+TEST(KeepRises, HeldEndsAndFlatPiecesStay) {
+  DenseCurve curve = of({2, 1, 3, 4}, {1, 1, 1});
+  curve.hold_start = Hold::curvature;
+  keep_rises(curve);
+  EXPECT_EQ(curve.value[0], 2);
+  DenseCurve flat = of({2, 2, 1, 5}, {0, 1, 1});
+  flat.kind = {PieceKind::arc, PieceKind::curve, PieceKind::curve};
+  keep_rises(flat);
+  EXPECT_EQ(flat.value[0], 2);
+  EXPECT_EQ(flat.value[1], 2);
+}
+
+// Ends of different senses meet where the curve turns: the top stays above both sides.
+TEST(KeepRises, TurnsStayTurns) {
+  DenseCurve curve = of({1, 0.5, 2, 3, 2.5, 2.8, 1}, {1, 1, 1, -1, -1, -1});
+  keep_rises(curve);
+  EXPECT_TRUE(keeps_senses(curve));
+  EXPECT_EQ(curve.value[3], 3);
+}
+
+TEST(KeepRises, OfClosedCurvesRunOnAcrossTheSeam) {
+  DenseCurve curve = of({2, 3, 1, 0, 1, 2}, {1, -1, -1, 1, 1});
+  curve.closed = true;
+  keep_rises(curve);
+  EXPECT_TRUE(keeps_senses(curve));
+  EXPECT_EQ(curve.value.front(), curve.value.back());
+  DenseCurve bad = of({2, 3, 1, 0, 2.5, 2}, {1, -1, -1, 1, 1});
+  bad.closed = true;
+  keep_rises(bad);
+  EXPECT_TRUE(keeps_senses(bad));
+  EXPECT_EQ(bad.value.front(), bad.value.back());
+}
+
+// Slowed down: no clothoid rises by more than nine tenths of what the rate allows.
+TEST(KeepRises, RatesComeBelowTheirLimit) {
+  DenseCurve curve = of({0, 0, 8, 0, 0}, {});
+  curve.sense.clear();
+  curve.most_rate = 8;  // a rise of 2 over a quarter
+  keep_rises(curve);
+  double most = 0;
+  for (std::size_t p = 0; p < 4; ++p)
+    most = std::max(most, std::abs(curve.value[p + 1] - curve.value[p]));
+  EXPECT_NEAR(most, 0.9 * 2, 1e-12);
+  EXPECT_NEAR(curve.value[2], 0.5 * (1.8 + 8), 1e-12);  // between 1.8 from below and 8 from above
+  EXPECT_NEAR(too_fast(curve), 0.9, 1e-12);
+}
+
+TEST(Ease, MakesClothoidsOfWhatIsTooFast) {
+  DenseCurve curve = of({1, 2, 8}, {});
+  curve.alpha = {0.5, 0.5};
+  curve.most_rate = 10;
+  // Clothoids rise by 2 and 12 per length; of slope 0.5 the second is still faster.
+  ease(curve);
+  EXPECT_EQ(curve.alpha[0], 0.5);
+  EXPECT_EQ(curve.alpha[1], -1);
+}
+
+// Of clothoids the rate is the rise over the width; none at all where it has no bound.
+TEST(TooFast, OfClothoidsIsTheirRiseOverTheirWidth) {
+  DenseCurve curve = of({1, 2, 8}, {});
+  curve.most_rate = 3;
+  EXPECT_NEAR(too_fast(curve), 6 / 0.5 / 3, 1e-14);
+  curve.kind = {PieceKind::curve, PieceKind::arc};
+  EXPECT_NEAR(too_fast(curve), 1 / 0.5 / 3, 1e-14);
+  curve.kind.clear();
+  curve.alpha = {0, -1};  // exponential: log(2) / 0.5 times its larger end
+  curve.value = {1, 2, 2};
+  EXPECT_NEAR(too_fast(curve), std::log(2) / 0.5 * 2 / 3, 1e-14);
+  curve.value = {0, 2, 2};
+  EXPECT_TRUE(std::isinf(too_fast(curve)));
+  curve.most_rate = HUGE_VAL;
+  EXPECT_EQ(too_fast(curve), 0);
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail

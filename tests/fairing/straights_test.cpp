@@ -1,0 +1,119 @@
+#include "keyline/fairing/straights.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+/// Lines put into a curve, by which nodes they take.
+namespace keyline::fairing::detail {
+namespace {
+
+/// Ten cells of curvature 1, 2, …, 11.
+DenseCurve ten() {
+  DenseCurve curve;
+  for (int i = 0; i <= 10; ++i) {
+    curve.at.push_back(0.1 * i);
+    curve.joints.push_back({{1.0 * i, 0}, 0, 1.0 + i});
+  }
+  set_free(curve);
+  curve.sense.assign(10, 1);
+  return curve;
+}
+
+TEST(WithLines, ALineTakesItsNodesAndLeavesAShareOfIt) {
+  const DenseCurve out = with_lines(ten(), {{2, 8}}, 0.2);
+  // Of a length of 0.6 a fifth, 0.12, at either end: from node 4 to node 6.
+  EXPECT_EQ(out.cut, (std::vector<int>{0, 1, 2, 3, 4, 6, 7, 8, 9, 10}));
+  EXPECT_EQ(out.kind[4], PieceKind::line);
+  EXPECT_EQ(out.kind[3], PieceKind::curve);
+  EXPECT_EQ(out.value, (std::vector<double>{1, 2, 3, 4, 0, 0, 8, 9, 10, 11}));
+  EXPECT_EQ(out.alpha, std::vector<double>(9, -1));
+  ASSERT_EQ(out.sense.size(), 9U);
+  EXPECT_EQ(out.sense[4], 0);
+  EXPECT_EQ(out.sense[5], 1);
+  const DenseCurve whole = with_lines(ten(), {{2, 8}}, 0);
+  EXPECT_EQ(whole.cut, (std::vector<int>{0, 1, 2, 8, 9, 10}));
+}
+
+// An open curve's own ends stay where they are; a closed one's are as any other.
+TEST(WithLines, EndsOfAnOpenCurveAreNotShortened) {
+  const DenseCurve out = with_lines(ten(), {{0, 5}}, 0.2);
+  EXPECT_EQ(out.cut, (std::vector<int>{0, 4, 5, 6, 7, 8, 9, 10}));
+  EXPECT_EQ(out.value[0], 0);
+  const DenseCurve last = with_lines(ten(), {{5, 10}}, 0.2);
+  EXPECT_EQ(last.cut, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 10}));
+  EXPECT_EQ(last.value.back(), 0);
+  DenseCurve closed = ten();
+  closed.closed = true;
+  const DenseCurve round = with_lines(closed, {{0, 5}}, 0.2);
+  EXPECT_EQ(round.cut, (std::vector<int>{0, 1, 4, 5, 6, 7, 8, 9, 10}));
+  EXPECT_EQ(round.value.front(), 1);
+  const DenseCurve seam = with_lines(closed, {{0, 5}}, 0);
+  EXPECT_EQ(seam.value.front(), 0);
+  EXPECT_EQ(seam.value.back(), 0);
+}
+
+TEST(WithLines, SeveralAndNone) {
+  const DenseCurve out = with_lines(ten(), {{1, 3}, {6, 9}}, 0);
+  EXPECT_EQ(out.cut, (std::vector<int>{0, 1, 3, 4, 5, 6, 9, 10}));
+  EXPECT_EQ(out.value, (std::vector<double>{1, 0, 0, 5, 6, 0, 0, 11}));
+  const DenseCurve none = with_lines(ten(), {}, 0.1);
+  EXPECT_EQ(none.cut.size(), 11U);
+  DenseCurve free = ten();
+  free.sense.clear();
+  EXPECT_TRUE(with_lines(free, {{1, 3}}, 0).sense.empty());
+}
+
+/// Points along a line between two arcs, in a curve of even nodes.
+struct Given {
+  DenseCurve curve;
+  std::vector<FitPoint> points;
+};
+Given bent_line(double noise, double around) {
+  Given g;
+  constexpr int kCells = 200;
+  double direction = 0;
+  core::Point2 at{0, 0};
+  for (int i = 0; i <= kCells; ++i) {
+    const double t = double(i) / kCells;
+    const bool line = t > 0.3 && t < 0.7;
+    g.curve.at.push_back(t);
+    g.curve.joints.push_back({at, direction, line ? 0 : around});
+    const core::Vector2 left{-std::sin(direction), std::cos(direction)};
+    if (i % 2 == 0) {
+      const double off = (i / 2) % 2 == 0 ? noise : -noise;
+      g.points.push_back({.position = at + off * left});
+      g.curve.feet.push_back({std::min(i, kCells - 1), i == kCells ? 1.0 : 0.0});
+    }
+    direction += line ? 0 : around / kCells;
+    at = at + 1.0 / kCells * core::Vector2{std::cos(direction), std::sin(direction)};
+  }
+  set_free(g.curve);
+  return g;
+}
+
+// Errors of the noise's size: the points between are on a line.
+TEST(StraightStretches, AreThePointsThatStandOnALine) {
+  Given g = bent_line(1e-4, 6);
+  const auto found = straight_stretches(g.curve, g.points, 1e-4);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(g.curve.at[found[0].first], 0.3, 0.04);
+  EXPECT_NEAR(g.curve.at[found[0].last], 0.7, 0.04);
+  // Twice as far off as the noise allows they are on none.
+  EXPECT_TRUE(straight_stretches(g.curve, g.points, 0.4e-4).empty());
+  // Guides do not count.
+  for (FitPoint& p : g.points) p.count = 0;
+  EXPECT_TRUE(straight_stretches(g.curve, g.points, 1e-4).empty());
+}
+
+// Bent as around a quarter of its length beyond, the stretch has to bow by sixty times the noise.
+TEST(StraightStretches, StandOutAgainstWhatIsAround) {
+  // Of 0.4 the bow is curvature * 0.16 / 8: at 1e-4 of noise that is a curvature of 0.3.
+  EXPECT_EQ(
+      straight_stretches(bent_line(1e-4, 0.5).curve, bent_line(1e-4, 0.5).points, 1e-4).size(), 1U);
+  EXPECT_TRUE(
+      straight_stretches(bent_line(1e-4, 0.1).curve, bent_line(1e-4, 0.1).points, 1e-4).empty());
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail
