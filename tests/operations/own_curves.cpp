@@ -139,41 +139,70 @@ double closed_in(const Bezier& c, const Vec& point, double t) {
   return best;
 }
 
+/// Halves of a curve.
+std::array<Bezier, 2> halves(Bezier b) {
+  const std::size_t last = b.size() - 1;
+  Bezier left(b.size());
+  for (std::size_t level = 0; level <= last; ++level) {
+    left[level] = b[0];
+    for (std::size_t i = 0; i + level < last; ++i)
+      for (std::size_t k = 0; k < 4; ++k) b[i][k] = 0.5 * (b[i][k] + b[i + 1][k]);
+  }
+  return {std::move(left), std::move(b)};
+}
+
+/// Whether no place of the curve is nearer to the origin: |point|^2 - near^2 weight^2 has no
+/// coefficient below 0 in Bernstein's basis.
+bool keeps_off(const Bezier& b, double near) {
+  Bezier scaled = b;
+  double binomial = 1;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    for (double& x : scaled[i]) x *= binomial;
+    binomial *= static_cast<double>(b.size() - 1 - i) / static_cast<double>(i + 1);
+  }
+  for (std::size_t sum = 0; sum + 1 < 2 * b.size(); ++sum) {
+    double coefficient = 0;
+    for (std::size_t i = sum < b.size() ? 0 : sum + 1 - b.size(); i < b.size() && i <= sum; ++i) {
+      const Four &p = scaled[i], &q = scaled[sum - i];
+      coefficient += dot(front(p), front(q)) - near * near * p[3] * q[3];
+    }
+    if (!(coefficient > 0)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 double distance_from(const std::vector<Bezier>& curve, const Vec& point) {
-  constexpr int kPlaces = 40, kFiner = 16;
+  constexpr double kNearer = 1 - 1e-9;  // by less than that Newton's steps find by themselves
+  struct Part {
+    Bezier control;  ///< less the point
+    const Bezier* whole;
+    double from, to;
+  };
+  std::vector<Part> left;
   double best = INFINITY;
+  const auto offer = [&](const Bezier& whole, double t, double off) {
+    if (off < best) best = std::min(off, closed_in(whole, point, t));
+  };
+  const auto off = [](const Four& p) { return size(front(p)) / p[3]; };
   for (const Bezier& c : curve) {
-    const auto at = [&](double t) {
-      const Four p = casteljau(c, t);
-      return (1 / p[3]) * front(p);
-    };
-    std::vector<Vec> places;
-    for (int k = 0; k <= kPlaces; ++k) places.push_back(at(k / double{kPlaces}));
-    for (int k = 0; k <= kPlaces; ++k) {
-      const auto off = [&](int i) {
-        return i < 0 || i > kPlaces ? INFINITY
-                                    : distance(places[static_cast<std::size_t>(i)], point);
-      };
-      best = std::min(best, off(k));
-      double spacing = 0;  // of the places around: next to a cusp they crowd
-      for (int i = std::max(1, k - 2); i <= std::min(kPlaces, k + 3); ++i)
-        spacing = std::max(spacing, distance(places[static_cast<std::size_t>(i)],
-                                             places[static_cast<std::size_t>(i) - 1]));
-      if (off(k) > off(k - 1) || off(k) > off(k + 1) || off(k) > best + 2 * spacing) continue;
-      // Both branches of a hairpin may pass there: from every finer place nearer than its own.
-      std::array<double, 2 * kFiner + 3> finer{};
-      finer.fill(INFINITY);
-      const auto finer_t = [&](int i) {
-        return std::clamp((k + (i - 1 - kFiner) / double{kFiner}) / kPlaces, 0.0, 1.0);
-      };
-      for (int i = 1; i <= 2 * kFiner + 1; ++i)
-        finer[static_cast<std::size_t>(i)] = distance(at(finer_t(i)), point);
-      for (std::size_t i = 1; i + 1 < finer.size(); ++i)
-        if (finer[i] <= finer[i - 1] && finer[i] <= finer[i + 1])
-          best = std::min(best, closed_in(c, point, finer_t(static_cast<int>(i))));
-    }
+    Part part{c, &c, 0, 1};
+    for (Four& p : part.control)
+      for (std::size_t k = 0; k < 3; ++k) p[k] -= p[3] * point[k];
+    offer(c, 0, off(part.control.front()));
+    offer(c, 1, off(part.control.back()));
+    left.push_back(std::move(part));
+  }
+  while (!left.empty()) {
+    const Part part = std::move(left.back());
+    left.pop_back();
+    if (part.to - part.from < 1e-16 || keeps_off(part.control, kNearer * best)) continue;
+    auto [first, second] = halves(part.control);
+    const double middle = 0.5 * (part.from + part.to);
+    offer(*part.whole, middle, off(second.front()));
+    left.push_back({std::move(first), part.whole, part.from, middle});
+    left.push_back({std::move(second), part.whole, middle, part.to});
   }
   return best;
 }

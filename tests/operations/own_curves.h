@@ -48,7 +48,8 @@ double length_of(const std::vector<Bezier>& curve);
 /// Places at even parameters of every Bézier, the first of each but the first left out.
 std::vector<Spot> spots(const std::vector<Bezier>& curve, int each);
 
-/// Distance of a point: the nearest of many places, closed in on.
+/// Distance of a point: parts are halved until none can hold a nearer place, by the coefficients of
+/// the squared distance.
 double distance_from(const std::vector<Bezier>& curve, const Vec& point);
 
 /// Area between a planar curve and its chord, each side of it for itself.

@@ -220,56 +220,6 @@ double greatest_chord_angle(double alpha, double theta) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-std::array<double, 2> bezier_at(const json& bezier, double t) {
-  const json& points = bezier.at("points");
-  std::vector<std::array<double, 3>> b;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double w = bezier.contains("weights") ? bezier["weights"][i].get<double>() : 1;
-    b.push_back({w * points[i][0].get<double>(), w * points[i][1].get<double>(), w});
-  }
-  for (std::size_t level = b.size() - 1; level > 0; --level)
-    for (std::size_t i = 0; i < level; ++i)
-      for (std::size_t c = 0; c < 3; ++c) b[i][c] = (1 - t) * b[i][c] + t * b[i + 1][c];
-  return {b[0][0] / b[0][2], b[0][1] / b[0][2]};
-}
-
-namespace {
-
-/// Parameters to look at: even ones, and closer and closer ones towards both ends, where a rational
-/// curve of a large weight runs nearly all of its way.
-std::vector<double> places() {
-  std::vector<double> at{0, 1};
-  for (int k = 1; k < 100; ++k) at.push_back(k / 100.0);
-  for (double t = 0.005; t > 1e-12; t *= 0.7) {
-    at.push_back(t);
-    at.push_back(1 - t);
-  }
-  std::sort(at.begin(), at.end());
-  return at;
-}
-
-}  // namespace
-
-double distance_from_bezier(const json& bezier, const std::array<double, 2>& point) {
-  const auto off = [&](double t) {
-    const auto p = bezier_at(bezier, std::clamp(t, 0.0, 1.0));
-    return std::hypot(p[0] - point[0], p[1] - point[1]);
-  };
-  static const std::vector<double> kPlaces = places();
-  std::vector<double> offs;
-  for (const double t : kPlaces) offs.push_back(off(t));
-  const auto best =
-      static_cast<std::size_t>(std::min_element(offs.begin(), offs.end()) - offs.begin());
-  // Not past an end: beyond it all places are the end, and equal.
-  double low = kPlaces[best > 0 ? best - 1 : 0];
-  double high = kPlaces[std::min(best + 1, kPlaces.size() - 1)];
-  for (int k = 0; k < 60; ++k) {
-    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;
-  }
-  return std::min(offs[best], off((low + high) / 2));
-}
-
 namespace {
 
 /// Curvature or torsion by the fraction of the length.

@@ -45,12 +45,6 @@ double integral(const std::function<double(double)>& f, double from, double to);
 /// curve with an inflection or a cusp at an end; theta for 0 <= alpha <= 1.
 double greatest_chord_angle(double alpha, double theta);
 
-/// de Casteljau, weights or not.
-std::array<double, 2> bezier_at(const json& bezier, double t);
-
-/// Distance of a point from a Bézier: the nearest of many places, closed in on.
-double distance_from_bezier(const json& bezier, const std::array<double, 2>& point);
-
 struct SpaceEnd {
   std::array<double, 3> place{}, tangent{};
 };

@@ -1,7 +1,7 @@
 // The judges of the random tests, held against numbers of 60 digits.
-#include "own_numerics.h"
-
 #include <gtest/gtest.h>
+
+#include "own_curves.h"
 
 namespace keyline::operations {
 namespace {
@@ -23,14 +23,43 @@ TEST(OwnNumerics, WalksAPieceWhoseRadiusGrowsByE663) {
   EXPECT_NEAR(track.length, 55.664630431837686, kRounding);
 }
 
+double off(own::json bezier, double x, double y) {
+  bezier["type"] = "bezier";
+  return own::distance_from(own::beziers_of(bezier), {x, y, 0});
+}
+
 /// A foot of the perpendicular just before the end is not the end.
 TEST(OwnNumerics, FindsTheNearestPlaceNextToAnEnd) {
   const own::json line{{"points", {{0, 0}, {1, 0}, {2, 0}}}};
-  EXPECT_NEAR(own::distance_from_bezier(line, {1.9984, 0.001}), 0.001, 1e-12);
-  EXPECT_NEAR(own::distance_from_bezier(line, {0.0016, 0.001}), 0.001, 1e-12);
+  EXPECT_NEAR(off(line, 1.9984, 0.001), 0.001, 1e-12);
+  EXPECT_NEAR(off(line, 0.0016, 0.001), 0.001, 1e-12);
   // half of the way within the first ten-thousandth of the parameter
   const own::json hasty{{"points", {{0, 0}, {2, 0}, {0.8, 0.1}}}, {"weights", {1, 1e4, 1}}};
-  EXPECT_NEAR(own::distance_from_bezier(hasty, {0.7, 0.001}), 0.001, 1e-6);
+  EXPECT_NEAR(off(hasty, 0.7, 0.001), 0.001, 1e-6);
+}
+
+/// Seed 9406: the nearest of many places lies on the other branch of the hairpin that ends this
+/// curve, from where closing in leads to 8.3e-6 and 1.1e-5. Expected by mpmath: the least root of
+/// the derivative of the squared distance, 40 digits.
+TEST(OwnNumerics, FindsTheNearerBranchOfAHairpin) {
+  const own::json bezier{{"points",
+                          {{116.79844572146476, 55.327097349016924},
+                           {109.33701043616834, 79.94878767386575},
+                           {105.6062782448397, 92.25942128629708},
+                           {104.36268146685912, 96.36268400968477},
+                           {104.36265242160692, 96.36226166740259},
+                           {104.36262342846341, 96.36184008282436}}}};
+  EXPECT_NEAR(off(bezier, 104.3626287892906, 96.36183370476991), 2.8758776452984e-6, 1e-12);
+  EXPECT_NEAR(off(bezier, 104.36263011250162, 96.36183105537219), 2.6878081383707e-6, 1e-12);
+}
+
+/// A parabola's distances have two minima; expected by the cubic equation of its feet.
+TEST(OwnNumerics, FindsTheDistanceFromAParabolaWhereverThePointIs) {
+  const own::json parabola{{"points", {{-1, 1}, {0.5, -2}, {2, 4}}}};
+  EXPECT_NEAR(off(parabola, 0.1, 1.5), 1.0283771514649562, 1e-14);
+  EXPECT_NEAR(off(parabola, -0.2, 2), 1.2806248474865697, 1e-14);
+  EXPECT_NEAR(off(parabola, 1, -1), 1.2951852743393067, 1e-14);
+  EXPECT_NEAR(off(parabola, 2.5, 5), 1.118033988749895, 1e-14);
 }
 
 }  // namespace

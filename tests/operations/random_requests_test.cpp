@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "own_numerics.h"
+#include "own_curves.h"
 #include "worst.h"
 
 /// Requests drawn at random, answers judged by numerics of the tests' own. 2,000 requests in all;
@@ -351,12 +351,12 @@ TEST(RandomRequests, QuasiCurvesMeetHandlesAndBoundAndBestIsBest) {
       EXPECT_LE(best, told * (1 + 1e-9) + 1e-13 * h.chord);
       expect_no_closer_lower_degree(request, best, h.chord);
       const own::Track target = own::walked(result["target"]);
+      const auto made = own::beziers_of(result["curve"]);
       double farthest = 0;
       const std::size_t step = 1 + target.places.size() / 40;
       for (std::size_t i = 0; i < target.places.size(); i += step)
-        farthest = std::max(
-            farthest,
-            own::distance_from_bezier(result["curve"], {target.places[i].x, target.places[i].y}));
+        farthest = std::max(farthest,
+                            own::distance_from(made, {target.places[i].x, target.places[i].y, 0}));
       EXPECT_LE(farthest, told + 1e-12 * h.chord);
       const json& p = result["curve"]["points"];
       const Handles control{{p[0], p[1], p[1]}, 0, 0, 1};
