@@ -80,22 +80,30 @@ Result<exchange::FileSection> cut_file(const InputRequest& input, const std::str
   return exchange::section_of_file(file, *request, input.band);
 }
 
-Result<std::vector<RawCurve>> read_raw(const InputRequest& input, const std::string& file) {
-  if (input.row || input.column) return read_lattice_input(input, file);
+Result<exchange::PointsFile> without_unit(Result<std::vector<RawCurve>> curves) {
+  if (!curves) return std::unexpected(curves.error());
+  return exchange::PointsFile{std::move(*curves), {}};
+}
+
+Result<exchange::PointsFile> read_raw(const InputRequest& input, const std::string& file) {
+  if (input.row || input.column) return without_unit(read_lattice_input(input, file));
   const bool told =
       !input.columns.empty() || !input.weight_column.empty() || !input.id_column.empty();
   if (!input.section.empty() && !told) {
     auto cut = cut_file(input, file);
     if (!cut) return std::unexpected(cut.error());
-    return std::move(cut->curves);
+    return exchange::PointsFile{std::move(cut->curves), {}};
   }
   exchange::PointsOptions options;
   options.columns = input.columns;
   options.weight_column = input.weight_column;
   options.id_column = input.id_column;
-  auto raw = exchange::read_points(std::filesystem::path(file), options);
+  auto raw = exchange::read_points_file(file, options);
   if (!raw || input.section.empty()) return raw;
-  return cut_table(input, *raw);
+  auto cuts = cut_table(input, raw->curves);
+  if (!cuts) return std::unexpected(cuts.error());
+  raw->curves = std::move(*cuts);
+  return raw;
 }
 
 /// Of those of the name wanted; where there are none, that of the number, counted from 1.
@@ -119,38 +127,44 @@ void tell_dropped(const KeyLine& line, std::vector<std::string>& skipped) {
   tell(line.report.averaged, " replaced by means");
 }
 
-/// `skipped` tells what of the file was not taken.
+/// `told` gets the unit and what of the file was not taken.
 Result<std::vector<KeyLine>> acquire_all(const InputRequest& input, const std::string& file,
-                                         std::vector<std::string>& skipped) {
-  const auto raw = in_file(read_raw(input, file), file);
-  if (!raw) return std::unexpected(raw.error());
-  if (!raw->empty()) skipped = raw->front().left_out;
+                                         ReadAnswer& told) {
+  const auto read = in_file(read_raw(input, file), file);
+  if (!read) return std::unexpected(read.error());
+  const std::vector<RawCurve>& raw = read->curves;
+  told.unit = read->unit;
+  if (!raw.empty()) told.skipped = raw.front().left_out;
   std::vector<KeyLine> lines;
-  for (std::size_t i = 0; i < raw->size(); ++i) {
-    const RawCurve& curve = (*raw)[i];
-    if (!is_wanted(*raw, i, input.select)) continue;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const RawCurve& curve = raw[i];
+    if (!is_wanted(raw, i, input.select)) continue;
     auto line = in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)),
-                        raw->size() > 1 ? file + ": " + curve.id : file);
+                        raw.size() > 1 ? file + ": " + curve.id : file);
     if (!line) return std::unexpected(line.error());
     line->id = curve.id;
-    tell_dropped(*line, skipped);
+    tell_dropped(*line, told.skipped);
     lines.push_back(std::move(*line));
   }
   if (lines.empty()) {
     std::vector<std::string> names;
-    for (const RawCurve& curve : *raw) names.push_back(curve.id);
+    for (const RawCurve& curve : raw) names.push_back(curve.id);
     return in_file<std::vector<KeyLine>>(
         std::unexpected(document::nothing_named(input.select, names)), file);
   }
   return lines;
 }
 
-Result<std::vector<KeyLine>> join_files(const InputRequest& input) {
+Result<std::vector<KeyLine>> join_files(const InputRequest& input, std::string& unit) {
   std::vector<RawCurve> parts;
   for (const std::string& file : input.file) {
     auto raw = in_file(read_raw(input, file), file);
     if (!raw) return std::unexpected(raw.error());
-    for (RawCurve& curve : *raw) parts.push_back(std::move(curve));
+    if (!unit.empty() && !raw->unit.empty() && raw->unit != unit)
+      return fail(ErrorCode::bad_input, "is in " + raw->unit + ", a file before it in " + unit,
+                  "convert one of them", file);
+    if (unit.empty()) unit = raw->unit;
+    for (RawCurve& curve : raw->curves) parts.push_back(std::move(curve));
   }
   auto line = acquire::acquire_joined(parts, acquire_options(input.acquiring));
   if (!line) return std::unexpected(line.error());
@@ -297,10 +311,10 @@ Result<ReadAnswer> read_files(const InputRequest& request, const core::Progress&
   if (exchange::has_image_name(file)) return read_drawing(request, progress);
   if (!points) return read_curves(request, progress);
   ReadAnswer answer;
-  auto lines =
-      request.file.size() > 1 ? join_files(request) : acquire_all(request, file, answer.skipped);
+  auto lines = request.file.size() > 1 ? join_files(request, answer.unit)
+                                       : acquire_all(request, file, answer);
   if (!lines) return std::unexpected(lines.error());
-  answer.unit = request.unit;
+  if (!request.unit.empty()) answer.unit = request.unit;
   for (KeyLine& line : *lines) answer.curves.push_back(named(std::move(line)));
   return answer;
 }

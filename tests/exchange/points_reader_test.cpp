@@ -93,6 +93,17 @@ TEST(ReadPoints, SeligTitleAndJunkLinesAreIgnored) {
             (std::vector<std::string>{"line 7: http://x.example/", "line 8: + Profscan.exe"}));
 }
 
+TEST(ReadPoints, WordsBetweenTabsHeadColumnsAndNameNoCurve) {
+  const auto headed = parse("station\thalf breadth\n0.0\t0.5\n1.0\t1.5\n2.0\t2.5\n");
+  ASSERT_TRUE(headed) << headed.error().message;
+  EXPECT_EQ((*headed)[0].id, "");
+  EXPECT_EQ((*headed)[0].notes,
+            std::vector<std::string>{"the header names no x and y: the first columns taken"});
+  const auto titled = parse("hull nine\n0.0\t0.5\n1.0\t1.5\n2.0\t2.5\n");
+  ASSERT_TRUE(titled) << titled.error().message;
+  EXPECT_EQ((*titled)[0].id, "hull nine");
+}
+
 TEST(ReadPoints, LednicerBecomesOneCurve) {
   const auto curves = parse("NAME\n 3. 4.\n\n0 0\n0.5 0.1\n1 0\n\n0 0\n0.2 -0.1\n0.6 -0.1\n1 0\n");
   ASSERT_TRUE(curves) << curves.error().message;

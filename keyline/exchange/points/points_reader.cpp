@@ -9,8 +9,10 @@
 
 namespace keyline::exchange {
 
-core::Result<std::vector<acquire::RawCurve>> read_points(std::istream& in, const std::string& name,
-                                                         const PointsOptions& options) {
+namespace {
+
+core::Result<PointsFile> read(std::istream& in, const std::string& name,
+                              const PointsOptions& options) {
   LineReader lines(in, name, options.longest_line);
   detail::PointsTable table(options);
   while (true) {
@@ -24,11 +26,30 @@ core::Result<std::vector<acquire::RawCurve>> read_points(std::istream& in, const
   }
   if (lines.ended_early())
     table.cut_off("line " + std::to_string(lines.number()) + ": what follows the end mark (^Z)");
-  return table.finish(name);
+  auto curves = table.finish(name);
+  if (!curves) return std::unexpected(curves.error());
+  return PointsFile{std::move(*curves), table.unit()};
+}
+
+core::Result<std::vector<acquire::RawCurve>> curves_of(core::Result<PointsFile> file) {
+  if (!file) return std::unexpected(file.error());
+  return std::move(file->curves);
+}
+
+}  // namespace
+
+core::Result<std::vector<acquire::RawCurve>> read_points(std::istream& in, const std::string& name,
+                                                         const PointsOptions& options) {
+  return curves_of(read(in, name, options));
 }
 
 core::Result<std::vector<acquire::RawCurve>> read_points(const std::filesystem::path& path,
                                                          const PointsOptions& options) {
+  return curves_of(read_points_file(path, options));
+}
+
+core::Result<PointsFile> read_points_file(const std::filesystem::path& path,
+                                          const PointsOptions& options) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return core::fail(core::ErrorCode::io, "this is a folder", "give a file", path.string());
@@ -42,7 +63,7 @@ core::Result<std::vector<acquire::RawCurve>> read_points(const std::filesystem::
         "cannot be read: " + std::generic_category().message(reason == 0 ? EIO : reason),
         "check the name and the permissions", path.string());
   }
-  return read_points(in, path.string(), options);
+  return read(in, path.string(), options);
 }
 
 }  // namespace keyline::exchange

@@ -21,12 +21,17 @@ struct PointsOptions {
   std::size_t longest_line = 1 << 20;
 };
 
+struct PointsFile {
+  std::vector<acquire::RawCurve> curves;
+  std::string unit;  ///< of documents; empty where the columns taken tell none, or several
+};
+
 /// Reads points from text: columns separated by commas, semicolons, bars, tabs or spaces (decimal
 /// commas where semicolons, tabs or spaces separate), one point per line, maybe in brackets.
 ///
 /// - Comment lines start with #, %, // or !; a header line (also a comment) of names chooses the
-///   columns; units after a name ("x [mm]", "x_m") are ignored. Without a header the first two or
-///   three columns are x, y, z; a fourth and later ones are ignored and noted.
+///   columns, and units after their names ("x [mm]", "x_m") the unit. Without a header the first
+///   two or three columns are x, y, z; a fourth and later ones are ignored and noted.
 /// - Airfoil files: title lines before the points are noted; text behind them (lines with words,
 ///   not of a row's shape) and a line of more or fewer numbers before them, as a window's, are
 ///   `left_out`; Lednicer files (counts of both sides first) become one curve from trailing edge
@@ -42,6 +47,10 @@ struct PointsOptions {
 /// Returns: bad-input with path "file:line" for text where a number belongs, too few columns, an
 /// unknown column, values above 1e100, binary or UTF-16 content, a line longer than longest_line,
 /// or no points at all; io where the file cannot be opened or read. Memory: that of the points.
+core::Result<PointsFile> read_points_file(const std::filesystem::path& path,
+                                          const PointsOptions& options = {});
+
+/// The curves alone.
 core::Result<std::vector<acquire::RawCurve>> read_points(const std::filesystem::path& path,
                                                          const PointsOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "keyline/core/text.h"
+#include "keyline/document/document.h"
 #include "keyline/exchange/points/airfoil_points.h"
 
 namespace keyline::exchange::detail {
@@ -158,30 +159,48 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
                         "give numbers only, or start the line with #", place);
     }
   }
+  if (!take_header(text) && !comment) remember_title(line);
+  return {};
+}
+
+bool PointsTable::take_header(std::string_view text) {
   // A header may be separated by a comma although rows are not, and the other way round.
   for (const char separator : {',', ';', '\t', ' '}) {
     std::vector<std::string> names;
-    for (const auto field : split(text, {separator, false})) {
-      names.push_back(plain_name(field));
-    }
-    if (is_points_header(names, options_)) {
-      names_ = std::move(names);
-      return {};
-    }
+    const Fields fields = split(text, {separator, false});
+    for (const auto field : fields) names.push_back(plain_name(field));
+    if (!is_points_header(names, options_)) continue;
+    names_ = std::move(names);
+    units_.clear();
+    for (const auto field : fields) units_.push_back(unit_of_name(field));
+    return true;
   }
-  if (!comment) remember_title(line);
-  return {};
+  return false;
+}
+
+std::string PointsTable::unit() const {
+  std::string one;
+  for (const int column : {columns_.x, columns_.y, columns_.z}) {
+    if (column < 0 || static_cast<std::size_t>(column) >= units_.size()) continue;
+    const std::string& told = units_[static_cast<std::size_t>(column)];
+    if (document::millimetres(told) == 0 || told == one) continue;
+    if (!one.empty()) return {};
+    one = told;
+  }
+  return one;
 }
 
 core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
   started_ = true;
   width_ = fields.size();
   first_line_ = number;
-  unknown_header_ = text_lines_ > 0 && style_.separator != ' ' &&
-                    split(last_text_, style_).size() == fields.size();
-  const bool headed = text_lines_ > 0 && style_.separator != ' ';
-  most_ =
-      std::max({width_, names_.size(), headed ? split(last_text_, style_).size() : std::size_t{0}});
+  // Words between spaces are a title; a line with tabs heads columns, which tabs or spaces part.
+  const bool tabs = last_text_.find('\t') != std::string::npos;
+  const TableStyle heads = tabs && style_.separator == ' ' ? TableStyle{'\t', false} : style_;
+  const std::size_t headed =
+      text_lines_ > 0 && heads.separator != ' ' ? split(last_text_, heads).size() : 0;
+  unknown_header_ = headed == fields.size();
+  most_ = std::max({width_, names_.size(), headed});
   const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
   if (!chosen) return std::unexpected(chosen.error());
   columns_ = *chosen;

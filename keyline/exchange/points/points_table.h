@@ -28,6 +28,8 @@ class PointsTable {
   /// What the end of the input cut off, in words.
   void cut_off(std::string what) { left_out_.push_back(std::move(what)); }
   core::Result<Curves> finish(const std::string& name);
+  /// The one unit that the header tells of the columns taken; else empty.
+  std::string unit() const;
 
  private:
   using Fields = std::vector<std::string_view>;
@@ -49,6 +51,8 @@ class PointsTable {
   void add(Row row, int number);
   acquire::RawCurve& curve_of(std::string_view id);
   bool all_numbers(const Fields& fields, std::size_t from) const;
+  /// Keeps the columns' names; false where this is no header.
+  bool take_header(std::string_view text);
   void remember_title(std::string_view line);
   void restart(std::size_t fields, const std::string& place);
   void name_curves();
@@ -59,7 +63,8 @@ class PointsTable {
   bool fraction_known_ = false;  ///< whether style_.decimal_comma is settled
   PointsColumns columns_;
   std::vector<std::string> names_;
-  std::string first_text_;  // shortened
+  std::vector<std::string> units_;  // beside names_; empty where none is told
+  std::string first_text_;          // shortened
   std::string last_text_;
   bool unknown_header_ = false;
   bool started_ = false;

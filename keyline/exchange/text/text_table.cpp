@@ -139,19 +139,33 @@ TableStyle guess_style(std::string_view line) {
   return best;
 }
 
-std::string plain_name(std::string_view field) {
+namespace {
+
+/// A header's name and the unit behind it: "x [mm]", "x (mm)" or "x_mm".
+std::pair<std::string, std::string> name_and_unit(std::string_view field) {
   std::string name = lower(trimmed(field));
   std::erase(name, '"');
   std::erase(name, '\'');
-  if (const std::size_t unit = name.find_first_of("[("); unit != std::string::npos) {
-    name.erase(unit);
+  std::string unit;
+  if (const std::size_t open = name.find_first_of("[("); open != std::string::npos) {
+    const std::size_t close = name.find_first_of("])", open);
+    unit = trimmed(std::string_view(name).substr(open + 1, close - open - 1));
+    name.erase(open);
   }
   name = std::string(trimmed(name));
-  for (const std::string_view unit : {"_mm", "_cm", "_km", "_in", "_ft", "_px", "_m"}) {
-    if (name.size() > unit.size() && name.ends_with(unit)) name.erase(name.size() - unit.size());
+  for (const std::string_view end : {"_mm", "_cm", "_km", "_in", "_ft", "_px", "_m"}) {
+    if (name.size() <= end.size() || !name.ends_with(end)) continue;
+    name.erase(name.size() - end.size());
+    unit = end.substr(1);
   }
-  return name;
+  return {name, unit};
 }
+
+}  // namespace
+
+std::string plain_name(std::string_view field) { return name_and_unit(field).first; }
+
+std::string unit_of_name(std::string_view field) { return name_and_unit(field).second; }
 
 bool is_comment(std::string_view line) {
   line = trimmed(line);

@@ -32,6 +32,9 @@ TableStyle guess_style(std::string_view line);
 /// Lower case, without quotes, comment marks, and a unit in brackets or after an underscore.
 std::string plain_name(std::string_view field);
 
+/// That unit, lower case; empty where there is none.
+std::string unit_of_name(std::string_view field);
+
 /// True for a line that is a comment.
 bool is_comment(std::string_view line);
 
