@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "keyline/core/text.h"
@@ -68,6 +72,9 @@ std::string text_of(const std::string& name, const json& result) {
       result["length"].get<double>(), result["curvature"]["min"].get<double>(),
       result["curvature"]["max"].get<double>(), result["inflections"].size(),
       result["extrema"].size(), result["monotone"].get<std::string>());
+  text += fmt::format("comb: {}, variation {:.3g}, jolt {:.2g}\n",
+                      core::counted(result["comb"]["waves"].get<std::size_t>(), "wave"),
+                      result["comb"]["energy"].get<double>(), result["comb"]["jolt"].get<double>());
   text += fmt::format("{:>5} {:>11} {:>11} {:>14} {:>11} {:>11}  {}\n", "piece", "from", "length",
                       "rhythm", "slope", "volume", "impression");
   int index = 0;
@@ -90,6 +97,32 @@ struct Analysed {
   json curves = json::array();
   std::string text;
 };
+
+/// One line for each of several curves, the least calm first.
+std::string overview_of(const Analysed& all) {
+  if (all.shown.size() < 2) return {};
+  std::vector<std::size_t> order(all.shown.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) {
+    return all.shown[i]["comb"]["energy"].get<double>();
+  });
+  std::string text = fmt::format(
+      "all {} curves, the least calm first\n{:>10} {:>6} {:>8} {:>8} {:>11} {:>9} {:>8}  {}\n",
+      order.size(), "variation", "waves", "jolt", "extrema", "inflections", "monotone", "CAV",
+      "curve");
+  for (const std::size_t i : order) {
+    const json& one = all.shown[i];
+    const json& value = one["class_a"];
+    text +=
+        fmt::format("{:>10.3g} {:>6} {:>8.2g} {:>8} {:>11} {:>9} {:>8}  {}\n",
+                    one["comb"]["energy"].get<double>(), one["comb"]["waves"].get<int>(),
+                    one["comb"]["jolt"].get<double>(), one["extrema"].size(),
+                    one["inflections"].size(), one["monotone"].get<std::string>(),
+                    value.contains("cav") ? fmt::format("{:.3g}", value["cav"].get<double>()) : "-",
+                    all.pages[i].analysis.name);
+  }
+  return text;
+}
 
 Result<void> analyze_one(Session& session, const json& thing, const core::Progress& progress,
                          std::size_t count, Analysed& all) {
@@ -139,7 +172,7 @@ int analyze_curves(Session& session, const ReadFiles& read) {
   add_json(pages, shown);
   auto written = session.write(pages, json{{"unit", read.shown["unit"]}, {"curves", all.curves}});
   if (!written) return report_failure(written.error());
-  session.print(shown, all.text);
+  session.print(shown, all.text + overview_of(all));
   return kDone;
 }
 

@@ -6,6 +6,7 @@
 #include "keyline/fairing/points_splines.h"
 #include "keyline/operations/diagram_shown.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/sampled_comb.h"
 
 namespace keyline::operations {
 namespace {
@@ -126,6 +127,7 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
     if (!found) return std::unexpected(found.error());
     AnalyzeAnswer answer = analyze_answer(std::move(*found));
     answer.path = *subject.curve;
+    answer.comb = comb_figures_of(answer.path);
     return answer;
   }
   auto spline = splines_of(**line, request, context);
@@ -136,6 +138,7 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
   answer.noise = (**line).noise;
   answer.spline = *spline;
   answer.path = std::move(*spline);
+  answer.comb = comb_figures_of(answer.path);
   return answer;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/analysis/analyze.h"
+#include "keyline/analysis/comb_figures.h"
 #include "keyline/operations/reading.h"
 #include "keyline/operations/subject.h"
 #include "keyline/operations/verdict.h"
@@ -152,6 +153,7 @@ struct AnalyzeAnswer {
   std::vector<AnalyzedPiece> pieces;
   Verdict monotone = Verdict::undecided;
   std::optional<double> witness;
+  analysis::CombFigures comb;
   std::optional<double> noise;
   std::optional<document::Path> spline;
 
@@ -172,6 +174,7 @@ struct AnalyzeAnswer {
         core::field<&Answer::pieces>("of monotone curvature, in order"),
         core::field<&Answer::monotone>("whether curvature is along the whole, certified"),
         core::field<&Answer::witness>("a parameter where it is not, or not certainly"),
+        core::field<&Answer::comb>("its comb in figures; energy is the variation"),
         core::field<&Answer::noise>("of points: their standard deviation").in("length"),
         core::field<&Answer::spline>(
             "of points: the splines through them, one between two corners, which were analysed"));

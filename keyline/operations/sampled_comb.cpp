@@ -236,12 +236,25 @@ CombGraphs graphs_of(const document::Path& path, const Places& shown, double len
   return graphs;
 }
 
+double length_of(const document::Path& path) {
+  double length = 0;
+  for (const document::PlanarCurve& c : path.curves) length += length_of(c);
+  return length;
+}
+
 }  // namespace
+
+analysis::CombFigures comb_figures_of(const document::Path& path) {
+  const double length = length_of(path);
+  if (!(length > 0 && std::isfinite(length))) return {};
+  const analysis::CurvatureProfile dense = dense_profile(path, length);
+  return analysis::comb_figures({dense.arc_length, dense.curvature});
+}
 
 Result<SampledComb> sampled_comb(const document::Path& path, const CombForm& form) {
   if (auto sound = document::validate(path); !sound) return std::unexpected(sound.error());
   SampledComb comb;
-  for (const document::PlanarCurve& c : path.curves) comb.length += length_of(c);
+  comb.length = length_of(path);
   if (!(comb.length > 0 && std::isfinite(comb.length)))
     return core::fail(core::ErrorCode::bad_input, "the curve has no length", "give another curve");
   Places places = places_along(path, comb.length, form.samples);

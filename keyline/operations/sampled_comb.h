@@ -98,4 +98,7 @@ struct SampledComb {
 /// Fails: bad_input for a curve without length or whose numbers are not finite.
 core::Result<SampledComb> sampled_comb(const document::Path& path, const CombForm& form);
 
+/// The whole comb in figures, of 0 where the curve has no length.
+analysis::CombFigures comb_figures_of(const document::Path& path);
+
 }  // namespace keyline::operations

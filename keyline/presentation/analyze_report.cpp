@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/ticks.h"
+#include "keyline/operations/sampled_comb.h"
 #include "keyline/presentation/curve_samples.h"
 #include "keyline/presentation/report_parts.h"
 
@@ -45,7 +46,8 @@ void set_verdict(const CurveAnalysis& a, report::Report& report) {
       parts + ".";
 }
 
-void set_numbers(const CurveAnalysis& a, const std::string& unit, report::Report& report) {
+void set_numbers(const CurveAnalysis& a, const analysis::CombFigures& comb, const std::string& unit,
+                 report::Report& report) {
   const auto per_length = [&](double value) {
     return figure::short_number(value, 3) + (unit.empty() ? "" : "\u00A01/" + unit);
   };
@@ -57,6 +59,9 @@ void set_numbers(const CurveAnalysis& a, const std::string& unit, report::Report
       {"Smallest radius", tightest > 0 ? length_text(1 / tightest, unit) : "straight", {}},
       {"Inflections", fmt::format("{}", a.split.inflections.size()), {}},
       {"Extrema of curvature", fmt::format("{}", a.split.extrema.size()), {}},
+      {"Waves of curvature", fmt::format("{}", comb.waves), "above 2 % of its range"},
+      {"Variation of curvature", figure::short_number(comb.energy, 3), {}},
+      {"Jolt", figure::short_number(comb.jolt, 2), {}},
       {"Corners", fmt::format("{}", a.split.corners.size()), {}}};
   detail::let_units_wrap(report.numbers);
 }
@@ -173,7 +178,7 @@ report::Report analyze_report(const CurveAnalysis& analysis, const document::Pat
   report.command = options.command;
   report.options = options.options;
   set_verdict(analysis, report);
-  set_numbers(analysis, options.unit, report);
+  set_numbers(analysis, operations::comb_figures_of(path), options.unit, report);
   const figure::SampledCurve curve = detail::path_samples(path, analysis.split.pieces);
   report.sections = {curvature_section(analysis, curve, options.unit),
                      piece_section(analysis, options.unit), graph_section(analysis),
