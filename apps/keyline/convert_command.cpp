@@ -49,9 +49,8 @@ int run_convert(const Words& words) {
   const auto written =
       session.write(presentation::document_pages(output->document, options), *output);
   if (!written) return report_failure(written.error());
-  for (const json& one : (*written)["written"])
-    say(quiet, fmt::format("{}: deviation {:.3g}", one["file"].get<std::string>(),
-                           one["deviation"].get<double>()));
+  for (const json& one : (*written)["written"])  // the others were told when they were written
+    if (one["deviation"] == 0) say(quiet, one["file"].get<std::string>() + ": deviation 0");
   if (!session.door().json) return kDone;
   auto shown = shown_of(*outcome);
   if (!shown) return report_failure(shown.error());

@@ -91,7 +91,8 @@ Session new_session(const Operation& asked, bool all) {
   return Session(
       {"draw", "--points P0 P1 P2 ", "A log-aesthetic curve from handles or through points.",
        "Example: keyline draw --points 0,0 2,0 3,1.5 --alpha -1,1.5 --ratio 0.4 -o curve.svg\n"
-       "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report).",
+       "Formats: svg, json (the exact curve), csv (samples), pdf, png, html (report), dxf and what "
+       "convert writes.",
        operations::further_options(asked)},
       groups, false);
 }
@@ -139,7 +140,9 @@ Result<void> put_points(const Operation& operation, const json& points, json& re
   if (operation.name == "lac.volume")
     if (auto right = want(points, 2, "P0 and P2"); !right) return right;
   if (operation.name != "lac.volume" && operation.name != "lac.spline")
-    if (auto right = want(points, 3, "the handles P0 P1 P2"); !right) return right;
+    if (auto right = want(points, 3, "the handles P0 P1 P2, or --spline for a curve through all");
+        !right)
+      return right;
   request["points"] = points;
   return {};
 }
@@ -152,6 +155,20 @@ void complete(const Operation& operation, json& request) {
     const json value = fresh->value(name, json());
     if (value.is_number() || (value.is_array() && value.size() == 1)) request[name] = value;
   }
+}
+
+/// Numbers, words and ranges as a person writes them: a range without an end has none told.
+std::string in_words(const json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return core::number_text(value.get<double>(), 6);
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_array() && value.size() == 2 && value[0].is_null() != value[1].is_null())
+    return value[0].is_null() ? "up to " + in_words(value[1]) : "from " + in_words(value[0]);
+  if (!value.is_structured()) return value.dump();
+  std::string all;
+  for (const auto& [name, item] : value.items())
+    all += (all.empty() ? "" : ", ") + (value.is_object() ? name + " " : "") + in_words(item);
+  return value.is_object() ? all : "(" + all + ")";
 }
 
 /// One line per piece, and what the operation tells beside the curve.
@@ -173,7 +190,7 @@ std::string text_of(const json& result) {
   std::string line;
   for (const auto& [name, value] : result.items())
     if (name != "curve" && name != "report" && name != "target" && !value.is_null())
-      line += fmt::format("{}{} {}", line.empty() ? "" : "  ", name, value.dump());
+      line += fmt::format("{}{} {}", line.empty() ? "" : "  ", name, in_words(value));
   if (result.contains("report"))
     for (const json& span : result["report"]["overridden"])
       line += fmt::format("{}span {} got slope -1", line.empty() ? "" : "  ", span["span"].dump());

@@ -35,7 +35,9 @@ Session new_session() {
       {"edit", "FILE... ", "A curve or patch towards Class A and least energy.",
        "Example: keyline edit examples/cubic.json --end-tolerance 0.01 -o report.html\n"
        "         keyline edit examples/panel-c.json --keep corners --limit 5 -o panel.json\n"
-       "Formats: svg, json (the exact Bezier), csv (samples), html (report), pdf, png.",
+       "Formats: svg, json (the exact Bezier), csv (samples), html (report), pdf, png, dxf and "
+       "what "
+       "convert writes.",
        operations::further_options(*operations::find_operation("curve.edit"))},
       {curve_group(), group_of(*operations::find_operation("surface.edit_together"), "Surfaces"),
        reading_group(), door_group()});

@@ -21,7 +21,8 @@ Session new_session() {
   return Session(
       {"fair", "FILE... ", "The main job: points or a curve in, a faired key-line out.",
        "Example: keyline fair examples/bonnet-scan.csv -o faired.svg -o report.html\n"
-       "Formats: svg, json (the exact chain), csv (samples), html (report), pdf, png.",
+       "Formats: svg, json (the exact chain), csv (samples), html (report), pdf, png, dxf and what "
+       "convert writes.",
        operations::further_options(*operations::find_operation("fair"))},
       {group_of(*operations::find_operation("fair"), "Fairing"), reading_group(), door_group()});
 }
@@ -46,7 +47,7 @@ std::string table_of(const Shown& faired) {
 }
 
 const char* verdict_of(bool near, bool fair) {
-  if (near) return fair ? "" : " - near enough, but not fair";
+  if (near) return fair ? " - near enough and fair" : " - near enough, but not fair";
   return fair ? " - fair, but not near enough" : " - neither near enough nor fair";
 }
 

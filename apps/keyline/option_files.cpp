@@ -22,15 +22,7 @@ json curve_of(const json& thing) {
   return {{"type", "polyline"}, {"points", std::move(points)}};
 }
 
-namespace {
-
-struct Named {
-  std::string file;
-  std::string thing;  ///< empty: any
-};
-
-/// What stands behind a # is a name, unless a file is called so; both may hold more of them.
-Named parted(const std::string& word) {
+FileWord parted(const std::string& word) {
   std::error_code absent;
   if (std::filesystem::exists(word, absent)) return {word, ""};
   for (std::size_t hash = word.find('#'); hash != std::string::npos;
@@ -39,8 +31,6 @@ Named parted(const std::string& word) {
       return {word.substr(0, hash), word.substr(hash + 1)};
   return {word, ""};
 }
-
-}  // namespace
 
 Result<const operations::Outcome*> OptionFiles::outcome_of(const std::string& word) {
   if (const auto known = read_.find(word); known != read_.end()) return &known->second;

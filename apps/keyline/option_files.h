@@ -15,6 +15,15 @@ namespace keyline::app {
 /// A curve of document.read as a request for one curve has it.
 nlohmann::json curve_of(const nlohmann::json& thing);
 
+/// FILE or FILE#NAME.
+struct FileWord {
+  std::string file;
+  std::string thing;  ///< empty: any
+};
+
+/// What stands behind a # is a name, unless a file is called so; both may hold more of them.
+FileWord parted(const std::string& word);
+
 class OptionFiles {
  public:
   enum class Kind { curves, surfaces };

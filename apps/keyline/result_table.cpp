@@ -52,6 +52,7 @@ std::string table_of(const core::Type& type, const void* list) {
   for (std::size_t i = 0; i < count; ++i)
     add_record(type.item(), type.at(const_cast<void*>(list), i), rows[i + 1],
                i == 0 ? &rows[0] : nullptr);
+  if (rows[0].empty()) return {};
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows)
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());

@@ -160,8 +160,11 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
   const auto written = presentation::write_files(door_.output, pages, output, progress);
   end_progress();
   if (!written) return std::unexpected(as_options(written.error()));
-  for (const operations::Written& one : written->written)
+  for (const operations::Written& one : written->written) {
     for (const std::string& note : one.notes) say(door_.quiet, one.file + ": " + note);
+    if (one.deviation > 0)
+      say(door_.quiet, fmt::format("{}: deviation {:.3g}", one.file, one.deviation));
+  }
   return operations::write_json(core::type_of<operations::WriteAnswer>(), &*written);
 }
 

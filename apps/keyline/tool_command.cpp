@@ -6,6 +6,7 @@
 
 #include "keyline/core/text.h"
 
+#include "option_files.h"
 #include "result_table.h"
 #include "session.h"
 #include "terminal.h"
@@ -20,8 +21,10 @@ using operations::Operation;
 using Kind = core::Type::Kind;
 
 constexpr Tool kTools[] = {
-    {"blend", "lac.blend"},
-    {"compare", "curve.compare"},
+    {"blend", "lac.blend", "FILE... ",
+     "Example: keyline blend bonnet.json roof.json --order G3 -o blend.svg"},
+    {"compare", "curve.compare", "FILE... ",
+     "Example: keyline compare faired.json examples/bonnet-scan.csv"},
     {"join", "curve.join"},
     {"mirror", "curve.mirror"},
     {"network", "surface.network", "ALONG ACROSS ",
@@ -48,8 +51,12 @@ std::string summary(const core::Type& type, const void* value) {
       member = its->held(member);
       its = &its->item();
     }
-    if (member && its->kind == Kind::list) text += table_of(*its, member);
-    if (!member || its->kind > Kind::choice) return;
+    if (!member) return;
+    if (its->kind == Kind::list) {
+      const std::string table = table_of(*its, member);
+      if (!table.empty()) text += fmt::format("{} ({}):\n{}", field.name, field.text, table);
+    }
+    if (its->kind > Kind::choice) return;
     const auto shown = operations::write_json(*its, member);
     if (!shown) return;
     const std::string said = shown->is_number_float() ? core::number_text(shown->get<double>(), 8)
@@ -88,6 +95,11 @@ struct Of {
   std::string heading;
 };
 
+/// The name of one of several that come of one.
+std::string numbered(const std::string& name, std::size_t i) {
+  return name.empty() ? std::to_string(i + 1) : fmt::format("{}/{}", name, i + 1);
+}
+
 Result<void> run_one(Session& session, const Operation& operation, const json& request,
                      const Of& of, const core::Progress& progress, Made& made) {
   const std::string& name = of.name;
@@ -99,8 +111,7 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
   gather_curves(*result, curves);
   for (std::size_t i = 0; i < curves.size(); ++i)
     made.document["curves"].push_back(
-        {{"name", curves.size() > 1 ? fmt::format("{}/{}", name, i + 1) : name},
-         {"curve", curves[i]}});
+        {{"name", curves.size() > 1 ? numbered(name, i) : name}, {"curve", curves[i]}});
   if (result->contains("surface") && (*result)["surface"].is_object())
     made.document["surfaces"].push_back({{"name", name}, {"surface", (*result)["surface"]}});
   made.text += (of.heading.empty() ? "" : of.heading + "\n") +
@@ -141,6 +152,11 @@ int finish(Session& session, const Made& made) {
     if (auto done = session.write(pages, made.document); !done) return report_failure(done.error());
   }
   session.print(one_or_all(made.shown, "results"), made.text);
+  const std::size_t shapes = made.document["curves"].size() + made.document["surfaces"].size();
+  if (shapes > 0 && session.door().output.empty() && !session.door().json)
+    say(session.door().quiet,
+        fmt::format("{} made; -o FILE writes {}, --json prints all", core::counted(shapes, "shape"),
+                    shapes == 1 ? "it" : "them"));
   return kDone;
 }
 
@@ -151,10 +167,26 @@ bool has_field(const Operation& operation, std::string_view name) {
   return found;
 }
 
+/// Whether there are as many curves as the operation takes.
+Result<void> check_count(const Session& session, const Operation& operation, std::size_t count) {
+  Result<void> good;
+  core::visit_fields(
+      *operation.request, operation.request->make().get(), [&](const Field& field, void*) {
+        if (field.name != "curves" || (count >= field.least && count <= field.most)) return;
+        good = core::fail(core::ErrorCode::bad_input, core::counted(count, "curve") + " given",
+                          fmt::format("give {}: {}; FILE#NAME takes one of a file's, keyline list "
+                                      "tells them",
+                                      field.least, field.text),
+                          session.files().front());
+      });
+  return good;
+}
+
 Result<void> run_on_curves(Session& session, const Operation& operation,
                            const std::vector<json>& things, Made& made) {
   json request = session.of(0);
   if (has_field(operation, "curves")) {
+    if (auto sound = check_count(session, operation, things.size()); !sound) return sound;
     for (const json& thing : things) request["curves"].push_back(curve_of(thing));
     return run_one(session, operation, request, {}, session.progress(), made);
   }
@@ -170,10 +202,26 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
   return {};
 }
 
-/// Curves of one file.
+/// Files of one command that tell a unit tell the same.
+Result<void> agree(const json& unit, const std::string& file, Made& made) {
+  const std::string known = made.document.value("unit", "");
+  if (known.empty() || unit == "") {
+    if (known.empty()) made.document["unit"] = unit;
+    return {};
+  }
+  if (unit == known) return {};
+  return core::fail(
+      core::ErrorCode::bad_input,
+      fmt::format("is in {}, what was read before in {}", unit.get<std::string>(), known),
+      "convert one of them with keyline convert", file);
+}
+
+/// Curves of one file, or what of it a name behind # takes.
 Result<json> read_one(Session& session, const std::string& file, Made& made) {
   json request = session.of(1);
-  request["file"] = file;
+  const FileWord word = parted(file);
+  request["file"] = word.file;
+  if (!word.thing.empty()) request["select"] = word.thing;
   const auto read = session.perform("document.read", request, session.progress());
   end_progress();
   if (!read) return std::unexpected(read.error());
@@ -183,7 +231,7 @@ Result<json> read_one(Session& session, const std::string& file, Made& made) {
   if ((*shown)["curves"].empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve in it",
                       "give a file that holds one", file);
-  made.document["unit"] = (*shown)["unit"];
+  if (auto same = agree((*shown)["unit"], file, made); !same) return std::unexpected(same.error());
   return std::move((*shown)["curves"]);
 }
 
@@ -216,14 +264,9 @@ Result<void> run_across(Session& session, const Operation& operation, Made& made
     return core::fail(core::ErrorCode::bad_input, "takes two files",
                       "curves one way in the first, those that cross them in the second", "");
   json request = session.of(0);
-  json unit;
   for (const std::size_t way : {0U, 1U}) {
     const auto curves = read_one(session, session.files()[way], made);
     if (!curves) return std::unexpected(curves.error());
-    if (way == 1 && made.document["unit"] != unit)
-      return core::fail(core::ErrorCode::bad_input, "is in another unit than the first file",
-                        "convert one of them", session.files()[way]);
-    unit = made.document["unit"];
     for (const json& thing : *curves)
       request[way == 0 ? "along_u" : "along_v"].push_back(curve_of(thing));
   }

@@ -165,6 +165,14 @@ class Words {
   OptionFiles& files_;
 };
 
+/// One or another of `count` words.
+template <class Word>
+std::string joined(std::size_t count, const Word& word) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) all += (i > 0 ? "|" : "") + word(i);
+  return all;
+}
+
 std::string placeholder(const Type& type) {
   switch (type.kind) {
     case Kind::boolean:
@@ -175,12 +183,8 @@ std::string placeholder(const Type& type) {
       return "NUMBER";
     case Kind::text:
       return "TEXT";
-    case Kind::choice: {
-      std::string all;
-      for (std::size_t i = 0; i < type.word_count; ++i)
-        all += (i > 0 ? "|" : "") + std::string(type.words[i]);
-      return all;
-    }
+    case Kind::choice:
+      return joined(type.word_count, [&](std::size_t i) { return std::string(type.words[i]); });
     case Kind::point:
       return "X,Y";
     case Kind::point3:
@@ -197,12 +201,9 @@ std::string placeholder(const Type& type) {
     }
     case Kind::record:
       return type.from_text ? "TEXT" : "JSON";
-    case Kind::one_of: {
-      std::string all;
-      for (std::size_t i = 0; i < type.alternative_count; ++i)
-        all += (i > 0 ? "|" : "") + placeholder(type.alternatives[i]());
-      return all;
-    }
+    case Kind::one_of:
+      return joined(type.alternative_count,
+                    [&](std::size_t i) { return placeholder(type.alternatives[i]()); });
     case Kind::value:
       return "FILE";
   }
@@ -237,6 +238,17 @@ std::string in_columns(const std::string& left, const std::string& right) {
   return text + "\n";
 }
 
+/// As it would be given; empty for records, switches and nothing.
+std::string default_text(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return core::number_text(value.get<double>(), 8);
+  if (value.is_number()) return value.dump();
+  std::string text;
+  if (value.is_array())
+    for (const json& item : value) text += (text.empty() ? "" : " ") + default_text(item);
+  return text;
+}
+
 }  // namespace
 
 std::string option_name(std::string_view field) {
@@ -260,8 +272,7 @@ OptionText option_text(const Field& field, const void* member) {
   add(range_text(field.bounds));
   if (field.required) add("needed");
   const json value = operations::default_of(field, member);
-  if (!value.is_null() && !value.is_structured() && !value.is_boolean() && value != "")
-    add("default " + (value.is_string() ? value.get<std::string>() : value.dump()));
+  if (const std::string text = default_text(value); !text.empty()) add("default " + text);
   option.text = std::string(field.text) + (more.empty() ? "" : " (" + more + ")");
   option.on = value == json(true);
   const Type* type = &field.type();

@@ -1,0 +1,121 @@
+#include <string>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "run_keyline.h"
+
+/// The commands on curves one has (docs/guide/curves.md), as a person at the terminal meets them.
+namespace keyline::app_test {
+namespace {
+
+using nlohmann::json;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A clothoid whose curvature grows from 0 to 0.5 within a length of 2: its variation, the length
+/// cubed times the integral of the squared rate, is 8 * 2 * 0.25^2 = 1.
+const std::string kClothoid =
+    R"({"name":"clothoid","curve":{"type":"log-aesthetic","start":[0,0],"direction":0,)"
+    R"("pieces":[{"alpha":-1,"length":2,"curvature":[0,0.5]}]}})";
+const std::string kArc =
+    R"({"name":"arc","curve":{"type":"log-aesthetic","start":[5,5],"direction":0,)"
+    R"("pieces":[{"alpha":-1,"length":2,"curvature":[0.5,0.5]}]}})";
+const std::string kLine = R"({"name":"line","curve":{"type":"polyline","points":[[9,9],[10,9]]}})";
+
+std::string document(const std::string& curves, const std::string& unit = "") {
+  return R"({"unit":")" + unit + R"(","curves":[)" + curves + "]}";
+}
+
+TEST(CurvesOfFiles, AreToldTheLeastCalmFirst) {
+  const Scratch s;
+  const std::string file = s.write("all.json", document(kArc + "," + kLine + "," + kClothoid));
+  const Outcome told = run_keyline("analyze " + file);
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, ContainsRegex("all 3 curves, the least calm first\n"
+                                      " *variation .*\n"
+                                      " *1 .* clothoid\n"
+                                      " *0 .* arc\n"
+                                      " *0 .* line\n$"));
+  const json shown = json::parse(run_keyline("analyze --json " + file).out);
+  EXPECT_NEAR(shown["curves"][2]["comb"]["energy"].get<double>(), 1, 1e-9);
+  const Outcome one = run_keyline("analyze " + s.write("one.json", document(kClothoid)));
+  EXPECT_THAT(one.out, HasSubstr("comb: 0 waves, variation 1, jolt"));
+  EXPECT_THAT(one.out, Not(HasSubstr("the least calm first")));
+}
+
+TEST(CurvesOfFiles, AreNamedBehindTheirFile) {
+  const Scratch s;
+  const std::string file = s.write("all.json", document(kArc + "," + kLine + "," + kClothoid));
+  expect_failure(run_keyline("blend " + file), 2,
+                 file +
+                     ": 3 curves given; give 2: the curve to leave and the curve to join; "
+                     "FILE#NAME takes one of a file's");
+  const Outcome two = run_keyline("compare --json " + file + "#arc " + file + "#1");
+  ASSERT_EQ(two.status, 0) << two.err;
+  EXPECT_NEAR(json::parse(two.out)["largest"].get<double>(), 0, 1e-12);
+}
+
+TEST(CurvesOfFiles, OfTwoUnitsAreRefused) {
+  const Scratch s;
+  const std::string in_mm = s.write("mm.json", document(kArc, "mm"));
+  const std::string in_inches = s.write("in.json", document(kArc, "in"));
+  const std::string in_none = s.write("none.json", document(kArc));
+  expect_failure(run_keyline("compare " + in_mm + " " + in_inches), 2,
+                 in_inches + ": is in in, what was read before in mm; convert one of them");
+  for (const std::string files : {in_mm + " " + in_none, in_none + " " + in_mm}) {
+    const std::string joined = s.path("joined.json");
+    EXPECT_EQ(run_keyline("blend --at 0 1 " + files + " -o " + joined).status, 0);
+    EXPECT_EQ(json::parse(slurp(joined))["unit"], "mm") << files;
+  }
+}
+
+TEST(CurvesOfFiles, AreToldWhenNoFileTakesThem) {
+  const Scratch s;
+  const std::string file = s.write("one.json", document(kClothoid));
+  const Outcome cut = run_keyline("split --at 0.25 0.5 " + file);
+  EXPECT_EQ(cut.status, 0);
+  EXPECT_EQ(cut.out, "clothoid\n");
+  EXPECT_THAT(cut.err, HasSubstr("3 shapes made; -o FILE writes them"));
+  EXPECT_EQ(run_keyline("split --quiet --at 0.25 " + file).err, "");
+}
+
+TEST(Units, AreThoseOfATablesHeader) {
+  struct Case {
+    const char* header;
+    const char* options;
+    const char* unit;
+  };
+  constexpr Case kCases[] = {{"x [mm],y [mm]", "", "mm"},
+                             {"x_cm,y_cm", "", "cm"},
+                             {"# X (in),Y (in)", "", "in"},
+                             {"n [m],x,y", "", ""},
+                             {"x [mm],y [in]", "", ""},
+                             {"x [furlong],y [furlong]", "", ""},
+                             {"x [mm],y", "", "mm"},
+                             {"x [mm],y [mm]", "--unit ft", "ft"},
+                             {"a [m],b [m],x,y", "--columns a b", "m"}};
+  const Scratch s;
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(std::string(c.header) + " " + c.options);
+    const std::string file =
+        s.write("table.csv", std::string(c.header) + "\n1,0,5,6\n2,3,5,7\n3,5,5,8\n4,1,5,9\n");
+    const std::string written = s.path("written.json");
+    ASSERT_EQ(run_keyline("convert " + file + " " + c.options + " -o " + written).status, 0);
+    EXPECT_EQ(json::parse(slurp(written)).value("unit", ""), c.unit);
+  }
+  const std::string one = s.write("one.csv", "x_mm,y_mm\n0,0\n1,0\n2,0\n");
+  const std::string other = s.write("other.csv", "x_in,y_in\n2,0\n3,0\n4,0\n");
+  expect_failure(run_keyline("fair " + one + " " + other), 2,
+                 other + ": is in in, a file before it in mm; convert one of them");
+}
+
+TEST(Fair, SaysOnTheTerminalWhatTheReportSays) {
+  const Outcome told = run_keyline("fair " + example("clothoid.csv"));
+  EXPECT_EQ(told.status, 0);
+  EXPECT_THAT(told.err, HasSubstr(" - near enough and fair\n"));
+}
+
+}  // namespace
+}  // namespace keyline::app_test
