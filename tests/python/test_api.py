@@ -231,6 +231,21 @@ def test_every_example_of_every_operation_gives_what_json_gives(monkeypatch):
             assert isinstance(keyline.perform(declaration.name, example), dict), declaration.name
 
 
+def test_what_is_written_is_read_again(tmp_path):
+    examples = pathlib.Path(__file__).resolve().parents[2] / "examples"
+    curve = keyline.lac.segment([[0, 0], [2, 0], [3, 1.5]], -1)
+    panel = keyline.read(examples / "panel-a.json").surfaces[0]
+    named = {"name": "clothoid", "curve": curve}
+    triangle = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 4.0]])
+    keyline.write(tmp_path / "all.json", curve, named, triangle, panel, unit="mm")
+    read = keyline.read(tmp_path / "all.json")
+    assert [c.name for c in read.curves] == ["", "clothoid", ""]
+    assert [c.curve.length for c in read.curves] == [curve.length, curve.length, 7.0]
+    assert (read.unit, read.surfaces[0].name) == ("mm", "panel a")
+    with pytest.raises(keyline.BadInput, match="nothing to write"):
+        keyline.write(tmp_path / "none.json")
+
+
 @pytest.mark.skipif(not os.path.isdir(os.environ.get("KEYLINE_SHARED_DATA", "")), reason="no shared data")
 def test_what_was_read_is_a_request_again():
     examples = pathlib.Path(__file__).resolve().parents[2] / "examples"

@@ -13,6 +13,7 @@ is a Curve, which answers for whole NumPy arrays.
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import Any
 
 _beside = os.path.join(os.path.dirname(__file__), "keyline-cad")
@@ -53,9 +54,39 @@ def read(file: str | os.PathLike[str], **fields: Any) -> Any:
     return globals()["document"].read(os.fspath(file), **fields)
 
 
+def write(file: str | os.PathLike[str], *shapes: Any, **fields: Any) -> Any:
+    """Curves and surfaces into a file whose extension chooses the format (document.write): each alone, with a
+    name and a layer as read() gives it, or as an array of points.
+
+    >>> import keyline, os, tempfile
+    >>> name = os.path.join(tempfile.mkdtemp(), "segment.dxf")
+    >>> keyline.write(name, keyline.lac.segment([[0, 0], [2, 0], [3, 1.5]], -1), unit="mm").written[0].deviation < 1e-4
+    True
+    """
+    if not shapes:
+        raise BadInput("nothing to write", "shapes", "give curves or surfaces behind the file's name")
+    named = [_named(shape) for shape in shapes]
+    for kind in ("curves", "surfaces"):
+        of_kind = [one for one in named if ("surface" in one) == (kind == "surfaces")]
+        if of_kind:
+            fields[kind] = of_kind
+    return globals()["document"].write(os.fspath(file), **fields)
+
+
+def _named(shape: Any) -> dict[str, Any]:
+    """A shape as document.write has it in its lists."""
+    if isinstance(shape, Surface):
+        return {"surface": shape}
+    if isinstance(shape, Curve):
+        return {"curve": shape}
+    if isinstance(shape, (Mapping, Record)):
+        return dict(shape)
+    return {"curve": {"type": "polyline", "points": shape}}
+
+
 __all__ = [
     "BadInput", "Cancelled", "Curve", "Error", "FileFailure", "NotConverged", "Record", "Segments",
-    "Surface", "Undrawable", "Unsupported", "__version__", "perform", "read",
+    "Surface", "Undrawable", "Unsupported", "__version__", "perform", "read", "write",
     *sorted(n for n, v in globals().items() if isinstance(v, _operations.Namespace)),
     *sorted(n for n, v in globals().items() if hasattr(v, "__signature__") and v.__module__ == "keyline"),
 ]  # fmt: skip

@@ -165,6 +165,7 @@ def text() -> str:
     parts += [f"{space}: _{capitals(space)}" for space in spaces]
     if "document" in spaces:
         parts.append("def read(file: str | os.PathLike[str], **fields: Any) -> DocumentReadAnswer: ...")
+        parts.append("def write(file: str | os.PathLike[str], *shapes: Any, **fields: Any) -> DocumentWriteAnswer: ...")
     return "\n\n".join(parts + plain) + "\n"
 
 
