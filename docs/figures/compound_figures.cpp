@@ -127,10 +127,9 @@ Drawing standard_forms() {
   scene.lines.push_back({"", sample(given, 200), color(0), 2.2});
   scene.notes = {{kTriangle[0], "Pa"}, {kTriangle[1], "Pb"}, {kTriangle[2], "Pc"}};
   const double theta = total_turning(given) < 0 ? -total_turning(given) : total_turning(given);
-  return figure::tile(
-      {draw(scene), standard("(a) α ≤ 1: from the sharp end, ρ = 1", -1, 0.25, {0, theta}),
-       standard("(b) α > 1: to the flat end, ρ = 1", 2, 0.5, {-theta, 0})},
-      3);
+  return figure::tile({draw(scene), standard("(a) α ≤ 1: ρ = 1 at P0", -1, 0.25, {0, theta}),
+                       standard("(b) α > 1: ρ = 1 at P2", 2, 0.5, {-theta, 0})},
+                      3);
 }
 
 // ---- Figure 3 -------------------------------------------------------------------------------

@@ -173,8 +173,8 @@ Drawing spline() {
 /// Space curves between the same ends with the same tangents, from two sides.
 Drawing space() {
   const lac::SpaceHermite data{{0, 0, 0}, {3, 0, 0}, {1, 1.2, 0.6}, {1, -0.1, -0.6}};
-  Scene front{"From the front (x, y)", {}, {{0, 0}, {3, 0}}};
-  Scene above{"From above (x, z)", {}, {{0, 0}, {3, 0}}};
+  Scene above{"From above (x, y)", {}, {{0, 0}, {3, 0}}};
+  Scene front{"From the front (x, z)", {}, {{0, 0}, {3, 0}}};
   int i = 0;
   for (const auto& [alpha, omega] : {std::pair{-3.0, 0.0}, {-1.0, 0.0}, {-1.0, 1.0}, {-0.3, 0.0}}) {
     const auto solved = value(lac::solve_g1_space(data, alpha, -1, omega));
@@ -186,10 +186,10 @@ Drawing space() {
       x_y.points.push_back({p.x, p.y});
       x_z.points.push_back({p.x, p.z});
     }
-    front.lines.push_back(std::move(x_y));
-    above.lines.push_back(std::move(x_z));
+    above.lines.push_back(std::move(x_y));
+    front.lines.push_back(std::move(x_z));
   }
-  return figure::tile({draw(front), draw(above)}, 2);
+  return figure::tile({draw(above), draw(front)}, 2);
 }
 
 void write(const std::string& folder, const char* name, const Drawing& drawing) {
