@@ -155,24 +155,15 @@ std::string surface_edit_text(const std::string& name, const json& edit) {
          (edit.contains("patch_edits") ? many_patches_text(edit) : one_patch_text(edit));
 }
 
-std::string joints_text(const json& joints) {
+namespace {
+
+int count(const json& joints, const char* order) { return joints[order].get<int>(); }
+
+/// A warning for everything joints had before and have no more.
+std::string lost_joints_text(const json& joints) {
   const json& before = joints["before"];
   const json& after = joints["after"];
-  if (before["joints"] == 0) return "";
-  const auto count = [](const json& j, const char* order) { return j[order].get<int>(); };
-  std::string text = fmt::format(
-      "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
-      "G0 {} to {}  G1 {} to {}  G2 {} to {}\n",
-      before["joints"].get<int>(), told(before["gap"].get<double>()),
-      told(after["gap"].get<double>()), degrees_of(before["angle"].get<double>()),
-      degrees_of(after["angle"].get<double>()), count(before, "G0"), count(after, "G0"),
-      count(before, "G1"), count(after, "G1"), count(before, "G2"), count(after, "G2"));
-  const auto change = [&](const char* what) {
-    return fmt::format("{:.3g} to {:.3g}", degrees_of(before["zebra"][what].get<double>()),
-                       degrees_of(after["zebra"][what].get<double>()));
-  };
-  text += fmt::format("zebra at joints, in degrees: jumps {} (at most {})  turns {} (at most {})\n",
-                      change("mean_jump"), change("jump"), change("mean_turn"), change("turn"));
+  std::string text;
   if (count(after, "G0") < count(before, "G0"))
     text +=
         fmt::format("warning: {} of {} joints are open now; --joints zebra, G1 or G2 keeps them\n",
@@ -198,6 +189,28 @@ std::string joints_text(const json& joints) {
   if (const auto growth = joints["fold_growth"].get<double>(); growth > kSharper)
     text += fmt::format("warning: a fold grows by {:.3g} degrees\n", degrees_of(growth));
   return text;
+}
+
+}  // namespace
+
+std::string joints_text(const json& joints) {
+  const json& before = joints["before"];
+  const json& after = joints["after"];
+  if (before["joints"] == 0) return "";
+  std::string text = fmt::format(
+      "joints {}  largest gap {:.3g} to {:.3g}  largest fold {:.3g} to {:.3g} degrees  "
+      "G0 {} to {}  G1 {} to {}  G2 {} to {}\n",
+      before["joints"].get<int>(), told(before["gap"].get<double>()),
+      told(after["gap"].get<double>()), degrees_of(before["angle"].get<double>()),
+      degrees_of(after["angle"].get<double>()), count(before, "G0"), count(after, "G0"),
+      count(before, "G1"), count(after, "G1"), count(before, "G2"), count(after, "G2"));
+  const auto change = [&](const char* what) {
+    return fmt::format("{:.3g} to {:.3g}", degrees_of(before["zebra"][what].get<double>()),
+                       degrees_of(after["zebra"][what].get<double>()));
+  };
+  text += fmt::format("zebra at joints, in degrees: jumps {} (at most {})  turns {} (at most {})\n",
+                      change("mean_jump"), change("jump"), change("mean_turn"), change("turn"));
+  return text + lost_joints_text(joints);
 }
 
 void say_curves_left_out(const json& read, bool quiet) {

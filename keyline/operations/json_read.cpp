@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -102,8 +104,8 @@ Result<void> read_choice(const Type& type, const json& j, const Place& place, vo
 }
 
 /// Coordinates into x, y (and z): all of them but a last one that may be left out, or must be 0.
-Result<void> read_coordinates(const json& j, const Place& place, double* const* to,
-                              std::size_t count) {
+Result<void> read_coordinates(const json& j, const Place& place, std::span<double* const> to) {
+  const std::size_t count = to.size();
   if (!j.is_array() || j.size() < 2 || j.size() > 3)
     return wrong(place, "a point is wanted here", count == 2 ? "give [x, y]" : "give [x, y, z]");
   for (std::size_t i = 0; i < j.size(); ++i) {
@@ -120,6 +122,14 @@ Result<void> read_coordinates(const json& j, const Place& place, double* const* 
   return {};
 }
 
+Result<void> read_number(const Field& field, const json& j, const Place& place, double& value) {
+  const auto number = finite(j, place);
+  if (!number) return std::unexpected(number.error());
+  if (auto in = within(field.bounds, *number, false, place); !in) return in;
+  value = *number;
+  return {};
+}
+
 Result<void> read_interval(const Field& field, const json& j, const Place& place,
                            core::Interval& value) {
   if (!j.is_array() || j.size() != 2)
@@ -127,10 +137,7 @@ Result<void> read_interval(const Field& field, const json& j, const Place& place
   double ends[2] = {};
   for (std::size_t i = 0; i < 2; ++i) {
     const Place here{&place, {}, i};
-    const auto number = finite(j[i], here);
-    if (!number) return std::unexpected(number.error());
-    if (auto in = within(field.bounds, *number, false, here); !in) return in;
-    ends[i] = *number;
+    if (auto done = read_number(field, j[i], here, ends[i]); !done) return done;
   }
   if (!(ends[0] <= ends[1]))
     return wrong(place, "the range ends before it starts", "give [low, high]");
@@ -180,7 +187,6 @@ bool resembles(const Type& type, const json& j) {
     case Kind::number:
       return j.is_number();
     case Kind::text:
-      return j.is_string();
     case Kind::choice:
       return j.is_string();
     case Kind::point:
@@ -336,6 +342,14 @@ Result<void> read_record(const Type& type, const json& j, const Place& place, vo
   return read_records(j, {&part, 1}, {}, {}, place);
 }
 
+Result<void> read_point(const json& j, const Place& place, core::Point2& p) {
+  return read_coordinates(j, place, std::array{&p.x, &p.y});
+}
+
+Result<void> read_point(const json& j, const Place& place, core::Point3& p) {
+  return read_coordinates(j, place, std::array{&p.x, &p.y, &p.z});
+}
+
 Result<void> read(const Type& type, const Field& field, const json& j, const Place& place,
                   void* value) {
   switch (type.kind) {
@@ -345,29 +359,18 @@ Result<void> read(const Type& type, const Field& field, const json& j, const Pla
       return {};
     case Kind::integer:
       return read_integer(type, field, j, place, value);
-    case Kind::number: {
-      const auto number = finite(j, place);
-      if (!number) return std::unexpected(number.error());
-      if (auto in = within(field.bounds, *number, false, place); !in) return in;
-      *static_cast<double*>(value) = *number;
-      return {};
-    }
+    case Kind::number:
+      return read_number(field, j, place, *static_cast<double*>(value));
     case Kind::text:
       if (!j.is_string()) return not_a(place, "a string");
       *static_cast<std::string*>(value) = j.get<std::string>();
       return {};
     case Kind::choice:
       return read_choice(type, j, place, value);
-    case Kind::point: {
-      auto& p = *static_cast<core::Point2*>(value);
-      double* const to[] = {&p.x, &p.y};
-      return read_coordinates(j, place, to, 2);
-    }
-    case Kind::point3: {
-      auto& p = *static_cast<core::Point3*>(value);
-      double* const to[] = {&p.x, &p.y, &p.z};
-      return read_coordinates(j, place, to, 3);
-    }
+    case Kind::point:
+      return read_point(j, place, *static_cast<core::Point2*>(value));
+    case Kind::point3:
+      return read_point(j, place, *static_cast<core::Point3*>(value));
     case Kind::interval:
       return read_interval(field, j, place, *static_cast<core::Interval*>(value));
     case Kind::optional:

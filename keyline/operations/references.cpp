@@ -240,6 +240,64 @@ std::string typescript_defaults(const Operation& operation) {
                      defaults.dump());
 }
 
+/// Schemas by name, each with the definitions it brought along beside it.
+class Definitions {
+ public:
+  /// Keeps the schema under `name`; returns what refers to it.
+  json take(json schema, const std::string& name) {
+    if (schema.contains("$defs")) {
+      all_.update(schema["$defs"]);
+      schema.erase("$defs");
+    }
+    schema.erase("$schema");
+    all_[name] = std::move(schema);
+    return json{{"$ref", "#/$defs/" + name}};
+  }
+
+  json all() && { return std::move(all_); }
+
+ private:
+  json all_ = json::object();
+};
+
+json request_body_schema(const Operation& operation) {
+  json request = request_schema(operation);
+  request["properties"].erase("op");
+  request["required"].erase(request["required"].begin());
+  for (json& example : request["examples"]) example.erase("op");
+  return request;
+}
+
+json posted(const Operation& operation, Definitions& definitions) {
+  const std::string name = upper_words(operation.name);
+  const json answer{{"type", "object"},
+                    {"required", {"ok"}},
+                    {"properties",
+                     {{"ok", {{"type", "boolean"}}},
+                      {"id", json::object()},
+                      {"result", definitions.take(result_schema(operation), name + "Result")},
+                      {"error", {{"$ref", "#/$defs/Error"}}}}}};
+  const auto content = [](json schema) {
+    return json{{"application/json", {{"schema", std::move(schema)}}}};
+  };
+  const json request = definitions.take(request_body_schema(operation), name + "Request");
+  return {{"operationId", operation.name},
+          {"summary", operation.summary},
+          {"requestBody", {{"required", true}, {"content", content(request)}}},
+          {"responses", {{"200", {{"description", "the answer"}, {"content", content(answer)}}}}}};
+}
+
+json error_schema() {
+  json codes = json::array();
+  for (int code = 0; code <= static_cast<int>(core::ErrorCode::internal); ++code)
+    codes.push_back(core::code_name(static_cast<core::ErrorCode>(code)));
+  const json text{{"type", "string"}};
+  return {{"type", "object"},
+          {"required", {"code", "message"}},
+          {"properties",
+           {{"code", {{"enum", codes}}}, {"message", text}, {"path", text}, {"hint", text}}}};
+}
+
 }  // namespace
 
 std::string typescript_types() {
@@ -279,52 +337,14 @@ std::string python_stubs() {
 
 json openapi_document() {
   json paths = json::object();
-  json schemas = json::object();
-  const auto take = [&](json schema, const std::string& name) {
-    if (schema.contains("$defs")) {
-      schemas.update(schema["$defs"]);
-      schema.erase("$defs");
-    }
-    schema.erase("$schema");
-    schemas[name] = std::move(schema);
-    return json{{"$ref", "#/$defs/" + name}};
-  };
-  for (const Operation& operation : operations()) {
-    const std::string name = upper_words(operation.name);
-    json request = request_schema(operation);
-    request["properties"].erase("op");
-    request["required"].erase(request["required"].begin());
-    for (json& example : request["examples"]) example.erase("op");
-    const json answer{{"type", "object"},
-                      {"required", {"ok"}},
-                      {"properties",
-                       {{"ok", {{"type", "boolean"}}},
-                        {"id", json::object()},
-                        {"result", take(result_schema(operation), name + "Result")},
-                        {"error", {{"$ref", "#/$defs/Error"}}}}}};
-    const auto content = [](json schema) {
-      return json{{"application/json", {{"schema", std::move(schema)}}}};
-    };
-    paths["/api/v1/" + operation.name]["post"] = {
-        {"operationId", operation.name},
-        {"summary", operation.summary},
-        {"requestBody",
-         {{"required", true}, {"content", content(take(request, name + "Request"))}}},
-        {"responses", {{"200", {{"description", "the answer"}, {"content", content(answer)}}}}}};
-  }
-  json codes = json::array();
-  for (int code = 0; code <= static_cast<int>(core::ErrorCode::internal); ++code)
-    codes.push_back(core::code_name(static_cast<core::ErrorCode>(code)));
-  const json text{{"type", "string"}};
-  schemas["Error"] = {
-      {"type", "object"},
-      {"required", {"code", "message"}},
-      {"properties",
-       {{"code", {{"enum", codes}}}, {"message", text}, {"path", text}, {"hint", text}}}};
-  json document{{"openapi", "3.1.0"},
-                {"info", {{"title", "Keyline"}, {"version", core::version()}}},
-                {"paths", std::move(paths)},
-                {"components", {{"schemas", std::move(schemas)}}}};
+  Definitions definitions;
+  for (const Operation& operation : operations())
+    paths["/api/v1/" + operation.name]["post"] = posted(operation, definitions);
+  definitions.take(error_schema(), "Error");
+  const json document{{"openapi", "3.1.0"},
+                      {"info", {{"title", "Keyline"}, {"version", core::version()}}},
+                      {"paths", std::move(paths)},
+                      {"components", {{"schemas", std::move(definitions).all()}}}};
   std::string whole = document.dump();
   const std::string from = "#/$defs/";
   const std::string to = "#/components/schemas/";

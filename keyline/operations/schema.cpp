@@ -163,6 +163,64 @@ json object_schema(const std::string& title, const std::string& text, json prope
   return schema;
 }
 
+constexpr const char* kCurveSchema = R"({"type": "object", "required": ["type"], "oneOf": [
+  {"properties": {"type": {"const": "polyline"}, "points": {"$ref": "#/$defs/Points"}},
+   "required": ["points"]},
+  {"properties": {"type": {"const": "bezier"}, "points": {"$ref": "#/$defs/Points"},
+                  "weights": {"$ref": "#/$defs/Numbers"}},
+   "required": ["points"]},
+  {"properties": {"type": {"const": "bspline"},
+                  "degree": {"type": "integer", "minimum": 1, "maximum": 30},
+                  "knots": {"$ref": "#/$defs/Numbers"}, "points": {"$ref": "#/$defs/Points"},
+                  "weights": {"$ref": "#/$defs/Numbers"}},
+   "required": ["degree", "knots", "points"]},
+  {"properties": {"type": {"const": "log-aesthetic"}, "start": {"$ref": "#/$defs/Point"},
+                  "direction": {"type": "number"}, "closed": {"type": "boolean"},
+                  "pieces": {"type": "array", "minItems": 1, "items": {
+                    "type": "object", "required": ["alpha", "length"],
+                    "properties": {"alpha": {"type": "number"},
+                                   "length": {"type": "number", "exclusiveMinimum": 0},
+                                   "curvature": {"$ref": "#/$defs/Pair"},
+                                   "radius": {"$ref": "#/$defs/Pair"}},
+                    "oneOf": [{"required": ["curvature"]}, {"required": ["radius"]}]}}},
+   "required": ["start", "direction", "pieces"]},
+  {"properties": {"type": {"const": "log-aesthetic-space"},
+                  "start": {"$ref": "#/$defs/Point3"},
+                  "frame": {"type": "array", "items": {"$ref": "#/$defs/Point3"},
+                            "minItems": 3, "maxItems": 3},
+                  "pieces": {"type": "array", "minItems": 1, "items": {
+                    "type": "object",
+                    "required": ["alpha", "beta", "length", "curvature", "torsion"],
+                    "properties": {"alpha": {"type": "number"}, "beta": {"type": "number"},
+                                   "length": {"type": "number", "exclusiveMinimum": 0},
+                                   "curvature": {"$ref": "#/$defs/Pair"},
+                                   "torsion": {"$ref": "#/$defs/Pair"}}}}},
+   "required": ["start", "frame", "pieces"]},
+  {"properties": {"type": {"const": "path"}, "closed": {"type": "boolean"},
+                  "curves": {"type": "array", "items": {"$ref": "#/$defs/Curve"},
+                             "minItems": 1}},
+   "required": ["curves"]}]})";
+
+constexpr const char* kSurfaceSchema =
+    R"({"type": "object", "required": ["type", "points"], "oneOf": [
+  {"properties": {"type": {"const": "bezier-surface"}, "points": {"$ref": "#/$defs/Grid"},
+                  "weights": {"type": "array", "items": {"$ref": "#/$defs/Numbers"}}}},
+  {"properties": {"type": {"const": "bspline-surface"}, "points": {"$ref": "#/$defs/Grid"},
+                  "degree": {"type": "array", "minItems": 2, "maxItems": 2,
+                             "items": {"type": "integer", "minimum": 1, "maximum": 30}},
+                  "knots": {"type": "array", "items": {"$ref": "#/$defs/Numbers"},
+                            "minItems": 2, "maxItems": 2},
+                  "weights": {"type": "array", "items": {"$ref": "#/$defs/Numbers"}}},
+   "required": ["degree", "knots"]}]})";
+
+constexpr const char* kListSchemas = R"({
+  "Point": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
+  "Point3": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3},
+  "Points": {"type": "array", "items": {"$ref": "#/$defs/Point3"}, "minItems": 2},
+  "Pair": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
+  "Numbers": {"type": "array", "items": {"type": "number"}},
+  "Grid": {"type": "array", "items": {"$ref": "#/$defs/Points"}, "minItems": 2}})";
+
 }  // namespace
 
 json default_of(const core::Field& field, const void* member) {
@@ -206,60 +264,12 @@ json result_schema(const Operation& operation) {
 }
 
 const json& value_schemas() {
-  static const json schemas = json::parse(R"({
-    "Point": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
-    "Point3": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3},
-    "Points": {"type": "array", "items": {"$ref": "#/$defs/Point3"}, "minItems": 2},
-    "Pair": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
-    "Numbers": {"type": "array", "items": {"type": "number"}},
-    "Grid": {"type": "array", "items": {"$ref": "#/$defs/Points"}, "minItems": 2},
-    "Curve": {"type": "object", "required": ["type"], "oneOf": [
-      {"properties": {"type": {"const": "polyline"}, "points": {"$ref": "#/$defs/Points"}},
-       "required": ["points"]},
-      {"properties": {"type": {"const": "bezier"}, "points": {"$ref": "#/$defs/Points"},
-                      "weights": {"$ref": "#/$defs/Numbers"}},
-       "required": ["points"]},
-      {"properties": {"type": {"const": "bspline"},
-                      "degree": {"type": "integer", "minimum": 1, "maximum": 30},
-                      "knots": {"$ref": "#/$defs/Numbers"}, "points": {"$ref": "#/$defs/Points"},
-                      "weights": {"$ref": "#/$defs/Numbers"}},
-       "required": ["degree", "knots", "points"]},
-      {"properties": {"type": {"const": "log-aesthetic"}, "start": {"$ref": "#/$defs/Point"},
-                      "direction": {"type": "number"}, "closed": {"type": "boolean"},
-                      "pieces": {"type": "array", "minItems": 1, "items": {
-                        "type": "object", "required": ["alpha", "length"],
-                        "properties": {"alpha": {"type": "number"},
-                                       "length": {"type": "number", "exclusiveMinimum": 0},
-                                       "curvature": {"$ref": "#/$defs/Pair"},
-                                       "radius": {"$ref": "#/$defs/Pair"}},
-                        "oneOf": [{"required": ["curvature"]}, {"required": ["radius"]}]}}},
-       "required": ["start", "direction", "pieces"]},
-      {"properties": {"type": {"const": "log-aesthetic-space"},
-                      "start": {"$ref": "#/$defs/Point3"},
-                      "frame": {"type": "array", "items": {"$ref": "#/$defs/Point3"},
-                                "minItems": 3, "maxItems": 3},
-                      "pieces": {"type": "array", "minItems": 1, "items": {
-                        "type": "object",
-                        "required": ["alpha", "beta", "length", "curvature", "torsion"],
-                        "properties": {"alpha": {"type": "number"}, "beta": {"type": "number"},
-                                       "length": {"type": "number", "exclusiveMinimum": 0},
-                                       "curvature": {"$ref": "#/$defs/Pair"},
-                                       "torsion": {"$ref": "#/$defs/Pair"}}}}},
-       "required": ["start", "frame", "pieces"]},
-      {"properties": {"type": {"const": "path"}, "closed": {"type": "boolean"},
-                      "curves": {"type": "array", "items": {"$ref": "#/$defs/Curve"},
-                                 "minItems": 1}},
-       "required": ["curves"]}]},
-    "Surface": {"type": "object", "required": ["type", "points"], "oneOf": [
-      {"properties": {"type": {"const": "bezier-surface"}, "points": {"$ref": "#/$defs/Grid"},
-                      "weights": {"type": "array", "items": {"$ref": "#/$defs/Numbers"}}}},
-      {"properties": {"type": {"const": "bspline-surface"}, "points": {"$ref": "#/$defs/Grid"},
-                      "degree": {"type": "array", "minItems": 2, "maxItems": 2,
-                                 "items": {"type": "integer", "minimum": 1, "maximum": 30}},
-                      "knots": {"type": "array", "items": {"$ref": "#/$defs/Numbers"},
-                                "minItems": 2, "maxItems": 2},
-                      "weights": {"type": "array", "items": {"$ref": "#/$defs/Numbers"}}},
-       "required": ["degree", "knots"]}]}})");
+  static const json schemas = [] {
+    json all = json::parse(kListSchemas);
+    all["Curve"] = json::parse(kCurveSchema);
+    all["Surface"] = json::parse(kSurfaceSchema);
+    return all;
+  }();
   return schemas;
 }
 

@@ -136,8 +136,10 @@ Drawing edit_picture(const classa::EditResult& edited, const classa::Approximati
   return page;
 }
 
-report::Report edit_report(const classa::EditResult& edited, const classa::Approximation& given,
-                           const classa::EditOptions& options, const ReportOptions& report) {
+namespace {
+
+/// Title, command and the options the edit was made with.
+report::Report edit_head(const classa::EditOptions& options, const ReportOptions& report) {
   report::Report r;
   r.title = report.title.empty() ? "Edited curve" : report.title;
   r.subtitle = report.subtitle;
@@ -152,6 +154,14 @@ report::Report edit_report(const classa::EditResult& edited, const classa::Appro
   if (options.target)
     r.options.push_back({"target", fmt::format("α {}, s {}", number(options.target->alpha),
                                                number(options.target->s))});
+  return r;
+}
+
+}  // namespace
+
+report::Report edit_report(const classa::EditResult& edited, const classa::Approximation& given,
+                           const classa::EditOptions& options, const ReportOptions& report) {
+  report::Report r = edit_head(options, report);
   const bool good = edited.after.type <= 2;
   r.verdict = good ? report::Verdict::good : report::Verdict::caution;
   r.verdict_line = fmt::format("CAV from {} to {}: {}.", number(edited.before.cav),

@@ -158,55 +158,57 @@ bool DxfTags::take(T& value) {
   return true;
 }
 
+bool DxfTags::take_code(std::int16_t& code) {
+  if (!short_codes_) return take(code);
+  std::uint8_t small = 0;
+  if (!take(small)) return false;
+  code = small;
+  return small != 255 || take(code);
+}
+
+bool DxfTags::take_value(DxfTag& tag) {
+  const auto number = [&]<class T>(T value) {
+    const bool whole = take(value);
+    tag.number = static_cast<double>(value);
+    return whole;
+  };
+  switch (kind_of(tag.code)) {
+    case Kind::real:
+      return number(double{});
+    case Kind::int16:
+      return number(std::int16_t{});
+    case Kind::int32:
+      return number(std::int32_t{});
+    case Kind::int64:
+      return number(std::int64_t{});
+    case Kind::flag:
+      return number(std::int8_t{});
+    case Kind::chunk: {
+      std::uint8_t size = 0;
+      if (!take(size) || bytes_.size() - position_ < size) return false;
+      position_ += size;
+      return true;
+    }
+    case Kind::text: {
+      const std::size_t end = bytes_.find('\0', position_);
+      if (end == std::string_view::npos) return false;
+      tag.text = bytes_.substr(position_, end - position_);
+      position_ = end + 1;
+      return true;
+    }
+  }
+  return false;
+}
+
 Result<std::optional<DxfTag>> DxfTags::next_binary() {
   if (position_ >= bytes_.size()) return std::nullopt;
   DxfTag tag;
   tag.place = static_cast<std::uint32_t>(position_);
   std::int16_t code = 0;
-  std::uint8_t small = 0;
-  bool whole = true;
-  if (short_codes_) {
-    whole = take(small);
-    code = small;
-    if (small == 255) whole = take(code);
-  } else {
-    whole = take(code);
-  }
+  const bool whole = take_code(code);
   tag.code = code;
   if (code < 0 || code > 1071) return failure("a group code is expected here");
-  const auto number = [&]<class T>(T value) {
-    whole = whole && take(value);
-    tag.number = static_cast<double>(value);
-  };
-  switch (kind_of(code)) {
-    case Kind::real:
-      number(double{});
-      break;
-    case Kind::int16:
-      number(std::int16_t{});
-      break;
-    case Kind::int32:
-      number(std::int32_t{});
-      break;
-    case Kind::int64:
-      number(std::int64_t{});
-      break;
-    case Kind::flag:
-      number(std::int8_t{});
-      break;
-    case Kind::chunk:
-      whole = whole && take(small) && bytes_.size() - position_ >= small;
-      if (whole) position_ += small;
-      break;
-    case Kind::text: {
-      const std::size_t end = bytes_.find('\0', position_);
-      whole = whole && end != std::string_view::npos;
-      if (whole) tag.text = bytes_.substr(position_, end - position_);
-      if (whole) position_ = end + 1;
-      break;
-    }
-  }
-  if (!whole) return failure("the file ends within a group");
+  if (!whole || !take_value(tag)) return failure("the file ends within a group");
   return tag;
 }
 

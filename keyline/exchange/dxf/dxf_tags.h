@@ -44,8 +44,11 @@ class DxfTags {
   core::Result<std::optional<DxfTag>> next_binary();
   std::string_view line();
   std::unexpected<core::Failure> failure(std::string what) const;
+  // false where the file ends within what is taken
   template <class T>
   bool take(T& value);
+  bool take_code(std::int16_t& code);
+  bool take_value(DxfTag& tag);
 
   std::string_view bytes_;
   std::size_t position_ = 0;

@@ -67,6 +67,20 @@ core::Result<acquire::Lattice> shaped(std::vector<core::Point3> points,
   return lattice;
 }
 
+core::Result<core::Point3> point_of(const std::vector<std::string_view>& fields,
+                                    const detail::TableStyle& style, const std::string& place) {
+  double value[3] = {0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto number = k < fields.size() ? detail::parse_number(fields[k], style) : std::nullopt;
+    if (!number || (std::isfinite(*number) && std::abs(*number) > 1e100)) {
+      return core::fail(ErrorCode::bad_input, "three numbers (x y z) are needed here",
+                        "give every point of the lattice all its coordinates", place);
+    }
+    value[k] = *number;
+  }
+  return core::Point3{value[0], value[1], value[2]};
+}
+
 }  // namespace
 
 core::Result<acquire::Lattice> read_lattice(std::istream& in, const std::string& name) {
@@ -91,22 +105,14 @@ core::Result<acquire::Lattice> read_lattice(std::istream& in, const std::string&
     }
     const detail::TableStyle style = detail::guess_style(line);
     const auto fields = detail::split(line, style);
-    double value[3] = {0, 0, 0};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto number = k < fields.size() ? detail::parse_number(fields[k], style) : std::nullopt;
-      const bool header = !number && points.empty() && k == 0;
-      if (header) break;
-      if (!number || (std::isfinite(*number) && std::abs(*number) > 1e100)) {
-        return core::fail(ErrorCode::bad_input, "three numbers (x y z) are needed here",
-                          "give every point of the lattice all its coordinates", lines.place());
-      }
-      value[k] = *number;
-    }
-    if (points.empty() && !detail::parse_number(fields[0], style)) continue;
+    const bool header = points.empty() && !detail::parse_number(fields[0], style);
+    if (header) continue;
+    const auto point = point_of(fields, style, lines.place());
+    if (!point) return std::unexpected(point.error());
     if (blank) lengths.push_back(0);
     blank = false;
     ++lengths.back();
-    points.push_back({value[0], value[1], value[2]});
+    points.push_back(*point);
   }
   return shaped(std::move(points), shape, lengths, name);
 }

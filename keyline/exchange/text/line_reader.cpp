@@ -49,6 +49,41 @@ std::string_view LineReader::in_utf8() {
   return line_;
 }
 
+bool LineReader::ends_return() {
+  const bool expected = std::exchange(after_return_, false);
+  if (!expected || position_ == filled_ || buffer_[position_] != '\n') return false;
+  ++position_;
+  return true;
+}
+
+core::Result<LineReader::Taken> LineReader::take() {
+  const char* from = buffer_.data() + position_;
+  const char* to = buffer_.data() + filled_;
+  const char* stop = std::find_if(from, to, [](char c) { return c == '\n' || c == '\r'; });
+  const char* control = std::find_if(from, stop, is_control);
+  end_mark_ = end_mark_ || std::find(from, control, '\x1a') != control;
+  if (control != stop && end_mark_) {
+    ended_early_ = true;
+    position_ = filled_ = 0;
+    in_.setstate(std::ios::eofbit);
+    return Taken::end_of_text;
+  }
+  if (control != stop) {
+    return failure("this is not text (binary data found)",
+                   "give a text file with one point per line");
+  }
+  if (line_.size() + static_cast<std::size_t>(stop - from) > longest_) {
+    return failure("this line is longer than " + std::to_string(longest_) + " bytes",
+                   "give a text file with one point per line");
+  }
+  line_.append(from, stop);
+  position_ = static_cast<std::size_t>(stop - buffer_.data());
+  if (stop == to) return Taken::part;
+  after_return_ = *stop == '\r';
+  ++position_;
+  return Taken::line;
+}
+
 core::Result<std::string_view> LineReader::next(bool& end) {
   end = false;
   line_.clear();
@@ -59,40 +94,14 @@ core::Result<std::string_view> LineReader::next(bool& end) {
       started_ = true;
       if (auto good = check_start(); !good) return std::unexpected(good.error());
     }
-    if (after_return_) {
-      after_return_ = false;
-      if (position_ < filled_ && buffer_[position_] == '\n') {
-        ++position_;
-        continue;
-      }
-    }
+    if (ends_return()) continue;
     any = true;
-    const char* from = buffer_.data() + position_;
-    const char* to = buffer_.data() + filled_;
-    const char* stop = std::find_if(from, to, [](char c) { return c == '\n' || c == '\r'; });
-    const char* control = std::find_if(from, stop, is_control);
-    end_mark_ = end_mark_ || std::find(from, control, '\x1a') != control;
-    if (control != stop && end_mark_) {
-      ended_early_ = true;
+    const auto taken = take();
+    if (!taken) return std::unexpected(taken.error());
+    if (*taken == Taken::line) return in_utf8();
+    if (*taken == Taken::end_of_text) {
       end = line_.empty();
-      position_ = filled_ = 0;
-      in_.setstate(std::ios::eofbit);
       return std::string_view(line_);
-    }
-    if (control != stop) {
-      return failure("this is not text (binary data found)",
-                     "give a text file with one point per line");
-    }
-    if (line_.size() + static_cast<std::size_t>(stop - from) > longest_) {
-      return failure("this line is longer than " + std::to_string(longest_) + " bytes",
-                     "give a text file with one point per line");
-    }
-    line_.append(from, stop);
-    position_ = static_cast<std::size_t>(stop - buffer_.data());
-    if (stop != to) {
-      after_return_ = *stop == '\r';
-      ++position_;
-      return in_utf8();
     }
   }
   if (in_.bad()) {

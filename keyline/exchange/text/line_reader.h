@@ -35,6 +35,12 @@ class LineReader {
  private:
   bool fill();
   core::Result<void> check_start();
+  /// Skips the \n of an \r\n whose \r ended the line before; false where there is none.
+  bool ends_return();
+  /// To the line what of it stands in the buffer: all of it, a part, or what there is before bytes
+  /// that are no text.
+  enum class Taken { line, part, end_of_text };
+  core::Result<Taken> take();
   std::string_view in_utf8();
   std::unexpected<core::Failure> failure(std::string message, std::string hint) const;
 
