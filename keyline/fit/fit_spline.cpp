@@ -14,6 +14,9 @@
 namespace keyline::fit {
 namespace {
 
+using core::ErrorCode;
+using core::Point2;
+
 std::unexpected<core::Failure> too_few_places(int order) {
   return core::fail(ErrorCode::bad_input,
                     "the points lie at too few places, as far apart as they are, for a spline of "
@@ -21,9 +24,6 @@ std::unexpected<core::Failure> too_few_places(int order) {
                         std::to_string(order),
                     "give at least as many points as the order; leave out what lies far off");
 }
-
-using core::ErrorCode;
-using core::Point2;
 
 core::Result<void> check(const SplineFitOptions& o) {
   const auto bad = [](const char* name, const char* range) {
