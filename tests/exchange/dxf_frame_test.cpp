@@ -145,5 +145,49 @@ TEST(DxfText, NamesHaveNoSignsOfTheirOwnMeaning) {
   EXPECT_EQ(dxf_name(""), "0");
 }
 
+// DXF reference, "TABLES section group codes": 5 is a record's handle (105 of a dimension style),
+// 330 its table, 100 its classes, the second its table's own, 2 its name.
+TEST(DxfFrame, RecordsOfTablesAreOfTheirClasses) {
+  const std::vector<Group> groups = groups_of(written());
+  const std::vector<std::pair<std::string, std::string>> classes{
+      {"LTYPE", "AcDbLinetypeTableRecord"},    {"LAYER", "AcDbLayerTableRecord"},
+      {"STYLE", "AcDbTextStyleTableRecord"},   {"APPID", "AcDbRegAppTableRecord"},
+      {"DIMSTYLE", "AcDbDimStyleTableRecord"}, {"BLOCK_RECORD", "AcDbBlockTableRecord"}};
+  std::string table;
+  std::string table_handle;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i + 5 < groups.size(); ++i) {
+    if (groups[i].code != 0) continue;
+    if (groups[i].value == "TABLE") {
+      table = groups[i + 1].value;
+      table_handle = groups[i + 2].value;
+      EXPECT_EQ(groups[i + 2].code, 5);
+      EXPECT_EQ(groups[i + 4].value, "AcDbSymbolTable");
+      continue;
+    }
+    for (const auto& [name, own] : classes) {
+      if (groups[i].value != name || name != table) continue;
+      seen.insert(name);
+      EXPECT_EQ(groups[i + 1].code, name == "DIMSTYLE" ? 105 : 5) << name;
+      EXPECT_EQ(groups[i + 2].code, 330) << name;
+      EXPECT_EQ(groups[i + 2].value, table_handle) << name;
+      EXPECT_EQ(groups[i + 3].code, 100) << name;
+      EXPECT_EQ(groups[i + 3].value, "AcDbSymbolTableRecord") << name;
+      EXPECT_EQ(groups[i + 4].code, 100) << name;
+      EXPECT_EQ(groups[i + 4].value, own) << name;
+      EXPECT_EQ(groups[i + 5].code, 2) << name;
+    }
+    if (groups[i].value == "ENDTAB") table.clear();
+  }
+  EXPECT_EQ(seen.size(), classes.size());
+  int named = 0;
+  for (const Group& group : groups) {
+    if (!group.value.starts_with("AcDb")) continue;
+    EXPECT_EQ(group.code, 100) << group.value;
+    named += group.value == "AcDbDimStyleTable";  // the one table with a class of its own
+  }
+  EXPECT_EQ(named, 1);
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -56,6 +56,53 @@ TEST(ImageReader, TellsTheResolution) {
   EXPECT_NEAR(read_image(tiff_of(8, 3, 1))->pixels_per_mm, 300 / 25.4, 1e-6);
 }
 
+/// A TIFF of one row of 16 bit pixels with these samples.
+std::string deep_tiff(const std::vector<std::uint16_t>& samples, int per_pixel, int photometric) {
+  const fs::path file = fs::temp_directory_path() / "keyline-deep.tif";
+  TIFF* tiff = TIFFOpen(file.c_str(), "w");
+  const auto width = samples.size() / static_cast<std::size_t>(per_pixel);
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width));
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 1U);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 16);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, per_pixel);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, photometric);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  if (per_pixel % 2 == 0) {
+    const std::uint16_t unassociated = EXTRASAMPLE_UNASSALPHA;
+    TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &unassociated);
+  }
+  TIFFWriteEncodedStrip(tiff, 0, const_cast<std::uint16_t*>(samples.data()),
+                        static_cast<tmsize_t>(2 * samples.size()));
+  TIFFClose(tiff);
+  const std::string content = file_content(file);
+  fs::remove(file);
+  return content;
+}
+
+// 0.299 r + 0.587 g + 0.114 b, and of what is not opaque the rest is white: by hand to a unit of 16
+// bits, which no way of 8 bits meets.
+TEST(ImageReader, DeepPicturesKeepTheirBitsAndAlpha) {
+  const auto color = read_image(
+      deep_tiff({1003, 20011, 40009, 65535, 1003, 20011, 40009, 0, 1003, 20011, 40009, 26214}, 4,
+                PHOTOMETRIC_RGB));
+  ASSERT_TRUE(color);
+  const double v = 0.299 * 1003 + 0.587 * 20011 + 0.114 * 40009;
+  EXPECT_NEAR(color->luminance.at(0, 0), v, 1);
+  EXPECT_EQ(color->luminance.at(1, 0), 65535);
+  EXPECT_NEAR(color->luminance.at(2, 0), 0.4 * v + 0.6 * 65535, 1);
+  const auto grey = read_image(deep_tiff({1003, 65535, 1003, 13107}, 2, PHOTOMETRIC_MINISBLACK));
+  ASSERT_TRUE(grey);
+  EXPECT_NEAR(grey->luminance.at(0, 0), 1003, 1);
+  EXPECT_NEAR(grey->luminance.at(1, 0), 0.2 * 1003 + 0.8 * 65535, 1);
+  const auto white = read_image(deep_tiff({1003, 40009}, 1, PHOTOMETRIC_MINISWHITE));
+  ASSERT_TRUE(white);
+  EXPECT_NEAR(white->luminance.at(0, 0), 65535 - 1003, 1);
+  EXPECT_NEAR(white->luminance.at(1, 0), 65535 - 40009, 1);
+  const auto plain = read_image(deep_tiff({1003, 20011, 40009}, 3, PHOTOMETRIC_RGB));
+  ASSERT_TRUE(plain);
+  EXPECT_NEAR(plain->luminance.at(0, 0), v, 1);
+}
+
 TEST(ImageReader, LaysTransparencyOverWhite) {
   std::vector<unsigned char> rgba(16);
   for (std::size_t i = 0; i < 4; ++i) rgba[4 * i + 3] = static_cast<unsigned char>(85 * i);
