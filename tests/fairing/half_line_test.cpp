@@ -63,6 +63,26 @@ TEST(Fold, WhatStandsBetweenStaysByItself) {
   for (const Point2 q : p) EXPECT_EQ(q.y > 0, p[20].y > 0);
 }
 
+// Unevenly spaced on one side, images stand where they do, not where even spacing would have them:
+// all points of the half in the order of the curve.
+TEST(Fold, ImagesStandWhereTheirFeetAre) {
+  acquire::KeyLine line;
+  line.closed = true;
+  const double pi = std::numbers::pi;
+  const auto add = [&](double t) { line.points.push_back({2 * std::cos(t), std::sin(t)}); };
+  for (int i = 0; i < 100; ++i) add(pi * (i + 0.5) / 100);
+  for (int i = 0; i < 60; ++i) {
+    const double u = (i + 0.5) / 60;
+    add(pi * (1 + u + 0.08 * std::sin(2 * pi * u)));
+  }
+  const auto half = fold(line, kAxis);
+  ASSERT_TRUE(half);
+  EXPECT_EQ(half->measured.size(), 160U);
+  const auto& p = half->line.points;
+  const bool falls = p.front().x > p.back().x;
+  for (std::size_t i = 1; i < p.size(); ++i) EXPECT_EQ(p[i - 1].x > p[i].x, falls) << i;
+}
+
 TEST(Fold, LinesThatDoNotCrossAsTheyShouldAreRefused) {
   EXPECT_FALSE(fold(ellipse(40, 0.5), {{0, 3}, 0}));     // not at all
   EXPECT_FALSE(fold(ellipse(40, 0.5), {{0, 0.99}, 0}));  // hardly anything on one side

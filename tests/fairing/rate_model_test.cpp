@@ -1,9 +1,15 @@
 #include "keyline/fairing/rate_model.h"
 
+#include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "keyline/fairing/piece_energy.h"
+#include "keyline/fairing/rate_descent.h"
+#include "keyline/lac/chain/chain.h"
 
 /// Joints whose rates are to be one, and the limits of the solve that makes them so.
 namespace keyline::fairing::detail {
@@ -70,6 +76,183 @@ TEST(RateModel, LimitsChangeAsTheirRoomDoes) {
   for (std::size_t i = 0; i < model.limits.size(); ++i)
     EXPECT_NEAR(model.limits[i].change(step), moved.limits[i].room - model.limits[i].room, 1e-12)
         << i;
+}
+
+// Of a piece whose curvature to the power -alpha is linear: the logarithm of |d curvature / ds| by
+// differences near both ends.
+TEST(LogRates, AreThoseOfThePiece) {
+  for (const auto& [a, b, alpha] : {std::tuple{1.0, 3.0, 0.7},
+                                    {3.0, 1.0, -2.5},
+                                    {-1.0, -2.0, 0.0},
+                                    {2.0, 2.1, 1.0},
+                                    {-1.0, 2.0, -0.6},
+                                    {3.0, -0.5, -1.0}}) {
+    const lac::Piece piece{alpha, 1.7, a, b};
+    const EndRates rates = log_rates(a, b, alpha, 1.7);
+    EXPECT_NEAR(rates.start, std::log(std::abs(lac::curvature_rate(piece, 0))), 1e-12) << alpha;
+    EXPECT_NEAR(rates.end, std::log(std::abs(lac::curvature_rate(piece, 1))), 1e-12) << alpha;
+  }
+}
+
+/// Three pieces laid out end to end, points beside them, and a problem about them.
+struct Given {
+  FitChain chain;
+  std::vector<FitPoint> points;
+  RateProblem problem;
+};
+Given laid_out() {
+  Given g;
+  const lac::Chain truth{
+      {{0, 0}, 0.2}, {{-0.7, 0.4, 0.5, 1}, {0.4, 0.3, 1, 3}, {-1.5, 0.3, 3, 5}}, false};
+  const auto segments = lac::segments(truth);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const lac::Segment& s = segments[i];
+    g.chain.joints.push_back({s.start.position, s.start.direction, s.curvature_start});
+    g.chain.pieces.push_back({.length = s.length, .alpha = s.alpha});
+    for (int k = 0; k < 6; ++k) {
+      const double t = i == 0 && k == 0 ? 0 : i == 2 && k == 5 ? 1 : (k + 0.5) / 6;
+      const core::Pose2 pose = lac::pose_at(s, t);
+      const bool tip = t == 0 || t == 1;  // there the turn of the tangent is left out
+      const double off = tip ? 0 : 0.004 * ((k + int(i)) % 3 - 1) + 0.001;
+      g.points.push_back(
+          {.position = pose.position +
+                       off * core::Vector2{-std::sin(pose.direction), std::cos(pose.direction)}});
+      g.chain.feet.push_back({static_cast<int>(i), t});
+    }
+  }
+  const core::Pose2 end = lac::end_pose(truth);
+  g.chain.joints.push_back({end.position, end.direction, 5});
+  g.chain.first_at_start = g.chain.last_at_end = true;
+  g.problem.joints = rate_joints(g.chain);
+  g.problem.slopes.assign(3, {-3, 3});
+  g.problem.growth.assign(3, 1);
+  g.problem.weights = {
+      .tolerance = 0.01, .energy = 20, .band = 3, .power = 4, .jump = 0.5, .even = 0.1};
+  g.problem.end = g.chain.joints.back();
+  return g;
+}
+
+// The rows are what the values change by with each unknown, those of the equations what is missed.
+TEST(RateModel, RowsAreDifferences) {
+  for (const Hold hold : {Hold::free, Hold::position, Hold::direction}) {
+    Given g = laid_out();
+    g.problem.points = &g.points;
+    g.chain.hold_end = hold;
+    ASSERT_EQ(g.problem.joints.size(), 2U);
+    g.problem.joints[1].tied = true;
+    RateModel model(g.chain, g.problem);
+    model.linearise();
+    EXPECT_NEAR(model.gaps, 0.3 * std::abs(model.jump[1]), 1e-6);
+    ASSERT_EQ(model.equation.rows(), 1 + (hold == Hold::free ? 0 : hold == Hold::position ? 2 : 3));
+    constexpr double h = 1e-5;
+    for (int k = 0; k < model.unknowns.count(); ++k) {
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(model.unknowns.count());
+      step(k) = h;
+      RateModel up(model.moved(step, 1), g.problem), down(model.moved(step, -1), g.problem);
+      up.linearise();
+      down.linearise();
+      // Weights of jumps go with the jumps themselves: those rows are told apart.
+      for (Eigen::Index r = 0; r < model.value.size(); ++r) {
+        const Eigen::Index jumps = static_cast<Eigen::Index>(g.points.size()) + 3;
+        if (r == jumps || r == jumps + 1) continue;
+        EXPECT_NEAR(model.rows(r, k), (up.value(r) - down.value(r)) / (2 * h),
+                    1e-3 * (1 + std::abs(model.rows(r, k))))
+            << r << ' ' << k;
+      }
+      for (Eigen::Index r = 0; r < model.miss.size(); ++r)
+        EXPECT_NEAR(model.equation(r, k), (up.miss(r) - down.miss(r)) / (2 * h), 1e-4)
+            << r << ' ' << k;
+      const double by = std::sqrt(0.5 * 0.5 / std::hypot(model.jump[0], 0.1));
+      EXPECT_NEAR(model.rows(static_cast<Eigen::Index>(g.points.size()) + 3, k),
+                  by * (up.jump[0] - down.jump[0]) / (2 * h), 1e-4);
+    }
+  }
+}
+
+// What a chain costs: the squares of its rows, but for the jumps, which count by their size.
+TEST(RateModel, CostIsVariationOffsetsJumpsAndTips) {
+  Given g = laid_out();
+  g.problem.points = &g.points;
+  RateModel model(g.chain, g.problem);
+  model.linearise();
+  const auto jumps = static_cast<Eigen::Index>(g.points.size()) + 3;
+  double sum = model.value.squaredNorm() - model.value.segment<2>(jumps).squaredNorm();
+  for (const double jump : model.jump) sum += 0.5 * (std::hypot(jump, 0.1) - 0.1);
+  EXPECT_NEAR(model.cost, sum, 1e-9);
+  double variation = 0;
+  for (std::size_t p = 0; p < 3; ++p) {
+    const double root = piece_energy(g.chain.joints[p].curvature, g.chain.joints[p + 1].curvature,
+                                     g.chain.pieces[p].alpha)
+                            .root;
+    variation += root * root / g.chain.pieces[p].length / 20;
+  }
+  EXPECT_NEAR(model.variation, variation, 1e-12);
+  EXPECT_NEAR(model.max_offset, 0.5, 1e-6);  // 0.005 of 0.01
+}
+
+// A last step closes gaps and tied jumps to rounding; what is held stays.
+TEST(CloseRates, MeetsWhatHasToBeMet) {
+  for (const Hold hold : {Hold::free, Hold::direction}) {
+    Given g = laid_out();
+    g.problem.points = &g.points;
+    g.chain.hold_start = g.chain.hold_end = hold;
+    g.problem.weights.jump = 10;
+    g.chain = solve_rates(g.chain, g.problem, 60, {}).chain;
+    g.problem.joints[0].tied = g.problem.joints[1].tied = true;
+    const FitChain closed = close_rates(g.chain, g.problem);
+    const RateModel model(closed, g.problem);
+    EXPECT_LT(model.gaps, 1e-7);
+    EXPECT_NEAR(model.jump[0], 0, 1e-9);
+    EXPECT_NEAR(model.jump[1], 0, 1e-9);
+    if (hold == Hold::free) continue;
+    EXPECT_EQ(closed.joints[0].position, g.chain.joints[0].position);
+    EXPECT_EQ(closed.joints[0].direction, g.chain.joints[0].direction);
+    EXPECT_NEAR(core::distance(closed.joints[3].position, g.problem.end.position), 0, 1e-10);
+    EXPECT_NEAR(closed.joints[3].direction, g.problem.end.direction, 1e-10);
+  }
+}
+
+// A solve lowers the cost, keeps slopes inside their range and curvature its sense, and what is
+// held where it is.
+TEST(SolveRates, KeepsWhatIsHeld) {
+  for (const Hold hold : {Hold::free, Hold::position, Hold::direction, Hold::curvature}) {
+    Given g = laid_out();
+    g.problem.points = &g.points;
+    g.chain.hold_start = g.chain.hold_end = hold;
+    g.problem.slopes[1] = {-0.5, 0.5};
+    const RateModel before(g.chain, g.problem);
+    const RateSolution found = solve_rates(g.chain, g.problem, 60, {});
+    const RateModel after(found.chain, g.problem);
+    EXPECT_LT(after.cost, before.cost);
+    EXPECT_LT(found.gaps, 0.05);
+    EXPECT_LE(std::abs(found.chain.pieces[1].alpha), 0.5);
+    for (std::size_t p = 0; p < 3; ++p)
+      EXPECT_GT(found.chain.joints[p + 1].curvature, found.chain.joints[p].curvature);
+    const FitJoint& start = found.chain.joints.front();
+    const FitJoint& end = found.chain.joints.back();
+    EXPECT_EQ(core::distance(start.position, g.chain.joints[0].position) < 1e-9,
+              hold >= Hold::position);
+    EXPECT_EQ(std::abs(start.direction - 0.2) < 1e-9, hold >= Hold::direction);
+    EXPECT_EQ(std::abs(start.curvature - 0.5) < 1e-9, hold >= Hold::curvature);
+    EXPECT_EQ(std::abs(end.curvature - 5) < 1e-9, hold >= Hold::curvature);
+    EXPECT_EQ(core::distance(end.position, g.problem.end.position) < 1e-4, hold >= Hold::position);
+  }
+}
+
+// Jumps that cost grow smaller.
+TEST(SolveRates, TakesJumpsAway) {
+  Given g = laid_out();
+  g.problem.points = &g.points;
+  g.problem.weights.jump = 10;
+  const RateModel before(g.chain, g.problem);
+  const RateSolution found = solve_rates(g.chain, g.problem, 40, {});
+  double was = 0, is = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    was += std::abs(before.jump[k]);
+    is += std::abs(found.jump[k]);
+  }
+  EXPECT_LT(is, 0.1 * was);
+  EXPECT_LE(found.max_offset, 1.5);
 }
 
 }  // namespace

@@ -1,0 +1,89 @@
+#include "keyline/lac/segment/piece_shape.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace keyline::lac::detail {
+namespace {
+
+TEST(Stepped, ChangesItsOwnVariable) {
+  EXPECT_EQ(stepped(2, 0.5, {}), 2.5);
+  EXPECT_NEAR(stepped(-2, std::log(3), {CurvatureStep::logarithm, 1}), -6, 1e-14);
+  // Of squares with signs: 4 - 9 is -5.
+  EXPECT_NEAR(stepped(2, -9, {CurvatureStep::power, 2}), -std::sqrt(5), 1e-14);
+  EXPECT_NEAR(stepped(-2, 3, {CurvatureStep::power, 2}), -1, 1e-14);
+}
+
+TEST(LargestBend, IsThatOfATurnOfEight) {
+  EXPECT_EQ(largest_bend(0.5), 80);
+  EXPECT_EQ(largest_bend(0), 80);
+  EXPECT_EQ(largest_bend(-1), 16);
+  EXPECT_EQ(largest_bend(-4), 10);
+  EXPECT_EQ(largest_bend(-0.01), 80);
+  // From an inflection curvature k at the end turns by k alpha / (alpha - 1): 8.
+  EXPECT_NEAR(total_turning(Piece{-4, 1, 0, largest_bend(-4)}), 8, 1e-13);
+}
+
+// Of a clothoid from -1 to 2 over a length of 3 the parts turn by 1/2 and 2.
+TEST(AbsoluteTurning, CountsBothSides) {
+  EXPECT_NEAR(absolute_turning({-1, 3, -1, 2}), 2.5, 1e-14);
+  EXPECT_NEAR(absolute_turning({-1, 3, 1, 2}), 4.5, 1e-14);
+  EXPECT_NEAR(absolute_turning({-1, 3, -1, -2}), 4.5, 1e-14);
+}
+
+// Of a clothoid: length (a^2 + a b + b^2) / 3.
+TEST(BendingEnergy, OfClothoidsIsClosed) {
+  EXPECT_NEAR(bending_energy({-1, 3, 1, 2}), 7, 1e-12);
+  EXPECT_NEAR(bending_energy({-1, 3, -1, 2}), 3, 1e-12);
+  // Nielsen's: k falls as an exponential, its square has the integral (a^2 - b^2) / (2 ln(a/b)).
+  EXPECT_NEAR(bending_energy({0, 1, 3, 1}), 8 / (2 * std::log(3)), 1e-9);
+}
+
+TEST(SolveSmall, SolvesWithPivoting) {
+  std::array<std::array<double, 3>, 3> a{{{0, 2, 1}, {1, 1, 1}, {2, 0, 3}}};
+  // x = (1, -2, 3).
+  std::array<double, 3> b{-1, 2, 11};
+  ASSERT_TRUE(solve_small(a, b));
+  EXPECT_NEAR(b[0], 1, 1e-14);
+  EXPECT_NEAR(b[1], -2, 1e-14);
+  EXPECT_NEAR(b[2], 3, 1e-14);
+  std::array<std::array<double, 2>, 2> flat{{{1, 2}, {2, 4}}};
+  std::array<double, 2> c{1, 2};
+  EXPECT_FALSE(solve_small(flat, c));
+}
+
+/// By differences of the segment's own functions.
+struct Ends {
+  core::Vector2 chord;
+  double turning = 0;
+};
+Ends ends_of(double alpha, double k0, double k1, double length = 1) {
+  const Piece piece{alpha, length, k0, k1};
+  return {length * (displacement(piece, 1) / length), total_turning(piece)};
+}
+
+TEST(PieceShape, LengthKeepsTheCurvatures) {
+  for (const double alpha : {-2.5, -1.0, -0.4, 0.0, 0.5, 2.0, 9.0})
+    for (const auto& [k0, k1] : {std::pair{0.1, 0.2},
+                                 {1.0, 3.0},
+                                 {-5.0, -2.0},
+                                 {-1.0, 2.0},
+                                 {0.0, 3.0},
+                                 {9.0, 25.0},
+                                 {1e-3, 7.0}}) {
+      if (alpha >= 0 && k0 * k1 <= 0) continue;
+      const PieceShape shape = piece_shape(alpha, k0, k1, {}, {});
+      const Ends here = ends_of(alpha, k0, k1);
+      EXPECT_NEAR(core::norm(shape.chord - here.chord), 0, 1e-13);
+      EXPECT_NEAR(shape.turning, here.turning, 1e-12);
+      constexpr double h = 1e-6;
+      const core::Vector2 by =
+          (ends_of(alpha, k0, k1, 1 + h).chord - ends_of(alpha, k0, k1, 1 - h).chord) / (2 * h);
+      EXPECT_NEAR(core::norm(shape.chord_by_length - by), 0, 2e-7) << alpha << ' ' << k0;
+    }
+}
+
+}  // namespace
+}  // namespace keyline::lac::detail
