@@ -43,6 +43,29 @@ TEST(Corners, NoneAtANoseWithPointsCloserBesideItsTip) {
   }
 }
 
+/// The parabola y^2 = 4 x at even steps of y, its tip among them: there it turns by 2 atan(step /
+/// 4).
+std::vector<Point2> parabola(double step) {
+  std::vector<Point2> points;
+  for (int i = -8; i <= 8; ++i) points.push_back({step * step * i * i / 4, step * i});
+  return points;
+}
+
+// A parabola has no corner: turns of 37 to 112 degrees at its tip go on from those beside it.
+TEST(Corners, NoneAtATipThatOnePointTells) {
+  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0})
+    EXPECT_EQ(find_corners(parabola(step), false, 0, kAngle), Corners{}) << step;
+}
+
+// One half of it, a line for the other: on that side nothing grows towards the corner.
+TEST(Corners, FoundWhereABendEnds) {
+  for (const double step : {3.0, 4.0, 5.0}) {
+    std::vector<Point2> points = parabola(step);
+    for (std::size_t i = 9; i < points.size(); ++i) points[i] = {step * (i - 8.0), 0};
+    EXPECT_EQ(find_corners(points, false, 0, kAngle), Corners{8}) << step;
+  }
+}
+
 // The foot of a letter: what turns as much two arms on is a corner of its own, not a bend about the
 // first. With this noise an arm is two points long.
 TEST(Corners, MayStandTwoArmsApart) {
