@@ -176,6 +176,10 @@ std::vector<int> turns_of(const DenseCurve& curve) {
   return extrema_of(curve, kTurn * range_of(curve));
 }
 
+int seen_waves(const DenseCurve& curve) {
+  return analysis::comb_figures({curve.at, curvatures(curve)}).waves;
+}
+
 namespace {
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,

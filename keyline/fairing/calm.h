@@ -14,6 +14,9 @@ std::vector<int> extrema_of(const DenseCurve& curve, double least);
 /// The same where a thousandth of the curvature's range counts as a swing: its turns.
 std::vector<int> turns_of(const DenseCurve& curve);
 
+/// Waves that are seen in the curve's comb (see analysis::comb_figures).
+int seen_waves(const DenseCurve& curve);
+
 struct CalmOptions {
   BandOptions band;
   double most_rms = HUGE_VAL;  ///< a wave stays where the offsets without it are larger

@@ -55,6 +55,7 @@ bool take(DenseCurve trial, DenseCurve& curve, BandReport& band,
   if (!found.within || found.rms > options.most_rms || found.energy > options.worth * before)
     return false;
   if (turns_of(trial).size() > turns_of(curve).size()) return false;
+  if (seen_waves(trial) > seen_waves(curve)) return false;
   for (const Straight& line : lines)
     if (!worth_about(trial, curve, line, options)) return false;
   curve = std::move(trial);

@@ -19,13 +19,13 @@ struct FlatOptions {
 double unseen_energy(const DenseCurve& curve, double tolerance);
 
 /// Where points stand on a line (see straight_stretches) the free curve becomes one, as far as it
-/// stays within the tolerance, turns no more often and costs no more than that; `band` tells of
-/// what was solved last.
+/// stays within the tolerance, turns no more often, shows no more waves and costs no more than
+/// that; `band` tells of what was solved last.
 void lay_lines(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>& points,
                const FlatOptions& options);
 
 /// Pieces with next to no variation that depart from arcs by less than the points can tell become
-/// arcs, all of them or the half that has least.
+/// arcs, all of them or the half that has least, as lines do.
 void make_arcs(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>& points,
                const FlatOptions& options);
 

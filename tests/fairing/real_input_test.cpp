@@ -55,6 +55,19 @@ TEST_F(RealInput, BezierCars) { fair_all(testing::bezier_cars()); }
 TEST_F(RealInput, HullStations) { fair_all(testing::hull_stations(), 4); }
 TEST_F(RealInput, CarSections) { fair_all(testing::car_sections()); }
 
+/// What lies within a tolerance lies within a larger one, with as many waves as it has. Pieces and
+/// arcs let swings of the calm curve grow that were too low to be seen.
+TEST_F(RealInput, ALargerToleranceTakesNoMoreWaves) {
+  const acquire::KeyLine line = testing::profile("airfoil/hq17.dat").line;
+  const auto waves = [&](double errors) {
+    FairOptions options;
+    options.tolerance = errors * line.noise;
+    return fair(line, options).value().fairness.answer.waves;
+  };
+  EXPECT_LE(waves(4.81), waves(4.4));
+  EXPECT_LE(waves(10.53), waves(9.65));
+}
+
 /// A sharp trailing edge is one place for both ends of the outline. Where it is chosen half way
 /// between them whatever the curve, a wave is needed to come there; the smoothest quintic spline
 /// (FITPACK) within the same tolerance has one wave.
