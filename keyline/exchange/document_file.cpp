@@ -40,11 +40,13 @@ using document::Document;
 
 /// The points of every curve as a polyline.
 Result<Document> points_document(const fs::path& file) {
-  const auto curves = read_points(file);
-  if (!curves) return std::unexpected(curves.error());
+  const auto read = read_points_file(file);
+  if (!read) return std::unexpected(read.error());
+  const std::vector<acquire::RawCurve>& curves = read->curves;
   Document document;
-  if (!curves->empty()) document.skipped = curves->front().left_out;
-  for (const acquire::RawCurve& raw : *curves) {
+  document.unit = read->unit;
+  if (!curves.empty()) document.skipped = curves.front().left_out;
+  for (const acquire::RawCurve& raw : curves) {
     const document::Label label{raw.id, {}, {}};
     std::vector<core::Point3> points;
     std::copy_if(raw.points.begin(), raw.points.end(), std::back_inserter(points),
@@ -52,7 +54,10 @@ Result<Document> points_document(const fs::path& file) {
     if (points.size() < raw.points.size())
       document.skipped.push_back(std::to_string(raw.points.size() - points.size()) +
                                  " points without all coordinates");
-    if (points.size() < 2) continue;
+    if (points.size() < 2) {
+      document.skipped.push_back((raw.id.empty() ? "a curve" : raw.id) + ": fewer than two points");
+      continue;
+    }
     if (raw.has_z) {
       document.space_curves.push_back({label, {curve::Polyline3{std::move(points)}}});
       continue;

@@ -46,10 +46,15 @@ TEST(AirfoilPoints, OtherPointsStayAsTheyAre) {
   EXPECT_TRUE(stays([](auto& c) { c.points[0] = {2, 5}; }));
   EXPECT_TRUE(stays([](auto& c) { c.points[0] = {5, 2}; }));
   EXPECT_TRUE(stays([](auto& c) { c.has_z = true; }));
-  EXPECT_TRUE(stays([](auto& c) { c.points[3].x = 2.1; }));
-  EXPECT_TRUE(stays([](auto& c) { c.points[3].x = -2.1; }));
-  EXPECT_TRUE(stays([](auto& c) { c.points[3].y = 2.1; }));
-  EXPECT_FALSE(stays([](auto& c) { c.points[3] = {2, 2}; }));
+  // both sides lead from the nose to the tail, in whatever unit
+  EXPECT_TRUE(stays([](auto& c) { c.points[1].x = 0.9; }));
+  EXPECT_TRUE(stays([](auto& c) { c.points[3].x = 0.1; }));
+  EXPECT_TRUE(stays([](auto& c) { c.points[4].x = 0.9; }));
+  EXPECT_TRUE(stays([](auto& c) { c.points[7].x = 0.1; }));
+  EXPECT_FALSE(stays([](auto& c) {
+    for (std::size_t i = 1; i < c.points.size(); ++i)
+      c.points[i] = {100 * c.points[i].x, 100 * c.points[i].y};
+  }));
 }
 
 // Two elements parted by (999, 999).

@@ -64,8 +64,12 @@ TEST(LineReader, LongLinesAreRefused) {
 
 TEST(LineReader, MarksAreNoText) {
   EXPECT_EQ(read("\xef\xbb\xbfx").lines, Lines{"x"});
-  EXPECT_EQ(read("\xff\xfex").failure, "name:1");
-  EXPECT_EQ(read("\xfe\xffx").failure, "name:1");
+  EXPECT_EQ(read(std::string("\xff\xfe"
+                             "x\0\n\0y\0",
+                             8))
+                .lines,
+            (Lines{"x", "y"}));  // UTF-16
+  EXPECT_EQ(read(std::string("\xfe\xff\0x", 4)).lines, Lines{"x"});
   EXPECT_EQ(read("x\n\xef\xbb\xbfy").lines[1], "\xef\xbb\xbfy");  // only at the start
 }
 

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "keyline/exchange/text/utf16.h"
+
 namespace keyline::exchange {
 
 namespace fs = std::filesystem;
@@ -65,7 +67,7 @@ Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
   }
   if (in.bad())
     return fail(ErrorCode::io, "reading failed", "check the device or the network", file.string());
-  return content;
+  return detail::in_utf8(std::move(content));
 }
 
 }  // namespace keyline::exchange

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "keyline/exchange/points/hull_table.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
 namespace {
@@ -139,11 +140,11 @@ std::string telling_extension(const std::filesystem::path& file, std::string_vie
                                                               ".tiff", ".webp", ".scap"};
   std::string own = file == "-" ? "" : extension_of(file);
   if (known(own) || std::ranges::find(kOthers, own) != kOthers.end()) return own;
-  return std::string(extension_by_content(head));
+  return std::string(extension_by_content(detail::in_utf8(std::string(head))));
 }
 
 Format format_of(const std::filesystem::path& file, std::string_view head) {
-  if (is_hull_csv(head)) return Format::offsets;
+  if (is_hull_csv(detail::in_utf8(std::string(head)))) return Format::offsets;
   return known(telling_extension(file, head)).value_or(Format::points);
 }
 

@@ -5,6 +5,7 @@
 #include "keyline/core/utf8.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/text/byte_lines.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
 namespace {
@@ -13,18 +14,6 @@ using core::ErrorCode;
 using core::Result;
 
 constexpr std::size_t kMostNotes = 1000;
-
-/// UTF-16 with a byte order mark as ASCII; what is not ASCII becomes "?".
-std::string narrowed(std::string_view bytes) {
-  const std::size_t low = bytes.starts_with("\xff\xfe") ? 0 : 1;
-  std::string text;
-  text.reserve(bytes.size() / 2);
-  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
-    const bool ascii = bytes[i + 1 - low] == '\0';
-    text += ascii ? bytes[i + low] : '?';
-  }
-  return text;
-}
 
 class ObjReader {
  public:
@@ -110,9 +99,8 @@ class ObjReader {
 }  // namespace
 
 Result<Mesh> read_obj(std::string_view bytes) {
-  const bool wide = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
-  const std::string text = wide ? narrowed(bytes) : std::string();
-  return ObjReader(wide ? std::string_view(text) : bytes).read();
+  if (!detail::starts_as_utf16(bytes)) return ObjReader(bytes).read();
+  return ObjReader(detail::in_utf8(std::string(bytes))).read();
 }
 
 }  // namespace keyline::exchange

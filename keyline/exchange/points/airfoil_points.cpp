@@ -3,10 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 
 namespace keyline::exchange::detail {
+
+namespace {
+
+/// True for points that lead from the nose to the tail, in whatever unit: the first is nearer to
+/// the least x of all than to the largest, the last the other way round.
+bool leads_aft(std::span<const core::Point3> side, double low, double high) {
+  const double middle = low + (high - low) / 2;
+  return side.front().x < middle && side.back().x > middle;
+}
+
+}  // namespace
 
 bool unfold_lednicer(acquire::RawCurve& c) {
   if (c.has_z) return false;
@@ -14,9 +26,13 @@ bool unfold_lednicer(acquire::RawCurve& c) {
   const bool whole = counts.x >= 3 && counts.y >= 3 && std::floor(counts.x) == counts.x &&
                      std::floor(counts.y) == counts.y;
   if (!whole || counts.x + counts.y + 1 != static_cast<double>(c.points.size())) return false;
-  const bool unit = std::all_of(c.points.begin() + 1, c.points.end(),
-                                [](core::Point3 p) { return std::abs(p.x) <= 2 && p.y <= 2; });
-  if (!unit) return false;
+  const std::span<const core::Point3> points(c.points.begin() + 1, c.points.end());
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(), [](core::Point3 a, core::Point3 b) { return a.x < b.x; });
+  const auto above = static_cast<std::size_t>(counts.x);
+  if (!leads_aft(points.first(above), low->x, high->x) ||
+      !leads_aft(points.subspan(above), low->x, high->x))
+    return false;
   const auto upper = static_cast<std::ptrdiff_t>(counts.x);
   const auto unfold = [&](auto& values) {
     values.erase(values.begin());

@@ -11,6 +11,7 @@
 #include "keyline/exchange/points/hull_table.h"
 #include "keyline/exchange/points/points_columns.h"
 #include "keyline/exchange/text/byte_lines.h"
+#include "keyline/exchange/text/header_unit.h"
 #include "keyline/exchange/text/text_table.h"
 
 namespace keyline::exchange {
@@ -143,21 +144,9 @@ class HullCsv {
   }
 
   void take_unit(std::string_view text) {
-    static constexpr std::array<std::pair<std::string_view, const char*>, 9> kWords = {
-        {{"metres", "m"},
-         {"meters", "m"},
-         {"metre", "m"},
-         {"meter", "m"},
-         {"feet", "ft"},
-         {"foot", "ft"},
-         {"inches", "in"},
-         {"inch", "in"},
-         {"millimetres", "mm"}}};
-    std::string name(
-        detail::trimmed(text.substr(text.find(':') == text.npos ? 0 : text.find(':') + 1)));
-    for (const auto& [word, unit] : kWords)
-      if (name == word) name = unit;
-    if (document::millimetres(name) > 0) unit_ = name;
+    const std::string unit =
+        detail::unit_in_words(text.substr(text.find(':') == text.npos ? 0 : text.find(':') + 1));
+    if (!unit.empty()) unit_ = unit;
   }
 
   std::optional<double> number(std::string_view field) {

@@ -114,12 +114,17 @@ bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, st
   const auto is_number = [&](std::string_view f) {
     return !f.empty() && parse_number(f, style).has_value();
   };
-  const auto words = static_cast<std::size_t>(std::count_if(
-      fields.begin(), fields.end(), [&](auto f) { return !f.empty() && !is_number(f); }));
+  std::size_t words = 0;
+  bool digits = false;  // in one of them: what might be a number with a mistake in it
+  for (const std::string_view f : fields) {
+    if (f.empty() || is_number(f)) continue;
+    ++words;
+    digits = digits || f.find_first_of("0123456789") != f.npos;
+  }
   if (words == 0) return false;
   const bool starts = column < fields.size() && is_number(fields[column]);
   // A row may have a word behind its numbers; a sentence that starts with a number has several.
-  if (starts) return fields.size() > width + 1 && words > 1;
+  if (starts) return words > 1 && (fields.size() > width + 1 || !digits);
   if (style.separator == ' ') return true;
   const bool sentence = std::any_of(fields.begin(), fields.end(), [](std::string_view f) {
     return f.find_first_of(" :=") != f.npos;

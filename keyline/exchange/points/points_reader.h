@@ -23,7 +23,7 @@ struct PointsOptions {
 
 struct PointsFile {
   std::vector<acquire::RawCurve> curves;
-  std::string unit;  ///< of documents; empty where the columns taken tell none, or several
+  std::string unit;  ///< of documents; empty where the columns taken tell none
 };
 
 /// Reads points from text: columns separated by commas, semicolons, bars, tabs or spaces (decimal
@@ -45,8 +45,9 @@ struct PointsFile {
 ///   acquire_key_line to count and drop.
 ///
 /// Returns: bad-input with path "file:line" for text where a number belongs, too few columns, an
-/// unknown column, values above 1e100, binary or UTF-16 content, a line longer than longest_line,
-/// or no points at all; io where the file cannot be opened or read. Memory: that of the points.
+/// unknown column, columns of two units, values above 1e100, binary content, a line longer than
+/// longest_line, or no points at all; io where the file cannot be opened or read. Memory: that of
+/// the points.
 core::Result<PointsFile> read_points_file(const std::filesystem::path& path,
                                           const PointsOptions& options = {});
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "keyline/core/text.h"
-#include "keyline/document/document.h"
 #include "keyline/exchange/points/airfoil_points.h"
 
 namespace keyline::exchange::detail {
@@ -65,6 +65,7 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
   if (auto done = surplus(fields, number, place); !done) return done;
   if (remark_)
     if (auto again = take_up_again(); !again) return again;
+  watch_counter(fields);
   add(std::move(*row), number);
   return {};
 }
@@ -107,6 +108,7 @@ void PointsTable::restart(std::size_t fields, const std::string& place) {
   index_.clear();
   current_ = 0;
   rows_ = run_ = 0;
+  fourth_ = {};
   ignored_columns_ = 0;
   started_ = false;
 }
@@ -126,90 +128,48 @@ core::Result<void> PointsTable::take_up_again() {
   return {};
 }
 
-void PointsTable::remember_title(std::string_view line) {
-  if (first_text_.empty()) first_text_ = shortened(line);
-  last_text_ = std::string(line.substr(0, 4096));
-  ++text_lines_;
+/// Whether column 1 goes on counting the rows; what column 4 holds is kept as long as it does.
+void PointsTable::watch_counter(const Fields& fields) {
+  if (!counting_) return;
+  counting_ = parse_number(fields[0], style_) == static_cast<double>(rows_ + 1) &&
+              fields[0].find_first_of(".,") == fields[0].npos && fields.size() == width_;
+  const auto fourth = fields.size() > 3 ? parse_number(fields[3], style_) : std::nullopt;
+  fourth_.push_back(fourth.value_or(std::numeric_limits<double>::quiet_NaN()));
+  if (!counting_) fourth_ = {};
 }
 
-core::Result<void> PointsTable::before_data(std::string_view line, int number,
-                                            const std::string& place) {
-  const bool comment = is_comment(line);
-  const std::string_view text = comment ? comment_text(line) : line;
-  if (!comment) {
-    style_ = options_.separator == 0
-                 ? guess_style(line)
-                 : TableStyle{options_.separator,
-                              options_.separator != ',' && line.find(',') != line.npos};
-    fraction_known_ =
-        style_.separator == ',' || style_.separator == ' ' || line.find_first_of(".,") != line.npos;
-    const Fields fields = split(line, style_);
-    if (!names_.empty() && names_.size() <= fields.size() + 1 && fields.size() >= 2) {
-      return start(fields, number, place);
-    }
-    text_id_ = style_.separator != ' ' && fields.size() >= 3 && all_numbers(fields, 1) &&
-               !parse_number(fields[0], style_);
-    if (fields.size() >= 2 && (text_id_ || all_numbers(fields, 0))) {
-      return start(fields, number, place);
-    }
-    if (style_.separator != ' ' && fields.size() >= 2 && parse_number(fields[0], style_) &&
-        !fields[0].empty()) {
-      return core::fail(ErrorCode::bad_input,
-                        "text where a number belongs: '" + shortened(line) + "'",
-                        "give numbers only, or start the line with #", place);
-    }
+/// Numbers of the points, which stand before fractions, are no coordinates.
+void PointsTable::drop_counter() {
+  if (!counting_ || curves_.size() != 1 || rows_ < kFewest) return;
+  RawCurve& curve = curves_.front();
+  const auto is_whole = [](const core::Point3& p) {
+    return std::floor(p.y) == p.y && std::floor(p.z) == p.z;
+  };
+  if (std::ranges::all_of(curve.points, is_whole)) return;
+  curve.has_z = width_ > 3;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    core::Point3& p = curve.points[i];
+    p = {p.y, p.z, curve.has_z ? fourth_[i] : 0};
   }
-  if (!take_header(text) && !comment) remember_title(line);
-  return {};
+  if (ignored_columns_ > 0) --ignored_columns_;
+  left_out_.insert(left_out_.begin(),
+                   "column 1, which counts the points (--columns 1,2,3 takes it for x)");
 }
 
-bool PointsTable::take_header(std::string_view text) {
-  // A header may be separated by a comma although rows are not, and the other way round.
-  for (const char separator : {',', ';', '\t', ' '}) {
-    std::vector<std::string> names;
-    const Fields fields = split(text, {separator, false});
-    for (const auto field : fields) names.push_back(plain_name(field));
-    if (!is_points_header(names, options_)) continue;
-    names_ = std::move(names);
-    units_.clear();
-    for (const auto field : fields) units_.push_back(unit_of_name(field));
-    return true;
+/// Columns behind the first three, or to which the header gives other names than are looked for.
+void PointsTable::tell_columns() {
+  if (!options_.columns.empty()) return;
+  std::string others;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    const int column = static_cast<int>(k);
+    if (column == columns_.x || column == columns_.y || column == columns_.z ||
+        column == columns_.weight || column == columns_.id || names_[k].empty())
+      continue;
+    others += (others.empty() ? "" : ", ") + names_[k];
   }
-  return false;
-}
-
-std::string PointsTable::unit() const {
-  std::string one;
-  for (const int column : {columns_.x, columns_.y, columns_.z}) {
-    if (column < 0 || static_cast<std::size_t>(column) >= units_.size()) continue;
-    const std::string& told = units_[static_cast<std::size_t>(column)];
-    if (document::millimetres(told) == 0 || told == one) continue;
-    if (!one.empty()) return {};
-    one = told;
-  }
-  return one;
-}
-
-core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
-  started_ = true;
-  width_ = fields.size();
-  first_line_ = number;
-  // Words between spaces are a title; a line with tabs heads columns, which tabs or spaces part.
-  const bool tabs = last_text_.find('\t') != std::string::npos;
-  const TableStyle heads = tabs && style_.separator == ' ' ? TableStyle{'\t', false} : style_;
-  const std::size_t headed =
-      text_lines_ > 0 && heads.separator != ' ' ? split(last_text_, heads).size() : 0;
-  unknown_header_ = headed == fields.size();
-  most_ = std::max({width_, names_.size(), headed});
-  const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
-  if (!chosen) return std::unexpected(chosen.error());
-  columns_ = *chosen;
-  if (names_.empty() && options_.columns.empty())
-    ignored_columns_ = width_ - std::min<std::size_t>(width_, text_id_ ? 4 : 3);
-  auto row = row_of(fields, place);
-  if (!row) return std::unexpected(row.error());
-  add(std::move(*row), number);
-  return {};
+  if (!others.empty()) left_out_.insert(left_out_.begin(), "columns beside: " + shortened(others));
+  if (ignored_columns_ > 0)
+    left_out_.insert(left_out_.begin(), core::counted(ignored_columns_, "further column"));
 }
 
 RawCurve& PointsTable::curve_of(std::string_view id) {
@@ -302,10 +262,8 @@ void PointsTable::tell_left_out() {
       curve.notes.emplace_back("the header names no x and y: the first columns taken");
     if (text_lines_ > 0 && !title_is_header)
       curve.notes.push_back(core::counted(text_lines_, "title line") + " before the points");
-    if (ignored_columns_ > 0)
-      curve.notes.push_back(std::to_string(ignored_columns_) +
-                            " further column(s) ignored: x, y, z taken from the first three");
   }
+  tell_columns();
   constexpr std::size_t kMost = 5;  // told one by one
   const std::size_t more = left_out_.size() - std::min(left_out_.size(), kMost);
   left_out_.resize(left_out_.size() - more);
@@ -325,10 +283,10 @@ core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
                                                        : " (it starts with '" + first_text_ + "')"),
                       "give a text file with two or three numbers on each line", name);
   }
-  if (curves_.size() == 1 && names_.empty()) {
-    unfold_lednicer(curves_[0]);
-    part_elements(curves_);
-  }
+  drop_counter();
+  if (names_.empty())
+    for (RawCurve& curve : curves_) unfold_lednicer(curve);
+  if (curves_.size() == 1 && names_.empty()) part_elements(curves_);
   name_curves();
   tell_left_out();
   return std::move(curves_);

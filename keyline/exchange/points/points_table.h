@@ -12,6 +12,7 @@
 #include "keyline/core/point.h"
 #include "keyline/exchange/points/points_columns.h"
 #include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/text/header_unit.h"
 #include "keyline/exchange/text/text_table.h"
 
 /// Internals of points_reader.cpp: lines of text become curves.
@@ -28,8 +29,8 @@ class PointsTable {
   /// What the end of the input cut off, in words.
   void cut_off(std::string what) { left_out_.push_back(std::move(what)); }
   core::Result<Curves> finish(const std::string& name);
-  /// The one unit that the header tells of the columns taken; else empty.
-  std::string unit() const;
+  /// The unit that the header tells of the columns taken; else empty.
+  const std::string& unit() const { return unit_; }
 
  private:
   using Fields = std::vector<std::string_view>;
@@ -45,16 +46,21 @@ class PointsTable {
   core::Result<void> among_data(std::string_view line, int number, const std::string& place);
   core::Result<void> take_up_again();
   bool first_was_none(const Fields& fields) const;
+  bool take_header(std::string_view text, int number, bool comment);
+  void take_style(std::string_view line);
+  bool tabs_part(std::string_view line) const;
+  core::Result<void> take_units(const std::string& place);
   core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
   core::Result<double> number_in(const Fields& fields, int column, const std::string& place) const;
   core::Result<Row> row_of(const Fields& fields, const std::string& place) const;
   void add(Row row, int number);
   acquire::RawCurve& curve_of(std::string_view id);
   bool all_numbers(const Fields& fields, std::size_t from) const;
-  /// Keeps the columns' names; false where this is no header.
-  bool take_header(std::string_view text);
   void remember_title(std::string_view line);
   void restart(std::size_t fields, const std::string& place);
+  void watch_counter(const Fields& fields);
+  void drop_counter();
+  void tell_columns();
   void name_curves();
   void tell_left_out();
 
@@ -63,8 +69,11 @@ class PointsTable {
   bool fraction_known_ = false;  ///< whether style_.decimal_comma is settled
   PointsColumns columns_;
   std::vector<std::string> names_;
-  std::vector<std::string> units_;  // beside names_; empty where none is told
-  std::string first_text_;          // shortened
+  std::vector<HeaderUnit> units_;  // of the columns that have names
+  std::string unit_;
+  char header_separator_ = 0;
+  bool header_counts_ = false;  // it is a comment: its mark may stand for a number of the point
+  std::string first_text_;      // shortened
   std::string last_text_;
   bool unknown_header_ = false;
   bool started_ = false;
@@ -74,12 +83,15 @@ class PointsTable {
   std::size_t most_ = 0;  // the same, or of its header: empty fields at a row's end are not counted
   std::size_t rows_ = 0;
   int first_line_ = 0;
+  int header_line_ = 0;
   std::size_t ignored_columns_ = 0;
   std::optional<core::Failure> remark_;    // the last line of text behind rows, as a failure
   std::optional<core::Failure> unproven_;  // of the text before rows too few to be a curve
   std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers
   std::string remark_text_;
-  std::size_t run_ = 0;  // rows since the last line of text
+  std::size_t run_ = 0;         // rows since the last line of text
+  bool counting_ = false;       // column 1 counts the rows so far: 1, 2, 3 ...
+  std::vector<double> fourth_;  // numbers of column 4 then
   std::vector<std::string> left_out_;
   Curves curves_;
   std::map<std::string, std::size_t, std::less<>> index_;

@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include "keyline/core/utf8.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -42,25 +43,6 @@ Result<std::string> uncompressed(std::string_view bytes, std::size_t largest) {
     return fail(ErrorCode::bad_input, "the compressed SVG file is broken",
                 "check that it is complete",
                 "byte " + std::to_string(bytes.size() - stream.avail_in));
-  return text;
-}
-
-std::string from_utf16(std::string_view bytes, bool big_endian) {
-  std::string text;
-  const auto unit = [&](std::size_t at) {
-    const auto a = static_cast<unsigned char>(bytes[at]);
-    const auto b = static_cast<unsigned char>(bytes[at + 1]);
-    return static_cast<unsigned>(big_endian ? a << 8 | b : b << 8 | a);
-  };
-  for (std::size_t at = 0; at + 1 < bytes.size(); at += 2) {
-    unsigned code = unit(at);
-    const bool pair = code >= 0xd800 && code < 0xdc00 && at + 3 < bytes.size();
-    if (const unsigned low = pair ? unit(at + 2) : 0; low >= 0xdc00 && low < 0xe000) {
-      code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
-      at += 2;
-    }
-    if (code != 0xfeff) core::append_utf8(text, code);
-  }
   return text;
 }
 

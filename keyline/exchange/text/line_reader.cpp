@@ -20,26 +20,24 @@ bool is_control(char c) {
 }  // namespace
 
 LineReader::LineReader(std::istream& in, std::string name, std::size_t longest)
-    : in_(in), name_(std::move(name)), longest_(longest), buffer_(kChunk) {}
+    : in_(in), name_(std::move(name)), longest_(longest), chunk_(kChunk) {}
 
 std::unexpected<core::Failure> LineReader::failure(std::string message, std::string hint) const {
   return core::fail(core::ErrorCode::bad_input, std::move(message), std::move(hint), place());
 }
 
 bool LineReader::fill() {
-  in_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-  filled_ = static_cast<std::size_t>(in_.gcount());
-  position_ = 0;
-  return filled_ > 0;
-}
-
-core::Result<void> LineReader::check_start() {
-  const std::string_view start(buffer_.data(), filled_);
-  if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
-    return failure("this is UTF-16 text", "save it as UTF-8 or plain ASCII text");
+  position_ = filled_ = 0;
+  while (filled_ == 0) {
+    in_.read(chunk_.data(), std::ssize(chunk_));
+    if (in_.gcount() == 0) break;
+    const std::string_view chunk(chunk_.data(), static_cast<std::size_t>(in_.gcount()));
+    if (!started_ && detail::starts_as_utf16(chunk)) utf16_.emplace(chunk[0] == '\xfe');
+    buffer_ = utf16_ ? utf16_->next(chunk) : std::string(chunk);
+    filled_ = buffer_.size();
+    if (!std::exchange(started_, true) && buffer_.starts_with("\xef\xbb\xbf")) position_ = 3;
   }
-  if (start.starts_with("\xef\xbb\xbf")) position_ = 3;
-  return {};
+  return filled_ > 0;
 }
 
 std::string_view LineReader::in_utf8() {
@@ -90,10 +88,6 @@ core::Result<std::string_view> LineReader::next(bool& end) {
   ++number_;
   bool any = false;
   while (position_ < filled_ || fill()) {
-    if (!started_) {
-      started_ = true;
-      if (auto good = check_start(); !good) return std::unexpected(good.error());
-    }
     if (ends_return()) continue;
     any = true;
     const auto taken = take();

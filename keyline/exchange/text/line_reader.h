@@ -2,18 +2,21 @@
 
 #include <cstddef>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "keyline/core/error.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
 
-/// Reads text line by line in bounded memory: lines end with \n, \r\n or \r; a UTF-8 byte order
-/// mark is skipped, and a line that is no UTF-8 is taken for Windows-1252. A ^Z (the end mark of
-/// CP/M and DOS) is white space, and what is no text behind one ends the input. Binary content,
-/// UTF-16 and overlong lines are failures with the place "name:line".
+/// Reads text line by line in bounded memory: lines end with \n, \r\n or \r; a byte order mark of
+/// UTF-8 is skipped, behind one of UTF-16 the text is turned into UTF-8, and a line that is no
+/// UTF-8 is taken for Windows-1252. A ^Z (the end mark of CP/M and DOS) is white space, and what is
+/// no text behind one ends the input. Binary content and overlong lines are failures with the place
+/// "name:line".
 class LineReader {
  public:
   /// name: what failures call the input. longest: largest number of bytes in a line.
@@ -34,7 +37,6 @@ class LineReader {
 
  private:
   bool fill();
-  core::Result<void> check_start();
   /// Skips the \n of an \r\n whose \r ended the line before; false where there is none.
   bool ends_return();
   /// To the line what of it stands in the buffer: all of it, a part, or what there is before bytes
@@ -47,7 +49,9 @@ class LineReader {
   std::istream& in_;
   std::string name_;
   std::size_t longest_;
-  std::vector<char> buffer_;
+  std::vector<char> chunk_;  ///< as read
+  std::optional<detail::Utf16Decoder> utf16_;
+  std::string buffer_;
   std::size_t position_ = 0;
   std::size_t filled_ = 0;
   std::string line_;

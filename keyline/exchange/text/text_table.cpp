@@ -7,23 +7,16 @@
 
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/text/header_unit.h"
 
 namespace keyline::exchange::detail {
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\x1a'; }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
-
 std::optional<double> missing_value(std::string_view field) {
   if (field.size() > 9) return std::nullopt;
-  std::string name = lower(field);
+  std::string name = lower_case(field);
   const bool negative = name.starts_with('-');
   if (negative || name.starts_with('+')) {
     name.erase(0, 1);
@@ -53,6 +46,18 @@ std::size_t count_numbers(std::string_view line, TableStyle style) {
   }));
 }
 
+/// Two numbers of Fortran's fixed columns that touch ("0.9968-0.0004"): the length of the first;
+/// 0 where it is anything else.
+std::size_t end_of_touching(std::string_view field) {
+  const auto first = core::leading_number(field);
+  if (!first || first->length >= field.size()) return 0;
+  const std::string_view head = field.substr(0, first->length);
+  const std::string_view rest = field.substr(first->length);
+  const auto second = core::leading_number(rest);
+  const bool fractions = head.find('.') != head.npos && rest.find('.') != rest.npos;
+  return fractions && second && (rest[0] == '-' || rest[0] == '+') ? first->length : 0;
+}
+
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
@@ -76,7 +81,9 @@ std::vector<std::string_view> split(std::string_view line, TableStyle style) {
   if (style.separator == ' ') {
     while (!line.empty()) {
       const auto stop = std::find_if(line.begin(), line.end(), is_space);
-      const auto length = static_cast<std::size_t>(stop - line.begin());
+      auto length = static_cast<std::size_t>(stop - line.begin());
+      if (const std::size_t touching = end_of_touching(line.substr(0, length)); touching > 0)
+        length = touching;
       fields.push_back(line.substr(0, length));
       line = trimmed(line.substr(length));
     }
@@ -139,33 +146,20 @@ TableStyle guess_style(std::string_view line) {
   return best;
 }
 
-namespace {
-
-/// A header's name and the unit behind it: "x [mm]", "x (mm)" or "x_mm".
-std::pair<std::string, std::string> name_and_unit(std::string_view field) {
-  std::string name = lower(trimmed(field));
-  std::erase(name, '"');
-  std::erase(name, '\'');
-  std::string unit;
-  if (const std::size_t open = name.find_first_of("[("); open != std::string::npos) {
-    const std::size_t close = name.find_first_of("])", open);
-    unit = trimmed(std::string_view(name).substr(open + 1, close - open - 1));
-    name.erase(open);
-  }
-  name = std::string(trimmed(name));
-  for (const std::string_view end : {"_mm", "_cm", "_km", "_in", "_ft", "_px", "_m"}) {
-    if (name.size() <= end.size() || !name.ends_with(end)) continue;
-    name.erase(name.size() - end.size());
-    unit = end.substr(1);
-  }
-  return {name, unit};
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
 }
 
-}  // namespace
-
-std::string plain_name(std::string_view field) { return name_and_unit(field).first; }
-
-std::string unit_of_name(std::string_view field) { return name_and_unit(field).second; }
+std::string plain_name(std::string_view field) {
+  std::string name = lower_case(trimmed(field));
+  std::erase(name, '"');
+  std::erase(name, '\'');
+  if (const std::size_t unit = start_of_unit(name); unit != std::string::npos) name.erase(unit);
+  return std::string(trimmed(name));
+}
 
 bool is_comment(std::string_view line) {
   line = trimmed(line);

@@ -19,7 +19,8 @@ std::string_view trimmed(std::string_view text);
 std::string unquoted(std::string_view field);
 
 /// Fields of a line, trimmed; empty ones after the last separator are dropped. Separators within
-/// quotes separate nothing, except spaces.
+/// quotes separate nothing, except spaces. Where white space separates, two numbers that touch as
+/// in Fortran's fixed columns ("0.9968-0.0004") are two.
 std::vector<std::string_view> split(std::string_view line, TableStyle style);
 
 /// A number written with point or comma, maybe in brackets; "nan", "inf", "null", "na", "n/a" and
@@ -29,11 +30,12 @@ std::optional<double> parse_number(std::string_view field, TableStyle style);
 /// The style in which the most fields of the line are numbers.
 TableStyle guess_style(std::string_view line);
 
-/// Lower case, without quotes, comment marks, and a unit in brackets or after an underscore.
+/// Lower case, without quotes, comment marks, and a unit in brackets or after a slash or
+/// underscore.
 std::string plain_name(std::string_view field);
 
-/// That unit, lower case; empty where there is none.
-std::string unit_of_name(std::string_view field);
+/// With the letters A to Z small.
+std::string lower_case(std::string_view text);
 
 /// True for a line that is a comment.
 bool is_comment(std::string_view line);

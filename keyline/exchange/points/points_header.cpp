@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/points/points_table.h"
+
+/// What stands before the rows of a table: titles, a header with names and units, the first row.
+namespace keyline::exchange::detail {
+
+using core::ErrorCode;
+
+void PointsTable::remember_title(std::string_view line) {
+  if (first_text_.empty()) first_text_ = shortened(line);
+  last_text_ = std::string(line.substr(0, 4096));
+  ++text_lines_;
+}
+
+/// Tabs part fields where a header's do so, or where the first is a name; elsewhere they are white
+/// space as any other, of which there may be several in a row.
+bool PointsTable::tabs_part(std::string_view line) const {
+  const Fields fields = split(line, {'\t', style_.decimal_comma});
+  if (fields.size() < 2) return false;
+  if (!names_.empty()) return header_separator_ == '\t' && fields.size() <= names_.size();
+  return fields.size() >= 3 && !parse_number(fields[0], style_) && all_numbers(fields, 1);
+}
+
+void PointsTable::take_style(std::string_view line) {
+  style_ = options_.separator == 0
+               ? guess_style(line)
+               : TableStyle{options_.separator,
+                            options_.separator != ',' && line.find(',') != line.npos};
+  if (options_.separator == 0 && style_.separator == ' ' && tabs_part(line))
+    style_.separator = '\t';
+  fraction_known_ =
+      style_.separator == ',' || style_.separator == ' ' || line.find_first_of(".,") != line.npos;
+}
+
+/// A header may be separated by a comma although rows are not, and the other way round.
+bool PointsTable::take_header(std::string_view text, int number, bool comment) {
+  for (const char separator : {',', ';', '\t', ' '}) {
+    std::vector<std::string> names;
+    std::vector<HeaderUnit> units;
+    for (const auto field : split(text, {separator, false})) {
+      names.push_back(plain_name(field));
+      units.push_back(unit_of(field));
+    }
+    if (!is_points_header(names, options_)) continue;
+    names_ = std::move(names);
+    units_ = std::move(units);
+    header_separator_ = separator;
+    header_counts_ = comment;
+    header_line_ = number;
+    return true;
+  }
+  return false;
+}
+
+core::Result<void> PointsTable::before_data(std::string_view line, int number,
+                                            const std::string& place) {
+  const bool comment = is_comment(line);
+  const std::string_view text = comment ? comment_text(line) : line;
+  if (!comment) {
+    take_style(line);
+    const Fields fields = split(line, style_);
+    if (!names_.empty() && names_.size() <= fields.size() + 1 && fields.size() >= 2) {
+      return start(fields, number, place);
+    }
+    text_id_ = style_.separator != ' ' && fields.size() >= 3 && all_numbers(fields, 1) &&
+               !parse_number(fields[0], style_);
+    if (fields.size() >= 2 && (text_id_ || all_numbers(fields, 0))) {
+      return start(fields, number, place);
+    }
+    if (style_.separator != ' ' && fields.size() >= 2 && parse_number(fields[0], style_) &&
+        !fields[0].empty()) {
+      return core::fail(ErrorCode::bad_input,
+                        "text where a number belongs: '" + shortened(line) + "'",
+                        "give numbers only, or start the line with #", place);
+    }
+  }
+  if (!take_header(text, number, comment) && !comment) remember_title(line);
+  return {};
+}
+
+/// The unit that the header gives the coordinates.
+core::Result<void> PointsTable::take_units(const std::string& place) {
+  for (const int column : {columns_.x, columns_.y, columns_.z}) {
+    if (column < 0 || static_cast<std::size_t>(column) >= units_.size()) continue;
+    const auto& [known, unknown] = units_[static_cast<std::size_t>(column)];
+    if (!unknown.empty() && unit_.empty())
+      left_out_.push_back("line " + std::to_string(header_line_) + ": the unit " +
+                          shortened(unknown) + ", which is none of mm, cm, m, km, in, ft, pt, px");
+    if (known.empty()) continue;
+    if (!unit_.empty() && unit_ != known)
+      return core::fail(ErrorCode::bad_input,
+                        "the header gives the coordinates two units, " + unit_ + " and " + known,
+                        "give all coordinates in one", place);
+    unit_ = known;
+  }
+  return {};
+}
+
+core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
+  started_ = true;
+  width_ = fields.size();
+  // "# x y" over rows that begin with 1: the mark of a comment is a column's name
+  if (header_counts_ && fields.size() == names_.size() + 1 && fields[0] == "1") {
+    names_.insert(names_.begin(), "#");
+    units_.insert(units_.begin(), HeaderUnit{});
+  }
+  first_line_ = number;
+  // Words between spaces are a title; a line with tabs heads columns, which tabs or spaces part.
+  const bool tabs = last_text_.find('\t') != std::string::npos;
+  const TableStyle heads = tabs && style_.separator == ' ' ? TableStyle{'\t', false} : style_;
+  const std::size_t headed =
+      text_lines_ > 0 && heads.separator != ' ' ? split(last_text_, heads).size() : 0;
+  unknown_header_ = headed == fields.size();
+  most_ = std::max({width_, names_.size(), headed});
+  const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
+  if (!chosen) return std::unexpected(chosen.error());
+  columns_ = *chosen;
+  if (auto taken = take_units(place); !taken) return taken;
+  if (names_.empty() && options_.columns.empty())
+    ignored_columns_ = width_ - std::min<std::size_t>(width_, text_id_ ? 4 : 3);
+  auto row = row_of(fields, place);
+  if (!row) return std::unexpected(row.error());
+  counting_ =
+      names_.empty() && options_.columns.empty() && !text_id_ && columns_.z != PointsColumns::kNone;
+  watch_counter(fields);
+  add(std::move(*row), number);
+  return {};
+}
+
+}  // namespace keyline::exchange::detail

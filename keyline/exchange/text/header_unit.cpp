@@ -1,0 +1,59 @@
+#include "keyline/exchange/text/header_unit.h"
+
+#include <array>
+#include <utility>
+
+#include "keyline/document/document.h"
+#include "keyline/exchange/text/text_table.h"
+
+namespace keyline::exchange::detail {
+
+std::string unit_in_words(std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, const char*>, 18> kWords = {
+      {{"millimeter", "mm"},
+       {"millimeters", "mm"},
+       {"millimetre", "mm"},
+       {"millimetres", "mm"},
+       {"centimeter", "cm"},
+       {"centimeters", "cm"},
+       {"centimetre", "cm"},
+       {"centimetres", "cm"},
+       {"meter", "m"},
+       {"meters", "m"},
+       {"metre", "m"},
+       {"metres", "m"},
+       {"inch", "in"},
+       {"inches", "in"},
+       {"in.", "in"},
+       {"foot", "ft"},
+       {"feet", "ft"},
+       {"ft.", "ft"}}};
+  const std::string name = lower_case(trimmed(text));
+  if (document::millimetres(name) > 0) return name;
+  for (const auto& [word, unit] : kWords)
+    if (name == word) return unit;
+  return {};
+}
+
+std::size_t start_of_unit(std::string_view cell) {
+  if (const std::size_t open = cell.find_first_of("[("); open != cell.npos) return open;
+  const std::size_t mark = cell.find_last_of("/_");
+  const bool named = mark != cell.npos && mark > 0 && !unit_in_words(cell.substr(mark + 1)).empty();
+  return named ? mark : cell.npos;
+}
+
+HeaderUnit unit_of(std::string_view cell) {
+  std::string name(trimmed(cell));
+  std::erase(name, '"');
+  std::erase(name, '\'');
+  const std::size_t at = start_of_unit(name);
+  if (at == std::string::npos) return {};
+  const bool square = name[at] == '[';
+  const std::string_view behind = std::string_view(name).substr(at + 1);
+  const std::string_view text = trimmed(behind.substr(0, behind.find_first_of("])")));
+  const std::string unit = unit_in_words(text);
+  const bool said = square && unit.empty() && !text.empty() && text != "-" && text != "1";
+  return {unit, said ? std::string(text) : std::string()};
+}
+
+}  // namespace keyline::exchange::detail

@@ -1,0 +1,189 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/text/header_unit.h"
+
+namespace keyline::exchange {
+namespace {
+
+using acquire::RawCurve;
+using core::Point3;
+
+core::Result<std::vector<RawCurve>> parse(const std::string& text,
+                                          const PointsOptions& options = {}) {
+  std::istringstream in(text);
+  return read_points(in, "data.csv", options);
+}
+
+PointsOptions asking(std::vector<std::string> columns) {
+  PointsOptions options;
+  options.columns = std::move(columns);
+  return options;
+}
+
+RawCurve only(const std::string& text) {
+  const auto curves = parse(text);
+  EXPECT_TRUE(curves) << text << curves.error().message;
+  return curves && curves->size() == 1 ? curves->front() : RawCurve{};
+}
+
+TEST(HeaderUnit, StandsBehindTheNameInManyWays) {
+  for (const auto& [cell, unit] : {std::pair{"x [mm]", "mm"},
+                                   {"X(in)", "in"},
+                                   {"\"y [m]\"", "m"},
+                                   {"z / ft", "ft"},
+                                   {"x/cm", "cm"},
+                                   {"x_km", "km"},
+                                   {"x [Inches]", "in"},
+                                   {"x (millimetres)", "mm"},
+                                   {"x", ""},
+                                   {"x/c", ""},
+                                   {"w_tr_right", ""},
+                                   {"x (upper)", ""},
+                                   {"x [-]", ""}}) {
+    EXPECT_EQ(detail::unit_of(cell).known, unit) << cell;
+    EXPECT_EQ(detail::unit_of(cell).unknown, "") << cell;
+  }
+  EXPECT_EQ(detail::unit_of("x [µm]").unknown, "µm");
+}
+
+/// Of a file of that text.
+core::Result<PointsFile> file_of(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("keyline-header-" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(path) << text;
+  auto read = read_points_file(path);
+  std::filesystem::remove(path);
+  return read;
+}
+
+TEST(ReadPoints, TheHeaderTellsTheUnit) {
+  const std::string rows = "0,0\n1,2\n3,4\n";
+  EXPECT_EQ(file_of("x [mm],y [mm]\n" + rows)->unit, "mm");
+  EXPECT_EQ(file_of("x_in,y_in\n" + rows)->unit, "in");
+  EXPECT_EQ(file_of("x / ft, y / ft\n" + rows)->unit, "ft");
+  EXPECT_EQ(file_of("# x_m,y_m,w_m\n0,0,1\n1,2,1\n3,4,1\n")->unit, "m");
+  EXPECT_EQ(file_of("x,y\n" + rows)->unit, "");
+  const auto two = parse("x [mm],y [in]\n" + rows);
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().path, "data.csv:2");
+  EXPECT_EQ(file_of("x [µm],y [µm]\n" + rows)->unit, "");
+  const RawCurve unknown = only("x [µm],y [µm]\n" + rows);
+  ASSERT_EQ(unknown.left_out.size(), 2U);
+  EXPECT_EQ(unknown.left_out[0].substr(0, 20), "line 1: the unit µm");
+}
+
+// An entry that is missing must not move those behind it one column to the left.
+TEST(ReadPoints, TabsOfAHeaderKeepMissingEntriesInTheirColumn) {
+  const RawCurve curve = only("x\ty\tz\tq\n1\t2\t3\t9\n2\t\t3\t4\n3\t4\t5\t6\n");
+  ASSERT_EQ(curve.points.size(), 3U);
+  EXPECT_EQ(curve.points[1].x, 2);
+  EXPECT_TRUE(std::isnan(curve.points[1].y));
+  EXPECT_EQ(curve.points[1].z, 3);
+  const auto named = parse("id\tx\ty\na b\t1\t2\na b\t3\t4\n");
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_EQ(named->front().id, "a b");
+  const auto bare = parse("a b\t1\t2\na b\t3\t4\nc d\t5\t6\nc d\t7\t8\n");
+  ASSERT_TRUE(bare) << bare.error().message;
+  ASSERT_EQ(bare->size(), 2U);
+  EXPECT_EQ(bare->back().id, "c d");
+  // tabs that only set rows in line are white space
+  EXPECT_EQ(only("x\ty\n1.0\t\t2.0\n3.0\t\t4.0\n5.0\t\t6.0\n").points[1], (Point3{3, 4, 0}));
+}
+
+TEST(ReadPoints, ColumnsThatAreNotTakenAreTold) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(only("0 0 1 5 6\n1 2 1 5 6\n3 4 2 5 6\n").left_out, Lines{"2 further columns"});
+  EXPECT_EQ(only("x,y,t\n0,0,1\n1,2,1\n3,4,2\n").left_out, Lines{"columns beside: t"});
+  EXPECT_EQ(only("x,y,w\n0,0,1\n1,2,1\n3,4,2\n").left_out, Lines{});
+  const auto asked = parse("x,y,t\n0,0,1\n1,2,1\n3,4,2\n", asking({"x", "y"}));
+  EXPECT_EQ(asked->front().left_out, Lines{});
+}
+
+TEST(ReadPoints, NumbersOfThePointsAreNoCoordinates) {
+  const RawCurve plane = only("1 1.0 0.01\n2 0.5 0.06\n3 0.0 0.02\n");
+  EXPECT_FALSE(plane.has_z);
+  EXPECT_EQ(plane.points[1], (Point3{0.5, 0.06, 0}));
+  ASSERT_EQ(plane.left_out.size(), 1U);
+  EXPECT_EQ(plane.left_out[0].substr(0, 33), "column 1, which counts the points");
+  const RawCurve space = only("1;1.0;0.01;5.5\n2;0.5;0.06;6.5\n3;0.0;0.02;7.5\n");
+  EXPECT_TRUE(space.has_z);
+  EXPECT_EQ(space.points[2], (Point3{0, 0.02, 7.5}));
+  for (const char* text : {"0 1.5 0.01\n1 0.5 0.06\n2 0.5 0.02\n", "1 1 0\n2 4 0\n3 9 1\n",
+                           "1.0 1.5 2\n2.0 2 3\n3.0 4 5\n", "1 1.5 2\n2 2.5 3\n4 4.5 5\n"})
+    EXPECT_TRUE(only(text).has_z && only(text).left_out.empty()) << text;
+  const RawCurve headed = only("#\tx\ty\n1\t1.5\t0.1\n2\t0.5\t0.6\n3\t0.5\t0.2\n");
+  EXPECT_EQ(headed.points[1], (Point3{0.5, 0.6, 0}));
+  EXPECT_EQ(headed.left_out, std::vector<std::string>{"columns beside: #"});
+  const auto asked = parse("1 1.5 0.1\n2 0.5 0.6\n3 0.5 0.2\n", asking({"1", "2", "3"}));
+  EXPECT_EQ(asked->front().points[1], (Point3{2, 0.5, 0.6}));
+}
+
+// Fortran's F9.6 leaves no blank before a minus sign.
+TEST(ReadPoints, NumbersOfFixedColumnsMayTouch) {
+  const RawCurve curve = only("E 1\n 1.000000 0.001260\n 0.500000-0.039800\n-0.000100-0.000000\n");
+  ASSERT_EQ(curve.points.size(), 3U);
+  EXPECT_EQ(curve.points[1], (Point3{0.5, -0.0398, 0}));
+  EXPECT_EQ(curve.points[2], (Point3{-0.0001, 0, 0}));
+  EXPECT_EQ(only("1.0E-01-2.0E-01\n2.0E-01-3.0E-01\n3.0E-01-3.5E-01\n").points[0],
+            (Point3{0.1, -0.2, 0}));
+  EXPECT_EQ(only("0 0\n1 1\n2 2\n3-4 5\n").left_out,
+            std::vector<std::string>{"line 4: 3-4 5"});  // without fractions: no such columns
+}
+
+TEST(ReadPoints, LednicerOfAnyScaleAndNumber) {
+  const std::string sides = " 3. 3.\n\n0 0\n50 6\n100 0\n\n0 0\n50 -4\n100 0\n";
+  const RawCurve percent = only("in percent\n" + sides);
+  ASSERT_EQ(percent.points.size(), 6U);
+  EXPECT_EQ(percent.points[0], (Point3{100, 0, 0}));
+  EXPECT_EQ(percent.points[2], (Point3{0, 0, 0}));
+  const auto two = parse("one\n" + sides + "two\n" + sides);
+  ASSERT_TRUE(two) << two.error().message;
+  ASSERT_EQ(two->size(), 2U);
+  for (const RawCurve& one : *two) EXPECT_EQ(one.points.size(), 6U);
+  // a curve of whole numbers that starts so by chance goes on as it is
+  EXPECT_EQ(only("3 3\n4 9\n5 6\n7 7\n9 8\n8 9\n1 1\n").points.size(), 7U);
+}
+
+TEST(ReadPoints, WordsBehindANumberAreARemark) {
+  const RawCurve curve = only("1 0\n0.5 0.1\n0 0\n12.0 % thick\n");
+  EXPECT_EQ(curve.points.size(), 3U);
+  EXPECT_EQ(curve.left_out, std::vector<std::string>{"line 4: 12.0 % thick"});
+  EXPECT_FALSE(parse("1 0\n0.5 0.1\n0 0\n0.5 0.1x thick\n"));
+}
+
+/// ASCII as UTF-16 behind its mark.
+std::string wide(const std::string& text, bool big) {
+  std::string bytes = big ? "\xfe\xff" : "\xff\xfe";
+  for (const char c : text) bytes += big ? std::string{'\0', c} : std::string{c, '\0'};
+  return bytes;
+}
+
+TEST(ReadPoints, Utf16IsText) {
+  for (const bool big : {false, true}) {
+    const auto curves = parse(wide("E 1\r\n1 0.5\r\n2 0.25\r\n", big));
+    ASSERT_TRUE(curves) << curves.error().message;
+    EXPECT_EQ(curves->front().id, "E 1");
+    ASSERT_EQ(curves->front().points.size(), 2U);
+    EXPECT_EQ(curves->front().points[1], (Point3{2, 0.25, 0}));
+  }
+  // characters that the pieces in which a stream is read cut through
+  std::string text;
+  for (int i = 0; i < 40000; ++i) text += "1 2\n";
+  for (const std::size_t shift : {0, 1, 2, 3}) {
+    const auto curves = parse(wide("# " + std::string(shift, 'x') + "\n" + text, false));
+    ASSERT_TRUE(curves) << curves.error().message;
+    EXPECT_EQ(curves->front().points.size(), 40000U);
+  }
+}
+
+}  // namespace
+}  // namespace keyline::exchange
