@@ -149,9 +149,11 @@ Result<exchange::Written> formatted(const document::Document& document,
   if (!is_planar_format(extension)) return exchange::format_document(document, extension, how);
   document::Document planar;
   const document::Document* shown = &document;
+  double departure = 0;
   if (document.paths.empty()) {
     planar = document;
-    exchange::flatten(planar);
+    for (const exchange::Laid& laid : exchange::flatten(planar, exchange::kMostOfMeasured))
+      departure = std::max(departure, laid.departure);
     shown = &planar;
   }
   const std::size_t flattened = planar.paths.size();
@@ -163,6 +165,11 @@ Result<exchange::Written> formatted(const document::Document& document,
   if (written && flattened > 0)
     written->notes.push_back(core::counted(flattened, "curve") +
                              " in space: in the coordinates of their planes");
+  if (written && departure > 0) {
+    written->deviation = std::max(written->deviation, departure);
+    written->notes.push_back("points in space: the largest distance from their plane is " +
+                             core::number_text(departure, 3));
+  }
   return written;
 }
 

@@ -37,6 +37,7 @@ struct FindRequest {
 Result<document::Path> path_in_file(const std::string& file, const Context& context) {
   InputRequest input;
   input.file = {file};
+  input.planar = true;
   auto read = read_input(input, context.progress);
   if (!read) return std::unexpected(read.error());
   for (const NamedCurve& c : read->curves) {

@@ -13,12 +13,13 @@ namespace {
 using core::Point2;
 using core::Point3;
 
-std::optional<acquire::Plane> plane_of_points(const std::vector<Point3>& points) {
-  const auto fit = acquire::fit_plane(points);
+std::optional<acquire::PlaneFit> plane_of_points(const std::vector<Point3>& points, double most) {
+  auto fit = acquire::fit_plane(points);
   double size = 0;
   for (const Point3 p : points) size = std::max(size, distance(p, points.front()));
-  if (!(size > 0) || fit.departure > 1e-9 * size) return std::nullopt;
-  return fit.plane;
+  if (!(size > 0) || fit.departure > most * size) return std::nullopt;
+  if (fit.departure <= kExactly * size) fit.departure = 0;
+  return fit;
 }
 
 std::vector<Point2> in_plane(const acquire::Plane& plane, const std::vector<Point3>& points) {
@@ -40,36 +41,41 @@ std::string in_words(const acquire::Plane& plane) {
   return "in a plane of its own";
 }
 
-std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve) {
+std::optional<PlanarForm> planar_form(const document::SpaceCurve& curve, double most) {
   if (const auto* line = std::get_if<curve::Polyline3>(&curve.value)) {
-    const auto plane = plane_of_points(line->points);
-    if (!plane) return std::nullopt;
-    return PlanarForm{{curve::Polyline2{in_plane(*plane, line->points)}}, *plane};
+    const auto fit = plane_of_points(line->points, most);
+    if (!fit) return std::nullopt;
+    return PlanarForm{
+        {curve::Polyline2{in_plane(fit->plane, line->points)}}, fit->plane, fit->departure};
   }
   if (const auto* c = std::get_if<curve::Bezier3>(&curve.value)) {
-    const auto plane = plane_of_points(c->control);
-    if (!plane) return std::nullopt;
-    return PlanarForm{{curve::Bezier2{in_plane(*plane, c->control), c->weights}}, *plane};
+    const auto fit = plane_of_points(c->control, most);
+    if (!fit) return std::nullopt;
+    return PlanarForm{
+        {curve::Bezier2{in_plane(fit->plane, c->control), c->weights}}, fit->plane, fit->departure};
   }
   if (const auto* c = std::get_if<curve::BSpline3>(&curve.value)) {
-    const auto plane = plane_of_points(c->control);
-    if (!plane) return std::nullopt;
+    const auto fit = plane_of_points(c->control, most);
+    if (!fit) return std::nullopt;
     return PlanarForm{
-        {curve::BSpline2{c->degree, c->knots, in_plane(*plane, c->control), c->weights}}, *plane};
+        {curve::BSpline2{c->degree, c->knots, in_plane(fit->plane, c->control), c->weights}},
+        fit->plane,
+        fit->departure};
   }
   return std::nullopt;
 }
 
-std::vector<Laid> flatten(document::Document& document) {
+std::vector<Laid> flatten(document::Document& document, double most) {
   std::vector<Laid> planes;
   std::vector<document::NamedSpaceCurve> left;
   for (auto& named : document.space_curves) {
-    auto form = planar_form(named.curve);
+    const bool polygon = std::holds_alternative<curve::Polyline3>(named.curve.value);
+    auto form = planar_form(named.curve, polygon ? most : kExactly);
     if (!form) {
       left.push_back(std::move(named));
       continue;
     }
-    planes.push_back({form->plane, named.half_breadth});
+    planes.push_back({form->plane, named.half_breadth, form->departure});
     document::NamedPath path;
     path.label = named.label;
     path.path.closed = distance(evaluate(form->curve, 0), evaluate(form->curve, 1)) == 0;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "keyline/core/error.h"
+#include "keyline/exchange/file/read_file.h"
+#include "keyline/exchange/mesh/section_file.h"
+#include "keyline/operations/document_read.h"
+
+/// Internals of document_read.cpp: files of measured points.
+namespace keyline::operations {
+
+/// The result, its failure told of that file.
+template <class T>
+core::Result<T> in_file(core::Result<T> result, const std::string& file) {
+  if (result) return result;
+  return std::unexpected(exchange::in_file(result.error(), file));
+}
+
+/// Of those of the name wanted; where there are none, that of the number, counted from 1.
+template <class Curve>
+bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::string& wanted) {
+  if (wanted.empty() || curves[index].id == wanted) return true;
+  const bool named = std::any_of(curves.begin(), curves.end(),
+                                 [&](const Curve& curve) { return curve.id == wanted; });
+  return !named && wanted == std::to_string(index + 1);
+}
+
+/// A key-line told in its plane.
+NamedCurve named_line(acquire::KeyLine line);
+
+/// The section asked for of a cloud or mesh.
+core::Result<exchange::FileSection> cut_file(const InputRequest& input, const std::string& file);
+
+/// The key-lines of a table, or the one that several files are parts of: in their planes where
+/// `planar` asks for that, else where they lie in space.
+core::Result<ReadAnswer> read_points_input(const InputRequest& input);
+
+}  // namespace keyline::operations
