@@ -139,7 +139,8 @@ TEST(DxfReader, ExtrusionMirrorsAndLiftsIntoSpace) {
 
 TEST(DxfReader, UnitsAndColours) {
   const Document d =
-      read(drawing("0 LINE 8 a 10 0 11 1 0 LINE 8 a 62 5 10 0 11 1 0 LINE 8 b 420 66051 10 0 11 1",
+      read(drawing("0 LINE 8 a 10 0 20 0 11 1 21 0 0 LINE 8 a 62 5 10 0 20 0 11 1 21 0 "
+                   "0 LINE 8 b 420 66051 10 0 20 0 11 1 21 0",
                    "0 SECTION 2 HEADER 9 $INSUNITS 70 6 0 ENDSEC 0 SECTION 2 TABLES 0 LAYER 2 a "
                    "62 -3 0 ENDSEC"));
   EXPECT_EQ(d.unit, "m");
@@ -165,8 +166,9 @@ TEST(DxfReader, NamesAreOursAlone) {
 
 TEST(DxfReader, SaysWhatItLeavesOut) {
   const Document d =
-      read(drawing("0 TEXT 8 0 1 hello 0 TEXT 8 0 1 x 0 CIRCLE 8 0 40 -1 0 LINE 8 0 67 1 10 0 11 1 "
-                   "0 INSERT 2 nowhere 0 LINE 8 0 10 0 11 1"));
+      read(drawing("0 TEXT 8 0 1 hello 0 TEXT 8 0 1 x 0 CIRCLE 8 0 10 0 20 0 40 -1 "
+                   "0 LINE 8 0 67 1 10 0 20 0 11 1 21 0 0 INSERT 2 nowhere 10 0 20 0 "
+                   "0 LINE 8 0 10 0 20 0 11 1 21 0"));
   EXPECT_EQ(d.paths.size(), 1U);
   EXPECT_THAT(d.skipped, testing::UnorderedElementsAre(
                              HasSubstr("radius is not positive"), HasSubstr("no block \"nowhere\""),
@@ -175,13 +177,15 @@ TEST(DxfReader, SaysWhatItLeavesOut) {
 
 TEST(DxfReader, BoundsRecursionAndExplosion) {
   std::string blocks =
-      "0 SECTION 2 BLOCKS 0 BLOCK 2 loop 0 INSERT 2 loop 0 ENDBLK 0 BLOCK 2 b0 0 LINE 10 0 11 1 0 "
+      "0 SECTION 2 BLOCKS 0 BLOCK 2 loop 0 INSERT 2 loop 10 0 20 0 0 ENDBLK 0 BLOCK 2 b0 0 LINE 10 "
+      "0 20 0 11 1 21 0 0 "
       "ENDBLK";
   for (int i = 1; i <= 12; ++i)
     blocks += " 0 BLOCK 2 b" + std::to_string(i) + " 0 INSERT 2 b" + std::to_string(i - 1) +
-              " 70 30000 71 30000 0 ENDBLK";
+              " 10 0 20 0 70 30000 71 30000 0 ENDBLK";
   const Document d =
-      read_dxf(drawing("0 INSERT 2 loop 0 INSERT 2 b12", blocks + " 0 ENDSEC"), {.points = 20'000})
+      read_dxf(drawing("0 INSERT 2 loop 10 0 20 0 0 INSERT 2 b12 10 0 20 0", blocks + " 0 ENDSEC"),
+               {.points = 20'000})
           .value();
   EXPECT_LT(d.paths.size(), 20'000U);
   EXPECT_FALSE(d.skipped.empty());

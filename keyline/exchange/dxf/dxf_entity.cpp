@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "keyline/core/angle.h"
 
@@ -29,14 +31,21 @@ Result<DxfCurve> line_of(const Tags& tags) {
   return DxfCurve{curve::Polyline3{{a, b}}, false};
 }
 
+/// The turn from one angle on to another, counterclockwise: above 0 and at most a whole one.
+double turn_between(double from, double to, double whole) {
+  const double turn = std::fmod(to - from, whole);
+  const double least = 1e-9 * whole;  // less is what rounding made of a whole one
+  return turn > least ? turn : turn + (turn < -least ? whole : whole - turn);
+}
+
 Result<DxfCurve> circle_of(const Tags& tags, bool arc) {
   const double radius = real(tags, 40);
   if (!(radius > 0)) return none("its radius is not positive");
   EllipseArc e{point(tags, 10), {radius, 0, 0}, {0, radius, 0}, 0, 2 * core::kPi};
   if (arc) {
-    e.from = std::fmod(real(tags, 50), 360) * kRadians;
-    e.to = std::fmod(real(tags, 51), 360) * kRadians;
-    while (e.to <= e.from) e.to += 2 * core::kPi;
+    const double from = std::fmod(real(tags, 50), 360);
+    e.from = from * kRadians;
+    e.to = e.from + turn_between(from, real(tags, 51), 360) * kRadians;
   }
   return DxfCurve{mapped(e, frame_of(tags)), !arc};
 }
@@ -52,8 +61,7 @@ Result<DxfCurve> ellipse_of(const Tags& tags) {
   e.from = real(tags, 41, 0);
   e.to = real(tags, 42, 2 * core::kPi);
   if (!(std::abs(e.from) < 1e6 && std::abs(e.to) < 1e6)) return none("its angles make no sense");
-  if (e.to <= e.from) e.to += 2 * core::kPi * std::ceil((e.from - e.to + 1e-12) / (2 * core::kPi));
-  e.to = std::min(e.to, e.from + 2 * core::kPi);
+  e.to = e.from + turn_between(e.from, e.to, 2 * core::kPi);
   return DxfCurve{e, e.to - e.from >= 2 * core::kPi * (1 - 1e-9)};
 }
 
@@ -137,6 +145,9 @@ Result<DxfCurve> spline_of(const Tags& tags) {
   const bool closed = (integer(tags, 70) & 1) != 0;
   if (lists.control.empty()) {
     auto& fit = lists.fit;
+    if (const int wanted = integer(tags, 74); wanted > static_cast<int>(fit.size()))
+      return none("only " + std::to_string(fit.size()) + " of its " + std::to_string(wanted) +
+                  " fit points are there");
     fit.erase(std::unique(fit.begin(), fit.end()), fit.end());
     if (fit.size() < 2) return none("it has neither control points nor two fit points");
     return DxfCurve{fit_point_spline(fit, vector(tags, 12), vector(tags, 13), closed), closed};
@@ -170,11 +181,43 @@ bool is_geometry(int code) {
          within(210, 239);
 }
 
+/// Whether the group's number can be taken: counts, flags and degrees are whole ones, which a
+/// fraction or a number out of range would turn into others.
+bool is_number(const DxfTag& tag) {
+  const bool whole = tag.code == 90 || (tag.code >= 70 && tag.code <= 74);
+  return whole ? integer_of(tag) && number_of(tag) == integer_of(tag) : number_of(tag).has_value();
+}
+
 const DxfTag* unreadable(const Tags& tags) {
   const auto found = std::find_if(tags.begin(), tags.end(), [](const DxfTag& tag) {
-    return is_geometry(tag.code) && !number_of(tag);
+    return is_geometry(tag.code) && !is_number(tag);
   });
   return found == tags.end() ? nullptr : &*found;
+}
+
+using Codes = std::vector<int>;
+
+/// Groups without which an entity of this type has no place or size.
+const Codes& needed_groups(std::string_view type) {
+  static const std::map<std::string_view, Codes> kNeeded = {{"LINE", {10, 20, 11, 21}},
+                                                            {"ARC", {10, 20, 40, 50, 51}},
+                                                            {"CIRCLE", {10, 20, 40}},
+                                                            {"ELLIPSE", {10, 20, 11, 21, 40}},
+                                                            {"INSERT", {10, 20}}};
+  static const Codes kNone;
+  const auto found = kNeeded.find(type);
+  return found == kNeeded.end() ? kNone : found->second;
+}
+
+/// As many second coordinates as first ones, each behind its own.
+bool in_pairs(const Tags& tags, int code) {
+  bool open = false;
+  for (const DxfTag& tag : tags) {
+    if (tag.code == 100 && tag.text == "AcDbHelix") break;
+    if (tag.code == code && std::exchange(open, true)) return false;
+    if (tag.code == code + 10 && !std::exchange(open, false)) return false;
+  }
+  return !open;
 }
 
 }  // namespace
@@ -184,6 +227,18 @@ const DxfTag* unreadable(const DxfEntity& entity) {
   for (const Tags& vertex : entity.vertices)
     if (const DxfTag* tag = unreadable(vertex)) return tag;
   return nullptr;
+}
+
+std::optional<int> missing_group(const DxfEntity& entity) {
+  for (const int code : needed_groups(entity.type))
+    if (!find(entity.tags, code)) return code;
+  if (entity.type == "LWPOLYLINE" || entity.type == "SPLINE" || entity.type == "HELIX")
+    for (const int code : {10, 11})
+      if (!in_pairs(entity.tags, code)) return code + 10;
+  for (const Tags& vertex : entity.vertices)
+    for (const int code : {10, 20})
+      if (!find(vertex, code)) return code;
+  return std::nullopt;
 }
 
 double real(const Tags& tags, int code, double fallback) {

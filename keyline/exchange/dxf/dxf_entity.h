@@ -22,6 +22,10 @@ struct DxfEntity {
 /// do.
 const DxfTag* unreadable(const DxfEntity& entity);
 
+/// The code of a group without which the entity has no place or size, and which is not there: the
+/// coordinates of its points, radii, angles. Empty where all are.
+std::optional<int> missing_group(const DxfEntity& entity);
+
 /// First value of a code; the fallback where it is absent or no number.
 double real(const std::vector<DxfTag>& tags, int code, double fallback = 0);
 int integer(const std::vector<DxfTag>& tags, int code, int fallback = 0);

@@ -15,6 +15,7 @@
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
 #include "keyline/exchange/dxf/dxf_units.h"
+#include "keyline/exchange/text/text_table.h"
 
 namespace keyline::exchange {
 namespace {
@@ -49,13 +50,6 @@ struct Outer {
   std::string name;
   int depth = 0;
 };
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
 
 class DxfReader {
  public:
@@ -160,6 +154,7 @@ class DxfReader {
 
   void take_header(const DxfTag& tag) {
     if (tag.code == 9) variable_ = std::string(tag.text);
+    if (variable_ == "$DWGCODEPAGE" && tag.code == 3) code_page_ = std::string(tag.text);
     if (variable_ != "$INSUNITS" || tag.code != 70) return;
     const auto given = detail::integer_of(tag);
     if (!given) problem("the unit of the drawing: it is no number (" + tags_.place(tag) + ")");
@@ -242,14 +237,16 @@ class DxfReader {
     place(item, Outer{});
   }
 
-  /// False, and said, where a number of its geometry cannot be read.
+  /// False, and said, where a number of its geometry cannot be read or is not there.
   bool is_readable(const DxfEntity& entity) {
     const DxfTag* tag = detail::unreadable(entity);
-    if (!tag) return true;
-    problem(describe(entity) + ": \"" +
-            std::string(core::whole_characters(detail::text_of(*tag), 40)) + "\" at " +
-            tags_.place(*tag) + " is no number");
-    return false;
+    const auto missing = tag ? std::nullopt : detail::missing_group(entity);
+    if (tag)
+      problem(describe(entity) + ": \"" +
+              std::string(core::whole_characters(detail::text_of(*tag), 40)) + "\" at " +
+              tags_.place(*tag) + " is no number");
+    if (missing) problem(describe(entity) + ": group " + std::to_string(*missing) + " is missing");
+    return !tag && !missing;
   }
 
   /// A colour as it is written; what cannot be read is said and counts as absent.
@@ -275,12 +272,21 @@ class DxfReader {
     if (exact >= 0) item.exact = detail::true_color(exact);
     bool ours = false;
     for (const DxfTag& tag : entity.tags) {
+      if (tag.code == 8) check_letters(tag);
       if (tag.code == 1001) ours = tag.text == "KEYLINE";
       if (tag.code == 1000 && ours) item.name = detail::text_of(tag);
     }
     const int number = ++numbers_[std::string(entity.type)];
-    if (item.name.empty()) item.name = lower(entity.type) + "-" + std::to_string(number);
+    if (item.name.empty())
+      item.name = detail::lower_case(entity.type) + "-" + std::to_string(number);
     return item;
+  }
+
+  /// Says once that letters beyond ASCII are of a code page that is not known here.
+  void check_letters(const DxfTag& name) {
+    const bool known = code_page_.empty() || code_page_ == "ANSI_1252";
+    if (known || core::is_utf8(name.text) || std::exchange(said_letters_, true)) return;
+    problem("letters of names beyond ASCII, which are in " + code_page_ + ": they come out wrong");
   }
 
   /// One map for every cell of an insert's array: block coordinates less base to outer ones.
@@ -365,6 +371,8 @@ class DxfReader {
   double scale_ = 1;  ///< from the drawing's unit to ours
   std::string section_;
   std::string variable_;
+  std::string code_page_;
+  bool said_letters_ = false;
   bool naming_section_ = false;
   bool seen_section_ = false;
   std::optional<DxfEntity> entity_;

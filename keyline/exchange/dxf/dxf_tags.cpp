@@ -87,7 +87,7 @@ std::string text_of(const DxfTag& tag) {
     } else if (utf8 || byte < 0x80) {
       text += tag.text[i];
     } else {
-      core::append_utf8(text, byte);
+      text += core::from_windows_1252(tag.text.substr(i, 1));
     }
   }
   return text;

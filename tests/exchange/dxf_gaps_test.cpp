@@ -1,0 +1,123 @@
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/document/arc.h"
+#include "keyline/exchange/dxf/dxf_reader.h"
+
+namespace keyline::exchange {
+namespace {
+
+using document::Document;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Groups parted by blanks as a drawing's entities, behind a header.
+Document read(const std::string& entities, const std::string& before = {}) {
+  std::istringstream words(before + " 0 SECTION 2 ENTITIES " + entities + " 0 ENDSEC 0 EOF");
+  std::string text;
+  for (std::string word; words >> word;) text += word + "\n";
+  const auto document = read_dxf(text);
+  EXPECT_TRUE(document) << document.error().message << ' ' << document.error().path;
+  return document.value_or(Document{});
+}
+
+/// Degrees of the only arc's start and turn.
+std::pair<double, double> arc_of(const std::string& from, const std::string& to) {
+  const Document d = read("0 ARC 8 0 10 0 20 0 40 1 50 " + from + " 51 " + to);
+  const auto& chain = std::get<lac::Chain>(d.paths.at(0).path.curves.at(0).value);
+  const auto arc = document::as_arc(lac::segment_at(chain, 0)).value_or(document::Arc{});
+  return {arc.start * 180 / core::kPi, arc.turn * 180 / core::kPi};
+}
+
+// An arc turns counterclockwise from one angle to the other, at most once around, however the
+// angles are counted.
+TEST(DxfArc, TurnsAtMostOnceAround) {
+  struct Case {
+    const char* from;
+    const char* to;
+    double turn;
+  };
+  for (const Case& c : {Case{"350", "20", 30},
+                        {"-272", "238", 150},
+                        {"20", "-20", 320},
+                        {"-10", "350", 360},
+                        {"0", "360", 360},
+                        {"-400", "400", 80},
+                        {"90", "90", 360},
+                        {"10", "9", 359},
+                        {"-350", "340", 330}}) {
+    const auto [start, turn] = arc_of(c.from, c.to);
+    EXPECT_NEAR(turn, c.turn, 1e-12) << c.from << ' ' << c.to;
+    EXPECT_NEAR(std::remainder(start - std::stod(c.from), 360), 0, 1e-12) << c.from;
+  }
+}
+
+TEST(DxfEllipse, TurnsAtMostOnceAround) {
+  const auto ends = [](const std::string& from, const std::string& to) {
+    const Document d = read("0 ELLIPSE 8 0 10 0 20 0 11 2 21 0 40 0.5 41 " + from + " 42 " + to);
+    const auto& path = d.paths.at(0).path;
+    return std::pair{path.curves.size(), path.closed};
+  };
+  EXPECT_EQ(ends("-6", "6"), (std::pair{std::size_t{4}, false}));  // 12 - 2 pi: 5.72
+  EXPECT_EQ(ends("-5", "5"), (std::pair{std::size_t{3}, false}));  // 10 - 2 pi: 3.72
+  EXPECT_EQ(ends("0", "6.2831853072"), (std::pair{std::size_t{4}, true}));
+  EXPECT_EQ(ends("1", "7.283185307"), (std::pair{std::size_t{4}, true}));
+  EXPECT_EQ(ends("6", "1"), (std::pair{std::size_t{1}, false}));
+}
+
+// What is not there is no 0.
+TEST(DxfReader, MissingCoordinatesAreSaid) {
+  const std::string line = "0 LINE 8 0 10 1 20 2 11 3 21 4 ";
+  for (const auto& [entity, group] :
+       {std::pair{"0 LINE 8 0 10 1 20 2 11 3", 21},
+        {"0 LINE 8 0 20 2 11 3 21 4", 10},
+        {"0 CIRCLE 8 0 10 1 20 2", 40},
+        {"0 ARC 8 0 10 1 20 2 40 3 50 10", 51},
+        {"0 ELLIPSE 8 0 10 1 20 2 11 3 40 0.5", 21},
+        {"0 LWPOLYLINE 8 0 90 3 70 0 10 1 20 2 10 3 10 5 20 6", 20},
+        {"0 POLYLINE 8 0 66 1 70 0 0 VERTEX 8 0 10 1 20 2 0 VERTEX 8 0 10 3 0 SEQEND", 20},
+        {"0 SPLINE 8 0 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 10 5", 20},
+        {"0 SPLINE 8 0 70 8 71 3 11 0 21 0 11 5 11 6 21 1", 21}}) {
+    const Document d = read(line + entity);
+    EXPECT_EQ(d.paths.size() + d.space_curves.size(), 1U) << entity;
+    EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("group " + std::to_string(group) + " is missing")))
+        << entity;
+  }
+  EXPECT_TRUE(read(line).skipped.empty());
+}
+
+TEST(DxfReader, FitPointsThatAreAnnouncedHaveToBeThere) {
+  const Document d =
+      read("0 LINE 8 0 10 1 20 2 11 3 21 4 0 SPLINE 8 0 70 8 71 3 74 3 11 0 21 0 11 5 21 1");
+  EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("only 2 of its 3 fit points are there")));
+}
+
+// A degree of 99999999999 had become 3, a flag of 1.5 a closed curve.
+TEST(DxfReader, CountsAndFlagsAreWholeNumbers) {
+  for (const char* flag : {"1.5", "99999999999", "1e30"}) {
+    const Document d =
+        read(std::string("0 LINE 8 0 10 1 20 2 11 3 21 4 0 LWPOLYLINE 8 0 90 2 70 ") + flag +
+             " 10 0 20 0 10 1 20 1");
+    EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("is no number"))) << flag;
+  }
+}
+
+TEST(DxfReader, LettersOfOtherCodePagesAreSaid) {
+  const auto header = [](const std::string& page) {
+    return "0 SECTION 2 HEADER 9 $DWGCODEPAGE 3 " + page + " 0 ENDSEC";
+  };
+  const std::string line = "0 LINE 8 K\xee\xed 10 1 20 2 11 3 21 4 ";
+  EXPECT_THAT(read(line + line, header("ANSI_1251")).skipped,
+              ElementsAre(HasSubstr("which are in ANSI_1251")));
+  EXPECT_TRUE(read(line, header("ANSI_1252")).skipped.empty());
+  EXPECT_TRUE(read("0 LINE 8 Kon 10 1 20 2 11 3 21 4", header("ANSI_1251")).skipped.empty());
+  EXPECT_EQ(read("0 LINE 8 \x80\xe4 10 1 20 2 11 3 21 4").paths.at(0).label.layer, "\u20ac\u00e4");
+}
+
+}  // namespace
+}  // namespace keyline::exchange
