@@ -21,5 +21,21 @@ TEST(SvgTransform, TakesPointsWhereTheStandardSays) {
   EXPECT_EQ(at("scale(2) translate(1 0)", {3, 0}), (core::Point2{8, 0}));
 }
 
+// SVG 2, 8.2: the smaller scale for both axes, the larger one for slice, each its own for none,
+// whatever else is said.
+TEST(SvgTransform, ThePageKeepsTheAspectAskedFor) {
+  const SvgLength width{200, true};
+  const SvgLength height{50, true};
+  const auto end = [&](const char* aspect) {
+    const auto frame = outermost_frame(width, height, SvgViewBox{0, 0, 100, 100}, aspect);
+    return apply(frame.map, {10, -10});
+  };
+  EXPECT_EQ(end(""), (core::Point2{5, 5}));
+  EXPECT_EQ(end("xMinYMax meet"), (core::Point2{5, 5}));
+  EXPECT_EQ(end("xMidYMid slice"), (core::Point2{20, 20}));
+  EXPECT_EQ(end("none"), (core::Point2{20, 5}));
+  EXPECT_EQ(end(" none meet"), (core::Point2{20, 5}));
+}
+
 }  // namespace
 }  // namespace keyline::exchange::detail

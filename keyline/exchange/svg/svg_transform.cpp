@@ -106,11 +106,21 @@ std::optional<SvgViewBox> parse_svg_view_box(std::string_view text) {
   return SvgViewBox{v[0], v[1], v[2], v[3]};
 }
 
+namespace {
+
+/// Scales of both axes as preserveAspectRatio asks for: each its own, or one of them for both.
+void keep_aspect(double& x, double& y, std::string_view aspect) {
+  const auto has = [aspect](std::string_view word) { return aspect.find(word) != aspect.npos; };
+  if (!has("none")) x = y = has("slice") ? std::max(x, y) : std::min(x, y);
+}
+
+}  // namespace
+
 Affine fit_view_box(const SvgViewBox& box, double width, double height, std::string_view aspect) {
   double x = width / box.width;
   double y = height / box.height;
+  keep_aspect(x, y, aspect);
   const auto has = [aspect](std::string_view word) { return aspect.find(word) != aspect.npos; };
-  if (!has("none")) x = y = has("slice") ? std::max(x, y) : std::min(x, y);
   const double right = has("xMin") ? 0 : has("xMax") ? 1 : 0.5;
   const double down = has("YMin") ? 0 : has("YMax") ? 1 : 0.5;
   return {x,
@@ -152,10 +162,10 @@ std::optional<SvgLength> parse_svg_length(std::string_view text) {
 namespace {
 
 /// Scales of the viewBox in the lengths that the sizes are given in; 0 for one that is not.
-Affine scales(double width, double height, const SvgViewBox& box, bool even) {
+Affine scales(double width, double height, const SvgViewBox& box, std::string_view aspect) {
   double x = width > 0 ? width / box.width : height > 0 ? height / box.height : 1;
   double y = height > 0 ? height / box.height : x;
-  if (even) x = y = std::min(x, y);
+  keep_aspect(x, y, aspect);
   return {x, 0, 0, -y, 0, 0};
 }
 
@@ -173,7 +183,7 @@ SvgFrame outermost_frame(const std::optional<SvgLength>& width,
   const double h = size(height);
   frame.page = box;
   if (box) {
-    frame.map = scales(w, h, *box, aspect != "none");
+    frame.map = scales(w, h, *box, aspect);
     if (w == 0 || h == 0) return frame;
     const Affine fit = fit_view_box(*box, w, h, aspect);
     frame.page = SvgViewBox{-fit.e / fit.a, -fit.f / fit.d, w / fit.a, h / fit.d};
