@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <string>
 
+#include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/format/format.h"
 
 namespace keyline::exchange {
@@ -18,8 +16,6 @@ using core::Result;
 using sketch::Image;
 
 namespace {
-
-constexpr std::uintmax_t kLargestFile = 512u << 20;
 
 bool starts_with(std::string_view bytes, std::string_view magic) {
   return bytes.substr(0, magic.size()) == magic;
@@ -152,19 +148,9 @@ Result<Image> read_image(std::string_view bytes) {
 }
 
 Result<Image> read_image_file(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    return core::fail(ErrorCode::io, "is a directory", "name a picture", path.string());
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    return core::fail(ErrorCode::io, std::string("cannot be opened: ") + std::strerror(errno),
-                      "check the name and the rights", path.string());
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error && size > kLargestFile)
-    return core::fail(ErrorCode::bad_input, "is larger than 512 MB", "make the picture smaller",
-                      path.string());
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  auto image = read_image(bytes);
+  const auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  auto image = read_image(*bytes);
   if (!image && image.error().path.empty()) image.error().path = path.string();
   return image;
 }
