@@ -80,6 +80,14 @@ bool settle_line(Working& work, const AcquireOptions& options, KeyLine& line) {
   return true;
 }
 
+/// Points and what is kept of each of them, where it is kept.
+template <class Change>
+void for_each_list(Working& work, const Change& change) {
+  change(work.points);
+  if (!work.sources.empty()) change(work.sources);
+  if (!work.weights.empty()) change(work.weights);
+}
+
 /// Closes the outline as its ends ask for: drops the repeated first point, or adds it at a corner.
 void settle_ends(Working& work, std::size_t stride, double noise, const AcquireOptions& options,
                  KeyLine& line) {
@@ -105,18 +113,11 @@ void settle_ends(Working& work, std::size_t stride, double noise, const AcquireO
       note("the ends meet in a corner: kept as an open curve from corner to corner");
       break;
     case Ends::corner_at_last:
-      std::rotate(work.points.rbegin(), work.points.rbegin() + 1, work.points.rend());
-      if (!work.sources.empty()) {
-        std::rotate(work.sources.rbegin(), work.sources.rbegin() + 1, work.sources.rend());
-      }
-      if (!work.weights.empty()) {
-        std::rotate(work.weights.rbegin(), work.weights.rbegin() + 1, work.weights.rend());
-      }
+      for_each_list(work,
+                    [](auto& list) { std::rotate(list.rbegin(), list.rbegin() + 1, list.rend()); });
       [[fallthrough]];
     case Ends::corner_at_first:
-      work.points.push_back(work.points.front());
-      if (!work.sources.empty()) work.sources.push_back(work.sources.front());
-      if (!work.weights.empty()) work.weights.push_back(work.weights.front());
+      for_each_list(work, [](auto& list) { list.push_back(list.front()); });
       line.ends_meet = true;
       note("closed outline that starts at a corner: kept as an open curve from corner to corner");
       break;
@@ -189,6 +190,20 @@ double noise_of(const Working& work, bool closed, const Texture& texture, double
   return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
 }
 
+/// The different points in the curve's plane, in their order.
+core::Result<Working> in_order(const RawCurve& raw, const AcquireOptions& options, KeyLine& line) {
+  auto work = flatten(raw, options, line);
+  if (!work) return work;
+  note_plane(line, detail::extent_of(work->points));
+  merge(*work, line);
+  detail::put_in_order(*work, options, line);
+  if (work->points.size() >= 2) return work;
+  const bool one = raw.points.size() == 1;
+  return core::fail(ErrorCode::bad_input,
+                    one ? "a single point is no curve" : "all points are at the same place",
+                    "give at least two different points");
+}
+
 }  // namespace
 
 core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions& options) {
@@ -202,18 +217,9 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   line.id = raw.id;
   line.report.notes = raw.notes;
   for (const std::string& what : raw.left_out) line.report.notes.push_back("left out: " + what);
-  auto flat = flatten(raw, options, line);
-  if (!flat) return std::unexpected(flat.error());
-  Working& work = *flat;
-  note_plane(line, detail::extent_of(work.points));
-  merge(work, line);
-  detail::put_in_order(work, options, line);
-  if (work.points.size() < 2) {
-    const bool one = raw.points.size() == 1;
-    return core::fail(ErrorCode::bad_input,
-                      one ? "a single point is no curve" : "all points are at the same place",
-                      "give at least two different points");
-  }
+  auto found = in_order(raw, options, line);
+  if (!found) return std::unexpected(found.error());
+  Working& work = *found;
   line.rounding = estimate_rounding(raw);
   const std::size_t stride = noise_stride(work.points, false);
   const auto noise_now = [&](const Texture& texture) {

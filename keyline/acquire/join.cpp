@@ -183,6 +183,37 @@ RawCurve raw_of(const Part& part, const Plane& plane, const std::string& id) {
   return raw;
 }
 
+/// The parts acquired one by one in the common plane, and what was said of them.
+struct Parts {
+  std::vector<Part> lines;
+  AcquireReport report;
+  double rounding = 0;  ///< the finest
+  bool weighted = false;
+};
+
+core::Result<Parts> acquire_each(std::span<const RawCurve> parts, const Plane& plane,
+                                 const AcquireOptions& options) {
+  AcquireOptions open = options;
+  open.plane = plane;
+  open.closed = false;
+  Parts all;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string name = "part " + std::to_string(i + 1) + ": ";
+    auto line = acquire_key_line(parts[i], open);
+    if (!line) {
+      line.error().message = name + line.error().message;
+      return std::unexpected(line.error());
+    }
+    add_counts(all.report, line->report);
+    for (const std::string& note : line->report.notes) all.report.notes.push_back(name + note);
+    all.rounding = i == 0 ? line->rounding : std::min(all.rounding, line->rounding);
+    all.weighted = all.weighted || !line->weights.empty();
+    if (line->weights.empty()) line->weights.assign(line->points.size(), 1.0);
+    all.lines.push_back({std::move(line->points), std::move(line->weights), i, false});
+  }
+  return all;
+}
+
 }  // namespace
 
 core::Result<KeyLine> acquire_joined(std::span<const RawCurve> parts,
@@ -190,40 +221,21 @@ core::Result<KeyLine> acquire_joined(std::span<const RawCurve> parts,
   if (parts.size() == 1) return acquire_key_line(parts[0], options);
   const auto plane = common_plane(parts, options);
   if (!plane) return std::unexpected(plane.error());
-  AcquireOptions each = options;
-  each.plane = *plane;
-  each.closed = false;
-  AcquireReport report;
-  std::vector<Part> rest;
-  double rounding = 0;
-  bool weighted = false;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    auto line = acquire_key_line(parts[i], each);
-    if (!line) {
-      line.error().message = "part " + std::to_string(i + 1) + ": " + line.error().message;
-      return line;
-    }
-    add_counts(report, line->report);
-    for (const std::string& note : line->report.notes) {
-      report.notes.push_back("part " + std::to_string(i + 1) + ": " + note);
-    }
-    rounding = i == 0 ? line->rounding : std::min(rounding, line->rounding);
-    weighted = weighted || !line->weights.empty();
-    if (line->weights.empty()) line->weights.assign(line->points.size(), 1.0);
-    rest.push_back({std::move(line->points), std::move(line->weights), i, false});
-  }
-  Part whole = std::move(rest.front());
-  rest.erase(rest.begin());
-  while (!rest.empty()) take_nearest(whole, rest, report);
+  auto each = acquire_each(parts, *plane, options);
+  if (!each) return std::unexpected(each.error());
+  AcquireReport& report = each->report;
+  Part whole = std::move(each->lines.front());
+  each->lines.erase(each->lines.begin());
+  while (!each->lines.empty()) take_nearest(whole, each->lines, report);
 
   AcquireOptions final_options = options;
   final_options.plane = *plane;
   final_options.ordered = true;
   RawCurve raw = raw_of(whole, *plane, parts[0].id);
-  if (!weighted) raw.weights.clear();
+  if (!each->weighted) raw.weights.clear();
   auto joined = acquire_key_line(raw, final_options);
   if (!joined) return joined;
-  joined->rounding = rounding;
+  joined->rounding = each->rounding;
   joined->sources.clear();
   report.notes.insert(report.notes.end(), joined->report.notes.begin(), joined->report.notes.end());
   report.outliers += joined->report.outliers;

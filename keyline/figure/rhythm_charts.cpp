@@ -55,6 +55,23 @@ Drawing lcg_chart(const LcgPiece& piece, double width, double height) {
   return draw(plot);
 }
 
+namespace {
+
+/// A and B, the ends of the C curve.
+void add_ends(Plot& plot, const LddcPiece& piece) {
+  Series ends{.kind = SeriesKind::points, .color = kInk, .size = 6};
+  const auto add_end = [&](const std::optional<Point2>& p, const char* name) {
+    if (!p) return;
+    ends.points.push_back(*p);
+    plot.notes.push_back({.at = *p, .text = name, .offset = {6, -5}, .bold = true});
+  };
+  add_end(piece.point_a, "A");
+  add_end(piece.point_b, "B");
+  plot.series.push_back(ends);
+}
+
+}  // namespace
+
 Drawing lddc_chart(const LddcPiece& piece, double width, double height) {
   Plot plot;
   plot.title = piece.name;
@@ -77,15 +94,7 @@ Drawing lddc_chart(const LddcPiece& piece, double width, double height) {
   plot.series.push_back(
       Series{.name = "C curve", .points = piece.c_curve, .color = palette(0), .width = 1.4});
   add_lines(plot, piece.lines, "slope");
-  Series ends{.kind = SeriesKind::points, .color = kInk, .size = 6};
-  const auto add_end = [&](const std::optional<Point2>& p, const char* name) {
-    if (!p) return;
-    ends.points.push_back(*p);
-    plot.notes.push_back({.at = *p, .text = name, .offset = {6, -5}, .bold = true});
-  };
-  add_end(piece.point_a, "A");
-  add_end(piece.point_b, "B");
-  plot.series.push_back(ends);
+  add_ends(plot, piece);
   std::vector<double> heights;
   for (const Series& series : plot.series) {
     if (!series.sets_range) continue;

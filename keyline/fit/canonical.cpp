@@ -141,6 +141,27 @@ double decimal_rounding(std::span<const double> values) {
   return 0;
 }
 
+namespace {
+
+/// Sum of squares of column k over [first, last) about the line of least squares through the means.
+double scatter_about_line(const SplineData& data, std::size_t k, std::size_t first,
+                          std::size_t last, Point2 mean) {
+  double tt = 0;
+  double tv = 0;
+  double vv = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const double weight = data.weights.empty() ? 1.0 : data.weights[i];
+    const double dt = data.parameters[i] - mean.x;
+    const double dv = data.columns[k][i] - mean.y;
+    tt += weight * dt * dt;
+    tv += weight * dt * dv;
+    vv += weight * dv * dv;
+  }
+  return std::max(0.0, vv - (tt > 0 ? tv * tv / tt : 0));
+}
+
+}  // namespace
+
 CondensedData condense(const SplineData& data, std::size_t bins) {
   CondensedData result;
   const std::size_t n = data.parameters.size();
@@ -165,20 +186,10 @@ CondensedData condense(const SplineData& data, std::size_t bins) {
     result.data.weights.push_back(sum_w);
     for (std::size_t k = 0; k < data.columns.size(); ++k) {
       double sum = 0;
-      double tt = 0;
-      double tv = 0;
-      double vv = 0;
       for (std::size_t i = first; i < last; ++i) sum += weight(i) * data.columns[k][i];
       const double mean = sum / sum_w;
-      for (std::size_t i = first; i < last; ++i) {
-        const double dt = data.parameters[i] - mean_t;
-        const double dv = data.columns[k][i] - mean;
-        tt += weight(i) * dt * dt;
-        tv += weight(i) * dt * dv;
-        vv += weight(i) * dv * dv;
-      }
       result.data.columns[k].push_back(mean);
-      result.scatter += std::max(0.0, vv - (tt > 0 ? tv * tv / tt : 0));
+      result.scatter += scatter_about_line(data, k, first, last, {mean_t, mean});
     }
     first = last;
   }

@@ -275,6 +275,27 @@ std::vector<CurvatureTarget> mirrored(std::vector<CurvatureTarget> targets) {
   return targets;
 }
 
+/// What came of it: errors before and after, how far the end went, and notes.
+void tell(const Problem& problem, const std::vector<LocalTarget>& targets, Solution solution,
+          CurvatureDrive& result) {
+  const PiecewiseBezier& chain = problem.chain;
+  result.before = rms_error(chain, targets);
+  result.after = rms_error(solution.chain, targets);
+  result.end_moved = core::distance(solution.chain.pieces.back().control.back(),
+                                    chain.pieces.back().control.back());
+  result.iterations = solution.report.iterations;
+  result.converged = solution.report.status == numeric::LevenbergMarquardtStatus::converged;
+  result.moved = solution.moved;
+  result.target = detail::over_all(targets, chain.pieces.size());
+  result.chain = std::move(solution.chain);
+  if (solution.held)
+    result.notes.push_back(
+        "control edges were held between a hundredth and a hundredfold of their lengths: the "
+        "target is met best by none that are");
+  if (result.share < 1)
+    result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");
+}
+
 Result<CurvatureDrive> drive(const PiecewiseBezier& given, std::vector<CurvatureTarget> wanted,
                              const CurvatureDriveOptions& options) {
   const auto quintics = as_quintics(given);
@@ -302,21 +323,7 @@ Result<CurvatureDrive> drive(const PiecewiseBezier& given, std::vector<Curvature
                       "let the end move", "hold_end");
   Solution solution = options.keep_monotone ? keep_monotone(problem, *targets, result.share)
                                             : solve(problem, *targets);
-  result.before = rms_error(chain, *targets);
-  result.after = rms_error(solution.chain, *targets);
-  result.end_moved = core::distance(solution.chain.pieces.back().control.back(),
-                                    chain.pieces.back().control.back());
-  result.iterations = solution.report.iterations;
-  result.converged = solution.report.status == numeric::LevenbergMarquardtStatus::converged;
-  result.moved = solution.moved;
-  result.target = detail::over_all(*targets, chain.pieces.size());
-  result.chain = std::move(solution.chain);
-  if (solution.held)
-    result.notes.push_back(
-        "control edges were held between a hundredth and a hundredfold of their lengths: the "
-        "target is met best by none that are");
-  if (result.share < 1)
-    result.notes.push_back("stopped before the target: monotone pieces would not stay monotone");
+  tell(problem, *targets, std::move(solution), result);
   return result;
 }
 

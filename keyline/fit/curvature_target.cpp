@@ -41,49 +41,47 @@ Profile profile_of(const curve::PiecewiseBezier& chain) {
   return p;
 }
 
-/// Gaussian mean along the length; beyond open ends the profile goes on mirrored in its end point.
+/// Sample i of the profile, which goes on beyond its ends: round a closed one, mirrored in the end
+/// point of an open one. i from -n to 2 n - 1.
+struct Sample {
+  double s, curvature, weight;
+};
+
+Sample sample(const Profile& p, long i, bool closed) {
+  const long m = static_cast<long>(p.curvature.size());
+  const double whole = p.length.back();
+  const auto at = [](long k) { return static_cast<std::size_t>(k); };
+  const auto twice_its_share = [&](long k) {
+    const double before = k > 0 ? p.length[at(k - 1)] : -p.length[at(0)];
+    const double after = k + 1 < m ? p.length[at(k + 1)] : 2 * whole - p.length[at(k)];
+    return after - before;
+  };
+  if (i >= 0 && i < m) return {p.length[at(i)], p.curvature[at(i)], twice_its_share(i)};
+  if (closed) {
+    const long k = ((i % m) + m) % m;
+    return {p.length[at(k)] + (i < 0 ? -whole : whole), p.curvature[at(k)], twice_its_share(k)};
+  }
+  const long k = i < 0 ? -1 - i : 2 * m - 1 - i;
+  const double end = i < 0 ? p.curvature.front() : p.curvature.back();
+  return {i < 0 ? -p.length[at(k)] : 2 * whole - p.length[at(k)], 2 * end - p.curvature[at(k)],
+          twice_its_share(k)};
+}
+
+/// Gaussian mean along the length.
 std::vector<double> low_pass(const Profile& p, double sigma, bool closed) {
   const std::size_t n = p.curvature.size();
-  const double whole = p.length.back();
   std::vector<double> smooth(n);
-  const auto value = [&](long i, double& s, double& weight) {
-    const long m = static_cast<long>(n);
-    const auto at = [](long k) { return static_cast<std::size_t>(k); };
-    const auto twice_its_share = [&](long k) {
-      const double before = k > 0 ? p.length[at(k - 1)] : -p.length[at(0)];
-      const double after = k + 1 < m ? p.length[at(k + 1)] : 2 * whole - p.length[at(k)];
-      return after - before;
-    };
-    if (i >= 0 && i < m) {
-      s = p.length[at(i)];
-      weight = twice_its_share(i);
-      return p.curvature[at(i)];
-    }
-    if (closed) {
-      const long k = ((i % m) + m) % m;
-      s = p.length[at(k)] + (i < 0 ? -whole : whole);
-      weight = twice_its_share(k);
-      return p.curvature[at(k)];
-    }
-    const long k = i < 0 ? -1 - i : 2 * m - 1 - i;
-    const double end = i < 0 ? p.curvature.front() : p.curvature.back();
-    s = i < 0 ? -p.length[at(k)] : 2 * whole - p.length[at(k)];
-    weight = twice_its_share(k);
-    return 2 * end - p.curvature[at(k)];
-  };
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0;
     double total = 0;
     for (const long direction : {-1L, 1L})
       for (long j = direction < 0 ? static_cast<long>(i) - 1 : static_cast<long>(i);
            j > -static_cast<long>(n) && j < 2 * static_cast<long>(n); j += direction) {
-        double s = 0;
-        double weight = 0;
-        const double v = value(j, s, weight);
-        const double d = (s - p.length[i]) / sigma;
+        const Sample at = sample(p, j, closed);
+        const double d = (at.s - p.length[i]) / sigma;
         if (std::abs(d) > 4) break;
-        const double w = weight * std::exp(-0.5 * d * d);
-        sum += w * v;
+        const double w = at.weight * std::exp(-0.5 * d * d);
+        sum += w * at.curvature;
         total += w;
       }
     smooth[i] = sum / total;

@@ -228,6 +228,30 @@ SplineData function_data(std::span<const double> x, std::span<const double> y,
   return data;
 }
 
+core::Result<void> check_values(std::span<const double> x, std::span<const double> y, int order) {
+  if (x.size() != y.size()) {
+    return core::fail(ErrorCode::bad_input, "as many y as x are needed");
+  }
+  std::vector<Point2> points;
+  for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], y[i]});
+  return check_points(points, order);
+}
+
+core::Result<void> check_range(core::Interval range, std::span<const double> y,
+                               const std::optional<core::Interval>& wanted) {
+  const auto [least, most] = std::minmax_element(y.begin(), y.end());
+  if (!(range.low < range.high) || !std::isfinite(core::length(range)) ||
+      !std::isfinite((*most - *least) * static_cast<double>(y.size()))) {
+    return core::fail(ErrorCode::bad_input, "x are all equal, or x or y too far apart");
+  }
+  if (wanted && !(wanted->low <= range.low && range.high <= wanted->high))
+    return core::fail(ErrorCode::bad_input, "the interval does not hold all data",
+                      "give one from " + core::number_text(range.low, 9) + " or less to " +
+                          core::number_text(range.high, 9) + " or more",
+                      "interval");
+  return {};
+}
+
 }  // namespace
 
 SplineFitOptions SplineFitOptions::for_fairing() {
@@ -303,27 +327,12 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
                                        const SplineFitOptions& options,
                                        const SplineSettings& settings) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
-  if (x.size() != y.size()) {
-    return core::fail(ErrorCode::bad_input, "as many y as x are needed");
-  }
-  std::vector<Point2> points;
-  for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], y[i]});
-  if (auto ok = check_points(points, options.order); !ok) return std::unexpected(ok.error());
+  if (auto ok = check_values(x, y, options.order); !ok) return std::unexpected(ok.error());
   const auto w = all_weights(x.size(), weights, options.must_pass);
   if (!w) return std::unexpected(w.error());
   const SplineData data = function_data(x, y, *w);
   const core::Interval range{data.parameters.front(), data.parameters.back()};
-  const auto [least, most] = std::minmax_element(y.begin(), y.end());
-  if (!(range.low < range.high) || !std::isfinite(core::length(range)) ||
-      !std::isfinite((*most - *least) * static_cast<double>(y.size()))) {
-    return core::fail(ErrorCode::bad_input, "x are all equal, or x or y too far apart");
-  }
-  if (settings.interval &&
-      !(settings.interval->low <= range.low && range.high <= settings.interval->high))
-    return core::fail(ErrorCode::bad_input, "the interval does not hold all data",
-                      "give one from " + core::number_text(range.low, 9) + " or less to " +
-                          core::number_text(range.high, 9) + " or more",
-                      "interval");
+  if (auto ok = check_range(range, y, settings.interval); !ok) return std::unexpected(ok.error());
   const double rounding = options.rounding > 0 ? options.rounding : detail::decimal_rounding(y);
   const auto found =
       find_knots(detail::canonical_function(data.parameters, data.columns[0], data.weights),

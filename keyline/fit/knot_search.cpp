@@ -195,6 +195,17 @@ std::optional<KnotSearchResult> without_knots(SplineSolver solver,
   return result;
 }
 
+/// The first of the best, or none where all are infinitely bad.
+detail::ScoredKnots best_of(const std::vector<detail::ScoredKnots>& ends,
+                            const SplineSolver& solver, const BayesCriterion& criterion) {
+  detail::ScoredKnots best{{}, kInfinity};
+  for (const detail::ScoredKnots& end : ends)
+    if (end.bic < best.bic) best = end;
+  if (std::isfinite(best.bic)) return best;
+  SplineSolver plain = solver;
+  return {{}, criterion(plain.sum_of_squares({}), 0)};
+}
+
 }  // namespace
 
 double BayesCriterion::operator()(double sum_of_squares, std::size_t interior_knots) const {
@@ -237,24 +248,11 @@ KnotSearchResult search_knots(const SplineSolver& solver, const BayesCriterion& 
     const bool thorough = options.trials > 1 && detail::is_small(solver);
     polish(ends, problem.solvers(), criterion, options, progress, thorough);
   }
-  result.bic = kInfinity;
-  for (auto& end : ends) {
-    if (end.bic < result.bic) {
-      result.bic = end.bic;
-      result.knots = end.knots;
-    }
-  }
-  if (!std::isfinite(result.bic)) {
-    SplineSolver plain = solver;
-    result.knots.clear();
-    result.bic = criterion(plain.sum_of_squares({}), 0);
-  }
-  if (options.unite > 0) {
-    const detail::ScoredKnots found{result.knots, result.bic};
-    auto united = detail::united_knots(problem.solvers()[0], criterion, found, options.unite);
-    result.knots = std::move(united.knots);
-    result.bic = united.bic;
-  }
+  detail::ScoredKnots best = best_of(ends, solver, criterion);
+  if (options.unite > 0)
+    best = detail::united_knots(problem.solvers()[0], criterion, best, options.unite);
+  result.knots = std::move(best.knots);
+  result.bic = best.bic;
   result.cancelled = options.progress.stop_requested();
   return result;
 }

@@ -208,6 +208,26 @@ std::size_t joint_at(Chain& chain, double t) {
   return at.piece + 1;
 }
 
+/// Steps towards the target, shorter where one does not settle; the share of the way that was gone.
+double go(const DragProblem& problem, Point2 from, Point2 to, std::vector<double>& change,
+          DragSolution& solution) {
+  const Vector2 way = to - from;
+  const double scale = static_cast<double>(problem.base().pieces.size());
+  double share = 0;
+  for (double step = 1; share < 1 && step > 1e-3;) {
+    const double next_share = std::min(1.0, share + step);
+    std::vector<double> next = change;
+    if (settle(problem, from + next_share * way, scale, next, solution.iterations)) {
+      change = next;
+      share = next_share;
+      step *= 1.5;
+    } else {
+      step *= 0.4;
+    }
+  }
+  return share;
+}
+
 core::Result<DragSolution> drag_start(const Chain& chain, Point2 target,
                                       const DragOptions& options) {
   auto turned = drag(reverse(chain), 1, target, options);
@@ -238,24 +258,12 @@ core::Result<DragSolution> drag(const Chain& given, double t, Point2 target,
     return core::fail(ErrorCode::undrawable, "too few pieces for what is held",
                       "split a piece, or do not hold the end curvatures");
   }
-  const Point2 from = joints(problem.base())[joint].position;
-  const Vector2 way = (target - chain.start.position) / unit - (from - Point2{});
-  const double scale = static_cast<double>(chain.pieces.size());
   DragSolution solution;
   std::vector<double> change(problem.unknowns(), 0.0);
-  double share = 0;
-  for (double step = 1; share < 1 && step > 1e-3;) {
-    const double next_share = std::min(1.0, share + step);
-    std::vector<double> next = change;
-    if (settle(problem, from + next_share * way, scale, next, solution.iterations)) {
-      change = next;
-      share = next_share;
-      step *= 1.5;
-    } else {
-      step *= 0.4;
-    }
-  }
-  if (share < 1) {
+  const Point2 scaled_target = Point2{} + (target - chain.start.position) / unit;
+  if (const double share =
+          go(problem, joints(problem.base())[joint].position, scaled_target, change, solution);
+      share < 1) {
     char hint[64];
     std::snprintf(hint, sizeof hint, "%.3g of the way could be gone", share);
     return core::fail(ErrorCode::not_converged, "the point cannot be dragged so far", hint);
