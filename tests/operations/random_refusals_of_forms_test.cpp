@@ -265,6 +265,63 @@ TEST(RandomRefusals, RationalCubicsAreFoundOverAllHandles) {
   }
 }
 
+/// Whether some rational cubic with these end curvatures over the handles has weights from 1e-4 to
+/// 1e4, with a little to spare, by a grid of both shares of the edges. With the curvature at an end
+/// 4/3 w0 w2 / w1^2 times the area of the three over the cube (Farin) it is bend = 2/3 w2 / w1^2 h
+/// / a^2, a = x A and h = (1 - y) B sin(theta).
+bool has_rational_cubic(const Handles& h, double length, double first_bend, double last_bend) {
+  constexpr int kSteps = 240;
+  constexpr double kMost = 27, kShortest = 1.1e-8;  // ln(1e12) is 27.6
+  const double a = std::sin(h.theta - h.psi) / std::sin(h.theta),
+               b = std::sin(h.psi) / std::sin(h.theta);
+  const double first = std::log(1.5 * first_bend * a * a / (b * std::sin(h.theta)));
+  const double last = std::log(1.5 * last_bend * b * b / (a * std::sin(h.theta)));
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j) {
+      const double u = -20 + 40.0 * i / kSteps, v = -20 + 40.0 * j / kSteps;
+      const double x = 1 / (1 + std::exp(-u)), y = 1 / (1 + std::exp(-v));
+      const double shortest =
+          std::min({x * a, y * b, a / (1 + std::exp(u)), b / (1 + std::exp(v))});
+      const double p = first + 2 * std::log(x) + std::log1p(std::exp(v));  // ln(w2 / w1^2)
+      const double q = last + 2 * std::log(y) + std::log1p(std::exp(u));   // ln(w1 / w2^2)
+      if (shortest > kShortest * length && std::abs(2 * p + q) < kMost &&
+          std::abs(p + 2 * q) < kMost)
+        return true;
+    }
+  return false;
+}
+
+/// Beside the borders, with slopes next to 0 and 1, where end curvatures are up to 1e300 apart.
+TEST(RandomRefusals, NoRationalCubicIsFoundByItsWeights) {
+  Random random(own::seed(49));
+  const int wanted = refusals(12);
+  int refused = 0, answered_ = 0;
+  for (int n = 0; refused < wanted && n < 100 * wanted; ++n) {
+    Handles h{std::exp(uniform(random, std::log(0.02), std::log(2.9)))};
+    const double edge = own::power_of_ten(random, -6, -0.3);
+    h.psi = h.theta * (random() % 2 == 0 ? edge : 1 - edge);
+    json request{
+        {"op", "lac.segment"}, {"points", h.points()}, {"alpha", uniform(random, -0.5, 1.5)}};
+    const json drawn = answered(request);
+    if (drawn["ok"] == false || drawn["result"]["curve"]["pieces"].size() > 1) continue;
+    const json& piece = drawn["result"]["curve"]["pieces"][0];
+    if (!piece.contains("curvature")) continue;
+    const double first = std::abs(piece["curvature"][0].get<double>()),
+                 last = std::abs(piece["curvature"][1].get<double>());
+    if (!(first > 0 && last > 0)) continue;
+    request["op"] = "lac.quasi";
+    request["form"] = "rational-cubic";
+    SCOPED_TRACE(request.dump());
+    const json answer = answered(request);
+    answered_ += answer["ok"] == true;
+    if (answer["ok"] == true) continue;
+    ++refused;
+    EXPECT_FALSE(has_rational_cubic(h, piece["length"], first, last)) << answer;
+  }
+  EXPECT_EQ(refused, wanted);
+  EXPECT_GT(answered_, 3 * wanted);
+}
+
 // Found with seed 9112: end curvatures 3e8 times apart, which weights below 1e4 give only where
 // both handles end beside the third one given.
 TEST(RandomRefusals, ARationalCubicWithHandlesNearTheirMeetingIsFound) {

@@ -196,8 +196,8 @@ Result<QuasiResult> quasi_log_aesthetic(const Segment& segment, const QuasiOptio
   const detail::Drawn drawn = detail::draw_form(unit, *settled);
   if (drawn.polygon.empty())
     return core::fail(ErrorCode::undrawable,
-                      "no rational cubic with weights from 1e-4 to 1e4 meets these ends and has a "
-                      "logarithmic curvature graph",
+                      "no rational cubic with weights from 1e-4 to 1e4 and handles that outlast "
+                      "rounding meets these ends",
                       "split the curve", "form");
   QuasiResult r;
   r.target = segment;

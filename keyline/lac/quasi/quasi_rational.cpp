@@ -28,20 +28,20 @@ class Family {
       : end_(displacement(unit.piece, 1)),
         tangent_(core::unit_vector(unit.turning)),
         k0_(unit.piece.curvature_start),
-        k1_(unit.piece.curvature_end) {}
+        k1_(unit.piece.curvature_end) {
+    const double first = cross(end_, tangent_) / tangent_.y;
+    const double last = end_.y / tangent_.y;
+    if (first > 0 && last > 0) longest_ = {first, last};
+  }
 
   /// Lengths up to where both tangents meet, beyond which no handle ends; of tangents that do not
   /// meet ahead twice the chord.
-  std::array<double, 2> longest() const {
-    const double sine = tangent_.y;
-    const double first = cross(end_, tangent_) / sine;
-    const double last = end_.y / sine;
-    if (!(first > 0 && last > 0)) return {2, 2};
-    return {first, last};
-  }
+  const std::array<double, 2>& longest() const { return longest_; }
 
-  /// False where a weight would not be positive, or beyond what leaves a curve but corners.
+  /// False where rounding would lose a handle or what it leaves to the tangents' meeting, or a
+  /// weight would not be positive, or beyond what leaves a curve but corners.
   bool member(double a, double b, RationalCubic& c) const {
+    if (!outlasts_rounding(a, longest_[0]) || !outlasts_rounding(b, longest_[1])) return false;
     const Vector2 b1{a, 0};
     const Vector2 b2 = end_ - b * tangent_;
     const double h0 = b2.y;
@@ -59,8 +59,13 @@ class Family {
     return weight >= 1 / kMostRationalWeight && weight <= kMostRationalWeight;
   }
 
+  static bool outlasts_rounding(double handle, double longest) {
+    return handle > kShortestHandle && longest - handle > kShortestHandle;
+  }
+
   Vector2 end_, tangent_;
   double k0_, k1_;
+  std::array<double, 2> longest_{2, 2};
 };
 
 /// Vertical distances of graph points from their line of least squares, each weighted by the root
@@ -87,12 +92,26 @@ bool graph_residuals(const RationalCubic& c, Eigen::VectorXd& r) {
   return r.allFinite();
 }
 
-/// Logarithms of the handle lengths as unknowns, derivatives by central differences.
+/// Unknowns: ln(x / (1 - x)), x the shares of the longest handles. A handle that ends beside that
+/// of both tangents' meeting is as far from others as one that is short.
+using Handles = std::array<double, 2>;
+
+/// Derivatives by central differences.
 struct Variance {
   const Family& family;
+  std::array<double, 2> longest = family.longest();
+
+  bool member(const Eigen::VectorXd& x, RationalCubic& c) const {
+    const auto share = [](double logit) { return 1 / (1 + std::exp(-logit)); };
+    return family.member(longest[0] * share(x[0]), longest[1] * share(x[1]), c);
+  }
+  /// Of handles; beyond the longest ones infinite or not a number, which no member has.
+  Handles unknowns(double first, double last) const {
+    return {std::log(first / (longest[0] - first)), std::log(last / (longest[1] - last))};
+  }
   bool value(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
     RationalCubic c;
-    return family.member(std::exp(x[0]), std::exp(x[1]), c) && graph_residuals(c, r);
+    return member(x, c) && graph_residuals(c, r);
   }
   bool operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) const {
     if (!value(x, r)) return false;
@@ -110,30 +129,35 @@ struct Variance {
   }
 };
 
-/// Logarithms of the handle lengths.
-using Handles = std::array<double, 2>;
+/// Of a grid of handles those with fit weights, which may be few beside one another.
+std::vector<Handles> members(const Variance& variance) {
+  constexpr int kSteps = 240;
+  const double most = -std::log(kShortestHandle);
+  const auto logit = [most](int i) { return most * (1 - 2.0 * i / kSteps); };
+  std::vector<Handles> all;
+  RationalCubic c;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps; ++j)
+      if (variance.member(Eigen::Vector2d(logit(i), logit(j)), c))
+        all.push_back({logit(i), logit(j)});
+  return all;
+}
 
-/// Where the variance is least of a grid of handles: what is left to start from where a guess has
-/// no graph.
-/// Close where handles end beside that of both tangents' meeting as where they are short.
+/// Where the variance is least of some thousand members: what is left to start from where a guess
+/// has no graph.
 std::vector<Handles> scanned(const Variance& variance) {
-  constexpr int kSteps = 40;
-  constexpr std::size_t kStarts = 4;
+  constexpr std::size_t kStarts = 4, kMeasured = 2000;
   struct Place {
     Handles handles;
     double cost = 0;
   };
-  const auto most = variance.family.longest();
-  const auto log_share = [](int i) { return -std::log1p(std::exp(12 - 24.0 * i / kSteps)); };
   std::vector<Place> places;
-  for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; j <= kSteps; ++j) {
-      const double first = std::log(most[0]) + log_share(i);
-      const double last = std::log(most[1]) + log_share(j);
-      Eigen::VectorXd r;
-      if (variance.value(Eigen::Vector2d(first, last), r))
-        places.push_back({{first, last}, r.squaredNorm()});
-    }
+  const std::vector<Handles> all = members(variance);
+  for (std::size_t i = 0; i < all.size(); i += 1 + all.size() / kMeasured) {
+    Eigen::VectorXd r;
+    if (variance.value(Eigen::Vector2d(all[i][0], all[i][1]), r))
+      places.push_back({all[i], r.squaredNorm()});
+  }
   std::ranges::sort(places, {}, &Place::cost);
   if (places.size() > kStarts) places.resize(kStarts);
   std::vector<Handles> starts;
@@ -142,16 +166,15 @@ std::vector<Handles> scanned(const Variance& variance) {
 }
 
 /// The least of the minima reached from the starts.
-RationalCubic least_variance(const Family& family, const std::vector<Handles>& starts) {
+RationalCubic least_variance(const Variance& variance, const std::vector<Handles>& starts) {
   RationalCubic best;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [first, last] : starts) {
     Eigen::VectorXd x = Eigen::Vector2d(first, last);
-    const auto report = numeric::minimize_least_squares(Variance{family}, x);
+    const auto report = numeric::minimize_least_squares(variance, x);
     if (report.status == numeric::LevenbergMarquardtStatus::no_start) continue;
     RationalCubic c;
-    if (!(std::exp(std::min(x[0], x[1])) > kShortestHandle)) continue;
-    if (report.cost < least && family.member(std::exp(x[0]), std::exp(x[1]), c)) {
+    if (report.cost < least && variance.member(x, c)) {
       least = report.cost;
       best = std::move(c);
     }
@@ -174,12 +197,14 @@ RationalCubic rational_cubic(const UnitPiece& unit) {
     family.member(arc_handle, arc_handle, best);
     return best;
   }
+  const Variance variance{family};
   const double share = std::log(unit.piece.curvature_start / unit.piece.curvature_end) / 6;
   std::vector<Handles> starts;
   for (const double tilt : {0.0, 0.5, 1.0})
-    starts.push_back({std::log(handle) - tilt * share, std::log(handle) + tilt * share});
-  best = least_variance(family, starts);
-  if (best.polygon.empty()) best = least_variance(family, scanned(Variance{family}));
+    starts.push_back(
+        variance.unknowns(handle * std::exp(-tilt * share), handle * std::exp(tilt * share)));
+  best = least_variance(variance, starts);
+  if (best.polygon.empty()) best = least_variance(variance, scanned(variance));
   return best;
 }
 
