@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "keyline/core/angle.h"
 #include "keyline/lac/quasi/quasi_forms.h"
 #include "keyline/lac/quasi/quasi_hermite.h"
 #include "keyline/lac/segment/deviation.h"
@@ -12,6 +13,16 @@ using core::Point2;
 using core::Vector2;
 
 namespace {
+
+/// A polygon of the piece run through from its other end, in a mirror.
+ControlPolygon from_other_end(const ControlPolygon& b, const UnitPiece& unit) {
+  const Vector2 end = displacement(unit.piece, 1);
+  const Vector2 tangent = core::unit_vector(unit.turning);
+  ControlPolygon turned;
+  for (auto v = b.rbegin(); v != b.rend(); ++v)
+    turned.push_back({dot(end - *v, tangent), cross(tangent, *v - end)});
+  return turned;
+}
 
 /// Least deviation of each degree in turn: each begins, among others, from the last one raised, so
 /// that none is worse than a lower one.
@@ -59,8 +70,9 @@ class Degrees {
       offer(fitted(degree, {.from = start(other->curve)}));
       offer(std::move(other));
     }
-    if (!found() || nearest_.curvatures_held) return;
-    // Where the end curvatures are given up they may as well be for the best.
+    if (!found() || (nearest_.curvatures_held && nearest_.curve.weights.empty())) return;
+    // Where no polynomial was found that holds the end curvatures, or one that does not is nearer,
+    // they may as well be given up for the best.
     offer(fitted(degree,
                  {.thorough = true, .curvatures_held = false, .from = start(nearest_.curve)}));
   }
@@ -81,8 +93,20 @@ class Degrees {
     return b;
   }
 
+  /// Thorough ones from either end: rounding leads one search astray where it does not the other.
   std::optional<Approximation> fitted(int degree, const BestSearch& search) const {
-    const ControlPolygon b = best_polygon(unit_, degree, search);
+    auto forwards = laid(best_polygon(unit_, degree, search), search);
+    if (!search.thorough || (forwards && forwards->deviation <= kGood * unit_.length))
+      return forwards;
+    BestSearch from_end = search;
+    from_end.from = from_other_end(search.from, unit_);
+    const UnitPiece back = unit_piece(mirrored(reversed(unit_.piece)));
+    auto backwards = laid(from_other_end(best_polygon(back, degree, from_end), back), search);
+    if (!forwards || (backwards && backwards->deviation < forwards->deviation)) return backwards;
+    return forwards;
+  }
+
+  std::optional<Approximation> laid(const ControlPolygon& b, const BestSearch& search) const {
     if (b.empty()) return std::nullopt;
     return measured({in_place(segment_, unit_, {b, {}, 0}), 0, search.curvatures_held});
   }
