@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/lac/segment/segment.h"
 #include "keyline/lac/segment/sensitivity.h"
 
 namespace keyline::fairing::detail {
@@ -79,6 +80,31 @@ FitChain without_joint(const FitChain& chain, int at) {
     } else if (foot.piece >= at) {
       if (foot.piece == at) foot.fraction = share + (1 - share) * foot.fraction;
       --foot.piece;
+    }
+  }
+  return next;
+}
+
+FitChain parted(const FitChain& chain, std::size_t pieces) {
+  FitChain next = chain;
+  while (next.pieces.size() < pieces) {
+    const auto longest = std::ranges::max_element(next.pieces, {}, &FitPiece::length);
+    const int at = static_cast<int>(longest - next.pieces.begin());
+    const FitJoint& from = next.joints[at];
+    const lac::Segment whole{{from.position, from.direction},
+                             longest->alpha,
+                             longest->length,
+                             from.curvature,
+                             next.joints[at + 1].curvature};
+    const core::Pose2 middle = pose_at(whole, 0.5);
+    const FitJoint joint{middle.position, middle.direction, curvature(whole, 0.5)};
+    longest->length *= 0.5;
+    next.pieces.insert(longest, *longest);
+    next.joints.insert(next.joints.begin() + at + 1, joint);
+    for (Foot& foot : next.feet) {
+      const bool later = foot.piece == at && foot.fraction > 0.5;
+      if (foot.piece == at) foot.fraction = 2 * foot.fraction - (later ? 1 : 0);
+      if (foot.piece > at || later) ++foot.piece;
     }
   }
   return next;

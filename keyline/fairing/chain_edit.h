@@ -11,6 +11,9 @@ namespace keyline::fairing::detail {
 /// its slope guessed so that it turns as much as they did together.
 FitChain without_joint(const FitChain& chain, int at);
 
+/// The same curve as `pieces` pieces or more: the longest is parted in its middle, again and again.
+FitChain parted(const FitChain& chain, std::size_t pieces);
+
 /// The closed chain started `by` joints later.
 void rotate_start(FitChain& chain, int by);
 

@@ -148,6 +148,7 @@ class Job {
       split(one.spline, k);
       solved_.push_back(std::move(one.chain));
       detail::note_run(result_, solved_.back(), k);
+      note_pieces(k);
       if (options_.waves && solved_.back().waves.turns > *options_.waves)
         result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
                                             k, core::counted(std::size_t(*options_.waves), "wave"),
@@ -155,6 +156,15 @@ class Job {
       result_.splines.push_back(std::move(one.spline));
     }
     return {};
+  }
+
+  void note_pieces(std::size_t k) {
+    const int wanted = run_options(k).pieces;
+    const std::size_t found = solved_.back().chain.pieces.size();
+    if (wanted > 0 && found != static_cast<std::size_t>(wanted))
+      result_.notes.push_back(fmt::format("run {}: {} wanted, {} found", k,
+                                          core::counted(static_cast<std::size_t>(wanted), "piece"),
+                                          found));
   }
 
   void split(const curve::BSpline2& spline, std::size_t k) {

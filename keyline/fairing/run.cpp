@@ -7,6 +7,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/fairing/calm_run.h"
+#include "keyline/fairing/chain_edit.h"
 #include "keyline/fairing/condense.h"
 #include "keyline/fairing/exact_chain.h"
 #include "keyline/fairing/guides.h"
@@ -141,6 +142,21 @@ void solve(RunResult& result, const Run& run, const RunFrame& frame, const curve
   }
 }
 
+/// As many pieces as are wanted: the shortest chain with its longest pieces parted, or merged from
+/// many where fewer are wanted, which leaves the tolerance.
+void solve_counted(RunResult& result, const Run& run, const RunFrame& frame,
+                   const curve::BSpline2& spline, const RunOptions& options) {
+  const auto wanted = static_cast<std::size_t>(options.pieces);
+  RunOptions fewest = options;
+  fewest.pieces = 0;
+  RunResult shortest = result;
+  solve(shortest, run, frame, spline, fewest);
+  if (!shortest.within_tolerance || shortest.fit.pieces.size() > wanted)
+    return solve(result, run, frame, spline, options);
+  shortest.fit = parted(shortest.fit, wanted);
+  result = std::move(shortest);
+}
+
 /// Whether rounding is small beside the tolerance and single pieces follow most of the points.
 bool may_reproduce(const RunResult& result, const Run& run) {
   const double exact = exactness(result.accept);
@@ -243,7 +259,8 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
     result.calm_missed = true;
     return;
   }
-  solve(result, run, frame, spline, options);
+  options.pieces > 0 ? solve_counted(result, run, frame, spline, options)
+                     : solve(result, run, frame, spline, options);
 }
 
 /// The run solved for a tolerance, whether or not every single point passes in the end.
