@@ -241,7 +241,7 @@ class Nearby {
 };
 
 /// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak); where the latter
-/// is comes back. What else is darker than paper becomes faint.
+/// is comes back. What else is darker than paper, and no line's border, becomes faint.
 std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const Regions& regions,
                               double faintest, Binarized& result) {
   Binary& marks = result.ink;
@@ -263,8 +263,8 @@ std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const
         const double here = row[x] / kBlack;
         if (here < faintest) return;
         const double strong = std::max(threshold(x), faintest);
-        if (here < std::max(kWeakShare * strong, faintest) ||
-            nearby.has_darker(row + x, row[x] / kLocalShare)) {
+        if (nearby.has_darker(row + x, row[x] / kLocalShare)) return;  // a border
+        if (here < std::max(kWeakShare * strong, faintest)) {
           result.faint.set(x, y);
           return;
         }

@@ -161,7 +161,8 @@ CommonArc common_arc(const std::vector<Point2>& a, const std::vector<Point2>& b)
     }
     if (step < kSteps) fit += numeric::least_squares(rows, rest);
   }
-  CommonArc arc{far * rest.norm() / std::sqrt(static_cast<double>(points.size())), {}};
+  CommonArc arc{
+      far * rest.norm() / std::sqrt(static_cast<double>(points.size())), std::abs(3 * fit[3]), {}};
   for (double x = 1 - 0.5 * length; x < 0.5 * length; ++x) {
     const double u = x / far;
     const double y =

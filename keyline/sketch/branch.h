@@ -38,6 +38,7 @@ double bend_between(const Branch& a, const Branch& b);
 /// The arc (with a curvature that changes evenly) nearest to the points of two lines.
 struct CommonArc {
   double off = 0;                 ///< root mean square distance of the points
+  double turn = 0;                ///< radians by which its change of curvature turns it, either way
   std::vector<core::Point2> gap;  ///< along it between the first points, about a pixel apart
 };
 CommonArc common_arc(const std::vector<core::Point2>& a, const std::vector<core::Point2>& b);

@@ -6,10 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/quantile.h"
 #include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
 namespace {
+
+constexpr double kStandsOut = 2;  ///< times as dark as what lies beside it: half its height
 
 /// Whether ink lies within so many pixels, row by row: `half` has the half width of a disc's.
 bool near_ink(const Binary& ink, int x, int y, const std::vector<int>& half) {
@@ -35,36 +38,92 @@ void clear_near_ink(FaintPixels& faint, const Binary& ink, double reach) {
   });
 }
 
+using Piece = std::vector<std::pair<int, int>>;
+
 /// Pixels of the piece that holds one; they are taken out.
-std::size_t take_piece(FaintPixels& faint, int x, int y) {
-  std::vector<std::pair<int, int>> open{{x, y}};
+Piece take_piece(FaintPixels& faint, int x, int y) {
+  Piece piece{{x, y}};
   faint.clear(x, y);
-  std::size_t count = 0;
-  while (!open.empty()) {
-    const auto [at_x, at_y] = open.back();
-    open.pop_back();
-    ++count;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const auto [at_x, at_y] = piece[k];
     for (int v = at_y - 1; v <= at_y + 1; ++v)
       for (int u = at_x - 1; u <= at_x + 1; ++u)
         if (faint.contains(u, v) && faint.at(u, v)) {
           faint.clear(u, v);
-          open.emplace_back(u, v);
+          piece.emplace_back(u, v);
         }
   }
-  return count;
+  return piece;
+}
+
+/// Takes out what is farther than `reach` from all ink, and calls see(piece) for every piece of it
+/// that is as large as `specks`.
+template <class See>
+void take_lost(FaintPixels& faint, const Binary& ink, double reach, int specks, const See& see) {
+  clear_near_ink(faint, ink, reach);
+  for (int y = 0; y < faint.height(); ++y)
+    faint.visit(y, [&](int x) {
+      const Piece piece = take_piece(faint, x, y);
+      if (piece.size() >= static_cast<std::size_t>(std::max(specks, 1))) see(piece);
+    });
+}
+
+void set(Binary& ink, const Piece& piece, std::uint8_t value) {
+  for (const auto& [x, y] : piece) ink.at(x, y) = value;
+}
+
+constexpr std::uint8_t kInk = 1;
+constexpr std::uint8_t kPiece = 2;  ///< of ink, the piece that is looked at
+
+/// Whether a piece is a line. A broad one has itself on most sides, so many pixels away, a line on
+/// two of four at most. And it is twice as dark as what else lies there: shade that hardly passes
+/// for ink has shade beside it that hardly does not.
+bool is_line(const Binary& ink, const Tone& tone, const Piece& piece, int away) {
+  std::vector<double> own;
+  std::vector<double> beside;
+  std::size_t inside = 0;
+  const auto darkness = [&tone](int x, int y) {
+    return darkness_of(tone.level.at(x, y) / static_cast<double>(Tone::kWhite), tone.gain);
+  };
+  for (const auto& [x, y] : piece) {
+    own.push_back(darkness(x, y));
+    for (const auto& [u, v] :
+         {std::pair{x - away, y}, {x + away, y}, {x, y - away}, {x, y + away}}) {
+      if (!ink.contains(u, v)) continue;
+      inside += ink.at(u, v) == kPiece;
+      if (!ink.at(u, v)) beside.push_back(darkness(u, v));
+    }
+  }
+  return inside <= 2 * piece.size() && !beside.empty() &&
+         core::quantile(own) >= kStandsOut * core::quantile(beside);
 }
 
 }  // namespace
 
 std::size_t count_lost(FaintPixels& faint, const Binary& ink, double reach, int specks) {
-  clear_near_ink(faint, ink, reach);
   std::size_t lost = 0;
-  for (int y = 0; y < faint.height(); ++y)
-    faint.visit(y, [&](int x) {
-      const std::size_t piece = take_piece(faint, x, y);
-      if (piece >= static_cast<std::size_t>(std::max(specks, 1))) lost += piece;
-    });
+  take_lost(faint, ink, reach, specks, [&](const Piece& piece) { lost += piece.size(); });
   return lost;
+}
+
+std::size_t ink_lines(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted) {
+  const int away = static_cast<int>(std::ceil(wanted.broadest));
+  std::vector<Piece> lines;
+  std::vector<Piece> others;
+  take_lost(faint, ink, wanted.reach, wanted.specks, [&](Piece piece) {
+    set(ink, piece, kPiece);
+    const bool line = is_line(ink, tone, piece, away);
+    set(ink, piece, 0);  // until all are found: it is no ink that others lie near
+    (line ? lines : others).push_back(std::move(piece));
+  });
+  std::size_t count = 0;
+  for (const Piece& piece : lines) {
+    set(ink, piece, kInk);
+    count += piece.size();
+  }
+  for (const Piece& piece : others)
+    for (const auto& [x, y] : piece) faint.set(x, y);
+  return count;
 }
 
 }  // namespace keyline::sketch

@@ -4,11 +4,12 @@
 #include <cstdint>
 
 #include "keyline/sketch/thinning.h"
+#include "keyline/sketch/tone.h"
 
 namespace keyline::sketch {
 
-/// Pixels seen to be darker than paper that are no ink: the soft border of lines, and what is too
-/// faint beside or below darker ink. A bit each; rows may be written to at the same time.
+/// Pixels seen to be darker than paper that are no ink: what is too faint beside or below darker
+/// ink, and the soft border of broad lines. A bit each; rows may be written to at the same time.
 class FaintPixels {
  public:
   FaintPixels() = default;
@@ -38,5 +39,17 @@ class FaintPixels {
 /// How many faint pixels are ink of their own that was lost: farther than `reach` from all ink,
 /// in pieces (8-connected) of at least `specks` pixels. The faint pixels are spent.
 std::size_t count_lost(FaintPixels& faint, const Binary& ink, double reach, int specks);
+
+/// What tells a faint line from shade and grain.
+struct FaintLine {
+  double reach = 3;     ///< pixels from all ink, beyond the soft border of its lines
+  int specks = 12;      ///< pixels of a piece (8-connected) at least
+  double broadest = 8;  ///< pixels
+};
+
+/// Makes ink of the faint pixels that are lines of their own: such pieces, twice as dark as what
+/// lies beside them, so many pixels away (medians). How many; what else lies so far from ink stays
+/// faint, in pieces as large.
+std::size_t ink_lines(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted);
 
 }  // namespace keyline::sketch

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
+#include "keyline/core/quantile.h"
 #include "keyline/sketch/branch.h"
+#include "keyline/sketch/bridge_gaps.h"
 #include "keyline/sketch/knot.h"
 #include "keyline/sketch/shared_stretch.h"
 #include "keyline/sketch/spurs.h"
@@ -24,7 +27,19 @@ using core::Vector2;
 /// Radians: lines that meet at less run into one before their centres do.
 constexpr double kFork = 0.8;
 
+/// A skeleton that turns into a corner of its line's end does so within the corner's diagonal, in
+/// half widths; it ends where the ink is narrower than this share of its usual width.
+constexpr double kHook = std::numbers::sqrt2;
+constexpr double kCorner = 0.7;
+
 constexpr double kForkReach = 20;  ///< pixels of what follows that tell whose it is
+
+/// How far from its end a line turns into a corner of it; 0 where it ends in its middle.
+double hook_of(const GraphEdge& line, bool at_end) {
+  const double usual = core::quantile(line.radii);
+  const double last = at_end ? line.radii.back() : line.radii.front();
+  return last < kCorner * usual ? kHook * usual : 0;
+}
 
 class Joiner {
  public:
@@ -32,7 +47,7 @@ class Joiner {
     make_clusters();
     make_branches();
     for (std::size_t c = 0; c < members_.size(); ++c) match(members_[c], shared_[c]);
-    bridge_gaps();
+    bridge_gaps(graph_, options_, branches_);
   }
 
   std::vector<RawStroke> strokes() {
@@ -145,8 +160,9 @@ class Joiner {
         const int cluster = root(n);
         const double r = radius[static_cast<std::size_t>(cluster)];
         const int id = branch_of(static_cast<int>(e), end);
-        at(id) =
-            sketch::make_branch(graph_, static_cast<int>(e), end, junction ? 1.2 * r + 1 : 0.7 * r);
+        const double end_skip = std::max(0.7 * r, hook_of(line, end));
+        at(id) = sketch::make_branch(graph_, static_cast<int>(e), end,
+                                     junction ? 1.2 * r + 1 : end_skip);
         at(id).free = node(n).edges.size() == 1;
         members_[static_cast<std::size_t>(cluster)].push_back(id);
       }
@@ -247,53 +263,6 @@ class Joiner {
     const std::vector<int> mates = pair_up(branches, options_.turn);
     for (std::size_t k = 0; k < list.size(); ++k)
       if (mates[k] >= 0) at(list[k]).mate = list[static_cast<std::size_t>(mates[k])];
-  }
-
-  /// Free ends whose ink lies no farther apart than the gap, nearest and straightest pairs first.
-  void bridge_gaps() {
-    std::vector<int> ends;
-    for (std::size_t i = 0; i < branches_.size(); ++i)
-      if (branches_[i].free && branches_[i].mate < 0) ends.push_back(static_cast<int>(i));
-    std::sort(ends.begin(), ends.end(),
-              [&](int a, int b) { return end_point(a).x < end_point(b).x; });
-    struct Pair {
-      double cost;
-      int a, b;
-    };
-    std::vector<Pair> pairs;
-    double largest = 0;
-    for (const int end : ends) largest = std::max(largest, end_radius(end));
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      for (std::size_t j = i + 1; j < ends.size(); ++j) {
-        const Vector2 d = end_point(ends[j]) - end_point(ends[i]);
-        if (d.x > options_.gap + 2 * largest) break;
-        const double gap = core::norm(d) - end_radius(ends[i]) - end_radius(ends[j]);
-        if (gap > options_.gap || !long_enough(ends[i], ends[j], gap)) continue;
-        const double turn = bend_between(at(ends[i]), at(ends[j]));
-        if (turn < 0.8 * options_.turn)
-          pairs.push_back({gap / options_.gap + turn, ends[i], ends[j]});
-      }
-    std::sort(pairs.begin(), pairs.end(),
-              [](const Pair& p, const Pair& q) { return p.cost < q.cost; });
-    for (const Pair& p : pairs) {
-      if (at(p.a).mate >= 0 || at(p.b).mate >= 0) continue;
-      at(p.a).mate = p.b;
-      at(p.b).mate = p.a;
-    }
-  }
-
-  Point2 end_point(int b) {
-    const GraphEdge& line = edge(at(b).edge);
-    return at(b).at_end ? line.points.back() : line.points.front();
-  }
-
-  /// How far the ink goes on beyond the line's end: half its width, and what thinning took.
-  double end_radius(int b) { return edge(at(b).edge).radii[at(b).anchor] + 0.5; }
-
-  /// A closed loop is made of a line longer than its gap only; two ends of a dash make no loop.
-  bool long_enough(int a, int b, double gap) {
-    const double least = std::min(length_of(edge(at(a).edge)), length_of(edge(at(b).edge)));
-    return at(a).edge == at(b).edge ? least > 4 * gap : least > 0.5 * gap;
   }
 
   static RawStroke whole(const GraphEdge& line, bool closed) {

@@ -22,13 +22,15 @@ struct RawStroke {
 
 struct JoinOptions {
   double gap = 8;      ///< longest gap in the ink that is bridged, in pixels
+  bool rows = true;    ///< longer ones too, in a row of dashes
   double turn = 1.05;  ///< radians: lines that turn more at a junction are two
 };
 
 /// Junctions resolved: of the lines that meet, those are joined that go on straightest (least sum
 /// of turns over all ways to pair them, a line left over counting half `turn`). Junctions closer to
 /// each other than the lines are wide are one, and so are the two ends of the stretch that lines
-/// crossing at a small angle share. Free ends that face each other over at most `gap` are joined.
+/// crossing at a small angle share. Free ends that face each other over at most `gap` are joined,
+/// and dashes in a row (bridge_gaps.h).
 std::vector<RawStroke> join_strokes(const StrokeGraph& graph, const JoinOptions& options);
 
 }  // namespace keyline::sketch

@@ -12,7 +12,7 @@ using core::Point2;
 
 constexpr double kOffGrid = 0.4;     ///< pixels: a skeleton's rounding, 1/sqrt(12), and a little
 constexpr double kOffShare = 0.5;    ///< of the half width: as far as a hand's line lies off an arc
-constexpr double kBendPixels = 0.5;  ///< that a radian of bend counts as
+constexpr double kBendPixels = 0.5;  ///< that a radian of bend, or turn, counts as
 constexpr double kOffInk = 1;        ///< pixels beyond the ink, for the same rounding
 constexpr std::ptrdiff_t kMostEnds = 2;
 constexpr double kNever = 1e6;  ///< cost of a line that ends inside: only where it must
@@ -133,9 +133,10 @@ double arc_reach(double gap, double half_width) {
 }
 
 double going_on(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach) {
-  const double off = common_arc(arm_of(graph, a, reach), arm_of(graph, b, reach)).off;
+  const CommonArc arc = common_arc(arm_of(graph, a, reach), arm_of(graph, b, reach));
   const double bend = kBendPixels * bend_between(a, b);
-  return off * off + bend * bend;
+  const double turn = kBendPixels * arc.turn;
+  return arc.off * arc.off + bend * bend + turn * turn;
 }
 
 bool on_one_arc(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach,

@@ -24,8 +24,9 @@ struct Knot {
 std::optional<Knot> untie(const StrokeGraph& graph, const std::vector<int>& edges);
 
 /// How little two branches go on with each other, in squared pixels: the square of what their
-/// points lie off their common arc, within `reach` of the junction, and of their bend (half a pixel
-/// per radian).
+/// points lie off their common arc, within `reach` of the junction, of their bend, and of the turn
+/// that the arc's change of curvature makes (half a pixel per radian): where two round lines touch
+/// each keeps its side, where they cross each keeps its curvature.
 double going_on(const StrokeGraph& graph, const Branch& a, const Branch& b, double reach);
 
 /// Whether two branches lie on one arc so well that a line of half that width goes on in them.

@@ -165,8 +165,10 @@ bool is_small(Binary& ink, std::size_t start, bool diagonal, std::size_t least,
 }
 
 /// Flips connected pieces of `value` of fewer than `least` pixels. Pieces of paper that touch the
-/// rim are no holes. A piece is looked for at pixels that can be its first, row by row.
-int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
+/// rim are no holes. A piece is looked for at pixels that can be its first, row by row; all
+/// pixels flipped are added to `pixels`.
+int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal,
+               std::vector<std::size_t>& pixels) {
   if (least <= 1) return 0;
   std::vector<std::size_t> piece;
   int flipped = 0;
@@ -176,6 +178,7 @@ int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal) {
     if (diagonal && (is(x - 1, y - 1) || is(x + 1, y - 1))) return;
     if (!is_small(ink, ink.index(x, y), diagonal, static_cast<std::size_t>(least), piece)) return;
     for (const std::size_t i : piece) ink.data[i] = static_cast<std::uint8_t>(1 - value);
+    pixels.insert(pixels.end(), piece.begin(), piece.end());
     ++flipped;
   };
   for (int x = 0; x < ink.width; ++x) look(x, 0);
@@ -206,8 +209,14 @@ long smooth_edges(Binary& ink, int times) {
 
 Removed remove_specks(Binary& ink, int specks, int pinholes) {
   Removed removed;
-  removed.pinholes = flip_small(ink, 0, pinholes, false);
-  removed.specks = flip_small(ink, 1, specks, true);
+  std::vector<std::size_t> pixels;
+  removed.pinholes = flip_small(ink, 0, pinholes, false, pixels);
+  pixels.clear();
+  removed.specks = flip_small(ink, 1, specks, true, pixels);
+  if (static_cast<std::int64_t>(pixels.size()) <= count_ink(ink.data.data(), ink.data.size()))
+    return removed;
+  for (const std::size_t i : pixels) ink.data[i] = 1;
+  removed.specks = flip_small(ink, 1, specks / 2, true, pixels);
   return removed;
 }
 

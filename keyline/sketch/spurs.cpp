@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,43 @@ double distance_to(const GraphEdge& line, Point2 p) {
   return least;
 }
 
+/// Takes an end off its line; the node it sat on.
+int cut(StrokeGraph& g, int end) {
+  GraphEdge& e = edge_at(g, end);
+  e.alive = false;
+  const int foot = node_at(g, e.from).edges.size() == 1 ? e.to : e.from;
+  detach(g, e.from, end);
+  detach(g, e.to, end);
+  return foot;
+}
+
+/// The ends at a node that lead into the two corners of a line cut straight across; none elsewhere.
+std::vector<int> corner_prongs(const StrokeGraph& g, const GraphNode& node) {
+  if (node.edges.size() != 3) return {};
+  std::vector<int> prongs;
+  for (const int i : node.edges)
+    if (is_spur(g, i)) prongs.push_back(i);
+  if (prongs.size() != 2) return {};
+  std::vector<Point2> tips;
+  for (const int i : prongs) {
+    const GraphEdge& e = edge_at(g, i);
+    if (length_of(e) > std::numbers::sqrt2 * node.radius + 1) return {};
+    tips.push_back(&node_at(g, e.from) == &node ? e.points.back() : e.points.front());
+  }
+  if (core::distance(tips[0], tips[1]) < node.radius) return {};
+  return prongs;
+}
+
+/// A broad line cut straight across ends before its corners, not in one of them.
+void cut_forked_ends(StrokeGraph& g, bool spare) {
+  for (const GraphNode& node : g.nodes) {
+    const std::vector<int> prongs = corner_prongs(g, node);
+    if (spare && std::ranges::any_of(prongs, [&](int i) { return leading_arm(g, i) >= 0; }))
+      continue;
+    for (const int i : prongs) cut(g, i);
+  }
+}
+
 }  // namespace
 
 void detach(StrokeGraph& g, int node, int edge) {
@@ -126,6 +164,7 @@ int leading_arm(const StrokeGraph& g, int end) {
 }
 
 void prune_spurs(StrokeGraph& g, bool spare) {
+  cut_forked_ends(g, spare);
   for (int round = 0; round < 3; ++round) {
     // shortest first: of a forked end the longer fork stays as the line's end
     std::vector<std::pair<double, int>> spurs;
@@ -135,12 +174,7 @@ void prune_spurs(StrokeGraph& g, bool spare) {
     bool changed = false;
     for (const auto& [length, i] : spurs) {
       if (!is_spur(g, i) || (spare && leading_arm(g, i) >= 0)) continue;
-      GraphEdge& e = edge_at(g, i);
-      e.alive = false;
-      const int foot = node_at(g, e.from).edges.size() == 1 ? e.to : e.from;
-      detach(g, e.from, i);
-      detach(g, e.to, i);
-      join_at(g, foot);
+      join_at(g, cut(g, i));
       changed = true;
     }
     if (!changed) return;

@@ -17,8 +17,9 @@ void join_at(StrokeGraph& graph, int node);
 int leading_arm(const StrokeGraph& graph, int end);
 
 /// Cuts ends that hardly leave the width of the line they sit on, shortest first, and makes the
-/// lines through their feet one. Of a forked end the longer fork stays as the line's end; an end
-/// with a leading arm stays too, where such are spared.
+/// lines through their feet one. A line that forks into the two corners of its end ends at the
+/// fork; of another forked end the longer fork stays as the line's end; an end with a leading arm
+/// stays too, where such are spared.
 void prune_spurs(StrokeGraph& graph, bool spare);
 
 }  // namespace keyline::sketch

@@ -13,7 +13,7 @@
 #include "keyline/numeric/parallel.h"
 #include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
-#include "keyline/sketch/ink_measure.h"
+#include "keyline/sketch/find_ink.h"
 #include "keyline/sketch/join_strokes.h"
 #include "keyline/sketch/meet_lines.h"
 #include "keyline/sketch/merge_strokes.h"
@@ -39,20 +39,12 @@ constexpr double kPictureApart = 3.5;
 constexpr double kStub = 1.2;
 constexpr double kLongestStub = 5;
 
-/// Farther than this from ink, in pixels or widths, the darkness of no line's border reaches: where
-/// it falls to a twentieth, of a line all blur at 0.54 of its width, of a broader one at 0.7.
-constexpr double kSharpRim = 3;
-constexpr double kSoftRim = 0.75;
-
 constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
 constexpr double kManyPasses = 0.75;       ///< lines per stroke from which passes are told
 
 constexpr std::size_t kAtOnce = 32;  ///< lines fitted between two reports of progress
 
-constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
-constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
-constexpr double kGrainShare = 0.15;   ///< of the width: how far curves may pass from such lines
-constexpr double kGrainBlur = 0.4;     ///< of the lines' width
+constexpr double kGrainShare = 0.15;  ///< of the width: how far curves may pass from such lines
 
 /// Pixels with y down to y up.
 void turn_up(Stroke& stroke, double height) {
@@ -71,14 +63,6 @@ core::Result<TraceResult> nothing_found() {
                     "give --threshold, or a picture with more contrast");
 }
 
-void show(const TraceOptions& options, const char* name, const Binary& binary) {
-  if (!options.stage) return;
-  Stage stage{name, {binary.width, binary.height}};
-  for (std::size_t i = 0; i < binary.data.size(); ++i)
-    stage.picture.data[i] = binary.data[i] ? 0 : 255;
-  options.stage(stage);
-}
-
 void show(const TraceOptions& options, const Tone& tone) {
   if (!options.stage) return;
   Stage stage{"log", {tone.level.width, tone.level.height}};
@@ -86,47 +70,6 @@ void show(const TraceOptions& options, const Tone& tone) {
     stage.picture.data[i] =
         static_cast<std::uint8_t>(std::min(255.0, 255 * tone.level.data[i] / Tone::kWhite));
   options.stage(stage);
-}
-
-/// Ink of the lines, smoothed and free of dirt.
-struct Ink {
-  Binary picture;
-  FaintPixels faint;    ///< darker than paper, but no ink
-  int specks = 0;       ///< pieces of fewer pixels were taken for dirt
-  double width = 1;     ///< of its lines
-  bool grainy = false;  ///< full of pinholes and ragged, as pencil on rough paper leaves it
-};
-
-Ink ink_of(const Tone& tone, const TraceOptions& options) {
-  Binarized told = binarize(tone, options.binarize);
-  Ink ink{.picture = std::move(told.ink), .faint = std::move(told.faint)};
-  show(options, "binary", ink.picture);
-  const InkMeasure measured = measure_ink(ink.picture);
-  ink.width = measured.width;
-  long ragged = 0;
-  if (options.smoothing_by == Smoothing::pixels)
-    smooth_pixels(ink.picture, options.smoothing);
-  else
-    ragged = smooth_edges(ink.picture, options.smoothing);
-  ink.specks =
-      options.specks.value_or(static_cast<int>(std::lround(6 + 1.5 * ink.width * ink.width)));
-  const Removed removed =
-      remove_specks(ink.picture, ink.specks, static_cast<int>(std::lround(1 + ink.width)));
-  ink.grainy = removed.pinholes > kGrainHoles * measured.border &&
-               static_cast<double>(ragged) > kGrainRagged * measured.border;
-  return ink;
-}
-
-/// Grainy ink is looked at again through a blur of part of its width; so is what follows.
-Ink find_ink(Tone& tone, const TraceOptions& options) {
-  Ink ink = ink_of(tone, options);
-  if (ink.grainy && !options.binarize.threshold) {
-    blur_levels(tone, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
-    ink = ink_of(tone, options);
-    ink.grainy = true;
-  }
-  show(options, "smoothed", ink.picture);
-  return ink;
 }
 
 /// True for what starts at a line and ends freely: short ones are where the pen went on a little.
@@ -138,12 +81,13 @@ std::vector<FineStroke> center_lines(const Ink& found, const Tone& tone,
   const Binary& ink = found.picture;
   const double width = found.width;
   const Binary thinned = thin(ink);
-  show(options, "lines", thinned);
+  show_stage(options, "lines", thinned);
   const StrokeGraph graph = build_graph(thinned, ink, found.grainy);
   options.progress.report(0.6, "following lines");
   const Refiner refiner(tone);
   std::vector<FineStroke> strokes;
-  std::vector<RawStroke> lines = join_strokes(graph, {options.gap.value_or(2.5 * width + 3), 1.05});
+  std::vector<RawStroke> lines =
+      join_strokes(graph, {.gap = options.gap.value_or(2.5 * width + 3), .rows = !options.gap});
   std::erase_if(lines, [&](const RawStroke& line) {
     return core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width);
   });
@@ -197,9 +141,8 @@ void tell_passes(const std::vector<FineStroke>& strokes, const ConsolidateOption
 double explained_share(Ink& found, const TraceResult& result, const Merged& merged) {
   const double ink =
       static_cast<double>(count_ink(found.picture.data.data(), found.picture.data.size()));
-  const double reach = std::max(kSharpRim, kSoftRim * found.width);
-  const auto lost =
-      static_cast<double>(count_lost(found.faint, found.picture, reach, found.specks));
+  const auto lost = static_cast<double>(
+      count_lost(found.faint, found.picture, rim_of(found.width), found.specks));
   double explained = explained_ink(found.picture, result.strokes);
   explained += (1 - explained) * merged.beside * explained_ink(found.picture, merged.passes);
   return explained * ink / (ink + lost);
@@ -305,7 +248,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   Ink found = find_ink(tone, options);
   const Binary& ink = found.picture;
   const double width = found.width;
-  if (options.stage) show(options, "edges", laplacian_edges(ink));
+  if (options.stage) show_stage(options, "edges", laplacian_edges(ink));
   options.progress.report(0.4, "thinning");
   warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =

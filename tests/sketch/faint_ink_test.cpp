@@ -1,6 +1,7 @@
 #include "keyline/sketch/faint_ink.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,49 @@ TEST(FaintInk, IsCountedByPieces) {
   FaintPixels again = faint;
   EXPECT_EQ(count_lost(faint, ink, 3, 8), 20U);
   EXPECT_EQ(count_lost(again, ink, 2.5, 1), 67U);
+}
+
+TEST(FaintInk, BecomesLinesWhereItIsNarrow) {
+  Binary ink(60, 40);
+  for (int x = 0; x < 60; ++x) ink.at(x, 5) = 1;
+  FaintPixels faint(60, 40);
+  Tone tone = transform_intensity(blank_page(60, 40));
+  const auto is = [&](int x, int y, double darker) {
+    faint.set(x, y);
+    tone.level.at(x, y) = static_cast<std::uint16_t>(tone.level.at(x, y) * (1 - darker));
+  };
+  for (int x = 5; x < 55; ++x)
+    for (const int y : {7, 15, 16}) is(x, y, 0.1);  // a border, and a line
+  for (int y = 24; y < 36; ++y)
+    for (int x = 10; x < 22; ++x) is(x, y, 0.1);  // a smudge
+  const FaintLine line{.reach = 3, .specks = 20, .broadest = 4};
+  FaintPixels shaded = faint;
+  Binary again = ink;
+  EXPECT_EQ(ink_lines(faint, ink, tone, line), 100U);
+  EXPECT_EQ(std::count(ink.data.begin(), ink.data.end(), 1), 160);
+  EXPECT_EQ(ink.at(30, 15), 1);
+  EXPECT_EQ(count_lost(faint, ink, 3, 20), 144U) << "the smudge is left to be told";
+  for (int y = 8; y < 24; ++y)  // shade about the line, hardly lighter
+    for (int x = 0; x < 60; ++x)
+      if (y != 15 && y != 16)
+        tone.level.at(x, y) = static_cast<std::uint16_t>(tone.level.at(x, y) * 0.93);
+  EXPECT_EQ(ink_lines(shaded, again, tone, line), 0U);
+}
+
+// Blue pencil, an eighth as dark as the paper is light, that crosses one ink line and lies between
+// others: their thresholds would lose it.
+TEST(FaintInk, OfBluePencilIsTraced) {
+  Image page = blank_page(400, 300);
+  draw_line(page, {180, 55}, {225, 250}, 4, 0.125);
+  draw_line(page, {40, 150}, {360, 140}, 3, 0.95);
+  draw_line(page, {40, 40}, {360, 40}, 3, 0.95);
+  draw_line(page, {40, 270}, {360, 270}, 3, 0.95);
+  const auto result = trace(page);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->strokes.size(), 4U);
+  EXPECT_GT(result->explained, 0.98);
+  const auto& pencil = result->strokes.back().points;  // straight through the crossing
+  EXPECT_NEAR(core::distance(pencil.front(), pencil.back()), std::hypot(45, 195), 4);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "kinds_generator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -26,10 +27,12 @@ struct Scene {
   std::vector<TrueStroke> strokes;
   std::vector<TrueStroke> ink{};  ///< what the pen left; empty: the strokes
   double dark = 0.9;
-  double soft = 0;   ///< pixels over which ink fades
-  double noise = 0;  ///< standard deviation of the grain
-  double salt = 0;   ///< share of wrong pixels
-  double shade = 0;  ///< of the paper, across the page
+  double soft = 0;                                   ///< pixels over which ink fades
+  double noise = 0;                                  ///< standard deviation of the grain
+  double salt = 0;                                   ///< share of wrong pixels
+  double shade = 0;                                  ///< of the paper, across the page
+  std::vector<std::array<std::size_t, 2>> dashes{};  ///< of the only stroke, cut straight across:
+                                                     ///< first and last point; none: all of it
 };
 
 /// An arc of that direction and curvature through a place, half a pixel between points.
@@ -77,6 +80,35 @@ Scene broken(Random& r, double dash, double gap) {
   }
   scene.strokes[0].points.resize(end);  // the truth ends with the ink
   return scene;
+}
+
+/// A stroke of dashes that are cut straight across, as vector programs draw them.
+Scene cut_across(Random& r, double width, double dash, double gap) {
+  Scene scene = of_width(r, width);
+  TrueStroke& stroke = scene.strokes[0];
+  const auto on = static_cast<std::size_t>(std::lround(2 * dash));  // half a pixel between points
+  const auto off = static_cast<std::size_t>(std::lround(2 * gap));
+  for (std::size_t from = 0; from + on < stroke.points.size(); from += on + off)
+    scene.dashes.push_back({from, from + on});
+  stroke.points.resize(scene.dashes.back()[1] + 1);
+  return scene;
+}
+
+/// Dashes of any length, and gaps of a third to twice theirs.
+Scene row_of_dashes(Random& r) {
+  const double width = r.uniform(2, 5);
+  const double dash = r.uniform(3.5, 6) * width;
+  return cut_across(r, width, dash, r.uniform(0.33, 2) * std::min(dash, 20.0));
+}
+
+/// Two round lines whose ink touches, and which do not cross.
+Scene touching(Random& r) {
+  const double width = r.uniform(2, 6);
+  const double direction = any_direction(r);
+  const Vector2 aside = {-std::sin(direction), std::cos(direction)};
+  const double apart = width * r.uniform(0.6, 1);
+  return {{arc(kMiddle, direction, 1 / r.uniform(35, 70), 60, width),
+           arc(kMiddle - apart * aside, direction, -1 / r.uniform(35, 70), 60, width)}};
 }
 
 Scene parallels(Random& r) {
@@ -161,16 +193,36 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"hairpin", hairpin},
       {"stem", stem},
       {"tangle", tangle},
+      {"cut 2", [](Random& r) { return cut_across(r, r.uniform(5, 10), 40, 2); }},
+      {"cut 4", [](Random& r) { return cut_across(r, r.uniform(1, 10), 40, 4); }},
+      {"row of dashes", row_of_dashes},
+      {"touching", touching},
   };
   return all;
 }
 
 std::size_t at(int x, int y) { return static_cast<std::size_t>(y * kWide + x); }
 
+/// How much of the ink at a point lies before or behind a pixel: all of it on lines that are whole.
+double along(const TrueStroke& s, const Scene& scene, std::size_t point, Point2 pixel) {
+  if (scene.dashes.empty()) return 1;
+  const std::size_t last = s.points.size() - 1;
+  const Vector2 step = s.points[std::min(point + 1, last)] - s.points[point > 0 ? point - 1 : 0];
+  const double ahead = core::dot(pixel - s.points[point], step) / core::norm(step);
+  for (const auto& [from, to] : scene.dashes)
+    if (from <= point && point <= to) {
+      const double before = 0.5 * static_cast<double>(point - from) + ahead;
+      const double behind = 0.5 * static_cast<double>(to - point) - ahead;
+      return std::abs(ahead) > 0.3 ? 0 : std::clamp(0.5 + std::min(before, behind), 0.0, 1.0);
+    }
+  return 0;
+}
+
 void draw(const TrueStroke& s, const Scene& scene, std::vector<double>& cover) {
   const double fade = 0.5 + scene.soft;
   const double reach = 0.5 * s.width + fade;
-  for (const Point2 p : s.points) {
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    const Point2 p = s.points[i];
     const double row = kHigh - p.y;
     for (int y = std::max(0, static_cast<int>(row - reach));
          y <= std::min(kHigh - 1, static_cast<int>(row + reach)); ++y)
@@ -178,21 +230,22 @@ void draw(const TrueStroke& s, const Scene& scene, std::vector<double>& cover) {
            x <= std::min(kWide - 1, static_cast<int>(p.x + reach)); ++x) {
         const double d = std::hypot(x + 0.5 - p.x, y + 0.5 - row);
         double& c = cover[at(x, y)];
-        c = std::max(c, std::clamp(0.5 + (0.5 * s.width - d) / (2 * fade), 0.0, 1.0));
+        c = std::max(c, along(s, scene, i, {x + 0.5, kHigh - y - 0.5}) *
+                            std::clamp(0.5 + (0.5 * s.width - d) / (2 * fade), 0.0, 1.0));
       }
   }
 }
 
 }  // namespace
 
-const std::vector<std::string>& drawing_kinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& [name, maker] : makers()) list.push_back(name);
-    return list;
-  }();
+std::vector<std::string> drawing_kinds() {
+  std::vector<std::string> names;
+  for (const auto& [name, maker] : makers()) names.push_back(name);
+  names.resize(names.size() - harder_kinds().size());
   return names;
 }
+
+std::vector<std::string> harder_kinds() { return {"row of dashes", "touching"}; }
 
 TrueDrawing make_kind(const std::string& kind, std::uint64_t seed) {
   const auto& all = makers();

@@ -107,6 +107,15 @@ TEST(Morphology, SpecksAndPinholesGoBySize) {
   EXPECT_EQ(std::count(picture.data.begin(), picture.data.end(), 1), 100);
 }
 
+TEST(Morphology, SmallPiecesStayWhereTheyAreTheDrawing) {
+  Binary dashes(60, 20);
+  for (int x = 0; x < 56; ++x) dashes.at(x, 5) = x % 8 < 6 ? 1 : 0;
+  dashes.at(20, 12) = 1;  // dirt
+  const auto drawn = std::count(dashes.data.begin(), dashes.data.end(), 1) - 1;
+  EXPECT_EQ(remove_specks(dashes, 10, 1).specks, 1);
+  EXPECT_EQ(std::count(dashes.data.begin(), dashes.data.end(), 1), drawn);
+}
+
 TEST(Thinning, KeepsConnectionsAndHoles) {
   numeric::Random random(3);
   for (int round = 0; round < 20; ++round) {

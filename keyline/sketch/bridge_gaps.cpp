@@ -1,0 +1,163 @@
+#include "keyline/sketch/bridge_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "keyline/core/quantile.h"
+
+namespace keyline::sketch {
+namespace {
+
+using core::Point2;
+using core::Vector2;
+
+constexpr double kStraightest = 0.8;  ///< of the turn at a junction a line may make over a gap
+constexpr double kRowTurn = 0.4;      ///< radians, from a dash to the next
+constexpr double kRowGap = 3;         ///< times the shorter dash: no gap of a row is longer
+constexpr double kEven = 1.5;         ///< times another: gaps of one row
+constexpr double kGrid = 1;           ///< pixels that a length, or an end beside it, may be off
+constexpr double kDot = 3;            ///< pixels: what is shorter has no direction
+
+class Bridges {
+ public:
+  Bridges(const StrokeGraph& graph, double gap, double turn, std::vector<Branch>& branches)
+      : graph_(graph), most_(gap), turn_(turn), branches_(branches), over_(branches.size(), 0) {
+    for (std::size_t i = 0; i < branches.size(); ++i)
+      if (branches[i].free && branches[i].mate < 0) ends_.push_back(static_cast<int>(i));
+    std::sort(ends_.begin(), ends_.end(),
+              [&](int a, int b) { return end_point(a).x < end_point(b).x; });
+    for (const int end : ends_) largest_ = std::max(largest_, end_radius(end));
+  }
+
+  /// Nearest and straightest pairs first.
+  void bridge_short() {
+    std::vector<Pair> pairs;
+    visit_pairs(most_, [&](int a, int b, double gap) {
+      if (gap > most_ || !long_enough(a, b, gap)) return;
+      const double turn = bend_between(at(a), at(b));
+      if (turn < kStraightest * turn_) pairs.push_back({gap / most_ + turn, gap, a, b});
+    });
+    std::ranges::sort(pairs, {}, &Pair::cost);
+    for (const Pair& p : pairs)
+      if (at(p.a).mate < 0 && at(p.b).mate < 0) join(p.a, p.b, p.gap);
+  }
+
+  /// Dashes: ends each of which is the other's nearest ahead, over gaps as long as the next ones.
+  void bridge_rows() {
+    std::erase_if(ends_, [&](int end) { return at(end).mate >= 0; });
+    find_nearest();
+    std::vector<Pair> rows;
+    for (const int a : ends_) {
+      const Pair p = nearest_[index(a)];
+      if (p.b > a && nearest_[index(p.b)].b == a && (goes_on(a, p.gap) || goes_on(p.b, p.gap)))
+        rows.push_back({p.cost, p.gap, a, p.b});
+    }
+    for (const Pair& p : rows) join(p.a, p.b, p.gap);
+  }
+
+ private:
+  struct Pair {
+    double cost = HUGE_VAL;
+    double gap = 0;
+    int a = -1;
+    int b = -1;
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  Branch& at(int b) { return branches_[index(b)]; }
+  const GraphEdge& edge_of(int b) const { return graph_.edges[index(b / 2)]; }
+
+  /// Where the line ends: as far along its direction as its last point, which may lie in a corner.
+  Point2 end_point(int b) {
+    const GraphEdge& line = edge_of(b);
+    const Point2 last = at(b).at_end ? line.points.back() : line.points.front();
+    return at(b).place + dot(last - at(b).place, at(b).outward) * at(b).outward;
+  }
+
+  /// How far the ink goes on beyond that, and what thinning took.
+  double end_radius(int b) {
+    const GraphEdge& line = edge_of(b);
+    return (at(b).at_end ? line.radii.back() : line.radii.front()) + 0.5;
+  }
+
+  /// Calls see(a, b, gap) for ends not much farther apart than `most`.
+  template <class See>
+  void visit_pairs(double most, const See& see) {
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      for (std::size_t j = i + 1; j < ends_.size(); ++j) {
+        const Vector2 d = end_point(ends_[j]) - end_point(ends_[i]);
+        if (d.x > most + 2 * largest_) break;
+        see(ends_[i], ends_[j], core::norm(d) - end_radius(ends_[i]) - end_radius(ends_[j]));
+      }
+  }
+
+  void join(int a, int b, double gap) {
+    at(a).mate = b;
+    at(b).mate = a;
+    over_[index(a)] = over_[index(b)] = gap;
+  }
+
+  /// A closed loop is made of a line longer than its gap only; two ends of a dash make no loop.
+  bool long_enough(int a, int b, double gap) {
+    const double least = std::min(length_of(edge_of(a)), length_of(edge_of(b)));
+    return a / 2 == b / 2 ? least > 4 * gap : least > 0.5 * gap;
+  }
+
+  /// Of the ink, along the line that ends there.
+  double dash(int b) { return length_of(edge_of(b)) + 2 * core::quantile(edge_of(b).radii); }
+
+  void find_nearest() {
+    nearest_.assign(branches_.size(), {});
+    double longest = 0;
+    for (const int end : ends_) longest = std::max(longest, dash(end));
+    visit_pairs(kRowGap * longest, [&](int a, int b, double gap) {
+      const double shorter = std::min(dash(a), dash(b));
+      const double first = length_of(edge_of(a));
+      const double second = length_of(edge_of(b));
+      if (a / 2 == b / 2 || gap > kRowGap * shorter || std::min(first, second) < kDot) return;
+      const double unsure = kGrid / first + kGrid / second;
+      const double turn = bend_between(at(a), at(b));
+      if (turn > kRowTurn + unsure) return;
+      const Pair pair{gap / shorter + turn, gap, a, b};
+      if (pair.cost < nearest_[index(a)].cost) nearest_[index(a)] = pair;
+      if (pair.cost < nearest_[index(b)].cost) nearest_[index(b)] = {pair.cost, gap, b, a};
+    });
+  }
+
+  /// Whether the line that ends there has, or comes to at its other end, a gap as long.
+  bool goes_on(int end, double gap) {
+    const auto even = [gap](double other) {
+      return other > 0 && std::max(gap, other) < kEven * std::min(gap, other) + 2 * kGrid;
+    };
+    int out = end ^ 1;
+    for (std::size_t steps = 0; at(out).mate >= 0 && steps < branches_.size(); ++steps) {
+      if (even(over_[index(out)])) return true;
+      out = at(out).mate ^ 1;
+      if (out == end) return false;
+    }
+    const Pair& next = nearest_[index(out)];
+    return next.b >= 0 && nearest_[index(next.b)].b == out && even(next.gap);
+  }
+
+  const StrokeGraph& graph_;
+  double most_;
+  double turn_;
+  std::vector<Branch>& branches_;
+  std::vector<double> over_;   ///< the gap that was bridged, by branch
+  std::vector<int> ends_;      ///< free ones, from left to right
+  double largest_ = 0;         ///< radius of an end
+  std::vector<Pair> nearest_;  ///< by branch
+};
+
+}  // namespace
+
+void bridge_gaps(const StrokeGraph& graph, const JoinOptions& options,
+                 std::vector<Branch>& branches) {
+  Bridges bridges(graph, options.gap, options.turn, branches);
+  bridges.bridge_short();
+  if (options.rows) bridges.bridge_rows();
+}
+
+}  // namespace keyline::sketch

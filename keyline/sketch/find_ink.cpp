@@ -1,0 +1,87 @@
+#include "keyline/sketch/find_ink.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "keyline/sketch/binarize.h"
+#include "keyline/sketch/ink_measure.h"
+#include "keyline/sketch/morphology.h"
+
+namespace keyline::sketch {
+namespace {
+
+/// Where a border's darkness falls to a twentieth, in pixels or widths: of a line all blur at 0.54
+/// of its width, of a broader one at 0.7.
+constexpr double kSharpRim = 3;
+constexpr double kSoftRim = 0.75;
+
+constexpr double kGrainHoles = 0.008;  ///< pinholes per pixel of border from which ink is grainy
+constexpr double kGrainRagged = 0.03;  ///< pixels smoothed per pixel of border
+constexpr double kGrainBlur = 0.4;     ///< of the lines' width
+
+/// Widths, and pixels for its blur: what is faint and broader is shade, no line.
+constexpr double kBroadest = 2;
+constexpr double kBroadestBlur = 2;
+
+/// Pieces of fewer pixels are dirt, beside lines of that width.
+int specks_of(double width) { return static_cast<int>(std::lround(6 + 1.5 * width * width)); }
+
+/// Smooths the ink's edges and takes dirt out; what tells grain.
+struct Cleaned {
+  long ragged = 0;   ///< pixels smoothed
+  int pinholes = 0;  ///< filled
+};
+Cleaned clean(Ink& ink, const TraceOptions& options) {
+  Cleaned done;
+  if (options.smoothing_by == Smoothing::pixels)
+    smooth_pixels(ink.picture, options.smoothing);
+  else
+    done.ragged = smooth_edges(ink.picture, options.smoothing);
+  const int pinholes = static_cast<int>(std::lround(1 + ink.width));
+  done.pinholes = remove_specks(ink.picture, ink.specks, pinholes).pinholes;
+  return done;
+}
+
+Ink ink_of(const Tone& tone, const TraceOptions& options) {
+  Binarized told = binarize(tone, options.binarize);
+  Ink ink{.picture = std::move(told.ink), .faint = std::move(told.faint)};
+  show_stage(options, "binary", ink.picture);
+  const InkMeasure measured = measure_ink(ink.picture);
+  ink.width = measured.width;
+  ink.specks = options.specks.value_or(specks_of(ink.width));
+  const Cleaned cleaned = clean(ink, options);
+  ink.grainy = cleaned.pinholes > kGrainHoles * measured.border &&
+               static_cast<double>(cleaned.ragged) > kGrainRagged * measured.border;
+  return ink;
+}
+
+}  // namespace
+
+double rim_of(double width) { return std::max(kSharpRim, kSoftRim * width); }
+
+void show_stage(const TraceOptions& options, const char* name, const Binary& binary) {
+  if (!options.stage) return;
+  Stage stage{name, {binary.width, binary.height}};
+  for (std::size_t i = 0; i < binary.data.size(); ++i)
+    stage.picture.data[i] = binary.data[i] ? 0 : 255;
+  options.stage(stage);
+}
+
+Ink find_ink(Tone& tone, const TraceOptions& options) {
+  Ink ink = ink_of(tone, options);
+  if (ink.grainy && !options.binarize.threshold) {
+    blur_levels(tone, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
+    ink = ink_of(tone, options);
+    ink.grainy = true;
+  } else if (options.binarize.regions.empty()) {
+    const FaintLine line{.reach = rim_of(ink.width),
+                         .specks = std::max(ink.specks, specks_of(ink.width)),
+                         .broadest = kBroadest * ink.width + kBroadestBlur};
+    if (ink_lines(ink.faint, ink.picture, tone, line) > 0) clean(ink, options);
+  }
+  show_stage(options, "smoothed", ink.picture);
+  return ink;
+}
+
+}  // namespace keyline::sketch

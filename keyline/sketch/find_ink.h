@@ -1,0 +1,30 @@
+#pragma once
+
+#include "keyline/sketch/faint_ink.h"
+#include "keyline/sketch/thinning.h"
+#include "keyline/sketch/tone.h"
+#include "keyline/sketch/trace.h"
+
+namespace keyline::sketch {
+
+/// Ink of the lines, smoothed and free of dirt.
+struct Ink {
+  Binary picture;
+  FaintPixels faint;    ///< darker than paper, but no ink
+  int specks = 0;       ///< pieces of fewer pixels were taken for dirt
+  double width = 1;     ///< of its lines
+  bool grainy = false;  ///< full of pinholes and ragged, as pencil on rough paper leaves it
+};
+
+/// The ink of a picture. Grainy ink is looked at again through a blur of part of its width, and so
+/// is what follows (`tone` is blurred). In other pictures lines too faint beside darker ones (blue
+/// pencil under ink) are ink as well.
+Ink find_ink(Tone& tone, const TraceOptions& options);
+
+/// Farther than this from ink, in pixels, the darkness of no line's border reaches.
+double rim_of(double width);
+
+/// Hands a stage's picture out, where they are asked for.
+void show_stage(const TraceOptions& options, const char* name, const Binary& binary);
+
+}  // namespace keyline::sketch
