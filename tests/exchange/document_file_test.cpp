@@ -347,9 +347,10 @@ TEST_F(Files, WhatAFormatCannotHoldIsSaid) {
   const auto dxf = format_document(far, ".dxf");
   ASSERT_TRUE(dxf);
   EXPECT_THAT(dxf->notes.at(0), HasSubstr("furlong"));
-  const auto odd = read_document(file("u.dxf",
-                                      "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n99\n0\nENDSEC\n"
-                                      "0\nSECTION\n2\nENTITIES\n0\nLINE\n11\n1\n0\nEOF\n"));
+  const auto odd =
+      read_document(file("u.dxf",
+                         "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n99\n0\nENDSEC\n"
+                         "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n0\n20\n0\n11\n1\n21\n0\n0\nEOF\n"));
   ASSERT_TRUE(odd) << odd.error().message;
   EXPECT_THAT(odd->skipped.at(0), HasSubstr("unit"));
 }

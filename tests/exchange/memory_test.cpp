@@ -80,9 +80,9 @@ constexpr Input kInputs[] = {
      }},
     {"array.dxf",
      [] {
-       return "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n0\nLINE\n11\n1\n0\nENDBLK\n0\nENDSEC\n" +
-              kDxf + "0\nINSERT\n2\nA\n10\n0\n20\n0\n70\n30000\n71\n30000\n44\n1\n45\n1\n" +
-              kDxfEnd;
+       return "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n0\nLINE\n10\n0\n20\n0\n11\n1\n21\n0\n" +
+              ("0\nENDBLK\n0\nENDSEC\n" + kDxf) +
+              "0\nINSERT\n2\nA\n10\n0\n20\n0\n70\n30000\n71\n30000\n44\n1\n45\n1\n" + kDxfEnd;
      }},
     {"points.csv", [] { return filled("x,y\n", "1,2\n3,4\n", ""); }},
     {"polyline.json",
