@@ -64,7 +64,7 @@ TEST(CurvesOfFiles, OfTwoUnitsAreRefused) {
   const std::string in_none = s.write("none.json", document(kArc));
   expect_failure(run_keyline("compare " + in_mm + " " + in_inches), 2,
                  in_inches + ": is in in, what was read before in mm; convert one of them");
-  for (const std::string files : {in_mm + " " + in_none, in_none + " " + in_mm}) {
+  for (const std::string& files : {in_mm + " " + in_none, in_none + " " + in_mm}) {
     const std::string joined = s.path("joined.json");
     EXPECT_EQ(run_keyline("blend --at 0 1 " + files + " -o " + joined).status, 0);
     EXPECT_EQ(json::parse(slurp(joined))["unit"], "mm") << files;
