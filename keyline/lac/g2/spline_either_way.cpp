@@ -13,7 +13,7 @@ using core::Point2;
 /// Travelled the other way; closed from the same point.
 std::vector<Point2> turned_round(std::span<const Point2> points, bool closed) {
   std::vector<Point2> turned(points.rbegin(), points.rend());
-  if (closed) std::ranges::rotate(turned, turned.end() - 1);
+  if (closed) std::rotate(turned.begin(), turned.end() - 1, turned.end());
   return turned;
 }
 
