@@ -228,6 +228,8 @@ struct FairResult {
   double smoothness = 0;  ///< that was taken
   /// Whether another would give another answer: not where the tolerance holds no more than noise.
   bool smoothness_counts = true;
+  /// No calmest chain came out for any run: shortest ones stand in, whatever the smoothness.
+  bool calm_missed = false;
   FairFigures fairness;
   double rate = 0;  ///< fastest that curvature changes in the faired curves, see FairOptions
   std::optional<FoundSymmetry> symmetry;

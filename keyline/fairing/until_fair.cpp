@@ -82,6 +82,14 @@ core::Result<FairResult> until_fair(
     return judged(line, solve(options, nullptr), nullptr, options.threads);
   const bool told = acquire::noise_stays(line.points, line.closed, line.noise);
   std::optional<FairResult> best;
+  // The most smoothness leaves the most room: what does not come out there does not between.
+  const auto calmest_is_missed = [&] {
+    FairOptions calmest_of_all = options;
+    calmest_of_all.smoothness = 1;
+    calmest_of_all.progress = core::part_of(options.progress, 0.7, 0.8);
+    const auto found = solve(calmest_of_all, &*best);
+    return !found || found->calm_missed || found->cancelled;
+  };
   for (const Try& one : kTries) {
     if (!told && one.smoothness > kNearAsNoise && one.smoothness < kWide) continue;
     FairOptions asked = options;
@@ -95,6 +103,7 @@ core::Result<FairResult> until_fair(
     const bool worth = near || found->fairness.fair;
     if (!best || (worth && unfairness(*found) < unfairness(*best))) best = std::move(*found);
     if (best->fairness.fair || best->cancelled || !best->smoothness_counts) break;
+    if (!before && best->calm_missed && calmest_is_missed()) break;
   }
   if (!best->fairness.fair || best->smoothness > kNearAsNoise) tell(*best);
   return std::move(*best);
