@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -75,34 +76,54 @@ void set(Binary& ink, const Piece& piece, std::uint8_t value) {
 constexpr std::uint8_t kInk = 1;
 constexpr std::uint8_t kPiece = 2;  ///< of ink, the piece that is looked at
 
-/// Whether a piece is a line. A broad one has itself on most sides, so many pixels away, a line on
-/// two of four at most. And it is twice as dark as what else lies there: shade that hardly passes
-/// for ink has shade beside it that hardly does not.
-bool is_line(const Binary& ink, const Tone& tone, const Piece& piece, int away) {
+/// What a piece is like; other ink is 0 or kInk meanwhile.
+struct PieceLook {
+  std::size_t inside = 0;  ///< of its places so many pixels away to four sides, those in itself
+  double own = 0;          ///< darkness, median
+  std::optional<double> beside;  ///< of the places outside of all ink
+};
+
+PieceLook look_at(Binary& ink, const Tone& tone, const Piece& piece, int away) {
+  PieceLook look;
   std::vector<double> own;
   std::vector<double> beside;
-  std::size_t inside = 0;
   const auto darkness = [&tone](int x, int y) {
     return darkness_of(tone.level.at(x, y) / static_cast<double>(Tone::kWhite), tone.gain);
   };
+  set(ink, piece, kPiece);
   for (const auto& [x, y] : piece) {
     own.push_back(darkness(x, y));
     for (const auto& [u, v] :
          {std::pair{x - away, y}, {x + away, y}, {x, y - away}, {x, y + away}}) {
       if (!ink.contains(u, v)) continue;
-      inside += ink.at(u, v) == kPiece;
+      look.inside += ink.at(u, v) == kPiece;
       if (!ink.at(u, v)) beside.push_back(darkness(u, v));
     }
   }
-  return inside <= 2 * piece.size() && !beside.empty() &&
-         core::quantile(own) >= kStandsOut * core::quantile(beside);
+  set(ink, piece, 0);  // it is no ink that others lie near
+  look.own = core::quantile(own);
+  if (!beside.empty()) look.beside = core::quantile(beside);
+  return look;
+}
+
+/// Twice as dark as what else lies there: shade that hardly passes for ink has shade beside it that
+/// hardly does not.
+bool stands_out(const PieceLook& look) { return look.own >= kStandsOut * *look.beside; }
+
+/// A broad piece has itself on most sides, so many pixels away, a line on two of four at most.
+bool is_line(const PieceLook& look, const Piece& piece) {
+  return look.inside <= 2 * piece.size() && look.beside && stands_out(look);
 }
 
 }  // namespace
 
-std::size_t count_lost(FaintPixels& faint, const Binary& ink, double reach, int specks) {
+std::size_t count_lost(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted) {
+  const int away = static_cast<int>(std::ceil(wanted.broadest));
   std::size_t lost = 0;
-  take_lost(faint, ink, reach, specks, [&](const Piece& piece) { lost += piece.size(); });
+  take_lost(faint, ink, wanted.reach, wanted.specks, [&](const Piece& piece) {
+    const PieceLook look = look_at(ink, tone, piece, away);
+    if (!look.beside || stands_out(look)) lost += piece.size();
+  });
   return lost;
 }
 
@@ -111,9 +132,7 @@ std::size_t ink_lines(FaintPixels& faint, Binary& ink, const Tone& tone, const F
   std::vector<Piece> lines;
   std::vector<Piece> others;
   take_lost(faint, ink, wanted.reach, wanted.specks, [&](Piece piece) {
-    set(ink, piece, kPiece);
-    const bool line = is_line(ink, tone, piece, away);
-    set(ink, piece, 0);  // until all are found: it is no ink that others lie near
+    const bool line = is_line(look_at(ink, tone, piece, away), piece);
     (line ? lines : others).push_back(std::move(piece));
   });
   std::size_t count = 0;

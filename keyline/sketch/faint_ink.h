@@ -36,16 +36,17 @@ class FaintPixels {
   Raster<std::uint8_t> bits_;
 };
 
-/// How many faint pixels are ink of their own that was lost: farther than `reach` from all ink,
-/// in pieces (8-connected) of at least `specks` pixels. The faint pixels are spent.
-std::size_t count_lost(FaintPixels& faint, const Binary& ink, double reach, int specks);
-
 /// What tells a faint line from shade and grain.
 struct FaintLine {
   double reach = 3;     ///< pixels from all ink, beyond the soft border of its lines
   int specks = 12;      ///< pixels of a piece (8-connected) at least
   double broadest = 8;  ///< pixels
 };
+
+/// How many faint pixels are ink of their own that was lost: farther than `reach` from all ink, in
+/// pieces as large, twice as dark as what lies beside them (medians); where shade fades, it is as
+/// dark beside it. The faint pixels are spent, `ink` stays as it is.
+std::size_t count_lost(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted);
 
 /// Makes ink of the faint pixels that are lines of their own: such pieces, twice as dark as what
 /// lies beside them, so many pixels away (medians). How many; what else lies so far from ink stays

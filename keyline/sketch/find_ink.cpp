@@ -58,7 +58,11 @@ Ink ink_of(const Tone& tone, const TraceOptions& options) {
 
 }  // namespace
 
-double rim_of(double width) { return std::max(kSharpRim, kSoftRim * width); }
+FaintLine faint_line(double width, int specks) {
+  return {.reach = std::max(kSharpRim, kSoftRim * width),
+          .specks = specks,
+          .broadest = kBroadest * width + kBroadestBlur};
+}
 
 void show_stage(const TraceOptions& options, const char* name, const Binary& binary) {
   if (!options.stage) return;
@@ -75,9 +79,7 @@ Ink find_ink(Tone& tone, const TraceOptions& options) {
     ink = ink_of(tone, options);
     ink.grainy = true;
   } else if (options.binarize.regions.empty()) {
-    const FaintLine line{.reach = rim_of(ink.width),
-                         .specks = std::max(ink.specks, specks_of(ink.width)),
-                         .broadest = kBroadest * ink.width + kBroadestBlur};
+    const FaintLine line = faint_line(ink.width, std::max(ink.specks, specks_of(ink.width)));
     if (ink_lines(ink.faint, ink.picture, tone, line) > 0) clean(ink, options);
   }
   show_stage(options, "smoothed", ink.picture);

@@ -21,8 +21,9 @@ struct Ink {
 /// pencil under ink) are ink as well.
 Ink find_ink(Tone& tone, const TraceOptions& options);
 
-/// Farther than this from ink, in pixels, the darkness of no line's border reaches.
-double rim_of(double width);
+/// A faint line beside lines of that width: farther from ink than the darkness of their border
+/// reaches, in pieces of so many pixels at least.
+FaintLine faint_line(double width, int specks);
 
 /// Hands a stage's picture out, where they are asked for.
 void show_stage(const TraceOptions& options, const char* name, const Binary& binary);

@@ -213,10 +213,14 @@ Removed remove_specks(Binary& ink, int specks, int pinholes) {
   removed.pinholes = flip_small(ink, 0, pinholes, false, pixels);
   pixels.clear();
   removed.specks = flip_small(ink, 1, specks, true, pixels);
-  if (static_cast<std::int64_t>(pixels.size()) <= count_ink(ink.data.data(), ink.data.size()))
-    return removed;
+  const auto size = [](const auto& list) { return static_cast<std::int64_t>(list.size()); };
+  const std::int64_t gone = size(pixels);
+  const std::int64_t all = gone + count_ink(ink.data.data(), ink.data.size());
+  if (2 * gone <= all) return removed;
   for (const std::size_t i : pixels) ink.data[i] = 1;
+  pixels.clear();
   removed.specks = flip_small(ink, 1, specks / 2, true, pixels);
+  if (2 * (gone - size(pixels)) <= all) removed.specks += flip_small(ink, 1, specks, true, pixels);
   return removed;
 }
 

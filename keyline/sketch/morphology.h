@@ -20,9 +20,9 @@ void smooth_pixels(Binary& ink, int times);
 long smooth_edges(Binary& ink, int times);
 
 /// Pieces of ink (8-connected) of fewer than `specks` pixels become paper, holes (4-connected) of
-/// fewer than `pinholes` pixels ink. Where more than half of the ink lies in pieces that small they
-/// are what was drawn (fine dashes), and only those go that are half as small. Returns how many
-/// pieces and holes went.
+/// fewer than `pinholes` pixels ink. Where more than half of the ink lies in pieces between that
+/// size and half of it they are what was drawn (fine dashes), and only smaller ones go. Returns how
+/// many pieces and holes went.
 struct Removed {
   int specks = 0;
   int pinholes = 0;

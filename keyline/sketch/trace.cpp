@@ -138,11 +138,12 @@ void tell_passes(const std::vector<FineStroke>& strokes, const ConsolidateOption
 }
 
 /// Share of all ink, the faint that was lost included, that the lines explain.
-double explained_share(Ink& found, const TraceResult& result, const Merged& merged) {
+double explained_share(Ink& found, const Tone& tone, const TraceResult& result,
+                       const Merged& merged) {
   const double ink =
       static_cast<double>(count_ink(found.picture.data.data(), found.picture.data.size()));
   const auto lost = static_cast<double>(
-      count_lost(found.faint, found.picture, rim_of(found.width), found.specks));
+      count_lost(found.faint, found.picture, tone, faint_line(found.width, found.specks)));
   double explained = explained_ink(found.picture, result.strokes);
   explained += (1 - explained) * merged.beside * explained_ink(found.picture, merged.passes);
   return explained * ink / (ink + lost);
@@ -274,7 +275,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
   if (options.edge == Edge::center) {
-    result.explained = explained_share(found, result, merged);
+    result.explained = explained_share(found, tone, result, merged);
     tell_explained("ink", result);
   }
   for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);

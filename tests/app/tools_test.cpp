@@ -87,15 +87,11 @@ TEST(Units, AreThoseOfATablesHeader) {
     const char* options;
     const char* unit;
   };
-  constexpr Case kCases[] = {{"x [mm],y [mm]", "", "mm"},
-                             {"x_cm,y_cm", "", "cm"},
-                             {"# X (in),Y (in)", "", "in"},
-                             {"n [m],x,y", "", ""},
-                             {"x [mm],y [in]", "", ""},
-                             {"x [furlong],y [furlong]", "", ""},
-                             {"x [mm],y", "", "mm"},
-                             {"x [mm],y [mm]", "--unit ft", "ft"},
-                             {"a [m],b [m],x,y", "--columns a b", "m"}};
+  constexpr Case kCases[] = {
+      {"x [mm],y [mm]", "", "mm"},          {"x_cm,y_cm", "", "cm"},
+      {"# X (in),Y (in)", "", "in"},        {"n [m],x,y", "", ""},
+      {"x [furlong],y [furlong]", "", ""},  {"x [mm],y", "", "mm"},
+      {"x [mm],y [mm]", "--unit ft", "ft"}, {"a [m],b [m],x,y", "--columns a b", "m"}};
   const Scratch s;
   for (const Case& c : kCases) {
     SCOPED_TRACE(std::string(c.header) + " " + c.options);
@@ -105,6 +101,9 @@ TEST(Units, AreThoseOfATablesHeader) {
     ASSERT_EQ(run_keyline("convert " + file + " " + c.options + " -o " + written).status, 0);
     EXPECT_EQ(json::parse(slurp(written)).value("unit", ""), c.unit);
   }
+  const std::string both = s.write("both.csv", "x [mm],y [in]\n1,0\n2,3\n3,5\n4,1\n");
+  expect_failure(run_keyline("convert " + both + " -o " + s.path("both.json")), 2,
+                 "the header gives the coordinates two units, mm and in");
   const std::string one = s.write("one.csv", "x_mm,y_mm\n0,0\n1,0\n2,0\n");
   const std::string other = s.write("other.csv", "x_in,y_in\n2,0\n3,0\n4,0\n");
   expect_failure(run_keyline("fair " + one + " " + other), 2,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -72,8 +73,12 @@ TEST(FaintInk, IsCountedByPieces) {
   Binary ink(40, 30);
   for (int x = 0; x < 40; ++x) ink.at(x, 10) = 1;
   FaintPixels faint(40, 30);
+  Tone tone = transform_intensity(blank_page(40, 30));
   const auto fill = [&](int y, int from, int to) {
-    for (int x = from; x < to; ++x) faint.set(x, y);
+    for (int x = from; x < to; ++x) {
+      faint.set(x, y);
+      tone.level.at(x, y) = static_cast<std::uint16_t>(0.9 * tone.level.at(x, y));
+    }
   };
   fill(11, 0, 40);  // the ink's border
   fill(13, 0, 40);
@@ -81,8 +86,10 @@ TEST(FaintInk, IsCountedByPieces) {
   fill(21, 17, 23);
   fill(25, 30, 37);  // 7
   FaintPixels again = faint;
-  EXPECT_EQ(count_lost(faint, ink, 3, 8), 20U);
-  EXPECT_EQ(count_lost(again, ink, 2.5, 1), 67U);
+  const Binary as_it_was = ink;
+  EXPECT_EQ(count_lost(faint, ink, tone, {.reach = 3, .specks = 8, .broadest = 4}), 20U);
+  EXPECT_EQ(count_lost(again, ink, tone, {.reach = 2.5, .specks = 1, .broadest = 4}), 67U);
+  EXPECT_EQ(ink.data, as_it_was.data);
 }
 
 TEST(FaintInk, BecomesLinesWhereItIsNarrow) {
@@ -104,12 +111,36 @@ TEST(FaintInk, BecomesLinesWhereItIsNarrow) {
   EXPECT_EQ(ink_lines(faint, ink, tone, line), 100U);
   EXPECT_EQ(std::count(ink.data.begin(), ink.data.end(), 1), 160);
   EXPECT_EQ(ink.at(30, 15), 1);
-  EXPECT_EQ(count_lost(faint, ink, 3, 20), 144U) << "the smudge is left to be told";
+  EXPECT_EQ(count_lost(faint, ink, tone, line), 144U) << "the smudge is left to be told";
   for (int y = 8; y < 24; ++y)  // shade about the line, hardly lighter
     for (int x = 0; x < 60; ++x)
       if (y != 15 && y != 16)
         tone.level.at(x, y) = static_cast<std::uint16_t>(tone.level.at(x, y) * 0.93);
   EXPECT_EQ(ink_lines(shaded, again, tone, line), 0U);
+}
+
+// A shadow that fades over half the page has no border: it is not missed as ink. One that ends
+// within two pixels might be drawn, and is.
+TEST(FaintInk, IsNoShadeThatFades) {
+  for (const double over : {200.0, 2.0}) {
+    SCOPED_TRACE(over);
+    Image page = blank_page(400, 300);
+    draw_line(page, {40, 60}, {360, 40}, 4, 0.9);
+    std::minstd_rand random(7);
+    std::normal_distribution<double> grain(0, 0.008);
+    for (int y = 0; y < 300; ++y)
+      for (int x = 0; x < 400; ++x) {
+        const double shadow = 0.1 * std::clamp((x - 150) / over, 0.0, 1.0);
+        std::uint16_t& v = page.luminance.at(x, y);
+        v = static_cast<std::uint16_t>(
+            std::clamp(v * (0.98 - shadow + grain(random)), 0.0, 65535.0));
+      }
+    TraceOptions as_it_is;
+    as_it_is.tone.flatten = Flatten::off;
+    const auto result = trace(page, as_it_is);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(warns(*result), over < 10) << result->explained;
+  }
 }
 
 // Blue pencil, an eighth as dark as the paper is light, that crosses one ink line and lies between
