@@ -138,6 +138,9 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
   if (before) result.curves.push_back(*before);
   for (const RunResult& run : solved) result.curves.push_back(run.chain);
   if (after) result.curves.push_back(*after);
+  const auto calm = [](const RunResult& run) { return !run.dense.joints.empty(); };
+  result.calm_missed =
+      std::ranges::none_of(solved, calm) && std::ranges::any_of(solved, &RunResult::calm_missed);
   if (before)
     for (FairPiece& piece : result.pieces) ++piece.curve;
   std::vector<analysis::CurveView> views;

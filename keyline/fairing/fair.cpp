@@ -304,8 +304,6 @@ class Job {
                       "their errors",
                       result_.noise));
     const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
-    result_.calm_missed = std::ranges::none_of(solved_, lacs) &&
-                          std::ranges::any_of(solved_, &detail::RunResult::calm_missed);
     if (!std::ranges::all_of(solved_, lacs)) return;
     result_.smoothness_counts =
         std::ranges::any_of(solved_, [](const detail::RunResult& one) { return one.spring > 0; });
