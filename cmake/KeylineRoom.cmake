@@ -80,7 +80,8 @@ function(keyline_tests name)
   if(KEYLINE_APART)
     set(CMAKE_CXX_FLAGS_RELEASE "-O1 -DNDEBUG" PARENT_SCOPE)
   endif()
-  add_executable(${target} ${sources})
+  keyline_sources(${target} compiled ${sources})
+  add_executable(${target} ${compiled})
   target_link_libraries(${target} PRIVATE keyline::${name} keyline_warnings GTest::gtest GTest::gmock
                                           GTest::gtest_main ${ARG_LINK})
   target_compile_definitions(

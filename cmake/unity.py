@@ -3,8 +3,8 @@
 Headers are then read once for all of them. What a source keeps to itself (its anonymous namespaces) gets
 the source's name behind its own while that source is read, so that it meets no neighbour's; the sources
 stay as they are. Left alone are names that the source also uses of others (`x.name`, `room::name`), what
-others find by its name (`choices`) and the types of sources that describe some, for those tell their name:
-where such a name meets another, the compiler says so.
+others find by its name (`choices`), the types of sources that describe some and the names of tests, for those
+tell their name: where such a name meets another, the compiler says so.
 """
 
 import re
@@ -44,15 +44,19 @@ def own_names(text):
         if inside is not None and depth <= inside:
             inside = None
     used_of_others = set(re.findall(r"(?:\.|->|::)\s*(?:template\s+)?(\w+)", text))
-    return own - shared - used_of_others - NOT_A_NAME - FOUND_BY_ARGUMENT
+    told = {name for names in re.findall(r"TEST\w*\((\w+),\s*(\w+)", text) for name in names}
+    return own - shared - used_of_others - told - NOT_A_NAME - FOUND_BY_ARGUMENT
 
 
-def includes(text):
-    """The source's #include lines that no #if decides about."""
+def includes(text, folder):
+    """The source's #include lines that no #if decides about; headers beside it are named by their whole path."""
     depth, lines = 0, []
     for line in text.split("\n"):
         depth += line.startswith("#if") - line.startswith("#endif")
         if depth == 0 and line.startswith("#include"):
+            beside = re.match(r'#include "([^"]+)"', line)
+            if beside and (folder / beside[1]).exists():
+                line = f'#include "{folder / beside[1]}"'
             lines.append(line)
     return lines
 
@@ -61,7 +65,7 @@ def unity(sources):
     headers, bodies = [], []
     for source in sources:
         text = Path(source).read_text(encoding="utf-8")
-        headers += [line for line in includes(text) if line not in headers]
+        headers += [line for line in includes(text, Path(source).parent) if line not in headers]
         mark = re.sub(r"\W", "_", Path(source).stem)
         names = sorted(own_names(bare(text)))
         bodies += [f"#define {name} {name}_of_{mark}" for name in names]

@@ -23,10 +23,10 @@ TEST(BetweenTangents, FindsTheCurveThatTheEndsAreTakenFrom) {
         const Complex first{3, -1};
         const Complex end = first * (1.0 + z + z * z);
         const Complex last = first * z * z;
-        const auto c = class_a_between({{2, 5},
-                                        {first.real(), first.imag()},
-                                        {2 + end.real(), 5 + end.imag()},
-                                        {last.real(), last.imag()}});
+        const auto c = class_a_between(EndTangents{{2, 5},
+                                                   {first.real(), first.imag()},
+                                                   {2 + end.real(), 5 + end.imag()},
+                                                   {last.real(), last.imag()}});
         ASSERT_TRUE(c);
         EXPECT_EQ(c->degree, 3);
         EXPECT_NEAR(c->matrix.alpha, side * alpha, 1e-12);
@@ -59,11 +59,12 @@ TEST(BetweenTangents, TakesTheDegreeThatReaches) {
 }
 
 TEST(BetweenTangents, SaysWhereThereIsNone) {
-  EXPECT_FALSE(class_a_between({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));     // an arc
-  EXPECT_FALSE(class_a_between({{0, 0}, {1, 1}, {2, 0}, {1, 1}}));     // an S
-  EXPECT_FALSE(class_a_between({{0, 0}, {1, 0}, {1, 0}, {1, 0}}));     // a line
-  EXPECT_FALSE(class_a_between({{0, 0}, {1, 0}, {0, 0}, {0, 1}}));     // no way
-  EXPECT_FALSE(class_a_between({{0, 0}, {1, 0}, {1, 1e-4}, {0, 1}}));  // beside the tangent
+  EXPECT_FALSE(class_a_between(EndTangents{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));  // an arc
+  EXPECT_FALSE(class_a_between(EndTangents{{0, 0}, {1, 1}, {2, 0}, {1, 1}}));  // an S
+  EXPECT_FALSE(class_a_between(EndTangents{{0, 0}, {1, 0}, {1, 0}, {1, 0}}));  // a line
+  EXPECT_FALSE(class_a_between(EndTangents{{0, 0}, {1, 0}, {0, 0}, {0, 1}}));  // no way
+  EXPECT_FALSE(
+      class_a_between(EndTangents{{0, 0}, {1, 0}, {1, 1e-4}, {0, 1}}));  // beside the tangent
 }
 
 }  // namespace

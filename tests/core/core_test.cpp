@@ -31,9 +31,9 @@ TEST(Angle, WrapsIntoHalfOpenTurn) {
 }
 
 TEST(Angle, IsCounterClockwisePositive) {
-  EXPECT_DOUBLE_EQ(angle_between({1, 0}, {0, 2}), kPi / 2);
-  EXPECT_DOUBLE_EQ(angle_between({0, 1}, {1, 0}), -kPi / 2);
-  EXPECT_EQ(angle_between({0, 0}, {1, 0}), 0);
+  EXPECT_DOUBLE_EQ(angle_between(Vector2{1, 0}, {0, 2}), kPi / 2);
+  EXPECT_DOUBLE_EQ(angle_between(Vector2{0, 1}, {1, 0}), -kPi / 2);
+  EXPECT_EQ(angle_between(Vector2{0, 0}, {1, 0}), 0);
 }
 
 TEST(Pose, LocalFrameRoundTrip) {

@@ -17,7 +17,7 @@ namespace keyline::exchange {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace testing;  // the test picture's files
+using namespace tests;  // the test picture's files
 
 void expect_pixels(const core::Result<sketch::Image>& image, double tolerance) {
   ASSERT_TRUE(image) << image.error().message;

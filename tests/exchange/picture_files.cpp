@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <webp/encode.h>
 
-namespace keyline::exchange::testing {
+namespace keyline::exchange::tests {
 namespace fs = std::filesystem;
 namespace {
 
@@ -208,4 +208,4 @@ std::string cmyk_jpeg(bool adobe) {
   return written_jpeg(4, JCS_CMYK, cmyk, marked, [](jpeg_compress_struct&) {});
 }
 
-}  // namespace keyline::exchange::testing
+}  // namespace keyline::exchange::tests

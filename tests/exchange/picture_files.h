@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Files of one small test picture in every format, written by the formats' own libraries.
-namespace keyline::exchange::testing {
+namespace keyline::exchange::tests {
 
 constexpr int kWidth = 24;
 constexpr int kHeight = 16;
@@ -35,4 +35,4 @@ std::string webp_with_exif(int orientation);
 
 std::string file_content(const std::filesystem::path& file);
 
-}  // namespace keyline::exchange::testing
+}  // namespace keyline::exchange::tests
