@@ -87,7 +87,7 @@ function(keyline_tests name)
   target_compile_definitions(
     ${target} PRIVATE KEYLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                       KEYLINE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
-  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${name})
+  gtest_discover_tests(${target} NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${name})
 endfunction()
 
 add_library(keyline_warnings INTERFACE)

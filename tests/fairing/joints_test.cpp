@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -81,7 +83,13 @@ TEST_P(JointsOfOneRate, AreAllWhereCurvatureDoesNotTurn) {
   EXPECT_LT(lac::largest_joint_gap(after).curvature, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formulas, JointsOfOneRate, ::testing::Values(half_ellipse, sine, cubic));
+// A function is printed as its address, another in each run.
+std::string formula_name(const ::testing::TestParamInfo<Formula>& at) {
+  return std::vector<std::string>{"half_ellipse", "sine", "cubic"}.at(at.index);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formulas, JointsOfOneRate, ::testing::Values(half_ellipse, sine, cubic),
+                         formula_name);
 
 lac::Chain as_chain(const FitChain& fit) {
   lac::Chain chain;
