@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "keyline/core/text.h"
-#include "keyline/lac/g2/spline_either_way.h"
+#include "keyline/lac/g2/spline.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
@@ -79,7 +79,7 @@ Result<SplineResult> run(const SplineRequest& request, const Context&) {
     return core::fail(ErrorCode::bad_input,
                       "\"alpha\" holds " + core::counted(request.alpha.size(), "number"),
                       "give 1, or one for each of the " + core::counted(spans, "span"), "alpha");
-  auto solved = lac::solve_spline_either_way(request.points, options_of(request));
+  auto solved = lac::solve_spline(request.points, options_of(request));
   if (!solved) return std::unexpected(solved.error());
   SplineResult result;
   result.report.spans = spans;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -140,6 +141,28 @@ TEST(Spline, DoesNotDependOnPlaceScaleOrSense) {
       EXPECT_LT(distance(apply(map, p), evaluate(m->chain, t)), 1e-9 * map.scale);
       EXPECT_LT(distance(p, evaluate(r->chain, 1 - t)), 1e-9);
     }
+  }
+}
+
+// Several splines pass these points; laid out straight from either end, one or another was reached.
+TEST(Spline, OfSeveralEitherEndNamesOne) {
+  const std::vector<Point2> open{
+      {5.510600057421676, 1.3087834590404364},  {4.288529893010087, 2.170228384325094},
+      {3.2476803842756525, 1.8210215552225417}, {2.3061577716638757, 0.7540578701955261},
+      {1.0866157758472164, 1.0487812495460835}, {0.3809930199221187, 0.9916019437834389}};
+  const std::vector<Point2> round{{0, 0.00016},  {6, -0.00203}, {5, 0.13542}, {4, 0.03097},
+                                  {3, -0.03831}, {2, 0.01844},  {1, -0.00019}};
+  SplineOptions closed;
+  closed.closed = true;
+  closed.alpha = {-1.78, 0.5, 1.0, -0.01, -1.0, 1.0, -3.98};
+  for (auto [points, options] : {std::pair{open, with_slope(-1e-4)}, std::pair{round, closed}}) {
+    const auto there = solve_spline(points, options);
+    std::reverse(points.begin(), points.end());
+    if (options.closed) std::rotate(points.begin(), points.end() - 1, points.end());
+    std::reverse(options.alpha.begin(), options.alpha.end());
+    const auto back = solve_spline(points, options);
+    ASSERT_TRUE(there && back);
+    EXPECT_NEAR(arc_length(there->chain), arc_length(back->chain), 1e-9);
   }
 }
 
