@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,11 @@ TEST(Carried, IsTheStandardFormsPower) {
   EXPECT_NEAR(carried(2, -1, 3), 2 - 3, 1e-15);
   EXPECT_NEAR(carried(2, -2, 0.5), std::sqrt(3), 1e-15);
   EXPECT_NEAR(carried(2, -2, 4), -std::sqrt(4), 1e-15);
-  EXPECT_TRUE(std::isnan(carried(2, 1, -0.6)));  // 0.5 - 0.6: past the end
+  EXPECT_TRUE(std::isnan(carried(2, 1, -0.6)));                   // 0.5 - 0.6: past the end
+  EXPECT_NEAR(carried(2, -1e-9, 0.5), 2 * std::exp(-0.5), 3e-9);  // no digits lost next to 0
+  EXPECT_NEAR(carried(3, -1e-11, 0.7), 3 * std::exp(-0.7), 1e-10);
+  EXPECT_EQ(carried(0, -2, 8), -4);
+  EXPECT_NEAR(carried(1e-200, -2, 8), -4, 1e-14);
   EXPECT_EQ(carried(2, 1, 0), 2);
   EXPECT_EQ(carried(0, 1, 5), 0);
 }
@@ -55,6 +60,21 @@ TEST(SpaceShooting, EndsWhereTheCurveDoes) {
   ASSERT_TRUE(shot);
   const SpaceFrame end = exact({-2, -1, 0, 0.3, 0}, {0.9, 0.5, 2.0});
   EXPECT_NEAR(norm(shot->chord - (end.position - core::Point3{})), 0, 1e-5);
+}
+
+// Curvature that grows by 16 times next to where it would be infinite, torsion likewise from the
+// other end; curvature next to a zero outside the curve.
+TEST(SpaceShooting, FollowsSharpEnds) {
+  for (const auto& [form, x] :
+       {std::pair{SpaceStandardForm{2.8, 1, 0, -22, 0}, SpaceUnknowns{-0.357, 0.12, 0.43}},
+        {{3, 2.3, 0, 0.4, 0}, {60, 1.1, 8}},
+        {{-3, -0.07, 0, 3, 0}, {-900, 0.8, 0.1}}}) {
+    const auto shot = shoot_space(form, x);
+    ASSERT_TRUE(shot);
+    const SpaceFrame end = exact(form, x);
+    EXPECT_NEAR(norm(shot->chord - (end.position - core::Point3{})), 0, 1e-5) << form.alpha;
+    EXPECT_NEAR(norm(shot->tangent - end.tangent), 0, 1e-5) << form.alpha;
+  }
 }
 
 TEST(SpaceShooting, DerivativesAreDifferences) {
@@ -198,12 +218,43 @@ TEST(Steer, StepsAreTakenInShares) {
   EXPECT_EQ(whole.twist, 3);
   EXPECT_NEAR(whole.length, 3 * std::exp(-0.1), 1e-15);
   EXPECT_NEAR(moved(x, {0, 0, 99}, 0.5).length, 3 * std::exp(-0.5), 1e-15);
-  EXPECT_TRUE(reasonable({0, 0, 1}));
-  EXPECT_FALSE(reasonable({0, 0, 100}));
-  EXPECT_FALSE(reasonable({0, 0, 1e-6}));
-  EXPECT_FALSE(reasonable({HUGE_VAL, 0, 1}));
-  EXPECT_FALSE(reasonable({0, 4 * std::numbers::pi, 1}));
-  EXPECT_TRUE(reasonable({0, -12.5, 1}));
+  EXPECT_TRUE(reasonable(-1, {0, 0, 1}));
+  EXPECT_FALSE(reasonable(-1, {0, 0, 100}));
+  EXPECT_FALSE(reasonable(-1, {0, 0, 1e-6}));
+  EXPECT_FALSE(reasonable(-1, {HUGE_VAL, 0, 1}));
+  EXPECT_FALSE(reasonable(-1, {0, 4 * std::numbers::pi, 1}));
+  EXPECT_TRUE(reasonable(-1, {0, -12.5, 1}));
+  // The curvature falls at once: many radii of the start long, and turning little.
+  EXPECT_TRUE(reasonable(2, {1e4, 0, 200}));
+  EXPECT_FALSE(reasonable(2, {1e4, 0, 20000}));
+  EXPECT_FALSE(reasonable(2, {-0.6, 0, 1}));  // past the end
+}
+
+// Torsion (t / 2)^(-1 / 2) is infinite at one end and comes to 2 sqrt(2).
+TEST(Steer, TorsionThatBecomesInfiniteComesToSoMuch) {
+  const SpaceStandardForm form{-1, 2, 0, 0.25, 0};
+  EXPECT_NEAR(most_twist(form, 1), 2 * std::sqrt(2), 1e-14);
+  EXPECT_NEAR(most_twist({-1, 2, 0, -0.25, 0}, 1), 2 * std::sqrt(2), 1e-14);
+  EXPECT_TRUE(std::isinf(most_twist({-1, 1, 0, 0.25, 0}, 1)));
+  EXPECT_TRUE(std::isinf(most_twist({-1, 2, 0, 0, 0}, 1)));
+  EXPECT_TRUE(start_torsion(2, 0.25, {0, 2.8, 1}));
+}
+
+// However long, a step ends within the family; a short one is that of the unknowns.
+TEST(Steer, StepsStayWithinTheFamily) {
+  for (const double alpha : {0.5, 2.0, 0.0, -1.5}) {
+    const SpaceStandardForm form{alpha, 2, 0, 0.25, 0};
+    const SpaceUnknowns x{-0.3, 2.0, 1};
+    const SpaceUnknowns far = moved_within(form, x, {5, -4, 0.3}, 1);
+    EXPECT_GT(1 + alpha * far.bend, alpha > 0 ? 0 : -HUGE_VAL);
+    EXPECT_LT(far.twist, most_twist(form, far.length));
+    EXPECT_GT(far.twist, x.twist);
+    const Miss step{3e-6, -2e-6, 1e-6};
+    const SpaceUnknowns near = moved_within(form, x, step, 1);
+    EXPECT_NEAR(near.bend, x.bend - step[0], 1e-10);
+    EXPECT_NEAR(near.twist, x.twist - step[1], 1e-10);
+    EXPECT_NEAR(near.length, x.length - step[2], 1e-10);
+  }
 }
 
 // Laid where it belongs, as large as it has to be, and its mirror image.

@@ -81,5 +81,35 @@ TEST(Stretches, OfOnePlaceTheLargerPowerCounts) {
   EXPECT_EQ(of({0, -1}, {0, -2}), (Ends{{0, 1, 6, 1}}));
 }
 
+/// Of a law that goes as a power of the distance from its place, by how much that grows at most.
+void expect_graded(const LawRun& law) {
+  double before = 0;
+  for (const Stretch& s : graded_stretches(law, {})) {
+    EXPECT_EQ(s.from, before);
+    before = s.to;
+    const double a = std::abs(s.from - law.place), b = std::abs(s.to - law.place);
+    const double apart = std::max(a, b) / std::min(a, b);
+    EXPECT_LE(apart, 4 + 1e-9) << law.place;
+    EXPECT_LE(std::pow(apart, 1 / std::abs(law.slope)), 8 + 1e-9) << law.place;
+    EXPECT_EQ(s.power, 1);
+  }
+  EXPECT_EQ(before, 1);
+}
+
+TEST(GradedStretches, ArePartsAlongWhichALawGrowsLittle) {
+  for (const double slope : {0.3, 1.0, 3.0, -2.5})
+    for (const double place : {-1e-3, -0.4, -7.0, 1.02, 3.0}) expect_graded({place, slope, 0});
+  expect_graded({-0.4, -0.1, 0});
+  EXPECT_EQ(graded_stretches({-1e-3, -1, 0}, {}).size(), 1U);  // straight: smooth as it is
+  EXPECT_EQ(graded_stretches({-9, 2, 0}, {30, 1, 0}).size(), 1U);
+  EXPECT_EQ(graded_stretches({HUGE_VAL, 0, 4.1}, {}).size(), 2U);  // ln 8 is 2.08
+  // One ends at a zero: its power stays beside it.
+  const auto all = graded_stretches({0.3, -2, 0}, {1.01, 2, 0});
+  EXPECT_EQ(all.front().from, 0);
+  EXPECT_EQ(all.back().to, 1);
+  for (const Stretch& s : all)
+    EXPECT_EQ(s.power, s.from == 0.3 || s.to == 0.3 ? 6 : 1) << s.from << ' ' << s.to;
+}
+
 }  // namespace
 }  // namespace keyline::lac::detail

@@ -27,7 +27,6 @@ using detail::space::miss_of;
 using detail::space::moved;
 using detail::space::plane_of;
 using detail::space::PlaneSearch;
-using detail::space::reasonable;
 using detail::space::Setting;
 using detail::space::size_of;
 using detail::space::solve_compound_plane;
@@ -49,7 +48,7 @@ double turning_of(const SpaceChain& chain) {
 /// Both pieces in the standard frame, the radius of curvature at the start being 1; `twist` of the
 /// unknowns is here the torsion at the start times the length. Empty where one ends too early.
 std::optional<SpaceChain> chain_of(const SpaceRhythm& r, const SpaceUnknowns& x) {
-  if (!reasonable(x)) return std::nullopt;
+  if (!(x.length > 0) || !std::isfinite(x.bend) || !std::isfinite(x.twist)) return std::nullopt;
   const double lambda = x.bend / x.length;
   const double nu = x.twist / x.length;
   const double first = r.length_share * x.length;

@@ -42,7 +42,7 @@ struct Member {
 
 std::optional<Member> member(SpaceStandardForm form, const SpaceUnknowns& x) {
   const auto torsion = detail::start_torsion(form.beta, form.omega, x);
-  if (!torsion || !reasonable(x)) return std::nullopt;
+  if (!torsion || !reasonable(form.alpha, x)) return std::nullopt;
   form.lambda = x.bend / x.length;
   form.nu = *torsion / x.length;
   const auto piece = standard_piece(form, x.length);

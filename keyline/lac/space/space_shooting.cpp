@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "keyline/lac/space/space_stretch.h"
 #include "keyline/numeric/roots.h"
@@ -11,8 +12,10 @@ namespace {
 
 using core::Vector3;
 
-constexpr int kSteps = 32;
-constexpr int kGradedSteps = 24;  ///< of every stretch next to a zero
+/// Of a stretch that is all, next to a zero, or one of several.
+int steps_of(const Stretch& stretch, std::size_t of) {
+  return stretch.power != 1 ? 24 : of == 1 ? 32 : 12;
+}
 
 /// Curvature and torsion times length over the fraction of the length.
 struct Laws {
@@ -85,8 +88,6 @@ struct Node {
   double weight = 0;
 };
 
-constexpr int kMostNodes = 6 * (kSteps + 1);
-
 /// How curvature and torsion at one place change with the three unknowns.
 struct Change {
   std::array<double, 3> curvature{};
@@ -120,16 +121,16 @@ void find_changes(const Laws& laws, double omega, std::span<const Node> nodes,
   }
 }
 
-/// Where the two laws vanish.
-Stretches stretches_of(const Laws& laws) {
-  LawZero bend{-1, laws.alpha};
-  LawZero twist{-1, laws.beta};
-  if (laws.alpha < 0 && laws.bend != 0) bend.place = -1 / (laws.alpha * laws.bend);
-  if (laws.beta < 0 && laws.torsion_rate != 0) {
-    twist.place =
-        -numeric::signed_power(laws.start_torsion, -laws.beta) / (laws.beta * laws.torsion_rate);
-  }
-  return stretches_between(bend, twist);
+/// Cut where a law's few steps would not follow it.
+std::vector<Stretch> stretches_of(const Laws& laws) {
+  LawRun bend{HUGE_VAL, laws.alpha, -laws.bend};
+  LawRun twist{HUGE_VAL, laws.beta, -laws.torsion_rate};
+  if (laws.alpha != 0 && laws.bend != 0) bend.place = -1 / (laws.alpha * laws.bend);
+  const double t = laws.start_torsion;
+  if (laws.beta != 0 && laws.torsion_rate != 0)
+    twist.place = -std::copysign(std::pow(std::abs(t), -laws.beta), laws.beta < 0 ? t : 1) /
+                  (laws.beta * laws.torsion_rate);
+  return graded_stretches(bend, twist);
 }
 
 }  // namespace
@@ -162,23 +163,23 @@ std::optional<SpaceShot> shoot_space(const SpaceStandardForm& form, const SpaceU
   const Laws laws{form.alpha, form.beta, x.bend,
                   x.length,   *torsion,  unit_rate(form.beta, form.omega, x.length)};
   if (!std::isfinite(laws.curvature(1)) || !std::isfinite(laws.torsion(1))) return std::nullopt;
-  std::array<Motion, kMostNodes> motion;
-  std::array<Node, kMostNodes> node;
-  std::size_t count = 0;
+  std::vector<Motion> motion;
+  std::vector<Node> node;
   Motion end;
-  const Stretches stretches = stretches_of(laws);
-  const int steps = stretches.count == 1 && stretches.all[0].power == 1 ? kSteps : kGradedSteps;
+  const std::vector<Stretch> stretches = stretches_of(laws);
   for (const Stretch& stretch : stretches) {
-    for (int i = 0; i <= steps; ++i, ++count) {
+    const int steps = steps_of(stretch, stretches.size());
+    for (int i = 0; i <= steps; ++i) {
       const double s = i / double(steps);
       const double simpson = (i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2) / (3.0 * steps);
       if (i > 0) end = stepped(laws, end, stretch, (i - 1) / double(steps), 1.0 / steps);
-      motion[count] = end;
-      node[count] = {stretch.place(s), simpson * stretch.rate(s)};
+      motion.push_back(end);
+      node.push_back({stretch.place(s), simpson * stretch.rate(s)});
     }
   }
-  std::array<Change, kMostNodes> change;
-  find_changes(laws, form.omega, {node.data(), count}, {change.data(), count});
+  const std::size_t count = node.size();
+  std::vector<Change> change(count);
+  find_changes(laws, form.omega, node, change);
   SpaceShot shot{end.at, end.tangent, {}, {}};
   for (int unknown = 0; unknown < 3; ++unknown) {
     Vector3 turned;

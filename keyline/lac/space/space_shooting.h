@@ -14,12 +14,16 @@
 namespace keyline::lac::detail {
 
 /// y with y^-p = x^-p + p d for p != 0 (signed powers for p < 0), x e^-d for p = 0; NaN past the
-/// end of the curve. Standard form: p the slope, d the rate times arc length.
+/// end of the curve. Standard form: p the slope, d the rate times arc length. No cancellation as
+/// p -> 0.
 inline double carried(double x, double p, double d) {
-  if (p < 0) return numeric::signed_power(numeric::signed_power(x, -p) + p * d, -1 / p);
-  const double part = p * d * std::pow(std::abs(x), p);
-  if (part == 0 && p != 0) return x;
-  return p == 0 ? x * std::exp(-d) : part > -1 ? x * std::exp(-std::log1p(part) / p) : NAN;
+  if (p == 0) return x * std::exp(-d);
+  const double part = p * d * std::pow(std::abs(x), p) * (p < 0 && x < 0 ? -1 : 1);
+  if (p < 0 && !std::isfinite(part))
+    return numeric::signed_power(numeric::signed_power(x, -p) + p * d, -1 / p);
+  if (part == 0) return x;
+  if (part > -1) return x * std::exp(-std::log1p(part) / p);
+  return p < 0 ? -x * std::exp(-std::log(-1 - part) / p) : NAN;
 }
 
 /// What decides a curve of given slopes and omega up to its size, all in units of the radius of
@@ -44,7 +48,8 @@ struct SpaceShot {
 };
 
 /// Of form only alpha, beta and omega count. Magnus' method of order 4 on the group of motions, in
-/// 32 steps: about 1e-7 per radian of turning; derivatives about 1e-4. Empty where the curve ends
+/// 32 steps, more towards ends that are sharp: about 1e-7 per radian of turning, 1e-5 where a law
+/// grows by a hundred times; derivatives about 1e-4. Empty where the curve ends
 /// before its length.
 std::optional<SpaceShot> shoot_space(const SpaceStandardForm& form, const SpaceUnknowns& x);
 

@@ -109,9 +109,11 @@ double size_of(const Miss& miss) {
   return size;
 }
 
-bool reasonable(const SpaceUnknowns& x) {
-  return std::isfinite(x.bend) && std::isfinite(x.twist) && x.length > 1e-6 && x.length < 100 &&
-         std::abs(x.twist) < 4 * core::kPi;
+bool reasonable(double alpha, const SpaceUnknowns& x) {
+  constexpr double kMost = 4 * core::kPi;
+  if (!(x.length > 1e-6) || !(std::abs(x.twist) < kMost)) return false;
+  const double end = detail::carried(1, alpha, x.bend);
+  return std::isfinite(end) && absolute_turning(Piece{alpha, x.length, 1, end}) < kMost;
 }
 
 std::optional<Miss> newton_step(const SpaceShot& shot, const Miss& at, const Invariants& wanted) {
@@ -133,6 +135,39 @@ SpaceUnknowns moved(const SpaceUnknowns& x, const Miss& step, double share) {
           x.length * std::exp(-share * std::clamp(step[2] / x.length, -1.0, 1.0))};
 }
 
+double most_twist(const SpaceStandardForm& form, double length) {
+  if (!(form.beta > 1) || form.omega == 0) return HUGE_VAL;
+  const double rate = std::abs(form.omega) * std::pow(length, 1 - form.beta);
+  return std::pow(form.beta * rate, -1 / form.beta) * form.beta / (form.beta - 1);
+}
+
+namespace {
+
+/// bend after d(bend) = by, linear in the logarithm of the ratio of the curvatures (for a slope
+/// below 0, where it may change its sign, as far as it is large or small).
+double bend_moved(double alpha, double bend, double by) {
+  if (alpha == 0) return bend + by;
+  const double at = alpha * bend;
+  if (alpha > 0) return bend + (1 + at) * std::expm1(alpha * by / (1 + at)) / alpha;
+  return std::sinh(std::asinh(at) + alpha * by / std::hypot(1, at)) / alpha;
+}
+
+}  // namespace
+
+SpaceUnknowns moved_within(const SpaceStandardForm& form, const SpaceUnknowns& x, const Miss& step,
+                           double share) {
+  SpaceUnknowns next = moved(x, step, share);
+  next.bend = bend_moved(form.alpha, x.bend, -share * step[0]);
+  const double most = most_twist(form, x.length);
+  if (std::isinf(most)) return next;
+  const double part = x.twist / most;
+  const double grown = (1 - 1 / form.beta) * std::log(next.length / x.length);  // of `most`
+  const double part_by = -share * step[1] / most - part * grown;
+  next.twist =
+      most_twist(form, next.length) * std::tanh(std::atanh(part) + part_by / (1 - part * part));
+  return next;
+}
+
 namespace {
 
 /// A shot that starts and ends apart, and its miss.
@@ -142,7 +177,7 @@ struct Aimed {
 };
 std::optional<Aimed> aim(const SpaceStandardForm& form, const SpaceUnknowns& x,
                          const Invariants& wanted) {
-  if (!reasonable(x)) return std::nullopt;
+  if (!reasonable(form.alpha, x)) return std::nullopt;
   const auto shot = shoot_space(form, x);
   if (!shot || !(norm(shot->chord) > 1e-3)) return std::nullopt;
   return Aimed{*shot, miss_of(shot->chord, shot->tangent, wanted)};
@@ -162,7 +197,7 @@ bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enoug
     double share = 1;
     for (;; share /= 2) {
       if (share < 0.02) return false;
-      const SpaceUnknowns next = moved(x, *step, share);
+      const SpaceUnknowns next = moved_within(form, x, *step, share);
       const auto there = aim(form, next, wanted);
       if (!there || !(size_of(there->miss) < (1 - 0.1 * share) * size)) continue;
       x = next;
@@ -190,18 +225,35 @@ struct Start {
   double miss = 0;
 };
 
-/// A place anywhere in the family: ratio of the curvatures e^-5 … e^5, torsion up to a full turn
-/// and a half either way, curvature times length at the start from 0.02 to 30.
-SpaceUnknowns random_place(double alpha, std::mt19937_64& random) {
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
-  const double size = std::exp(between(-5, 5));
-  const double ratio = alpha < 0 && between(0, 1) < 0.4 ? -size : size;
+double between(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+/// Torsion up to a full turn and a half either way. For a slope above 0 torsion of the size
+/// (beta rate)^(-1/beta) is what the rate changes by its own size along the curve: where that is
+/// small, torsion is drawn from far below it to far above.
+double random_twist(const SpaceStandardForm& form, double length, std::mt19937_64& random) {
+  constexpr double kMost = 3 * core::kPi, kFarAbove = 5;
+  const double twist = between(random, -kMost, kMost);
+  const double rate = std::abs(form.omega) * std::pow(length, 1 - form.beta);
+  if (!(form.beta > 0) || rate == 0) return twist;
+  const double scale = std::pow(form.beta * rate, -1 / form.beta);
+  if (!(scale > 0 && scale < 1e100)) return twist;
+  const double size = std::min(kFarAbove, std::asinh(kMost / scale)) * std::abs(twist) / kMost;
+  const double largest = scale * std::sinh(size);
+  const double least = detail::carried(largest, form.beta, rate);
+  return std::copysign(numeric::power_mean_integral(largest, least, -form.beta, 1), twist);
+}
+
+/// A place anywhere in the family: ratio of the curvatures e^-5 … e^5, curvature times length at
+/// the start from 0.02 to 30.
+SpaceUnknowns random_place(const SpaceStandardForm& form, std::mt19937_64& random) {
+  const double size = std::exp(between(random, -5, 5));
+  const double ratio = form.alpha < 0 && between(random, 0, 1) < 0.4 ? -size : size;
   // What counts is how much the curve turns, about the mean of both ends' curvatures.
-  const double turning = std::exp(between(std::log(0.05), std::log(9.0)));
+  const double turning = std::exp(between(random, std::log(0.05), std::log(9.0)));
   const double length = turning / std::sqrt(size);
-  return {bend_for(alpha, ratio), between(-3 * core::kPi, 3 * core::kPi), length};
+  return {bend_for(form.alpha, ratio), random_twist(form, length, random), length};
 }
 
 constexpr int kRounds = 5;
@@ -218,7 +270,7 @@ std::vector<SpaceUnknowns> search_family(const SpaceStandardForm& form, const In
   for (int round = 0; round < kRounds && found.empty(); ++round) {
     std::vector<Start> starts;
     for (int i = 0; i < kPlaces; ++i) {
-      const SpaceUnknowns x = random_place(form.alpha, random);
+      const SpaceUnknowns x = random_place(form, random);
       const auto aimed = aim(form, x, wanted);
       if (aimed && size_of(aimed->miss) < 3) starts.push_back({x, size_of(aimed->miss)});
     }

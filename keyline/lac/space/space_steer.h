@@ -58,18 +58,26 @@ ChordFrame chord_frame(core::Vector3 chord, core::Vector3 side);
 /// ones, for a curve in its standard frame.
 Miss miss_of(core::Vector3 chord, core::Vector3 tangent, const Invariants& wanted);
 double size_of(const Miss& miss);
-bool reasonable(const SpaceUnknowns& x);
+/// Turns and twists by less than 4 pi in all, and is longer than 1e-6.
+bool reasonable(double alpha, const SpaceUnknowns& x);
 
 /// Newton's step for a miss, with the derivatives of a shot; empty where the matrix is singular.
 std::optional<Miss> newton_step(const SpaceShot& shot, const Miss& at, const Invariants& wanted);
 SpaceUnknowns moved(const SpaceUnknowns& x, const Miss& step, double share);
+/// The most that torsion of this slope and rate comes to in all, either way: where the slope is
+/// above 1 even torsion that grows without bound comes to so much.
+double most_twist(const SpaceStandardForm& form, double length);
+/// A share of Newton's step in coordinates without borders: the logarithm of the ratio of the
+/// curvatures, the twist as atanh of its part of most_twist, the logarithm of the length.
+SpaceUnknowns moved_within(const SpaceStandardForm& form, const SpaceUnknowns& x, const Miss& step,
+                           double share);
 
 /// Newton's method on quick shots, with steps shortened until the miss falls.
 bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enough, SpaceUnknowns& x,
            int& iterations);
 
 /// Curves that meet the data found from places all over the family (slopes and omega of `form`),
-/// the one that turns and twists least first; empty where none was. 20 to 200 ms.
+/// the one that turns and twists least first; empty where none was. 20 to 500 ms.
 std::vector<SpaceUnknowns> search_family(const SpaceStandardForm& form, const Invariants& wanted,
                                          int& iterations);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 /// Internals of space curves: variables in which curvature and torsion are smooth.
 namespace keyline::lac::detail {
@@ -89,5 +90,20 @@ inline Stretches stretches_between(LawZero a, LawZero b) {
   add_stretch(s, from, 1, power, 1);
   return s;
 }
+
+/// How a law runs along [0, 1]: as a power of the distance from a place, its zero or (slope above
+/// 0) where it would be infinite; for a slope of 0 as an exponential.
+struct LawRun {
+  double place = HUGE_VAL;  ///< HUGE_VAL: nowhere
+  double slope = -1;
+  double growth = 0;  ///< ln of the end's value over the start's; counts for a slope of 0
+};
+
+/// Where to cut [0, 1] so that along a part neither the distance from the place grows by more than
+/// 4 times nor the law by more than 8 times, as far as this is felt: 12 cuts on either side.
+void add_cuts(const LawRun& law, std::vector<double>& cuts);
+
+/// stretches_between with these cuts, for rules of few steps.
+std::vector<Stretch> graded_stretches(const LawRun& a, const LawRun& b);
 
 }  // namespace keyline::lac::detail
