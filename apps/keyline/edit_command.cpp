@@ -64,7 +64,7 @@ std::string text_of(const std::string& name, const json& result) {
                         number_text(v["cav"], 6), place, number_text(v["energy"], 6),
                         v["monotone"].get<std::string>());
   }
-  return text;
+  return text + fmt::format("departure {:.4g} at most\n", result["departure"].get<double>());
 }
 
 std::string pieces_text(const std::string& name, const json& result) {

@@ -213,6 +213,18 @@ std::string joints_text(const json& joints) {
   return text + lost_joints_text(joints);
 }
 
+std::string made_joints_text(const json& joints) {
+  if (joints["joints"] == 0) return "";
+  const json& zebra = joints["zebra"];
+  const auto angle = [&](const char* what) { return degrees_of(zebra[what].get<double>()); };
+  return fmt::format(
+      "joints {}  largest gap {:.3g}  largest fold {:.3g} degrees  G0 {}  G1 {}  G2 {}\n"
+      "zebra at joints, in degrees: jumps {:.3g} (at most {:.3g})  turns {:.3g} (at most {:.3g})\n",
+      joints["joints"].get<int>(), told(joints["gap"].get<double>()),
+      degrees_of(joints["angle"].get<double>()), count(joints, "G0"), count(joints, "G1"),
+      count(joints, "G2"), angle("mean_jump"), angle("jump"), angle("mean_turn"), angle("turn"));
+}
+
 void say_curves_left_out(const json& read, bool quiet) {
   const std::size_t curves = read["curves"].size();
   if (curves == 0) return;

@@ -14,6 +14,9 @@ std::string surface_text(const nlohmann::json& result);
 std::string surface_edit_text(const std::string& name, const nlohmann::json& edit);
 std::string joints_text(const nlohmann::json& joints);
 
+/// Joints of the patches that something was made of; empty where there are none.
+std::string made_joints_text(const nlohmann::json& joints);
+
 /// Says on standard error that the curves of a file of surfaces are not looked at.
 void say_curves_left_out(const nlohmann::json& read, bool quiet);
 

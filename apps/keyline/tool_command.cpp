@@ -9,6 +9,7 @@
 #include "option_files.h"
 #include "result_table.h"
 #include "session.h"
+#include "surface_text.h"
 #include "terminal.h"
 
 namespace keyline::app {
@@ -116,6 +117,8 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
     made.document["surfaces"].push_back({{"name", name}, {"surface", (*result)["surface"]}});
   made.text += (of.heading.empty() ? "" : of.heading + "\n") +
                summary(*operation.result, outcome->result.get());
+  if (result->contains("joints") && (*result)["joints"].contains("zebra"))
+    made.text += made_joints_text((*result)["joints"]);
   made.shown.push_back(std::move(*result));
   return {};
 }

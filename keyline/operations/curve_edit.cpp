@@ -1,14 +1,29 @@
 #include "keyline/operations/curve_edit.h"
 
 #include <algorithm>
+#include <span>
+#include <type_traits>
 
+#include "keyline/classa/deviation.h"
 #include "keyline/core/text.h"
+#include "keyline/curve/part_bound.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
 namespace {
 
 using core::Result;
+
+constexpr double kSharp = 0.01;  ///< of the way that control points go: how sharp departures are
+
+template <class Bezier>
+double departure_of(const Bezier& given, const Bezier& edited) {
+  const double most = curve::difference_bound(given, edited);
+  if constexpr (std::is_same_v<Bezier, curve::Bezier2>)
+    return std::min(most, classa::deviation_bound(std::span(&given, 1), edited, kSharp * most));
+  else
+    return std::min(most, classa::deviation_bound(given, edited, kSharp * most));
+}
 
 Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::EditOptions& options) {
   const auto edited = classa::edit(c, options);
@@ -18,6 +33,7 @@ Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::Edi
   answer.before.value = shown(edited->flat.before);
   answer.after.value = shown(edited->flat.after);
   answer.target = {edited->flat.target.alpha, edited->flat.target.s};
+  answer.departure = departure_of(c, edited->curve);
   return answer;
 }
 
@@ -39,6 +55,8 @@ Result<CurveEditAnswer> run(const CurveEditRequest& request, const Context&) {
   answer.before = shown(*before);
   answer.after = shown(*after);
   answer.target = {edited->target.alpha, edited->target.s};
+  answer.departure =
+      subject->planar->deviation + departure_of(subject->planar->curve, edited->curve);
   answer.path.emplace();
   for (const core::Point2& p : edited->path) answer.path->push_back({p.x, p.y});
   answer.given = *subject->planar;

@@ -39,6 +39,7 @@ struct CurveEditAnswer {
   EvaluationShown before;
   EvaluationShown after;
   PlaneTarget target;
+  double departure = 0;
   std::optional<std::vector<std::array<double, 2>>> path;
 
   std::optional<classa::Approximation> given;  ///< not part of the public form, like `edited`
@@ -50,6 +51,9 @@ struct CurveEditAnswer {
         core::flattened<&Answer::curve>(), core::field<&Answer::before>("value of the given curve"),
         core::field<&Answer::after>("measured against the same minimum"),
         core::field<&Answer::target>("the place the slide ends at"),
+        core::field<&Answer::departure>(
+            "bound of the largest distance from the given curve, either way")
+            .in("length"),
         core::field<&Answer::path>("[alpha, s] from the given place to the target"));
   }
 };

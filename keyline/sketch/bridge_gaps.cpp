@@ -17,8 +17,11 @@ constexpr double kStraightest = 0.8;  ///< of the turn at a junction a line may 
 constexpr double kRowTurn = 0.4;      ///< radians, from a dash to the next
 constexpr double kRowGap = 3;         ///< times the shorter dash: no gap of a row is longer
 constexpr double kEven = 1.5;         ///< times another: gaps of one row
-constexpr double kGrid = 1;           ///< pixels that a length, or an end beside it, may be off
-constexpr double kDot = 3;            ///< pixels: what is shorter has no direction
+/// Gaps: a dash between two gaps is no longer. The longest that drawings have are eight times as
+/// long as their gaps ([ISO 128-20], long dashes); half as much again as gaps of a row may differ.
+constexpr double kLongDash = 8 * kEven;
+constexpr double kGrid = 1;  ///< pixels that a length, or an end beside it, may be off
+constexpr double kDot = 3;   ///< pixels: what is shorter has no direction
 
 class Bridges {
  public:
@@ -126,17 +129,22 @@ class Bridges {
     });
   }
 
-  /// Whether the line that ends there has, or comes to at its other end, a gap as long.
+  /// Whether the line that ends there has, or comes to at its other end, a gap as long, and is no
+  /// longer than a dash between two such gaps.
   bool goes_on(int end, double gap) {
     const auto even = [gap](double other) {
       return other > 0 && std::max(gap, other) < kEven * std::min(gap, other) + 2 * kGrid;
     };
     int out = end ^ 1;
+    double way = dash(end);
     for (std::size_t steps = 0; at(out).mate >= 0 && steps < branches_.size(); ++steps) {
+      if (way > kLongDash * gap) return false;
       if (even(over_[index(out)])) return true;
+      way += over_[index(out)] + length_of(edge_of(at(out).mate));
       out = at(out).mate ^ 1;
       if (out == end) return false;
     }
+    if (way > kLongDash * gap) return false;
     const Pair& next = nearest_[index(out)];
     return next.b >= 0 && nearest_[index(next.b)].b == out && even(next.gap);
   }

@@ -80,7 +80,7 @@ constexpr std::uint8_t kPiece = 2;  ///< of ink, the piece that is looked at
 struct PieceLook {
   std::size_t inside = 0;  ///< of its places so many pixels away to four sides, those in itself
   double own = 0;          ///< darkness, median
-  std::optional<double> beside;  ///< of the places outside of all ink
+  std::optional<double> beside;  ///< of the darker of two on opposite sides, outside of all ink
 };
 
 PieceLook look_at(Binary& ink, const Tone& tone, const Piece& piece, int away) {
@@ -93,11 +93,14 @@ PieceLook look_at(Binary& ink, const Tone& tone, const Piece& piece, int away) {
   set(ink, piece, kPiece);
   for (const auto& [x, y] : piece) {
     own.push_back(darkness(x, y));
-    for (const auto& [u, v] :
-         {std::pair{x - away, y}, {x + away, y}, {x, y - away}, {x, y + away}}) {
-      if (!ink.contains(u, v)) continue;
-      look.inside += ink.at(u, v) == kPiece;
-      if (!ink.at(u, v)) beside.push_back(darkness(u, v));
+    for (const auto& [across, down] : {std::pair{away, 0}, {0, away}}) {
+      double darker = -1;
+      for (const auto& [u, v] : {std::pair{x - across, y - down}, {x + across, y + down}}) {
+        if (!ink.contains(u, v)) continue;
+        look.inside += ink.at(u, v) == kPiece;
+        if (!ink.at(u, v)) darker = std::max(darker, darkness(u, v));
+      }
+      if (darker >= 0) beside.push_back(darker);
     }
   }
   set(ink, piece, 0);  // it is no ink that others lie near
@@ -106,8 +109,8 @@ PieceLook look_at(Binary& ink, const Tone& tone, const Piece& piece, int away) {
   return look;
 }
 
-/// Twice as dark as what else lies there: shade that hardly passes for ink has shade beside it that
-/// hardly does not.
+/// Twice as dark as what else lies there, on both sides: shade that hardly passes for ink has shade
+/// beside it that hardly does not, at its edge on one side.
 bool stands_out(const PieceLook& look) { return look.own >= kStandsOut * *look.beside; }
 
 /// A broad piece has itself on most sides, so many pixels away, a line on two of four at most.

@@ -44,13 +44,13 @@ struct FaintLine {
 };
 
 /// How many faint pixels are ink of their own that was lost: farther than `reach` from all ink, in
-/// pieces as large, twice as dark as what lies beside them (medians); where shade fades, it is as
-/// dark beside it. The faint pixels are spent, `ink` stays as it is.
+/// pieces as large, twice as dark as what lies beside them on both sides (medians); where shade
+/// fades, it is as dark beside it. The faint pixels are spent, `ink` stays as it is.
 std::size_t count_lost(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted);
 
 /// Makes ink of the faint pixels that are lines of their own: such pieces, twice as dark as what
-/// lies beside them, so many pixels away (medians). How many; what else lies so far from ink stays
-/// faint, in pieces as large.
+/// lies beside them, so many pixels away on both sides (medians). How many; what else lies so far
+/// from ink stays faint, in pieces as large.
 std::size_t ink_lines(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted);
 
 }  // namespace keyline::sketch

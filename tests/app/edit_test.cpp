@@ -38,6 +38,8 @@ TEST(Edit, HalfWayAndByHand) {
   const double alpha = json::parse(half.out)["after"]["alpha"].get<double>();
   EXPECT_LT(alpha, 0.785);
   EXPECT_GT(alpha, 0.65);
+  const Outcome told = run_keyline("edit " + kCubic + " --amount 0");
+  EXPECT_NE(told.out.find("departure 0 at most"), std::string::npos) << told.out;
   const Outcome hand = run_keyline("edit " + kCubic + " --target 0.7,1.5 --hold ends --json");
   ASSERT_EQ(hand.status, 0) << hand.err;
   EXPECT_NEAR(json::parse(hand.out)["after"]["s"].get<double>(), 1.5, 1e-9);

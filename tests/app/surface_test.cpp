@@ -139,6 +139,14 @@ TEST(Surfaces, NetworkOfTwoFilesIsASurface) {
   EXPECT_NEAR(corner[0].get<double>(), 1200, 1e-6);
   EXPECT_NEAR(corner[1].get<double>(), 900, 1e-6);
   EXPECT_NEAR(corner[2].get<double>(), 60, 1e-6);
+  const Outcome told = run_keyline("network " + along + across);
+  const std::string n = std::to_string(r["joints"]["joints"].get<int>());
+  EXPECT_GT(r["joints"]["joints"], 0);
+  EXPECT_NE(told.out.find("joints " + n + "  largest gap 0  largest fold 0 degrees  G0 " + n +
+                          "  G1 " + n + "  G2 " + n),
+            std::string::npos)
+      << told.out;
+  EXPECT_NE(told.out.find("zebra at joints, in degrees: jumps 0"), std::string::npos) << told.out;
   const Outcome one = run_keyline("network " + along);
   EXPECT_EQ(one.status, 2);
   EXPECT_NE(one.err.find("two files"), std::string::npos) << one.err;

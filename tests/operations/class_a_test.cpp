@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/point.h"
 #include "keyline/operations/perform.h"
 
 namespace keyline::operations {
@@ -199,6 +202,49 @@ TEST(CurveCav, RangesOfTheMinimum) {
   request["degree"] = 6;
   request["alpha"] = 0.3;
   EXPECT_LE(perform_well("curve.cav", request)["minimum"]["s"].get<double>(), 1);
+}
+
+/// Points of a cubic by its polynomial, so many and one.
+std::vector<core::Point3> along(const json& points, int n) {
+  std::vector<core::Point3> all;
+  for (int i = 0; i <= n; ++i) {
+    const double t = 1.0 * i / n;
+    const double w[] = {(1 - t) * (1 - t) * (1 - t), 3 * t * (1 - t) * (1 - t), 3 * t * t * (1 - t),
+                        t * t * t};
+    core::Point3 p{};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t c = 0; c < points[k].size(); ++c)
+        (c == 0 ? p.x : c == 1 ? p.y : p.z) += w[k] * points[k][c].get<double>();
+    all.push_back(p);
+  }
+  return all;
+}
+
+double farthest(const std::vector<core::Point3>& from, const std::vector<core::Point3>& to) {
+  double far = 0;
+  for (const core::Point3 p : from) {
+    double least = INFINITY;
+    for (const core::Point3 q : to) least = std::min(least, core::distance(p, q));
+    far = std::max(far, least);
+  }
+  return far;
+}
+
+// Judged by points of both curves, whose nearest ones lie no farther apart than half their steps.
+TEST(CurveEdit, TellsHowFarItDeparts) {
+  const json planar{{"type", "bezier"}, {"points", {{0, 0}, {1, 2}, {0, 4}, {-2, 5}}}};
+  const json twisted{{"type", "bezier"}, {"points", {{0, 0, 0}, {1, 0, 1}, {2, 1, 2}, {2, 3, 1}}}};
+  for (const json& given : {planar, twisted}) {
+    const json r = perform_well("curve.edit", {{"curve", given}, {"end_tolerance", 0}});
+    const auto before = along(given["points"], 500);
+    const auto after = along(r["curve"]["points"], 500);
+    const double far = std::max(farthest(before, after), farthest(after, before));
+    EXPECT_GT(far, 0.01);
+    EXPECT_GE(r["departure"].get<double>(), far - 0.01);
+    EXPECT_LE(r["departure"].get<double>(), 1.05 * far);
+  }
+  const json none = perform_well("curve.edit", {{"curve", planar}, {"amount", 0}});
+  EXPECT_EQ(none["departure"], 0);
 }
 
 TEST(CurveEdit, GivesTheOtherForms) {

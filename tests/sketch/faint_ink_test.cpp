@@ -107,15 +107,20 @@ TEST(FaintInk, BecomesLinesWhereItIsNarrow) {
     for (int x = 10; x < 22; ++x) is(x, y, 0.1);  // a smudge
   const FaintLine line{.reach = 3, .specks = 20, .broadest = 4};
   FaintPixels shaded = faint;
+  FaintPixels edge = faint;
   Binary again = ink;
   EXPECT_EQ(ink_lines(faint, ink, tone, line), 100U);
   EXPECT_EQ(std::count(ink.data.begin(), ink.data.end(), 1), 160);
   EXPECT_EQ(ink.at(30, 15), 1);
   EXPECT_EQ(count_lost(faint, ink, tone, line), 144U) << "the smudge is left to be told";
-  for (int y = 8; y < 24; ++y)  // shade about the line, hardly lighter
-    for (int x = 0; x < 60; ++x)
-      if (y != 15 && y != 16)
+  const auto shade = [&](int from, int to) {
+    for (int y = from; y < to; ++y)
+      for (int x = 0; x < 60; ++x)
         tone.level.at(x, y) = static_cast<std::uint16_t>(tone.level.at(x, y) * 0.93);
+  };
+  shade(17, 24);  // hardly lighter than the line: it is the shade's edge
+  EXPECT_EQ(ink_lines(edge, again, tone, line), 0U);
+  shade(8, 15);  // on the other side, too
   EXPECT_EQ(ink_lines(shaded, again, tone, line), 0U);
 }
 

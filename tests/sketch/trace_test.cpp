@@ -166,6 +166,19 @@ TEST(Trace, BridgesGapsInTheInk) {
   }
 }
 
+// A line between two gaps as long is a dash where it is no longer than long dashes are; windows on
+// both sides of a pillar are none.
+TEST(Trace, LongLinesBetweenEvenGapsAreNoRowOfDashes) {
+  for (const auto& [dash, strokes] : {std::pair{60, 1U}, {150, 1U}, {320, 3U}}) {
+    Image page = blank_page(3 * dash + 60, 40);
+    for (int k = 0; k < 3; ++k)  // gaps of 16 pixels
+      draw_line(page, {12.0 + (dash + 16) * k, 20}, {12.0 + (dash + 16) * k + dash - 3, 20}, 3);
+    const auto result = trace(page);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), strokes) << dash;
+  }
+}
+
 /// Sharpest curvature of a stroke.
 double sharpest(const Stroke& stroke) {
   double most = 0;
