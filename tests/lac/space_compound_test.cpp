@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/lac/chain/extend.h"
+
 namespace keyline::lac {
 namespace {
 
@@ -70,6 +72,29 @@ TEST(SolveCompoundSpace, WindsNoMoreThanAFamilyOfOneSlope) {
     turned += std::abs(curvature(r->chain, (i + 0.5) / kPlaces)) * length / kPlaces;
   EXPECT_LT(turned, 3 * std::numbers::pi);
   EXPECT_LT(distance(frame_at(r->chain, 1).position, data.end), 1e-10);
+}
+
+// Where torsion changes as fast as here no curve of one slope has so large an omega.
+TEST(SolveCompoundSpace, IsFoundWhereNoCurveOfOneSlopeIs) {
+  const double share = 0.43, length = 0.66, nu = 9.8, joint = 0.19 * nu;
+  SpacePiece a{2.4, -1.06, share * length, 1, 0.26, nu, joint};
+  SpacePiece b{2.5, 0.86, (1 - share) * length, 0.26, 0, joint, 0};
+  const auto continued = [&](double slope, const Piece& before, double from) {
+    return *detail::curvature_continued(slope, from, curvature_rate(before, 1), b.length);
+  };
+  b.curvature_end = continued(b.alpha, curvature_law(a), 0.26);
+  b.torsion_end = continued(b.beta, torsion_law(a), joint);
+  const SpaceFrame end = frame_at({{}, {a, b}}, 1);
+  const double omega = (std::pow(joint, 1.06) - std::pow(nu, 1.06)) / -1.06 / a.length;
+  const auto solved =
+      solve_compound_space({{}, end.position, {1, 0, 0}, end.tangent}, {.alpha = {a.alpha, b.alpha},
+                                                                        .beta = {a.beta, b.beta},
+                                                                        .omega = omega,
+                                                                        .length_share = share});
+  ASSERT_TRUE(solved) << solved.error().hint;
+  const SpaceFrame there = frame_at(solved->chain, 1);
+  EXPECT_LT(distance(there.position, end.position), 1e-11);
+  EXPECT_LT(norm(there.tangent - end.tangent), 1e-11);
 }
 
 }  // namespace

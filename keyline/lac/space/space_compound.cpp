@@ -132,13 +132,22 @@ bool settle(const SpaceRhythm& r, const Setting& setting, double enough, SpaceUn
   return at && size_of(at->miss) <= enough;
 }
 
-/// Slopes between those of a curve of one slope and those wanted.
-SpaceRhythm part_way(const SpaceRhythm& r, double alpha, double beta, double share) {
+using Solver = Result<SpaceSolution> (*)(const SpaceHermite&, double, double, double);
+
+/// A curve of one slope, and how it is sought.
+struct Single {
+  double alpha = -1, beta = -1, omega = 0;
+  Solver solve = solve_g1_space;
+};
+
+/// Slopes and omega between those of a curve of one slope and those wanted.
+SpaceRhythm part_way(const SpaceRhythm& r, const Single& from, double share) {
   SpaceRhythm part = r;
   for (std::size_t i = 0; i < 2; ++i) {
-    part.alpha[i] = std::lerp(alpha, r.alpha[i], share);
-    part.beta[i] = std::lerp(beta, r.beta[i], share);
+    part.alpha[i] = std::lerp(from.alpha, r.alpha[i], share);
+    part.beta[i] = std::lerp(from.beta, r.beta[i], share);
   }
+  part.omega = std::lerp(from.omega, r.omega, share);
   return part;
 }
 
@@ -151,9 +160,9 @@ struct Reached {
 };
 
 /// From the curve of one slope to that of both.
-Reached follow(const Setting& setting, const SpaceRhythm& r, double alpha, double beta) {
+Reached follow(const Setting& setting, const SpaceRhythm& r, const Single& from) {
   Reached reached;
-  const auto single = solve_g1_space(setting.data, alpha, beta, r.omega);
+  const auto single = from.solve(setting.data, from.alpha, from.beta, from.omega);
   if (!single || !std::isfinite(single->lambda) || !(single->length > 0)) return reached;
   const double nu = setting.mirrored ? -single->nu : single->nu;
   reached.x = {single->lambda * single->length, nu * single->length, single->length};
@@ -162,8 +171,7 @@ Reached follow(const Setting& setting, const SpaceRhythm& r, double alpha, doubl
   while (reached.share < 1 && step > 0.004) {
     const double to = std::min(1.0, reached.share + step);
     SpaceUnknowns x = reached.x;
-    if (settle(part_way(r, alpha, beta, to), setting, to < 1 ? 1e-6 : kExact, x,
-               reached.iterations)) {
+    if (settle(part_way(r, from, to), setting, to < 1 ? 1e-6 : kExact, x, reached.iterations)) {
       reached.x = x;
       reached.share = to;
       step *= 2;
@@ -239,16 +247,25 @@ Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const Space
   const SpaceRhythm& r = rhythm;
   const auto& [a0, a1] = r.alpha;
   const auto& [b0, b1] = r.beta;
+  using Pair = std::pair<double, double>;
+  const std::array slopes{Pair{a0, b0}, Pair{a1, b1}, Pair{(a0 + a1) / 2, (b0 + b1) / 2}};
   double furthest = 0, least = HUGE_VAL;
   std::optional<SpaceSolution> best;
-  for (const auto& [alpha, beta] : {std::pair{a0, b0}, {a1, b1}, {(a0 + a1) / 2, (b0 + b1) / 2}}) {
-    const Reached reached = follow(*setting, r, alpha, beta);
-    furthest = std::max(furthest, reached.share);
-    if (reached.share < 1) continue;
-    const auto shot = shot_of(r, reached.x, setting->wanted);
-    if (!shot || !(turning_of(shot->chain) < 0.999 * least)) continue;
-    least = turning_of(shot->chain);
-    best = solution_of(*shot, reached, *setting);
+  // One slope has less room for omega than two where torsion grows without bound.
+  const std::array starts{std::pair{r.omega, Solver{detail::solve_g1_space_by_ways}},
+                          std::pair{0.0, Solver{detail::solve_g1_space_by_ways}},
+                          std::pair{r.omega, Solver{solve_g1_space}}};
+  for (const auto& [omega, solver] : starts) {
+    for (const auto& [alpha, beta] : slopes) {
+      const Reached reached = follow(*setting, r, {alpha, beta, omega, solver});
+      furthest = std::max(furthest, reached.share);
+      if (reached.share < 1) continue;
+      const auto shot = shot_of(r, reached.x, setting->wanted);
+      if (!shot || !(turning_of(shot->chain) < 0.999 * least)) continue;
+      least = turning_of(shot->chain);
+      best = solution_of(*shot, reached, *setting);
+    }
+    if (best) break;
   }
   if (best) return *std::move(best);
   return core::fail(ErrorCode::not_converged,

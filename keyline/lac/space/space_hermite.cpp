@@ -162,8 +162,10 @@ struct Search {
   int iterations = 0;
 };
 
+enum class Reach { ways, family };
+
 /// By the ways from known curves; where none leads there, from places all over the family.
-Search find_member(const SpaceStandardForm& form, const Invariants& wanted) {
+Search find_member(const SpaceStandardForm& form, const Invariants& wanted, Reach reach) {
   Search s;
   for (const Way& way : ways(wanted, form.alpha)) {
     const Reached reached = follow(form, wanted, way);
@@ -172,6 +174,7 @@ Search find_member(const SpaceStandardForm& form, const Invariants& wanted) {
     if (reached.share == 1) s.found = polished(form, wanted, reached.x, s.iterations);
     if (s.found) return s;
   }
+  if (reach == Reach::ways) return s;
   for (const SpaceUnknowns& x : detail::space::search_family(form, wanted, s.iterations)) {
     s.found = polished(form, wanted, x, s.iterations);
     if (s.found) return s;
@@ -188,15 +191,13 @@ Result<SpaceSolution> solve_in_plane(const Setting& setting, double alpha, doubl
   return in_plane(plane, setting.data, chain_of(solved->segment), {beta, beta});
 }
 
-}  // namespace
-
-Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, double beta,
-                                     double omega) {
+Result<SpaceSolution> solve(const SpaceHermite& given, double alpha, double beta, double omega,
+                            Reach reach) {
   const auto setting = detail::space::setting_of(given, alpha, beta, omega);
   if (!setting) return std::unexpected(setting.error());
   const auto& [data, wanted, planar, mirrored] = *setting;
   if (planar) return solve_in_plane(*setting, alpha, beta);
-  const Search search = find_member({alpha, beta, 0, omega, 0}, wanted);
+  const Search search = find_member({alpha, beta, 0, omega, 0}, wanted, reach);
   if (!search.found) {
     return core::fail(ErrorCode::not_converged,
                       "no space curve of these slopes was found for the tangents",
@@ -212,6 +213,18 @@ Result<SpaceSolution> solve_g1_space(const SpaceHermite& given, double alpha, do
   solution.length = m.chain.pieces[0].length;
   solution.iterations = search.iterations;
   return solution;
+}
+
+}  // namespace
+
+Result<SpaceSolution> solve_g1_space(const SpaceHermite& data, double alpha, double beta,
+                                     double omega) {
+  return solve(data, alpha, beta, omega, Reach::family);
+}
+
+Result<SpaceSolution> detail::solve_g1_space_by_ways(const SpaceHermite& data, double alpha,
+                                                     double beta, double omega) {
+  return solve(data, alpha, beta, omega, Reach::ways);
 }
 
 }  // namespace keyline::lac

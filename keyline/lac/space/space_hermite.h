@@ -45,4 +45,12 @@ struct SpaceSolution {
 core::Result<SpaceSolution> solve_g1_space(const SpaceHermite& data, double alpha, double beta,
                                            double omega);
 
+namespace detail {
+
+/// The same by the ways from known curves alone, without the search of the whole family: where
+/// many answers are tried as starts of something else.
+core::Result<SpaceSolution> solve_g1_space_by_ways(const SpaceHermite& data, double alpha,
+                                                   double beta, double omega);
+
+}  // namespace detail
 }  // namespace keyline::lac
