@@ -215,6 +215,7 @@ Result<Pages> handle_pages(const operations::Outcome& outcome, const HandleView&
 
 Pages document_pages(document::Document document, const ReportOptions& options) {
   if (document.paths.empty()) exchange::flatten(document);
+  if (document.paths.empty() && !document.surfaces.empty()) return surface_pages(document, options);
   const auto shared = std::make_shared<const document::Document>(std::move(document));
   Pages pages = detail::pages_of([=] { return document_picture(*shared, options); },
                                  [=] { return document_report(*shared, options); });

@@ -116,6 +116,10 @@ Result<report::Report> document_report(const document::Document& document,
   report.sections.push_back({.title = "Curves",
                              .figures = {{std::move(*picture), "The curves where they lie"}},
                              .tables = {curve_table(document)}});
+  if (!document.surfaces.empty())
+    report.notes.push_back(
+        {report::NoteKind::note, core::counted(document.surfaces.size(), "surface") +
+                                     " not shown here: keyline analyze shows surfaces"});
   for (const std::string& skipped : document.skipped)
     report.notes.push_back({report::NoteKind::note, "skipped: " + skipped});
   return report;

@@ -84,6 +84,10 @@ struct ShownSurface {
 Pages surface_pages(const std::vector<ShownSurface>& all, const SurfaceView& view,
                     const ReportOptions& options);
 
+/// Of a document's surfaces, with their values and the usual pictures. No .svg: one of a document
+/// holds its curves.
+Pages surface_pages(const document::Document& document, const ReportOptions& options);
+
 /// Of surface.edit_together about these surfaces.
 Pages surface_edit_pages(const std::vector<operations::NamedSurfaceValue>& given,
                          const operations::Outcome& outcome, const ReportOptions& options);
@@ -109,7 +113,8 @@ struct HandleView {
 core::Result<Pages> handle_pages(const operations::Outcome& outcome, const HandleView& view,
                                  const ReportOptions& options);
 
-/// A document's planar curves to look at. No .pdf: document.write makes one in real size.
+/// A document's planar curves to look at, of one without any its surfaces. No .pdf of curves:
+/// document.write makes one in real size.
 Pages document_pages(document::Document document, const ReportOptions& options);
 
 /// Of sketch.trace with stages: a picture of every stage, name ("01-log.png") and content.

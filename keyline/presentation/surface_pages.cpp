@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -57,6 +58,18 @@ SurfaceSubject subject_of(const ShownSurface& shown) {
       shown.name, shown.surface.surface, {}, shown.no_value, shown.surface.trims};
   if (shown.value) subject.values = shown.value->result_as<operations::SurfaceValueShown>()->values;
   return subject;
+}
+
+std::vector<SurfaceSubject> subjects_of(const document::Document& document) {
+  std::vector<SurfaceSubject> all;
+  for (const document::NamedSurface& s : document.surfaces) {
+    all.push_back({s.label.name, s.surface, {}, {}, s.trims});
+    if (auto values = surface::sav_by_patch(s.surface))
+      all.back().values = std::move(*values);
+    else
+      all.back().no_value = values.error().message;
+  }
+  return all;
 }
 
 double sav_of(const SurfaceSubject& s) {
@@ -149,6 +162,12 @@ Pages surface_pages(const std::vector<ShownSurface>& all, const SurfaceView& vie
   const SurfaceLook look = look_of(view);
   return detail::pages_with_svg([=] { return surface_page(subjects, options, look); },
                                 [=] { return surfaces_report(subjects, options, look); });
+}
+
+Pages surface_pages(const document::Document& document, const ReportOptions& options) {
+  const auto shared = std::make_shared<const document::Document>(document);
+  return detail::pages_of([=] { return surface_page(subjects_of(*shared), options); },
+                          [=] { return surfaces_report(subjects_of(*shared), options, {}); });
 }
 
 Pages surface_edit_pages(const std::vector<operations::NamedSurfaceValue>& given,

@@ -147,6 +147,13 @@ TEST(Surfaces, NetworkOfTwoFilesIsASurface) {
             std::string::npos)
       << told.out;
   EXPECT_NE(told.out.find("zebra at joints, in degrees: jumps 0"), std::string::npos) << told.out;
+  const std::string page = s.path("hood.html");
+  EXPECT_EQ(
+      run_keyline("network " + along + across + "-o " + page + " -o " + s.path("hood.png")).status,
+      0);
+  EXPECT_NE(slurp(page).find("<svg"), std::string::npos);
+  EXPECT_NE(slurp(page).find("SAV"), std::string::npos);
+  EXPECT_EQ(slurp(s.path("hood.png")).substr(1, 3), "PNG");
   const Outcome one = run_keyline("network " + along);
   EXPECT_EQ(one.status, 2);
   EXPECT_NE(one.err.find("two files"), std::string::npos) << one.err;
