@@ -17,8 +17,8 @@ using core::dot;
 using core::Point2;
 using core::Vector2;
 
-constexpr double kChange = 20;   ///< price of changing strokes, of the square of the way between
-constexpr double kWithin = 0.8;  ///< of `most`, aimed at, so that smoothing may use the rest
+constexpr double kChange = 1000;  ///< price of changing strokes, of the square of the way between
+constexpr double kWithin = 0.8;   ///< of `most`, aimed at, so that smoothing may use the rest
 constexpr int kRounds = 12;
 constexpr double kFirmer = 3;  ///< weight per round of places that are still too far off
 
