@@ -59,6 +59,7 @@ Result<document::Document> section_document(const InputRequest& input, const std
   const auto cut = cut_file(input, file);
   if (!cut) return std::unexpected(cut.error());
   document::Document document;
+  if (!cut->curves.empty()) document.skipped = cut->curves.front().left_out;
   for (std::size_t i = 0; i < cut->curves.size(); ++i) {
     const acquire::RawCurve& curve = cut->curves[i];
     curve::Polyline2 line;

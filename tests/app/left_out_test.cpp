@@ -52,5 +52,14 @@ TEST(LeftOut, IsToldByEveryCommandThatReadsCurves) {
         << command;
 }
 
+TEST(LeftOut, IsToldOfWhatIsCut) {
+  const Scratch s;
+  const std::string mesh =
+      s.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 9\nf 1 2 3\n") + " --section z=0.25";
+  EXPECT_THAT(run_keyline("convert " + mesh + " -o - --quiet").out, HasSubstr("line 4"));
+  EXPECT_THAT(run_keyline("convert " + mesh + " -o " + s.path("a.csv")).err,
+              HasSubstr("keyline: skipped: line 4"));
+}
+
 }  // namespace
 }  // namespace keyline::app_test

@@ -15,6 +15,13 @@ acquire::RawCurve curve_of(const std::vector<core::Point3>& points) {
   return curve;
 }
 
+bool unfolds(acquire::RawCurve& curve) {
+  std::vector<std::string> told;
+  const bool done = unfold_lednicer(curve, told);
+  EXPECT_TRUE(told.empty());
+  return done;
+}
+
 const std::vector<core::Point3> kLednicer{{3, 4}, {0, 0},      {0.5, 0.1},  {1, 0},
                                           {0, 0}, {0.3, -0.1}, {0.6, -.05}, {1, 0}};
 
@@ -22,7 +29,7 @@ const std::vector<core::Point3> kLednicer{{3, 4}, {0, 0},      {0.5, 0.1},  {1, 
 // nose.
 TEST(AirfoilPoints, LednicersOrderBecomesOneCurve) {
   acquire::RawCurve curve = curve_of(kLednicer);
-  ASSERT_TRUE(unfold_lednicer(curve));
+  ASSERT_TRUE(unfolds(curve));
   ASSERT_EQ(curve.points.size(), 7U);
   const std::vector<double> xs{1, 0.5, 0, 0, 0.3, 0.6, 1};
   const std::vector<int> lines{4, 3, 2, 5, 6, 7, 8};
@@ -38,10 +45,9 @@ TEST(AirfoilPoints, OtherPointsStayAsTheyAre) {
     acquire::RawCurve curve = curve_of(kLednicer);
     change(curve);
     const auto before = curve.points;
-    return !unfold_lednicer(curve) && curve.points == before && curve.notes.empty();
+    return !unfolds(curve) && curve.points == before && curve.notes.empty();
   };
   EXPECT_FALSE(stays([](auto&) {}));
-  EXPECT_TRUE(stays([](auto& c) { c.points[0] = {3, 5}; }));
   EXPECT_TRUE(stays([](auto& c) { c.points[0] = {3.5, 3.5}; }));
   EXPECT_TRUE(stays([](auto& c) { c.points[0] = {2, 5}; }));
   EXPECT_TRUE(stays([](auto& c) { c.points[0] = {5, 2}; }));
@@ -49,12 +55,55 @@ TEST(AirfoilPoints, OtherPointsStayAsTheyAre) {
   // both sides lead from the nose to the tail, in whatever unit
   EXPECT_TRUE(stays([](auto& c) { c.points[1].x = 0.9; }));
   EXPECT_TRUE(stays([](auto& c) { c.points[3].x = 0.1; }));
-  EXPECT_TRUE(stays([](auto& c) { c.points[4].x = 0.9; }));
+  EXPECT_TRUE(stays([](auto& c) { c.points[4].x = 0.9, c.points[5].x = 0.8; }));
   EXPECT_TRUE(stays([](auto& c) { c.points[7].x = 0.1; }));
   EXPECT_FALSE(stays([](auto& c) {
     for (std::size_t i = 1; i < c.points.size(); ++i)
       c.points[i] = {100 * c.points[i].x, 100 * c.points[i].y};
   }));
+}
+
+// Sides part where the points go back to the nose, whatever the counts say, if they can be no
+// point: of an airfoil from 0 to 1 the first is none beyond 2. In percent they may be one off.
+TEST(AirfoilPoints, LednicersCountsMayBeOff) {
+  const auto unfolded = [](core::Point3 counts, double scale) -> std::string {
+    std::vector<std::string> told;
+    acquire::RawCurve curve = curve_of(kLednicer);
+    for (core::Point3& p : curve.points) p = {scale * p.x, scale * p.y};
+    curve.points[0] = counts;
+    if (!unfold_lednicer(curve, told)) return "none";
+    EXPECT_EQ(curve.points.size(), 7U);
+    EXPECT_EQ(curve.points[0].x, scale);
+    EXPECT_EQ(curve.points[2].x, 0);
+    EXPECT_EQ(curve.points[3].x, 0);
+    return told.empty() ? "" : told.at(0);
+  };
+  const std::string plain;
+  const auto told = [&](const std::string& counts) {
+    return "line 1: the counts " + counts + " of sides that have 3 and 4 points";
+  };
+  EXPECT_EQ(unfolded({3, 4}, 1), plain);
+  EXPECT_EQ(unfolded({3, 5}, 1), told("3 and 5"));
+  EXPECT_EQ(unfolded({4, 3}, 1), told("4 and 3"));
+  EXPECT_EQ(unfolded({4, 4}, 1), told("4 and 4"));
+  EXPECT_EQ(unfolded({35, 30}, 1), told("35 and 30"));
+  EXPECT_EQ(unfolded({3, 4}, 100), plain);
+  EXPECT_EQ(unfolded({4, 5}, 100), told("4 and 5"));
+  EXPECT_EQ(unfolded({4, 6}, 100), "none");
+  EXPECT_EQ(unfolded({5, 4}, 100), "none");
+  EXPECT_EQ(unfolded({6, 30}, 3), "none");
+  EXPECT_EQ(unfolded({7, 30}, 3), told("7 and 30"));
+  EXPECT_EQ(unfolded({1e10, 30}, 1), "none");
+}
+
+TEST(AirfoilPoints, SidesGoBackToTheNoseOnce) {
+  acquire::RawCurve twice = curve_of({{9, 9}, {0, 0}, {1, 0}, {0, 0}, {1, 0}, {0, 0}, {1, 0}});
+  EXPECT_FALSE(unfolds(twice));
+  acquire::RawCurve never =
+      curve_of({{9, 9}, {0, 0}, {0.2, 0}, {0.4, 0}, {0.6, 0}, {0.8, 0}, {1, 0}});
+  EXPECT_FALSE(unfolds(never));
+  acquire::RawCurve few = curve_of({{3, 3}});
+  EXPECT_FALSE(unfolds(few));
 }
 
 // Two elements parted by (999, 999).

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "keyline/exchange/document_file.h"
@@ -138,6 +139,17 @@ TEST_F(CadAssembly, EverySchemaAndUnit) {
       EXPECT_LT(distance(evaluate(read->space_curves[1].curve, 1), {62.4, 0, 128.2}), 1e-12);
       EXPECT_TRUE(read->skipped.empty());
     }
+}
+
+TEST_F(CadAssembly, AFileWithoutUnitIsInMillimetresAndSaysSo) {
+  std::ofstream(folder_ / "a.step")
+      << with(assembly(), "GLOBAL_UNIT_ASSIGNED_CONTEXT((#24,#25,#26))",
+              "GLOBAL_UNIT_ASSIGNED_CONTEXT((#25,#26))");
+  const auto read = read_document(folder_ / "a.step");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->unit, "mm");
+  EXPECT_LT(distance(evaluate(read->paths.at(1).path, 1), {100, 3}), 1e-12);
+  EXPECT_THAT(read->skipped, testing::ElementsAre(testing::HasSubstr("a unit of length")));
 }
 
 TEST_F(CadAssembly, ScaledAndMirroredPlacementsAreReported) {

@@ -1,5 +1,6 @@
 #include "keyline/exchange/pdf/pdf_document.h"
 
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -81,6 +82,92 @@ TEST(PdfDocument, WhatHasNoSizeIsRefused) {
   EXPECT_FALSE(write_pdf_document(drawing("mm", 0), 1e-3));
   EXPECT_FALSE(write_pdf_document({}, 1e-3));
   EXPECT_FALSE(write_pdf_document(drawing("mm", 1e300), 1e-3));
+}
+
+/// What stands between the first "m" and what paints the path.
+std::string drawn(document::Document d) {
+  d.unit = "mm";
+  const auto written = write_pdf_document(d, 1e-3);
+  if (!written) return written.error().message;
+  const std::size_t from = written->content.find(" m\n") + 3;
+  return written->content.substr(from, written->content.find("EMC", from) - from);
+}
+
+// A parabola's cubic has its handles two thirds of the way to the parabola's; lower-case s closes.
+TEST(PdfDocument, ParabolasAreCubicsAndClosedPathsClose) {
+  const auto path = [](std::vector<core::Point2> control, bool closed) {
+    document::Document d;
+    d.paths.push_back({{}, {{{curve::Bezier2{std::move(control), {}}}}, closed}, 0});
+    return d;
+  };
+  document::Document parabola = path({{0, 0}, {30, 60}, {60, 0}}, false);
+  parabola.page = curve::Box2{{0, 0}, {60, 60}};
+  const double corner = (60 - std::ceil(60 * 72 / 25.4) * 25.4 / 72) / 2;
+  std::istringstream text(drawn(parabola));
+  for (const core::Point2 wanted : {core::Point2{20, 40}, {40, 40}, {60, 0}}) {
+    double x = 0, y = 0;
+    text >> x >> y;
+    EXPECT_NEAR(x + corner, wanted.x, 1e-9);
+    EXPECT_NEAR(y + corner, wanted.y, 1e-9);
+  }
+  EXPECT_THAT(drawn(parabola), HasSubstr(" c\nS\n"));
+  document::Document loop = path({{0, 0}, {3, 6}, {6, 0}}, true);
+  loop.paths[0].path.curves.push_back({curve::Bezier2{{{6, 0}, {0, 0}}, {}}});
+  EXPECT_THAT(drawn(loop), HasSubstr(" l\ns\n"));
+  EXPECT_THAT(drawn(path({{0, 0}, {3, 6}}, false)), HasSubstr(" l\nS\n"));
+}
+
+// UTF-16 beyond its first plane is a pair: U+1F697 is D83D DE97; U+FFFF and U+10000 lie on either
+// side.
+TEST(PdfDocument, NamesOfLayersAreUtf16) {
+  const auto name = [](const char* layer) {
+    document::Document d = drawing("mm", 10);
+    d.paths[0].label.layer = layer;
+    const std::string pdf = write_pdf_document(d, 1e-3)->content;
+    const std::size_t at = pdf.find("/Name <") + 7;
+    return pdf.substr(at, pdf.find('>', at) - at);
+  };
+  EXPECT_EQ(name("a"), "FEFF0061");
+  EXPECT_EQ(name("\U0001F697"), "FEFFD83DDE97");
+  EXPECT_EQ(name("\uFFFD"), "FEFFFFFD");
+  EXPECT_EQ(name("\U00010000"), "FEFFD800DC00");
+  EXPECT_EQ(name("\U0010FFFF"), "FEFFDBFFDFFF");
+}
+
+// Parts of 255 in four decimals; a path's own colour and width before its layer's.
+TEST(PdfDocument, ColoursAndWidthsAreThePathsOwn) {
+  document::Document d = drawing("mm", 10);
+  d.paths[0].label.color = "#336699";
+  d.paths[0].stroke_width = 0;
+  d.paths.push_back(d.paths[0]);
+  d.paths[1].label.color = "#0000ff";
+  d.paths[1].stroke_width = 0.25;
+  const auto written = write_pdf_document(d, 1e-3);
+  ASSERT_TRUE(written);
+  EXPECT_THAT(written->content, HasSubstr("0.2 0.4 0.6 RG "));
+  EXPECT_THAT(written->content, HasSubstr("0 0 1 RG 0.25 w\n"));
+}
+
+// A page that is given is kept: no margin, its corner at 0.
+TEST(PdfDocument, APageThatIsGivenHasNoMargin) {
+  document::Document d = drawing("in", 1);
+  d.page = curve::Box2{{9, 8}, {12, 10}};
+  const auto written = write_pdf_document(d, 1e-3);
+  ASSERT_TRUE(written);
+  EXPECT_THAT(written->content, HasSubstr("/MediaBox [0 0 216 144]"));
+  EXPECT_THAT(written->content, HasSubstr("\n1 2 m\n2 2 l\n"));
+}
+
+// 14400 points are 200 inches: the largest page, and the first that is too large.
+TEST(PdfDocument, PagesAreAtMost200Inches) {
+  const auto scale = [](double width) {
+    document::Document d = drawing("in", 1);
+    d.page = curve::Box2{{0, 0}, {width, 20}};
+    return write_pdf_document(d, 1e-3)->notes;
+  };
+  EXPECT_THAT(scale(200), ElementsAre());
+  EXPECT_THAT(scale(201), ElementsAre(HasSubstr("scale 1:10:")));
+  EXPECT_THAT(scale(2001), ElementsAre(HasSubstr("scale 1:100:")));
 }
 
 // The handles of a cubic stand in the order of ISO 32000-1, 8.5.2: those of the start first. Taken

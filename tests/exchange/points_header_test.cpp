@@ -185,5 +185,70 @@ TEST(ReadPoints, Utf16IsText) {
   }
 }
 
+// A number by itself behind the points is none of them; it is told.
+TEST(ReadPoints, ALoneNumberBehindThePointsIsLeftOut) {
+  const RawCurve foil = only("FOIL\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n 12.5\n");
+  EXPECT_EQ(foil.points.size(), 5U);
+  EXPECT_EQ(foil.left_out, std::vector<std::string>{"line 7: 12.5"});
+  EXPECT_EQ(only("1 0 2\n0.5 0.1 3\n0 0 1\n7\nend of file\n8\n").left_out.size(), 3U);
+  // what may be half a row of a few, or has rows behind it, is refused
+  EXPECT_EQ(parse("1 0\n0 0\n7\n").error().path, "data.csv:3");
+  EXPECT_EQ(parse("1 0\n0 0\n1 1\n7\n2 2\n3 3\n4 4\n").error().path, "data.csv:4");
+  EXPECT_EQ(parse("1 0\n0 0\n1 1\n7\n2 2\n").error().path, "data.csv:4");
+  EXPECT_EQ(parse("1 0\n0 0\n1 1\n0.5\n2 2\n3 3\n4 4\n").error().path, "data.csv:4");
+  EXPECT_TRUE(parse("1;0\n0;0\n1;1\n7;\n"));  // a missing entry
+}
+
+// Counts before the points of each curve, as GPC's and many others' polygons have them.
+TEST(ReadPoints, CountsPartCurves) {
+  const auto curves =
+      parse("4\n0 0\n1 1\n2 1\n3 0\n3\n0 5\n1 6\n2 6\n5\n0 9\n1 9\n2 9\n3 9\n4 9\n");
+  ASSERT_TRUE(curves) << curves.error().message;
+  ASSERT_EQ(curves->size(), 3U);
+  EXPECT_EQ((*curves)[0].points.size(), 4U);
+  EXPECT_EQ((*curves)[1].points.size(), 3U);
+  EXPECT_EQ((*curves)[2].points.back(), (Point3{4, 9, 0}));
+  EXPECT_TRUE((*curves)[2].left_out.empty());
+  EXPECT_EQ((*curves)[0].id, "");  // a count is no name
+  EXPECT_EQ((*curves)[2].id, "#3");
+  EXPECT_EQ(parse("4\n0 0\n1 1\n2 1\n3 0\n4\n0 5\n1 6\n2 6\n").error().path, "data.csv:6");
+  EXPECT_EQ(parse("4\n0 0\n1 1\n2 1\n3 0\n4\n0 5\n1 6\n2 6\nend\n").error().path, "data.csv:6");
+}
+
+// The first title names the curve, further ones are told; so are names of columns that nobody looks
+// for.
+TEST(ReadPoints, WhatStandsBeforeTheRowsIsTold) {
+  const RawCurve titled = only("E 387\nEppler\nof 1962\n1 0\n0 0\n1 0.1\n");
+  EXPECT_EQ(titled.id, "E 387");
+  EXPECT_EQ(titled.left_out, (std::vector<std::string>{"line 2: Eppler", "line 3: of 1962"}));
+  EXPECT_TRUE(only("E 387\n1 0\n0 0\n1 0.1\n").left_out.empty());
+  EXPECT_EQ(only("lat,lon\n1,0\n0,0\n1,0.1\n").left_out,
+            std::vector<std::string>{"line 1: lat,lon: names no x and y: the first columns taken"});
+  EXPECT_EQ(only("walk\nhome\nlat,lon\n1,0\n0,0\n1,0.1\n").left_out.size(), 2U);
+}
+
+// A single row among what is none: where the others cannot be read tells more than that it is
+// alone.
+TEST(ReadPoints, ASingleRowIsNamedByWhatHidesTheOthers) {
+  EXPECT_EQ(parse("0,0\n1;1\n2 0\n").error().path, "data.csv:3");
+}
+
+// Five lines of text are told one by one, the rest are counted.
+TEST(ReadPoints, LinesLeftOutAreToldOrCounted) {
+  const auto behind = [](int lines) {
+    std::string text = "0 0\n1 1\n2 0\n";
+    for (int i = 0; i < lines; ++i) text += "remark " + std::string(1, char('a' + i)) + "\n";
+    return only(text).left_out;
+  };
+  EXPECT_EQ(behind(0).size(), 0U);
+  ASSERT_EQ(behind(5).size(), 5U);
+  EXPECT_EQ(behind(5)[4], "line 8: remark e");
+  ASSERT_EQ(behind(6).size(), 6U);
+  EXPECT_EQ(behind(6)[4], "line 8: remark e");
+  EXPECT_EQ(behind(6)[5], "1 further line");
+  ASSERT_EQ(behind(8).size(), 6U);
+  EXPECT_EQ(behind(8)[5], "3 further lines");
+}
+
 }  // namespace
 }  // namespace keyline::exchange

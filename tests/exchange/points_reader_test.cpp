@@ -97,8 +97,9 @@ TEST(ReadPoints, WordsBetweenTabsHeadColumnsAndNameNoCurve) {
   const auto headed = parse("station\thalf breadth\n0.0\t0.5\n1.0\t1.5\n2.0\t2.5\n");
   ASSERT_TRUE(headed) << headed.error().message;
   EXPECT_EQ((*headed)[0].id, "");
-  EXPECT_EQ((*headed)[0].notes,
-            std::vector<std::string>{"the header names no x and y: the first columns taken"});
+  EXPECT_EQ((*headed)[0].left_out,
+            std::vector<std::string>{
+                "line 1: station half breadth: names no x and y: the first columns taken"});
   const auto titled = parse("hull nine\n0.0\t0.5\n1.0\t1.5\n2.0\t2.5\n");
   ASSERT_TRUE(titled) << titled.error().message;
   EXPECT_EQ((*titled)[0].id, "hull nine");

@@ -1,5 +1,8 @@
 #include "keyline/exchange/svg/svg_transform.h"
 
+#include <cmath>
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 namespace keyline::exchange::detail {
@@ -35,6 +38,130 @@ TEST(SvgTransform, ThePageKeepsTheAspectAskedFor) {
   EXPECT_EQ(end("xMidYMid slice"), (core::Point2{20, 20}));
   EXPECT_EQ(end("none"), (core::Point2{20, 5}));
   EXPECT_EQ(end(" none meet"), (core::Point2{20, 5}));
+}
+
+void expect_near(core::Point2 a, core::Point2 b) { EXPECT_LT(distance(a, b), 1e-14); }
+
+// SVG 1.1, 7.6: rotations turn x towards y, about a point where one is given; skewX moves along x.
+TEST(SvgTransform, TurnsAndSkewsAsTheStandardSays) {
+  const auto at = [](const char* text, core::Point2 p) {
+    return apply(*parse_svg_transform(text), p);
+  };
+  expect_near(at("rotate(90)", {1, 0}), {0, 1});
+  expect_near(at("rotate(90)", {0, 1}), {-1, 0});
+  expect_near(at("rotate(90 2 1)", {3, 1}), {2, 2});
+  expect_near(at("rotate(90 2 1)", {2, 2}), {1, 1});
+  expect_near(at("rotate(450)", {1, 0}), {0, 1});
+  expect_near(at("skewX(45)", {1, 2}), {3, 2});
+  expect_near(at("skewY(45)", {1, 2}), {1, 3});
+  expect_near(at("skewX(405)", {0, 2}), {2, 2});
+  expect_near(at(" rotate ( 180 ) , scale(2)", {1, 1}), {-2, -2});
+}
+
+TEST(SvgTransform, WhatIsNoneOfThemIsRefused) {
+  for (const char* none :
+       {"scale", "scale 2", "scale(2", "scale(2;3)", "scale()", "scale(1 2 3)", "translate(1 2 3)",
+        "rotate(1 2)", "rotate(1 2 3 4)", "skewX(1 2)", "skewY()", "matrix(1 2 3 4 5)",
+        "matrix(1 2 3 4 5 6 7)", "turn(3)", "scale(x)"})
+    EXPECT_FALSE(parse_svg_transform(none)) << none;
+  EXPECT_TRUE(parse_svg_transform(""));
+}
+
+TEST(SvgTransform, ViewBoxesHaveAPlaceAndASize) {
+  const auto box = parse_svg_view_box(" -1, 2 30,40 ");
+  ASSERT_TRUE(box);
+  EXPECT_EQ(box->x, -1);
+  EXPECT_EQ(box->y, 2);
+  EXPECT_EQ(box->width, 30);
+  EXPECT_EQ(box->height, 40);
+  for (const char* none : {"", "0 0 1", "0 0 1 1 1", "0 0 0 1", "0 0 1 0", "0 0 -1 1", "a 0 1 1"})
+    EXPECT_FALSE(parse_svg_view_box(none)) << none;
+}
+
+// SVG 2, 8.2: of a box of 10 by 10 in 40 by 20 the smaller scale is 2, and 20 are left over in x;
+// slice has 4 and 20 too many in y.
+TEST(SvgTransform, TheBoxStandsWhereTheAspectSays) {
+  const auto corner = [](const char* aspect) {
+    return apply(fit_view_box({5, 6, 10, 10}, 40, 20, aspect), {5, 6});
+  };
+  EXPECT_EQ(corner("xMinYMin"), (core::Point2{0, 0}));
+  EXPECT_EQ(corner("xMidYMid meet"), (core::Point2{10, 0}));
+  EXPECT_EQ(corner(""), (core::Point2{10, 0}));
+  EXPECT_EQ(corner("xMaxYMax"), (core::Point2{20, 0}));
+  EXPECT_EQ(corner("xMinYMin slice"), (core::Point2{0, 0}));
+  EXPECT_EQ(corner("xMidYMid slice"), (core::Point2{0, -10}));
+  EXPECT_EQ(corner("xMinYMax slice"), (core::Point2{0, -20}));
+  EXPECT_EQ(corner("none"), (core::Point2{0, 0}));
+  EXPECT_EQ(apply(fit_view_box({5, 6, 10, 10}, 40, 20, "none"), {15, 16}), (core::Point2{40, 20}));
+}
+
+// CSS: an inch is 25.4 mm, 72 points, 6 picas; a quarter of a millimetre is a Q.
+TEST(SvgTransform, LengthsHaveTheirUnits) {
+  for (const auto& [text, value, physical] : {std::tuple{"3", 3.0, false},
+                                              {" 3px ", 3.0, false},
+                                              {"3mm", 3.0, true},
+                                              {"3cm", 30.0, true},
+                                              {"3in", 76.2, true},
+                                              {"72pt", 25.4, true},
+                                              {"6pc", 25.4, true},
+                                              {"4Q", 1.0, true},
+                                              {"2em", 32.0, false},
+                                              {"2rem", 32.0, false},
+                                              {"2ex", 16.0, false},
+                                              {"1e1mm\n", 10.0, true}}) {
+    const auto length = parse_svg_length(text);
+    ASSERT_TRUE(length) << text;
+    EXPECT_NEAR(length->value, value, 1e-14 * value) << text;
+    EXPECT_EQ(length->physical, physical) << text;
+  }
+  for (const char* none : {"", "mm", "3%", "3 mm x", "3MM", "3m"})
+    EXPECT_FALSE(parse_svg_length(none)) << none;
+}
+
+// Without a viewBox a px is 1 / 96 inch where the size is one of paper; with one and a single size
+// the other follows.
+TEST(SvgTransform, ThePageIsAsLargeAsItsSizes) {
+  const SvgLength paper{50, true};
+  const SvgLength px{50, false};
+  const auto plain = outermost_frame(paper, paper, {}, "");
+  EXPECT_TRUE(plain.physical);
+  ASSERT_TRUE(plain.page);
+  EXPECT_NEAR(plain.page->width, 50 * 96 / 25.4, 1e-12);
+  EXPECT_NEAR(plain.page->height, 50 * 96 / 25.4, 1e-12);
+  expect_near(apply(plain.map, {96, 96}), {25.4, -25.4});
+  const auto screen = outermost_frame(px, px, {}, "");
+  EXPECT_FALSE(screen.physical);
+  EXPECT_EQ(apply(screen.map, {3, 4}), (core::Point2{3, -4}));
+  EXPECT_EQ(screen.page->width, 50);
+  EXPECT_FALSE(outermost_frame(px, {}, {}, "").page);
+  EXPECT_FALSE(outermost_frame({}, px, {}, "").page);
+  EXPECT_TRUE(outermost_frame({}, paper, {}, "").physical);
+  const SvgViewBox box{0, 0, 100, 200};
+  EXPECT_EQ(apply(outermost_frame(paper, {}, box, "").map, {10, 10}), (core::Point2{5, -5}));
+  EXPECT_EQ(apply(outermost_frame({}, paper, box, "").map, {20, 20}), (core::Point2{5, -5}));
+  EXPECT_EQ(apply(outermost_frame({}, {}, box, "").map, {20, 20}), (core::Point2{20, -20}));
+  EXPECT_EQ(outermost_frame({}, paper, box, "").page->width, 100);
+}
+
+// 60 by 60 around the middle of a box of 100 by 50: what the page shows of it is 100 by 100.
+TEST(SvgTransform, ThePageShowsWhatTheAspectLeaves) {
+  const SvgLength size{60, true};
+  const auto frame = outermost_frame(size, size, SvgViewBox{10, 20, 100, 50}, "");
+  ASSERT_TRUE(frame.page);
+  EXPECT_NEAR(frame.page->x, 10, 1e-13);
+  EXPECT_NEAR(frame.page->y, -5, 1e-13);
+  EXPECT_NEAR(frame.page->width, 100, 1e-13);
+  EXPECT_NEAR(frame.page->height, 100, 1e-13);
+}
+
+TEST(SvgTransform, WhatCollapsesCannotBeInverted) {
+  EXPECT_TRUE(is_invertible({1e-9, 0, 0, 1e-9, 0, 0}));
+  EXPECT_TRUE(is_invertible({1, 2, 3, 4, 0, 0}));
+  EXPECT_FALSE(is_invertible({1, 2, 2, 4, 0, 0}));
+  EXPECT_FALSE(is_invertible({0, 0, 0, 1, 0, 0}));
+  EXPECT_FALSE(is_invertible({1, 0, 0, 1, HUGE_VAL, 0}));
+  EXPECT_FALSE(is_invertible({1, 0, 0, 1, 0, HUGE_VAL}));
+  EXPECT_FALSE(is_invertible({HUGE_VAL, 0, 0, 1, 0, 0}));
 }
 
 }  // namespace

@@ -82,6 +82,15 @@ Result<lac::Piece> read_piece(const json& j, const std::string& where) {
   return piece;
 }
 
+/// "closed", false where it is absent.
+Result<bool> closed_of(const json& j, const std::string& where) {
+  const auto it = j.find("closed");
+  if (it == j.end()) return false;
+  if (!it->is_boolean())
+    return fail(ErrorCode::bad_input, "true or false is wanted here", "", in(where, "closed"));
+  return it->get<bool>();
+}
+
 Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
   lac::Chain chain;
   const auto start = member(j, "start", where);
@@ -93,11 +102,9 @@ Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
   const auto angle = number_from_json(**direction, in(where, "direction"));
   if (!angle) return std::unexpected(angle.error());
   chain.start = {*position, *angle};
-  if (j.contains("closed")) {
-    if (!j["closed"].is_boolean())
-      return fail(ErrorCode::bad_input, "true or false is wanted here", "", in(where, "closed"));
-    chain.closed = j["closed"].get<bool>();
-  }
+  const auto closed = closed_of(j, where);
+  if (!closed) return std::unexpected(closed.error());
+  chain.closed = *closed;
   const auto pieces = member(j, "pieces", where);
   if (!pieces) return std::unexpected(pieces.error());
   if (!(*pieces)->is_array() || (*pieces)->empty())
@@ -194,7 +201,9 @@ Result<Path> path_from_json(const json& j, const std::string& where) {
     if (!c) return std::unexpected(c.error());
     path.curves.push_back(std::move(*c));
   }
-  if (j.contains("closed") && j["closed"].is_boolean()) path.closed = j["closed"].get<bool>();
+  const auto closed = closed_of(j, where);
+  if (!closed) return std::unexpected(closed.error());
+  path.closed = *closed;
   return path;
 }
 

@@ -1,5 +1,6 @@
 #include "keyline/exchange/json/json_document.h"
 
+#include "keyline/document/color.h"
 #include "keyline/exchange/json/json_hull.h"
 #include "keyline/exchange/json/json_lists.h"
 #include "keyline/exchange/json/json_parts.h"
@@ -52,17 +53,26 @@ json item_json(const Label& label, const char* kind, json value) {
   return item;
 }
 
-std::string text_of(const json& j, const char* key) {
+/// j[key]; empty where it is absent or null.
+Result<std::string> text_of(const json& j, const char* key, const std::string& where) {
+  if (!j.is_object()) return std::string();
   const auto it = j.find(key);
-  return it != j.end() && it->is_string() ? it->get<std::string>() : std::string();
+  if (it == j.end() || it->is_null()) return std::string();
+  if (it->is_string()) return it->get<std::string>();
+  return fail(ErrorCode::bad_input, "a text is wanted here", "put it in quotes", in(where, key));
 }
 
-Label label_of(const json& j) {
-  Label label{text_of(j, "name"), text_of(j, "layer"), text_of(j, "color")};
-  const bool color =
-      label.color.size() == 7 && label.color[0] == '#' &&
-      label.color.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-  if (!color) label.color.clear();
+Result<Label> label_of(const json& j, const std::string& where) {
+  Label label;
+  for (const auto& [key, text] : {std::pair{"name", &label.name}, std::pair{"layer", &label.layer},
+                                  std::pair{"color", &label.color}}) {
+    auto given = text_of(j, key, where);
+    if (!given) return std::unexpected(given.error());
+    *text = std::move(*given);
+  }
+  if (!label.color.empty() && document::color_value(label.color) < 0)
+    return fail(ErrorCode::bad_input, "\"" + label.color + "\" is no colour", "give #rrggbb",
+                in(where, "color"));
   return label;
 }
 
@@ -113,17 +123,23 @@ Result<void> add_surface(Document& document, const json& item, const std::string
     return fail(ErrorCode::bad_input, "a surface is wanted here", "give {\"surface\":{…}}", where);
   auto read = surface_from_json(item["surface"], in(where, "surface"));
   if (!read) return std::unexpected(read.error());
+  auto label = label_of(item, where);
+  if (!label) return std::unexpected(label.error());
   const auto trims = item.find("trims");
-  const bool counted =
-      trims != item.end() && trims->is_number_integer() && *trims >= 0 && *trims < 1'000'000;
-  document.surfaces.push_back({label_of(item), std::move(*read), counted ? trims->get<int>() : 0});
+  const bool counted = trims != item.end();
+  if (counted && !(trims->is_number_integer() && *trims >= 0 && *trims < 1'000'000))
+    return fail(ErrorCode::bad_input, "a number of trims is wanted here", "give 0 or more",
+                in(where, "trims"));
+  document.surfaces.push_back(
+      {std::move(*label), std::move(*read), counted ? trims->get<int>() : 0});
   return add_trim_loops(document.surfaces.back(), item, where);
 }
 
 Result<void> add_item(Document& document, const json& item, const std::string& where) {
+  auto label = label_of(item, where);
+  if (!label) return std::unexpected(label.error());
   const bool wrapped = item.is_object() && item.contains("curve");
-  if (!wrapped)
-    return add_value(document, item, where, item.is_object() ? label_of(item) : Label{}, 0);
+  if (!wrapped) return add_value(document, item, where, std::move(*label), 0);
   double width = 0;
   if (item.contains("stroke_width")) {
     const auto number = number_from_json(item["stroke_width"], in(where, "stroke_width"));
@@ -133,12 +149,14 @@ Result<void> add_item(Document& document, const json& item, const std::string& w
                   in(where, "stroke_width"));
     width = *number;
   }
-  return add_value(document, item["curve"], in(where, "curve"), label_of(item), width);
+  return add_value(document, item["curve"], in(where, "curve"), std::move(*label), width);
 }
 
 Result<Document> document_of_list(const json& j) {
   Document document;
-  document.unit = text_of(j, "unit");
+  auto unit = text_of(j, "unit", "");
+  if (!unit) return std::unexpected(unit.error());
+  document.unit = std::move(*unit);
   for (const auto& [key, add] : {std::pair{"curves", &add_item}, {"surfaces", &add_surface}}) {
     const auto list = j.find(key);
     if (list == j.end()) continue;
@@ -239,10 +257,14 @@ Result<Document> document_from_json(const json& j) {
   if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
     return document_of_list(j);
   Document document;
-  if (j.is_object()) document.unit = text_of(j, "unit");
+  auto unit = text_of(j, "unit", "");
+  if (!unit) return std::unexpected(unit.error());
+  document.unit = std::move(*unit);
+  auto label = label_of(j, "");
+  if (!label) return std::unexpected(label.error());
   const bool wrapped = j.is_object() && !typed && j.contains("curve");
-  const auto done = wrapped ? add_value(document, j["curve"], "curve", label_of(j), 0)
-                            : add_value(document, j, "", j.is_object() ? label_of(j) : Label{}, 0);
+  const auto done = wrapped ? add_value(document, j["curve"], "curve", std::move(*label), 0)
+                            : add_value(document, j, "", std::move(*label), 0);
   if (!done) return std::unexpected(done.error());
   return document;
 }

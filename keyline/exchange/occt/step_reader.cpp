@@ -46,7 +46,9 @@ std::string text(const Handle(TCollection_HAsciiString) & name) {
 
 /// "NONE", blanks and what translators put where no name was given are no names.
 std::string useful(const std::string& name) {
-  if (name.find_first_not_of(' ') == std::string::npos || name == "NONE" || name == "''") return {};
+  const bool none = name.find_first_not_of(' ') == std::string::npos || name == "NONE" ||
+                    name == "''" || name.starts_with("Open CASCADE STEP translator");
+  if (none) return {};
   return name;
 }
 
@@ -139,13 +141,17 @@ std::string name_of(const Handle(Standard_Transient) & entity) {
   return useful(text(product->Formation()->OfProduct()->Name()));
 }
 
-/// OCCT's name of the file's unit of length, and ours.
-std::pair<const char*, const char*> unit_of(STEPControl_Reader& reader) {
+/// OCCT's name of the file's unit of length, and ours. A file without one is in mm, as OCCT takes
+/// it, which is said.
+std::pair<const char*, const char*> unit_of(STEPControl_Reader& reader,
+                                            document::Document& document) {
   TColStd_SequenceOfAsciiString lengths;
   TColStd_SequenceOfAsciiString angles;
   TColStd_SequenceOfAsciiString solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   TCollection_AsciiString unit = lengths.IsEmpty() ? "" : lengths.First();
+  if (unit.IsEmpty())
+    document.skipped.emplace_back("a unit of length, which the file does not tell: taken as mm");
   unit.LowerCase();
   const std::string name = unit.ToCString();
   if (name == "inch" || name == "inches") return {"INCH", "in"};
@@ -191,7 +197,7 @@ document::Document read_step(const std::string& file) {
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
     throw std::runtime_error("this is no STEP file that can be read; check that it is complete");
   document::Document document;
-  const auto [occt_unit, unit] = unit_of(reader);
+  const auto [occt_unit, unit] = unit_of(reader, document);
   document.unit = unit;
   Interface_Static::SetCVal("xstep.cascade.unit", occt_unit);
   const int roots = reader.NbRootsForTransfer();

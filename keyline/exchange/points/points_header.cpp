@@ -11,7 +11,10 @@ namespace keyline::exchange::detail {
 
 using core::ErrorCode;
 
-void PointsTable::remember_title(std::string_view line) {
+void PointsTable::remember_title(std::string_view line, int number) {
+  constexpr std::size_t kMostKept = 100;
+  if (titles_.size() < kMostKept)
+    titles_.push_back("line " + std::to_string(number) + ": " + shortened(line));
   if (first_text_.empty()) first_text_ = shortened(line);
   last_text_ = std::string(line.substr(0, 4096));
   ++text_lines_;
@@ -79,7 +82,7 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
                         "give numbers only, or start the line with #", place);
     }
   }
-  if (!take_header(text, number, comment) && !comment) remember_title(line);
+  if (!take_header(text, number, comment) && !comment) remember_title(line, number);
   return {};
 }
 

@@ -34,10 +34,11 @@ struct PointsFile {
 ///   two or three columns are x, y, z; a fourth and later ones are ignored and noted.
 /// - Airfoil files: title lines before the points are noted; text behind them (lines with words,
 ///   not of a row's shape) and a line of more or fewer numbers before them, as a window's, are
-///   `left_out`; Lednicer files (counts of both sides first) become one curve from trailing edge
-///   over the nose to trailing edge; points (999, 999) part elements.
+///   `left_out`; Lednicer files (counts of both sides first, maybe off) become one curve from
+///   trailing edge over the nose to trailing edge; points (999, 999) part elements.
 /// - A line of text between rows starts a curve of that name where three or more rows stand on both
-///   sides of it, and is a failure elsewhere.
+///   sides of it, and is a failure elsewhere; likewise a number by itself that counts the rows
+///   behind it. Where no rows follow, it is `left_out`.
 /// - An id column makes one curve for each id, in order of first appearance.
 /// - Numbers behind the columns of the first row are `left_out`, and a failure where commas
 ///   separate: a decimal comma makes two of one number.

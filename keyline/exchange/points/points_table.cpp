@@ -49,13 +49,7 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
   const bool remark = columns_.id == PointsColumns::kNone
                           ? is_remark(fields, style_, x, width_)
                           : fields.size() < width_ && fields.size() <= x;
-  if (remark) {
-    remark_ = {ErrorCode::bad_input, "text where a number belongs: '" + shortened(line) + "'",
-               "remove the line, or start it with #", place};
-    remark_text_ = shortened(line);
-    left_out_.push_back("line " + std::to_string(number) + ": " + remark_text_);
-    return {};
-  }
+  if (remark || is_lone(fields)) return set_aside(fields, line, number, place);
   if (first_was_none(fields)) {
     restart(fields.size(), place);
     return before_data(line, number, place);
@@ -67,6 +61,37 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
     if (auto again = take_up_again(); !again) return again;
   watch_counter(fields);
   add(std::move(*row), number);
+  return {};
+}
+
+/// A number by itself where points have two and more: the count of the rows that follow, or behind
+/// them all.
+bool PointsTable::is_lone(const Fields& fields) const {
+  return fields.size() == 1 && style_.separator == ' ' && columns_.last() > 0 &&
+         columns_.id == PointsColumns::kNone && all_numbers(fields, 0);
+}
+
+core::Result<void> PointsTable::set_aside(const Fields& fields, std::string_view line, int number,
+                                          const std::string& place) {
+  if (auto all = meet_count(); !all) return all;
+  remark_text_ = shortened(line);
+  if (is_lone(fields)) {
+    if (run_ < kFewest && !remark_) return std::unexpected(too_few(1, place));
+    count_ = {.rows = *parse_number(fields[0], style_), .failure = too_few(1, place)};
+    remark_ = count_->failure;
+  } else {
+    remark_ = {ErrorCode::bad_input, "text where a number belongs: '" + remark_text_ + "'",
+               "remove the line, or start it with #", place};
+  }
+  left_out_.push_back("line " + std::to_string(number) + ": " + remark_text_);
+  return {};
+}
+
+/// A lone number with rows behind it has to be their count.
+core::Result<void> PointsTable::meet_count() {
+  const auto count = std::exchange(count_, std::nullopt);
+  if (count && !remark_ && count->rows != static_cast<double>(run_))
+    return std::unexpected(count->failure);
   return {};
 }
 
@@ -122,7 +147,7 @@ core::Result<void> PointsTable::take_up_again() {
   run_ = 0;
   current_ = curves_.size();
   RawCurve curve;
-  curve.id = remark_text_;
+  if (!count_) curve.id = remark_text_;
   curve.has_z = columns_.z != PointsColumns::kNone;
   curves_.push_back(std::move(curve));
   return {};
@@ -189,17 +214,20 @@ RawCurve& PointsTable::curve_of(std::string_view id) {
   return curves_[current_];
 }
 
+core::Failure PointsTable::too_few(std::size_t fields, const std::string& place) const {
+  return {ErrorCode::bad_input,
+          "only " + std::to_string(fields) + " of at least " + std::to_string(columns_.last() + 1) +
+              " columns",
+          "give every point all its coordinates", place};
+}
+
 core::Result<double> PointsTable::number_in(const Fields& fields, int column,
                                             const std::string& place) const {
   const auto k = static_cast<std::size_t>(column);
   // A missing last entry was dropped with the trailing separators.
   const std::string_view field = k < fields.size() ? fields[k] : std::string_view{};
-  if (k > fields.size() || (k == fields.size() && style_.separator == ' ')) {
-    return core::fail(ErrorCode::bad_input,
-                      "only " + std::to_string(fields.size()) + " of at least " +
-                          std::to_string(columns_.last() + 1) + " columns",
-                      "give every point all its coordinates", place);
-  }
+  if (k > fields.size() || (k == fields.size() && style_.separator == ' '))
+    return std::unexpected(too_few(fields.size(), place));
   const auto value = parse_number(field, style_);
   if (!value) {
     return core::fail(ErrorCode::bad_input,
@@ -243,27 +271,39 @@ void PointsTable::add(Row row, int number) {
   if (columns_.weight != PointsColumns::kNone) curve.weights.push_back(row.weight);
 }
 
-/// A curve takes the title of its file; of several, those without a name of their own.
+/// A curve takes the title of its file, if that is no number; of several, those without a name of
+/// their own.
 void PointsTable::name_curves() {
   const bool title_is_header = unknown_header_ && text_lines_ == 1;
   if (columns_.id != PointsColumns::kNone || text_lines_ == 0 || title_is_header) return;
+  const std::string title = parse_number(first_text_, style_) ? std::string() : first_text_;
   std::size_t number = 0;
   for (RawCurve& curve : curves_) {
     ++number;
-    if (curve.id.empty())
-      curve.id = number == 1 ? first_text_ : first_text_ + "#" + std::to_string(number);
+    if (curve.id.empty()) curve.id = number == 1 ? title : title + "#" + std::to_string(number);
   }
+}
+
+/// Of the lines before the rows: names of columns that are not looked for, and titles behind the
+/// first.
+void PointsTable::tell_titles() {
+  if (titles_.empty()) return;
+  if (unknown_header_) {
+    left_out_.insert(left_out_.begin(),
+                     titles_.back() + ": names no x and y: the first columns taken");
+    titles_.pop_back();
+  }
+  if (titles_.size() > 1) left_out_.insert(left_out_.begin(), titles_.begin() + 1, titles_.end());
 }
 
 void PointsTable::tell_left_out() {
   const bool title_is_header = unknown_header_ && text_lines_ == 1;
   for (RawCurve& curve : curves_) {
-    if (unknown_header_)
-      curve.notes.emplace_back("the header names no x and y: the first columns taken");
     if (text_lines_ > 0 && !title_is_header)
       curve.notes.push_back(core::counted(text_lines_, "title line") + " before the points");
   }
   tell_columns();
+  tell_titles();
   constexpr std::size_t kMost = 5;  // told one by one
   const std::size_t more = left_out_.size() - std::min(left_out_.size(), kMost);
   left_out_.resize(left_out_.size() - more);
@@ -273,6 +313,8 @@ void PointsTable::tell_left_out() {
 
 core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
   if (unproven_) return std::unexpected(*unproven_);
+  if (remark_ && rows_ < 2) return std::unexpected(*remark_);  // what is no row hides them
+  if (auto all = meet_count(); !all) return std::unexpected(all.error());
   if (misfit_ && rows_ < kFewest) return std::unexpected(*misfit_);
   if (curves_.empty()) {
     const bool empty = text_lines_ == 0 && names_.empty();
@@ -285,7 +327,7 @@ core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
   }
   drop_counter();
   if (names_.empty())
-    for (RawCurve& curve : curves_) unfold_lednicer(curve);
+    for (RawCurve& curve : curves_) unfold_lednicer(curve, left_out_);
   if (curves_.size() == 1 && names_.empty()) part_elements(curves_);
   name_curves();
   tell_left_out();

@@ -39,12 +39,21 @@ class PointsTable {
     double weight = 1;
     std::string id;
   };
+  struct Count {  // a number by itself between rows, and what it is where it counts none
+    double rows = 0;
+    core::Failure failure;
+  };
 
   core::Result<void> before_data(std::string_view line, int number, const std::string& place);
   core::Result<void> start(const Fields& fields, int number, const std::string& place);
   void learn_fraction(std::string_view line);
   core::Result<void> among_data(std::string_view line, int number, const std::string& place);
+  bool is_lone(const Fields& fields) const;
+  core::Result<void> set_aside(const Fields& fields, std::string_view line, int number,
+                               const std::string& place);
   core::Result<void> take_up_again();
+  core::Result<void> meet_count();
+  core::Failure too_few(std::size_t fields, const std::string& place) const;
   bool first_was_none(const Fields& fields) const;
   bool take_header(std::string_view text, int number, bool comment);
   void take_style(std::string_view line);
@@ -56,7 +65,8 @@ class PointsTable {
   void add(Row row, int number);
   acquire::RawCurve& curve_of(std::string_view id);
   bool all_numbers(const Fields& fields, std::size_t from) const;
-  void remember_title(std::string_view line);
+  void remember_title(std::string_view line, int number);
+  void tell_titles();
   void restart(std::size_t fields, const std::string& place);
   void watch_counter(const Fields& fields);
   void drop_counter();
@@ -75,6 +85,7 @@ class PointsTable {
   bool header_counts_ = false;  // it is a comment: its mark may stand for a number of the point
   std::string first_text_;      // shortened
   std::string last_text_;
+  std::vector<std::string> titles_;  // lines of text before the rows, the first some of them
   bool unknown_header_ = false;
   bool started_ = false;
   bool text_id_ = false;
@@ -88,6 +99,7 @@ class PointsTable {
   std::optional<core::Failure> remark_;    // the last line of text behind rows, as a failure
   std::optional<core::Failure> unproven_;  // of the text before rows too few to be a curve
   std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers
+  std::optional<Count> count_;             // of the rows since the last such line
   std::string remark_text_;
   std::size_t run_ = 0;         // rows since the last line of text
   bool counting_ = false;       // column 1 counts the rows so far: 1, 2, 3 ...

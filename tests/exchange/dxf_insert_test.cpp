@@ -1,0 +1,178 @@
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/core/angle.h"
+#include "keyline/exchange/dxf/dxf_reader.h"
+#include "keyline/exchange/dxf/dxf_shape.h"
+#include "keyline/exchange/dxf/dxf_writer.h"
+
+/// Inserts, and what is written, group by group as in Autodesk's DXF reference.
+namespace keyline::exchange {
+namespace {
+
+using core::Point2;
+using document::Document;
+using testing::HasSubstr;
+
+/// A drawing of one block "b", which is a line from its base (1, 2) by (3, 0), and what inserts it.
+Document inserted(const std::string& insert) {
+  std::istringstream words(
+      "0 SECTION 2 BLOCKS 0 BLOCK 2 b 10 1 20 2 0 LINE 8 0 10 1 20 2 11 4 21 2 0 ENDBLK 0 ENDSEC "
+      "0 SECTION 2 ENTITIES 0 INSERT 8 0 2 b " +
+      insert + " 0 ENDSEC 0 EOF");
+  std::string text;
+  for (std::string word; words >> word;) text += word + "\n";
+  return read_dxf(text).value_or(Document{});
+}
+
+std::vector<Point2> starts(const Document& d) {
+  std::vector<Point2> points;
+  for (const auto& named : d.paths) points.push_back(evaluate(named.path, 0));
+  return points;
+}
+
+// 70 columns 44 apart along x, 71 rows 45 apart along y.
+TEST(DxfInsert, ArraysHaveColumnsAndRows) {
+  const Document d = inserted("10 10 20 20 70 3 71 2 44 5 45 7");
+  EXPECT_EQ(starts(d),
+            (std::vector<Point2>{{10, 20}, {15, 20}, {20, 20}, {10, 27}, {15, 27}, {20, 27}}));
+  EXPECT_EQ(evaluate(d.paths[5].path, 1), (Point2{23, 27}));
+}
+
+// The array turns with the insert: by 90 degrees x becomes y, y becomes -x. Scales are the block's.
+TEST(DxfInsert, ArraysTurnButDoNotScale) {
+  const Document d = inserted("10 0 20 0 70 2 71 2 44 5 45 7 50 90 41 2 42 3");
+  const std::vector<Point2> wanted{{0, 0}, {0, 5}, {-7, 0}, {-7, 5}};
+  ASSERT_EQ(d.paths.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LT(distance(starts(d)[i], wanted[i]), 1e-14);
+    EXPECT_LT(distance(evaluate(d.paths[i].path, 1), wanted[i] + core::Vector2{0, 6}), 1e-14);
+  }
+}
+
+TEST(DxfInsert, CountsBelowOneAreOne) {
+  EXPECT_EQ(inserted("10 0 20 0 70 0 71 -3 44 5 45 7").paths.size(), 1U);
+  EXPECT_EQ(inserted("10 0 20 0").paths.size(), 1U);
+}
+
+// The last vertex of an open polyline has no edge behind it, and so no bulge that counts.
+TEST(DxfInsert, TheBulgeBehindAnOpenPolylineDoesNotCount) {
+  using detail::BulgeVertex;
+  const auto is_line = [](std::vector<BulgeVertex> v, bool closed) {
+    return std::holds_alternative<curve::Polyline3>(detail::polyline_shape(v, closed));
+  };
+  const BulgeVertex a{{0, 0, 0}, 0}, b{{1, 0, 0}, 0}, c{{1, 1, 0}, 0};
+  BulgeVertex bent = c;
+  bent.bulge = 0.5;
+  BulgeVertex middle = b;
+  middle.bulge = 0.5;
+  EXPECT_TRUE(is_line({a, b, c}, false));
+  EXPECT_TRUE(is_line({a, b, bent}, false));
+  EXPECT_FALSE(is_line({a, b, bent}, true));
+  EXPECT_FALSE(is_line({a, middle, c}, false));
+  EXPECT_TRUE(is_line({}, false));
+}
+
+// ---- Written groups ----------------------------------------------------------------------------
+
+/// The groups of the first entity of that type in what is written of a curve.
+std::vector<std::pair<int, std::string>> groups_of(const Document& d, const std::string& type,
+                                                   std::size_t which = 0) {
+  const auto written = write_dxf(d, {.tolerance = 1e-3});
+  EXPECT_TRUE(written) << written.error().message;
+  std::istringstream lines(written->content);
+  std::vector<std::pair<int, std::string>> groups;
+  bool entities = false;
+  std::size_t met = 0;
+  for (std::string code, text; std::getline(lines, code) && std::getline(lines, text);) {
+    entities = entities || text == "ENTITIES";
+    if (std::stoi(code) == 0) met += entities && text == type;
+    if (std::stoi(code) == 0 && (met > which + 1 || (met > which && text != type))) break;
+    if (met == which + 1) groups.emplace_back(std::stoi(code), text);
+  }
+  return groups;
+}
+
+std::string all(const std::vector<std::pair<int, std::string>>& groups, int code) {
+  std::string text;
+  for (const auto& [own, value] : groups)
+    if (own == code) text += (text.empty() ? "" : " ") + value;
+  return text;
+}
+
+Document space(document::SpaceCurve curve) {
+  Document d;
+  d.space_curves.push_back({{"n", "l", "#ff0000"}, std::move(curve)});
+  return d;
+}
+
+TEST(DxfGroups, OfAPolylineInSpace) {
+  const Document d = space({curve::Polyline3{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}}});
+  const auto head = groups_of(d, "POLYLINE");
+  EXPECT_EQ(all(head, 66), "1");  // vertices follow
+  EXPECT_EQ(all(head, 70), "8");  // in space
+  EXPECT_EQ(all(head, 8), "l");
+  EXPECT_EQ(all(head, 62), "1");  // red
+  EXPECT_EQ(all(head, 420), "16711680");
+  EXPECT_EQ(all(head, 10) + all(head, 20) + all(head, 30), "000");
+  const auto vertex = groups_of(d, "VERTEX", 1);
+  EXPECT_EQ(all(vertex, 70), "32");
+  EXPECT_EQ(all(vertex, 10) + " " + all(vertex, 20) + " " + all(vertex, 30), "4 5 6");
+  EXPECT_EQ(all(vertex, 100), "AcDbEntity AcDbVertex AcDb3dPolylineVertex");
+  EXPECT_EQ(all(groups_of(d, "SEQEND"), 8), "l");
+}
+
+TEST(DxfGroups, OfALineInSpace) {
+  const auto line = groups_of(space({curve::Polyline3{{{1, 2, 3}, {4, 5, 6}}}}), "LINE");
+  EXPECT_EQ(all(line, 10) + all(line, 20) + all(line, 30), "123");
+  EXPECT_EQ(all(line, 11) + all(line, 21) + all(line, 31), "456");
+}
+
+// Flags: 1 closed, 4 rational, 8 planar.
+TEST(DxfGroups, OfASpline) {
+  const auto bent =
+      groups_of(space({curve::Bezier3{{{0, 0, 1}, {1, 2, 3}, {2, 0, 0}}, {1, 0.5, 1}}}), "SPLINE");
+  EXPECT_EQ(all(bent, 70), "4");
+  EXPECT_EQ(all(bent, 71), "2");
+  EXPECT_EQ(all(bent, 72), "6");
+  EXPECT_EQ(all(bent, 73), "3");
+  EXPECT_EQ(all(bent, 74), "0");
+  EXPECT_EQ(all(bent, 40), "0 0 0 1 1 1");
+  EXPECT_EQ(all(bent, 41), "1 0.5 1");
+  EXPECT_EQ(all(bent, 10), "0 1 2");
+  EXPECT_EQ(all(bent, 20), "0 2 0");
+  EXPECT_EQ(all(bent, 30), "1 3 0");
+  const auto loop = groups_of(
+      space({curve::Bezier3{{{0, 0, 1}, {1, 2, 3}, {2, 0, 0}, {0, 0, 1}}, {}}}), "SPLINE");
+  EXPECT_EQ(all(loop, 70), "1");
+  Document flat;
+  flat.paths.push_back(
+      {{"", "", ""}, {{{curve::Bezier2{{{0, 0}, {1, 2}, {2, 0}}, {}}}}, false}, 0});
+  const auto planar = groups_of(flat, "SPLINE");
+  EXPECT_EQ(all(planar, 70), "8");
+  EXPECT_EQ(all(planar, 210) + all(planar, 220) + all(planar, 230), "001");
+  EXPECT_EQ(all(planar, 62), "");
+  EXPECT_EQ(all(planar, 8), "0");
+}
+
+TEST(DxfGroups, OfAnArcAndACircle) {
+  Document d;
+  const lac::Chain quarter{{{5, 0}, core::kPi / 2}, {{-1, core::kPi, 0.5, 0.5}}, false};
+  d.paths.push_back({{"", "", ""}, {{{quarter}}, false}, 0});
+  const auto arc = groups_of(d, "ARC");
+  const auto number = [&](int code) { return std::stod(all(arc, code)); };
+  EXPECT_NEAR(number(10), 3, 1e-14);
+  EXPECT_NEAR(number(20), 0, 1e-14);
+  EXPECT_EQ(number(40), 2);
+  EXPECT_NEAR(number(50), 0, 1e-12);
+  EXPECT_NEAR(number(51), 90, 1e-12);
+}
+
+}  // namespace
+}  // namespace keyline::exchange

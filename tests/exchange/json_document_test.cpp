@@ -1,0 +1,149 @@
+#include "keyline/exchange/json/json_document.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+/// What a document says beside its curves.
+namespace keyline::exchange {
+namespace {
+
+using document::Document;
+using nlohmann::json;
+
+Document one() {
+  Document d;
+  d.paths.push_back({{}, {{{curve::Bezier2{{{0, 0}, {1, 2}}, {}}}}, false}, 0});
+  return d;
+}
+
+// A value by itself cannot say these things: then a list of one.
+TEST(JsonDocument, IsAListWhereMoreIsSaidThanAValueHolds) {
+  const auto is_list = [](const auto& change) {
+    Document d = one();
+    change(d);
+    const json j = to_json(d);
+    EXPECT_NE(j.contains("curves"), j.contains("type"));
+    return j.contains("curves");
+  };
+  EXPECT_FALSE(is_list([](Document&) {}));
+  EXPECT_FALSE(is_list([](Document& d) { d.unit = "in"; }));
+  EXPECT_FALSE(is_list([](Document& d) { d.paths[0].label.name = "n"; }));
+  EXPECT_FALSE(is_list([](Document& d) { d.paths[0].label.color = "#123456"; }));
+  EXPECT_TRUE(is_list([](Document& d) { d.paths[0].label.layer = "l"; }));
+  EXPECT_TRUE(is_list([](Document& d) { d.paths[0].stroke_width = 1; }));
+  EXPECT_TRUE(is_list([](Document& d) { d.paths[0].stroke_width = 0.5; }));
+  EXPECT_TRUE(is_list([](Document& d) { d.skipped.emplace_back("a text"); }));
+  EXPECT_TRUE(is_list([](Document& d) { d.paths.push_back(d.paths[0]); }));
+  EXPECT_FALSE(to_json(one()).contains("unit"));
+}
+
+TEST(JsonDocument, ASpaceCurveByItselfIsItsValue) {
+  Document d;
+  d.space_curves.push_back({{"s", "", ""}, {curve::Polyline3{{{0, 0, 1}, {1, 2, 3}}}}});
+  EXPECT_EQ(to_json(d)["type"], "polyline");
+  d.space_curves[0].label.layer = "l";
+  EXPECT_EQ(to_json(d)["curves"][0]["layer"], "l");
+}
+
+// A closed path of a curve that is no chain says so as a path only.
+TEST(JsonDocument, ClosedPathsStayClosed) {
+  Document d = one();
+  EXPECT_EQ(to_json(d)["type"], "bezier");
+  d.paths[0].path.closed = true;
+  EXPECT_EQ(to_json(d)["type"], "path");
+  const auto back = document_from_json(to_json(d));
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(back->paths[0].path.closed);
+}
+
+const char* const kCurve = R"({"type": "polyline", "points": [[0, 0], [1, 2]]})";
+const char* const kEdge = R"({"type": "polyline", "points": [[0, 0, 0], [1, 2, 1]]})";
+const char* const kPatch =
+    R"({"type": "bezier-surface", "points": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 1]]]})";
+
+/// What the text says where "C", "E" and "P" stand for a curve, an edge and a patch.
+core::Result<Document> read(const std::string& text) {
+  std::string whole;
+  for (const char c : text)
+    whole += c == 'C' ? kCurve : c == 'E' ? kEdge : c == 'P' ? kPatch : std::string(1, c);
+  return read_json(whole);
+}
+
+std::string path_of(const std::string& text) {
+  const auto d = read(text);
+  return d ? "fine" : d.error().path;
+}
+
+TEST(JsonDocument, LinesHaveAWidthOfZeroOrMore) {
+  const auto width = [](const std::string& w) {
+    return path_of(R"({"curves": [{"curve": C, "stroke_width": )" + w + "}]}");
+  };
+  EXPECT_EQ(width("0"), "fine");
+  EXPECT_EQ(width("1.5"), "fine");
+  EXPECT_EQ(width("-1e-9"), "curves[0].stroke_width");
+  EXPECT_EQ(width("\"wide\""), "curves[0].stroke_width");
+}
+
+TEST(JsonDocument, TrimsAreCounted) {
+  const auto trims = [](const std::string& n) {
+    const auto d = read(R"({"surfaces": [{"surface": P, "trims": )" + n + "}]}");
+    return d ? std::to_string(d->surfaces[0].trims) : d.error().path;
+  };
+  EXPECT_EQ(trims("0"), "0");
+  EXPECT_EQ(trims("1"), "1");
+  EXPECT_EQ(trims("999999"), "999999");
+  for (const char* none : {"1000000", "-1", "1.5", "\"2\"", "null"})
+    EXPECT_EQ(trims(none), "surfaces[0].trims") << none;
+}
+
+// What cannot be taken over is refused where it stands, not dropped.
+TEST(JsonDocument, LabelsAreTexts) {
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "name": 3}]})"), "curves[0].name");
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "layer": []}]})"), "curves[0].layer");
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "color": "red"}]})"), "curves[0].color");
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "color": "#12345"}]})"), "curves[0].color");
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "color": "#12345g"}]})"), "curves[0].color");
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "color": "#12aBcD", "name": null}]})"), "fine");
+  EXPECT_EQ(path_of(R"({"surfaces": [{"surface": P, "color": 7}]})"), "surfaces[0].color");
+  EXPECT_EQ(path_of(R"({"curve": C, "name": 3})"), "name");
+  EXPECT_EQ(path_of(R"({"curves": [C], "unit": 25.4})"), "unit");
+  EXPECT_EQ(path_of(R"({"curve": C, "unit": true})"), "unit");
+}
+
+TEST(JsonDocument, PathsAreClosedOrNot) {
+  const auto path = [](const std::string& closed) {
+    return path_of(R"({"type": "path", "curves": [C], "closed": )" + closed + "}");
+  };
+  EXPECT_EQ(path("true"), "fine");
+  EXPECT_EQ(path("\"yes\""), "closed");
+  EXPECT_EQ(path("1"), "closed");
+}
+
+TEST(JsonDocument, TrimLoopsAreListsOfCurves) {
+  const auto loops = [](const std::string& list) {
+    return R"({"surfaces": [{"surface": P, "trim_loops": )" + list + "}]}";
+  };
+  const auto two = read(loops("[[E, E], [E]]"));
+  ASSERT_TRUE(two) << two.error().message;
+  ASSERT_EQ(two->surfaces[0].trim_loops.size(), 2U);
+  EXPECT_EQ(two->surfaces[0].trim_loops[0].size(), 2U);
+  EXPECT_EQ(two->surfaces[0].trim_loops[1].size(), 1U);
+  EXPECT_EQ(path_of(loops("3")), "surfaces[0].trim_loops");
+  EXPECT_EQ(path_of(loops("[[E], 4]")), "surfaces[0].trim_loops[1]");
+  EXPECT_EQ(path_of(loops("[[E, 4]]")), "surfaces[0].trim_loops[0][1]");
+}
+
+TEST(JsonDocument, WhatIsNoListIsNamed) {
+  EXPECT_EQ(path_of(R"({"curves": 3})"), "curves");
+  EXPECT_EQ(path_of(R"({"surfaces": "x"})"), "surfaces");
+  EXPECT_EQ(path_of(R"({"surfaces": [3]})"), "surfaces[0]");
+  EXPECT_EQ(path_of(R"({"surfaces": [P]})"), "surfaces[0]");
+  EXPECT_EQ(path_of(R"({"curves": [C, 3]})"), "curves[1]");
+  EXPECT_EQ(path_of(R"({"curve": C})"), "fine");
+  EXPECT_EQ(path_of(R"({"curves": []})"), "fine");
+}
+
+}  // namespace
+}  // namespace keyline::exchange

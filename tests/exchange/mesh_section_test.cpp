@@ -1,0 +1,153 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/acquire/symmetry.h"
+#include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/section_file.h"
+
+/// Sections of meshes of a few triangles, by hand.
+namespace keyline::exchange {
+namespace {
+
+using core::Point2;
+using core::Point3;
+
+/// A strip of squares over [from, to] at y, from z = -1 to 3.
+void add_wall(Mesh& mesh, double from, double to, double y) {
+  const auto n = static_cast<std::uint32_t>(mesh.points.size());
+  for (const double x : {from, to})
+    for (const double z : {-1.0, 3.0}) mesh.points.push_back({x, y, z});
+  mesh.triangles.push_back({n, n + 1, n + 3});
+  mesh.triangles.push_back({n, n + 3, n + 2});
+}
+
+std::vector<SectionLine> at_zero(const Mesh& mesh) {
+  return section(mesh, acquire::plane_of({0, 0, 1}, 0));
+}
+
+double width(const SectionLine& line) {
+  return std::abs(line.points.back().x - line.points.front().x);
+}
+
+TEST(MeshSection, TheLongestLineIsFirst) {
+  Mesh mesh;
+  add_wall(mesh, 0, 1, 0);
+  add_wall(mesh, 0, 7, 1);
+  add_wall(mesh, 0, 3, 2);
+  const auto lines = at_zero(mesh);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(width(lines[0]), 7);
+  EXPECT_EQ(width(lines[1]), 3);
+  EXPECT_EQ(width(lines[2]), 1);
+}
+
+// Edges rise from -1 to 3: a quarter of each lies below. The diagonal is met in the middle of a
+// line.
+TEST(MeshSection, PointsStandWhereTheEdgesMeetThePlane) {
+  Mesh mesh;
+  add_wall(mesh, 0, 8, 5);
+  const auto lines = at_zero(mesh);
+  ASSERT_EQ(lines.size(), 1U);
+  ASSERT_EQ(lines[0].points.size(), 3U);
+  EXPECT_EQ(lines[0].points[1], (Point2{2, 5}));
+  EXPECT_FALSE(lines[0].closed);
+  mesh.points[0].z = -3;  // half of its edge, the diagonal too
+  EXPECT_EQ(at_zero(mesh)[0].points[1], (Point2{4, 5}));
+}
+
+// A vertex on the plane counts as above it: one below it is cut at the vertex, of one above
+// nothing.
+TEST(MeshSection, VerticesOnThePlaneAreAboveIt) {
+  Mesh below{{{0, 0, 0}, {4, 0, 0}, {2, 0, -1}}, {{0, 1, 2}}, {}, {}};
+  ASSERT_EQ(at_zero(below).size(), 1U);
+  EXPECT_EQ(width(at_zero(below)[0]), 4);
+  Mesh above{{{0, 0, 0}, {4, 0, 0}, {2, 0, 1}}, {{0, 1, 2}}, {}, {}};
+  EXPECT_TRUE(at_zero(above).empty());
+}
+
+// Three walls that meet in one edge: three lines, none closed.
+TEST(MeshSection, LinesPartWhereMoreThanTwoTrianglesMeet) {
+  Mesh mesh{{{0, 0, -1}, {0, 0, 1}, {2, 0, 0.5}, {-3, 0, 0.5}, {0, 4, 0.5}},
+            {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}},
+            {},
+            {}};
+  const auto lines = at_zero(mesh);
+  ASSERT_EQ(lines.size(), 3U);
+  for (const SectionLine& line : lines) {
+    EXPECT_EQ(line.points.size(), 2U);
+    EXPECT_FALSE(line.closed);
+  }
+}
+
+// A pyramid without its bottom, cut across: a loop of four corners, each once.
+TEST(MeshSection, LoopsDoNotRepeatTheirStart) {
+  Mesh mesh{{{0, 0, 1}, {1, 0, -1}, {0, 1, -1}, {-1, 0, -1}, {0, -1, -1}},
+            {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
+            {},
+            {}};
+  const auto lines = at_zero(mesh);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines[0].closed);
+  EXPECT_THAT(lines[0].points, testing::UnorderedElementsAre(Point2{0.5, 0}, Point2{0, 0.5},
+                                                             Point2{-0.5, 0}, Point2{0, -0.5}));
+}
+
+TEST(MeshSection, TrianglesThatAreNoneAreLetPass) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const int at : {0, 1, 2}) {
+    Mesh mesh{{{0, 0, -1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}, {}, {}};
+    EXPECT_EQ(at_zero(mesh).size(), 1U);
+    mesh.points[static_cast<std::size_t>(at)].x = kNone;
+    EXPECT_TRUE(at_zero(mesh).empty()) << at;
+  }
+  const Mesh flat{{{0, 0, -1}, {1, 0, 1}}, {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, {}, {}};
+  EXPECT_TRUE(at_zero(flat).empty());
+}
+
+TEST(Section, IsAnAxisAndANumber) {
+  for (const auto& [text, normal, at] : {std::tuple{"x=1.5", core::Vector3{1, 0, 0}, 1.5},
+                                         {"y=-2", {0, 1, 0}, -2.0},
+                                         {"z=1e1", {0, 0, 1}, 10.0}}) {
+    const auto request = parse_section(text);
+    ASSERT_TRUE(request) << text;
+    const core::Vector3 across = cross(request->plane->axis_x, request->plane->axis_y);
+    EXPECT_EQ(std::abs(dot(across, normal)), 1) << text;
+    EXPECT_EQ(dot(request->plane->origin - Point3{}, normal), at) << text;
+  }
+  EXPECT_FALSE(parse_section("auto")->plane);
+  for (const char* none : {"", "x", "x=", "w=1", "{=1", "x:1", "x=a", "x=1mm", "xx=1", "auto "})
+    EXPECT_FALSE(parse_section(none)) << none;
+}
+
+// Faces that name no vertex are left out, and told line by line, five of them.
+TEST(Section, TellsWhatOfAMeshCouldNotBeRead) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-faces-" + std::to_string(::getpid()) + ".obj");
+  const auto left_out = [&](int bad) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 1\n";
+    for (int i = 0; i < bad; ++i) text += "f 1 2 9\n";
+    std::ofstream(file) << text << "f 1 2 3\n";
+    const auto cut = section_of_file(file, parse_section("z=0.25").value());
+    EXPECT_TRUE(cut) << cut.error().message;
+    return cut ? cut->curves.at(0).left_out : std::vector<std::string>{};
+  };
+  EXPECT_TRUE(left_out(0).empty());
+  EXPECT_THAT(left_out(1), testing::ElementsAre(testing::HasSubstr("line 4")));
+  EXPECT_EQ(left_out(5).size(), 5U);
+  ASSERT_EQ(left_out(7).size(), 6U);
+  EXPECT_EQ(left_out(7)[5], "2 further parts of the mesh");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace keyline::exchange
