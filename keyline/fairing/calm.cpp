@@ -108,20 +108,17 @@ void set_senses(DenseCurve& curve, const std::vector<int>& extrema) {
 
 /// Cells beside an extremum along which curvature stays as it is, `way` from it, up to `most`.
 int level_cells(const DenseCurve& curve, int node, int way, int most, double least_rate) {
-  const int cells = static_cast<int>(curve.joints.size()) - 1;
   int count = 0;
   for (; count < most; ++count) {
-    const int cell = way > 0 ? node + count : node - count - 1;
-    const int c = curve.closed ? (cell + cells) % cells : cell;
-    if (c < 0 || c >= cells) break;
+    const int c = way > 0 ? node + count : node - count - 1;
     const double rise = curve.joints[c + 1].curvature - curve.joints[c].curvature;
     if (std::abs(rise) > least_rate * (curve.at[c + 1] - curve.at[c])) break;
   }
   return count;
 }
 
-/// Extremum nodes moved on: where curvature is kept from running on beyond one, it is level on that
-/// side alone, and the extremum belongs to the other end of what is level.
+}  // namespace
+
 std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extrema) {
   std::vector<int> now = extrema;
   const double least_rate = kLevel * range_of(curve);
@@ -136,8 +133,6 @@ std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extre
   }
   return now;
 }
-
-}  // namespace
 
 std::vector<int> extrema_of(const DenseCurve& curve, double least) {
   const std::vector<double> k = curvatures(curve);

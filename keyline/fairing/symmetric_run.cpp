@@ -69,7 +69,8 @@ std::vector<Sample> samples_of(const lac::Chain& chain) {
   return samples;
 }
 
-/// Feet of the run's points on a chain that begins near point `first`.
+}  // namespace
+
 std::vector<Foot> feet_on(const lac::Chain& chain, const Run& run, std::size_t first) {
   const std::vector<Sample> samples = samples_of(chain);
   const std::vector<double> shares = shares_of(run);
@@ -91,6 +92,8 @@ std::vector<Foot> feet_on(const lac::Chain& chain, const Run& run, std::size_t f
   }
   return feet;
 }
+
+namespace {
 
 std::size_t nearest(const std::vector<core::Point2>& points, core::Point2 to) {
   return static_cast<std::size_t>(

@@ -66,6 +66,9 @@ def commands(examples):
         Command(["join", e("cubic.json"), e("cubic.json"), "--tolerance", "10"], ["a.svg"]),
         Command(["blend", e("cubic.json"), e("clothoid.csv")], ["a.svg", "b.dxf"]),
         Command(["lac.segment", "--points", "0,0", "2,0", "3,1.5", "--alpha", "-1"], ["a.json"]),
+        Command(["raise", e("bottle-truth.json")], ["a.json"]),
+        Command(["transform", e("cubic.json"), "--scale", "2"], ["a.glif", "b.csv"]),
+        Command(["network", e("hood-along.json"), e("hood-across.json")], ["a.json", "b.step"]),
         Command(["batch"], text=written + "\n"),
     ]
 
@@ -270,8 +273,8 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("examples", type=pathlib.Path)
     full = bool(os.environ.get("KEYLINE_FULL"))
-    parser.add_argument("--kills", type=int, default=1000 if full else 17)
-    parser.add_argument("--full-disks", type=int, default=200 if full else 17)
+    parser.add_argument("--kills", type=int, default=1000 if full else 20)
+    parser.add_argument("--full-disks", type=int, default=200 if full else 20)
     parser.add_argument("--first", type=int, default=0, help="number of the first trial")
     options = parser.parse_args()
     trials = Trials(options.program.resolve(), options.examples.resolve())

@@ -61,6 +61,28 @@ TEST(Turns, CountFromAThousandthOfTheRange) {
   EXPECT_EQ(turns_of(of({0, 10, 9.991, 10, 0})).size(), 1U);
 }
 
+TEST(MovedOn, ExtremaStandAtTheFarEndOfWhatIsLevel) {
+  const DenseCurve hill = of({0, 5, 10, 10, 10, 5, 0, 0, 0, 0, 0});
+  EXPECT_EQ(moved_on(hill, {2}), Nodes{4});
+  EXPECT_EQ(moved_on(hill, {4}), Nodes{2});
+  EXPECT_EQ(moved_on(hill, {3}), Nodes{3});          // level on both sides
+  EXPECT_EQ(moved_on(hill, {5}), Nodes{5});          // on neither
+  EXPECT_EQ(moved_on(hill, {2, 6}), (Nodes{4, 9}));  // short of the end
+  EXPECT_EQ(moved_on(hill, {2, 3}), (Nodes{2, 4}));  // and of each other
+  EXPECT_EQ(moved_on(hill, {2, 9}), (Nodes{4, 6}));
+  EXPECT_EQ(moved_on(hill, {}), Nodes{});
+}
+
+// A range of 10 over the length: of a tenth of it a hundredth is 0.01.
+TEST(MovedOn, LevelIsAHundredthOfTheRange) {
+  const auto moved = [](double next) {
+    return moved_on(of({0, 5, 10, next, 5, 0, 1, 2, 3, 4, 5}), {2});
+  };
+  EXPECT_EQ(moved(9.9901), Nodes{3});
+  EXPECT_EQ(moved(9.9899), Nodes{2});
+  EXPECT_EQ(moved_on(of({0, -5, -10, -9.9901, -5, 0, 1, 2, 3, 4, 0}, true), {2}), Nodes{3});
+}
+
 /// A wave along points of a line, as high as given, in the middle of the length.
 struct Given {
   DenseCurve curve;

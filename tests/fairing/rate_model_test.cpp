@@ -1,6 +1,7 @@
 #include "keyline/fairing/rate_model.h"
 
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -188,6 +189,44 @@ TEST(RateModel, CostIsVariationOffsetsJumpsAndTips) {
   }
   EXPECT_NEAR(model.variation, variation, 1e-12);
   EXPECT_NEAR(model.max_offset, 0.5, 1e-6);  // 0.005 of 0.01
+}
+
+// Where an open chain ends beside its last point counts a tenth of its square in tolerances, at
+// either end alike.
+TEST(RateModel, TipsCountATenth) {
+  for (const double off : {1.0, 2.0, -0.5})
+    for (const bool last : {false, true}) {
+      Given g = laid_out();
+      g.problem.points = &g.points;
+      const double before = RateModel(g.chain, g.problem).cost;
+      FitPoint& tip = last ? g.points.back() : g.points.front();
+      const FitJoint& at = last ? g.chain.joints.back() : g.chain.joints.front();
+      tip.position = tip.position + off * 0.01 * core::unit_vector(at.direction);
+      EXPECT_NEAR(RateModel(g.chain, g.problem).cost - before, 0.1 * off * off, 1e-3) << off;
+    }
+}
+
+// Gaps are told in tolerances, a turn at a tenth of a length: of the last joint, whose position
+// nothing follows, each by itself.
+TEST(RateModel, GapsAreOfPlaceAndTurn) {
+  const auto gaps = [](core::Vector2 by, double turn) {
+    Given g = laid_out();
+    g.problem.points = &g.points;
+    g.problem.joints.clear();
+    FitJoint& last = g.chain.joints.back();
+    last.position = last.position + by;
+    last.direction += turn;
+    return RateModel(g.chain, g.problem).gaps;
+  };
+  EXPECT_NEAR(gaps({0, 0}, 0), 0, 1e-6);
+  const double along = gaps({0.002, 0}, 0);
+  const double across = gaps({0, -0.003}, 0);
+  EXPECT_GT(along, 0.2 - 1e-6);
+  EXPECT_LT(along, 0.2 * std::numbers::sqrt2 + 1e-6);
+  EXPECT_GT(across, 0.3 - 1e-6);
+  EXPECT_LT(across, 0.3 * std::numbers::sqrt2 + 1e-6);
+  EXPECT_NEAR(gaps({0, 0}, 0.05), 0.5, 1e-6);
+  EXPECT_NEAR(gaps({0, 0}, -0.05), 0.5, 1e-6);
 }
 
 // A last step closes gaps and tied jumps to rounding; what is held stays.
