@@ -102,6 +102,20 @@ TEST(HullCsv, FeetHaveTwelveInchesOfEightEighths) {
     EXPECT_EQ(first(none), -1) << none;
 }
 
+// Who writes feet-inches-eighths means feet; of a table in another unit they are none of its
+// numbers.
+TEST(HullCsv, FeetInchesEighthsAreInFeet) {
+  const auto unit = [](const std::string& before, const std::string& cell) {
+    const auto table = read_hull_csv(before + "Station,1,2\n0," + cell + ",1\n1,1,1\n");
+    return table ? table->unit : table.error().path;
+  };
+  EXPECT_EQ(unit("", "0-6-0"), "ft");
+  EXPECT_EQ(unit("units,ft\n", "0-6-0"), "ft");
+  EXPECT_EQ(unit("units,m\n", "0-6-0"), "line 3");
+  EXPECT_EQ(unit("", "0.5"), "");
+  EXPECT_EQ(unit("units,m\n", "0.5"), "m");
+}
+
 TEST(HullTable, LinesAreMadePlanar) {
   auto d = hull_document(read_hull_csv(kTable).value());
   const std::size_t count = d.space_curves.size();

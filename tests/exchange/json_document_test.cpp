@@ -145,5 +145,25 @@ TEST(JsonDocument, WhatIsNoListIsNamed) {
   EXPECT_EQ(path_of(R"({"curves": []})"), "fine");
 }
 
+// Degrees from 1 to 30, both ends included.
+TEST(JsonDocument, DegreesAreAtMost30) {
+  const auto spline = [](int degree) {
+    std::string knots, points;
+    for (int i = 0; i <= degree; ++i) {
+      knots += "0, ";
+      points += (i > 0 ? ", [" : "[") + std::to_string(i) + ", 1]";
+    }
+    for (int i = 0; i <= degree; ++i) knots += i > 0 ? ", 1" : "1";
+    return path_of(R"({"type": "bspline", "degree": )" + std::to_string(degree) +
+                   R"(, "knots": [)" + knots + R"(], "points": [)" + points + "]}");
+  };
+  EXPECT_EQ(spline(1), "fine");
+  EXPECT_EQ(spline(30), "fine");
+  EXPECT_EQ(spline(31), "degree");
+  EXPECT_EQ(path_of(R"({"type": "bspline", "degree": 0, "knots": [0, 1, 2],)"
+                    R"("points": [[0, 1], [1, 1]]})"),
+            "degree");
+}
+
 }  // namespace
 }  // namespace keyline::exchange

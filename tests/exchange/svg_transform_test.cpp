@@ -1,9 +1,13 @@
 #include "keyline/exchange/svg/svg_transform.h"
 
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <tuple>
 
 #include <gtest/gtest.h>
+
+#include "keyline/exchange/svg/svg_reader.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -162,6 +166,24 @@ TEST(SvgTransform, WhatCollapsesCannotBeInverted) {
   EXPECT_FALSE(is_invertible({1, 0, 0, 1, HUGE_VAL, 0}));
   EXPECT_FALSE(is_invertible({1, 0, 0, 1, 0, HUGE_VAL}));
   EXPECT_FALSE(is_invertible({HUGE_VAL, 0, 0, 1, 0, 0}));
+}
+
+// A stroke grows by the root of what its area grows by: turned or sheared it stays, stretched in
+// one direction by 4 it is twice as wide.
+TEST(SvgReader, StrokesGrowWithTheArea) {
+  const auto width = [](const std::string& transform) {
+    const auto read = read_svg(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='10mm' height='10mm' viewBox='0 0 10 10'>"
+        "<path stroke='red' stroke-width='3' d='M0 0h1' transform='" +
+        transform + "'/></svg>");
+    return read && read->curves.size() == 1 ? read->curves[0].stroke_width : -1;
+  };
+  EXPECT_NEAR(width("rotate(45)"), 3, 1e-12);
+  EXPECT_NEAR(width("rotate(30) scale(2)"), 6, 1e-12);
+  EXPECT_NEAR(width("skewX(45)"), 3, 1e-12);
+  EXPECT_NEAR(width("matrix(1 1 -1 1 0 0)"), 3 * std::numbers::sqrt2, 1e-12);
+  EXPECT_NEAR(width("scale(4 1)"), 6, 1e-12);
+  EXPECT_NEAR(width("scale(-1 1)"), 3, 1e-12);
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ class HullCsv {
     if (field.find_first_not_of("-\u2013\u2014.") == field.npos) return kOutside;
     if (const auto feet = feet_of(field)) {
       if (unit_.empty()) unit_ = "ft";
-      return feet;
+      return unit_ == "ft" ? feet : std::nullopt;
     }
     return fraction_of(field);
   }
