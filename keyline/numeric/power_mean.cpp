@@ -52,11 +52,23 @@ double signed_power_mean_integral(double a, double b, double p, double u) {
   if (a >= 0 && b >= 0) return power_mean_integral(a, b, p, u);
   if (a <= 0 && b <= 0) return -power_mean_integral(-a, -b, p, u);
   const double size = std::max(std::abs(a), std::abs(b));
-  const double from = signed_power(a / size, p);
-  const double to = signed_power(b / size, p);
+  const double first = a / size, last = b / size;
+  const double from = signed_power(first, p);
+  const double to = signed_power(last, p);
   const double g = (1 - u) * from + u * to;
   const double e = 1 + 1 / p;
-  return size * (std::pow(std::abs(g), e) - std::pow(std::abs(from), e)) / (e * (to - from));
+  constexpr double kSmall = 0.01;
+  if (p > kSmall)
+    return size * (std::pow(std::abs(g), e) - std::pow(std::abs(from), e)) / (e * (to - from));
+  // The root of a small p would magnify the rounding of the powers by 1 / p: the mean at u is seen
+  // from the end of its sign. A power that is lost to underflow is 0 and asked for nothing.
+  const auto seen_from = [&](double end, double power, double step) {
+    return power == 0 ? 0 : end * std::exp(std::log1p(step / power) / p);
+  };
+  const double mean = std::signbit(g) == std::signbit(from)
+                          ? seen_from(first, from, u * (to - from))
+                          : seen_from(last, to, (1 - u) * (from - to));
+  return size * (g * mean - from * first) / (e * (to - from));
 }
 
 }  // namespace keyline::numeric

@@ -149,5 +149,16 @@ TEST(Roots, FindsTheSignChange) {
   EXPECT_FALSE(bracketed_root([](double x) { return x - 1; }, 2, 0, 1e-9));
 }
 
+// 60 digits (mpmath). The powers of a small p lie next to 1, their roots 1 / p times as far apart.
+TEST(SignedPowerMeanIntegral, LosesNoDigitsToASmallPower) {
+  EXPECT_NEAR(
+      signed_power_mean_integral(1242683.2769814397, -467119.7191694522, 6.271148640438754e-07, 1),
+      0.24318372953416206783, 1e-15);
+  EXPECT_NEAR(signed_power_mean_integral(3, -5, 1e-9, 1), -1.0000000000216513098e-9, 1e-23);
+  EXPECT_NEAR(signed_power_mean_integral(3, -5, 1e-9, 1e-9), 1.2969970744325250927e-9, 1e-23);
+  EXPECT_NEAR(signed_power_mean_integral(-2, 7, 1e-5, 0.99999), -5.2632502751590258442e-6, 1e-19);
+  EXPECT_NEAR(signed_power_mean_integral(-1, 3, 2, 0.05), -0.043096440627115084483, 1e-17);
+}
+
 }  // namespace
 }  // namespace keyline::numeric

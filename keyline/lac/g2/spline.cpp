@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/g2/spline_forward.h"
+#include "keyline/lac/g2/spline_local.h"
 
 namespace keyline::lac {
 namespace {
@@ -77,6 +78,7 @@ core::Result<SplineSolution> solve_spline(std::span<const Point2> points,
     return solve_spline_forward(points, options);  // whose reason names the points as given
   SplineSolution solution = turned_round(*back, spans);
   solution.chain.start.position = points.front();
+  solution.deviation = detail::deviation_of(points, solution);
   return solution;
 }
 

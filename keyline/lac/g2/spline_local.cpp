@@ -103,6 +103,8 @@ core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
   return solution;
 }
 
+}  // namespace
+
 double deviation_of(std::span<const Point2> points, const SplineSolution& solution) {
   double largest = 0;
   const auto poses = joints(solution.chain);
@@ -113,8 +115,6 @@ double deviation_of(std::span<const Point2> points, const SplineSolution& soluti
   }
   return largest;
 }
-
-}  // namespace
 
 core::Result<SplineSolution> solve_spline_span_by_span(std::span<const Point2> points,
                                                        const SplineOptions& options,

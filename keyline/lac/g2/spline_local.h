@@ -14,4 +14,7 @@ core::Result<SplineSolution> solve_spline_span_by_span(std::span<const core::Poi
                                                        const SplineOptions& options,
                                                        const std::vector<double>& wanted);
 
+/// Largest distance of the chain's joints between spans, and of its end, from the points.
+double deviation_of(std::span<const core::Point2> points, const SplineSolution& solution);
+
 }  // namespace keyline::lac::detail
