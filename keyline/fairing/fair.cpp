@@ -16,6 +16,7 @@
 #include "keyline/fairing/joint_rates.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
+#include "keyline/fairing/shortest_run.h"
 #include "keyline/fairing/solve_runs.h"
 #include "keyline/fairing/symmetric_run.h"
 #include "keyline/fairing/until_fair.h"
@@ -37,8 +38,9 @@ constexpr double kOutside = 1e-9;    // of the length: farther out is no matter 
 /// The whole of one key-line.
 class Job {
  public:
-  Job(const acquire::KeyLine& line, const FairOptions& options, const FairResult* before = nullptr)
-      : line_(line), options_(options), before_(options.region ? nullptr : before) {
+  Job(const acquire::KeyLine& line, const FairOptions& options,
+      detail::FoundBefore* found = nullptr, const FairResult* before = nullptr)
+      : line_(line), options_(options), found_(found), before_(options.region ? nullptr : before) {
     result_.length = core::polygon_length(line.points, line.closed);
     if (line.length > 0) result_.length = std::min(result_.length, line.length);
     result_.noise = line.noise;
@@ -54,7 +56,8 @@ class Job {
   Result<FairResult> run() {
     if (options_.region) return run_region();
     runs_ = detail::runs_of(line_, options_);
-    if (auto sound = bound_runs(); !sound) return std::unexpected(sound.error());
+    if (auto sound = detail::bound_runs(runs_, line_, options_, result_.tolerance); !sound)
+      return std::unexpected(sound.error());
     const auto mirror = asked_mirror();
     if (!mirror) return std::unexpected(mirror.error());
     const bool exactly = *mirror && options_.symmetric.mode != SymmetricMode::off;
@@ -98,32 +101,9 @@ class Job {
             .slopes = options_.slopes,
             .joints = options_.joints,
             .asked = asked_.empty() ? std::vector<int>{} : asked_[k],
+            .before = found_,
             .threads = options_.threads,
             .progress = core::part_of(whole, 0.4, 1)};
-  }
-
-  /// Runs learn what they stay inside; those whose outer ends stand on a border, or beyond it by
-  /// their noise, end on it. bad_input where a point lies farther out than the tolerance.
-  Result<void> bound_runs() {
-    const std::vector<core::HalfPlane> inside = half_planes(options_.keep_inside);
-    for (const core::HalfPlane& half : inside)
-      for (const core::Point2 p : line_.points)
-        if (core::depth(half, p) < -result_.tolerance)
-          return fail(ErrorCode::bad_input,
-                      fmt::format("the point ({:.6g}, {:.6g}) lies {:.3g} outside", p.x, p.y,
-                                  -core::depth(half, p)),
-                      "correct it, or give a wider bound", "keep_inside");
-    const auto tie = [&](std::optional<core::Point2>& place, core::Point2 end) {
-      for (const core::HalfPlane& half : inside)
-        if (const double depth = core::depth(half, end); depth <= 0)
-          place = end = end - depth * half.normal;
-    };
-    for (detail::Run& run : runs_) run.inside = inside;
-    if (runs_.front().closed || line_.closed) return {};
-    if (runs_.front().clamp_start == Clamp::none)
-      tie(runs_.front().tie_start, line_.points.front());
-    if (runs_.back().clamp_end == Clamp::none) tie(runs_.back().tie_end, line_.points.back());
-    return {};
   }
 
   fit::SplineFitOptions spline_options() const {
@@ -254,7 +234,8 @@ class Job {
                   "choose a larger region", "region");
     const curve::BSpline2 inside = subcurve(whole->curve, range.t_first, range.t_last);
     runs_ = {detail::run_between(line_, range.first, range.last)};
-    if (auto sound = bound_runs(); !sound) return std::unexpected(sound.error());
+    if (auto sound = detail::bound_runs(runs_, line_, options_, result_.tolerance); !sound)
+      return std::unexpected(sound.error());
     const bool from_start = range.first == 0 && !line_.closed;
     const bool to_end = range.last + 1 == line_.points.size() && !line_.closed;
     runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
@@ -303,10 +284,10 @@ class Job {
           fmt::format("the tolerance is smaller than the points' noise, {:.3g}: the curve follows "
                       "their errors",
                       result_.noise));
-    const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
-    if (!std::ranges::all_of(solved_, lacs)) return;
     result_.smoothness_counts =
         std::ranges::any_of(solved_, [](const detail::RunResult& one) { return one.spring > 0; });
+    const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
+    if (!std::ranges::all_of(solved_, lacs)) return;
     const auto at_tolerance = std::ranges::count_if(
         result_.offsets, [&](double o) { return std::abs(o) > kAlike * result_.tolerance; });
     const auto at_slope = std::ranges::count_if(result_.pieces, [&](const FairPiece& p) {
@@ -374,6 +355,7 @@ class Job {
 
   const acquire::KeyLine& line_;
   const FairOptions& options_;
+  detail::FoundBefore* found_;
   const FairResult* before_;  ///< the same with another smoothness, if there was one
   std::vector<detail::Run> runs_;
   std::vector<detail::RunResult> solved_;
@@ -392,8 +374,9 @@ const char* impression(const FairPiece& piece) {
 
 Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
   if (auto sound = detail::check(line, options); !sound) return std::unexpected(sound.error());
+  detail::FoundBefore found;
   return detail::until_fair(line, options, [&](const FairOptions& o, const FairResult* before) {
-    return Job(line, o, before).run();
+    return Job(line, o, &found, before).run();
   });
 }
 

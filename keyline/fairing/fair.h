@@ -226,7 +226,7 @@ struct FairResult {
   std::size_t worst_point = 0;
   bool within_tolerance = false;
   double smoothness = 0;  ///< that was taken
-  /// Whether another would give another answer: not where the tolerance holds no more than noise.
+  /// Whether another would give another answer: not where noise fills the tolerance, or is none.
   bool smoothness_counts = true;
   /// No calmest chain came out for any run: shortest ones stand in, whatever the smoothness.
   bool calm_missed = false;

@@ -11,6 +11,7 @@ namespace keyline::fairing::detail {
 struct Members {
   std::vector<core::Point2> points;
   std::vector<std::size_t> fitted;  ///< which of the fitted points each belongs to
+  friend bool operator==(const Members&, const Members&) = default;
 };
 
 }  // namespace keyline::fairing::detail

@@ -36,6 +36,8 @@ struct Run {
   std::vector<double> margin = {};      ///< …and how much farther; empty: none
 };
 
+class FoundBefore;
+
 struct RunOptions {
   double tolerance = 0;  ///< in the points' unit
   double noise = 0;
@@ -47,6 +49,7 @@ struct RunOptions {
   core::Interval slopes{-3, 3};        ///< of the calmest chain's pieces
   JointOrder joints = JointOrder::g2;  ///< see FairOptions
   std::vector<int> asked;              ///< pieces whose reading was asked for
+  FoundBefore* before = nullptr;       ///< with other smoothnesses, see shortest_run.h
   int threads = 0;
   core::Progress progress;
 };
@@ -79,8 +82,8 @@ struct RunResult {
   int start_pieces = 0;
   int straightened = 0;  ///< pieces that became lines or arcs
   WavesLeft waves;       ///< in the calmest curve
-  double spring = 0;     ///< of the mean square of the offsets, see BandOptions
-  DenseCurve dense;      ///< the same as it was solved for; empty where another way was taken
+  double spring = 0;  ///< of the calmest curve, see BandOptions; 0: smoothness counts for nothing
+  DenseCurve dense;   ///< the same as it was solved for; empty where another way was taken
 };
 
 /// Whether the chain turns more than the run's points can tell, half a circle from one to the next:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "keyline/core/polygon.h"
 
 namespace keyline::fairing::detail {
@@ -66,6 +68,28 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
   runs.front().clamp_start = options.clamp.start;
   runs.back().clamp_end = options.clamp.end;
   return runs;
+}
+
+core::Result<void> bound_runs(std::vector<Run>& runs, const acquire::KeyLine& line,
+                              const FairOptions& options, double tolerance) {
+  const std::vector<core::HalfPlane> inside = half_planes(options.keep_inside);
+  for (const core::HalfPlane& half : inside)
+    for (const core::Point2 p : line.points)
+      if (core::depth(half, p) < -tolerance)
+        return core::fail(core::ErrorCode::bad_input,
+                          fmt::format("the point ({:.6g}, {:.6g}) lies {:.3g} outside", p.x, p.y,
+                                      -core::depth(half, p)),
+                          "correct it, or give a wider bound", "keep_inside");
+  const auto tie = [&](std::optional<core::Point2>& place, core::Point2 end) {
+    for (const core::HalfPlane& half : inside)
+      if (const double depth = core::depth(half, end); depth <= 0)
+        place = end = end - depth * half.normal;
+  };
+  for (Run& run : runs) run.inside = inside;
+  if (runs.front().closed || line.closed) return {};
+  if (runs.front().clamp_start == Clamp::none) tie(runs.front().tie_start, line.points.front());
+  if (runs.back().clamp_end == Clamp::none) tie(runs.back().tie_end, line.points.back());
+  return {};
 }
 
 }  // namespace keyline::fairing::detail

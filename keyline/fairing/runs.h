@@ -13,4 +13,9 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
 /// Points first … last of the key-line as one open run.
 Run run_between(const acquire::KeyLine& line, std::size_t first, std::size_t last);
 
+/// Runs learn what they stay inside; those whose outer ends stand on a border, or beyond it by
+/// their noise, end on it. bad_input where a point lies farther out than the tolerance.
+core::Result<void> bound_runs(std::vector<Run>& runs, const acquire::KeyLine& line,
+                              const FairOptions& options, double tolerance);
+
 }  // namespace keyline::fairing::detail

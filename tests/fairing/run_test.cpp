@@ -1,10 +1,12 @@
 #include "keyline/fairing/run.h"
 
 #include <cmath>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "keyline/fairing/runs.h"
+#include "keyline/fairing/shortest_run.h"
 #include "keyline/fit/fit_spline.h"
 #include "keyline/numeric/random.h"
 
@@ -39,6 +41,28 @@ TEST(FairRun, TellsWhereNothingKeepsTheTolerance) {
     EXPECT_FALSE(solved.calm_missed);
     EXPECT_FALSE(solved.dense.joints.empty());
   }
+}
+
+/// The search for the shortest chain tells of itself as it goes on.
+int reports_of(const Run& run, RunOptions options) {
+  int count = 0;
+  options.progress.sink = [&](double, std::string_view) { ++count; };
+  fair_run(run, {}, options);
+  return count;
+}
+
+TEST(FairRun, SeeksTheShortestChainOfARunOnce) {
+  detail::Run run = half_ellipse(41, 1e-3);
+  FoundBefore before;
+  RunOptions options;
+  options.criterion = Criterion::fewest_pieces;
+  options.tolerance = 1e-2;
+  options.noise = 1e-3;
+  options.before = &before;
+  EXPECT_GT(reports_of(run, options), 0);
+  EXPECT_EQ(reports_of(run, options), 0);
+  run.tie_end = core::Point2{-3, 0.005};
+  EXPECT_GT(reports_of(run, options), 0);
 }
 
 }  // namespace
