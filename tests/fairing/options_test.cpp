@@ -200,21 +200,6 @@ TEST(FairOptions, SmoothnessCountsUnlessTheToleranceHoldsNoMoreThanNoise) {
   EXPECT_FALSE(fair(line, options).value().smoothness_counts);
 }
 
-/// Points that do not err leave all of the tolerance to the curve at any smoothness, reproduced,
-/// calmest or shortest.
-TEST(FairOptions, SmoothnessCountsForNothingWithoutNoise) {
-  acquire::KeyLine line = bow();
-  const std::size_t n = line.points.size();
-  for (std::size_t i = 0; i < n; ++i)
-    line.points[i] = {static_cast<double>(i), 1e-4 * static_cast<double>(i * i)};
-  line.noise = 0;
-  for (const double tolerance : {0.0, 1.0}) {
-    FairOptions options;
-    options.tolerance = tolerance;
-    EXPECT_FALSE(fair(line, options).value().smoothness_counts) << tolerance;
-  }
-}
-
 /// A wave that the points ask for goes where it is not wanted and the tolerance holds it; else the
 /// answer says how many stay.
 TEST(FairOptions, WavesBeyondThoseWantedGoWhileTheToleranceHolds) {

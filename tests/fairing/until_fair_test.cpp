@@ -89,6 +89,18 @@ TEST(UntilFair, SolvesOnceWhereTheToleranceHoldsNoMoreThanNoise) {
   EXPECT_EQ(found->smoothness, 0.5);
 }
 
+/// Points that do not err leave all of the tolerance to the curve at any smoothness, whether they
+/// are reproduced or not.
+TEST(UntilFair, SmoothnessCountsForNothingWithoutNoise) {
+  acquire::KeyLine line;
+  for (int i = 0; i < 40; ++i) line.points.push_back({0.1 * i, 1e-3 * i * i});
+  for (const double tolerance : {0.0, 0.01}) {
+    FairOptions options;
+    options.tolerance = tolerance;
+    EXPECT_FALSE(fair(line, options).value().smoothness_counts) << tolerance;
+  }
+}
+
 /// Answers farther off the smoother, the two smoothest by more than the noise's square root of two.
 double rms_at(double smoothness) { return smoothness < 0.7 ? 1 + smoothness / 2 : 1.5; }
 
