@@ -25,6 +25,7 @@
 #include "keyline/exchange/points/csv_writer.h"
 #include "keyline/exchange/points/hull_table.h"
 #include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/points/scap_reader.h"
 #include "keyline/exchange/step/cad_file.h"
 #include "keyline/exchange/svg/svg_document.h"
 #include "keyline/exchange/svg/svg_text.h"
@@ -75,6 +76,26 @@ Result<Document> offsets_document(std::string_view text) {
   return hull_document(*hull);
 }
 
+/// Pen strokes, upright, each in the layer of its group.
+Result<Document> strokes_document(std::string_view text) {
+  const auto drawing = read_scap(text);
+  if (!drawing) return std::unexpected(drawing.error());
+  Document document;
+  std::size_t dots = 0;
+  for (const ScapStroke& stroke : drawing->strokes) {
+    curve::Polyline2 line;
+    for (const core::Point2 p : stroke.points) line.points.push_back({p.x, drawing->height - p.y});
+    if (line.points.size() < 2) {
+      ++dots;
+      continue;
+    }
+    const document::Label label{std::to_string(stroke.id), std::to_string(stroke.group), {}};
+    document.paths.push_back({label, {{{std::move(line)}}, false}, drawing->pen});
+  }
+  if (dots > 0) document.skipped.push_back(core::counted(dots, "dot") + " of the pen");
+  return document;
+}
+
 /// The lines a mesh file holds beside its faces.
 Result<Document> mesh_document(const fs::path& file) {
   const auto mesh = read_mesh(file);
@@ -117,6 +138,8 @@ Result<Document> document_of(Format format, const fs::path& file, const ReadOpti
       return read_font(*content, options.glyphs);
     case Format::offsets:
       return offsets_document(*content);
+    case Format::scap:
+      return strokes_document(*content);
     case Format::glif:
       return read_glif(*content, fs::absolute(file).parent_path());
     case Format::dxf:

@@ -16,7 +16,7 @@ namespace keyline::exchange {
 namespace {
 
 std::optional<Format> known(const std::string& extension) {
-  static constexpr std::array<std::pair<std::string_view, Format>, 17> kKnown = {{
+  static constexpr std::array<std::pair<std::string_view, Format>, 18> kKnown = {{
       {".json", Format::json},
       {".svg", Format::svg},
       {".svgz", Format::svg},
@@ -34,6 +34,7 @@ std::optional<Format> known(const std::string& extension) {
       {".iges", Format::iges},
       {".igs", Format::iges},
       {".csv", Format::points},
+      {".scap", Format::scap},
   }};
   for (const auto& [name, format] : kKnown)
     if (extension == name) return format;

@@ -9,8 +9,8 @@
 
 namespace keyline::exchange {
 
-/// What room exchange reads or writes. points: tables of coordinates as text.
-enum class Format { points, json, svg, dxf, step, iges, mesh, font, glif, offsets };
+/// What room exchange reads or writes. points: tables of coordinates as text; scap: pen strokes.
+enum class Format { points, json, svg, dxf, step, iges, mesh, font, glif, offsets, scap };
 
 /// The extension that tells what a file is: its own where it is one of ours or a picture's, else
 /// that of what its first bytes look like; empty for tables of points and what nobody knows.
