@@ -57,13 +57,11 @@ double signed_power_mean_integral(double a, double b, double p, double u) {
   const double to = signed_power(last, p);
   const double g = (1 - u) * from + u * to;
   const double e = 1 + 1 / p;
-  constexpr double kSmall = 0.01;
-  if (p > kSmall)
-    return size * (std::pow(std::abs(g), e) - std::pow(std::abs(from), e)) / (e * (to - from));
   // The root of a small p would magnify the rounding of the powers by 1 / p: the mean at u is seen
-  // from the end of its sign. A power that is lost to underflow is 0 and asked for nothing.
+  // from the end of its sign. Rounding may see zero from a hair beyond it; a power that is lost to
+  // underflow is 0 and asked for nothing.
   const auto seen_from = [&](double end, double power, double step) {
-    return power == 0 ? 0 : end * std::exp(std::log1p(step / power) / p);
+    return power == 0 ? 0 : end * std::exp(std::log1p(std::max(-1.0, step / power)) / p);
   };
   const double mean = std::signbit(g) == std::signbit(from)
                           ? seen_from(first, from, u * (to - from))

@@ -160,5 +160,20 @@ TEST(SignedPowerMeanIntegral, LosesNoDigitsToASmallPower) {
   EXPECT_NEAR(signed_power_mean_integral(-1, 3, 2, 0.05), -0.043096440627115084483, 1e-17);
 }
 
+// Up to the zero between the ends the mean is (1 - u/u0)^(1/p) of the first; rounding may put u
+// beyond it.
+TEST(SignedPowerMeanIntegral, StopsAtZeroWithinRounding) {
+  for (const double p : {1e-6, 0.005, 0.3, 1.0, 2.0})
+    for (int i = 1; i < 300; ++i) {
+      const double a = i % 2 == 0 ? 0.01 * i : -0.01 * i;
+      const double b = i % 2 == 0 ? -1 : 1;
+      const double first = std::pow(std::abs(a), p);
+      const double zero = first / (first + 1);
+      for (const double u : {std::nextafter(zero, 0), zero, std::nextafter(zero, 1)})
+        EXPECT_NEAR(signed_power_mean_integral(a, b, p, u), a * zero / (1 + 1 / p), 1e-15)
+            << a << " " << p;
+    }
+}
+
 }  // namespace
 }  // namespace keyline::numeric
