@@ -8,6 +8,7 @@
 #include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/graph_pieces.h"
 #include "keyline/fairing/leaning_ends.h"
+#include "keyline/fairing/piece_choice.h"
 #include "keyline/fairing/settle.h"
 
 namespace keyline::fairing::detail {
@@ -77,36 +78,6 @@ BandOptions piece_band(const CalmRun& run, const CalmRunOptions& options) {
           .progress = options.progress};
 }
 
-/// The pieces chosen among those that were solved for. Before any is good the nearest to it; of
-/// good ones the first that shows fewest waves.
-class Choice {
- public:
-  /// waves: that the calm curve shows.
-  Choice(CalmRun& run, int waves) : run_(run), waves_(waves) {}
-
-  void offer(const DenseCurve& trial, const BandReport& found, bool good) {
-    const bool nearer = !run_.band.within && found.max_offset < run_.band.max_offset;
-    const int seen = good ? seen_waves(trial) : 0;
-    if (good_ ? good && seen < seen_ : good || first_ || nearer || found.within) {
-      run_.curve = trial;
-      run_.band = found;
-      seen_ = seen;
-    }
-    first_ = false;
-    good_ = good_ || good;
-  }
-
-  /// Nothing better is to be had: more pieces need not be tried.
-  bool done() const { return good_ && seen_ <= waves_; }
-
- private:
-  CalmRun& run_;
-  int waves_;
-  int seen_ = 0;
-  bool good_ = false;
-  bool first_ = true;
-};
-
 /// Pieces for a calm curve, solved for: as few as lose little of its energy and its place, fewer
 /// and nearer until the points stay in the tolerance and the whole is as calm. A swing of the calm
 /// curve that is too low to be seen may grow in them: then more are tried.
@@ -120,7 +91,7 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
       std::max(options.residuals.most(kErrorsOfPieces), kPieceRms * run.band.rms);
   const bool means = options.residuals.scatter > 0;
   const double least = std::ldexp(kFirstLoss, means ? -kRefinementsOfMeans : -kRefinements);
-  Choice choice(run, seen_waves(run.curve));
+  PieceChoice choice(run, seen_waves(run.curve));
   double finer = 0.5;
   std::vector<int> last;
   int most = static_cast<int>(run.curve.joints.size());
@@ -132,9 +103,8 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
     last = std::move(count);
     most = 2 * static_cast<int>(trial.alpha.size());
     const BandReport found = solve_pieces(trial, points, band, most_rms);
-    choice.offer(
-        trial, found,
-        found.within && found.energy <= (1 + kForPieces) * energy && found.rms <= most_rms);
+    const double lost = found.energy / ((1 + kForPieces) * energy);
+    choice.offer(trial, found, std::max(lost, found.rms > 0 ? found.rms / most_rms : 0));
     if (options.progress.stop_requested() || choice.done()) return;
     // The loss goes with the square of a bow.
     if (means) finer = std::clamp(std::pow(most_rms / found.rms, 2), kLeastRefinement, 0.5);
