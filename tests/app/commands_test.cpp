@@ -127,17 +127,18 @@ TEST(Commands, CurvesComeInTheFormsAskedFor) {
   }
 }
 
-TEST(Convert, DrawsCurvesAndSaysWhereThereAreNone) {
+TEST(Convert, DrawsCurvesElseSurfacesAndSaysWhereThereAreNone) {
   const Scratch s;
   const Outcome drawn = run_keyline("convert --quiet " + example("cubic.json") + " -o " +
                                     s.path("a.png") + " -o " + s.path("a.html"));
   EXPECT_EQ(drawn.status, 0) << drawn.err;
   EXPECT_TRUE(slurp(s.path("a.png")).starts_with("\x89PNG"));
   EXPECT_NE(slurp(s.path("a.html")).find("<table"), std::string::npos);
-  expect_failure(
-      run_keyline("convert --quiet " + example("panel-a.json") + " -o " + s.path("b.png")), 2,
-      "there is no planar curve to draw");
-  EXPECT_FALSE(std::filesystem::exists(s.path("b.png")));
+  const std::string surface = "convert --quiet " + example("panel-a.json") + " -o ";
+  EXPECT_EQ(run_keyline(surface + s.path("b.png")).status, 0);
+  EXPECT_TRUE(slurp(s.path("b.png")).starts_with("\x89PNG"));
+  expect_failure(run_keyline(surface + s.path("b.svg")), 2, "there is no planar curve to draw");
+  EXPECT_FALSE(std::filesystem::exists(s.path("b.svg")));
 }
 
 TEST(Commands, WhatAPointFileLeavesOutIsSaidByAll) {
