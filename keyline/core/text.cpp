@@ -28,6 +28,16 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
   return many.empty() ? text.append(one) + 's' : text.append(many);
 }
 
+std::vector<std::string> told_in_part(std::vector<std::string> lines, std::string_view one,
+                                      std::string_view many) {
+  constexpr std::size_t kMost = 5;
+  if (lines.size() <= kMost) return lines;
+  const std::size_t more = lines.size() - kMost;
+  lines.resize(kMost);
+  lines.push_back(counted(more, one, many));
+  return lines;
+}
+
 std::string on_one_line(std::string_view text) {
   std::string line(text);
   std::replace_if(

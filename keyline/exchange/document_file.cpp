@@ -83,8 +83,7 @@ Result<Document> strokes_document(std::string_view text) {
   Document document;
   std::size_t dots = 0;
   for (const ScapStroke& stroke : drawing->strokes) {
-    curve::Polyline2 line;
-    for (const core::Point2 p : stroke.points) line.points.push_back({p.x, drawing->height - p.y});
+    curve::Polyline2 line{upright(*drawing, stroke)};
     if (line.points.size() < 2) {
       ++dots;
       continue;

@@ -67,7 +67,7 @@ Result<std::vector<sketch::DrawnStroke>> drawn_strokes(const std::string& file, 
   std::vector<sketch::DrawnStroke> strokes;
   for (const exchange::ScapStroke& s : drawing->strokes) {
     sketch::DrawnStroke stroke;
-    for (const core::Point2 p : s.points) stroke.points.push_back({p.x, drawing->height - p.y});
+    stroke.points = exchange::upright(*drawing, s);
     strokes.push_back(std::move(stroke));  // dots too: strokes keep their numbers
   }
   return strokes;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -60,16 +59,15 @@ SurfaceSubject subject_of(const ShownSurface& shown) {
   return subject;
 }
 
-std::vector<SurfaceSubject> subjects_of(const document::Document& document) {
-  std::vector<SurfaceSubject> all;
-  for (const document::NamedSurface& s : document.surfaces) {
-    all.push_back({s.label.name, s.surface, {}, {}, s.trims});
+/// With the values that a report tells.
+std::vector<SurfaceSubject> valued(std::vector<SurfaceSubject> subjects) {
+  for (SurfaceSubject& s : subjects) {
     if (auto values = surface::sav_by_patch(s.surface))
-      all.back().values = std::move(*values);
+      s.values = std::move(*values);
     else
-      all.back().no_value = values.error().message;
+      s.no_value = values.error().message;
   }
-  return all;
+  return subjects;
 }
 
 double sav_of(const SurfaceSubject& s) {
@@ -165,9 +163,11 @@ Pages surface_pages(const std::vector<ShownSurface>& all, const SurfaceView& vie
 }
 
 Pages surface_pages(const document::Document& document, const ReportOptions& options) {
-  const auto shared = std::make_shared<const document::Document>(document);
-  return detail::pages_of([=] { return surface_page(subjects_of(*shared), options); },
-                          [=] { return surfaces_report(subjects_of(*shared), options, {}); });
+  std::vector<SurfaceSubject> subjects;
+  for (const document::NamedSurface& s : document.surfaces)
+    subjects.push_back({s.label.name, s.surface, {}, {}, s.trims});
+  return detail::pages_of([=] { return surface_page(subjects, options); },
+                          [=] { return surfaces_report(valued(subjects), options, {}); });
 }
 
 Pages surface_edit_pages(const std::vector<operations::NamedSurfaceValue>& given,

@@ -30,7 +30,7 @@ class DxfText {
   unsigned long next_;
 };
 
-/// Text on one line, at most 255 bytes; what is not ASCII as \U+XXXX.
+/// Text on one line, at most 255 bytes; what is not ASCII as \U+ and four hexadecimal digits.
 std::string dxf_text(std::string_view text);
 /// The same without the characters that names of layers may not hold; those become "_".
 std::string dxf_name(std::string_view text);

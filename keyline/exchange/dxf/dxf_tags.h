@@ -23,7 +23,8 @@ struct DxfTag {
 std::optional<double> number_of(const DxfTag& tag);
 /// Value as a whole number of at most nine digits.
 std::optional<int> integer_of(const DxfTag& tag);
-/// Value as UTF-8: bytes that are none are read as Windows-1252, \U+XXXX is resolved.
+/// Value as UTF-8: bytes that are none are read as Windows-1252, \U+ and four
+/// hexadecimal digits are resolved.
 std::string text_of(const DxfTag& tag);
 
 /// Reads the groups of a DXF file, ASCII or binary (R12's one-byte codes and the later two-byte

@@ -63,18 +63,6 @@ Result<Plane> plane_for(const SectionRequest& request, const std::vector<Point3>
   return found->plane;
 }
 
-/// The first five of them, the rest counted.
-std::vector<std::string> some_of(const std::vector<std::string>& skipped) {
-  constexpr std::size_t kMost = 5;
-  std::vector<std::string> some(
-      skipped.begin(),
-      skipped.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, skipped.size())));
-  if (skipped.size() > kMost)
-    some.push_back(core::counted(skipped.size() - kMost, "further part of the mesh",
-                                 "further parts of the mesh"));
-  return some;
-}
-
 Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request) {
   const auto plane = plane_for(request, mesh.points);
   if (!plane) return std::unexpected(plane.error());
@@ -87,7 +75,8 @@ Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request
     curve.id = "section-" + std::to_string(result.curves.size() + 1);
     for (const core::Point2 p : line.points) curve.points.push_back({p.x, p.y, 0});
     curve.notes.push_back("section of a mesh at " + result.description);
-    curve.left_out = some_of(mesh.skipped);
+    curve.left_out =
+        core::told_in_part(mesh.skipped, "further part of the mesh", "further parts of the mesh");
     result.curves.push_back(std::move(curve));
     result.closed.push_back(line.closed);
   }

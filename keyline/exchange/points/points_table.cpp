@@ -304,10 +304,7 @@ void PointsTable::tell_left_out() {
   }
   tell_columns();
   tell_titles();
-  constexpr std::size_t kMost = 5;  // told one by one
-  const std::size_t more = left_out_.size() - std::min(left_out_.size(), kMost);
-  left_out_.resize(left_out_.size() - more);
-  if (more > 0) left_out_.push_back(core::counted(more, "further line"));
+  left_out_ = core::told_in_part(std::move(left_out_), "further line");
   for (RawCurve& curve : curves_) curve.left_out = left_out_;
 }
 

@@ -92,6 +92,12 @@ class Reader {
 
 }  // namespace
 
+std::vector<core::Point2> upright(const ScapDrawing& drawing, const ScapStroke& stroke) {
+  std::vector<core::Point2> points = stroke.points;
+  for (core::Point2& p : points) p.y = drawing.height - p.y;
+  return points;
+}
+
 Result<ScapDrawing> read_scap(std::string_view text) { return Reader().read(text); }
 
 }  // namespace keyline::exchange

@@ -22,6 +22,9 @@ struct ScapDrawing {
   std::vector<ScapStroke> strokes;  ///< y as in the file, downwards
 };
 
+/// A stroke's points with y upwards, from the canvas's lower side.
+std::vector<core::Point2> upright(const ScapDrawing& drawing, const ScapStroke& stroke);
+
 /// Reads "#width height", "@pen" and blocks { #id group, x y … }; what stands behind the blocks in
 /// lines that start with # is skipped.
 /// Fails: bad_input with "line N" for anything else, numbers that are not finite, or no stroke.

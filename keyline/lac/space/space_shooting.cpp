@@ -28,11 +28,6 @@ struct Laws {
   double torsion(double t) const { return carried(start_torsion, beta, torsion_rate * t); }
 };
 
-/// omega in the unit in which the curve has unit length.
-double unit_rate(double beta, double omega, double length) {
-  return omega == 0 ? 0.0 : omega * std::pow(length, 1 - beta);
-}
-
 /// A place of the curve and its frame.
 struct Motion {
   Vector3 at;

@@ -26,6 +26,11 @@ inline double carried(double x, double p, double d) {
   return p < 0 ? -x * std::exp(-std::log(-1 - part) / p) : NAN;
 }
 
+/// omega in the unit in which the curve has unit length.
+inline double unit_rate(double beta, double omega, double length) {
+  return omega == 0 ? 0.0 : omega * std::pow(length, 1 - beta);
+}
+
 /// What decides a curve of given slopes and omega up to its size, all in units of the radius of
 /// curvature at the start.
 struct SpaceUnknowns {

@@ -135,10 +135,20 @@ SpaceUnknowns moved(const SpaceUnknowns& x, const Miss& step, double share) {
           x.length * std::exp(-share * std::clamp(step[2] / x.length, -1.0, 1.0))};
 }
 
+namespace {
+
+/// For a slope above 0: torsion that the rate changes by its own size along the curve.
+double felt_torsion(double beta, double rate) { return std::pow(beta * rate, -1 / beta); }
+
+double rate_of(const SpaceStandardForm& form, double length) {
+  return std::abs(detail::unit_rate(form.beta, form.omega, length));
+}
+
+}  // namespace
+
 double most_twist(const SpaceStandardForm& form, double length) {
   if (!(form.beta > 1) || form.omega == 0) return HUGE_VAL;
-  const double rate = std::abs(form.omega) * std::pow(length, 1 - form.beta);
-  return std::pow(form.beta * rate, -1 / form.beta) * form.beta / (form.beta - 1);
+  return felt_torsion(form.beta, rate_of(form, length)) * form.beta / (form.beta - 1);
 }
 
 namespace {
@@ -229,15 +239,14 @@ double between(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// Torsion up to a full turn and a half either way. For a slope above 0 torsion of the size
-/// (beta rate)^(-1/beta) is what the rate changes by its own size along the curve: where that is
-/// small, torsion is drawn from far below it to far above.
+/// Torsion up to a full turn and a half either way. Where torsion that feels the rate is small it
+/// is drawn from far below that to far above.
 double random_twist(const SpaceStandardForm& form, double length, std::mt19937_64& random) {
   constexpr double kMost = 3 * core::kPi, kFarAbove = 5;
   const double twist = between(random, -kMost, kMost);
-  const double rate = std::abs(form.omega) * std::pow(length, 1 - form.beta);
+  const double rate = rate_of(form, length);
   if (!(form.beta > 0) || rate == 0) return twist;
-  const double scale = std::pow(form.beta * rate, -1 / form.beta);
+  const double scale = felt_torsion(form.beta, rate);
   if (!(scale > 0 && scale < 1e100)) return twist;
   const double size = std::min(kFarAbove, std::asinh(kMost / scale)) * std::abs(twist) / kMost;
   const double largest = scale * std::sinh(size);
