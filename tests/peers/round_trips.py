@@ -234,7 +234,7 @@ def main():
     program = sys.argv[1]
     here = Path(__file__).resolve().parents[2]
     files = [Path(f) for f in sys.argv[2:]] or sorted((here / "../shared/data").rglob("*.svg"))
-    print("| file | curves | closed | names kept | size (mm) | size after | apart (mm) | told (mm) "
+    print("| file | curves | closed | names kept | size (mm) | size after | apart (mm) | printed (mm) "
           "| Inkscape before, after | FreeCAD, the STEP |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     status = 0
