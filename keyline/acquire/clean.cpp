@@ -5,15 +5,13 @@
 #include <string>
 
 #include "keyline/acquire/statistics.h"
+#include "keyline/core/coordinate.h"
 
 namespace keyline::acquire::detail {
 namespace {
 
-constexpr double kLargest = 1e100;
-
 bool too_large(core::Point3 p) {
-  const auto large = [](double v) { return std::isfinite(v) && std::abs(v) > kLargest; };
-  return large(p.x) || large(p.y) || large(p.z);
+  return core::is_too_large(p.x) || core::is_too_large(p.y) || core::is_too_large(p.z);
 }
 
 std::string place_of(const RawCurve& raw, std::size_t i) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 
 namespace keyline::acquire {
@@ -153,7 +154,7 @@ core::Result<Plane> common_plane(std::span<const RawCurve> parts, const AcquireO
     space = space || part.has_z;
     for (const core::Point3& p : part.points) {
       const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-      if (core::is_finite(p) && size <= 1e100) all.push_back(p);
+      if (core::is_finite(p) && size <= core::kLargestCoordinate) all.push_back(p);
     }
   }
   if (all.empty()) {

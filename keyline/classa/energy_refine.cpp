@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <memory>
+#include <numbers>
 
 #include <nlopt.h>
 
@@ -207,7 +208,7 @@ Candidate polish_inside(const Frame& f, const Candidate& start, bool& converged)
 /// Golden section over the rim, alpha kept at the end of its range.
 Candidate polish_at_edge(const Frame& f, const ReachTable& table, const Candidate& start) {
   if (f.slack == 0) return start;
-  constexpr double kShare = 0.6180339887498949;
+  constexpr double kShare = std::numbers::phi - 1;
   Candidate best = start;
   const auto probe = [&](double direction) {
     const Rim rim{direction, start.rim.winding};

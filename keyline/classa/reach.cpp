@@ -1,5 +1,7 @@
 #include "keyline/classa/reach.h"
 
+#include <numbers>
+
 #include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
 #include "keyline/numeric/roots.h"
@@ -16,7 +18,7 @@ constexpr int kCells = 48;  // of alpha, to find where an end angle can be reach
 /// Where angle_of is largest between a and b, if it has one top there (golden section).
 template <class AngleOf>
 double top_between(const AngleOf& angle_of, double a, double b) {
-  constexpr double kShare = 0.6180339887498949;
+  constexpr double kShare = std::numbers::phi - 1;
   while (b - a > 1e-9) {
     const double left = b - kShare * (b - a);
     const double right = a + kShare * (b - a);

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/analysis/rhythm.h"
 #include "keyline/analysis/volume.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kZeroBand = 0.1;  // slopes of at most this size read as zero
-constexpr int kTelling = 5;        // points: as many as a reading of two lines has parameters
+constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;
+constexpr int kTelling = 5;       // points: as many as a reading of two lines has parameters
 constexpr double kToldSlope = 1;  // standard deviation: a slope less known might be any of the five
 constexpr double kSeen = 0.02;    // of the whole: a centimetre of a drawing half a metre long
 constexpr int kProfileSamples = 101;

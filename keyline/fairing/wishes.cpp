@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/analysis/rhythm.h"
 #include "keyline/fairing/run.h"
 #include "keyline/fairing/settle.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kZeroBand = 0.1;
+constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;
 
 std::string piece_name(int piece) { return "piece " + std::to_string(piece); }
 

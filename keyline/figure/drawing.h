@@ -103,9 +103,6 @@ struct Viewport {
 inline core::Point2 to_page(const Viewport& v, core::Point2 p) {
   return {v.origin.x + v.scale * p.x, v.origin.y - v.scale * p.y};
 }
-inline core::Point2 to_model(const Viewport& v, core::Point2 p) {
-  return {(p.x - v.origin.x) / v.scale, (v.origin.y - p.y) / v.scale};
-}
 Path to_page(const Viewport& v, const Path& path);
 std::vector<core::Point2> to_page(const Viewport& v, const std::vector<core::Point2>& points);
 

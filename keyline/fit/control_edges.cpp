@@ -85,17 +85,16 @@ double curvature_with_gradient(const Edges& e, double u, std::array<double, kEdg
   return kappa;
 }
 
-FreeLengths::FreeLengths(std::vector<Edges> start, bool closed, bool hold, bool fix_ends)
-    : start_(std::move(start)) {
+FreeLengths::FreeLengths(std::vector<Edges> start, const Held& held) : start_(std::move(start)) {
   role_.assign(kEdges * start_.size(), Role::free);
-  if (fix_ends)
+  if (held.outermost)
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       role_[k] = Role::fixed;
       role_[role_.size() - 1 - k] = Role::fixed;
     }
-  for (std::size_t i = 0; i + (closed ? 0 : 1) < start_.size(); ++i)
+  for (std::size_t i = 0; i + (held.closed ? 0 : 1) < start_.size(); ++i)
     tie_joint(i, (i + 1) % start_.size());
-  if (hold || closed) choose_pair();
+  if (held.end || held.closed) choose_pair();
   for (std::size_t k = 0; k < role_.size(); ++k)
     if (role_[k] == Role::free) free_.push_back(k);
   for (const Edges& e : start_)

@@ -37,9 +37,13 @@ double curvature_with_gradient(const Edges& e, double u, std::array<double, kEdg
 /// The unknowns: logarithms of free lengths; the others follow from joints and a held end.
 class FreeLengths {
  public:
-  /// closed: the last piece joins the first. hold (or closed): the end point stays. fix_ends: the
-  /// first two and the last two lengths stay.
-  FreeLengths(std::vector<Edges> start, bool closed, bool hold, bool fix_ends = false);
+  /// What does not change beside the directions.
+  struct Held {
+    bool closed = false;     ///< the last piece joins the first, and the end point stays
+    bool end = false;        ///< the end point stays
+    bool outermost = false;  ///< the first two and the last two lengths stay
+  };
+  FreeLengths(std::vector<Edges> start, const Held& held);
 
   /// False where an end is to be held and all lengths free for that are parallel.
   bool can_hold() const { return !wants_pair_ || pair_found_; }

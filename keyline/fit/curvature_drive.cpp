@@ -312,8 +312,9 @@ Result<CurvatureDrive> drive(const PiecewiseBezier& given, std::vector<Curvature
   const Problem problem{
       chain,
       *edges,
-      FreeLengths(*edges, options.closed, options.hold_end,
-                  options.hold_curvature && !options.closed),
+      FreeLengths(*edges, {.closed = options.closed,
+                           .end = options.hold_end,
+                           .outermost = options.hold_curvature && !options.closed}),
       ChainDisplacement(chain, *edges),
       options.max_iterations,
       options.max_deviation,

@@ -193,7 +193,8 @@ struct Search {
   bool by_shortest_steps = false;
   bool far = false;
 };
-constexpr Search kSearches[] = {{false, false}, {false, true}, {true, false}, {true, true}};
+constexpr Search kSearches[] = {
+    {}, {.far = true}, {.by_shortest_steps = true}, {.by_shortest_steps = true, .far = true}};
 
 /// Of the nets found the one to take or, where there is none yet, the one that meets its equations
 /// best.

@@ -257,17 +257,6 @@ std::array<double, 2> edge_parameters(Edge edge, double along) {
   return {along, 1};
 }
 
-const char* edge_name(Edge edge) {
-  constexpr const char* names[] = {"u0", "u1", "v0", "v1"};
-  return names[static_cast<int>(edge)];
-}
-
-std::optional<Edge> edge_named(const std::string& name) {
-  for (const Edge e : kEdges)
-    if (name == edge_name(e)) return e;
-  return std::nullopt;
-}
-
 Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& second,
                                        const std::optional<std::array<Edge, 2>>& edges,
                                        const EdgeTolerance& tolerance, int count) {

@@ -92,10 +92,6 @@ core::Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface
                                              const std::optional<std::array<Edge, 2>>& edges = {},
                                              const EdgeTolerance& tolerance = {}, int count = 101);
 
-/// "u0", "u1", "v0", "v1".
-const char* edge_name(Edge edge);
-std::optional<Edge> edge_named(const std::string& name);
-
 /// Parameters of the surface at `along` in [0, 1] of the edge.
 std::array<double, 2> edge_parameters(Edge edge, double along);
 

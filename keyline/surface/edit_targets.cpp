@@ -92,15 +92,18 @@ void add_translational(const EditTask& task, TargetSet& set) {
 
 // ---- One way ------------------------------------------------------------------------------
 
+/// Which of the rows, or of the columns: those on the border, those inside, or both.
+enum class Which { border, inner, all };
+
 /// Takes rows (columns) of `moved` to their minimum between their ends, which stay; false, with the
 /// reason, where one has none.
-bool straighten_out(const EditTask& task, Net& moved, bool rows, bool outer, bool inner,
+bool straighten_out(const EditTask& task, Net& moved, bool rows, Which which,
                     MissedTarget& missed) {
   const Sense common = sense_of(task.net, task.options.keep);
   for (const NetworkCurve& c : network_curves(moved)) {
     const int last = (c.is_row ? moved.rows : moved.columns) - 1;
     const bool border = c.index == 0 || c.index == last;
-    if (c.is_row != rows || (border ? !outer : !inner)) continue;
+    if (c.is_row != rows || which == (border ? Which::inner : Which::border)) continue;
     const bool alone = border && task.options.keep == Keep::joints;
     CurveTask own = task.curve(c, alone ? own_sense(c) : common);
     own.end_tolerance = own.condition.end_tolerance = 0;  // whatever the minimum is judged by
@@ -121,8 +124,8 @@ bool straighten_out(const EditTask& task, Net& moved, bool rows, bool outer, boo
 void add_one_way(const EditTask& task, bool rows, bool frame, TargetSet& set) {
   MissedTarget missed{rows ? "rows" : "columns", {}, {}};
   Net moved = task.net;
-  if ((!frame || straighten_out(task, moved, !rows, true, false, missed)) &&
-      straighten_out(task, moved, rows, frame, true, missed))
+  if ((!frame || straighten_out(task, moved, !rows, Which::border, missed)) &&
+      straighten_out(task, moved, rows, frame ? Which::all : Which::inner, missed))
     set.targets.push_back({missed.target, std::move(moved)});
   else
     set.missed.push_back(std::move(missed));
@@ -167,8 +170,8 @@ void add_blended(const EditTask& task, TargetSet& set) {
   EditOptions alone = task.options;  // every boundary curve for itself
   alone.keep = Keep::joints;
   const EditTask own{task.net, alone, task.conditions};
-  if (!straighten_out(own, moved, true, true, false, missed) ||
-      !straighten_out(own, moved, false, true, false, missed)) {
+  if (!straighten_out(own, moved, true, Which::border, missed) ||
+      !straighten_out(own, moved, false, Which::border, missed)) {
     set.missed.push_back(std::move(missed));
     return;
   }

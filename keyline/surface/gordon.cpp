@@ -141,29 +141,17 @@ BSplineSurface spline_through(const Rows& values, const std::vector<double>& u,
   return s;
 }
 
-/// Largest distance of curves from the surface at their own parameters.
-double off_along_u(const CurveNet& net, const BSplineSurface& s, std::size_t spans) {
+/// Largest distance of curves from the surface at their own parameters. `surface_at(i, share)` is
+/// the surface where curve i should pass after that share of its parameter.
+template <class SurfaceAt>
+double largest_miss(const std::vector<Warp>& warps, std::size_t spans,
+                    const SurfaceAt& surface_at) {
   double worst = 0;
-  const auto warps = warps_of_u(net);
   const auto looks = static_cast<int>(spans) * kLooks;
   for (std::size_t i = 0; i < warps.size(); ++i)
     for (int k = 0; k <= looks; ++k) {
       const double share = static_cast<double>(k) / looks;
-      worst = std::max(worst,
-                       norm(evaluate(s, share, net.v_places[i]) - Point3{} - warps[i].at(share)));
-    }
-  return worst;
-}
-
-double off_along_v(const CurveNet& net, const BSplineSurface& s, std::size_t spans) {
-  double worst = 0;
-  const auto warps = warps_of_v(net);
-  const auto looks = static_cast<int>(spans) * kLooks;
-  for (std::size_t j = 0; j < warps.size(); ++j)
-    for (int k = 0; k <= looks; ++k) {
-      const double share = static_cast<double>(k) / looks;
-      worst = std::max(worst,
-                       norm(evaluate(s, net.u_places[j], share) - Point3{} - warps[j].at(share)));
+      worst = std::max(worst, norm(surface_at(i, share) - Point3{} - warps[i].at(share)));
     }
   return worst;
 }
@@ -177,8 +165,12 @@ Result<GordonSurface> surface_of(const CurveNet& net, double tolerance) {
     const auto u = divided(net.u_places, spans_u);
     const auto v = divided(net.v_places, spans_v);
     GordonSurface made{spline_through(blended(net, u, v), u, v), 0, net.gap};
-    const double off_u = off_along_u(net, made.surface, u.size());
-    const double off_v = off_along_v(net, made.surface, v.size());
+    const double off_u = largest_miss(warps_of_u(net), u.size(), [&](std::size_t i, double share) {
+      return evaluate(made.surface, share, net.v_places[i]);
+    });
+    const double off_v = largest_miss(warps_of_v(net), v.size(), [&](std::size_t j, double share) {
+      return evaluate(made.surface, net.u_places[j], share);
+    });
     made.deviation = off = std::max(off_u, off_v);
     if (off <= std::max(tolerance, net.gap)) return made;
     if (off_u > tolerance) spans_u *= 2;

@@ -181,13 +181,4 @@ Result<Field> interrogate(const JetGrid& grid, FieldKind kind, const Lighting& l
   return field;
 }
 
-double zebra_shade(double value, double blur) {
-  const double phase = value - std::floor(value);
-  const double into = 0.25 - std::abs(phase - 0.25);  // distance into white, up to 1/4
-  const double out = phase > 0.75 ? 1 - phase : phase - 0.5;
-  const double signed_distance = phase <= 0.5 ? into : -out;
-  if (!(blur > 0)) return signed_distance >= 0 ? 1 : 0;
-  return std::clamp(0.5 + signed_distance / blur, 0.0, 1.0);
-}
-
 }  // namespace keyline::surface

@@ -65,7 +65,4 @@ Lighting completed(const Lighting& lighting, const JetGrid& grid);
 /// not positive, or (reflection) stripes along the view.
 core::Result<Field> interrogate(const JetGrid& grid, FieldKind kind, const Lighting& lighting = {});
 
-/// Zebra as it is painted: 1 for white, 0 for black, `blur` (in units of the value) between.
-double zebra_shade(double value, double blur);
-
 }  // namespace keyline::surface

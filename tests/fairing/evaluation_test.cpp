@@ -81,19 +81,24 @@ TEST(Evaluation, OnlyTheOutermostFeetAreBeyondTheEnds) {
   EXPECT_NEAR(evaluation.offset(1), 0, 1e-12);
 }
 
+/// The chain with one of the seven variables of its second piece changed.
+FitChain changed(FitChain chain, int variable, double by) {
+  FitJoint& joint = chain.joints[1];
+  if (variable == kX) joint.position.x += by;
+  if (variable == kY) joint.position.y += by;
+  if (variable == kDirection) joint.direction += by;
+  if (variable == kCurvature) joint.curvature += by;
+  if (variable == kNextCurvature) chain.joints[2].curvature += by;
+  if (variable == kLengthAt) chain.pieces[1].length += by;
+  if (variable == kAlphaAt) chain.pieces[1].alpha += by;
+  return chain;
+}
+
 TEST(Evaluation, RowsDependOnTheSevenVariablesAsDifferencesSay) {
   const FitChain chain = gapped();
   const std::vector<FitPoint> points{{.position = {0.6, 0.45}}};
   const auto row = [&](int k, double by) {
-    FitChain other = chain;
-    FitJoint& joint = other.joints[1];
-    if (k == kX) joint.position.x += by;
-    if (k == kY) joint.position.y += by;
-    if (k == kDirection) joint.direction += by;
-    if (k == kCurvature) joint.curvature += by;
-    if (k == kNextCurvature) other.joints[2].curvature += by;
-    if (k == kLengthAt) other.pieces[1].length += by;
-    if (k == kAlphaAt) other.pieces[1].alpha += by;
+    FitChain other = changed(chain, k, by);
     other.feet = {{1, 0.35}};
     return Evaluation(other, points, fine()).row(0);
   };
@@ -108,16 +113,7 @@ TEST(Evaluation, RowsDependOnTheSevenVariablesAsDifferencesSay) {
   constexpr double h = 1e-5;
   for (int k = 0; k < 7; ++k) {
     const auto place = [&](double by) {
-      FitChain other = chain;
-      FitJoint& joint = other.joints[1];
-      if (k == kX) joint.position.x += by;
-      if (k == kY) joint.position.y += by;
-      if (k == kDirection) joint.direction += by;
-      if (k == kCurvature) joint.curvature += by;
-      if (k == kNextCurvature) other.joints[2].curvature += by;
-      if (k == kLengthAt) other.pieces[1].length += by;
-      if (k == kAlphaAt) other.pieces[1].alpha += by;
-      return lac::pose_at(segment_of(other, 1), 0.35).position;
+      return lac::pose_at(segment_of(changed(chain, k, by), 1), 0.35).position;
     };
     const core::Vector2 d = (place(h) - place(-h)) / (2 * h);
     EXPECT_NEAR(here.by_across(k), -s * d.x + c * d.y, 1e-7) << k;

@@ -115,13 +115,17 @@ TEST(ControlEdges, CurvatureIsThatOfTheCurveAndItsGradientIsThatOfDifferences) {
 
 struct Freedom {
   const char* name;
-  bool g2, closed, hold, fix_ends;
+  bool g2;
+  FreeLengths::Held held;
   Eigen::Index free;  ///< of three pieces: 15, a joint takes one, an end that is held two
 };
 constexpr Freedom kFreedoms[] = {
-    {"all free", false, false, false, false, 15}, {"joints", true, false, false, false, 13},
-    {"held", true, false, true, false, 11},       {"ends fixed", true, false, false, true, 9},
-    {"both", true, false, true, true, 7},         {"closed", true, true, false, false, 11},
+    {"all free", false, {}, 15},
+    {"joints", true, {}, 13},
+    {"held", true, {.end = true}, 11},
+    {"ends fixed", true, {.outermost = true}, 9},
+    {"both", true, {.end = true, .outermost = true}, 7},
+    {"closed", true, {.closed = true}, 11},
 };
 
 TEST(FreeLengths, StartWhereTheyAre) {
@@ -129,7 +133,7 @@ TEST(FreeLengths, StartWhereTheyAre) {
   for (const Freedom& f : kFreedoms) {
     SCOPED_TRACE(f.name);
     const std::vector<Edges> edges = random_edges(random, 3, f.g2);
-    const FreeLengths free(edges, f.closed, f.hold, f.fix_ends);
+    const FreeLengths free(edges, f.held);
     EXPECT_TRUE(free.can_hold());
     EXPECT_EQ(free.size(), f.free);
     Eigen::VectorXd a;
@@ -143,7 +147,7 @@ TEST(FreeLengths, KeepJointsEndsAndWhatIsFixed) {
   for (const Freedom& f : kFreedoms) {
     SCOPED_TRACE(f.name);
     const std::vector<Edges> edges = random_edges(random, 3, f.g2);
-    const FreeLengths free(edges, f.closed, f.hold, f.fix_ends);
+    const FreeLengths free(edges, f.held);
     Eigen::VectorXd a;
     ASSERT_TRUE(free.expand(moved(free.unknowns(), random), a, nullptr));
     EXPECT_GT(a.minCoeff(), 0);
@@ -153,13 +157,13 @@ TEST(FreeLengths, KeepJointsEndsAndWhatIsFixed) {
       EXPECT_NEAR(curvature(jet(chain.pieces[i - 1], 1)), curvature(jet(chain.pieces[i], 0)),
                   1e-12);
     }
-    if (f.hold || f.closed) {
+    if (f.held.end || f.held.closed) {
       EXPECT_LT(distance(chain.pieces.back().control.back(),
                          chain_of(kStart, edges, before).pieces.back().control.back()),
                 1e-13);
     }
     for (const Eigen::Index k : {0, 1, 13, 14}) {
-      if (f.fix_ends) {
+      if (f.held.outermost) {
         EXPECT_EQ(a[k], before[k]);
       }
     }
@@ -170,7 +174,7 @@ TEST(FreeLengths, SlopesAreThoseOfDifferences) {
   std::mt19937 random(6);
   for (const Freedom& f : kFreedoms) {
     SCOPED_TRACE(f.name);
-    const FreeLengths free(random_edges(random, 3, f.g2), f.closed, f.hold, f.fix_ends);
+    const FreeLengths free(random_edges(random, 3, f.g2), f.held);
     const Eigen::VectorXd x = moved(free.unknowns(), random);
     Eigen::VectorXd a, less, more;
     RowMatrix by_x;
@@ -209,7 +213,7 @@ TEST(FreeLengths, OfAClosedChainKeepTheLastJointToo) {
   const Vector2 a = edges[0].direction[2], b = edges[1].direction[2];
   edges[0].length[2] = cross(rest, b) / cross(a, b);
   edges[1].length[2] = cross(a, rest) / cross(a, b);
-  const FreeLengths free(edges, true, false);
+  const FreeLengths free(edges, {.closed = true});
   EXPECT_EQ(free.size(), 6);  // of 10: two joints and the end
   std::mt19937 random(7);
   Eigen::VectorXd lengths;
@@ -223,13 +227,13 @@ TEST(FreeLengths, OfAClosedChainKeepTheLastJointToo) {
 TEST(FreeLengths, OfJointsThatAreNotG2StayFree) {
   std::mt19937 random(8);
   std::vector<Edges> edges = random_edges(random, 2, true);
-  EXPECT_EQ(FreeLengths(edges, false, false).size(), 9);
+  EXPECT_EQ(FreeLengths(edges, {}).size(), 9);
   edges[1].length[1] *= 1.01;  // curvature, too
-  EXPECT_EQ(FreeLengths(edges, false, false).size(), 10);
+  EXPECT_EQ(FreeLengths(edges, {}).size(), 10);
   edges[1].length[1] /= 1.01;
   const double corner = 0.3;
   for (auto& d : edges[1].direction) d = core::rotate_ccw(d, corner);
-  EXPECT_EQ(FreeLengths(edges, false, false).size(), 10);
+  EXPECT_EQ(FreeLengths(edges, {}).size(), 10);
 }
 
 TEST(FreeLengths, OfALineHoldNoEnd) {
@@ -238,13 +242,13 @@ TEST(FreeLengths, OfALineHoldNoEnd) {
     edges[0].direction[n] = {1, 0};
     edges[0].length[n] = 1;
   }
-  EXPECT_FALSE(FreeLengths(edges, false, true).can_hold());
-  EXPECT_TRUE(FreeLengths(edges, false, false).can_hold());
+  EXPECT_FALSE(FreeLengths(edges, {.end = true}).can_hold());
+  EXPECT_TRUE(FreeLengths(edges, {}).can_hold());
 }
 
 TEST(FreeLengths, RefuseWhatLeavesALengthNone) {
   std::mt19937 random(9);
-  const FreeLengths free(random_edges(random, 2, true), false, true);
+  const FreeLengths free(random_edges(random, 2, true), {.end = true});
   Eigen::VectorXd a;
   for (Eigen::Index k = 0; k < free.size(); ++k) {
     Eigen::VectorXd x = free.unknowns();

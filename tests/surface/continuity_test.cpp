@@ -108,8 +108,6 @@ TEST(EdgeContinuity, TolerancesAreTheCallers) {
   wide.angle = -1;
   EXPECT_EQ(edge_continuity(a, moved, {}, wide).error().path, "angle");
   EXPECT_EQ(edge_continuity(a, moved, {}, {}, 1).error().path, "samples");
-  EXPECT_EQ(edge_named("v1"), Edge::v1);
-  EXPECT_FALSE(edge_named("w"));
 }
 
 // A panel of 100 mm may gape by 0.001 mm: so may the same panel told in metres or inches.

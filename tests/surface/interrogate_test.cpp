@@ -136,18 +136,6 @@ TEST(Interrogate, ZebraIsContinuousAcrossG1AndBrokenAcrossG0) {
   EXPECT_GT(step_at_joint(a, g0).value, 0.05);
 }
 
-TEST(Interrogate, ZebraShadeIsHalfWhiteAndSmoothIfAsked) {
-  EXPECT_EQ(zebra_shade(3.2, 0), 1);
-  EXPECT_EQ(zebra_shade(3.7, 0), 0);
-  EXPECT_EQ(zebra_shade(-0.7, 0), 1);
-  double before = zebra_shade(0, 0.1);
-  for (double x = 0; x < 2; x += 1e-3) {
-    EXPECT_NEAR(zebra_shade(x, 0.1), before, 0.011);
-    before = zebra_shade(x, 0.1);
-  }
-  EXPECT_NEAR(zebra_shade(0.5, 0.1), 0.5, 1e-12);
-}
-
 TEST(Interrogate, NoNormalNoValueAndNoNonsense) {
   const BezierSurface point{{3, 3, std::vector<core::Point3>(9, {1, 2, 3})}, {}};
   const Field field = field_of(point, FieldKind::zebra);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <optional>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/file/standard_stream.h"
@@ -58,7 +58,7 @@ class TextPoints {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto value =
           k < fields.size() ? detail::parse_number(fields[k], style) : std::optional<double>();
-      if (value && !(std::isfinite(*value) && std::abs(*value) > 1e100)) {
+      if (value && !core::is_too_large(*value)) {
         c[k] = *value;
         continue;
       }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
 #include "keyline/document/document.h"
@@ -164,7 +165,7 @@ class HullCsv {
     std::vector<double> values;
     for (std::size_t k = 1; k < fields.size(); ++k) {
       const auto value = number(fields[k]);
-      if (!value || std::abs(*value) > 1e100)
+      if (!value || std::abs(*value) > core::kLargestCoordinate)
         return fail(ErrorCode::bad_input, "a number is expected in column " + std::to_string(k + 1),
                     "mend it, or leave it empty outside the hull", lines_.place());
       values.push_back(*value);

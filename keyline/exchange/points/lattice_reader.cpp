@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
 
@@ -72,7 +73,7 @@ core::Result<core::Point3> point_of(const std::vector<std::string_view>& fields,
   double value[3] = {0, 0, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = k < fields.size() ? detail::parse_number(fields[k], style) : std::nullopt;
-    if (!number || (std::isfinite(*number) && std::abs(*number) > 1e100)) {
+    if (!number || core::is_too_large(*number)) {
       return core::fail(ErrorCode::bad_input, "three numbers (x y z) are needed here",
                         "give every point of the lattice all its coordinates", place);
     }

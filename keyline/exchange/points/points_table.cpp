@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/points/airfoil_points.h"
 
@@ -14,7 +15,6 @@ namespace {
 using acquire::RawCurve;
 using core::ErrorCode;
 
-constexpr double kLargest = 1e100;
 constexpr std::size_t kFewest = 3;  // rows that make a table beyond doubt
 
 }  // namespace
@@ -234,7 +234,7 @@ core::Result<double> PointsTable::number_in(const Fields& fields, int column,
                       "text where a number belongs: '" + shortened(field) + "'",
                       "give a number, or choose other columns", place);
   }
-  if (std::isfinite(*value) && std::abs(*value) > kLargest) {
+  if (core::is_too_large(*value)) {
     return core::fail(ErrorCode::bad_input, "the number " + shortened(field) + " is too large",
                       "check the unit, or divide all coordinates by a common factor", place);
   }
