@@ -16,8 +16,8 @@
 namespace keyline::acquire {
 namespace {
 
-constexpr std::size_t kSamples = 400;
-constexpr std::size_t kMostMoved = 6000;
+constexpr std::size_t kSamples = 400;  // points whose neighbourhoods are looked at: medians of them
+constexpr std::size_t kMostMoved = 6000;  // points moved one by one: each move looks at a radius
 constexpr double kLong = 0.25;  // width over length that makes a neighbourhood a stretch of line
 
 struct Spread {

@@ -15,22 +15,22 @@ namespace keyline::acquire {
 namespace {
 
 constexpr std::array<int, 4> kArms{1, 2, 3, 4};
-constexpr double kConcentration = 2.5;  // turn at the corner against the turn beside it
-constexpr double kContrast = 3;         // and against the usual turn of the whole polygon
-constexpr double kClearance = 5;        // turn at the corner against its standard error
-constexpr double kByChance = 2;         // standard errors that a turn may be off by chance
-constexpr double kOwnShare = 0.5;       // of the turn between the arms, at the vertex itself
-constexpr double kKink = 0.17;          // of the corner angle: a kink between very smooth runs
-constexpr double kKinkConcentration = 12;
+constexpr double kConcentration = 2.5;     // turn at the corner against the turn beside it
+constexpr double kContrast = 3;            // and against the usual turn of the whole polygon
+constexpr double kClearance = 5;           // turn at the corner against its standard error
+constexpr double kByChance = 2;            // standard errors that a turn may be off by chance
+constexpr double kOwnShare = 0.5;          // of the turn between the arms, at the vertex itself
+constexpr double kKink = 0.17;             // of the corner angle: a kink between very smooth runs
+constexpr double kKinkConcentration = 12;  // its turn against the turn beside it
 constexpr double kUnsampled = 0.5 * std::numbers::pi;  // a bend turns by less at each of its points
-// A bend that one point of it tells: turns grow towards it, on both sides. At the tip of a
-// parabola, sampled evenly in its parameter, a point that turns by 113 degrees turns 5.3 times as
-// much as the ones beside it, and these 4.3 times as much as the next: that much more, and no more
-// growth.
-constexpr double kGrowth = 2;
-constexpr double kTip = 1.25;
-constexpr double kMostGrowth = 4.3;
-constexpr double kSure = 3;  // standard errors of the turns beside it
+// The tip of a bend that shows at one point only: turns grow towards it on both sides, and it turns
+// by no more than that growth goes on to. At the tip of a parabola, sampled evenly in its
+// parameter, a point that turns by 113 degrees turns 5.3 times as much as the points beside it, and
+// these 4.3 times as much as the next.
+constexpr double kGrowth = 2;        // least growth from one turn to the next
+constexpr double kMostGrowth = 4.3;  // growth beyond this says nothing about the tip
+constexpr double kTip = 1.25;  // 5.3 / 4.3, rounded up: how much faster the last step may grow
+constexpr double kSure = 3;    // standard errors by which the turns beside it are no noise
 
 /// Polygon read with indices that may run past its ends.
 class Ring {
@@ -113,8 +113,9 @@ double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, do
   return beside;
 }
 
-/// True where what vertex i turns is the tip of a bend: at the vertices an arm away the curve turns
-/// the same way, twice as much as two arms away or more, and at i not more than goes on from there.
+/// True where vertex i is the tip of a bend: at the vertices an arm away the curve turns the same
+/// way and at least kGrowth times as much as two arms away, and at i by no more than that growth,
+/// gone on, leads to.
 bool is_tip(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double angle) {
   double expected = 1;  // product of both sides
   for (const std::ptrdiff_t way : {-arm, arm}) {

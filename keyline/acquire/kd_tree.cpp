@@ -8,7 +8,7 @@
 namespace keyline::acquire::detail {
 namespace {
 
-constexpr std::size_t kLeaf = 8;
+constexpr std::size_t kLeaf = 8;  // points that are looked through one by one
 
 double coordinate(core::Point2 p, int axis) { return axis == 0 ? p.x : p.y; }
 

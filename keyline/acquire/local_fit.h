@@ -13,8 +13,8 @@ namespace keyline::acquire::detail {
 /// fitted. The frame follows the points, so that the fit does not depend on their pose.
 class LocalFit {
  public:
-  static constexpr int kMostPoints = 16;
-  static constexpr int kMostTerms = 7;
+  static constexpr int kMostPoints = 16;  ///< of a fit, which allocates nothing
+  static constexpr int kMostTerms = 7;    ///< degree 6 at most
 
   /// Empty where points do not advance along the direction from first to last (a bend of more than
   /// a right angle, or noise larger than the spacing), or there are fewer points than terms.

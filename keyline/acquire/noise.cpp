@@ -27,8 +27,8 @@ struct Window {
 // the long ones with freedom to spare tell most about dense points.
 constexpr std::array<Window, 7> kWindows{
     {{5, 2}, {5, 3}, {6, 3}, {7, 4}, {8, 5}, {10, 4}, {13, 5}}};
-constexpr std::size_t kMostWindows = 4000;
-constexpr double kAlike = 1.35;  // variances up to this times the least agree with it
+constexpr std::size_t kMostWindows = 4000;  // enough to tell the noise to 2 %
+constexpr double kAlike = 1.35;             // variances up to this times the least agree with it
 // A window spans about ten strides; what is longer is shape. Ten windows make a curve.
 constexpr std::size_t kScales = 100;
 constexpr double kStays = 1.15;  // a doubling lets a rough line grow by 1.4, a bend by 4 and more

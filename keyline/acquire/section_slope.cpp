@@ -13,7 +13,7 @@
 namespace keyline::acquire::detail {
 namespace {
 
-constexpr std::size_t kNeighbours = 12;
+constexpr std::size_t kNeighbours = 12;  // enough for a parabola and a slope
 constexpr double kGain = 6;        // what the slope must divide the sum of squared residuals by
 constexpr double kSteepest = 1.5;  // a surface nearly along the plane has no section to move to
 constexpr double kThick = 0.02;    // scatter about the parabola over length: less needs no slope

@@ -11,7 +11,7 @@
 namespace keyline::acquire::detail {
 namespace {
 
-constexpr std::size_t kNeighbours = 8;
+constexpr std::size_t kNeighbours = 8;  // as in a lattice; trees left apart are bridged afterwards
 
 bool shorter(const Edge& p, const Edge& q) {
   return std::tie(p.length, p.a, p.b) < std::tie(q.length, q.a, q.b);

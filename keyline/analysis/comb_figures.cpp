@@ -9,10 +9,10 @@
 namespace keyline::analysis {
 namespace {
 
-constexpr int kGrid = 4000;
-constexpr int kWithin = 20;  // steps of the grid: 0.5 % of the length
-constexpr double kTail = 0.005;
-constexpr double kPace = 0.25;  // of the range within 0.5 %: all of it within 2 %
+constexpr int kGrid = 4000;      // even steps along the curve
+constexpr int kWithin = 20;      // steps of the grid: 0.5 % of the length
+constexpr double kTail = 0.005;  // of the steps at either end: a range without single spikes
+constexpr double kPace = 0.25;   // of the range within 0.5 %: all of it within 2 %
 
 /// Curvature at even steps of the length.
 std::vector<double> resampled(const curve::CurvatureGraph& graph) {

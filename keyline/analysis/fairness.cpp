@@ -9,7 +9,7 @@
 namespace keyline::analysis {
 
 Fairness fairness(const CurveView& curve) {
-  constexpr int kPanels = 256;
+  constexpr int kPanels = 256;  // of the quadrature, spread over the curve's breaks
   const std::vector<double> ends = detail::panel_ends(curve.breaks(), {0, 1}, kPanels, 2);
   const auto integral = [&](auto f) {
     return detail::integrate(

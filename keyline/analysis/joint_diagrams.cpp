@@ -13,7 +13,7 @@ void take(core::Interval& range, double value) {
 }
 
 bool differ(double a, double b) {
-  constexpr double kSame = 1e-9;
+  constexpr double kSame = 1e-9;  // what rounding leaves of equal sections
   return std::abs(a - b) > kSame * std::max(std::abs(a), std::abs(b));
 }
 

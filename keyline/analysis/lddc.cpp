@@ -6,6 +6,7 @@
 namespace keyline::analysis {
 namespace {
 
+// What is noise: the contract in lddc.h gives the reasons.
 constexpr int kFewPoints = 4;
 constexpr double kSpikeHeight = 0.3;
 constexpr double kStrayShare = 0.05;

@@ -49,6 +49,7 @@ struct Lddc {
   int above = 0;
 };
 
+// The paper's diagram ([Fairing]): its points, and bars of log10(radius / length) over [-3, 2].
 inline constexpr int kLddcPoints = 1000;
 inline constexpr int kLddcBars = 100;
 inline constexpr double kLddcBarWidth = 0.05;

@@ -12,8 +12,8 @@ namespace keyline::analysis::detail {
 /// It measures how far another curvature profile is from it, as a distance between curves.
 class PieceFrame {
  public:
-  static constexpr int kCells = 200;
-  static constexpr int kFewCells = 40;
+  static constexpr int kCells = 200;    ///< even steps of the length
+  static constexpr int kFewCells = 40;  ///< of the coarse frame
 
   /// The profile must be complete.
   explicit PieceFrame(const CurvatureProfile& piece);

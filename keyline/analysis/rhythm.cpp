@@ -28,7 +28,7 @@ constexpr std::array<Entry, 8> kEntries = {{
     {Rhythm::minus_plus, "minus+plus", "from decelerating to accelerating"},
 }};
 
-constexpr double kUndetermined = 1000;
+constexpr double kUndetermined = 1000;  // error of a slope that the piece does not determine
 
 using detail::ArcsFit;
 using detail::LineFit;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace keyline::analysis {
@@ -43,7 +44,7 @@ std::optional<LogRadius> log_radius_of(const CurvatureProfile& given) {
     r.value.push_back(-std::log(k));
     r.rate.push_back(-p.curvature_rate[i] / p.curvature[i]);
   }
-  constexpr std::size_t kFewest = 8;
+  constexpr std::size_t kFewest = 8;  // samples that carry a curve of log radius
   if (r.share.size() < kFewest) return std::nullopt;
   const double start = r.share.front();
   const double length = r.share.back() - start;
@@ -55,8 +56,8 @@ std::optional<LogRadius> log_radius_of(const CurvatureProfile& given) {
   return r;
 }
 
-constexpr double kCut = 0.5;
-constexpr int kSamples = 101;
+constexpr double kCut = 0.5;   // of the length: what lies before is cut off
+constexpr int kSamples = 101;  // of the rest
 
 /// The rest of the curve after the cut, laid over its parent.
 class Overlay {
@@ -81,14 +82,14 @@ class Overlay {
   /// Up to 1 / (1 - cut) the scaled rest still ends on the parent. Coarse steps, then golden
   /// section around the best of them, to rounding.
   double best_scale() const {
-    constexpr int kSteps = 32;
+    constexpr int kSteps = 32;  // coarse ones
     constexpr double kMost = 1 / (1 - kCut);
     int best = 1;
     for (int i = 2; i <= kSteps; ++i)
       if (remains(kMost * i / kSteps) < remains(kMost * best / kSteps)) best = i;
     double low = kMost * (best - 1) / kSteps;
     double high = kMost * std::min(best + 1, kSteps) / kSteps;
-    constexpr double kGolden = 0.6180339887498949;
+    constexpr double kGolden = std::numbers::phi - 1;
     double a = high - kGolden * (high - low);
     double b = low + kGolden * (high - low);
     double at_a = remains(a);

@@ -15,7 +15,7 @@ namespace {
 using detail::Sample;
 using Kind = CurvatureEvent::Kind;
 
-constexpr int kLeastSamples = 16;
+constexpr int kLeastSamples = 16;  // of a stretch between breaks, however short
 
 /// A stretch, or several in a row, of one curvature: samples [first, last].
 struct Flat {

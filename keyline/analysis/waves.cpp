@@ -10,6 +10,8 @@
 namespace keyline::analysis::detail {
 namespace {
 
+// Curvature a sin(2 pi s / w) moves the line by a (w / 2 pi)^2: a wave that swings by 2a over its
+// length w by swing * w^2 / (8 pi^2), a lobe of height a and length w / 2 by a * length^2 / pi^2.
 constexpr double kWaveFactor = 8 * core::kPi * core::kPi;
 constexpr double kLobeFactor = core::kPi * core::kPi;
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);

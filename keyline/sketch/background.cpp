@@ -15,7 +15,7 @@ namespace {
 
 using Gray = Raster<std::uint16_t>;
 
-constexpr int kBlock = 32;
+constexpr int kBlock = 32;           ///< pixels: wider than a line, narrower than a shadow
 constexpr double kPaperShare = 0.7;  ///< percentile of a block that is taken for paper
 
 /// Every other pixel of a box, of every other row.

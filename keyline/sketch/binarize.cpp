@@ -15,16 +15,16 @@ namespace {
 
 using Gray = Raster<std::uint16_t>;
 
-constexpr int kBins = 256;
+constexpr int kBins = 256;            ///< of darkness
 constexpr double kFaintest = 0.05;    ///< least darkness of ink whatever the noise
 constexpr double kNoiseFactor = 4.5;  ///< ink is this many standard deviations off paper
 constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to ink
 constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
 constexpr int kLocalRadius = DarkRows::kMargin;
-constexpr double kBlotShare = 0.2;  ///< of the strongest region's contrast: less is no ink
-constexpr double kBlur = 0.5;       ///< pixels: closes the grain of a pencil
-constexpr double kNoisy = 0.02;     ///< noise in darkness from which more blur helps
-constexpr double kStrongBlur = 0.85;
+constexpr double kBlotShare = 0.2;    ///< of the strongest region's contrast: less is no ink
+constexpr double kBlur = 0.5;         ///< pixels: closes the grain of a pencil
+constexpr double kNoisy = 0.02;       ///< noise in darkness from which more blur helps
+constexpr double kStrongBlur = 0.85;  ///< pixels, in such noise
 
 struct Histogram {
   std::array<double, kBins> weight{};

@@ -28,7 +28,7 @@ constexpr double kHeldEnd = 1e6;      ///< weight of ends that stay
 constexpr double kShortest = 4;       ///< points: wavelength that nothing is lost with
 constexpr int kHalvings = 14;         ///< of the wavelength's range: within 0.1 %
 constexpr int kSamples = 32;          ///< of a piece
-constexpr int kMostPieces = 48;
+constexpr int kMostPieces = 48;       ///< of a stroke at most
 
 /// Points under a penalty on their third differences.
 class Smoother {

@@ -14,10 +14,10 @@
 namespace keyline::sketch {
 namespace {
 
-constexpr double kSmallest = 1.5;  ///< times: less is left as it is
-constexpr double kLargest = 16;
-constexpr double kAboveChance = 0.8;
-constexpr double kByChance = 1e-6;  ///< that a drawing's steps all lie so, for any size tried
+constexpr double kSmallest = 1.5;     ///< times: less is left as it is
+constexpr double kLargest = 16;       ///< times: more leaves no picture
+constexpr double kAboveChance = 0.8;  ///< of the steps that chance would put elsewhere
+constexpr double kByChance = 1e-6;    ///< that a drawing's steps all lie so, for any size tried
 /// Of a pixel's middle or its corner; halves are rounded either way.
 constexpr std::array kShifts = {0.5, 0.499, 0.0};
 constexpr double kSurely = 1 - 1e-9;  ///< for the rounding of sums

@@ -19,8 +19,8 @@ using core::Vector2;
 
 constexpr double kChange = 1000;  ///< price of changing strokes, of the square of the way between
 constexpr double kWithin = 0.8;   ///< of `most`, aimed at, so that smoothing may use the rest
-constexpr int kRounds = 12;
-constexpr double kFirmer = 3;  ///< weight per round of places that are still too far off
+constexpr int kRounds = 12;       ///< of moving and smoothing; weights have grown past 1e5 by then
+constexpr double kFirmer = 3;     ///< weight per round of places that are still too far off
 
 using Offsets = std::vector<std::optional<double>>;  ///< of a stroke across the line, by sample
 

@@ -236,7 +236,7 @@ class Line {
   /// A stroke that ends close to an end of the line goes on beside it to that end and counts fully.
   static void hold_ends(std::size_t near, std::vector<double>& offset, std::vector<double>& count,
                         std::vector<double>& inside) {
-    constexpr double kFully = 1e9;
+    constexpr double kFully = 1e9;  // samples: beyond any ramp of weights at an end
     const std::size_t m = count.size();
     std::size_t first = 0;
     while (first < m && count[first] <= 0) ++first;

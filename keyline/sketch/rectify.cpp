@@ -106,7 +106,7 @@ core::Result<void> check(const Image& photo, const SheetCorners& c) {
 }  // namespace
 
 double aspect_of(const SheetCorners& corners, int width, int height) {
-  constexpr int kSteps = 60;
+  constexpr int kSteps = 60;  // of the focal length, either way
   const Point2 middle{0.5 * width, 0.5 * height};
   const double usual = kUsualFocal * std::hypot(width, height);
   const cv::Matx33d h = homography(corners, middle, 1, 1);

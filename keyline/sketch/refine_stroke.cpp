@@ -46,7 +46,7 @@ Vector2 tangent_at(const std::vector<Point2>& p, std::size_t i, long reach, bool
 std::vector<double> usual_radii(const RawStroke& raw) {
   const std::size_t n = raw.radii.size();
   std::vector<double> usual(n);
-  constexpr std::size_t kBlock = 16;
+  constexpr std::size_t kBlock = 16;  // points that share one median
   std::vector<double> scratch;
   for (std::size_t start = 0; start < n; start += kBlock) {
     const std::size_t low = start > 16 ? start - 16 : 0;
@@ -119,7 +119,7 @@ class Along {
   }
 
  private:
-  static constexpr int kFew = 63;
+  static constexpr int kFew = 63;  ///< places either way that take no allocation
   const Read& read_;
   std::array<double, 2 * kFew + 1> few_;
   std::vector<double> large_;
@@ -223,7 +223,7 @@ double Refiner::extension(Point2 end, Vector2 direction, double half_width) cons
 }
 
 double Refiner::edge_offset(Point2 p, Vector2 out) const {
-  constexpr double kReach = 2;
+  constexpr double kReach = 2;  // pixels on either side of the edge
   const double ink = std::max(darkness(p - kReach * out), darkness(p - 0.5 * kReach * out));
   const double half = 0.5 * (ink + darkness(p + kReach * out));
   double last = darkness(p - kReach * out);

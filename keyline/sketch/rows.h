@@ -12,7 +12,7 @@
 
 namespace keyline::sketch {
 
-constexpr int kRowsAtOnce = 32;
+constexpr int kRowsAtOnce = 32;  ///< in a band: enough work for a thread, little to wait for
 
 /// Calls body(first, last) for bands of rows that together are [from, to), on all of the machine's
 /// threads. The bands are the same whatever their number: see numeric::parallel_for.
@@ -29,8 +29,8 @@ void for_rows(int from, int to, Body&& body) {
 /// What a function makes of every level that a pixel may have, on all of the machine's threads.
 template <class T, class Of>
 std::vector<T> level_table(Of&& of) {
-  constexpr std::size_t kLevels = 65536;
-  constexpr std::size_t kAtOnce = 4096;
+  constexpr std::size_t kLevels = 65536;  // of 16 bits
+  constexpr std::size_t kAtOnce = 4096;   // by one thread
   std::vector<T> table(kLevels);
   numeric::parallel_for(kLevels / kAtOnce, 0, [&](std::size_t k) {
     for (std::size_t i = k * kAtOnce; i < (k + 1) * kAtOnce; ++i)

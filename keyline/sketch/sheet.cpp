@@ -177,7 +177,7 @@ class Refining {
   /// The side through the places between two corners where the light falls to half; their rms
   /// distance from it goes to `square` and `count`.
   Side refined(const Side& side, Point2 from, Point2 to, double& square, double& count) const {
-    constexpr int kPlaces = 160;
+    constexpr int kPlaces = 160;  // looked at along a side
     std::vector<Point2> places;
     for (int k = 0; k < kPlaces; ++k) {
       const Point2 p = core::mix(from, to, 0.03 + 0.94 * (k + 0.5) / kPlaces);
@@ -235,8 +235,8 @@ class Refining {
 
   /// How far along the normal the steepest step from dark to light is half done.
   std::optional<double> step_at(Point2 p, Vector2 normal) const {
-    constexpr double kStep = 0.5;
-    constexpr int kFlank = 4;  // steps that a soft border takes
+    constexpr double kStep = 0.5;  // pixels
+    constexpr int kFlank = 4;      // steps that a soft border takes
     const int n = static_cast<int>(reach_ / kStep);
     std::vector<double> value;
     for (int k = -n - kFlank; k <= n + kFlank; ++k) {

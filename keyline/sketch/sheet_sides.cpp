@@ -13,10 +13,10 @@ using core::Point2;
 using core::Vector2;
 
 constexpr double kLeastStep = 0.06;  ///< of log luminance per pixel: a border is 15 % darker beyond
-constexpr int kDirections = 360;
-constexpr double kOffsetBin = 2;  ///< pixels
-constexpr int kSpread = 3;        ///< degrees either way that a pixel votes for
-constexpr int kMostSides = 20;
+constexpr int kDirections = 360;     ///< of a normal, by degrees
+constexpr double kOffsetBin = 2;     ///< pixels
+constexpr int kSpread = 3;           ///< degrees either way that a pixel votes for
+constexpr int kMostSides = 20;       ///< that four are chosen from
 constexpr double kLeastVotes = 0.1;  ///< of the picture's shorter side
 constexpr int kApart = 4;            ///< degrees and bins: nearer sides are one
 constexpr double kBeside = 2;        ///< pixels

@@ -98,7 +98,7 @@ constexpr double kDriveTolerances = 3;
 constexpr double kDriveShare = 0.3;
 constexpr std::size_t kFewestDriven = 8;  ///< points: fewer have no waves to take out
 constexpr double kDriveGain = 0.9;        ///< of the error is left at most, or the curve stays
-constexpr int kDriveSteps = 15;
+constexpr int kDriveSteps = 15;           ///< of the optimiser at most
 constexpr std::size_t kDrivePieces = 20;  ///< driven at once: the work grows with their cube
 
 /// What driving did to pieces in a row: targets have t over them.
