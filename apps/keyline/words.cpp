@@ -9,6 +9,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/operations/json_form.h"
+#include "keyline/operations/perform.h"
 #include "keyline/operations/schema.h"
 
 namespace keyline::app {
@@ -39,8 +40,8 @@ class Words {
 
   Result<json> value(const Type& type, const std::vector<std::string>& words) const {
     if (words.size() == 1 && (words[0].starts_with('[') || words[0].starts_with('{'))) {
-      json j = json::parse(words[0], nullptr, false);
-      if (j.is_discarded()) return wrong(words[0], "give sound JSON");
+      auto j = operations::parse_request(words[0]);
+      if (!j) j.error().path = option_name(field_.name);
       return j;
     }
     if (type.kind == Kind::optional) return value(type.item(), words);

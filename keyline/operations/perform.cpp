@@ -169,7 +169,7 @@ std::string answer_line(const std::string& line, const Context& context, const j
   auto request = parse_request(line);
   if (!request)
     return text_of(failed(nullptr, {ErrorCode::bad_input, request.error().message,
-                                    "give one JSON object per line", ""}));
+                                    request.error().hint + "; a line is one JSON object", ""}));
   if (!defaults.empty()) fill_in(*request, defaults);
   return text_of(answer(*request, context));
 }

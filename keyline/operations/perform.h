@@ -49,7 +49,7 @@ core::Result<nlohmann::json> perform(const std::string& name, const nlohmann::js
 /// The answer to one request object {"op":…, "id":…, …} in the public form with "ok".
 nlohmann::json answer(const nlohmann::json& request, const Context& context);
 
-/// A text as a request: bad_input for what is not JSON, is nested deeper than anything asked for,
+/// A text as a request: bad_input for what is not JSON or names a member twice, is nested too deep,
 /// or has a number no double holds.
 core::Result<nlohmann::json> parse_request(std::string_view text);
 

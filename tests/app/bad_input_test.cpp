@@ -203,6 +203,22 @@ TEST(BadInput, CurvesThatAreNone) {
                  "spiral");
 }
 
+// Files, options and requests have one reader of JSON.
+TEST(BadInput, TwoMembersOfOneNameAreRefusedWhereverJsonIsRead) {
+  const Scratch s;
+  const std::string twice = "an object has two members of the name \"points\"";
+  const std::string curve = R"({"type":"polyline","points":[[0,0],[1,1]],"points":[[0,0],[2,1]]})";
+  expect_failure(run_keyline("list " + s.write("c.json", "\n" + curve)), 2, "c.json:2: " + twice);
+  expect_failure(run_keyline("curve.reverse --curve '" + curve + "'"), 2, "--curve: " + twice);
+  const Outcome batch =
+      run_keyline("batch --quiet <" + s.write("requests", R"({"op":"curve.reverse","curve":)" +
+                                                              curve + ",\"id\":1}\n"));
+  EXPECT_EQ(batch.status, 0);
+  EXPECT_NE(batch.out.find("\"ok\":false"), std::string::npos) << batch.out;
+  EXPECT_NE(batch.out.find(R"(two members of the name \"points\")"), std::string::npos)
+      << batch.out;
+}
+
 TEST(BadInput, ToleranceOutOfReachIsStatusOneWithTheBestWritten) {
   const Scratch s;
   std::string text;
