@@ -82,21 +82,23 @@ core::Result<FairResult> until_fair(
     return judged(line, solve(options, nullptr), nullptr, options.threads);
   const bool told = acquire::noise_stays(line.points, line.closed, line.noise);
   std::optional<FairResult> best;
-  // The most smoothness leaves the most room: what does not come out there does not between.
-  const auto calmest_is_missed = [&] {
-    FairOptions calmest_of_all = options;
-    calmest_of_all.smoothness = 1;
-    calmest_of_all.progress = core::part_of(options.progress, 0.7, 0.8);
-    const auto found = solve(calmest_of_all, &*best);
-    return !found || found->calm_missed || found->cancelled;
-  };
-  for (const Try& one : kTries) {
-    if (!told && one.smoothness > kNearAsNoise && one.smoothness < kWide) continue;
+  std::optional<core::Result<FairResult>> ahead;  // the last one, solved for before its turn
+  const auto solved = [&](const Try& one) {
+    if (ahead && one.smoothness == kTries.back().smoothness) return std::move(*ahead);
     FairOptions asked = options;
     asked.smoothness = one.smoothness;
     asked.progress = core::part_of(options.progress, one.from, one.to);
+    return solve(asked, best ? &*best : nullptr);
+  };
+  // The most smoothness leaves the most room: what does not come out there does not between.
+  const auto calmest_is_missed = [&] {
+    ahead = solved({kTries.back().smoothness, 0.7, 0.8});
+    return !*ahead || (*ahead)->calm_missed || (*ahead)->cancelled;
+  };
+  for (const Try& one : kTries) {
+    if (!told && one.smoothness > kNearAsNoise && one.smoothness < kWide) continue;
     const FairResult* before = best ? &*best : nullptr;
-    auto found = judged(line, solve(asked, before), before, options.threads);
+    auto found = judged(line, solved(one), before, options.threads);
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
     const bool near = !told || rms_of(*found) <= most_rms(line, *found);

@@ -122,6 +122,25 @@ TEST(UntilFair, DepartsByMoreThanTheNoiseOnlyWhereThatIsFair) {
   }
 }
 
+// Where the calmest chain does not come out near the points it is seen first whether it does at
+// all.
+TEST(UntilFair, LooksAtTheCalmestOnceWhereTheFirstIsMissed) {
+  for (const auto& [missed_below, asked] :
+       {std::pair<double, Asked>{0.55, {0.5, 1, 0.5625, 0.625, 0.75}}, {2, {0.5, 1}}}) {
+    SCOPED_TRACE(missed_below);
+    Solver solver{1, 1, {}};
+    const auto found =
+        until_fair(three_points(), {}, [&](const FairOptions& options, const FairResult* before) {
+          auto result = solver(options, before);
+          result->calm_missed = result->smoothness < missed_below;
+          return result;
+        });
+    EXPECT_EQ(solver.asked, asked);
+    EXPECT_EQ(found->fairness.fair, missed_below < 1);
+    EXPECT_EQ(found->smoothness, missed_below < 1 ? 1 : 0.5);
+  }
+}
+
 TEST(UntilFair, KeepsTheCalmestAndSaysSoWhereNoneIsFair) {
   Solver solver{2, 1, {}};
   const auto found = until_fair(three_points(), {}, std::ref(solver)).value();
