@@ -319,4 +319,9 @@ Calmed calm(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOp
   return Calming(curve, points, options).run();
 }
 
+BandReport calm_again(DenseCurve& curve, const std::vector<FitPoint>& points, double spring,
+                      const CalmOptions& options) {
+  return solve_without(curve, points, turns_of(curve), spring, options);
+}
+
 }  // namespace keyline::fairing::detail

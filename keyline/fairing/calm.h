@@ -47,4 +47,8 @@ struct Calmed {
 /// by `worth`.
 Calmed calm(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options);
 
+/// The calm curve for points that pull otherwise, with the turns it has and springs of that weight.
+BandReport calm_again(DenseCurve& curve, const std::vector<FitPoint>& points, double spring,
+                      const CalmOptions& options);
+
 }  // namespace keyline::fairing::detail

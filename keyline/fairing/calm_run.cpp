@@ -153,19 +153,19 @@ DenseCurve first_curve(const std::vector<FitPoint>& points, bool closed,
 }
 
 /// The curve of least variation without waves that the points do not ask for, leaning nowhere at
-/// its free ends. The springs' weight is the same each time: elsewhere nothing becomes softer.
+/// its free ends. Which waves go is told before the ends are pulled, for a pull is felt by few
+/// points. The springs' weight is the same each time: elsewhere nothing becomes softer.
 Calmed calm_curve(DenseCurve& curve, std::vector<FitPoint>& points, bool closed,
-                  const CalmRunOptions& options, CalmOptions calm_options) {
+                  const CalmRunOptions& options, const CalmOptions& calm_options) {
   curve = first_curve(points, closed, options);
   Calmed calmed = calm(curve, points, calm_options);
   for (int i = 0; i < kPulls && calmed.band.within; ++i) {
     if (!pull_leaning_ends(points, curve, options.residuals)) break;
-    calm_options.band.spring = calmed.band.spring;
-    DenseCurve pulled = first_curve(points, closed, options);
-    const Calmed found = calm(pulled, points, calm_options);
-    if (!found.band.within) break;
+    DenseCurve pulled = curve;
+    const BandReport found = calm_again(pulled, points, calmed.band.spring, calm_options);
+    if (!found.within) break;
     curve = std::move(pulled);
-    calmed = found;
+    calmed.band = found;
   }
   return calmed;
 }

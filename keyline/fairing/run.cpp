@@ -8,6 +8,7 @@
 #include "keyline/curve/concept.h"
 #include "keyline/fairing/calm_run.h"
 #include "keyline/fairing/condense.h"
+#include "keyline/fairing/exact_chain.h"
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/residuals.h"
 #include "keyline/fairing/run_again.h"

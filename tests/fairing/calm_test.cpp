@@ -131,5 +131,30 @@ TEST(Calm, StopsAtTheMeanSquare) {
   EXPECT_LE(calm(asked.curve, asked.points, options).waves.turns, 1);
 }
 
+/// Root of the mean square of the last eight offsets.
+double beside_end(const Given& g) {
+  DenseCurve curve = g.curve;
+  const std::vector<CellShape> shapes = shapes_of(curve);
+  double sum = 0;
+  for (std::size_t j = g.points.size() - 8; j < g.points.size(); ++j)
+    sum += std::pow(offset_of(g.points[j], place_of(curve, shapes, curve.feet[j])), 2);
+  return std::sqrt(sum / 8);
+}
+
+// Points of an end that pull harder draw it near; the bump that went does not come back.
+TEST(Calm, StaysCalmForPointsThatPullHarder) {
+  Given g = wavy(2e-3);
+  CalmOptions options;
+  options.band.tolerance = 5e-3;
+  options.band.rms = 2e-4;  // springs that follow the bump, were it let be
+  const Calmed calmed = calm(g.curve, g.points, options);
+  const double before = beside_end(g);
+  for (std::size_t j = g.points.size() - 8; j < g.points.size(); ++j) g.points[j].pull = 64;
+  const BandReport again = calm_again(g.curve, g.points, calmed.band.spring, options);
+  EXPECT_TRUE(again.within);
+  EXPECT_LE(turns_of(g.curve).size(), static_cast<std::size_t>(calmed.waves.turns));
+  EXPECT_LT(beside_end(g), 0.5 * before);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
