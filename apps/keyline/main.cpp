@@ -90,12 +90,15 @@ int run_named(const std::string& first, Words words) {
   }
   if (operations::find_operation(name)) return run_plain(name, words);
   const std::string room = help_of_room(name);
-  const std::string lists = room.empty() ? "keyline --help" : "keyline " + name + " --help";
-  if (!room.empty() && !words.empty() && (words.front() == "--help" || words.front() == "-h")) {
+  const bool option_next = !words.empty() && words.front().starts_with('-');
+  if (!room.empty() && option_next && (words.front() == "--help" || words.front() == "-h")) {
     fmt::print("{}\nkeyline OPERATION --help tells more.\n", room);
     return kDone;
   }
-  return report_failure({core::ErrorCode::bad_input, "there is no command \"" + name + "\"",
+  const std::string lists = room.empty() ? "keyline --help" : "keyline " + name + " --help";
+  const std::string asked =
+      room.empty() || option_next || words.empty() ? name : name + " " + words.front();
+  return report_failure({core::ErrorCode::bad_input, "there is no command \"" + asked + "\"",
                          lists + " lists them", ""});
 }
 

@@ -52,9 +52,8 @@ std::string page_of(const Manual& manual) {
   for (const OptionTexts& group : manual.groups) {
     page += fmt::format(".SH \"{}\"\n", roff(group.title));
     for (const OptionText& option : group.options)
-      page += fmt::format(".TP\n\\fB{}\\fR {}\n{}\n",
-                          roff(option.on ? "--[no-]" + option.name.substr(2) : option.name),
-                          roff(option.value), roff(option.text));
+      page += fmt::format(".TP\n\\fB{}\\fR {}\n{}\n", roff(shown_name(option)), roff(option.value),
+                          roff(option.text));
   }
   if (!manual.more.empty()) page += ".SH MORE\n" + roff(manual.more) + "\n";
   return page + kStatus + ".SH SEE ALSO\n\\fBkeyline\\fR(1)\n";

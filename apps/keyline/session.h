@@ -37,8 +37,8 @@ struct DoorOptions {
         core::field<&Door::tolerance>("largest deviation, in the input's unit")
             .in("length")
             .within(core::kPositive),
-        core::field<&Door::seed>("of everything random; the same seed, the same result"),
-        core::field<&Door::threads>("0: all; the result does not depend on it")
+        core::field<&Door::seed>("seed of everything random; the same seed gives the same result"),
+        core::field<&Door::threads>("how many to use, 0 for all; the result does not depend on it")
             .within(core::from_to(0, 1024)),
         core::field<&Door::quiet>("no messages but errors"),
         core::field<&Door::help>("this text (-h)"),

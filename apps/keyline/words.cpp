@@ -275,18 +275,21 @@ OptionText option_text(const Field& field, const void* member) {
   const json value = operations::default_of(field, member);
   if (const std::string text = default_text(value); !text.empty()) add("default " + text);
   option.text = std::string(field.text) + (more.empty() ? "" : " (" + more + ")");
-  option.on = value == json(true);
   const Type* type = &field.type();
   while (type->kind == Kind::optional || type->kind == Kind::list) type = &type->item();
+  option.deniable = type->kind == Kind::boolean && value != json(false);
   if (type->kind == Kind::choice)
     option.choices.assign(type->words, type->words + type->word_count);
   option.file = type->kind == Kind::value || field.name == "output" || field.name == "file";
   return option;
 }
 
+std::string shown_name(const OptionText& option) {
+  return option.deniable ? "--[no-]" + option.name.substr(2) : option.name;
+}
+
 std::string help_line(const OptionText& option) {
-  return in_columns((option.on ? "--[no-]" + option.name.substr(2) : option.name) +
-                        (option.value.empty() ? "" : " " + option.value),
+  return in_columns(shown_name(option) + (option.value.empty() ? "" : " " + option.value),
                     option.text);
 }
 

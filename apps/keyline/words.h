@@ -31,9 +31,12 @@ struct OptionText {
   std::string text = {};                  ///< "slope of … (radian; 0 to 1; default 0.5)"
   std::vector<std::string> choices = {};  ///< words it may take
   bool file = false;                      ///< its value is the name of a file
-  bool on = false;                        ///< a flag that is on unless --no- stands before it
+  bool deniable = false;                  ///< a flag that --no- turns off: on, or found, by itself
 };
 OptionText option_text(const core::Field& field, const void* member);
+
+/// The name as help shows it: "--[no-]keep-corners" where --no- says something.
+std::string shown_name(const OptionText& option);
 
 /// One line of help: "--alpha NUMBER  slope of … (radian; 0 to 1; default 0.5)".
 std::string help_line(const OptionText& option);

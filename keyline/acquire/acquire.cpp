@@ -32,7 +32,9 @@ core::Result<Working> flatten(const RawCurve& raw, const AcquireOptions& options
         core::counted(line.report.non_finite, "point") +
         " dropped: a coordinate or weight is missing, not a number or infinite");
   }
-  if (kept.empty()) return core::fail(ErrorCode::bad_input, "no point has finite coordinates");
+  if (kept.empty())
+    return core::fail(ErrorCode::bad_input, "no point has finite coordinates",
+                      "check which columns are x and y");
   std::vector<core::Point3> points;
   for (const std::size_t i : kept) points.push_back(raw.points[i]);
   if (options.plane) {

@@ -9,7 +9,7 @@
 
 namespace keyline::acquire {
 
-/// What acquire_key_line decides by itself and may be told instead.
+/// Settings of acquire_key_line, most of which it finds out from the points unless they are given.
 struct AcquireOptions {
   std::optional<bool> closed;   ///< empty: recognised from the gap between the ends
   std::optional<bool> ordered;  ///< empty: recognised; false: order anew; true: keep
@@ -24,7 +24,7 @@ struct AcquireOptions {
 
 /// From raw points to a key-line: non-finite points and duplicates dropped, the plane fitted,
 /// points put in order where their order makes no sense, strays removed, closed outlines
-/// recognised, noise and rounding estimated, corners found. Every step is told in the report.
+/// recognised, noise and rounding estimated, corners found. The report lists every step.
 ///
 /// Returns:    bad-input where fewer than two distinct finite points remain, a coordinate exceeds
 ///             1e100 in size, or weights are negative or do not match the points.

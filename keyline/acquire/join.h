@@ -6,13 +6,13 @@
 
 namespace keyline::acquire {
 
-/// One key-line from parts measured apart (bonnet, windscreen, roof), in any order and direction:
-/// every part becomes a key-line of its own (strays and order handled there) in one common plane,
-/// the parts are put end to end by their nearest ends, turned round where needed, and where a part
-/// runs along the next one for a while both are averaged, handing over gradually from one to the
-/// other. The direction is that of the first part. The report tells order, turns, overlaps, gaps.
+/// One key-line from parts measured separately (bonnet, windscreen, roof), in any order and
+/// direction. Each part is cleaned and ordered by itself, all in one common plane. The parts are
+/// put end to end by their nearest ends, and reversed where needed. Where a part runs along the
+/// next one for a while both are averaged, with weights that pass gradually from one to the other.
+/// The direction is that of the first part. The report lists order, reversals, overlaps and gaps.
 ///
-/// Returns bad-input where there is no part, a part is none, or a part is a closed outline.
+/// Returns bad-input where there is no part, or a part is no key-line or a closed outline.
 core::Result<KeyLine> acquire_joined(std::span<const RawCurve> parts,
                                      const AcquireOptions& options = {});
 

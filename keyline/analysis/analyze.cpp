@@ -12,10 +12,12 @@ namespace {
 core::Result<void> check(const CurveView& curve, double length) {
   for (double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     if (!core::is_finite(curve.jet_at(t).point))
-      return core::fail(core::ErrorCode::bad_input, "the curve holds a number that is not finite");
+      return core::fail(core::ErrorCode::bad_input, "the curve holds a number that is not finite",
+                        "check its control points");
   }
   if (!std::isfinite(length) || !(length > 0))
-    return core::fail(core::ErrorCode::bad_input, "the curve has no length");
+    return core::fail(core::ErrorCode::bad_input, "the curve has no length",
+                      "give it two different points");
   return {};
 }
 

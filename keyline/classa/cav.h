@@ -39,14 +39,14 @@ struct CavOptions {
   std::optional<EnergyMinimum> minimum = {};
   static constexpr auto describe() {
     return core::fields(
-        core::field<&CavOptions::alpha_max>("largest rotation, of Tab. 2 and of the plane")
+        core::field<&CavOptions::alpha_max>("largest rotation alpha of the plane ([Oya] Tab. 2)")
             .in("radian")
             .within(core::between(0, core::kPi / 2)),
         core::field<&CavOptions::tolerance>(
-            "in the alpha-s plane: ratios nearer than this are one and the same")
+            "distance in the alpha-s plane below which ratios count as equal")
             .within(core::at_least(0)),
         core::field<&CavOptions::end_tolerance>(
-            "how far the minimum's end may lie off; 0.01 of the chord unless given")
+            "how far the end may move to reach the minimum; 0.01 of the chord unless given")
             .in("length")
             .within(core::at_least(0)));
   }

@@ -28,9 +28,9 @@ class InputFile {
   InputFile& operator=(InputFile&&) = delete;
   ~InputFile();
 
-  /// What readers are to be given.
+  /// The file that readers should open.
   const std::filesystem::path& path() const { return path_; }
-  /// A failure of theirs, told of what was named.
+  /// A failure of a reader, with the name that the user gave in place of that file's.
   core::Failure as_named(core::Failure failure) const;
 
  private:

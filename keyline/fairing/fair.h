@@ -94,7 +94,7 @@ struct FairOptions {
   std::optional<double> max_rate;
   core::Interval slopes{-3, 3};  ///< of the pieces' logarithmic curvature graphs
   JointOrder joints = JointOrder::g2;
-  int pieces = 0;  ///< wanted number of pieces; 0: as the criterion has it
+  int pieces = 0;  ///< number of pieces; 0: what the criterion leads to
   Criterion criterion = Criterion::least_variation;
   /// Sides of lines that the curve stays on, beside those that the key-line itself has.
   std::vector<Bound> keep_inside;
@@ -113,50 +113,53 @@ struct FairOptions {
   static constexpr auto describe() {
     return core::fields(
         core::field<&FairOptions::tolerance>(
-            "largest distance of a point; by default three times the noise or 0.01 % of the length")
+            "largest distance of a point from the curve; unless given three times the noise, and "
+            "0.01 % of the length at least")
             .in("length")
             .within(core::kPositive),
         core::field<&FairOptions::sigmas>(
             "the tolerance as so many standard deviations of the points, in place of a length")
             .within(core::kPositive),
         core::field<&FairOptions::smoothness>(
-            "from 0, as near as the noise of the points, to 1, as calm as the tolerance allows; by "
-            "default 0.5, and more where that is not fair")
+            "from 0, as near as the noise of the points, to 1, as calm as the tolerance allows; "
+            "unless given 0.5, and more where that is not fair")
             .within(core::from_to(0, 1)),
         core::field<&FairOptions::waves>(
-            "waves of curvature between corners, at most; else as many as the points ask for")
+            "most waves of curvature between corners; unless given as many as the points require")
             .within(core::at_least(0)),
         core::field<&FairOptions::max_rate>(
-            "fastest that curvature may change along the curve; refused where none within the "
-            "tolerance does")
+            "how fast curvature may change along the curve; refused where no curve within the "
+            "tolerance is so calm")
             .in("1/length^2")
             .within(core::kPositive),
-        core::field<&FairOptions::slopes>("slopes that pieces may have")
+        core::field<&FairOptions::slopes>("range of the slopes of pieces")
             .within(core::from_to(-12, 12)),
         core::field<&FairOptions::joints>(
-            "what joints are where curvature does not turn: G3 is of one rate as well, as far as "
-            "the tolerance and the slopes allow, with more pieces and more variation"),
-        core::field<&FairOptions::pieces>("wanted number of pieces; 0: as the criterion has it")
+            "continuity at joints where curvature does not turn: G2, or G3 (also equal rates of "
+            "curvature) as far as tolerance and slopes allow, with more pieces and variation"),
+        core::field<&FairOptions::pieces>("number of pieces; 0: what the criterion leads to")
             .within(core::from_to(0, 400)),
         core::field<&FairOptions::criterion>(
-            "what the chain is to be within the tolerance: as short as possible, or as calm"),
+            "what to look for within the tolerance: the shortest chain, or the calmest"),
         core::field<&FairOptions::keep_inside>(
-            "what the curve does not pass: x>=0, y<=2.5; of a hull's half-breadths by itself")
+            "lines that the curve stays on one side of, as in x>=0 or y<=2.5; half-breadths of a "
+            "hull keep to their side unasked")
             .or_bare_item(),
         core::field<&FairOptions::symmetric>(
-            "an exactly symmetric answer: about the line in which the points mirror within their "
-            "noise, or about a given one; off: such a line is only told"),
-        core::field<&FairOptions::keep_corners>("corners end chains"),
+            "make the answer exactly symmetric about the line in which the points mirror within "
+            "their noise (auto) or about a given one; off: such a line is only reported"),
+        core::field<&FairOptions::keep_corners>("keep corners of the points; chains end there"),
         core::field<&FairOptions::clamp>(
             "what is held at the ends: G0 position, G1 also direction, G2 also curvature"),
         core::field<&FairOptions::region>("fair only this part of the length, as fractions of it")
             .within(core::from_to(0, 1)),
-        core::field<&FairOptions::interpretations>("readings of pieces that replace those found")
+        core::field<&FairOptions::interpretations>("readings that replace those found, by piece")
             .named("interpretation")
             .or_bare_item(),
         core::field<&FairOptions::must_pass>("indices of points the curve must pass, from 0"),
         core::flattened<&FairOptions::spline>().narrow("order", core::from_to(4, 6)),
-        core::field<&FairOptions::seed>("of the search for knots; the same seed, the same result"));
+        core::field<&FairOptions::seed>(
+            "seed of the search for knots; the same seed gives the same result"));
   }
 };
 

@@ -23,7 +23,7 @@ struct Symmetric {
   static constexpr auto describe() {
     return core::fields(
         core::field<&Symmetric::mode>(
-            "off: a symmetry is told, not made exact; auto: about the line "
+            "off: a symmetry is reported, not made exact; auto: about the line "
             "in which the points mirror within their noise; or a given one"),
         core::field<&Symmetric::point>("of the line").in("length"),
         core::field<&Symmetric::direction>("of the line, from the x axis").in("radians"));

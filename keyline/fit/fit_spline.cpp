@@ -118,9 +118,10 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
 
 core::Result<void> check_points(std::span<const Point2> points, int order) {
   if (points.size() < static_cast<std::size_t>(order)) {
-    return core::fail(ErrorCode::bad_input, "a spline of order " + std::to_string(order) +
-                                                " needs at least " + std::to_string(order) +
-                                                " points, got " + std::to_string(points.size()));
+    return core::fail(ErrorCode::bad_input,
+                      "a spline of order " + std::to_string(order) + " needs at least " +
+                          std::to_string(order) + " points, got " + std::to_string(points.size()),
+                      "give more points, or a smaller order");
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (core::is_finite(points[i])) continue;
@@ -230,7 +231,7 @@ SplineData function_data(std::span<const double> x, std::span<const double> y,
 
 core::Result<void> check_values(std::span<const double> x, std::span<const double> y, int order) {
   if (x.size() != y.size()) {
-    return core::fail(ErrorCode::bad_input, "as many y as x are needed");
+    return core::fail(ErrorCode::bad_input, "as many y as x are needed", "give one y for each x");
   }
   std::vector<Point2> points;
   for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], y[i]});
@@ -242,7 +243,8 @@ core::Result<void> check_range(core::Interval range, std::span<const double> y,
   const auto [least, most] = std::minmax_element(y.begin(), y.end());
   if (!(range.low < range.high) || !std::isfinite(core::length(range)) ||
       !std::isfinite((*most - *least) * static_cast<double>(y.size()))) {
-    return core::fail(ErrorCode::bad_input, "x are all equal, or x or y too far apart");
+    return core::fail(ErrorCode::bad_input, "x are all equal, or x or y too far apart",
+                      "check the values and their unit");
   }
   if (wanted && !(wanted->low <= range.low && range.high <= wanted->high))
     return core::fail(ErrorCode::bad_input, "the interval does not hold all data",
@@ -287,7 +289,8 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
   if (fit.parameters.empty()) {
     return core::fail(
         ErrorCode::bad_input,
-        "the points are all equal, or too far apart for their distances to be numbers");
+        "the points are all equal, or too far apart for their distances to be numbers",
+        "check the points and their unit");
   }
   fit.parameters.resize(points.size());
   const OrderedPoints run = ordered(points, fit.parameters, *w);
@@ -344,7 +347,8 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
   const auto spline =
       detail::final_fit(data, settings.interval.value_or(range), knots, options.order);
   if (!spline) {
-    return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order");
+    return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order",
+                      "give more of them, or a smaller order");
   }
   const detail::Misfit m = detail::misfit(*spline, data);
   FunctionFit fit{*spline, detail::interior_of(*spline), m.sse, 0, m.largest, m.rms, found->report};

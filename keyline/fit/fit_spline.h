@@ -48,17 +48,17 @@ struct SplineFitOptions {
 
   static constexpr auto describe() {
     return core::fields(
-        core::field<&SplineFitOptions::order>("of the spline, degree + 1")
+        core::field<&SplineFitOptions::order>("order of the spline, its degree + 1")
             .within(core::from_to(2, 8)),
-        core::field<&SplineFitOptions::population>("individuals of the search for knots")
+        core::field<&SplineFitOptions::population>("individuals in the genetic search for knots")
             .within(core::from_to(2, 100'000)),
-        core::field<&SplineFitOptions::generations>("of the search for knots")
+        core::field<&SplineFitOptions::generations>("generations of that search")
             .within(core::from_to(0, 1'000'000)),
         core::field<&SplineFitOptions::trials>("independent searches; the best is kept")
             .within(core::from_to(1, 100'000)),
         core::field<&SplineFitOptions::knots>(
-            "polished by local search, or ga: the plain genetic search of [Fairing]"),
-        core::field<&SplineFitOptions::parameter>("of the points along the curve"));
+            "polished: the search, then a local one; ga: the plain genetic search of [Fairing]"),
+        core::field<&SplineFitOptions::parameter>("how parameters are assigned to points"));
   }
 
   /// A small budget for the fairing pipeline: smart start, population 30, generations 30, one

@@ -25,9 +25,9 @@ enum class Mode { read, write };  ///< write makes the library where there is no
 /// Whether this build can store anything (it was built with SQLite).
 bool is_available();
 
-/// The library of who asks where none is named: KEYLINE_LIBRARY of the environment, else keyline's
-/// folder among the user's data (XDG_DATA_HOME, ~/.local/share). Empty where there is no such
-/// place.
+/// The file of the library unless one is named: what KEYLINE_LIBRARY in the environment says, else
+/// library.kl in keyline's folder of the user's data (XDG_DATA_HOME, ~/.local/share). Empty where
+/// there is no such folder.
 std::filesystem::path default_file();
 
 /// An open library. Not for two threads at once; open it once in each.

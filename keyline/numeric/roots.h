@@ -10,10 +10,10 @@
 namespace keyline::numeric {
 
 /// A zero of continuous f in [low, high], where f changes sign between the ends, within an
-/// absolute error of tolerance (never finer than the spacing of doubles). f is asked within
-/// [low, high] alone; infinite values count as large ones. Alefeld, Potra and Shi's algorithm 748,
-/// at most 200 evaluations. Returns: empty if f has one sign at both ends, gives NaN anywhere, or
-/// not low < high.
+/// absolute error of tolerance (never finer than the spacing of doubles). f is evaluated
+/// within [low, high] only; infinite values count as large ones. Alefeld, Potra and Shi's algorithm
+/// 748, at most 200 evaluations. Returns: empty if f has one sign at both ends, gives NaN anywhere,
+/// or not low < high.
 template <class F>
 std::optional<double> bracketed_root(F&& f, double low, double high, double tolerance) {
   if (!(low < high)) return std::nullopt;  // panels next to a breakpoint may be of no width

@@ -32,14 +32,15 @@ struct CavRequest {
     return core::fields(
         core::flattened<&CavRequest::cav>(),
         core::field<&CavRequest::cav, &Cav::direction>(
-            "growing: read where edges grow (s >= 1); or as the points stand"),
+            "direction to read a curve in: the one in which edges grow (s >= 1), or as given"),
         core::field<&CavRequest::branch>(
-            "of the minimum: the curve's own, growing (s >= 1/cos alpha) or falling (s <= cos "
-            "alpha)"),
-        core::field<&CavRequest::cav, &Cav::alpha>("of the minimum; [0, alpha_max] unless given")
+            "where to look for the minimum: the curve's own branch, growing (s >= 1/cos alpha) or "
+            "falling (s <= cos alpha)"),
+        core::field<&CavRequest::cav, &Cav::alpha>(
+            "range of alpha for the minimum; [0, alpha_max] unless given")
             .named("alpha_range")
             .in("radian"),
-        core::field<&CavRequest::cav, &Cav::s>("of the minimum").named("s_range"));
+        core::field<&CavRequest::cav, &Cav::s>("range of s for the minimum").named("s_range"));
   }
 };
 classa::CavOptions cav_options(const CavRequest& request);
@@ -70,8 +71,8 @@ struct ClassARequest {
         core::field<&Request::beta>("factor of the tangent"),
         core::field<&Request::start>("its start point; [0, 0] unless given"),
         core::field<&Request::matrix>("instead of alpha and s: a matrix after Farin, by rows"),
-        core::field<&Request::fit_tolerance>(
-            "of the approximation of other curves; 0.001 of the size unless given")
+        core::field<&Request::fit_tolerance>("deviation of the Bezier that approximates other "
+                                             "curves; 0.001 of the size unless given")
             .in("length")
             .within(core::kPositive),
         core::flattened<&Request::options>());

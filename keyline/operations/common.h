@@ -13,12 +13,14 @@ namespace keyline::operations::detail {
 struct Common {
   int threads = 0;
   static constexpr auto describe() {
-    return core::fields(core::field<&Common::threads>("0: all; the result does not depend on it")
+    return core::fields(core::field<&Common::threads>(
+                            "how many to use, 0 for all; the result does not depend on it")
                             .within(core::from_to(0, 1024)));
   }
 };
 
-/// Members of a request that say what is asked and are given back: of no record.
+/// Members of a request that are no field of any record: its operation, and what comes back with
+/// it.
 inline constexpr std::string_view kEnvelope[] = {"op", "id"};
 
 /// A request with everything in it.

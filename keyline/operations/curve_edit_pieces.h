@@ -9,7 +9,7 @@
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/verdict.h"
 
-/// The operation curve.edit_pieces: what it is asked and answers, in the plane and in space.
+/// Request and answer of the operation curve.edit_pieces, in the plane and in space.
 namespace keyline::operations {
 
 constexpr int kHighestPieceDegree = 8;  ///< as of the approximation by one Bezier

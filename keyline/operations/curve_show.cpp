@@ -27,8 +27,9 @@ Result<ShownCurve> run(const ShowCurveRequest& request, const Context&) {
 Operation curve_show_operation() {
   return declare<run>(
       {.name = "curve.show",
-       .summary = "A curve as it is, in the further forms asked for: points along it, Beziers, a "
-                  "B-spline, or what its comb and graphs are drawn from.",
+       .summary =
+           "Gives a curve in further forms: points along it, Beziers, a B-spline, or the data "
+           "for drawing its comb and graphs.",
        .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[2,0],[3,1]]}})"}});
 }
 

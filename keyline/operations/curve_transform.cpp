@@ -53,7 +53,7 @@ Result<TransformedCurve> run(const TransformRequest& request, const Context&) {
 Operation curve_transform_operation() {
   return declare<run>(
       {.name = "curve.transform",
-       .summary = "A curve turned and scaled about a point, then shifted, every type as itself.",
+       .summary = "Turns and scales a curve about a point, then shifts it; its type stays.",
        .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[1,2],[3,2],[4,0]]},
                         "about":[2,0],"turn":0.5,"scale":1.5,"shift":[10,0]})"}});
 }

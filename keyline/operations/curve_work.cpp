@@ -221,19 +221,19 @@ Operation curve_reverse_operation() {
 
 Operation curve_mirror_operation() {
   return declare<run_mirror>({.name = "curve.mirror",
-                              .summary = "The mirror image of a curve, every type as itself.",
+                              .summary = "Mirrors a curve in a line; its type stays.",
                               .examples = {on_ribbon(R"(,"point":[5,0])")}});
 }
 
 Operation curve_trim_operation() {
   return declare<run_trim>({.name = "curve.trim",
-                            .summary = "A part of a curve, every type as itself.",
+                            .summary = "Cuts a part out of a curve; its type stays.",
                             .examples = {on_ribbon(R"(,"from":0.25,"to":0.75)")}});
 }
 
 Operation curve_split_operation() {
   return declare<run_split>({.name = "curve.split",
-                             .summary = "A curve cut into parts, every type as itself.",
+                             .summary = "Cuts a curve into parts; its type stays.",
                              .examples = {on_ribbon(R"(,"at":[0.5])")}});
 }
 
@@ -241,15 +241,16 @@ Operation curve_offset_operation() {
   return declare<run_offset>(
       {.name = "curve.offset",
        .summary =
-           "The curve at a constant distance: of lines and arcs exactly, of others as cubics "
-           "within the tolerance, with an arc about every corner that opens.",
+           "Offsets a curve by a constant distance: exactly for lines and arcs, otherwise as "
+           "cubics within the tolerance, with an arc around every corner that opens.",
        .examples = {on_ribbon(R"(,"distance":0.3)")}});
 }
 
 Operation curve_join_operation() {
   return declare<run_join>(
       {.name = "curve.join",
-       .summary = "Curves end to end as one path, turned and put in order as their ends ask for.",
+       .summary =
+           "Joins curves whose ends meet into one path, reversed and reordered where needed.",
        .examples = {std::string(R"({"curves":[)") + kRibbon +
                     R"(,{"type":"polyline","points":[[6,1],[4,0]]}]})"}});
 }

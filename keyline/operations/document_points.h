@@ -12,14 +12,14 @@
 /// Internals of document_read.cpp: files of measured points.
 namespace keyline::operations {
 
-/// The result, its failure told of that file.
+/// The result; a failure names that file.
 template <class T>
 core::Result<T> in_file(core::Result<T> result, const std::string& file) {
   if (result) return result;
   return std::unexpected(exchange::in_file(result.error(), file));
 }
 
-/// Of those of the name wanted; where there are none, that of the number, counted from 1.
+/// Whether a curve has the wanted name or, where none has it, the wanted number, counted from 1.
 template <class Curve>
 bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::string& wanted) {
   if (wanted.empty() || curves[index].id == wanted) return true;
@@ -28,14 +28,14 @@ bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::s
   return !named && wanted == std::to_string(index + 1);
 }
 
-/// A key-line told in its plane.
+/// A key-line in its plane's coordinates.
 NamedCurve named_line(acquire::KeyLine line);
 
-/// The section asked for of a cloud or mesh.
+/// The requested section of a cloud or mesh.
 core::Result<exchange::FileSection> cut_file(const InputRequest& input, const std::string& file);
 
 /// The key-lines of a table, or the one that several files are parts of: in their planes where
-/// `planar` asks for that, else where they lie in space.
+/// `planar` is set, else where they lie in space.
 core::Result<ReadAnswer> read_points_input(const InputRequest& input);
 
 }  // namespace keyline::operations

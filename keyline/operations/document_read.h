@@ -39,26 +39,29 @@ struct InputRequest {
             .count(1)
             .or_bare_item()
             .needed(),
-        core::field<&Request::columns>("of points: names or numbers of x, y and maybe z")
+        core::field<&Request::columns>(
+            "of a table of points: names or numbers of the columns of x, y and maybe z")
             .count(0, 3),
-        core::field<&Request::weight_column>("of points: column of weights"),
-        core::field<&Request::id_column>("of points: column that tells curves apart"),
+        core::field<&Request::weight_column>("of a table of points: column of weights"),
+        core::field<&Request::id_column>(
+            "of a table of points: column that names the curve a point belongs to"),
         core::field<&Request::select>(
-            "take only what has this name, lies on this layer, or has this number, from 1"),
-        core::field<&Request::glyphs>("of a font: characters, /name or U+0053"),
+            "take only the curves of this name, on this layer, or of this number, counted from 1"),
+        core::field<&Request::glyphs>("of a font, which to read: characters, /name or U+0053"),
         core::field<&Request::section>(
-            "cut a cloud or mesh by a plane, as in y=0; auto: by its symmetry plane"),
+            "cut a cloud or mesh with a plane, as in y=0; auto: with its plane of symmetry"),
         core::field<&Request::band>("half thickness of the section of a cloud")
             .in("length")
             .within(core::kPositive),
-        core::field<&Request::row>("of a lattice of range data, from 0").within(core::at_least(0)),
-        core::field<&Request::column>("of a lattice of range data, from 0")
+        core::field<&Request::row>("of a lattice of range data, which to take, from 0")
+            .within(core::at_least(0)),
+        core::field<&Request::column>("of a lattice of range data, which to take, from 0")
             .within(core::at_least(0)),
         core::flattened<&Request::acquiring>(),
-        core::field<&Request::unit>("of the coordinates; else the file's own"),
+        core::field<&Request::unit>("unit of the coordinates; the file's own unless given"),
         core::field<&Request::planar>(
             "curves in space that lie in a plane as planar ones; others stay as they are"),
-        core::field<&Request::trims>("also the curves that trim surfaces, as curves"));
+        core::field<&Request::trims>("also read the curves that trim surfaces, as curves"));
   }
 };
 

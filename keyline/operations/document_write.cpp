@@ -181,7 +181,7 @@ std::vector<std::string> document_extensions() {
 
 Operation document_write_operation() {
   return declare<run>({.name = "document.write",
-                       .summary = "Curves and surfaces into files, each whole or not at all.",
+                       .summary = "Writes curves and surfaces to files, each whole or not at all.",
                        .examples = {R"({"file":"/tmp/keyline-example.json","curves":[
            {"name":"a","curve":{"type":"polyline","points":[[0,0],[1,1]]}}]})"},
                        .writes_files = true});
@@ -190,7 +190,7 @@ Operation document_write_operation() {
 Operation document_convert_operation() {
   return declare<run_convert>(
       {.name = "document.convert",
-       .summary = "A file's curves and surfaces into files of other formats, all of them or none.",
+       .summary = "Converts a file to other formats; writes all of the files or none.",
        .examples = {R"({"file":"examples/cubic.json","to":"/tmp/keyline-example.svg"})"},
        .long_running = true,
        .reads_files = true,

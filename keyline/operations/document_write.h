@@ -19,11 +19,11 @@ struct FormatOptions {
     return core::fields(
         core::field<&Options::tolerance>(
             "largest deviation where a format cannot hold a curve as it is; 1e-5 of the longest "
-            "unless given")
+            "curve unless given")
             .in("length")
             .within(core::kPositive),
-        core::field<&Options::polylines>("dxf: polylines in place of splines"),
-        core::field<&Options::grid>("glif: nodes and handles on whole numbers"));
+        core::field<&Options::polylines>("for dxf: write polylines in place of splines"),
+        core::field<&Options::grid>("for glif: put nodes and handles on whole numbers"));
   }
 };
 

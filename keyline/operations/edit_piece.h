@@ -33,9 +33,9 @@ inline classa::BetweenRange range_for(int degree, double alpha_max) {
   return range;
 }
 
-/// The target with its end where the given curve has it; nothing where an edge is so short that
-/// rounding turns it. What the end misses by would turn a short edge too: it is set along its
-/// tangent, a unit vector.
+/// The target with its end moved to the given curve's; nothing where an edge is so short that
+/// rounding turns it. The small move would turn a short last edge too, so that edge is set along
+/// `arriving`, the unit tangent at the end.
 template <class Bezier, class Vector>
 std::optional<Bezier> set_end(Bezier target, const Bezier& given, Vector arriving) {
   auto& points = target.control;

@@ -8,11 +8,11 @@
 
 #include "keyline/core/error.h"
 
-/// Curves and surfaces that a door keeps between requests, to be asked at many places at once
-/// without going through JSON: columns of doubles in, columns of doubles out. Any thread may ask.
+/// Curves and surfaces that a program keeps between requests, to evaluate them at many places at
+/// once without going through JSON: columns of doubles in and out. Safe to use from any thread.
 namespace keyline::operations {
 
-/// What can be asked of a curve at an arc length; how many numbers an answer has.
+/// What a curve can be evaluated for at an arc length.
 enum class Along { point, tangent, curvature, curvature_rate, torsion, tangent_angle };
 
 /// Any curve value of the public interface, in the plane or in space.

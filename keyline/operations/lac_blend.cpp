@@ -15,7 +15,8 @@ struct BlendRequest {
         core::field<&BlendRequest::curves>("the curve to leave and the curve to join")
             .count(2, 2)
             .needed(),
-        core::field<&BlendRequest::at>("parameters on the two curves, 0 start to 1 end")
+        core::field<&BlendRequest::at>(
+            "where to leave the first curve and to join the second, from 0 (start) to 1 (end)")
             .within(core::from_to(0, 1)),
         core::field<&BlendRequest::order>("of continuity at both ends"),
         core::field<&BlendRequest::alpha>("slope of the pieces"));
@@ -50,8 +51,8 @@ core::Result<BlendResult> run(const BlendRequest& request, const Context&) {
 Operation lac_blend_operation() {
   return declare<run>(
       {.name = "lac.blend",
-       .summary = "A log-aesthetic chain from a point of one curve, in its direction, into a point "
-                  "of another, in its direction, G1 to G3 at both.",
+       .summary = "Draws a log-aesthetic chain from a point of one curve into a point of another, "
+                  "with G1, G2 or G3 at both.",
        .examples = {R"({"curves":[{"type":"polyline","points":[[0,0],[1,0]]},
                                   {"type":"polyline","points":[[3,1],[3,2]]}],
                         "order":"G2","alpha":-1})"}});

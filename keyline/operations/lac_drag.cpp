@@ -52,9 +52,9 @@ core::Result<DragResult> run(const DragRequest& request, const Context&) {
 Operation lac_drag_operation() {
   return declare<run>(
       {.name = "lac.drag",
-       .summary = "A log-aesthetic curve with one of its points dragged elsewhere: slopes, places "
-                  "and directions of both ends stay, curvature stays continuous, and all else "
-                  "changes as little as can be.",
+       .summary = "Drags one point of a log-aesthetic curve: slopes, places and directions of both "
+                  "ends stay, curvature stays continuous, and all else changes as little as "
+                  "possible.",
        .examples = {R"({"curve":{"type":"log-aesthetic","start":[0,0],"direction":0,"pieces":[
                         {"alpha":-1,"length":1,"curvature":[0.1,0.6]},
                         {"alpha":-1,"length":1,"curvature":[0.6,0.2]},

@@ -129,8 +129,9 @@ core::Result<RaiseResult> run(const RaiseRequest& request, const Context&) {
 Operation lac_raise_joints_operation() {
   return declare<run>(
       {.name = "lac.raise_joints",
-       .summary = "A log-aesthetic curve whose joints are G3 where curvature runs in one sense on "
-                  "both sides; those that stay as they were say why.",
+       .summary =
+           "Makes joints of a log-aesthetic curve G3 where curvature rises, or falls, on both "
+           "sides; says why for those that stay as they were.",
        .examples = {R"({"curve":{"type":"log-aesthetic","start":[0,0],"direction":0,"pieces":[
                         {"alpha":-1,"length":1,"curvature":[0.1,0.3]},
                         {"alpha":0.5,"length":1,"curvature":[0.3,0.9]},

@@ -114,10 +114,11 @@ Result<RegionResult> run(const RegionRequest& request, const Context&) {
 Operation lac_region_operation() {
   return declare<run>(
       {.name = "lac.region",
-       .summary = "Which triangles can be met: the interval of angles psi from the start tangent "
-                  "to the chord that curves of this slope turning by theta can have, whichever end "
-                  "has the smaller radius. An end marked open is not reached by any curve. For "
-                  "three handles also where one of them may be moved to.",
+       .summary =
+           "Tells in which triangles a slope can be drawn: the interval of angles psi from the "
+           "start tangent to the chord that curves of this slope turning by theta can have, "
+           "whichever end has the smaller radius. No curve reaches an end marked open. For "
+           "three handles also tells where one of them may be moved to.",
        .examples = {R"({"theta":1.2,"alpha":-1})",
                     R"({"points":[[0,0],[2,0],[3,1.5]],"handle":2,"alpha":1.5})",
                     R"({"theta":1.2,"alpha":[-1,1.5],"ratio":0.4})"}});

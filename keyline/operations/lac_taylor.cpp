@@ -112,8 +112,8 @@ Result<TaylorAnswer> run(const TaylorRequest& request, const Context&) {
 Operation lac_taylor_operation() {
   return declare<run>(
       {.name = "lac.taylor",
-       .summary = "What the Taylor forms of a quasi-log-aesthetic curve are off by: radius of "
-                  "convergence, a bound and the largest error found for every degree.",
+       .summary = "Tells the errors of the Taylor forms of a quasi-log-aesthetic curve: radius of "
+                  "convergence, and for every degree a bound and the largest error found.",
        .examples = {R"({"alpha":2,"lambda":0.4,"interval":[0,1],"variable":"arc-length",
                         "tolerance":1e-6})"}});
 }

@@ -188,7 +188,7 @@ Result<AddAnswer> run_add(const AddRequest& request, const Context& context) {
 Operation library_measure_operation() {
   return declare<run_measure>(
       {.name = "library.measure",
-       .summary = "What a design library keeps of curves and surfaces: rhythm, slopes, volumes, "
+       .summary = "Measures curves and surfaces as a design library does: rhythm, slopes, volumes, "
                   "CAV, SAV, size, profile, thumbnail.",
        .examples = {R"({"curves":[{"name":"a","curve":{"type":"bezier",
            "points":[[0,0],[1,0],[2,0.3],[2.6,1.2]]}}]})"},

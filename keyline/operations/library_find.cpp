@@ -140,35 +140,37 @@ Result<library::Statistics> run_stats(const StatsRequest& request, const Context
 
 Operation library_find_operation() {
   return declare<run_find>({.name = "library.find",
-                            .summary = "Things of a design library by rhythm, slope, CAV, SAV, "
-                                       "size, name, or by a curve they look like.",
+                            .summary = "Finds curves and surfaces in a design library by rhythm, "
+                                       "slope, CAV, SAV, size, name, or by a curve they look like.",
                             .examples = {kExample},
                             .reads_files = true,
                             .writes_files = kLogBeside});
 }
 
 Operation library_show_operation() {
-  return declare<run_show>({.name = "library.show",
-                            .summary = "One thing of a design library, with all that is known.",
-                            .examples = {R"({"library":"/tmp/keyline-example.kl","number":1})"},
-                            .reads_files = true,
-                            .writes_files = kLogBeside});
+  return declare<run_show>(
+      {.name = "library.show",
+       .summary = "Shows one curve or surface of a design library, with all that is known.",
+       .examples = {R"({"library":"/tmp/keyline-example.kl","number":1})"},
+       .reads_files = true,
+       .writes_files = kLogBeside});
 }
 
 Operation library_export_operation() {
-  return declare<run_export>({.name = "library.export",
-                              .summary = "Things of a design library into a file.",
-                              .examples = {R"({"library":"/tmp/keyline-example.kl","numbers":[1],
+  return declare<run_export>(
+      {.name = "library.export",
+       .summary = "Writes curves and surfaces of a design library to a file.",
+       .examples = {R"({"library":"/tmp/keyline-example.kl","numbers":[1],
                                                "file":"/tmp/keyline-example.json"})"},
-                              .reads_files = true,
-                              .writes_files = true});
+       .reads_files = true,
+       .writes_files = true});
 }
 
 Operation library_stats_operation() {
   return declare<run_stats>(
       {.name = "library.stats",
-       .summary = "The survey of a design library: how many curves of each of the five types, "
-                  "their slopes, how self-affine their pieces are.",
+       .summary = "Surveys a design library: how many curves are of each of the five types, their "
+                  "slopes, and how self-affine their pieces are.",
        .examples = {kExample},
        .reads_files = true,
        .writes_files = kLogBeside});

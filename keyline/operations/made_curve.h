@@ -7,10 +7,10 @@
 #include "keyline/operations/sampled_comb.h"
 #include "keyline/operations/values.h"
 
-/// Curves in results, and the further forms of them a request may ask for.
+/// Curves in results, and the further forms of them that a request may want.
 namespace keyline::operations {
 
-/// One form a curve is asked for in.
+/// A form that a request wants a curve in.
 struct Form {
   int degree = 3;
   double tolerance = 0;
@@ -33,14 +33,14 @@ struct Forms {
     return core::fields(
         core::field<&Forms::samples>("adds the curve as a polyline of so many points")
             .within(core::from_to(2, 10'000'000)),
-        core::field<&Forms::bezier>("adds the curve as Beziers, with the deviation they meet"),
-        core::field<&Forms::nurbs>("adds the curve as a B-spline, with the deviation it meets"),
-        core::field<&Forms::comb>("adds what a comb and the graphs of curvature are drawn from"));
+        core::field<&Forms::bezier>("adds the curve as Beziers, with a bound of their deviation"),
+        core::field<&Forms::nurbs>("adds the curve as a B-spline, with a bound of its deviation"),
+        core::field<&Forms::comb>("adds the data for drawing a comb and the graphs of curvature"));
   }
 };
 
-/// A curve of a result; the forms asked for are added to it wherever in a result it stands.
-/// Flattened, its fields stand beside those of the result.
+/// A curve of a result, at any depth; the wanted forms are added beside it. Use it as a flattened
+/// member, so that its fields stand beside those of the result.
 struct MadeCurve {
   AnyCurve curve;
   std::optional<AnyCurve> polyline;

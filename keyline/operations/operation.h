@@ -10,14 +10,14 @@
 
 /// Every capability once: a function from a typed request to a typed result, both described once
 /// (core/describe.h). The command line, batch, the HTTP server and Python all go through perform;
-/// docs/contract.md lists the names. docs/design/operations.md tells how to add one.
+/// docs/contract.md lists the names. docs/adding.md tells how to add one.
 namespace keyline::operations {
 
 /// How a request is served; nothing in it changes a result.
 struct Context {
   int threads = 0;  ///< 0: all of the machine's
   core::Progress progress;
-  /// Whether the file "-" means the door's own input and output; elsewhere they carry requests.
+  /// Whether the file "-" means standard input and output; false where those carry requests.
   bool standard_streams = false;
 };
 
@@ -31,8 +31,8 @@ struct Operation {
 
   const core::Type* request = nullptr;
   const core::Type* result = nullptr;
-  /// Precondition: `request` points to a sound record of the request's type. Holds one of the
-  /// result's.
+  /// Precondition: `request` points to a valid record of the request's type. Returns a record of
+  /// the result's type.
   core::Result<std::shared_ptr<void>> (*run)(const void* request, const Context& context) = nullptr;
 };
 
@@ -48,8 +48,8 @@ struct Signature<core::Result<Result_> (*)(const Request_&, const Context&)> {
 
 }  // namespace detail
 
-/// The operation that `Run` is: core::Result<Answer> Run(const Request&, const Context&), both
-/// described structs. `facts` tells the rest: declare<run>({.name = "lac.segment", …}).
+/// The operation that runs `Run`, a function core::Result<Answer>(const Request&, const Context&)
+/// of described structs. `facts` gives the rest: declare<run>({.name = "lac.segment", …}).
 template <auto Run>
 Operation declare(Operation facts) {
   using Of = detail::Signature<decltype(Run)>;

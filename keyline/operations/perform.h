@@ -8,10 +8,10 @@
 
 #include "keyline/operations/operation.h"
 
-/// Requests as JSON: what every door calls.
+/// Performs requests given as JSON; the command line, batch, the server and Python call this.
 namespace keyline::operations {
 
-/// What an operation made of a request, typed: for what shows it. A door needs only result_json.
+/// A request with its typed result, as pictures and reports need them. Others use result_json.
 struct Outcome {
   const Operation* operation = nullptr;
   std::shared_ptr<const void> request;
@@ -31,8 +31,8 @@ struct Outcome {
   }
 };
 
-/// Fields read and checked, each once, the operation run, the forms asked for added to its curves.
-/// "op" and "id" are let pass. Never throws: what goes wrong inside is an `internal` failure.
+/// Reads and checks the fields, runs the operation and adds the wanted forms to its curves. "op"
+/// and "id" are ignored. Never throws: an exception inside becomes an `internal` failure.
 core::Result<Outcome> carry_out(const std::string& name, const nlohmann::json& request,
                                 const Context& context);
 
@@ -42,7 +42,7 @@ core::Result<nlohmann::json> result_json(const Outcome& outcome);
 /// curves; null where there are none.
 const core::Type* further_options(const Operation& operation);
 
-/// Both in one.
+/// carry_out and result_json in one.
 core::Result<nlohmann::json> perform(const std::string& name, const nlohmann::json& request,
                                      const Context& context);
 

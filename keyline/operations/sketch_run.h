@@ -7,7 +7,7 @@
 #include "keyline/document/document.h"
 #include "keyline/sketch/trace.h"
 
-/// What the doors and sketch.trace share about drawings.
+/// Tracing of drawings as the operation sketch.trace and the programs over it share it.
 namespace keyline::operations {
 
 /// sketch::trace; unsupported where Keyline was built without room sketch.

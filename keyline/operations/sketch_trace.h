@@ -29,71 +29,75 @@ struct SketchRequest {
     using Tone = sketch::ToneOptions;
     using Curve = sketch::StrokeCurveOptions;
     return core::fields(
-        core::field<&Request::image>("PNG, JPEG, TIFF or WebP in base64; or file"),
+        core::field<&Request::image>("PNG, JPEG, TIFF or WebP in base64; or give file"),
         core::field<&Request::file>(
-            "path of such a picture, or of pen strokes (scap, svg, dxf, json); or image"),
+            "path of such a picture, or of pen strokes (scap, svg, dxf, json); or give image"),
         core::field<&Request::options, &Trace::rectify>(
             "photos of a sheet of paper on darker ground are mapped back to the sheet"),
         core::field<&Request::options, &Trace::sheet>(
-            "its corners: upper left, upper right, lower right, lower left, in pixels from the "
-            "picture's upper left corner; else found")
+            "corners of that sheet: upper left, upper right, lower right, lower left, in pixels "
+            "from the picture's upper left corner; found unless given")
             .in("pixel"),
         core::field<&Request::options, &Trace::binarize, &Ink::threshold>(
-            "of the log picture: what is darker is ink; else by region")
+            "level of the log picture: what is darker is ink; found by region unless given")
             .within(core::from_to(0, 1)),
         core::field<&Request::thresholds>(
-            "of the 8 x 8 regions, row by row from the top left; null: found")
+            "the same for each of 8 x 8 regions, row by row from the top left; null: found")
             .within(core::from_to(0, 1)),
         core::field<&Request::options, &Trace::tone, &Tone::gain>(
-            "the a of y = a log x; else such that paper is 1")
+            "the a of y = a log x in the log picture; unless given such that paper is 1")
             .named("log_gain")
             .within(core::kPositive),
         core::field<&Request::options, &Trace::tone, &Tone::flatten>(
-            "take the paper's own shades out"),
+            "whether to remove the paper's own shades"),
         core::field<&Request::options, &Trace::tone, &Tone::polarity>(
-            "dark lines on light paper, or light ones on dark"),
-        core::field<&Request::options, &Trace::edge>("the middle of the lines, or the ink's outer "
-                                                     "border"),
+            "dark lines on light paper, or light lines on dark paper"),
+        core::field<&Request::options, &Trace::edge>(
+            "what to follow: the middle of the lines, or the outer "
+            "border of the ink"),
         core::field<&Request::options, &Trace::smoothing>(
             "passes of erosion and dilation over the ink's edges")
             .within(core::from_to(0, 100)),
         core::field<&Request::options, &Trace::smoothing_by>(
-            "features: bumps and dents of a pixel alone; pixels: every edge, which rounds corners "
-            "and loses thin lines, to compare with ([Sketch] Fig. 6b)"),
-        core::field<&Request::scale>("mm per pixel; else lengths are pixels")
+            "what smoothing changes. features: bumps and dents of one pixel; pixels: every edge, "
+            "which rounds corners and loses thin lines ([Sketch] Fig. 6b), for comparison"),
+        core::field<&Request::scale>("mm per pixel; unless given lengths are in pixels")
             .within(core::kPositive),
-        core::field<&Request::dpi>("pixels per inch, in place of scale: lengths are mm then")
+        core::field<&Request::dpi>("pixels per inch, in place of scale; lengths are in mm then")
             .within(core::kPositive),
-        core::field<&Request::options, &Trace::consolidate>("lines drawn several times become one"),
+        core::field<&Request::options, &Trace::consolidate>(
+            "make one line of a line that was drawn several times"),
         core::field<&Request::options, &Trace::wishes, &sketch::GroupWishes::keep>(
-            "consolidate: strokes that stay as drawn, by their numbers from 0"),
+            "with consolidate: strokes that stay as drawn, by their numbers from 0"),
         core::field<&Request::options, &Trace::wishes, &sketch::GroupWishes::join>(
-            "consolidate: sets of strokes that are one line, as 3,7"),
+            "with consolidate: sets of strokes that are one line, as in 3,7"),
         core::field<&Request::options, &Trace::wishes, &sketch::GroupWishes::split>(
-            "consolidate: sets of strokes no two of which are one line, as 3,7"),
+            "with consolidate: sets of strokes of which no two are one line, as in 3,7"),
         core::field<&Request::options, &Trace::curve, &Curve::aim>(
-            "what the curves' curvature is driven to")
+            "change the curves' curvature: smooth takes waves out, rhythm also makes it "
+            "log-aesthetic")
             .named("curvature"),
         core::field<&Request::options, &Trace::curve, &Curve::rhythm>(
-            "the lines' own, or one to give them (curvature: rhythm, too): accelerating is slope "
+            "with curvature rhythm: the lines' own, or one to give them; accelerating is slope "
             "-0.5 and less, stable 0, decelerating 0.5 and more"),
         core::field<&Request::target>(
-            "curvatures wanted of a line: its number from 0, the fraction of its length, the "
-            "curvature in 1/length, as 0,0.5,0.01; two and more a line, its ends held"),
+            "curvatures to give a line: its number from 0, the fraction of its length, the "
+            "curvature in 1/length, as in 0,0.5,0.01; at least two for a line; its ends stay"),
         core::field<&Request::tolerance>(
             "largest distance of the curve from the line; half a pixel, or half the pen's width of "
             "drawn strokes, unless given")
             .in("length")
             .within(core::kPositive),
         core::field<&Request::per_segment>(
-            "a quintic per line segment, as [Sketch] has it; else as few as follow the lines"),
-        core::field<&Request::options, &Trace::gap>("longest gap bridged; else by the stroke width")
+            "one quintic per line segment, as in [Sketch]; otherwise as few as follow the lines"),
+        core::field<&Request::options, &Trace::gap>(
+            "longest gap that is bridged; chosen by the stroke width unless given")
             .in("pixel")
             .within(core::at_least(0)),
         core::field<&Request::options, &Trace::specks>(
-            "pieces of ink of fewer pixels are dirt; else by the stroke width")
+            "pieces of ink of fewer pixels are dirt; chosen by the stroke width unless given")
             .within(core::from_to(0, 1 << 20)),
-        core::field<&Request::stages>("also the picture after each stage"));
+        core::field<&Request::stages>("also return the picture after each stage"));
   }
   /// Fails: bad_input for wishes where nothing is consolidated, a rhythm for curvature smooth, a
   /// sheet that is not to be rectified.

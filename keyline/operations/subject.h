@@ -10,7 +10,7 @@
 /// What `fair` and `curve.analyze` work on: one place decides what counts as measured points.
 namespace keyline::operations {
 
-/// What may be told of measured points instead of being recognised.
+/// Facts about measured points that are recognised unless they are given.
 struct Acquiring {
   std::optional<bool> closed;
   std::optional<double> noise;
@@ -19,12 +19,14 @@ struct Acquiring {
   bool keep_strays = false;
   static constexpr auto describe() {
     return core::fields(
-        core::field<&Acquiring::closed>("whether the points are a closed outline; else recognised"),
-        core::field<&Acquiring::noise>("standard deviation of the positions; else estimated")
+        core::field<&Acquiring::closed>(
+            "whether the points are a closed outline; recognised unless given"),
+        core::field<&Acquiring::noise>(
+            "standard deviation of the positions; estimated unless given")
             .in("length")
             .within(core::at_least(0)),
         core::field<&Acquiring::detail>(
-            "waves shorter than this are taken for noise; else found where texture shows")
+            "waves shorter than this are taken for noise; found where texture shows unless given")
             .in("length"),
         core::field<&Acquiring::keep_order>("never put points in another order"),
         core::field<&Acquiring::keep_strays>("never drop a point as stray"));

@@ -22,16 +22,17 @@ struct SurfaceEditOptions {
     using Request = SurfaceEditOptions;
     return core::fields(
         core::field<&Request::keep>(
-            "start (the first corner and the tangents of its row and column; the default of one "
-            "patch), corners, joints (boundary curves move so that neighbours stay joined; corners "
-            "stay, but where joints are held those in which patches meet move together; the "
-            "default of several) or boundary"),
-        core::field<&Request::amount>("0 as given to 1 the target").within(core::from_to(0, 1)),
-        core::field<&Request::limit>("largest departure from the given surfaces, or \"none\", the "
-                                     "default of a single patch; of several unless given a "
-                                     "hundredth of their size (the diagonal of the box around "
-                                     "them): then what would go farther stays as given, where a "
-                                     "length given is used up by going part of the way")
+            "what stays. start: the first corner and the tangents of its row and column (default "
+            "of one patch); corners; joints: corners, and boundary curves move so that neighbours "
+            "stay joined; where joints are held, corners in which patches meet move together "
+            "(default of several); boundary"),
+        core::field<&Request::amount>("from 0, the given surface, to 1, the target")
+            .within(core::from_to(0, 1)),
+        core::field<&Request::limit>("largest departure from the given surfaces; an edit that "
+                                     "would go farther goes part of the way. Unless given, a "
+                                     "single patch has no limit (\"none\"); several may depart by "
+                                     "a hundredth of their size (the diagonal of the box around "
+                                     "them), and what would go farther stays as given")
             .in("length")
             .within(core::at_least(0)),
         core::field<&Request::alpha_max>("largest rotation, as in surface.sav")
@@ -41,7 +42,7 @@ struct SurfaceEditOptions {
             "how far a curve's minimum may end off it; 0: a curve at its minimum scores 0")
             .in("length")
             .within(core::at_least(0)),
-        core::field<&Request::conditions>("of network curves").or_bare_item());
+        core::field<&Request::conditions>("conditions on network curves").or_bare_item());
   }
 };
 

@@ -22,9 +22,9 @@ struct TogetherRequest {
     return core::fields(
         core::field<&Request::surfaces>("polynomial Bezier or B-spline surfaces").count(1).needed(),
         core::field<&Request::joints>(
-            "of several patches what stays where it was: tangent planes across joints (G1), common "
-            "curvature too (G2), that and how far stripes of a zebra turn at any joint (zebra), or "
-            "none of these (free)"),
+            "what an edit of several patches keeps at their joints: common tangent planes (G1), "
+            "common curvature too (G2), also how far stripes of a zebra turn (zebra), or nothing "
+            "(free)"),
         core::flattened<&Request::options>());
   }
 };

@@ -110,8 +110,9 @@ Result<NetworkAnswer> run(const NetworkRequest& request, const Context& context)
 Operation surface_network_operation() {
   return declare<run>(
       {.name = "surface.network",
-       .summary = "A surface through curves that cross like warp and weft (Coons and Gordon): four "
-                  "borders, and sections between them.",
+       .summary =
+           "Makes a surface through curves that cross like warp and weft (Coons and Gordon): "
+           "four borders, and sections between them.",
        .examples = {R"({"along_u":[
            {"type":"bezier","points":[[0,0,0],[1,0,0.6],[2,0,0.6],[3,0,0]]},
            {"type":"bezier","points":[[0,2,0.2],[1,2,0.9],[2,2,0.9],[3,2,0.2]]}],"along_v":[

@@ -66,8 +66,9 @@ Result<PatchAnswer> run(const PatchRequest& request, const Context&) {
 Operation surface_patch_operation() {
   return declare<run>(
       {.name = "surface.patch",
-       .summary = "A Bezier patch from its network: profiles A1 to A4 strung along A5, a sweep "
-                  "whose profile changes on the way; the other curves follow.",
+       .summary =
+           "Makes a Bezier patch from its network: profiles A1 to A4 strung along A5, a sweep "
+           "whose profile changes on the way; the other curves follow.",
        .examples = {R"({"rows":[{"type":"bezier","points":[[0,0,0],[1,0,1],[2,0,1],[3,0,0]]},
                                 {"type":"bezier","points":[[0,0,0],[1,0,1.4],[2,0,1.2],[3,0,0]]}],
                         "column":{"type":"bezier","points":[[0,0,0],[0,2,0.5]]}})"}});

@@ -7,7 +7,7 @@
 namespace keyline::report::detail {
 
 /// What the page's script draws the curve from: its numbers as JSON in a block that does not run,
-/// what is said of its pieces as a hidden list. Nothing is to be seen where no script runs.
+/// and the texts about its pieces as a hidden list. Nothing is visible where no script runs.
 /// Numbers have seven digits, points from the first one on; what is not finite is null.
 /// Throws: InvalidInput for lists of unequal length.
 std::string linked_curve(const LinkedCurve& linked);

@@ -34,7 +34,7 @@ struct ReportFigure {
 struct LinkedCurve {
   figure::SampledCurve curve = {};
   figure::SampledCurve before = {};      ///< its curvature behind the curve's; may be empty
-  std::vector<std::string> pieces = {};  ///< what is said of each; empty: nothing
+  std::vector<std::string> pieces = {};  ///< a text about each; may be empty
   std::string unit = {};                 ///< of length
 };
 

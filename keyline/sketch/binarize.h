@@ -29,7 +29,7 @@ struct Binarized {
   std::array<bool, kRegionCount> empty{};  ///< regions without ink: threshold of their neighbours
 };
 
-/// Ink and paper told apart.
+/// Separates ink from paper.
 ///
 /// Every region's threshold is Otsu's over its pixels near edges (both sides of a line then count
 /// alike, however little ink there is), taken over the darkness of the flattened picture, in which

@@ -14,10 +14,10 @@ struct OwnSize {
   friend bool operator==(const OwnSize&, const OwnSize&) = default;
 };
 
-/// Repeated pixels change only where one ends: by how much more of the squares of the differences
-/// between neighbouring columns (rows) lies there than by chance, from 0 to 1, the factor is told;
-/// 0.8 is asked for, both ways, of so many steps that chance makes it once in a million. Drawings
-/// that were not enlarged so have below 0.2, those that were and went through JPEG since above 0.9.
+/// In an enlarged picture columns (rows) differ only where a repeated pixel ends. The factor is
+/// found by how much more of the squared differences lies there than by chance, on a scale from 0
+/// to 1: at least 0.8, in both directions, over so many steps that chance does it once in a
+/// million. Drawings that were not enlarged stay below 0.2, enlarged ones after JPEG lie above 0.9.
 OwnSize own_size(const Image& image);
 
 /// The picture at its own size: the mean of each pixel's repeats.

@@ -25,7 +25,7 @@ Ink find_ink(Tone& tone, const TraceOptions& options);
 /// reaches, in pieces of so many pixels at least.
 FaintLine faint_line(double width, int specks);
 
-/// Hands a stage's picture out, where they are asked for.
+/// Gives a stage's picture to the caller, if the options ask for stages.
 void show_stage(const TraceOptions& options, const char* name, const Binary& binary);
 
 }  // namespace keyline::sketch

@@ -21,8 +21,8 @@ struct LineOptions {
 /// wind around or cross themselves come out as they were drawn; the line runs along their middle,
 /// is closed where it runs into itself, moved to the mean of what lies beside each of its samples,
 /// and held within a width of the pen of a stroke wherever strokes lie farther apart. Where more
-/// than 2 % of it would still lie farther than one and a half widths from all strokes, no such line
-/// is invented: the longest stroke stands for those that run beside it.
+/// than 2 % of it would still lie farther than one and a half widths from all strokes, there is no
+/// such line, and the longest stroke is taken in place of those that run beside it.
 ///
 /// members: indices into strokes; one alone gives that stroke.
 /// strays:  members of which less than half runs beside the line found, no farther from it than

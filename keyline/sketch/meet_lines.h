@@ -14,7 +14,7 @@ namespace keyline::sketch {
 /// that thinning alone lets the stem end too early.
 ///
 /// Where the pen went on beyond the line it met and stopped before their ink parted, the end lies
-/// there; in ragged ink that is not to be told.
+/// there; in ragged ink this cannot be seen.
 void end_on_lines(std::vector<FineStroke>& strokes, const Refiner& refiner, bool ragged = false);
 
 }  // namespace keyline::sketch

@@ -56,7 +56,7 @@ Tone transform_intensity(Image image, const ToneOptions& options = {});
 /// that is left.
 void blur_levels(Tone& tone, double sigma);
 
-/// Paper and ink told apart by which tail of the blocks' brightness is longer.
+/// Whether ink is lighter than paper: ink is the longer tail of the blocks' brightness.
 bool is_light_on_dark(const Image& image);
 
 }  // namespace keyline::sketch

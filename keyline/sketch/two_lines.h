@@ -14,16 +14,16 @@ struct TwoLines {
   std::vector<std::size_t> other;
 };
 
-/// What of groups of strokes is two lines and not passes of one.
+/// Finds groups of strokes that are two lines and not passes of one.
 ///
 /// Strokes of a group are put together anew, nearest first by the mean square of their distance
 /// where they run beside each other in the same direction. Two parts are two lines, however often
 /// they touch or cross, if their strokes lie more than three times as far apart as those within the
 /// parts, and two widths at least (nearer, no stroke has room between): halves of an even spread
-/// lie √7 = 2.65 times as far apart, so more is a gap. How far apart strokes and parts usually are
-/// that are put together in the drawing counts as found within, along as much of the way as the two
-/// parts run beside each other: two strokes alone are judged by that. Where fewer than eight times
-/// something is put together, nothing is usual, and nothing told.
+/// lie √7 = 2.65 times as far apart, so more is a gap. The usual distance of strokes and parts that
+/// are put together in the drawing counts as if found within the parts, along the stretch in which
+/// the two run beside each other; two single strokes are judged by it alone. In a drawing with
+/// fewer than eight such joins nothing is usual, and no group is parted.
 ///
 /// Lines that go on in each other are two where the hand was lifted between them time and again: a
 /// part whose strokes run beside each other, though beside no other stroke for three tenths of the

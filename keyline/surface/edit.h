@@ -57,7 +57,7 @@ struct EditResult {
   SurfaceValue before;
   SurfaceValue after;
   double departure = 0;              ///< of `surface` from the given one, a bound: see departure.h
-  double amount = 1;                 ///< as used: less than asked for where the limit demands it
+  double amount = 1;                 ///< as used: less than requested where the limit demands it
   std::string target;                ///< the trade-off that was taken
   std::vector<TradeOff> tradeoff;    ///< by growing departure
   std::vector<MissedTarget> missed;  ///< others
@@ -76,10 +76,10 @@ struct EditResult {
 /// kept), the four boundary curves at their minimum and the inside blended from them; "one matrix
 /// inside", the same with the inside solved so that its curves have one matrix each.
 /// Where conditions leave none of these: "conditions", the nearest net in which the curves that
-/// have conditions meet them; nothing is asked of the others. From degree 5 on nets of one matrix
-/// per curve do not exist for corners at will; with these kept the targets of the nearest bicubic
-/// patch stand beside, "bicubic, …". Such a target, taken whole, comes with its own degrees and
-/// network curves. The target of least SAV within the limit is taken, the nearer one of equals;
+/// have conditions meet them; the others are free. From degree 5 on nets of one matrix
+/// per curve do not exist for arbitrary corners; with these kept, the targets of the nearest
+/// bicubic patch are added, "bicubic, …". Such a target, taken whole, comes with its own degrees
+/// and network curves. The target of least SAV within the limit is taken, the nearer one of equals;
 /// where none lies within the limit, the nearest of them as far as the limit allows
 /// (part_of_the_way). No target and no part of the way to one turns the patch over (turn_over.h).
 ///

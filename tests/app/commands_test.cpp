@@ -72,6 +72,9 @@ TEST(Commands, OptionsAreReadAsPeopleTypeThem) {
   const std::string plain = run_keyline(fair + scan).out;
   EXPECT_EQ(run_keyline(fair + "--no-keep-corners --keep-corners " + scan).out, plain);
   EXPECT_EQ(run_keyline("fair " + scan + " --keep-cor yes --quiet --json").out, plain);
+  const std::string help = run_keyline("fair --help").out;  // what is found by itself can be denied
+  EXPECT_NE(help.find("--[no-]closed "), std::string::npos) << help;
+  EXPECT_EQ(help.find("--[no-]keep-order"), std::string::npos) << help;
   EXPECT_EQ(run_keyline("fair -- " + scan).status, 0);
   // numbers are taken up to the file, which is none
   EXPECT_EQ(run_keyline(fair + "--must-pass 0 5,9 " + scan).status, 0);

@@ -80,6 +80,7 @@ TEST(Manual, ARoomListsItsOperations) {
   EXPECT_THAT(o.out, Not(HasSubstr("lac.segment")));
   expect_failure(run_keyline("library"), 2, "keyline library --help lists them");
   expect_failure(run_keyline("nonsense --help"), 2, "there is no command");
+  expect_failure(run_keyline("library survey --library x"), 2, "no command \"library survey\"");
 }
 
 /// A line that begins with a dot or a quote would be taken for a request and vanish.
