@@ -4,6 +4,7 @@ Commands are the lines of blocks marked `sh` that start with `keyline` or `./dev
 examples; programs are the blocks marked `python` of pages about Python. Each page's run one after the other in a
 folder of its own beside the examples; each must end with status 0 and write the files it names with -o.
 With KEYLINE_TIMES set, each command's time is told. What the README counts under its picture is what `fair` counts.
+Options that README and guide name in their text (`--tolerance 0.1`) are options of some command.
 """
 
 import os
@@ -79,10 +80,22 @@ def miscounted():
     return [] if numbers == [*map(int, counted.groups())] else [f"README.md counts {numbers}, `fair` {counted.groups()}"]
 
 
+def unknown_options():
+    """Options in inline code that no command has, nor has one that begins so."""
+    completion = subprocess.run([keyline, "completion", "bash"], capture_output=True, text=True).stdout
+    known = set(re.findall(r"--[a-z][a-z-]*", completion))
+    if len(known) < 100:
+        yield "keyline completion bash lists hardly any option"
+    for page in [root / "README.md", root / "docs/limits.md", *sorted((root / "docs/guide").glob("*.md"))]:
+        for option in re.findall(r"`(--[a-z][a-z-]*)", page.read_text()):
+            if not any(name.startswith(option.replace("--no-", "--")) for name in known):
+                yield f"{page.relative_to(root)} names {option}, which no command has"
+
+
 with tempfile.TemporaryDirectory() as programs:
     (pathlib.Path(programs) / "keyline").symlink_to(keyline)
     environment = os.environ | {"PATH": f"{programs}:{os.environ['PATH']}", "MPLBACKEND": "agg"}
     found = [f"{page.relative_to(root)}: {fault}" for page in pages() for fault in faults_of(page, environment)]
-    found += miscounted()
+    found += [*miscounted(), *unknown_options()]
 print("\n".join(found))
 sys.exit(1 if found else 0)
