@@ -32,11 +32,12 @@ struct BatchWords {
   std::string resume;
   std::optional<double> time_limit;
   static constexpr auto describe() {
-    return core::fields(core::field<&BatchWords::resume>(
-                            "file the answers go to; those in it already are not asked for again"),
-                        core::field<&BatchWords::time_limit>("a line may take; else any")
-                            .in("second")
-                            .within(core::kPositive));
+    return core::fields(
+        core::field<&BatchWords::resume>(
+            "file for the answers; requests whose answers it holds are skipped"),
+        core::field<&BatchWords::time_limit>("longest time for a line; any unless given")
+            .in("second")
+            .within(core::kPositive));
   }
 };
 
@@ -45,8 +46,8 @@ Session new_session() {
   OptionGroup door = door_group();
   door.without = {"output", "json"};
   return Session(
-      {"batch", "", "Requests as lines of JSON on standard input, answers in the same order.",
-       "--seed and --tolerance stand for what a request leaves out; --threads are processes.\n"
+      {"batch", "", "Reads requests as lines of JSON and writes the answers in the same order.",
+       "--seed and --tolerance are for requests that leave them out; --threads counts processes.\n"
        "Example: echo '{\"op\":\"lac.region\",\"theta\":1,\"alpha\":-1}' | keyline batch"},
       {{"Answers", &core::type_of<BatchWords>(), {}}, door}, false);
 }

@@ -15,7 +15,7 @@ constexpr std::size_t kFormat = 1;
 
 Session new_session() {
   return Session(
-      {"convert", "FILE... ", "Curves and surfaces from one format to another.",
+      {"convert", "FILE... ", "Converts curves and surfaces from one format to another.",
        "Example: keyline convert faired.json -o faired.dxf --tolerance 0.001"},
       {reading_group(), {"Formats", &core::type_of<operations::FormatOptions>()}, door_group()});
 }

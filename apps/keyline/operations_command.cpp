@@ -32,9 +32,10 @@ struct OperationsWords {
 Session new_session() {
   OptionGroup door = door_group();
   door.without = {"output", "tolerance", "seed"};
-  return Session({"operations", "[NAME] ", "What can be requested; with a name, its schema.",
-                  "Example: keyline operations lac.segment"},
-                 {{"Reference", &core::type_of<OperationsWords>(), {}}, door});
+  return Session(
+      {"operations", "[NAME] ", "Lists what can be requested; with a name, prints its JSON Schema.",
+       "Example: keyline operations lac.segment"},
+      {{"Reference", &core::type_of<OperationsWords>(), {}}, door});
 }
 
 /// Everything about every operation in one go.

@@ -38,14 +38,14 @@ const char* set_token(Options& options, const std::string& value) {
 }
 
 constexpr Option kOptions[] = {
-    {"--port", "PORT", "0: any that is free (default)", set_port},
-    {"--listen", "ADDRESS", "for others to reach; needs --token (127.0.0.1)",
+    {"--port", "PORT", "port to listen on; 0: any that is free (default)", set_port},
+    {"--listen", "ADDRESS", "address to listen on, for other machines; needs --token (127.0.0.1)",
      [](Options& o, const std::string& v) -> const char* {
        o.address = v;
        return nullptr;
      }},
-    {"--token", "TOKEN", "what a browser must know; else one is made", set_token},
-    {"--host", "NAME", "the server goes by, with --listen; may be repeated",
+    {"--token", "TOKEN", "secret that a browser must give; made up unless given", set_token},
+    {"--host", "NAME", "name the server is reached by, with --listen; may be repeated",
      [](Options& o, const std::string& v) -> const char* {
        o.hosts.push_back(v);
        return nullptr;

@@ -47,7 +47,7 @@ struct LibraryEntry {
         core::field<&E::curvature>("least and largest").in("1/length"),
         core::field<&E::pieces>("of monotone curvature, in order"),
         core::field<&E::cav_type>("1 … 5").within(core::from_to(1, 5)),
-        core::field<&E::cav>("curve aesthetic value by the letter"),
+        core::field<&E::cav>("curve aesthetic value"),
         core::field<&E::nearest_cav>("of the nearest curve of one matrix (types 4, 5)"),
         core::field<&E::nearest_distance>("how far away that is").in("length"),
         core::field<&E::sav>("surface aesthetic value, summed over its patches"),

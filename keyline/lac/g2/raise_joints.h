@@ -57,8 +57,8 @@ struct RaiseOptions {
   static constexpr auto describe() {
     return core::fields(
         core::field<&RaiseOptions::hold>(
-            "ends: joints between which curvature rises or falls keep place, direction and "
-            "curvature, those inside move; joints: all keep them, with three pieces for one"),
+            "what keeps its place, direction and curvature: the ends of each stretch on which "
+            "curvature rises or falls, or all joints, with three pieces in place of one"),
         core::field<&RaiseOptions::limit>("largest departure; joints that need more stay as given")
             .in("length")
             .within(core::kPositive));
