@@ -14,7 +14,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kSettleRounds = 8;
+constexpr int kSettleRounds = 8;  // Newton steps of a foot: digits double from step to step
 
 /// Parameter of the spline's point nearest to p, within a twentieth of the guess.
 double foot_near(const curve::BSpline2& spline, core::Point2 p, double guess) {

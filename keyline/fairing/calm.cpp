@@ -13,8 +13,8 @@ constexpr double kTurn = 1e-3;   // of the range: what counts as a turn at all
 constexpr double kLevel = 0.01;  // of the range over the length: rates that count as none
 constexpr int kRounds = 4;       // in which an extremum may move on
 constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
-constexpr int kTrialSteps = 40;
-constexpr double kTrialGap = 0.03;
+constexpr int kTrialSteps = 40;  // of a trial: one that does not come within the band by then fails
+constexpr double kTrialGap = 0.03;  // of the energy, all of which a wave less may cost again
 constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
 // Single waves that are tried. In a row that all stay, least first, twice as many as stood before
 // one that went on any measured profile: wider ones stay too. Of one curve, three times as many as

@@ -21,8 +21,8 @@ using detail::kNextCurvature;
 using detail::Model;
 using detail::Stage;
 
-constexpr double kSmall = 0.3;  // curvature beside that of the other end: an inflection is near
-constexpr double kEndWeight = 1e9;
+constexpr double kSmall = 0.3;      // curvature beside that of the other end: an inflection is near
+constexpr double kEndWeight = 1e9;  // times a point's weight: what is held gives way by a billionth
 
 /// The boundary of a closed chain or of an open one with held ends.
 Boundary boundary_of(const FitChain& chain) {

@@ -15,11 +15,13 @@
 namespace keyline::fairing {
 namespace {
 
+// Cost of a joint that has to stay.
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kUnknown = -kNever;
-constexpr int kReach = 4;  // pieces on either side that a merge may move
-constexpr int kSqueezeRounds = 5;
-constexpr int kStartRounds = 14;
+constexpr double kUnknown = -kNever;  // cost not found yet: less than any
+constexpr int kReach = 4;             // pieces on either side that a merge may move
+constexpr int kSqueezeRounds = 5;     // of Lawson's weights for each merge that is tried
+constexpr int kStartRounds = 14;      // of Lawson's weights for the whole start, once
+// The clothoid spline has as many pieces, and each of its joints is tried.
 constexpr std::size_t kMostSplinePoints = 500;
 // First numbers of pieces tried where the noise limits: short ones follow it.
 constexpr std::array kNoisyStarts{4, 7, 11};

@@ -28,6 +28,7 @@ class Sweep {
  private:
   using MatrixS = Eigen::Matrix<double, S, S>;
   using VectorS = Eigen::Matrix<double, S, 1>;
+  // Where the state holds them, after x, y and direction: curvature at both ends of a cell, length.
   static constexpr int kStart = 3;
   static constexpr int kEnd = 4;
   static constexpr int kLength = 5;

@@ -6,7 +6,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kGapWeight = 0.5;
+constexpr double kGapWeight = 0.5;  // of a squared gap, beside each point's squared offset
 
 }  // namespace
 

@@ -12,8 +12,8 @@
 namespace keyline::fairing {
 namespace {
 
-constexpr int kPerSpline = 6000;
-constexpr double kAsGood = 1.5;  // times another's figure: as calm to the eye
+constexpr int kPerSpline = 6000;  // even steps of a spline's parameter at which its comb is read
+constexpr double kAsGood = 1.5;   // times another's figure: as calm to the eye
 
 curve::CurvatureGraph graph_of(const lac::Chain& chain) { return lac::curvature_graph(chain); }
 

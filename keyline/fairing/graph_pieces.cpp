@@ -14,11 +14,11 @@ constexpr double kBendPower = 2.0 / 3;    // density of places for least squares
 constexpr double kInflectionLow = -1;     // slopes of pieces through or into an inflection, whose
 constexpr double kInflectionHigh = -0.3;  // variation is finite and whose rate is
 
-constexpr int kTurnSteps = 6;
+constexpr int kTurnSteps = 6;  // chord steps between a slope that turns too much and one too little
 constexpr double kBowPrice = 0.1;  // energies: a piece that departs sideways by the tolerance
 constexpr double kDrift = 0.25;    // of a piece's end beside the curve, as part of a bow as large:
                                    // neighbours can make up for it
-constexpr double kNearInflection = 1e-2;
+constexpr double kNearInflection = 1e-2;  // of the other end's curvature: less is an inflection's
 
 }  // namespace
 

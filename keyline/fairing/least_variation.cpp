@@ -13,27 +13,27 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kHeld = 1e4;   // weight of held ends and seams, in squared tolerances
-constexpr double kReach = 1e2;  // the same of where an open curve ends beside its last point
-constexpr double kBarrierDrop = 0.25;
-constexpr double kExtra = 1e-6;    // of the tolerance: extra width that counts as none
-constexpr double kProgress = 0.9;  // of the extra width after a step that is worth it
-constexpr std::size_t kStuck = 6;  // steps that together leave more…
-constexpr double kDrawnIn = 0.95;  // …than this of the extra width: more would not draw it in
-constexpr double kAlike = 1e-3;    // of a step: as good as the same
-constexpr int kHalvings = 5;
-constexpr double kLeastDamping = 1e-2;
-constexpr double kMostDamping = 1e9;
-constexpr int kStiffenings = 6;
-constexpr int kFollowSteps = 12;
-constexpr double kFollowed = 0.5;  // of the tolerance: a first curve so near is near enough
-constexpr double kFollowGain = 1e-2;
-constexpr int kLoosenings = 12;
+constexpr double kHeld = 1e4;          // weight of held ends and seams, in squared tolerances
+constexpr double kReach = 1e2;         // the same of where an open curve ends beside its last point
+constexpr double kBarrierDrop = 0.25;  // of the barrier that is kept each time a curve settles
+constexpr double kExtra = 1e-6;        // of the tolerance: extra width that counts as none
+constexpr double kProgress = 0.9;      // of the extra width after a step that is worth it
+constexpr std::size_t kStuck = 6;      // steps that together leave more…
+constexpr double kDrawnIn = 0.95;      // …than this of the extra width: more would not draw it in
+constexpr double kAlike = 1e-3;        // of a step: as good as the same
+constexpr int kHalvings = 5;           // of a step that is refused, to a thirty-second
+constexpr double kLeastDamping = 1e-2;  // full steps lower it tenfold: less is none
+constexpr double kMostDamping = 1e9;    // refused ones raise it tenfold: the search ends here
+constexpr int kStiffenings = 6;         // of the first springs, each tenfold: 100,000 times at most
+constexpr int kFollowSteps = 12;        // with springs of one stiffness, which need not settle
+constexpr double kFollowed = 0.5;       // of the tolerance: a first curve so near is near enough
+constexpr double kFollowGain = 1e-2;    // of what a step lowers: one that gains less is the last
+constexpr int kLoosenings = 12;         // secant steps to the weight of the springs
 constexpr double kMeanSquareGap = 0.02;  // of the rms asked for
 constexpr double kFirstPower = -0.25;    // of the weight that the rms goes with, as a first guess
-constexpr int kRateRounds = 4;
-constexpr double kAsFast = 1 + 1e-6;    // times the fastest rate allowed
-constexpr double kMostLoosening = 4.6;  // a hundredfold at once
+constexpr int kRateRounds = 4;           // of limiting rates, each about the curve of the last
+constexpr double kAsFast = 1 + 1e-6;     // times the fastest rate allowed
+constexpr double kMostLoosening = 4.6;   // a hundredfold at once
 
 class Search {
  public:

@@ -13,7 +13,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kRounds = 30;
+constexpr int kRounds = 30;  // Newton steps at most: it stops where one brings the end no nearer
 
 bool is_arc(const lac::Piece& piece) { return piece.curvature_start == piece.curvature_end; }
 

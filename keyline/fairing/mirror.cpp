@@ -15,10 +15,10 @@ namespace {
 using core::Point2;
 using core::Vector2;
 
-constexpr int kPlaces = 256;  // of the curve, for pairing
-constexpr int kPerGap = 8;    // vertices of the curve between two points
-constexpr int kMostVertices = 4000;
-constexpr int kDrawings = 8;                  // of the line to the curve
+constexpr int kPlaces = 256;         // of the curve, for pairing
+constexpr int kPerGap = 8;           // vertices of the curve between two points
+constexpr int kMostVertices = 4000;  // of the curve: more than 500 points have fewer vertices a gap
+constexpr int kDrawings = 8;         // of the line to the curve
 constexpr double kSurelyFarther = 1 + 1e-12;  // of squares: rounding is less
 constexpr double kReach =
     0.05;  // of the vertices: how far from where it is expected a foot is sought

@@ -6,9 +6,9 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kEven = 1e-6;  // log of the ends' ratio below which a piece is as good as linear
-constexpr double kZero = 1e-9;  // of the larger end: where powers are no longer told apart
-constexpr double kMostLog = 300;
+constexpr double kEven = 1e-6;    // log of the ends' ratio below which a piece is as good as linear
+constexpr double kZero = 1e-9;    // of the larger end: where powers are no longer told apart
+constexpr double kMostLog = 300;  // e^300 is 2e130: a product of two is finite
 
 /// (e^(q l) - 1) / q.
 double growth(double q, double l) {

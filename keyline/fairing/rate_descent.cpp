@@ -8,18 +8,18 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kBarrier = 1e-3;  // beside a variation of one
-constexpr double kBoundary = 0.9;  // of a limit's room that a step may take
-constexpr double kCentred = 1e2;   // room times multiplier stays this near the barrier
-constexpr double kStill = 1e-5;    // what keeps unknowns that nothing tells
-constexpr double kMostDamping = 1e5;
-constexpr double kLongest = 4;  // change of a logarithm or slope in one step
-constexpr int kHalvings = 3;
+constexpr double kBarrier = 1e-3;     // beside a variation of one
+constexpr double kBoundary = 0.9;     // of a limit's room that a step may take
+constexpr double kCentred = 1e2;      // room times multiplier stays this near the barrier
+constexpr double kStill = 1e-5;       // what keeps unknowns that nothing tells
+constexpr double kMostDamping = 1e5;  // no step is looked for beyond it
+constexpr double kLongest = 4;        // change of a logarithm or slope in one step
+constexpr int kHalvings = 3;          // of a step that is not worth it, to an eighth
 constexpr double kGain = 2e-3;        // of the cost: steps that gain less are the last
 constexpr double kClosed = 1e-2;      // tolerances
 constexpr double kDecrease = 0.7;     // of the gaps' price that a step has to be worth
 constexpr double kLeastPrice = 0.05;  // of a tolerance's gap
-constexpr int kClosings = 12;
+constexpr int kClosings = 12;         // Newton steps: it stops where gaps get no smaller
 
 class Descent {
  public:

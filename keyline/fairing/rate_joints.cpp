@@ -14,8 +14,8 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kRounds = 4;  // of parting pieces
-constexpr int kUntyings = 5;
+constexpr int kRounds = 4;             // of parting pieces
+constexpr int kUntyings = 5;           // rounds in which ties go and the band gets firmer
 constexpr double kFirmBand = 5;        // of the points' offsets where rates are held…
 constexpr double kFirmer = 4;          // …and how much more at each untying
 constexpr int kPasses = 2;             // over joints that stay
@@ -24,15 +24,15 @@ constexpr int kRaises = 3;             // of the prices of points outside, then�
 constexpr double kRaisePower = 16;     // …by that power of their offsets…
 constexpr double kMostRaise = 16;      // …so much at most…
 constexpr double kNearOutside = 0.97;  // …from here on
-constexpr int kSteps = 20;
-constexpr int kTiedSteps = 30;
-constexpr double kGone = 0.03;      // of the rate's logarithm: a jump that may be tied
-constexpr double kShortest = 2e-3;  // of the length: shorter pieces are not parted
-constexpr double kInside = 0.01;    // of their range that slopes start away from its ends
-constexpr double kNear = 1e-2;      // of the other end's curvature: an inflection is near
-constexpr double kFlattest = -0.3;  // slopes of pieces through or into an inflection
-constexpr double kMet = 1;          // tolerances of gaps from which the last digits are closed
-constexpr double kLastDigits = 1e-6;
+constexpr int kSteps = 20;             // of a solve while jumps are drawn to none
+constexpr int kTiedSteps = 30;         // of one with ties, whose gaps have to close too
+constexpr double kGone = 0.03;         // of the rate's logarithm: a jump that may be tied
+constexpr double kShortest = 2e-3;     // of the length: shorter pieces are not parted
+constexpr double kInside = 0.01;       // of their range that slopes start away from its ends
+constexpr double kNear = 1e-2;         // of the other end's curvature: an inflection is near
+constexpr double kFlattest = -0.3;     // slopes of pieces through or into an inflection
+constexpr double kMet = 1;             // tolerances of gaps from which the last digits are closed
+constexpr double kLastDigits = 1e-6;   // tolerances: gaps that are left count as closed
 constexpr double kWorth = 2;      // times the G2 chain's variation: as much as a wave less is worth
 constexpr double kUntied = 0.05;  // of the ties that go at once
 

@@ -10,11 +10,11 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;
+constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;  // slopes nearer 0 read as zero
 constexpr int kTelling = 5;       // points: as many as a reading of two lines has parameters
 constexpr double kToldSlope = 1;  // standard deviation: a slope less known might be any of the five
 constexpr double kSeen = 0.02;    // of the whole: a centimetre of a drawing half a metre long
-constexpr int kProfileSamples = 101;
+constexpr int kProfileSamples = 101;  // of a piece at equal steps of its length
 
 std::vector<analysis::Interpretation> readings_of(const lac::Chain& piece, double noise,
                                                   int points) {

@@ -21,6 +21,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
+// Of a run whose points lie a hair outside or which passes a border: each takes off what that is.
 constexpr int kTightenings = 5;
 constexpr double kRateShare = 0.999;  // of a limit on rates: the rest is for what closes the chain
 constexpr double kFar = 1.3;          // of the tolerance: farther off is no matter of rounding

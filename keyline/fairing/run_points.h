@@ -6,6 +6,7 @@
 /// The points of a run as they are fitted.
 namespace keyline::fairing::detail {
 
+/// Of more points means are fitted, so that the work does not grow with them.
 inline constexpr std::size_t kMostFitPoints = 1200;
 
 /// At most so many.

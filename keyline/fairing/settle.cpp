@@ -207,7 +207,8 @@ class Polisher {
     }
   }
 
-  static constexpr double kClosedGap = 1e-9;
+  static constexpr double kClosedGap = 1e-9;  // of the length: gaps that count as closed
+  // Rounds of Lawson's weights, where points leave the tolerance.
   static constexpr int kPolishSqueezes = 8;
   static constexpr numeric::Push kPush{0.4, 1.6};
   static constexpr double kLoose = 0.05;  // smaller over larger curvature

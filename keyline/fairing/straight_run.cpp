@@ -8,6 +8,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
+// Of the length: what a point's own digits put it off the line.
 constexpr double kRounding = 1e-12;
 
 }  // namespace

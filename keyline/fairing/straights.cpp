@@ -6,7 +6,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr std::size_t kLeastPoints = 5;
+constexpr std::size_t kLeastPoints = 5;  // a line has two freedoms: three are left to tell it by
 constexpr double kErrors = 2;     // standard errors of a mean square that a line's may be above
 constexpr double kLeastBow = 60;  // in noise, see straight_stretches
 constexpr double kBeyond = 0.25;  // of a stretch's length: where the curve around it is looked at

@@ -11,6 +11,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
+// Tried: three for each piece of the longest chain that is drawn exactly.
 constexpr std::size_t kStretches = 3 * kMostExactPieces;
 // Stretches this long in the whole: of places on a chain of the most pieces, a third begins one
 // that holds no joint.

@@ -10,7 +10,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kRounds = 6;
+constexpr int kRounds = 6;        // changes of a joint, one after the other, unless none is better
 constexpr double kSplitGain = 4;  // beyond the price of a joint: errors are not quite normal
 
 /// The chain with a joint more, at a fraction of piece `at`.

@@ -23,10 +23,10 @@ constexpr double kSure = 3;  // standard errors: of the mean square as of the no
 constexpr double kExactly = 1e-5;  // of the length: what interpolating exact points is off by
 constexpr int kTightenings =
     4;  // of the half's tolerance: what is solved for are means of both sides
-constexpr double kTighter = 1e-3;
-constexpr double kNearly = 1.5;   // of the tolerance: what is farther off is no matter of means
-constexpr int kSamples = 24;      // of a piece, to find the feet of points near
-constexpr double kWindow = 0.08;  // of the length, about where a foot is expected
+constexpr double kTighter = 1e-3;  // of the tolerance: each round aims so far within it
+constexpr double kNearly = 1.5;    // of the tolerance: what is farther off is no matter of means
+constexpr int kSamples = 24;       // of a piece, to find the feet of points near
+constexpr double kWindow = 0.08;   // of the length, about where a foot is expected
 
 std::vector<core::Point2> means_of(const acquire::KeyLine& line) {
   std::vector<core::Point2> points;

@@ -27,7 +27,7 @@ constexpr std::array<Try, 5> kTries{{{kNearAsNoise, 0, 0.7},
                                      {0.625, 0.8, 0.9},
                                      {0.75, 0.9, 0.95},
                                      {1, 0.95, 1}}};
-constexpr double kWide = 0.75;
+constexpr double kWide = 0.75;  // the first of the two wide steps
 
 /// The largest root of the offsets' mean square that leaves a curve nearer to the shape than one of
 /// its points is: errors and the curve's own departure add in squares, and that is no more than the

@@ -8,7 +8,7 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;
+constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;  // slopes nearer 0 read as zero
 
 std::string piece_name(int piece) { return "piece " + std::to_string(piece); }
 
