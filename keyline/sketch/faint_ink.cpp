@@ -148,4 +148,22 @@ std::size_t ink_lines(FaintPixels& faint, Binary& ink, const Tone& tone, const F
   return count;
 }
 
+std::size_t drop_shade(Binary& ink, const Tone& tone, double broadest) {
+  FaintPixels left(ink.width, ink.height);
+  for (int y = 0; y < ink.height; ++y)
+    for (int x = 0; x < ink.width; ++x)
+      if (ink.at(x, y)) left.set(x, y);
+  const int away = static_cast<int>(std::ceil(broadest));
+  std::size_t dropped = 0;
+  for (int y = 0; y < ink.height; ++y)
+    left.visit(y, [&](int x) {
+      const Piece piece = take_piece(left, x, y);
+      const PieceLook look = look_at(ink, tone, piece, away);
+      const bool shade = look.beside && !stands_out(look);
+      if (!shade) set(ink, piece, kInk);
+      if (shade) dropped += piece.size();
+    });
+  return dropped;
+}
+
 }  // namespace keyline::sketch

@@ -53,4 +53,8 @@ std::size_t count_lost(FaintPixels& faint, Binary& ink, const Tone& tone, const 
 /// from ink stays faint, in pieces as large.
 std::size_t ink_lines(FaintPixels& faint, Binary& ink, const Tone& tone, const FaintLine& wanted);
 
+/// Takes out the pieces of ink that are the edge of shade: not twice as dark as what lies beside
+/// them, so many pixels away on both sides (medians). How many pixels.
+std::size_t drop_shade(Binary& ink, const Tone& tone, double broadest);
+
 }  // namespace keyline::sketch

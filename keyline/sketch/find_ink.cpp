@@ -80,6 +80,7 @@ Ink find_ink(Tone& tone, const TraceOptions& options) {
     ink.grainy = true;
   } else if (options.binarize.regions.empty()) {
     const FaintLine line = faint_line(ink.width, std::max(ink.specks, specks_of(ink.width)));
+    if (tone.flattened) drop_shade(ink.picture, tone, line.broadest);
     if (ink_lines(ink.faint, ink.picture, tone, line) > 0) clean(ink, options);
   }
   show_stage(options, "smoothed", ink.picture);

@@ -124,6 +124,29 @@ TEST(FaintInk, BecomesLinesWhereItIsNarrow) {
   EXPECT_EQ(ink_lines(shaded, again, tone, line), 0U);
 }
 
+// What thresholds took for ink at a shadow's border has the shadow on one side.
+TEST(FaintInk, OfShadesEdgeIsDropped) {
+  Binary ink(60, 40);
+  Tone tone = transform_intensity(blank_page(60, 40));
+  const auto fill = [&](int from, int to, int left, int right, double darker, bool is_ink) {
+    for (int y = from; y < to; ++y)
+      for (int x = left; x < right; ++x) {
+        ink.at(x, y) = is_ink ? 1 : 0;
+        tone.level.at(x, y) = static_cast<std::uint16_t>(tone.level.at(x, y) * (1 - darker));
+      }
+  };
+  fill(4, 6, 5, 55, 0.5, true);     // a line
+  fill(26, 38, 40, 52, 0.5, true);  // a blot
+  fill(15, 17, 5, 35, 0.1, true);   // pencil, or the edge of what follows
+  Binary pencil = ink;
+  EXPECT_EQ(drop_shade(pencil, tone, 4), 0U);
+  EXPECT_EQ(pencil.data, ink.data);
+  fill(17, 38, 5, 35, 0.07, false);
+  EXPECT_EQ(drop_shade(ink, tone, 4), 60U);
+  EXPECT_EQ(std::count(ink.data.begin(), ink.data.end(), 1), 100 + 144);
+  EXPECT_EQ(ink.at(30, 15), 0);
+}
+
 // A shadow that fades over half the page has no border: it is not missed as ink. One that ends
 // within two pixels might be drawn, and is.
 TEST(FaintInk, IsNoShadeThatFades) {
