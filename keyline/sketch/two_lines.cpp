@@ -15,25 +15,51 @@
 namespace keyline::sketch {
 namespace {
 
-constexpr double kTwo = 3;          ///< times as far apart as within: two lines
+constexpr double kTwo = 3.2;        ///< times as far apart as within: two lines
+constexpr double kFarther = 0.75;   ///< of the common way, on which distances are judged
 constexpr double kRoom = 2;         ///< widths: nearer, no stroke has room between them
 constexpr std::size_t kEnough = 8;  ///< unions: fewer do not say what is usual
 constexpr double kGoesOn = 0.3;   ///< of the shorter stroke at least is beside its line's next pass
 constexpr double kWhole = 0.9;    ///< of a line's extent: a pass of all of it
 constexpr std::size_t kBack = 3;  ///< samples: so near a place its nearest's nearest is the same
 
-/// How far apart strokes lie where they run beside each other.
-struct Spread {
-  double squares = 0;  ///< of the distances, summed along the way
-  double length = 0;   ///< of that way
+/// The square of a distance between strokes, and the way along them that it stands for.
+using Place = std::pair<double, double>;
 
+/// How far apart strokes lie where they run beside each other, place by place.
+class Spread {
+ public:
+  Spread() = default;
+  explicit Spread(std::vector<Place> places) : places_(std::move(places)) {
+    std::sort(places_.begin(), places_.end(), std::greater<>());
+    for (const Place& place : places_) length_ += place.second;
+  }
+
+  double length() const { return length_; }
+
+  /// Of the distances on the farther part of the way: two lines may lie on each other on the rest.
   double mean_square() const {
-    return length > 0 ? squares / length : std::numeric_limits<double>::infinity();
+    if (!(length_ > 0)) return std::numeric_limits<double>::infinity();
+    double sum = 0;
+    double left = kFarther * length_;
+    for (const auto& [square, length] : places_) {
+      const double way = std::min(left, length);
+      sum += way * square;
+      left -= way;
+    }
+    return sum / (kFarther * length_);
   }
+
   void add(const Spread& more) {
-    squares += more.squares;
-    length += more.length;
+    const auto middle = static_cast<std::ptrdiff_t>(places_.size());
+    places_.insert(places_.end(), more.places_.begin(), more.places_.end());
+    std::inplace_merge(places_.begin(), places_.begin() + middle, places_.end(), std::greater<>());
+    length_ += more.length_;
   }
+
+ private:
+  std::vector<Place> places_;  ///< farthest first
+  double length_ = 0;
 };
 
 /// Of two parts of a group. Opposite sides of a thin ring run beside each other too, but not in the
@@ -84,6 +110,8 @@ void add_samples(const SampledStroke& a, const SampledStroke& b, const std::vect
                  const std::vector<Nearest>& back, double reach, Between& sum) {
   const std::size_t n = a.points.size();
   const double step = a.length / static_cast<double>(n);
+  std::vector<Place> same;
+  std::vector<Place> opposite;
   for (std::size_t k = 0; k < n; ++k) {
     const auto [m, d] = to[k];
     if (d > reach || (!b.closed && (m == 0 || m + 1 == b.points.size()))) continue;
@@ -91,9 +119,10 @@ void add_samples(const SampledStroke& a, const SampledStroke& b, const std::vect
     if (a.closed) away = std::min(away, n - away);
     if (away > kBack && step * static_cast<double>(away) > d) continue;
     const double cosine = dot(a.tangents[k], b.tangents[m]);
-    const double way = 0.5 * step * std::abs(cosine);
-    (cosine < 0 ? sum.opposite : sum.same).add({way * d * d, way});
+    (cosine < 0 ? opposite : same).emplace_back(d * d, 0.5 * step * std::abs(cosine));
   }
+  sum.same.add(Spread(std::move(same)));
+  sum.opposite.add(Spread(std::move(opposite)));
 }
 
 AllBetween all_between(const std::vector<SampledStroke>& strokes, const PassModel& at_most) {
@@ -107,7 +136,7 @@ AllBetween all_between(const std::vector<SampledStroke>& strokes, const PassMode
       Between sum;
       add_samples(strokes[a], strokes[b], to, back, reach, sum);
       add_samples(strokes[b], strokes[a], back, to, reach, sum);
-      if (sum.nearer().length > 0) all[a][b] = all[b][a] = sum;
+      if (sum.nearer().length() > 0) all[a][b] = all[b][a] = sum;
     }
   return all;
 }
@@ -165,8 +194,8 @@ class Parts {
 
   /// Mean square of the distances of passes of one line that is both parts.
   double expected(std::size_t a, std::size_t b) const {
-    const double length = between_[a].at(b).nearer().length;
-    Spread passes{length * usual_square_, length};
+    const double length = between_[a].at(b).nearer().length();
+    Spread passes({{usual_square_, length}});
     passes.add(within_[a]);
     passes.add(within_[b]);
     return passes.mean_square();
@@ -234,7 +263,7 @@ std::vector<std::vector<std::size_t>> parts_beside(const AllBetween& between,
   for (std::size_t a = 0; a < some.size(); ++a)
     for (const auto& [b, spread] : between[a]) {
       const double shorter = std::min(some[a].length, some[b].length);
-      if (part[a] == part[b] || spread.nearer().length < kGoesOn * shorter) continue;
+      if (part[a] == part[b] || spread.nearer().length() < kGoesOn * shorter) continue;
       const auto [low, high] = std::minmax({part[a], part[b]});
       std::replace(part.begin(), part.end(), high, low);
     }

@@ -103,6 +103,22 @@ TEST(TwoLines, TellsALineThatLeavesOthersGently) {
   EXPECT_EQ(joined[0].members.size(), 5U);
 }
 
+// A teapot's base lies on its belly along half of its way and leaves it on both sides.
+TEST(TwoLines, TellsALineThatLiesOnAnotherForHalfOfItsWay) {
+  std::vector<DrawnStroke> strokes = passes({0, 0.5, -0.5, 1});
+  for (const double offset : {-0.5, 0.5})
+    strokes.push_back(drawn(
+        [offset](double x) {
+          const double beyond = std::max(0.0, std::abs(x - 300) - 150);
+          return Point2{x, offset + 2 * std::sin(x / 40) + 0.12 * beyond};
+        },
+        0, 600));
+  const auto found = told(strokes);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].one, (Places{0, 1, 2, 3}));
+  EXPECT_EQ(found[0].other, (Places{4, 5}));
+}
+
 TEST(TwoLines, LeavesAnEvenSpreadAndTellsOneWithAGap) {
   std::vector<double> heights = {0, 8, 16, 24, 32, 40, 48, 56};
   EXPECT_TRUE(told(passes(heights)).empty());
