@@ -168,15 +168,15 @@ std::string lost_joints_text(const json& joints) {
     text +=
         fmt::format("warning: {} of {} joints are open now; --joints zebra, G1 or G2 keeps them\n",
                     count(before, "G0") - count(after, "G0"), count(before, "G0"));
-  if (count(after, "G1") < count(before, "G1"))
-    text += fmt::format("warning: {} of {} tangent joints are lost\n",
-                        count(before, "G1") - count(after, "G1"), count(before, "G1"));
+  const int torn = count(before, "G1") - count(after, "G1");
+  if (torn > 0)
+    text += fmt::format("warning: {} of {} tangent joints are lost, so that stripes jump there\n",
+                        torn, count(before, "G1"));
   const int bent = count(before, "G2") - count(after, "G2");
   if (bent > 0)
     text += fmt::format(
-        "warning: {} of {} joints lose their common curvature, so that stripes turn there; "
-        "--joints zebra holds it\n",
-        bent, count(before, "G2"));
+        "warning: {} of {} joints lose their common curvature{}; --joints zebra holds it\n", bent,
+        count(before, "G2"), bent > torn ? ", so that stripes turn there" : "");
   if (const int turned = joints["turned"].get<int>(); turned > std::max(bent, 0))
     text += fmt::format(
         "warning: stripes turn farther than before at {} of {} tangent joints; --joints zebra does "
@@ -208,8 +208,11 @@ std::string joints_text(const json& joints) {
     return fmt::format("{:.3g} to {:.3g}", degrees_of(before["zebra"][what].get<double>()),
                        degrees_of(after["zebra"][what].get<double>()));
   };
-  text += fmt::format("zebra at joints, in degrees: jumps {} (at most {})  turns {} (at most {})\n",
-                      change("mean_jump"), change("jump"), change("mean_turn"), change("turn"));
+  const bool meet = count(after, "G1") > 0 || count(before, "G1") == 0;
+  text += fmt::format("zebra at joints, in degrees: jumps {} (at most {})  turns {}\n",
+                      change("mean_jump"), change("jump"),
+                      meet ? fmt::format("{} (at most {})", change("mean_turn"), change("turn"))
+                           : "nowhere: stripes meet at no joint now");
   return text + lost_joints_text(joints);
 }
 

@@ -100,7 +100,8 @@ class AsOne {
 
  private:
   static constexpr int kRounds = 4;
-  static constexpr double kWorthIt = 1e-3;  ///< of SAV that another net has to gain
+  static constexpr double kWorthIt = 1e-3;   ///< of SAV that another net has to gain
+  static constexpr double kSameTurn = 1e-6;  ///< radians of a zebra: no difference
   static constexpr int kTries = 4;
   static constexpr int kAttempts = 3;
   static constexpr int kHalvings = 10;  ///< towards the limit
@@ -290,22 +291,24 @@ class AsOne {
     return general;
   }
 
-  /// Leaves out of the trade-off what is no choice: twice as far as another of no higher SAV.
+  /// Sorts the trade-off, nearest first, and leaves out what is no choice: twice as far as another
+  /// of no higher SAV, or farther than one that is as good by SAV and zebra, but for a thousandth.
   void drop_poor() {
-    const std::vector<TradeOff> others = all_.tradeoff;
-    std::erase_if(all_.tradeoff, [&](const TradeOff& t) {
-      return t.sav > all_.sav_before || std::ranges::any_of(others, [&](const TradeOff& o) {
-               return o.sav <= t.sav && 2 * o.departure < t.departure;
-             });
-    });
+    std::ranges::stable_sort(all_.tradeoff, {}, &TradeOff::departure);
+    std::vector<TradeOff> kept;
+    for (TradeOff& t : all_.tradeoff) {
+      const bool poor = std::ranges::any_of(kept, [&](const TradeOff& o) {
+        return o.sav * (1 - kWorthIt) <= t.sav &&
+               (2 * o.departure < t.departure || *o.stripe_turn <= *t.stripe_turn + kSameTurn);
+      });
+      if (!poor && t.sav <= all_.sav_before) kept.push_back(std::move(t));
+    }
+    all_.tradeoff = std::move(kept);
   }
 
   /// What the patches came to.
   void finish() {
     drop_poor();
-    std::stable_sort(
-        all_.tradeoff.begin(), all_.tradeoff.end(),
-        [](const TradeOff& a, const TradeOff& b) { return a.departure < b.departure; });
     numeric::parallel_for(best_.size(), task_.threads, [&](std::size_t i) {
       auto& [result, why] = all_.patches[i];
       if (!result) return;

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <fstream>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -118,6 +120,37 @@ TEST(Surfaces, EditOfASplineIsASplineAndTellsItsJoints) {
   EXPECT_NE(held.out.find("a hundredth of the size,"), std::string::npos) << held.out;
   EXPECT_NE(slurp(s.path("held.html")).find("Limit of the departure"), std::string::npos);
   EXPECT_EQ(json::parse(slurp(file))["type"], "bspline-surface");
+}
+
+// Two patches of a wavy spline. Let go, their only joint folds: stripes jump there, and meet
+// nowhere that they could turn. Held, each choice told has to be better than all nearer ones.
+TEST(Surfaces, EditTellsTornJointsAndChoicesAlone) {
+  const Scratch s;
+  const std::vector<std::vector<int>> heights = {
+      {0, 14, 15, 0}, {22, 40, 38, 21}, {33, 56, 50, 30}, {30, 49, 52, 33}, {5, 21, 24, 9}};
+  json points;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 4; ++j)
+      points[i][j] = {100 * i, 120 * j,
+                      heights[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]};
+  const std::string file = s.path("two.json");
+  std::ofstream(file) << json{{"type", "bspline-surface"},
+                              {"degree", {3, 3}},
+                              {"knots", json::parse("[[0,0,0,0,0.5,1,1,1,1],[0,0,0,0,1,1,1,1]]")},
+                              {"points", points}};
+  const Outcome torn = run_keyline("edit " + file + " --joints free");
+  EXPECT_NE(torn.out.find("1 of 1 tangent joints are lost, so that stripes jump"),
+            std::string::npos)
+      << torn.out;
+  EXPECT_NE(torn.out.find("turns nowhere"), std::string::npos) << torn.out;
+  EXPECT_EQ(torn.out.find("so that stripes turn"), std::string::npos) << torn.out;
+  const json held = json::parse(run_keyline("edit --quiet --json " + file).out);
+  const json& choices = held["tradeoff"];
+  ASSERT_GE(choices.size(), 3U);
+  for (std::size_t i = 1; i < choices.size(); ++i) {
+    EXPECT_GE(choices[i]["departure"], choices[i - 1]["departure"]);
+    EXPECT_LT(choices[i]["sav"], choices[i - 1]["sav"]);  // no stripe turns in any of them
+  }
 }
 
 // Cubics over a plane that are sums of one along and one across: the surface through them is the
