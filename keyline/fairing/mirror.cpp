@@ -19,7 +19,7 @@ constexpr int kPlaces = 256;         // of the curve, for pairing
 constexpr int kPerGap = 8;           // vertices of the curve between two points
 constexpr int kMostVertices = 4000;  // of the curve: more than 500 points have fewer vertices a gap
 constexpr int kDrawings = 8;         // of the line to the curve
-constexpr double kSurelyFarther = 1 + 1e-12;  // of squares: rounding is less
+constexpr double kSurelyFarther = 1 + 1e-12;  // rounding is less
 constexpr double kReach =
     0.05;  // of the vertices: how far from where it is expected a foot is sought
 
@@ -28,6 +28,7 @@ struct Fine {
   std::vector<Point2> vertex;
   std::vector<double> at;
   std::vector<double> edge;  ///< lengths from vertex to vertex
+  double rounding = 0;       ///< more than distances are told wrongly by
   bool closed = false;
 };
 
@@ -48,6 +49,8 @@ Fine fine_polygon(const std::vector<Point2>& points, bool closed) {
   for (double& at : fine.at) at /= std::max(fine.at.back(), 1e-300);
   for (std::size_t i = 1; i < fine.vertex.size(); ++i)
     fine.edge.push_back(core::norm(fine.vertex[i] - fine.vertex[i - 1]));
+  for (const Point2& p : fine.vertex)
+    fine.rounding = std::max({fine.rounding, 1e-12 * std::abs(p.x), 1e-12 * std::abs(p.y)});
   return fine;
 }
 
@@ -68,27 +71,37 @@ struct Offset {
   double distance = HUGE_VAL;
   Vector2 normal;
 };
+/// From the nearest place of an edge that is no point.
+Vector2 from_edge(const Fine& fine, std::size_t i, Point2 p) {
+  const Point2 a = fine.vertex[i];
+  const Vector2 along = fine.vertex[i + 1] - a;
+  const double u = std::clamp(core::dot(p - a, along) / (fine.edge[i] * fine.edge[i]), 0.0, 1.0);
+  return p - (a + u * along);
+}
+
 Offset offset_near(const Fine& fine, Point2 p, std::size_t edge) {
   const auto edges = static_cast<long>(fine.vertex.size()) - 1;
   const long reach = std::max(4L, std::lround(kReach * static_cast<double>(edges)));
+  const bool expected = fine.edge[edge] > 0;
+  double near = expected ? core::norm(from_edge(fine, edge, p)) : HUGE_VAL;
   Offset best;
   double least = HUGE_VAL;
+  double farther = 0;  // so far along the polygon it is surely farther than what is near
   for (long k = -reach; k <= reach; ++k) {
     long i = static_cast<long>(edge) + k;
     if (fine.closed) i = ((i % edges) + edges) % edges;
     if (i < 0 || i >= edges) continue;
-    const Point2 a = fine.vertex[i];
-    const Vector2 along = fine.vertex[i + 1] - a;
     const double size = fine.edge[i];
-    if (size == 0) continue;
-    const double u = std::clamp(core::dot(p - a, along) / (size * size), 0.0, 1.0);
-    const Vector2 from = p - (a + u * along);
-    if (core::dot(from, from) > kSurelyFarther * least * least) continue;
+    farther -= size;
+    if (size == 0 || farther > 0) continue;
+    const Vector2 from = from_edge(fine, i, p);
     const double away = core::norm(from);
+    near = std::min(near, away);
+    farther = away - size - kSurelyFarther * near - fine.rounding;
     if (away >= least) continue;
     least = away;
-    const Vector2 normal = core::perpendicular_left(along) / size;
-    best = {core::dot(p - (a + u * along), normal), normal};
+    const Vector2 normal = core::perpendicular_left(fine.vertex[i + 1] - fine.vertex[i]) / size;
+    best = {core::dot(from, normal), normal};
   }
   return best;
 }

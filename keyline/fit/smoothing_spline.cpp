@@ -156,27 +156,43 @@ class Smoother {
   }
 
   bool solve(double penalty) {
-    std::vector<Eigen::Triplet<double>> entries;
-    const auto add = [&](int row, int column, double value) {
-      entries.emplace_back(index(row), index(column), value);
-    };
-    for (int k = 0; k < spans_; ++k)
-      for (int j = 0; j < 6; ++j)
-        for (int l = 0; l < 6; ++l) add(k + j, k + l, normal_[k][j][l]);
-    constexpr std::array<double, 4> kThird{-1, 3, -3, 1};
-    for (int i = 0; i + (closed_ ? 0 : 3) < count_; ++i)
-      for (int j = 0; j < 4; ++j)
-        for (int l = 0; l < 4; ++l) add(i + j, i + l, penalty * kThird[j] * kThird[l]);
-    Eigen::SparseMatrix<double> normal(count_, count_);
-    normal.setFromTriplets(entries.begin(), entries.end());
+    if (!matrix_.nonZeros()) lay_out();
+    std::copy_n(data_.data(), data_.size(), matrix_.valuePtr());
+    auto place = penalised_.begin();
+    each_penalised(
+        [&](int, int, double a, double b) { matrix_.valuePtr()[*place++] += penalty * a * b; });
     if (factor_)
-      factor_->renew(normal);
+      factor_->renew(matrix_);
     else
-      factor_.emplace(normal);
+      factor_.emplace(matrix_);
     if (!*factor_) return false;
     x_ = factor_->solve(right_x_);
     y_ = factor_->solve(right_y_);
     return x_.allFinite() && y_.allFinite();
+  }
+
+  /// Where the matrix has entries, what the points add to them, and which of them the penalty.
+  void lay_out() {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < spans_; ++k)
+      for (int j = 0; j < 6; ++j)
+        for (int l = 0; l < 6; ++l)
+          entries.emplace_back(index(k + j), index(k + l), normal_[k][j][l]);
+    matrix_.resize(count_, count_);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+    data_.assign(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros());
+    each_penalised([&](int row, int column, double, double) {
+      penalised_.push_back(&matrix_.coeffRef(row, column) - matrix_.valuePtr());
+    });
+  }
+
+  /// Squares of third differences of the coefficients.
+  template <class Visit>
+  void each_penalised(Visit visit) const {
+    constexpr std::array<double, 4> kThird{-1, 3, -3, 1};
+    for (int i = 0; i + (closed_ ? 0 : 3) < count_; ++i)
+      for (int j = 0; j < 4; ++j)
+        for (int l = 0; l < 4; ++l) visit(index(i + j), index(i + l), kThird[j], kThird[l]);
   }
 
   std::span<const core::Point2> points_;
@@ -187,6 +203,9 @@ class Smoother {
   int count_ = 0;
   std::vector<Basis> basis_;                  ///< of every point's parameter
   std::vector<std::array<Basis, 6>> normal_;  ///< of every span: products of its splines
+  Eigen::SparseMatrix<double> matrix_;
+  std::vector<double> data_;               ///< its entries without the penalty
+  std::vector<std::ptrdiff_t> penalised_;  ///< numbers of its entries, as each_penalised visits
   Eigen::VectorXd right_x_;
   Eigen::VectorXd right_y_;
   Eigen::VectorXd x_;

@@ -1,5 +1,6 @@
 #include "keyline/fairing/mirror.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,6 +46,20 @@ TEST(Mirror, LineOfAPearIsItsAxis) {
       EXPECT_LE(found->rms, found->largest);
       EXPECT_LT(found->largest, 1e-3);
     }
+}
+
+// A closed line has no beginning: feet are sought over the seam.
+TEST(Mirror, ClosedLinesMayBeginAnywhere) {
+  auto points = pear(0.7, 24, 0.004);  // images fall beside points
+  const auto first = best_mirror(points, true);
+  ASSERT_TRUE(first);
+  for (int k = 0; k < 24; ++k) {
+    std::rotate(points.begin(), points.begin() + 1, points.end());
+    const auto found = best_mirror(points, true);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->rms, first->rms, 1e-3 * first->rms) << k;
+    EXPECT_NEAR(found->largest, first->largest, 1e-2 * first->largest) << k;
+  }
 }
 
 // Pushed out at one side alone, the mean square tells by how much.
