@@ -1,6 +1,7 @@
 #include "keyline/fairing/exact_chain.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,35 @@ ChainSearchOptions options() {
   o.accept.tolerance = 1e-3;
   o.threads = 1;
   return o;
+}
+
+// A circle of length 1 from (r, 0) on, whose points begin elsewhere: every second one tells the
+// chain, and the feet of the others, over the seam too, are where their angles say.
+TEST(FollowsAll, ClosedChainsGoOverTheSeam) {
+  constexpr double kTurn = 2 * std::numbers::pi, kRadius = 1 / kTurn;
+  ChainSearchResult found;
+  found.chain.joints = {{{kRadius, 0}, kTurn / 4, kTurn},
+                        {{-kRadius, 0}, 3 * kTurn / 4, kTurn},
+                        {{kRadius, 0}, 5 * kTurn / 4, kTurn}};
+  found.chain.pieces.assign(2, {.length = 0.5, .alpha = -1, .kind = PieceKind::arc});
+  found.chain.closed = true;
+  found.chain.turning = kTurn;
+  std::vector<FitPoint> points;
+  std::vector<std::size_t> taken;
+  const auto share = [](std::size_t j) { return std::fmod(0.3 + double(j) / 41, 1.0); };
+  for (std::size_t j = 0; j < 41; ++j) {
+    points.push_back({.position = core::Point2{} + kRadius * core::unit_vector(kTurn * share(j))});
+    if (j % 2 == 1) continue;
+    taken.push_back(j);
+    const int piece = share(j) < 0.5 ? 0 : 1;
+    found.chain.feet.push_back({piece, 2 * share(j) - piece});
+  }
+  ASSERT_TRUE(follows_all(found, taken, points, 1e-9));
+  ASSERT_EQ(found.chain.feet.size(), 41U);
+  for (std::size_t j = 0; j < 41; ++j) {
+    const Foot& foot = found.chain.feet[j];
+    EXPECT_NEAR(std::remainder(0.5 * (foot.piece + foot.fraction) - share(j), 1.0), 0, 1e-6) << j;
+  }
 }
 
 TEST(FindExact, ComesBackToTheChainThePointsWereTakenFrom) {

@@ -32,6 +32,16 @@ TEST(ReadPieces, ReadsWhatBendsOneWay) {
   for (const FairPiece& piece : pieces) EXPECT_TRUE(piece.seen);
 }
 
+// A clothoid from 0.5 to 0.7 leaves its arc by less than 0.002: errors of 0.01 do not tell which it
+// is, and the arc is the simpler.
+TEST(ReadPieces, WhatAnArcWouldDoForIsNotTold) {
+  const lac::Chain chain{{}, {{-1, 1, 0.5, 0.7}}, false};
+  EXPECT_TRUE(read_pieces(chain, 1e-6, {20}, {}).front().told);
+  const FairPiece unsure = read_pieces(chain, 1e-2, {20}, {}).front();
+  EXPECT_EQ(unsure.interpretations.front().rhythm, Rhythm::arc);
+  EXPECT_FALSE(unsure.told);
+}
+
 // A fiftieth of the whole is seen, what is shorter is not.
 TEST(ReadPieces, TellsWhichAreLongEnoughToBeSeen) {
   const lac::Chain chain{{}, {{-1, 1, 0, 0}, {-1, 0.021, 0, 0}, {-1, 0.019, 0, 0}}, false};

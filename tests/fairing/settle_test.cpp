@@ -87,6 +87,19 @@ TEST(Straighten, FindsLinesAndArcs) {
   EXPECT_NEAR(chain.joints[2].curvature, chain.joints[3].curvature, 1e-12);
 }
 
+// What bends out of a line starts at curvature 0, where its variation is finite for slopes below 0
+// alone: one that was above is made to.
+TEST(Straighten, NeighboursOfALineReachIt) {
+  std::vector<FitPoint> points;
+  FitChain chain = from({{{0, 0}, 0}, {{-1, 0.5, 0, 0}, {-1, 0.5, 0, 2}}, false}, 20, points);
+  chain.joints[0].curvature = chain.joints[1].curvature = 1e-3;
+  chain.pieces[1].alpha = 0.5;
+  EXPECT_EQ(straighten(chain, points, {.tolerance = 1e-3, .noise = 1e-4}), 1);
+  EXPECT_EQ(chain.pieces[0].kind, PieceKind::line);
+  EXPECT_LT(chain.pieces[1].alpha, 0);
+  for (const double offset : offsets(chain, points)) EXPECT_LT(std::abs(offset), 1e-4);
+}
+
 // Neither a bend that is plain to see nor one that departs by a few tolerances becomes a line.
 TEST(Straighten, LeavesWhatPlainlyBends) {
   const lac::Chain truth{{{0, 0}, 0}, {{-1, 0.5, 0.5, 2}, {-1, 0.5, 2, 6}}, false};

@@ -47,6 +47,23 @@ TEST(DepartureBound, IsAboveEveryDistanceAtEqualFractionsAndNotFarAbove) {
   }
 }
 
+// Arcs to either side of a line, ending on it at every sixty-fourth of its length, where the two
+// are looked at first: the distance is their height, which lies between.
+TEST(DepartureBound, SeesWhatRisesBetweenItsPlaces) {
+  constexpr double kCurvature = 1.5, kLength = 0.4;
+  const double turn = kCurvature * kLength / 2;
+  Chain waves{{{0, 0}, -turn}, {}, false};
+  for (int i = 0; i < 64; ++i) {
+    const double k = i % 2 == 0 ? kCurvature : -kCurvature;
+    waves.pieces.push_back({-1, kLength, k, k});
+  }
+  const Chain line{{{0, 0}, 0}, {{-1, 64 * 2 * std::sin(turn) / kCurvature, 0, 0}}, false};
+  const double height = (1 - std::cos(turn)) / kCurvature;
+  const double bound = departure_bound(waves, line);
+  EXPECT_GE(bound, height - 1e-12);
+  EXPECT_LE(bound, 1.01 * height);
+}
+
 // Between two segments with the same ends the largest distance lies anywhere inside.
 TEST(DepartureBound, HoldsBetweenItsPlaces) {
   std::mt19937 random(18);
