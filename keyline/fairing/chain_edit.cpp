@@ -11,6 +11,7 @@ namespace {
 
 /// Mean curvature of a piece, to the few digits a starting guess needs.
 double mean_curvature(double k0, double k1, double alpha) {
+  // Gauss and Legendre's four points on [0, 1].
   constexpr double node[4] = {0.0694318442029737, 0.330009478207572, 0.669990521792428,
                               0.930568155797026};
   constexpr double weight[4] = {0.173927422568727, 0.326072577431273, 0.326072577431273,

@@ -43,6 +43,8 @@ struct Stiffness {
   double band;
   double power;
 };
+// Solve by solve (see RateWeights): jumps cost nothing, then ten times as much each time; last,
+// small ones still count by their size, and offsets count more.
 constexpr std::array<Stiffness, 5> kStiffening{
     {{0, 0.1, 1, 2}, {0.01, 0.1, 3, 4}, {0.1, 0.1, 3, 4}, {1, 0.1, 3, 4}, {1, 0.02, 10, 4}}};
 

@@ -210,6 +210,8 @@ class Polisher {
   static constexpr double kClosedGap = 1e-9;  // of the length: gaps that count as closed
   // Rounds of Lawson's weights, where points leave the tolerance.
   static constexpr int kPolishSqueezes = 8;
+  // A point at the tolerance weighs twice as much after a round, one at 0.6 of it as much as
+  // before.
   static constexpr numeric::Push kPush{0.4, 1.6};
   static constexpr double kLoose = 0.05;  // smaller over larger curvature
 
