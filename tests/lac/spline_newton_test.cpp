@@ -102,6 +102,30 @@ TEST(SplineNewton, SpansWithBothConditionsAreTwoPieces) {
   EXPECT_EQ(end[1].curvature_end, 3.0);
 }
 
+// Points of an ellipse, closed: the joints' angles agree all round, and as with every method of
+// Newton's the last steps double the digits, so that few are enough.
+TEST(SplineNewton, ClosedChainsTakeFewSteps) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 9; ++i)
+    points.push_back({2 * std::cos(kPi * i / 4.5 + 0.1), std::sin(kPi * i / 4.5 + 0.1)});
+  SplineProblem problem;
+  problem.closed = true;
+  problem.alpha.assign(9, -0.5);
+  const auto side = [&](int i) { return points[(i + 1) % 9] - points[i % 9]; };
+  for (int i = 0; i < 9; ++i) {
+    problem.chord.push_back(core::norm(side(i)));
+    problem.turn.push_back(
+        core::wrap_angle(core::direction_of(side(i)) - core::direction_of(side(i + 8))));
+  }
+  SplineState state = guessed_state(problem);
+  int iterations = 0;
+  ASSERT_TRUE(solve_spline_newton(problem, state, iterations));
+  EXPECT_LE(iterations, 5);
+  double turned = 0;
+  for (std::size_t i = 0; i < 9; ++i) turned += total_turning(pieces_of_span(problem, state, i)[0]);
+  EXPECT_NEAR(turned, 2 * kPi, 1e-10);
+}
+
 // A regular polygon: arcs of its circle.
 TEST(SplineNewton, OfAPolygonIsItsCircle) {
   SplineProblem problem;
