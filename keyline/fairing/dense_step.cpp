@@ -14,6 +14,28 @@ bool line(const DenseCurve& curve, std::size_t p) {
 
 }  // namespace
 
+void set_step(Cell& cell, const DenseCurve& curve, const Gaps& gaps, std::size_t i) {
+  const CellPlace& end = gaps.end[i];
+  const core::Vector2 arm = end.at - curve.joints[i].position;
+  cell.step << 1, 0, -arm.y, end.by_start.x, end.by_end.x, arm.x / curve.length,  //
+      0, 1, arm.x, end.by_start.y, end.by_end.y, arm.y / curve.length,            //
+      0, 0, 1, end.angle_by_start, end.angle_by_end, 0;
+  cell.gap = gaps.cell[i];
+}
+
+void add(Cell& cell, const Vector6& d, double weight, double slope) {
+  cell.hessian.noalias() += weight * d * d.transpose();
+  cell.gradient += slope * d;
+}
+
+void damp(std::vector<Cell>& cells, const DenseCurve& curve, double damping) {
+  if (damping == 0) return;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const double h = curve.at[i + 1] - curve.at[i];
+    for (int k = 0; k < 3; ++k) cells[i].hessian(k, k) += damping * h;
+  }
+}
+
 DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share) {
   DenseCurve next = curve;
   for (std::size_t i = 0; i < next.joints.size(); ++i) {

@@ -3,10 +3,21 @@
 #include <vector>
 
 #include "keyline/fairing/dense_curve.h"
+#include "keyline/fairing/dense_places.h"
 #include "keyline/fairing/dense_riccati.h"
 
 /// Steps of a dense curve's solver.
 namespace keyline::fairing::detail {
+
+/// How the joint after the cell moves with the state before it, and what is missing to it now.
+void set_step(Cell& cell, const DenseCurve& curve, const Gaps& gaps, std::size_t i);
+
+/// Adds weight * (d . state)^2 / 2 + slope * (d . state).
+void add(Cell& cell, const Vector6& d, double weight, double slope);
+
+/// Weighs moves and turns of all joints: steps that turn the curve far are not what the linear
+/// model is good for.
+void damp(std::vector<Cell>& cells, const DenseCurve& curve, double damping);
 
 /// The curve after that share of the step; feet stay.
 DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share);

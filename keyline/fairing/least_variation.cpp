@@ -174,7 +174,7 @@ class Search {
 
   std::vector<Cell> model() const {
     std::vector<Cell> cells(curve_.joints.size() - 1);
-    for (std::size_t i = 0; i < cells.size(); ++i) add_cell(cells[i], static_cast<int>(i));
+    for (std::size_t i = 0; i < cells.size(); ++i) set_step(cells[i], curve_, gaps_, i);
     for (std::size_t j = 0; j < points_.size(); ++j) add_point(cells, j);
     const std::size_t pieces = curve_.alpha.size();
     for (std::size_t p = 0; p < pieces; ++p) {
@@ -186,15 +186,6 @@ class Search {
       passage.fixed = !passage.ends_curve && (flat(curve_, p + 1) || end_of_line(curve_, p + 2));
     }
     return cells;
-  }
-
-  void add_cell(Cell& cell, int i) const {
-    const CellPlace& end = gaps_.end[i];
-    const core::Vector2 arm = end.at - curve_.joints[i].position;
-    cell.step << 1, 0, -arm.y, end.by_start.x, end.by_end.x, arm.x / curve_.length,  //
-        0, 1, arm.x, end.by_start.y, end.by_end.y, arm.y / curve_.length,            //
-        0, 0, 1, end.angle_by_start, end.angle_by_end, 0;
-    cell.gap = gaps_.cell[i];
   }
 
   /// The piece's variation, told where it begins: both its curvatures are known there.
@@ -210,11 +201,6 @@ class Search {
     d(3) = -1;
     d(4) = 1;
     add(cell, d, pull.weight, pull.slope);
-  }
-
-  static void add(Cell& cell, const Vector6& d, double weight, double slope) {
-    cell.hessian.noalias() += weight * d * d.transpose();
-    cell.gradient += slope * d;
   }
 
   void add_point(std::vector<Cell>& cells, std::size_t j) const {
@@ -234,8 +220,8 @@ class Search {
            derivative(curve_, s, curve_.feet[j].piece, core::perpendicular_left(s.tangent));
   }
 
-  DenseBoundary boundary() const {
-    return boundary_of(curve_, gaps_.seam, multiplier_, kHeld / (unit_ * unit_));
+  DenseBoundary boundary(const Vector6& seam) const {
+    return boundary_of(curve_, seam, multiplier_, kHeld / (unit_ * unit_));
   }
 
   std::vector<double> meant(const DenseStep& step) const {
@@ -256,8 +242,8 @@ class Search {
   void iterate() {
     if (!refused_) cells_ = model();
     std::vector<Cell> cells = cells_;
-    damp(cells);
-    DenseStep step = solve_cells(cells, boundary());
+    damp(cells, curve_, damping_);
+    DenseStep step = solve_cells(cells, boundary(gaps_.seam));
     if (!step.sound) {
       refuse();
       return;
@@ -269,32 +255,12 @@ class Search {
       refuse();
       return;
     }
-    const std::vector<double> planned = meant(step);
-    const std::vector<double> rises = meant_rises(curve_, step);
-    const double before = merit(curve_, spots_, gaps_.sum, 0);
-    double share = std::min(limits_->longest(planned), keeps_side(curve_, step));
-    if (rises_) share = std::min(share, rises_->longest(rises));
-    for (int h = 0; h <= kHalvings; ++h, share *= 0.5)
-      if (take(step, planned, share, before)) {
-        if (rises_) rises_->move(curve_, rises);
-        damping_ = h == 0 ? 0.1 * damping_ : damping_;
-        if (damping_ < kLeastDamping) damping_ = 0;
-        refused_.reset();
-        return;
-      }
+    if (go(step, kHalvings, cells)) {
+      refused_.reset();
+      return;
+    }
     refused_ = std::move(step);
     refuse();
-  }
-
-  /// Steps that turn the curve far are not what the linear model is good for.
-  void damp(std::vector<Cell>& cells) const {
-    if (damping_ == 0) return;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const double h = curve_.at[i + 1] - curve_.at[i];
-      cells[i].hessian(2, 2) += damping_ * h;
-      cells[i].hessian(0, 0) += damping_ * h;
-      cells[i].hessian(1, 1) += damping_ * h;
-    }
   }
 
   void refuse() {
@@ -304,25 +270,58 @@ class Search {
     converged_ = band_ && band_->extra() <= kExtra * unit_ && closed_enough() && last();
   }
 
+  /// Goes as much of the step as may be gone, halved so often at most. Where all of it opens gaps,
+  /// since pieces bend where their model is straight, first what closes these too is tried.
+  /// Source: second-order corrections, [Nocedal 2006], section 18.3.
+  bool go(const DenseStep& step, int halvings, std::vector<Cell>& cells) {
+    const std::vector<double> planned = meant(step);
+    const std::vector<double> rises = meant_rises(curve_, step);
+    const double before = merit(curve_, spots_, gaps_.sum, 0);
+    double share = std::min(limits_->longest(planned), keeps_side(curve_, step));
+    if (rises_) share = std::min(share, rises_->longest(rises));
+    for (int h = 0; h <= halvings; ++h, share *= 0.5) {
+      if (take(step, planned, share, before)) {
+        if (rises_) rises_->move(curve_, rises);
+        damping_ = h == 0 ? 0.1 * damping_ : damping_;
+        if (damping_ < kLeastDamping) damping_ = 0;
+        return true;
+      }
+      const bool opens = h == 0 && halvings > 0 && opened_.sum > gaps_.sum;
+      if (opens && corrects() && go(closing(share, cells), 0, cells)) return true;
+    }
+    return false;
+  }
+
+  /// Pieces in the tolerance alone. Of a free curve more waves would go, each at up to `worth`; on
+  /// springs pieces that cannot come as near would climb in small steps.
+  bool corrects() const { return curve_.cut.size() < curve_.joints.size() && spring_ == 0; }
+
+  DenseStep closing(double share, std::vector<Cell>& cells) const {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      cells[i].gap = share * gaps_.cell[i] + opened_.cell[i];
+    return solve_cells(cells, boundary(share * gaps_.seam + opened_.seam));
+  }
+
   /// Goes that share of the step where this keeps inside the band and lowers the merit.
   bool take(const DenseStep& step, const std::vector<double>& planned, double share,
             double before) {
+    opened_ = {};
     DenseCurve trial = moved(curve_, step, share);
     if (!(trial.length > 0.3 * curve_.length)) return false;
     Shapes shapes = shapes_of(trial);
     settle_feet(trial, shapes, 2);
     Spots spots = spots_of(trial, shapes, points_);
     if (!limits_->allows(spots.offset, share)) return false;
-    Gaps gaps = gaps_of(trial, shapes);
-    const double after = merit(trial, spots, gaps.sum, share);
+    opened_ = gaps_of(trial, shapes);
+    const double after = merit(trial, spots, opened_.sum, share);
     if (!(after < before + 1e-10 * std::abs(before))) return false;
     limits_->move(spots.offset, planned, share);
     curve_ = std::move(trial);
     shapes_ = std::move(shapes);
     spots_ = std::move(spots);
-    gaps_ = std::move(gaps);
+    gaps_ = std::move(opened_);
     if (curve_.closed || curve_.hold_end != Hold::free)
-      multiplier_ += boundary().end_hessian * gaps_.seam;
+      multiplier_ += boundary(gaps_.seam).end_hessian * gaps_.seam;
     advance(share, before - after);
     return true;
   }
@@ -365,6 +364,7 @@ class Search {
   Shapes shapes_;
   Spots spots_;
   Gaps gaps_;
+  Gaps opened_;  ///< after the last trial
   std::vector<double> mean_weight_;
   Vector6 multiplier_ = Vector6::Zero();
   double spring_ = 0;
