@@ -5,8 +5,12 @@ the source's name behind its own while that source is read, so that it meets no 
 stay as they are. Left alone are names that the source also uses of others (`x.name`, `room::name`), what
 others find by its name (`choices`), the types of sources that describe some and the names of tests, for those
 tell their name: where such a name meets another, the compiler says so.
+
+The sources are named from OUT's folder, so that what is written, and a compiler's cache of it, is the same in
+every copy of the tree.
 """
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -48,34 +52,35 @@ def own_names(text):
     return own - shared - used_of_others - told - NOT_A_NAME - FOUND_BY_ARGUMENT
 
 
-def includes(text, folder):
-    """The source's #include lines that no #if decides about; headers beside it are named by their whole path."""
+def includes(text, folder, seen_from):
+    """The source's #include lines that no #if decides about; headers beside it are named from `seen_from`."""
     depth, lines = 0, []
     for line in text.split("\n"):
         depth += line.startswith("#if") - line.startswith("#endif")
         if depth == 0 and line.startswith("#include"):
             beside = re.match(r'#include "([^"]+)"', line)
             if beside and (folder / beside[1]).exists():
-                line = f'#include "{folder / beside[1]}"'
+                line = f'#include "{os.path.relpath(folder / beside[1], seen_from)}"'
             lines.append(line)
     return lines
 
 
-def unity(sources):
+def unity(sources, folder):
     headers, bodies = [], []
-    for source in sources:
-        text = Path(source).read_text(encoding="utf-8")
-        headers += [line for line in includes(text, Path(source).parent) if line not in headers]
-        mark = re.sub(r"\W", "_", Path(source).stem)
+    for source in (Path(source).resolve() for source in sources):
+        text = source.read_text(encoding="utf-8")
+        headers += [line for line in includes(text, source.parent, folder) if line not in headers]
+        mark = re.sub(r"\W", "_", source.stem)
         names = sorted(own_names(bare(text)))
         bodies += [f"#define {name} {name}_of_{mark}" for name in names]
-        bodies.append(f'#include "{source}"')
+        bodies.append(f'#include "{os.path.relpath(source, folder)}"')
         bodies += [f"#undef {name}" for name in names]
     return "\n".join(headers + bodies) + "\n"
 
 
 if __name__ == "__main__":
-    target, made = Path(sys.argv[1]), unity(sys.argv[2:])
+    target = Path(sys.argv[1])
+    made = unity(sys.argv[2:], target.resolve().parent)
     if not target.exists() or target.read_text(encoding="utf-8") != made:
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(made, encoding="utf-8")

@@ -63,7 +63,8 @@ def main():
             return done.returncode == 0 and subprocess.run([folder / "program"]).returncode == 0
 
         told = {"one by one": runs(*sources), "together": runs(str(folder / "made" / "both.cpp")),
-                "refused without": built(str(folder / "plain.cpp")).returncode != 0}  # fmt: skip
+                "refused without": built(str(folder / "plain.cpp")).returncode != 0,
+                "the same in every folder": name not in (folder / "made" / "both.cpp").read_text()}  # fmt: skip
     print(told)
     return 0 if all(told.values()) else 1
 
