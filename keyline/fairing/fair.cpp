@@ -203,7 +203,7 @@ class Job {
     const double off = found ? detail::largest_of(*found, runs_) : 0;
     if (!found || (off > result_.tolerance && !given)) {
       result_.notes.push_back(
-          "the answer is not: " +
+          "the answer is not symmetric: " +
           (found ? fmt::format("it would leave the tolerance by {:.3g}", off - result_.tolerance)
                  : found.error().message));
       return {};
@@ -212,7 +212,7 @@ class Job {
     solved_ = std::move(*found);
     result_.symmetry->exact = true;
     result_.notes.push_back(
-        "the answer is so exactly" +
+        "the answer is exactly symmetric" +
         (more > 0 ? ", which takes " + core::counted(std::size_t(more), "more wave") : ""));
     return {};
   }

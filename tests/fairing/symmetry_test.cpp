@@ -9,6 +9,7 @@
 #include "keyline/curve/concept.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/mirror.h"
+#include "keyline/fairing/symmetric_run.h"
 
 #include "truth.h"
 
@@ -107,7 +108,7 @@ TEST(Symmetry, IsFoundWithinTheNoiseAndGivenExactly) {
   EXPECT_LT(result.symmetry->rms, 2 * kNoise);
   EXPECT_LT(asymmetry(result, axis_of(result)), 1e-7 * result.length);
   EXPECT_TRUE(result.within_tolerance);
-  EXPECT_THAT(result.notes, ::testing::Contains(HasSubstr("the answer is so exactly")));
+  EXPECT_THAT(result.notes, ::testing::Contains(HasSubstr("the answer is exactly symmetric")));
   for (const auto& joint : result.joints) EXPECT_GE(joint.order, 2);
 }
 
@@ -115,6 +116,12 @@ TEST(Symmetry, IsNotMadeUpWhereThereIsNone) {
   const FairResult result = fair(outline(0.01), exactly()).value();
   EXPECT_FALSE(result.symmetry.has_value());
   EXPECT_GT(asymmetry(result, Placed{}.axis), 0.02);
+}
+
+TEST(Symmetry, TellsItsLineWithoutAMinusBeforeZero) {
+  EXPECT_EQ(detail::told({{1, 2}, -1e-6}), "(1, 2) at 0.00 degrees");
+  EXPECT_EQ(detail::told({{1, 2}, core::kPi - 1e-6}), "(1, 2) at 0.00 degrees");
+  EXPECT_EQ(detail::told({{1, 2}, -0.25 * core::kPi}), "(1, 2) at -45.00 degrees");
 }
 
 TEST(Symmetry, IsOnlyToldWhereItIsNotAskedFor) {
