@@ -299,7 +299,8 @@ class AsOne {
     for (TradeOff& t : all_.tradeoff) {
       const bool poor = std::ranges::any_of(kept, [&](const TradeOff& o) {
         return o.sav * (1 - kWorthIt) <= t.sav &&
-               (2 * o.departure < t.departure || *o.stripe_turn <= *t.stripe_turn + kSameTurn);
+               (2 * o.departure < t.departure ||
+                o.stripe_turn.value_or(0) <= t.stripe_turn.value_or(0) + kSameTurn);
       });
       if (!poor && t.sav <= all_.sav_before) kept.push_back(std::move(t));
     }

@@ -138,7 +138,12 @@ TEST(Request, EveryFailureHasARemedy) {
       {{"points", {{0, 0}, {2, 0}}}, {"direction", 0.6}, {"alpha", -1}, {"volume", -1}}, {});
   EXPECT_EQ(volume.error().hint, "area between curve and chord, 0 or more");
   const auto few = perform("fit.spline", {{"points", {{0, 0}}}}, {});
-  EXPECT_EQ(few.error().hint, "keyline operations fit.spline tells what it takes");
+  EXPECT_EQ(few.error().hint, "give more points, or a smaller order");
+  // a room that names none
+  const json points = {{0, 0}, {1, 1}, {2, 0}, {3, 1}, {4, 0}};
+  const auto weighed =
+      perform("fit.spline", {{"points", points}, {"weights", {1, 1, 1, 1, -1}}}, {});
+  EXPECT_EQ(weighed.error().hint, "keyline operations fit.spline tells what it takes");
 }
 
 TEST(Request, ThreadsAreCheckedAndChangeNothing) {
