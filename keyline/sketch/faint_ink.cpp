@@ -159,9 +159,10 @@ std::size_t drop_shade(Binary& ink, const Tone& tone, double broadest) {
     left.visit(y, [&](int x) {
       const Piece piece = take_piece(left, x, y);
       const PieceLook look = look_at(ink, tone, piece, away);
-      const bool shade = look.beside && !stands_out(look);
-      if (!shade) set(ink, piece, kInk);
-      if (shade) dropped += piece.size();
+      if (look.beside && !stands_out(look))
+        dropped += piece.size();
+      else
+        set(ink, piece, kInk);
     });
   return dropped;
 }

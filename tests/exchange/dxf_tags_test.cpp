@@ -28,8 +28,8 @@ TEST(DxfTags, NumbersAreFiniteOrNone) {
   EXPECT_FALSE(integer_of(with_text("-1000000000")));
 }
 
-// \U+XXXX is a unit of UTF-16, two of them one character beyond; bytes that are no UTF-8 are
-// Latin-1.
+// \U+ and four hexadecimal digits are a unit of UTF-16, two such units one character beyond; bytes
+// that are no UTF-8 are Latin-1.
 TEST(DxfTags, TextsBecomeUtf8) {
   EXPECT_EQ(text_of(with_text("plain")), "plain");
   EXPECT_EQ(text_of(with_text("a\\U+00E9b")), "a\u00e9b");
