@@ -113,13 +113,17 @@ Drawing tradeoff_chart(const surface::EditResult& edited, const std::string& uni
   return figure::draw(plot);
 }
 
-}  // namespace
+report::ReportTable tradeoff_table(const surface::EditResult& edited) {
+  report::ReportTable table{"What lower values cost: targets by departure",
+                            {{"Target", report::Alignment::text}, {"Departure"}, {"SAV"}},
+                            {}};
+  for (const surface::TradeOff& t : edited.tradeoff)
+    table.rows.push_back({t.name, number(t.departure), number(t.sav)});
+  return table;
+}
 
-Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
-                                           const surface::EditResult& edited,
-                                           const ReportOptions& options) {
-  report::Report report;
-  set_head(options, report);
+/// Verdict, numbers and notes of the report.
+void tell_edit(const surface::EditResult& edited, const std::string& unit, report::Report& report) {
   report.verdict = edited.after.sav <= 1 ? report::Verdict::good : report::Verdict::caution;
   report.verdict_line =
       fmt::format("SAV from {} to {}, {} from the given surface.", number(edited.before.sav),
@@ -127,9 +131,7 @@ Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
   report.numbers = {
       {"SAV before", number(edited.before.sav), {}},
       {"SAV after", number(edited.after.sav), {}},
-      {"Largest departure",
-       number(edited.departure) + (options.unit.empty() ? "" : "\u00A0" + options.unit),
-       {}},
+      {"Largest departure", number(edited.departure) + (unit.empty() ? "" : "\u00A0" + unit), {}},
       {"Target", edited.target, fmt::format("{:.0f} %", 100 * edited.amount)}};
   for (const surface::MissedTarget& m : edited.missed)
     report.notes.push_back(
@@ -139,23 +141,28 @@ Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
     report.notes.push_back(
         {report::NoteKind::note,
          fmt::format("Short of the target {} is outside its condition: {}.", m.curve, m.why)});
+}
+
+}  // namespace
+
+Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
+                                           const surface::EditResult& edited,
+                                           const ReportOptions& options) {
+  report::Report report;
+  set_head(options, report);
+  tell_edit(edited, options.unit, report);
   auto page = surface_edit_page(given, edited, options);
   if (!page) return std::unexpected(page.error());
   report.sections.push_back({"Before and after",
                              {},
                              {{std::move(*page), "Zebra, mean curvature and network curves"}},
                              {}});
-  report::ReportTable tradeoff{"What lower values cost: targets by departure",
-                               {{"Target", report::Alignment::text}, {"Departure"}, {"SAV"}},
-                               {}};
-  for (const surface::TradeOff& t : edited.tradeoff)
-    tradeoff.rows.push_back({t.name, number(t.departure), number(t.sav)});
   report.sections.push_back(
       {"Surface aesthetic value",
        {},
        {{tradeoff_chart(edited, options.unit), "SAV of each target against its departure"}},
        {surface_curve_table(edited.before, "Network curves before"),
-        surface_curve_table(edited.after, "Network curves after"), std::move(tradeoff)}});
+        surface_curve_table(edited.after, "Network curves after"), tradeoff_table(edited)}});
   return report;
 }
 

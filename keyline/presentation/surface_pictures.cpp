@@ -185,6 +185,27 @@ double stripes_for(const std::vector<Surface>& surfaces) {
   return std::clamp(std::round(kPairs / std::max(range, 1e-6)), 12.0, 400.0);
 }
 
+namespace {
+
+/// How the values of the meshes are painted, and their scale.
+void paint_field(FieldKind field, const SurfacePicture& options, figure::SurfaceView& view) {
+  const FieldWords words = words_of(field);
+  if (view.title.empty()) view.title = words.title;
+  view.paint = field == FieldKind::zebra ? figure::SurfacePaint::zebra
+               : is_curvature(field)     ? figure::SurfacePaint::map
+                                         : figure::SurfacePaint::lines;
+  count_lines(view.meshes, field);
+  std::vector<double> all;
+  for (const auto& m : view.meshes) all.insert(all.end(), m.values.begin(), m.values.end());
+  const core::Interval range = options.range.value_or(usual_range(std::move(all)));
+  view.low = range.low;
+  view.high = range.high;
+  view.scale_title =
+      options.unit.empty() ? words.title : std::string("1/") + options.unit + words.unit_power;
+}
+
+}  // namespace
+
 Result<Drawing> surface_picture(const std::vector<Surface>& surfaces,
                                 const SurfacePicture& options) {
   std::vector<JetGrid> grids;
@@ -212,19 +233,7 @@ Result<Drawing> surface_picture(const std::vector<Surface>& surfaces,
     view.grid_lines = 4;
     return figure::surface_view(view);
   }
-  const FieldWords words = words_of(*options.field);
-  if (view.title.empty()) view.title = words.title;
-  view.paint = *options.field == FieldKind::zebra ? figure::SurfacePaint::zebra
-               : is_curvature(*options.field)     ? figure::SurfacePaint::map
-                                                  : figure::SurfacePaint::lines;
-  count_lines(view.meshes, *options.field);
-  std::vector<double> all;
-  for (const auto& m : view.meshes) all.insert(all.end(), m.values.begin(), m.values.end());
-  const core::Interval range = options.range.value_or(usual_range(std::move(all)));
-  view.low = range.low;
-  view.high = range.high;
-  view.scale_title =
-      options.unit.empty() ? words.title : std::string("1/") + options.unit + words.unit_power;
+  paint_field(*options.field, options, view);
   return figure::surface_view(view);
 }
 

@@ -42,9 +42,14 @@ void SeriesTable::cut(const UnitPiece& unit, double from, double to, double allo
     series.coefficient[1] = {1, 0};
     remainder = bend;
   }
-  const Frame frame = exact_frame(unit, middle);
-  Stretch s{from, to, middle, remainder, 0, kDegree, {}, {}};
-  s.curvature = std::max(curvature(unit.piece, from), curvature(unit.piece, to));
+  add_stretch(unit, {from, to, middle, remainder, 0, kDegree, {}, {}}, series, allowed);
+}
+
+/// Takes the series into the frame of its middle and leaves out its terms too small to matter.
+void SeriesTable::add_stretch(const UnitPiece& unit, Stretch s, const TaylorSeries& series,
+                              double allowed) {
+  const Frame frame = exact_frame(unit, s.middle);
+  s.curvature = std::max(curvature(unit.piece, s.from), curvature(unit.piece, s.to));
   s.x[0] = frame.point.x;
   s.y[0] = frame.point.y;
   for (int k = 1; k <= kDegree; ++k) {
@@ -52,12 +57,13 @@ void SeriesTable::cut(const UnitPiece& unit, double from, double to, double allo
     s.x[k] = frame.tangent.x * c.x - frame.tangent.y * c.y;
     s.y[k] = frame.tangent.y * c.x + frame.tangent.x * c.y;
   }
-  double power = std::pow(0.5 * (to - from), kDegree);
-  while (s.degree > 2) {  // terms too small to matter
+  const double half_width = 0.5 * (s.to - s.from);
+  double power = std::pow(half_width, kDegree);
+  while (s.degree > 2) {
     const double term = power * std::hypot(s.x[s.degree], s.y[s.degree]);
     if (s.remainder + term > allowed) break;
     s.remainder += term;
-    power /= 0.5 * (to - from);
+    power /= half_width;
     --s.degree;
   }
   stretches_.push_back(s);

@@ -31,6 +31,7 @@ class SeriesTable {
  private:
   const Stretch& at(double v) const;
   void cut(const UnitPiece& unit, double from, double to, double allowed, int depth);
+  void add_stretch(const UnitPiece& unit, Stretch s, const TaylorSeries& series, double allowed);
   std::vector<Stretch> stretches_;
 };
 

@@ -34,6 +34,7 @@ class DragProblem {
   std::size_t freedom() const;
   Chain moved(const std::vector<double>& change) const;
   /// Misses and their derivatives, for a target given in the units of the problem.
+  std::vector<detail::PieceShape> shapes(const Chain& chain) const;
   Rows misses(const std::vector<double>& change, Point2 target, std::vector<Rows>& by) const;
   const Chain& base() const { return base_; }
 
@@ -86,18 +87,26 @@ Chain DragProblem::moved(const std::vector<double>& change) const {
   return chain;
 }
 
+std::vector<detail::PieceShape> DragProblem::shapes(const Chain& chain) const {
+  std::vector<detail::PieceShape> all;
+  for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
+    const Piece& p = chain.pieces[i];
+    all.push_back(piece_shape(p.alpha, p.curvature_start * p.length, p.curvature_end * p.length,
+                              variable_[joint_slot(i)], variable_[joint_slot(i + 1)]));
+  }
+  return all;
+}
+
 Rows DragProblem::misses(const std::vector<double>& change, Point2 target,
                          std::vector<Rows>& by) const {
   const Chain chain = moved(change);
   const std::size_t m = chain.pieces.size();
-  std::vector<detail::PieceShape> shape(m);
+  const std::vector<detail::PieceShape> shape = shapes(chain);
   std::vector<Pose2> at{chain.start};
   for (std::size_t i = 0; i < m; ++i) {
-    const Piece& p = chain.pieces[i];
-    shape[i] = piece_shape(p.alpha, p.curvature_start * p.length, p.curvature_end * p.length,
-                           variable_[joint_slot(i)], variable_[joint_slot(i + 1)]);
-    at.push_back({at[i].position + p.length * core::rotate_ccw(shape[i].chord, at[i].direction),
-                  at[i].direction + shape[i].turning});
+    const Vector2 chord = core::rotate_ccw(shape[i].chord, at[i].direction);
+    at.push_back(
+        {at[i].position + chain.pieces[i].length * chord, at[i].direction + shape[i].turning});
   }
   by.assign(unknowns(), Rows{});
   const bool end_dragged = joint_ == m;
@@ -107,9 +116,9 @@ Rows DragProblem::misses(const std::vector<double>& change, Point2 target,
              turned * core::perpendicular_left(p - at[i + 1].position);
     };
     const Vector2 end = position_by(at[m].position);
-    by[unknown][2] += turned;
     by[unknown][0] += end.x;
     by[unknown][1] += end.y;
+    by[unknown][2] += turned;
     if (end_dragged || i >= joint_) return;
     const Vector2 dragged = position_by(at[joint_].position);
     by[unknown][3] += dragged.x;

@@ -122,6 +122,20 @@ inline double lane_max(const Batch& x) {
   return most;
 }
 
+/// What follows from the unknown q at its end.
+template <class Batch>
+inline void store_lanes(const LaneProblem<Batch>& p, const Batch& last, ChordBlock& block,
+                        std::size_t at) {
+  const Batch arc = LaneDecay<Batch>(p.a).integral(last);
+  const Batch angle = LaneDecay<Batch>(p.b).integral(last);
+  const Batch angle_rest = numeric::simd::exp(-p.b * last);
+  const Batch heavy = select(last > Batch(0.0), p.theta * arc / angle, p.theta);
+  const Batch standard = select(p.b < Batch(0.0), angle / angle_rest, angle);
+  heavy.store_aligned(block.heavy + at);
+  numeric::simd::exp(-last).store_aligned(block.ratio + at);
+  (standard / p.theta).store_aligned(block.lambda + at);
+}
+
 template <class Batch>
 inline void solve_lanes(ChordBlock& block, std::size_t at) {
   const Batch alpha = Batch::load_aligned(block.alpha + at);
@@ -154,17 +168,9 @@ inline void solve_lanes(ChordBlock& block, std::size_t at) {
     open = open & !done;
   }
   failed = failed | open;
-  const Batch last = select(failed, Batch(0.0), q);
-  const Batch arc = LaneDecay<Batch>(p.a).integral(last);
-  const Batch angle = LaneDecay<Batch>(p.b).integral(last);
-  const Batch angle_rest = numeric::simd::exp(-p.b * last);
-  const Batch heavy = select(last > Batch(0.0), p.theta * arc / angle, p.theta);
-  const Batch standard = select(p.b < Batch(0.0), angle / angle_rest, angle);
   select(failed, Batch(0.0), Batch(1.0)).store_aligned(block.solved + at);
   length.store_aligned(block.chord_length + at);
-  heavy.store_aligned(block.heavy + at);
-  numeric::simd::exp(-last).store_aligned(block.ratio + at);
-  (standard / p.theta).store_aligned(block.lambda + at);
+  store_lanes(p, select(failed, Batch(0.0), q), block, at);
 }
 
 /// All lanes of slope -1.

@@ -93,29 +93,45 @@ void PieceTable::plan_panels() {
   zero_ = -1;
   const double k0 = curvature_start_;
   const double k1 = curvature_end_;
-  const auto add = [&](double from, double to, int graded) {
-    panels_.push_back({.from = from, .to = to, .graded = graded, .node = {}});
-  };
-  if (k0 == k1) {
-    const int parts = 1 + static_cast<int>(std::min(20.0, std::abs(k0) * length_ / 2.5));
-    for (int i = 0; i < parts; ++i) add(double(i) / parts, double(i + 1) / parts, 0);
-    return;
-  }
   // Where curvature vanishes it goes as the power -1/alpha of the way: rough for alpha < -1 only.
   const bool rough = alpha_ < -1 || alpha_ > 0;
-  if (k0 * k1 < 0) {
-    const double z0 = std::pow(std::abs(k0), -alpha_);
-    const double z1 = std::pow(std::abs(k1), -alpha_);
-    zero_ = std::clamp(z0 / (z0 + z1), 1e-9, 1 - 1e-9);
-    if (fine_) {
-      add_geometric_panels(0, zero_, 0, 1);
-      add_geometric_panels(zero_, 1, 0, -1);
-      return;
-    }
-    add(0, zero_, rough ? 1 : 0);
-    add(zero_, 1, rough ? -1 : 0);
+  if (k0 == k1) {
+    add_even_panels(1 + static_cast<int>(std::min(20.0, std::abs(k0) * length_ / 2.5)), 0);
+  } else if (k0 * k1 < 0) {
+    plan_around_zero(rough);
+  } else {
+    plan_without_zero(rough);
+  }
+}
+
+/// Panels of equal width, the one where the linear function is smallest graded: the first for -1,
+/// the last for +1.
+void PieceTable::add_even_panels(int parts, int grade) {
+  for (int i = 0; i < parts; ++i) {
+    const bool smallest = i == (grade < 0 ? 0 : parts - 1);
+    panels_.push_back({.from = double(i) / parts,
+                       .to = double(i + 1) / parts,
+                       .graded = smallest ? grade : 0,
+                       .node = {}});
+  }
+}
+
+void PieceTable::plan_around_zero(bool rough) {
+  const double z0 = std::pow(std::abs(curvature_start_), -alpha_);
+  const double z1 = std::pow(std::abs(curvature_end_), -alpha_);
+  zero_ = std::clamp(z0 / (z0 + z1), 1e-9, 1 - 1e-9);
+  if (fine_) {
+    add_geometric_panels(0, zero_, 0, 1);
+    add_geometric_panels(zero_, 1, 0, -1);
     return;
   }
+  panels_.push_back({.from = 0, .to = zero_, .graded = rough ? 1 : 0, .node = {}});
+  panels_.push_back({.from = zero_, .to = 1, .graded = rough ? -1 : 0, .node = {}});
+}
+
+void PieceTable::plan_without_zero(bool rough) {
+  const double k0 = curvature_start_;
+  const double k1 = curvature_end_;
   // Log of the ratio of the two ends of the linear function whose power curvature is.
   const double low = 1e-300;
   const double ratio =
@@ -127,14 +143,7 @@ void PieceTable::plan_panels() {
     add_geometric_panels(0, 1, std::exp(-std::abs(ratio)), grade);
     return;
   }
-  const int parts = 1 + static_cast<int>(std::min(8.0, turning / 3.5));
-  if (grade == -1) {
-    add(0, 1.0 / parts, -1);
-    for (int i = 1; i < parts; ++i) add(double(i) / parts, double(i + 1) / parts, 0);
-  } else {
-    for (int i = 0; i + 1 < parts; ++i) add(double(i) / parts, double(i + 1) / parts, 0);
-    add(double(parts - 1) / parts, 1, grade);
-  }
+  add_even_panels(1 + static_cast<int>(std::min(8.0, turning / 3.5)), grade);
 }
 
 /// Panels of [from, to] that halve towards the end where the linear function is smallest

@@ -67,6 +67,9 @@ class PieceTable {
   struct Running;
   struct Turns;
   void plan_panels();
+  void add_even_panels(int parts, int grade);
+  void plan_around_zero(bool rough);
+  void plan_without_zero(bool rough);
   void add_geometric_panels(double from, double to, double least, int grade);
   Turns turns_of(const Panel& panel, const End& at) const;
   void fill(Panel& panel, Running& running) const;
