@@ -17,6 +17,9 @@ constexpr double kStraightest = 0.8;  ///< of the turn at a junction a line may 
 constexpr double kRowTurn = 0.4;      ///< radians, from a dash to the next
 constexpr double kRowGap = 3;         ///< times the shorter dash: no gap of a row is longer
 constexpr double kEven = 1.5;         ///< times another: gaps of one row
+/// Widths of the line: nor is a gap longer than this. The longest that drawings have are 18 widths
+/// ([ISO 128-20], spaced dashes); half as much again as gaps of a row may differ.
+constexpr double kWidestGap = 18 * kEven;
 /// Gaps: a dash between two gaps is no longer. The longest that drawings have are eight times as
 /// long as their gaps ([ISO 128-20], long dashes); half as much again as gaps of a row may differ.
 constexpr double kLongDash = 8 * kEven;
@@ -50,6 +53,7 @@ class Bridges {
   /// Dashes: ends each of which is the other's nearest ahead, over gaps as long as the next ones.
   void bridge_rows() {
     std::erase_if(ends_, [&](int end) { return at(end).mate >= 0; });
+    if (ends_.empty()) return;
     find_nearest();
     std::vector<Pair> rows;
     for (const int a : ends_) {
@@ -108,22 +112,25 @@ class Bridges {
     return a / 2 == b / 2 ? least > 4 * gap : least > 0.5 * gap;
   }
 
+  double width(int b) const { return 2 * core::quantile(edge_of(b).radii); }
+
   /// Of the ink, along the line that ends there.
-  double dash(int b) { return length_of(edge_of(b)) + 2 * core::quantile(edge_of(b).radii); }
+  double dash(int b) const { return length_of(edge_of(b)) + width(b); }
 
   void find_nearest() {
     nearest_.assign(branches_.size(), {});
-    double longest = 0;
-    for (const int end : ends_) longest = std::max(longest, dash(end));
-    visit_pairs(kRowGap * longest, [&](int a, int b, double gap) {
-      const double shorter = std::min(dash(a), dash(b));
+    std::vector<double> reach(branches_.size(), 0);
+    for (const int end : ends_)
+      reach[index(end)] = std::min(kRowGap * dash(end), kWidestGap * width(end));
+    visit_pairs(std::ranges::max(reach), [&](int a, int b, double gap) {
+      if (a / 2 == b / 2 || gap > std::min(reach[index(a)], reach[index(b)])) return;
       const double first = length_of(edge_of(a));
       const double second = length_of(edge_of(b));
-      if (a / 2 == b / 2 || gap > kRowGap * shorter || std::min(first, second) < kDot) return;
+      if (std::min(first, second) < kDot) return;
       const double unsure = kGrid / first + kGrid / second;
       const double turn = bend_between(at(a), at(b));
       if (turn > kRowTurn + unsure) return;
-      const Pair pair{gap / shorter + turn, gap, a, b};
+      const Pair pair{gap / std::min(dash(a), dash(b)) + turn, gap, a, b};
       if (pair.cost < nearest_[index(a)].cost) nearest_[index(a)] = pair;
       if (pair.cost < nearest_[index(b)].cost) nearest_[index(b)] = {pair.cost, gap, b, a};
     });

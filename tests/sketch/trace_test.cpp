@@ -167,15 +167,22 @@ TEST(Trace, BridgesGapsInTheInk) {
 }
 
 // A line between two gaps as long is a dash where it is no longer than long dashes are; windows on
-// both sides of a pillar are none.
-TEST(Trace, LongLinesBetweenEvenGapsAreNoRowOfDashes) {
-  for (const auto& [dash, strokes] : {std::pair{60, 1U}, {150, 1U}, {320, 3U}}) {
-    Image page = blank_page(3 * dash + 60, 40);
-    for (int k = 0; k < 3; ++k)  // gaps of 16 pixels
-      draw_line(page, {12.0 + (dash + 16) * k, 20}, {12.0 + (dash + 16) * k + dash - 3, 20}, 3);
+// both sides of a pillar are none. No gap of a row is much longer than 18 widths: strokes farther
+// apart are no row, however even.
+TEST(Trace, LongLinesAndFarOnesAreNoRowOfDashes) {
+  struct Row {
+    int dash, gap;
+    unsigned strokes;
+  };
+  for (const auto& [dash, gap, strokes] :
+       {Row{60, 16, 1}, {150, 16, 1}, {320, 16, 3}, {60, 54, 1}, {60, 108, 3}}) {
+    const double next = dash + gap;
+    Image page = blank_page(3 * dash + 2 * gap + 28, 40);
+    for (int k = 0; k < 3; ++k)
+      draw_line(page, {12 + next * k, 20}, {12 + next * k + dash - 3, 20}, 3);
     const auto result = trace(page);
     ASSERT_TRUE(result) << result.error().message;
-    EXPECT_EQ(result->strokes.size(), strokes) << dash;
+    EXPECT_EQ(result->strokes.size(), strokes) << dash << ' ' << gap;
   }
 }
 
