@@ -75,8 +75,7 @@ void measure_rhythm(Entry& entry, const document::Path& path) {
     return;
   }
   entry.volume = found->volume;
-  entry.curvature_min = found->curvature_min;
-  entry.curvature_max = found->curvature_max;
+  entry.curvature = {{found->curvature_min, found->curvature_max}};
   const analysis::ArcLengthTable table(view);
   for (const auto& piece : found->pieces)
     entry.pieces.push_back(piece_entry(view, table, piece, found->length));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,22 +44,40 @@ constexpr auto choices(const Kind*) {
       {{Kind::curve, "curve"}, {Kind::space_curve, "space-curve"}, {Kind::surface, "surface"}});
 }
 
+/// What is measured of a curve or surface; what its kind does not have, or could not be measured,
+/// is empty.
+struct Measures {
+  double size = 0;
+  std::optional<double> length;
+  std::optional<double> volume;
+  std::optional<std::array<double, 2>> curvature;
+  std::vector<PieceEntry> pieces;
+  std::optional<int> cav_type;
+  std::optional<double> cav;  ///< [Oya] Tab. 2 by the letter
+  std::optional<double> nearest_cav;
+  std::optional<double> nearest_distance;
+  std::optional<double> sav;
+  static constexpr auto describe() {
+    using M = Measures;
+    return core::fields(
+        core::field<&M::size>("diagonal of the box around it").in("length"),
+        core::field<&M::length>("of a curve").in("length"),
+        core::field<&M::volume>("area over its chord").in("length^2"),
+        core::field<&M::curvature>("least and largest").in("1/length"),
+        core::field<&M::pieces>("of monotone curvature, in order"),
+        core::field<&M::cav_type>("1 … 5").within(core::from_to(1, 5)),
+        core::field<&M::cav>("curve aesthetic value"),
+        core::field<&M::nearest_cav>("of the nearest curve of one matrix (types 4, 5)"),
+        core::field<&M::nearest_distance>("how far away that is").in("length"),
+        core::field<&M::sav>("surface aesthetic value, summed over its patches"));
+  }
+};
+
 /// A curve or surface as the library keeps it: exact, with what was measured of it.
-struct Entry {
+struct Entry : Measures {
   Kind kind = Kind::curve;
   document::Document thing;  ///< one thing with its label and unit; trims and all
   std::string source;        ///< where it comes from, as it was given
-  double size = 0;           ///< diagonal of the box around it
-  std::optional<double> length;
-  std::optional<double> volume;
-  std::optional<double> curvature_min;
-  std::optional<double> curvature_max;
-  std::vector<PieceEntry> pieces;
-  std::optional<int> cav_type;
-  std::optional<double> cav;               ///< [Oya] Tab. 2 by the letter
-  std::optional<double> nearest_cav;       ///< of the nearest curve of one matrix (types 4, 5)
-  std::optional<double> nearest_distance;  ///< and how far away it is
-  std::optional<double> sav;
   std::optional<TurningProfile> turning;
   std::string thumbnail;
   std::vector<std::string> notes;  ///< what could not be measured, and why

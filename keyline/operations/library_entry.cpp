@@ -31,16 +31,7 @@ LibraryEntry entry_shown(const library::Entry& e) {
   if (!e.thing.paths.empty()) shown.curve = simplest(e.thing.paths.front().path);
   if (!e.thing.space_curves.empty()) shown.curve = e.thing.space_curves.front().curve;
   if (!e.thing.surfaces.empty()) shown.surface = e.thing.surfaces.front().surface;
-  shown.size = e.size;
-  shown.length = e.length;
-  shown.volume = e.volume;
-  if (e.curvature_min && e.curvature_max) shown.curvature = {{*e.curvature_min, *e.curvature_max}};
-  shown.pieces = e.pieces;
-  shown.cav_type = e.cav_type;
-  shown.cav = e.cav;
-  shown.nearest_cav = e.nearest_cav;
-  shown.nearest_distance = e.nearest_distance;
-  shown.sav = e.sav;
+  shown.measures = e;
   shown.turning = numbers(e.turning);
   shown.thumbnail = e.thumbnail;
   shown.notes = e.notes;
@@ -48,7 +39,8 @@ LibraryEntry entry_shown(const library::Entry& e) {
 }
 
 core::Result<library::Entry> entry_of(const LibraryEntry& shown) {
-  library::Entry e;
+  library::Entry e{shown.measures,         shown.kind,      {},         shown.source,
+                   profile(shown.turning), shown.thumbnail, shown.notes};
   const document::Label label{shown.name, shown.layer, shown.color};
   e.thing.unit = shown.unit;
   if (shown.surface) {
@@ -61,24 +53,6 @@ core::Result<library::Entry> entry_of(const LibraryEntry& shown) {
     return core::fail(core::ErrorCode::bad_input, "an entry has neither a curve nor a surface",
                       "give entries as library.measure does");
   }
-  e.kind = shown.kind;
-  e.source = shown.source;
-  e.size = shown.size;
-  e.length = shown.length;
-  e.volume = shown.volume;
-  if (shown.curvature) {
-    e.curvature_min = (*shown.curvature)[0];
-    e.curvature_max = (*shown.curvature)[1];
-  }
-  e.pieces = shown.pieces;
-  e.cav_type = shown.cav_type;
-  e.cav = shown.cav;
-  e.nearest_cav = shown.nearest_cav;
-  e.nearest_distance = shown.nearest_distance;
-  e.sav = shown.sav;
-  e.turning = profile(shown.turning);
-  e.thumbnail = shown.thumbnail;
-  e.notes = shown.notes;
   return e;
 }
 

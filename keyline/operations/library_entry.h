@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,16 +19,7 @@ struct LibraryEntry {
   std::string source;
   std::optional<AnyCurve> curve;
   std::optional<surface::Surface> surface;
-  double size = 0;
-  std::optional<double> length;
-  std::optional<double> volume;
-  std::optional<std::array<double, 2>> curvature;
-  std::vector<library::PieceEntry> pieces;
-  std::optional<int> cav_type;
-  std::optional<double> cav;
-  std::optional<double> nearest_cav;
-  std::optional<double> nearest_distance;
-  std::optional<double> sav;
+  library::Measures measures;
   std::vector<double> turning;
   std::string thumbnail;
   std::vector<std::string> notes;
@@ -41,16 +31,7 @@ struct LibraryEntry {
         core::field<&E::unit>("of all lengths; empty: none given"),
         core::field<&E::source>("where it comes from"), core::field<&E::curve>("exact"),
         core::field<&E::surface>("exact, whole as without its trims"),
-        core::field<&E::size>("diagonal of the box around it").in("length"),
-        core::field<&E::length>("of a curve").in("length"),
-        core::field<&E::volume>("area over its chord").in("length^2"),
-        core::field<&E::curvature>("least and largest").in("1/length"),
-        core::field<&E::pieces>("of monotone curvature, in order"),
-        core::field<&E::cav_type>("1 … 5").within(core::from_to(1, 5)),
-        core::field<&E::cav>("curve aesthetic value"),
-        core::field<&E::nearest_cav>("of the nearest curve of one matrix (types 4, 5)"),
-        core::field<&E::nearest_distance>("how far away that is").in("length"),
-        core::field<&E::sav>("surface aesthetic value, summed over its patches"),
+        core::flattened<&E::measures>(),
         core::field<&E::turning>("its profile: 64 differences of turning, even and odd parts")
             .in("radian")
             .count(0, library::kTurningParts),
