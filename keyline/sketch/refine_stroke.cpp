@@ -23,8 +23,10 @@ constexpr double kStep = 0.25;  ///< of a profile, pixels
 constexpr double kAloneWidth = 2.2;
 constexpr double kAloneRounding = 0.6;
 /// Of a normal across the picture's rim, from which a line runs along it (within 10 degrees):
-/// beyond there is paper then. What crosses the rim goes on.
+/// beyond there is paper then. What crosses the rim goes on, and of it nothing is measured that
+/// reaches beyond.
 constexpr double kAlongRim = 0.985;
+constexpr double kFlank = 1;          ///< pixels beside the ink that tell where it ends
 constexpr double kGuessWeight = 0.1;  ///< of a guessed place, where a measured one has 1
 
 /// Index clamped, or wrapped round.
@@ -163,16 +165,26 @@ Refiner::Profile Refiner::profile(Point2 p, Vector2 normal, double half_width) c
     };
     return profile_along(Along(reach, read), reach, half_width);
   }
-  const auto is_off = [](double at, double across, int size) {
-    return std::abs(across) > kAlongRim && (at < 0 || at > size);
+  const double width = tone_.level.width;
+  const double height = tone_.level.height;
+  const bool along_side = std::abs(normal.x) > kAlongRim;
+  const bool along_top = std::abs(normal.y) > kAlongRim;
+  const auto is_off_x = [&](double s) {
+    return std::abs(2 * (p.x + s * normal.x) - width) > width;
+  };
+  const auto is_off_y = [&](double s) {
+    return std::abs(2 * (p.y + s * normal.y) - height) > height;
   };
   const auto read = [&](double s) {
-    const Point2 at = p + s * normal;
-    const bool off =
-        is_off(at.x, normal.x, tone_.level.width) || is_off(at.y, normal.y, tone_.level.height);
-    return off ? 0 : darkness(at);
+    const bool off = (along_side && is_off_x(s)) || (along_top && is_off_y(s));
+    return off ? 0 : darkness(p + s * normal);
   };
-  return profile_along(Along(reach, read), reach, half_width);
+  Profile found = profile_along(Along(reach, read), reach, half_width);
+  for (const double side : {-1, 1}) {
+    const double flank = found.centre + side * (0.5 * found.width + kFlank);
+    if ((!along_side && is_off_x(flank)) || (!along_top && is_off_y(flank))) found.good = false;
+  }
+  return found;
 }
 
 template <class Values>
@@ -215,11 +227,24 @@ Refiner::Profile Refiner::profile_along(Values&& at, int reach, double half_widt
 
 double Refiner::extension(Point2 end, Vector2 direction, double half_width) const {
   const double inside = darkness(end - std::min(half_width, 2.0) * direction);
+  const double rim = rim_ahead(end, direction);
   double reach = 0;
   const double most = 2.5 * half_width + 3;
-  while (reach < most && darkness(end + reach * direction) > 0.5 * inside) reach += kStep;
+  while (reach < std::min(most, rim) && darkness(end + reach * direction) > 0.5 * inside)
+    reach += kStep;
+  if (reach >= rim) return rim;
   if (reach >= most) return 0;
   return reach - half_width;
+}
+
+double Refiner::rim_ahead(Point2 p, Vector2 direction) const {
+  const double least = std::sqrt(1 - kAlongRim * kAlongRim);
+  const auto ahead = [least](double at, double way, int size) {
+    if (std::abs(way) < least) return HUGE_VAL;
+    return ((way > 0 ? size : 0) - at) / way;
+  };
+  return std::min(ahead(p.x, direction.x, tone_.level.width),
+                  ahead(p.y, direction.y, tone_.level.height));
 }
 
 double Refiner::edge_offset(Point2 p, Vector2 out) const {

@@ -28,8 +28,8 @@ class Refiner {
 
   /// Along the normal of every sure point the ink's profile is read from the grey values; the
   /// middle between its flanks is the centre. Points in junctions, gaps and where the profile is
-  /// not that of one line are interpolated. Free ends reach to where the ink ends less half the
-  /// width (the pen was round).
+  /// not that of one line, or reaches out of the picture, are interpolated. Free ends reach to
+  /// where the ink ends less half the width (the pen was round), or to the picture's rim.
   ///
   /// Accuracy: a few hundredths of a pixel on clean lines 2 to 12 pixels wide, away from junctions.
   FineStroke refine(const RawStroke& raw) const;
@@ -52,6 +52,9 @@ class Refiner {
   template <class Values>
   static Profile profile_along(Values&& at, int reach, double half_width);
   double extension(core::Point2 end, core::Vector2 direction, double half_width) const;
+  /// Way to the picture's rim that a line running that way crosses; below 0 beyond it, infinite
+  /// where the line runs along it.
+  double rim_ahead(core::Point2 p, core::Vector2 direction) const;
   void trim_end(std::vector<core::Point2>& points, std::vector<double>& widths,
                 double half_width) const;
 
