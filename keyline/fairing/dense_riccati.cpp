@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "keyline/fairing/sweep_ends.h"
+
 namespace keyline::fairing::detail {
 namespace {
 
@@ -16,7 +18,7 @@ class Sweep {
 
   DenseStep run() {
     DenseStep step;
-    end_value();
+    set_end_model(boundary_.end_hessian, boundary_.end_gradient, value_, slope_);
     gains_.resize(cells_.size());
     values_.resize(cells_.size());
     for (std::size_t i = cells_.size(); i-- > 0 && sound_;) backward(i);
@@ -41,20 +43,6 @@ class Sweep {
     Eigen::Matrix<double, 3, S> by_state;
     Eigen::Vector3d slope;
   };
-
-  void end_value() {
-    value_.setZero();
-    slope_.setZero();
-    const Matrix6& h = boundary_.end_hessian;
-    value_.template topLeftCorner<6, 6>() = h;
-    slope_.template head<6>() = boundary_.end_gradient;
-    if constexpr (S == 12) {
-      value_.template bottomRightCorner<6, 6>() = h;
-      value_.template topRightCorner<6, 6>() = -h;
-      value_.template bottomLeftCorner<6, 6>() = -h;
-      slope_.template tail<6>() = -boundary_.end_gradient;
-    }
-  }
 
   /// Rows over the state after a cell, over the one before it: times the identity but for the pose
   /// and for what becomes of the curvatures.
@@ -97,27 +85,12 @@ class Sweep {
     slope_.template head<6>() += cell.gradient;
   }
 
-  /// Start state: with S = 12 both halves are the same unknown.
   Vector6 start_change() {
-    Matrix6 h = value_.template topLeftCorner<6, 6>();
-    Vector6 g = slope_.template head<6>();
-    if constexpr (S == 12) {
-      h += value_.template bottomRightCorner<6, 6>();
-      h += value_.template topRightCorner<6, 6>();
-      h += value_.template bottomLeftCorner<6, 6>();
-      g += slope_.template tail<6>();
-    }
-    h.diagonal() *= 1 + 1e-12;
-    for (int k = 0; k < 6; ++k) {
-      if (!boundary_.fixed_start[k]) continue;
-      h.row(k).setZero();
-      h.col(k).setZero();
-      h(k, k) = 1;
-      g(k) = 0;
-    }
-    const Eigen::LDLT<Matrix6> factor(h);
+    auto start = start_model<6>(value_, slope_, boundary_.fixed_start);
+    start.hessian.diagonal() *= 1 + 1e-12;
+    const Eigen::LDLT<Matrix6> factor(start.hessian);
     if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0)) sound_ = false;
-    return -factor.solve(g);
+    return -factor.solve(start.gradient);
   }
 
   void forward(DenseStep& step) {

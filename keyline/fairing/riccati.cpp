@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "keyline/fairing/sweep_ends.h"
+
 namespace keyline::fairing::detail {
 namespace {
 
@@ -26,22 +28,8 @@ class Sweep {
   using VectorS = Eigen::Matrix<double, S, 1>;
   using Gain = Eigen::Matrix<double, 3, S>;
 
-  void end_value() {
-    value_.setZero();
-    slope_.setZero();
-    const Matrix4& h = boundary_.end_hessian;
-    value_.template topLeftCorner<4, 4>() = h;
-    slope_.template head<4>() = boundary_.end_gradient;
-    if constexpr (S == 8) {
-      value_.template bottomRightCorner<4, 4>() = h;
-      value_.template topRightCorner<4, 4>() = -h;
-      value_.template bottomLeftCorner<4, 4>() = -h;
-      slope_.template tail<4>() = -boundary_.end_gradient;
-    }
-  }
-
   void backward() {
-    end_value();
+    set_end_model(boundary_.end_hessian, boundary_.end_gradient, value_, slope_);
     gains_.resize(stages_.size());
     offsets_.resize(stages_.size());
     for (std::size_t i = stages_.size(); i-- > 0 && sound_;) backward_step(i);
@@ -89,26 +77,11 @@ class Sweep {
     slope_ = qx + qux.transpose() * offsets_[i];
   }
 
-  /// Start state: with S = 8 both halves are the same unknown.
   Vector4 start_change() {
-    Matrix4 h = value_.template topLeftCorner<4, 4>();
-    Vector4 g = slope_.template head<4>();
-    if constexpr (S == 8) {
-      h += value_.template bottomRightCorner<4, 4>();
-      h += value_.template topRightCorner<4, 4>();
-      h += value_.template bottomLeftCorner<4, 4>();
-      g += slope_.template tail<4>();
-    }
-    for (int k = 0; k < 4; ++k) {
-      if (!boundary_.fixed_start[k]) continue;
-      h.row(k).setZero();
-      h.col(k).setZero();
-      h(k, k) = 1;
-      g(k) = 0;
-    }
-    const Eigen::LLT<Matrix4> factor(h);
+    const auto start = start_model<4>(value_, slope_, boundary_.fixed_start);
+    const Eigen::LLT<Matrix4> factor(start.hessian);
     if (factor.info() != Eigen::Success) sound_ = false;
-    return -factor.solve(g);
+    return -factor.solve(start.gradient);
   }
 
   void forward(Step& step) {
