@@ -85,5 +85,27 @@ TEST(PieceShape, LengthKeepsTheCurvatures) {
     }
 }
 
+TEST(PieceShape, DerivativesAreThoseOfTheirVariables) {
+  using enum CurvatureStep;
+  constexpr double h = 1e-5;
+  for (const double alpha : {-2.5, -1.0, -0.4, 0.5})
+    for (const auto& [k0, k1] : {std::pair{1.0, 3.0}, {-0.7, 2.0}, {9.0, 25.0}})
+      for (const CurvatureVariable v :
+           {CurvatureVariable{linear, 1}, {logarithm, 1}, {power, 0.5}, {power, 2.5}, {power, 3}}) {
+        if (alpha > 0 && k0 * k1 < 0) continue;
+        const PieceShape shape = piece_shape(alpha, k0, k1, v, v);
+        for (const int side : {0, 1}) {
+          const auto ends = [&](double by) {
+            return side == 0 ? ends_of(alpha, stepped(k0, by, v), k1)
+                             : ends_of(alpha, k0, stepped(k1, by, v));
+          };
+          const core::Vector2 by = (ends(h).chord - ends(-h).chord) / (2 * h);
+          EXPECT_NEAR(core::norm(shape.chord_by[side] - by), 0, 1e-7) << alpha << ' ' << k0;
+          EXPECT_NEAR(shape.turning_by[side], (ends(h).turning - ends(-h).turning) / (2 * h), 1e-7)
+              << alpha << ' ' << k0 << ' ' << v.power;
+        }
+      }
+}
+
 }  // namespace
 }  // namespace keyline::lac::detail
