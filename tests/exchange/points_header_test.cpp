@@ -227,6 +227,14 @@ TEST(ReadPoints, WhatStandsBeforeTheRowsIsTold) {
   EXPECT_EQ(only("walk\nhome\nlat,lon\n1,0\n0,0\n1,0.1\n").left_out.size(), 2U);
 }
 
+// Surveys write northings first: taken for x they would mirror the line.
+TEST(ReadPoints, EastingsAndNorthingsAreXAndY) {
+  const RawCurve road = only("Northing,Easting,Elevation\n10,1,7\n20,2,8\n30,4,9\n");
+  ASSERT_EQ(road.points.size(), 3U);
+  EXPECT_EQ(road.points.back(), (Point3{4, 30, 0}));
+  EXPECT_EQ(road.left_out, std::vector<std::string>{"columns beside: elevation"});
+}
+
 // A single row among what is none: where the others cannot be read tells more than that it is
 // alone.
 TEST(ReadPoints, ASingleRowIsNamedByWhatHidesTheOthers) {

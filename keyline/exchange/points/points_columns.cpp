@@ -1,5 +1,6 @@
 #include "keyline/exchange/points/points_columns.h"
 
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 
@@ -13,6 +14,10 @@ using core::Result;
 using Names = std::vector<std::string>;
 
 constexpr int kNone = PointsColumns::kNone;
+
+/// Names of the three coordinates. Surveys have eastings and northings; their heights are no third
+/// coordinate of a line in plan.
+constexpr std::initializer_list<const char*> kAxes[] = {{"x", "easting"}, {"y", "northing"}, {"z"}};
 
 int find_name(const Names& names, std::initializer_list<const char*> wanted) {
   for (const char* name : wanted) {
@@ -53,8 +58,8 @@ Result<void> take_asked(PointsColumns& columns, const Names& names, const Points
 
 void take_named(PointsColumns& columns, const Names& names) {
   std::vector<int> found;
-  for (const char* name : {"x", "y", "z"}) {
-    const int column = find_name(names, {name});
+  for (const auto& axis : kAxes) {
+    const int column = find_name(names, axis);
     if (column != kNone) found.push_back(column);
   }
   while (found.size() < 2) found.push_back(static_cast<int>(found.size()));
@@ -67,12 +72,12 @@ void take_named(PointsColumns& columns, const Names& names) {
 
 bool is_points_header(const Names& names, const PointsOptions& options) {
   if (names.size() < 2) return false;
-  const auto named = [&](const char* name) { return find_name(names, {name}) != kNone; };
+  const auto named = [&](const auto& axis) { return find_name(names, axis) != kNone; };
   const auto wanted = [&](const std::string& name) {
     return !name.empty() && find_name(names, {plain_name(name).c_str()}) != kNone;
   };
-  const bool axes = (named("x") && (named("y") || named("z"))) || (named("y") && named("z"));
-  return axes || std::any_of(options.columns.begin(), options.columns.end(), wanted) ||
+  return std::ranges::count_if(kAxes, named) >= 2 ||
+         std::any_of(options.columns.begin(), options.columns.end(), wanted) ||
          wanted(options.id_column) || wanted(options.weight_column);
 }
 
