@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -24,10 +25,12 @@ constexpr std::size_t kLeastPoints = 24;    // a section of fewer is not taken a
 constexpr std::size_t kMostPoints = 50000;  // nor one of more
 constexpr std::size_t kLeastPart = 8;       // points of a curve worth telling
 constexpr double kWide = 0.4;               // width over length of a neighbourhood that is no line
+constexpr double kStray = 2;                // what is wider than so many scatters is no line
+constexpr std::size_t kMostNear = 72;       // neighbours among which a line is looked for
 constexpr double kThick = 0.85;             // share of such points in a thick band
 constexpr double kGap = 14;                 // gap between parts, in usual steps…
 constexpr double kGapOfExtent = 0.08;       // …and in the section's size
-constexpr double kAside = 4;                // distance of a branch from its stem, in usual steps
+constexpr double kAside = 4;  // what is no part of a line lies so many steps and scatters off it
 constexpr std::array<std::size_t, 2> kWindows{9, 15};  // consecutive points looked at for zigzag
 constexpr double kZigzag = 1.9;      // their way over its chord: half a circle has 1.57
 constexpr double kZigzagWide = 0.3;  // and their width over their length: a hairpin is thin
@@ -38,8 +41,13 @@ std::vector<core::Point2> picked(const std::vector<core::Point2>& points, const 
   return some;
 }
 
-/// Width over length of the points' scatter; 1 for a round one.
-double roundness(const std::vector<core::Point2>& points, const Indices& near) {
+/// Standard deviations of some points along and across their scatter.
+struct Spread {
+  double along = 0;
+  double across = 0;
+};
+
+Spread spread_of(const std::vector<core::Point2>& points, std::span<const std::size_t> near) {
   core::Vector2 mean;
   for (const std::size_t i : near) mean = mean + (points[i] - points[near[0]]);
   mean = mean / static_cast<double>(near.size());
@@ -51,28 +59,67 @@ double roundness(const std::vector<core::Point2>& points, const Indices& near) {
     yy += d.y * d.y;
   }
   const double half = 0.5 * std::hypot(xx - yy, 2 * xy);
-  const double along = 0.5 * (xx + yy) + half;
-  return along > 0 ? std::sqrt(std::max(0.5 * (xx + yy) - half, 0.0) / along) : 1;
+  const double middle = 0.5 * (xx + yy);
+  const auto count = static_cast<double>(near.size());
+  return {std::sqrt((middle + half) / count), std::sqrt(std::max(middle - half, 0.0) / count)};
 }
 
-/// True for points in the middle of others that fill an area: wide neighbourhoods, small and large.
-std::vector<bool> fills_area(const std::vector<core::Point2>& points) {
-  const detail::KdTree tree(points);
-  std::vector<bool> wide(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    wide[i] = true;
-    for (const std::size_t count : {9U, 16U})
-      wide[i] = wide[i] && roundness(points, tree.nearest(points[i], count, points.size())) > kWide;
-  }
-  // One wide neighbourhood alone is a corner or a step: most neighbours must agree.
-  std::vector<bool> area(points.size());
+/// Width over length of the points' scatter; 1 for a round one.
+double roundness(const std::vector<core::Point2>& points, std::span<const std::size_t> near) {
+  const Spread spread = spread_of(points, near);
+  return spread.along > 0 ? spread.across / spread.along : 1;
+}
+
+/// True where most of the nine nearest agree: one alone is a corner or a step.
+std::vector<bool> agreed(const detail::KdTree& tree, const std::vector<core::Point2>& points,
+                         const std::vector<bool>& wide) {
+  std::vector<bool> most(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto near = tree.nearest(points[i], 9, points.size());
     const auto agree =
         std::count_if(near.begin(), near.end(), [&](std::size_t k) { return wide[k]; });
-    area[i] = agree >= 5;
+    most[i] = agree >= 5;
   }
-  return area;
+  return most;
+}
+
+/// How far points stray from their lines: across the fewest neighbours that lie along a line, in
+/// the middle of all points that have such neighbours.
+double scatter_of(const std::vector<core::Point2>& points, const detail::KdTree& tree) {
+  std::vector<double> scatter;
+  for (const core::Point2 p : points) {
+    for (std::size_t count = 9; count <= kMostNear; count *= 2) {
+      const Spread spread = spread_of(points, tree.nearest(p, count, points.size()));
+      if (spread.across > kWide * spread.along) continue;
+      scatter.push_back(spread.across);
+      break;
+    }
+  }
+  return scatter.empty() ? 0 : core::quantile(scatter);
+}
+
+/// How wide the points lie about each of them.
+struct Widths {
+  std::vector<bool> wide;  ///< its nearest lie nearly as wide as long, few and more of them…
+  std::vector<bool> area;  ///< …and wider than points stray from lines: they fill an area
+  double scatter = 0;      ///< how far points stray from lines
+};
+
+/// A line whose points lie as close together as they stray from it is wide among the nearest few
+/// by chance, here and there.
+Widths widths_of(const std::vector<core::Point2>& points) {
+  const detail::KdTree tree(points);
+  Widths widths{std::vector<bool>(points.size()), std::vector<bool>(points.size()),
+                scatter_of(points, tree)};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto near = tree.nearest(points[i], 16, points.size());
+    const std::span<const std::size_t> nine(near.data(), std::min<std::size_t>(9, near.size()));
+    widths.wide[i] = roundness(points, nine) > kWide && roundness(points, near) > kWide;
+    widths.area[i] = widths.wide[i] && spread_of(points, near).across > kStray * widths.scatter;
+  }
+  widths.wide = agreed(tree, points, widths.wide);
+  widths.area = agreed(tree, points, widths.area);
+  return widths;
 }
 
 /// Groups of points linked by steps of at most `gap`, in the order of their first point.
@@ -115,32 +162,33 @@ struct Parted {
   Indices aside;
 };
 
-Parted take_stem(const std::vector<core::Point2>& points, const Indices& group, double usual) {
+Parted take_stem(const std::vector<core::Point2>& points, const Indices& group, double aside) {
   const auto some = picked(points, group);
   const auto tree = detail::spanning_tree(some, detail::neighbour_lists(some), true);
   std::vector<core::Point2> line;
   for (const std::size_t k : detail::longest_path(some.size(), tree)) line.push_back(some[k]);
   Parted parted;
   for (std::size_t k = 0; k < some.size(); ++k)
-    (distance_to_line(some[k], line) > kAside * usual ? parted.aside : parted.stem)
-        .push_back(group[k]);
+    (distance_to_line(some[k], line) > aside ? parted.aside : parted.stem).push_back(group[k]);
   return parted;
 }
 
-bool is_zigzag(const std::vector<core::Point2>& line, const Indices& window) {
+/// Whether consecutive points go to and fro over more than they stray from their line.
+bool is_zigzag(const std::vector<core::Point2>& line, const Indices& window, double scatter) {
   const double way = core::polygon_length(picked(line, window), false);
   const double chord = core::distance(line[window.front()], line[window.back()]);
-  return way >= kZigzag * chord && roundness(line, window) >= kZigzagWide;
+  return way >= kZigzag * chord && roundness(line, window) >= kZigzagWide &&
+         spread_of(line, window).across > kStray * scatter;
 }
 
 /// Which points of an ordered curve belong to a zigzag.
-std::vector<bool> zigzags(const std::vector<core::Point2>& line) {
+std::vector<bool> zigzags(const std::vector<core::Point2>& line, double scatter) {
   std::vector<bool> flagged(line.size());
   for (const std::size_t size : kWindows) {
     Indices window(size);
     for (std::size_t k = 0; k + size <= line.size(); ++k) {
       std::iota(window.begin(), window.end(), k);
-      if (!is_zigzag(line, window)) continue;
+      if (!is_zigzag(line, window, scatter)) continue;
       for (const std::size_t i : window) flagged[i] = true;
     }
   }
@@ -167,18 +215,20 @@ class Sorter {
   void run() {
     Indices all(points_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    const std::vector<bool> area = fills_area(points_);
-    // Where nearly all points fill areas the section is a thick band: its middle is found later.
-    thick_ = std::count(area.begin(), area.end(), true) >
-             static_cast<long>(kThick * static_cast<double>(area.size()));
+    const Widths widths = widths_of(points_);
+    scatter_ = widths.scatter;
+    // Where nearly all points lie wide the section is a thick band: its middle is found later.
+    thick_ = std::count(widths.wide.begin(), widths.wide.end(), true) >
+             static_cast<long>(kThick * static_cast<double>(points_.size()));
     Indices lines;
-    for (const std::size_t i : all) (area[i] && !thick_ ? left_ : lines).push_back(i);
+    for (const std::size_t i : all) (widths.area[i] && !thick_ ? left_ : lines).push_back(i);
     std::vector<double> steps;
     const auto some = picked(points_, lines);
     for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
       steps.push_back(edge.length);
-    usual_ = core::quantile(steps);
-    gap_ = std::max(kGap * usual_, kGapOfExtent * detail::extent_of(some));
+    const double usual = core::quantile(steps);
+    aside_ = kAside * std::max(usual, scatter_);
+    gap_ = std::max(kGap * usual, kGapOfExtent * detail::extent_of(some));
     sort(lines);
     std::stable_sort(curves_.begin(), curves_.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -195,7 +245,7 @@ class Sorter {
       } else if (thick_) {
         curves_.emplace_back(group, detail::extent_of(picked(points_, group)));
       } else {
-        const Parted parted = take_stem(points_, group, usual_);
+        const Parted parted = take_stem(points_, group, aside_);
         add(parted.stem);
         if (!parted.aside.empty()) sort(parted.aside);
       }
@@ -209,7 +259,7 @@ class Sorter {
     for (const std::size_t k : ordering.dropped) left_.push_back(stem[k]);
     Indices along;
     for (const std::size_t k : ordering.order) along.push_back(stem[k]);
-    const std::vector<bool> zigzag = zigzags(picked(points_, along));
+    const std::vector<bool> zigzag = zigzags(picked(points_, along), scatter_);
     Indices stretch;
     for (std::size_t k = 0; k < along.size(); ++k) {
       if (!zigzag[k]) {
@@ -234,7 +284,8 @@ class Sorter {
   std::vector<std::pair<Indices, double>> curves_;
   Indices left_;
   bool thick_ = false;
-  double usual_ = 0;
+  double scatter_ = 0;
+  double aside_ = 0;
   double gap_ = 0;
 };
 

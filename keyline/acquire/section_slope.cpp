@@ -13,7 +13,8 @@
 namespace keyline::acquire::detail {
 namespace {
 
-constexpr std::size_t kNeighbours = 12;  // enough for a parabola and a slope
+constexpr std::size_t kNeighbours = 12;       // enough for a parabola and a slope…
+constexpr std::size_t kMostNeighbours = 384;  // …unless the band is wider than these lie apart
 constexpr double kGain = 6;        // what the slope must divide the sum of squared residuals by
 constexpr double kSteepest = 1.5;  // a surface nearly along the plane has no section to move to
 constexpr double kThick = 0.02;    // scatter about the parabola over length: less needs no slope
@@ -56,9 +57,24 @@ Nearby nearby(std::span<const core::Point2> feet, std::span<const double> away,
   return n;
 }
 
+bool is_line(const Nearby& n) { return n.length > 0 && n.width <= kThin * n.length; }
+
+/// The fewest of the nearest that lie along a line: where a dense cloud slopes across the plane,
+/// its band is wider than a few neighbours reach. All that are looked at where they fill an area.
+Nearby nearby_line(std::span<const core::Point2> feet, std::span<const double> away,
+                   const KdTree& tree, core::Point2 at) {
+  std::size_t count = kNeighbours;
+  Nearby n = nearby(feet, away, tree.nearest(at, count, feet.size()), at);
+  while (!is_line(n) && 2 * count <= std::min(kMostNeighbours, feet.size())) {
+    count *= 2;
+    n = nearby(feet, away, tree.nearest(at, count, feet.size()), at);
+  }
+  return n;
+}
+
 /// Change of v with the distance from the plane, where it explains the neighbours.
 std::optional<double> slope_of(const Nearby& n) {
-  if (!(n.length > 0) || n.width > kThin * n.length) return std::nullopt;
+  if (!is_line(n)) return std::nullopt;
   const double reach = n.away.cwiseAbs().maxCoeff();
   if (!(reach > 0)) return std::nullopt;
   Eigen::MatrixXd rows(n.u.size(), 4);
@@ -86,8 +102,7 @@ std::vector<core::Point2> slide_to_section(std::span<const core::Point2> feet,
   if (feet.size() < 2 * kNeighbours) return moved;
   const KdTree tree(feet);
   for (std::size_t i = 0; i < feet.size(); ++i) {
-    const auto near = tree.nearest(feet[i], kNeighbours, feet.size());
-    const Nearby n = nearby(feet, away, near, feet[i]);
+    const Nearby n = nearby_line(feet, away, tree, feet[i]);
     if (const auto slope = slope_of(n))
       moved[i] = feet[i] - *slope * away[i] * core::Vector2{-n.along.y, n.along.x};
   }

@@ -49,6 +49,38 @@ TEST(Section, FeetGoAlongTheSurface) {
   EXPECT_LE(most, 2e-3);  // straight onto the plane: 0.8 * 0.03
 }
 
+// Where a cloud is so dense that its band is wider than neighbours lie apart, feet go along the
+// surface as well, and its line does not fall apart.
+TEST(Section, DenseCloudsStayWhole) {
+  for (const int count : {1200, 2500, 5000}) {
+    Random random(8);
+    RawCurve cloud = empty_cloud();
+    add_cone(cloud, random, 0, 1, 0.8, count);
+    const RawCurve cut = section_plane(cloud, kAcross, 0.03).value();
+    double most = 0;
+    for (const Point3& p : cut.points) most = std::max(most, std::abs(std::hypot(p.y, p.z) - 1));
+    EXPECT_LE(most, 2e-3) << count;
+    EXPECT_EQ(section_curves(cut, kAcross).size(), 1U) << count;
+  }
+}
+
+// Points of a line that lie as close together as they stray from it are wide among the nearest few
+// by chance: an area is wide from farther off, too.
+TEST(Section, LinesThatStrayAsMuchAsTheyStepStayWhole) {
+  Random random(9);
+  RawCurve cut = empty_cloud();
+  cut.scattered = true;
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = random.uniform(0, 2 * core::kPi);
+    const double r = 1 + random.uniform(-0.005, 0.005);
+    cut.points.push_back({1, r * std::cos(angle), r * std::sin(angle)});
+    cut.points.push_back({1, 3 + r * std::cos(angle + 1), r * std::sin(angle + 1)});
+  }
+  const auto curves = section_curves(cut, kAcross);
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves[0].points.size() + curves[1].points.size(), 4000U);
+}
+
 TEST(Symmetry, WithoutAPlaneTheBoxAndPlanesAreOffered) {
   // Two turns of a coil: half a turn about a line across matches, no mirror does.
   std::vector<Point3> coil;
