@@ -317,5 +317,21 @@ TEST(Evaluation, PinnedFeetStay) {
   EXPECT_EQ(chain.feet[2].fraction, 1);
 }
 
+// Where gaps alone are closed every variable is held by what it moves the end by: a place by
+// itself, a turn by the length, a curvature by a tenth of the length's square, a slope by what
+// bends between the ends.
+TEST(Evaluation, WhereGapsAreClosedVariablesStayByWhatTheyMove) {
+  ChainFitOptions options = fine();
+  options.close_gaps = true;
+  FitChain chain = gapped();
+  const Model model = Evaluation(chain, {}, options).model();
+  const double length = 0.45, square = length * length, bend = 2.5 - 1.2;
+  const double held[] = {1,           1, length, 0.1 * square, 0.3, 0.02 * bend * square + 1e-6,
+                         0.1 * square};
+  for (int k = 0; k < 7; ++k)
+    EXPECT_NEAR(model.stages[1].hessian(k, k), held[k] * held[k], 1e-15) << k;
+  EXPECT_EQ(model.stages[1].gradient.norm(), 0);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

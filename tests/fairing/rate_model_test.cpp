@@ -329,5 +329,24 @@ TEST(SolveRates, ComesToTheSameFromAfar) {
   EXPECT_LE(far, 1);
 }
 
+// A point outside the tolerance costs the same whichever of all it is.
+TEST(RateModel, EveryPointCounts) {
+  std::vector<double> more;
+  for (const bool last : {false, true}) {
+    Given g = laid_out();
+    g.problem.points = &g.points;
+    const double before = RateModel(g.chain, g.problem).cost;
+    FitPoint& point = last ? g.points.back() : g.points.front();
+    const FitJoint& at = last ? g.chain.joints.back() : g.chain.joints.front();
+    point.position =
+        point.position + 0.02 * core::perpendicular_left(core::unit_vector(at.direction));
+    const RateModel model(g.chain, g.problem);
+    EXPECT_NEAR(model.max_offset, 2, 1e-3);
+    more.push_back(model.cost - before);
+  }
+  EXPECT_GT(more[0], 0.01);
+  EXPECT_NEAR(more[0], more[1], 1e-2 * more[0]);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

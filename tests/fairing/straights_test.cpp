@@ -1,6 +1,7 @@
 #include "keyline/fairing/straights.h"
 
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -69,23 +70,23 @@ struct Given {
   DenseCurve curve;
   std::vector<FitPoint> points;
 };
-Given bent_line(double noise, double around) {
+Given bent_line(double noise, double around, double first = 0.3, std::optional<double> after = {}) {
   Given g;
   constexpr int kCells = 200;
   double direction = 0;
   core::Point2 at{0, 0};
   for (int i = 0; i <= kCells; ++i) {
     const double t = double(i) / kCells;
-    const bool line = t > 0.3 && t < 0.7;
+    const double bend = t <= first ? around : t < 0.7 ? 0 : after.value_or(around);
     g.curve.at.push_back(t);
-    g.curve.joints.push_back({at, direction, line ? 0 : around});
+    g.curve.joints.push_back({at, direction, bend});
     const core::Vector2 left{-std::sin(direction), std::cos(direction)};
     if (i % 2 == 0) {
       const double off = (i / 2) % 2 == 0 ? noise : -noise;
       g.points.push_back({.position = at + off * left});
       g.curve.feet.push_back({std::min(i, kCells - 1), i == kCells ? 1.0 : 0.0});
     }
-    direction += line ? 0 : around / kCells;
+    direction += bend / kCells;
     at = at + 1.0 / kCells * core::Vector2{std::cos(direction), std::sin(direction)};
   }
   set_free(g.curve);
@@ -113,6 +114,14 @@ TEST(StraightStretches, StandOutAgainstWhatIsAround) {
       straight_stretches(bent_line(1e-4, 0.5).curve, bent_line(1e-4, 0.5).points, 1e-4).size(), 1U);
   EXPECT_TRUE(
       straight_stretches(bent_line(1e-4, 0.1).curve, bent_line(1e-4, 0.1).points, 1e-4).empty());
+}
+
+// Where a quarter of its length leads out of an open curve nothing is around, however bent its end.
+TEST(StraightStretches, BeyondTheEndsOfAnOpenCurveNothingIsBent) {
+  const Given weak = bent_line(1e-4, 6, 0.05, 0.05);
+  EXPECT_TRUE(straight_stretches(weak.curve, weak.points, 1e-4).empty());
+  const Given strong = bent_line(1e-4, 6, 0.05, 0.5);
+  EXPECT_EQ(straight_stretches(strong.curve, strong.points, 1e-4).size(), 1U);
 }
 
 }  // namespace

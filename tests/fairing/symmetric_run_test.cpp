@@ -83,5 +83,22 @@ TEST(FeetOn, AreOfThePointsOwnLap) {
   }
 }
 
+// One of many points may be off its image by twice the tolerance, however small their mean square.
+TEST(MirrorWithinNoise, NoPointIsFartherOffThanTwiceTheTolerance) {
+  acquire::KeyLine line;
+  line.length = 2;
+  line.noise = 1;
+  for (int i = 0; i <= 200; ++i) {
+    const double x = (i - 100) / 100.0;
+    line.points.push_back({x, x * x});
+  }
+  line.points[40].y += 0.025;
+  const double off = mirror_within_noise(line, 1)->largest;
+  EXPECT_GT(off, 0.01);
+  EXPECT_LT(off, 0.026);
+  EXPECT_TRUE(mirror_within_noise(line, off / 1.9));
+  EXPECT_FALSE(mirror_within_noise(line, off / 2.1));
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
