@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "keyline/operations/at_once.h"
 #include "keyline/operations/fair.h"
 
+#include "copies.h"
 #include "session.h"
 #include "terminal.h"
 
@@ -173,20 +175,49 @@ Result<Faired> kept(Answers answers, const std::vector<json>& things, const std:
   return faired;
 }
 
-/// All key-lines of the input; the best until then where the work is cancelled.
+/// The requests for all key-lines.
+std::vector<json> requests_of(Session& session, const std::vector<json>& things) {
+  std::vector<json> requests(things.size(), session.of(0));
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    requests[i].update(subject_of(things[i]));
+    if (!requests[i].contains("keep_inside") && things[i].contains("keep_inside"))
+      requests[i]["keep_inside"] = things[i]["keep_inside"];
+  }
+  return requests;
+}
+
+/// The answer to a curve as that of another which is the same, and says so.
+Result<operations::Outcome> as_copy(Result<operations::Outcome> answer, const std::string& of) {
+  if (!answer) return answer;
+  auto told =
+      std::make_shared<operations::FairAnswer>(*answer->result_as<operations::FairAnswer>());
+  told->report.push_back("in its plane the same curve as " + of + ": its answer");
+  answer->result = std::move(told);
+  return answer;
+}
+
+/// All key-lines of the input; the best until then where the work is cancelled. Those that are the
+/// same to rounding (the two sides of a plate) are solved for once.
 Result<Faired> fair_all(Session& session, const std::vector<json>& things) {
   Answers answers(things.size());
-  const json options = session.of(0);
-  const auto fair_one = [&](std::size_t i, const core::Progress& progress) {
-    json request = options;
-    request.update(subject_of(things[i]));
-    if (!request.contains("keep_inside") && things[i].contains("keep_inside"))
-      request["keep_inside"] = things[i]["keep_inside"];
-    answers[i] = session.perform("fair", request, progress);
-    return answers[i]->has_value();
+  const std::vector<json> requests = requests_of(session, things);
+  const std::vector<std::size_t> original = originals(requests);
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < things.size(); ++i)
+    if (original[i] == i) own.push_back(i);
+  const auto fair_one = [&](std::size_t k, const core::Progress& progress) {
+    auto& answer = answers[own[k]];
+    answer = session.perform("fair", requests[own[k]], progress);
+    return answer->has_value();
   };
-  operations::work_on_all(session.progress(), things.size(), session.door().threads, fair_one);
+  operations::work_on_all(session.progress(), own.size(), session.door().threads, fair_one);
   end_progress();
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const std::size_t k = original[i];
+    if (k == i || !answers[k]) continue;
+    const std::string name = things[k]["name"].get<std::string>();
+    answers[i] = as_copy(*answers[k], called(name, "curve", k, things.size()));
+  }
   return kept(std::move(answers), things, session.files().front());
 }
 

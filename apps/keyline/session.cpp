@@ -169,6 +169,7 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
 }
 
 Result<json> Session::write(const presentation::Pages& pages, json document, Ending ending) const {
+  if (door_.output.empty()) return write(pages, presentation::Output{}, ending);
   if (door_.tolerance && !document.contains("tolerance")) document["tolerance"] = *door_.tolerance;
   const auto output = presentation::output_of(std::move(document));
   if (!output) return std::unexpected(output.error());

@@ -1,10 +1,14 @@
 #include "keyline/fairing/calm.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "keyline/analysis/comb_figures.h"
+#include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -226,20 +230,42 @@ class Calming {
     while (!options_.band.progress.stop_requested() && left() > turns && single());
   }
 
-  /// Solves with these extrema alone; takes what is found where it is worth it.
-  bool take(const std::vector<int>& extrema, bool any_count = false) {
-    if (std::ranges::count(in_vain_, extrema) > 0) return false;
-    in_vain_.push_back(extrema);
-    DenseCurve trial = curve_;
-    const BandReport found = solve_without(trial, points_, extrema, report_.spring, options_);
+  /// A curve with some extrema alone, where it is worth it.
+  struct Trial {
+    DenseCurve curve;
+    BandReport report;
+  };
+
+  /// Solves with these extrema alone.
+  std::optional<Trial> attempt(const std::vector<int>& extrema, bool any_count) const {
+    Trial trial{curve_, {}};
+    trial.report = solve_without(trial.curve, points_, extrema, report_.spring, options_);
+    const BandReport& found = trial.report;
     if (!found.within || found.rms > options_.most_rms ||
         found.energy > options_.worth * report_.energy)
-      return false;
-    if (!any_count && turns_of(trial).size() >= turns_of(curve_).size()) return false;
-    curve_ = std::move(trial);
-    report_ = found;
+      return {};
+    if (!any_count && turns_of(trial.curve).size() >= turns_of(curve_).size()) return {};
+    return trial;
+  }
+
+  void accept(Trial trial) {
+    curve_ = std::move(trial.curve);
+    report_ = trial.report;
     in_vain_.clear();
+  }
+
+  /// Whether these extrema are new with the curve as it is.
+  bool untold(const std::vector<int>& extrema) {
+    if (std::ranges::count(in_vain_, extrema) > 0) return false;
+    in_vain_.push_back(extrema);
     return true;
+  }
+
+  bool take(const std::vector<int>& extrema, bool any_count = false) {
+    if (!untold(extrema)) return false;
+    auto trial = attempt(extrema, any_count);
+    if (trial) accept(std::move(*trial));
+    return trial.has_value();
   }
 
   /// As many waves at once as should fit into the band and the mean square; where that fails, half
@@ -276,24 +302,68 @@ class Calming {
     return small;
   }
 
+  /// The least wave that is worth it; as many as there are threads are tried at a time.
   bool single() {
     const std::vector<int> extrema = turns_of(curve_);
+    const std::vector<Removal> all = removals(curve_, extrema);
     int in_row = 0;
     untried_ = false;
-    for (const Removal& r : removals(curve_, extrema)) {
-      if (r.sideways > kHopeless * options_.band.tolerance) break;
-      if (refused(r)) continue;
-      untried_ = in_row == kInRow || tries_ == kTries;
-      if (untried_) break;
-      ++in_row;
-      ++tries_;
-      if (take(without(extrema, {r}))) {
-        most_at_once_ = std::max<std::size_t>(most_at_once_, 2);
-        return true;
+    for (std::size_t next = 0;;) {
+      const std::vector<Removal> few = following(all, next, in_row);
+      if (few.empty()) return false;
+      std::vector<std::optional<Trial>> trials = attempts(extrema, few);
+      for (std::size_t i = 0; i < few.size(); ++i) {
+        ++in_row;
+        ++tries_;
+        if (trials[i]) {
+          accept(std::move(*trials[i]));
+          untried_ = false;
+          most_at_once_ = std::max<std::size_t>(most_at_once_, 2);
+          return true;
+        }
+        refusals_.push_back(few[i].sideways);
       }
+    }
+  }
+
+  /// The next ones to be tried, as if each of them were refused.
+  std::vector<Removal> following(const std::vector<Removal>& all, std::size_t& next, int in_row) {
+    const auto most = static_cast<std::size_t>(numeric::thread_count(options_.threads));
+    const std::size_t refused_before = refusals_.size();
+    std::vector<Removal> few;
+    for (; next < all.size() && few.size() < most; ++next) {
+      const Removal& r = all[next];
+      const int tried = static_cast<int>(few.size());
+      const bool hopeless = r.sideways > kHopeless * options_.band.tolerance;
+      if (!hopeless && refused(r)) continue;
+      untried_ = !hopeless && (in_row + tried == kInRow || tries_ + tried == kTries);
+      if (hopeless || untried_) {
+        next = all.size();
+        break;
+      }
+      few.push_back(r);
       refusals_.push_back(r.sideways);
     }
-    return false;
+    refusals_.resize(refused_before);
+    return few;
+  }
+
+  /// With each of them gone; those after the first that is worth it may be left out.
+  std::vector<std::optional<Trial>> attempts(const std::vector<int>& extrema,
+                                             const std::vector<Removal>& few) {
+    std::vector<std::vector<int>> left;
+    for (const Removal& r : few) left.push_back(without(extrema, {r}));
+    std::vector<char> fresh;
+    for (const std::vector<int>& one : left) fresh.push_back(untold(one));
+    std::vector<std::optional<Trial>> trials(few.size());
+    std::atomic<std::size_t> first = few.size();  // that is worth it
+    numeric::parallel_for(few.size(), options_.threads, [&](std::size_t i) {
+      if (fresh[i] == 0 || first.load() < i) return;
+      trials[i] = attempt(left[i], false);
+      for (std::size_t now = first.load(); trials[i] && i < now;)
+        if (first.compare_exchange_weak(now, i)) break;
+    });
+    return trials;
   }
 
   /// The same swing again: it was tried and is not worth it.

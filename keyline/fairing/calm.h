@@ -29,6 +29,7 @@ struct CalmOptions {
   /// No more turns than these, whatever the offsets and the energy, as long as the tolerance holds.
   std::optional<int> most_turns = {};
   double worth = 1.5;  ///< a wave stays where the energy without it is more than so many times
+  int threads = 1;     ///< that single waves are tried on; the answer does not depend on it
 };
 
 /// Waves that a curve is left with.

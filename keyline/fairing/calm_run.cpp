@@ -181,6 +181,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   calm_options.most_rms = options.residuals.most(kErrorsOfWaves);
   calm_options.worth = kWorth;
   calm_options.most_turns = options.most_turns;
+  calm_options.threads = options.threads;
   calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
   const Calmed calmed = calm_curve(run.curve, points, closed, options, calm_options);
   run.band = calmed.band;

@@ -18,6 +18,7 @@ struct CalmRunOptions {
   HeldEnd end;
   Members members;   ///< empty: every fitted point is a measured one
   bool arcs = true;  ///< next to free, of pieces
+  int threads = 1;   ///< see CalmOptions
   core::Progress progress;
 };
 

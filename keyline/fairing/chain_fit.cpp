@@ -21,7 +21,8 @@ using detail::kNextCurvature;
 using detail::Model;
 using detail::Stage;
 
-constexpr double kSmall = 0.3;      // curvature beside that of the other end: an inflection is near
+constexpr double kSmall = 0.3;    // curvature beside that of the other end: an inflection is near
+constexpr double kAtHome = 1e-8;  // of a piece: a foot that moves less is there, to the last digit
 constexpr double kEndWeight = 1e9;  // times a point's weight: what is held gives way by a billionth
 
 /// The boundary of a closed chain or of an open one with held ends.
@@ -147,8 +148,9 @@ class Descent {
  public:
   Descent(FitChain& chain, const std::vector<FitPoint>& points, const ChainFitOptions& options)
       : chain_(chain), points_(points), options_(options) {
-    for (int round = 0; round < 2; ++round) Evaluation(chain, points, options).move_feet();
-    model_ = Evaluation(chain, points, options).model();
+    Evaluation evaluation(chain, points, options);
+    for (int round = 0; round < 2; ++round) evaluation.move_feet();
+    model_ = evaluation.model();
     damping_.value = options.close_gaps ? 1e-9 : 1e-2;
   }
 
@@ -227,9 +229,12 @@ std::vector<double> settle_feet(FitChain& chain, const std::vector<FitPoint>& po
   ChainFitOptions options;
   options.fine = true;
   Evaluation evaluation(chain, points, options);
-  for (int round = 0; round < rounds; ++round) evaluation.move_feet();
   std::vector<double> result(points.size());
-  for (std::size_t j = 0; j < points.size(); ++j) result[j] = evaluation.offset(j);
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    for (int round = 0; round < rounds; ++round)
+      if (evaluation.move_foot(j) < kAtHome) break;
+    result[j] = evaluation.offset(j);
+  }
   return result;
 }
 

@@ -24,6 +24,8 @@ void add_seam(Gaps& gaps, const DenseCurve& curve) {
 
 Gaps gaps_of(const DenseCurve& curve, const Shapes& shapes) {
   Gaps gaps;
+  gaps.end.reserve(shapes.size());
+  gaps.cell.reserve(shapes.size());
   for (std::size_t i = 0; i + 1 < curve.joints.size(); ++i) {
     gaps.end.push_back(place_in_cell(curve, shapes[i], static_cast<int>(i), 1));
     const CellPlace& end = gaps.end.back();
@@ -38,6 +40,8 @@ Gaps gaps_of(const DenseCurve& curve, const Shapes& shapes) {
 
 Spots spots_of(const DenseCurve& curve, const Shapes& shapes, const std::vector<FitPoint>& points) {
   Spots spots;
+  spots.place.reserve(points.size());
+  spots.offset.reserve(points.size());
   for (std::size_t j = 0; j < points.size(); ++j) {
     spots.place.push_back(place_of(curve, shapes, curve.feet[j]));
     spots.offset.push_back(offset_of(points[j], spots.place.back()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace keyline::fairing::detail {
 namespace {
@@ -222,9 +223,10 @@ void Evaluation::keep_still(Model& m) const {
   }
 }
 
-void Evaluation::move_foot(std::size_t j) {
-  if (pinned(j)) return;
+double Evaluation::move_foot(std::size_t j) {
+  if (pinned(j)) return 0;
   Foot& foot = chain_.feet[j];
+  double moved = 0;
   const int count = static_cast<int>(tables_.size());
   for (int hop = 0; hop < 4; ++hop) {
     const lac::PieceTable& table = tables_[foot.piece];
@@ -240,12 +242,14 @@ void Evaluation::move_foot(std::size_t j) {
     const bool back = to < 0 && (chain_.closed || foot.piece > 0);
     const bool on = to > 1 && (chain_.closed || foot.piece + 1 < count);
     if (!back && !on) {
-      foot.fraction = std::clamp(to, 0.0, 1.0);
-      return;
+      const double from = std::exchange(foot.fraction, std::clamp(to, 0.0, 1.0));
+      return moved + std::abs(foot.fraction - from);
     }
+    moved += std::abs((on ? 1 : 0) - foot.fraction);
     foot.piece = (foot.piece + (on ? 1 : count - 1)) % count;
     foot.fraction = on ? 0 : 1;
   }
+  return moved;
 }
 
 }  // namespace keyline::fairing::detail

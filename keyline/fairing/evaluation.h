@@ -36,6 +36,8 @@ class Evaluation {
 
   /// One Newton step of every foot along the chain. Feet of points pinned to an end stay there.
   void move_feet();
+  /// The same of one; returns how much of a piece it moved.
+  double move_foot(std::size_t j);
 
   double offset(std::size_t j) const;
 
@@ -75,7 +77,6 @@ class Evaluation {
   void add_prior(Model& m, int i);
   void add_seam(Model& m);
   void keep_still(Model& m) const;
-  void move_foot(std::size_t j);
 
   FitChain& chain_;
   const std::vector<FitPoint>& points_;

@@ -20,6 +20,102 @@ constexpr double kDrift = 0.25;    // of a piece's end beside the curve, as part
                                    // neighbours can make up for it
 constexpr double kNearInflection = 1e-2;  // of the other end's curvature: less is an inflection's
 
+/// The graph between two places, and how pieces between them depart from it.
+class Stretch {
+ public:
+  Stretch(const DenseCurve& curve, int from, int to)
+      : start_(curve.value[from]), end_(curve.value[to]) {
+    const double length = curve.at[to] - curve.at[from];
+    for (int i = from + 1; i <= to; ++i) {
+      value_.push_back(curve.value[i]);
+      step_.push_back(curve.at[i] - curve.at[i - 1]);
+      share_.push_back((curve.at[i] - curve.at[from]) / length);
+    }
+    off_.resize(value_.size());
+  }
+
+  /// How much farther than the curve the piece of this slope turns.
+  double turn(double alpha) {
+    const lac::PieceCurvature piece(start_, end_, alpha);
+    double turn = 0;
+    double last = 0;
+    for (std::size_t i = 0; i < off_.size(); ++i) {
+      off_[i] = piece.curvature(share_[i]) - value_[i];
+      turn += 0.5 * step_[i] * (off_[i] + last);
+      last = off_[i];
+    }
+    alpha_ = alpha;
+    return turn;
+  }
+
+  /// What the variation of the piece is more than the curve's.
+  double excess(double alpha) {
+    take(alpha);
+    double excess = 0;
+    double last = 0;
+    for (std::size_t i = 0; i < off_.size(); ++i) {
+      excess += (off_[i] - last) * (off_[i] - last) / step_[i];
+      last = off_[i];
+    }
+    return excess;
+  }
+
+  /// How far it bows from the curve, about.
+  double bow(double alpha) {
+    take(alpha);
+    std::vector<double> sideways;
+    double away = 0;
+    double turn = 0;
+    double last = 0;
+    for (std::size_t i = 0; i < off_.size(); ++i) {
+      away = away + step_[i] * (turn + 0.25 * step_[i] * (off_[i] + last));
+      turn += 0.5 * step_[i] * (off_[i] + last);
+      last = off_[i];
+      sideways.push_back(away);
+    }
+    double most = kDrift * std::abs(away);
+    for (std::size_t i = 0; i < sideways.size(); ++i)
+      most = std::max(most, std::abs(sideways[i] - share_[i] * away));
+    return most;
+  }
+
+ private:
+  void take(double alpha) {
+    if (alpha != alpha_) turn(alpha);
+  }
+
+  double start_;
+  double end_;
+  std::vector<double> value_;  ///< after the start
+  std::vector<double> step_;
+  std::vector<double> share_;
+  std::vector<double> off_;  ///< of the piece of slope
+  double alpha_ = HUGE_VAL;
+};
+
+/// The slope whose piece turns as far as the curve, or comes nearest to it: the flatter the slope,
+/// the longer curvature stays near its lesser end.
+double best_slope(Stretch& stretch, core::Interval range) {
+  struct End {
+    double alpha;
+    double turn;
+  };
+  const auto at = [&](double alpha) { return End{alpha, stretch.turn(alpha)}; };
+  End middle = at(std::clamp(-1.0, range.low, range.high));
+  if (range.high <= range.low || middle.turn == 0) return middle.alpha;
+  End low = at(range.low);
+  End high = at(range.high);
+  if (low.turn * high.turn >= 0)
+    return std::abs(low.turn) < std::abs(high.turn) ? low.alpha : high.alpha;
+  for (int step = 0; step < kTurnSteps; ++step) {
+    (middle.turn * low.turn > 0 ? low : high) = middle;
+    const bool near = std::abs(low.turn - high.turn) < 1e-12;
+    const double share = near ? 0.5 : low.turn / (low.turn - high.turn);
+    middle = at(std::lerp(low.alpha, high.alpha, std::clamp(share, 0.1, 0.9)));
+  }
+  return middle.alpha;
+}
+
 }  // namespace
 
 GraphPieces::GraphPieces(const DenseCurve& curve, const std::vector<int>& turns,
@@ -89,32 +185,6 @@ GraphPieces::Run GraphPieces::make_run(int from, int to) const {
   return run;
 }
 
-GraphPieces::Fit GraphPieces::fit_of(int from, int to, double alpha) const {
-  const double a = curve_.value[from];
-  const double b = curve_.value[to];
-  const double length = curve_.at[to] - curve_.at[from];
-  const lac::PieceCurvature piece(a, b, alpha);
-  Fit fit{alpha, 0, 0};
-  double last = 0;
-  std::vector<double> sideways{0};
-  for (int i = from + 1; i <= to; ++i) {
-    const double v = (curve_.at[i] - curve_.at[from]) / length;
-    const double off = piece.curvature(v) - curve_.value[i];
-    const double step = curve_.at[i] - curve_.at[i - 1];
-    fit.loss += (off - last) * (off - last) / step;
-    sideways.push_back(sideways.back() + step * (fit.turn + 0.25 * step * (off + last)));
-    fit.turn += 0.5 * step * (off + last);
-    last = off;
-  }
-  double most = kDrift * std::abs(sideways.back());
-  for (int i = from; i <= to; ++i) {
-    const double v = (curve_.at[i] - curve_.at[from]) / length;
-    most = std::max(most, std::abs(sideways[i - from] - v * sideways.back()));
-  }
-  fit.loss = fit.loss / energy_ + kBowPrice * std::pow(most / tolerance_, 2);
-  return fit;
-}
-
 core::Interval GraphPieces::slopes_of(int from, int to) const {
   const double a = curve_.value[from];
   const double b = curve_.value[to];
@@ -127,22 +197,13 @@ core::Interval GraphPieces::slopes_of(int from, int to) const {
   return {low, high};
 }
 
-/// The slope whose piece turns as far as the curve, or comes nearest to it: the flatter the slope,
-/// the longer curvature stays near its lesser end.
 GraphPieces::Fit GraphPieces::best_fit(int from, int to) const {
   const core::Interval range = slopes_of(from, to);
-  Fit middle = fit_of(from, to, std::clamp(-1.0, range.low, range.high));
-  if (to - from < 2 || range.high <= range.low || middle.turn == 0) return middle;
-  Fit low = fit_of(from, to, range.low);
-  Fit high = fit_of(from, to, range.high);
-  if (low.turn * high.turn >= 0) return std::abs(low.turn) < std::abs(high.turn) ? low : high;
-  for (int step = 0; step < kTurnSteps; ++step) {
-    (middle.turn * low.turn > 0 ? low : high) = middle;
-    const bool near = std::abs(low.turn - high.turn) < 1e-12;
-    const double share = near ? 0.5 : low.turn / (low.turn - high.turn);
-    middle = fit_of(from, to, std::lerp(low.alpha, high.alpha, std::clamp(share, 0.1, 0.9)));
-  }
-  return middle;
+  Stretch stretch(curve_, from, to);
+  const double alpha =
+      to - from < 2 ? std::clamp(-1.0, range.low, range.high) : best_slope(stretch, range);
+  const double excess = stretch.excess(alpha) / energy_;
+  return {alpha, excess + kBowPrice * std::pow(stretch.bow(alpha) / tolerance_, 2)};
 }
 
 void GraphPieces::tabulate(Run& run) const {

@@ -32,7 +32,6 @@ class GraphPieces {
   struct Fit {
     double alpha = -1;
     double loss = 0;
-    double turn = 0;  ///< how much farther than the curve it turns
   };
   /// A run's places and, for each number of pieces, the least excess and where it is cut.
   struct Run {
@@ -47,7 +46,6 @@ class GraphPieces {
   /// Slopes that a piece between two places may have: fewer where an inflection is near.
   core::Interval slopes_of(int from, int to) const;
   Fit best_fit(int from, int to) const;
-  Fit fit_of(int from, int to, double alpha) const;
   Run make_run(int from, int to) const;
   bool add_piece(std::vector<int>& count) const;
   double total(const std::vector<int>& count) const;

@@ -64,6 +64,7 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   const double size = result.to_canonical.scale;
   if (options.max_rate) calm.most_rate = kRateShare * *options.max_rate / (size * size);
   calm.progress = options.progress;
+  calm.threads = options.threads;
   calm.members = members_of(result, run, frame);
   CalmRun found = solve_calm(result.points, run.closed, calm);
   result.fit = closed_chain(found.curve, result.points, tolerance);

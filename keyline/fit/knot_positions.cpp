@@ -33,7 +33,8 @@ class PositionProblem {
     if (jacobian == nullptr) return true;
     jacobian->setZero(residuals.size(), at.size());
     numeric::parallel_for(
-        last_ - first_, static_cast<int>(solvers_.size()), [&](std::size_t i, int worker) {
+        last_ - first_, static_cast<int>(solvers_.size()), [&](std::size_t task, int worker) {
+          const std::size_t i = last_ - first_ - 1 - task;  // a solver goes on where knots part
           difference(solvers_[static_cast<std::size_t>(worker)], moved, first_ + i, residuals,
                      jacobian->col(static_cast<Eigen::Index>(i)));
         });

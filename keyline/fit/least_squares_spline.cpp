@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "keyline/fit/basis_rows.h"
 #include "keyline/fit/near_data.h"
 
 namespace keyline::fit {
 namespace {
 
 using core::ErrorCode;
+using detail::kLanes;
+using detail::padded;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRankTolerance = 1e-7;
-constexpr std::size_t kLanes = 4;  // rows are padded to a multiple, so that loops vectorise
-
-std::size_t padded(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
-
 double dot(const double* a, const double* b, std::size_t n) {
   std::array<double, kLanes> sum{};
   for (std::size_t i = 0; i < n; i += kLanes) {
@@ -99,6 +99,7 @@ SplineSolver::SplineSolver(SplineData data, core::Interval domain, int order)
   }
   room_ = detail::room_about(data);
   stride_ = padded(data.parameters.size());
+  basis_.resize(stride_ * static_cast<std::size_t>(order));
   rows_.resize(stride_ * (static_cast<std::size_t>(order) + data.columns.size() + 1));
   data_ = std::make_shared<const SplineData>(std::move(data));
   weighted_ = std::make_shared<const SplineData>(std::move(weighted));
@@ -121,52 +122,20 @@ bool SplineSolver::set_knots(std::span<const double> interior) {
   return interior.size() + order <= data_count();
 }
 
-/// Rows [first, last) of the observation matrix, those of one knot span, column by column; the
-/// divided differences of knots are the same for all of them.
+/// Rows [first, last) of the observation matrix, those of one knot span, and their right-hand sides
+/// into the scratch; the rows are kept.
 template <int order>
-void SplineSolver::basis_rows(std::size_t span, std::size_t first, std::size_t last) {
-  const std::size_t rows = padded(last - first);
-  const double* const x = weighted_->parameters.data() + first;
+void SplineSolver::take_rows(std::size_t span, std::size_t first, std::size_t last) {
+  const std::size_t count = last - first;
   const double* const w = weighted_->weights.empty() ? nullptr : weighted_->weights.data() + first;
-  std::array<std::array<double, order>, order> inverse{};
-  for (int r = 1; r < order; ++r) {
-    for (int j = 0; j < r; ++j) {
-      const std::size_t right = span + 1 + static_cast<std::size_t>(j);
-      inverse[r][j] = 1 / (knots_[right] - knots_[right - static_cast<std::size_t>(r)]);
-    }
-  }
-  for (std::size_t i = 0; i < rows; i += kLanes) {
-    double value[order][kLanes];
-    double at[kLanes];
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      const bool inside = first + i + l < last;
-      at[l] = inside ? x[i + l] : knots_[span];
-      value[0][l] = inside ? (w ? w[i + l] : 1.0) : 0.0;
-    }
-    for (int r = 1; r < order; ++r) {
-      double saved[kLanes] = {};
-      for (int j = 0; j < r; ++j) {
-        const std::size_t right = span + 1 + static_cast<std::size_t>(j);
-        const double t1 = knots_[right];
-        const double t0 = knots_[right - static_cast<std::size_t>(r)];
-        for (std::size_t l = 0; l < kLanes; ++l) {
-          const double part = value[j][l] * inverse[r][j];
-          value[j][l] = saved[l] + (t1 - at[l]) * part;
-          saved[l] = (at[l] - t0) * part;
-        }
-      }
-      for (std::size_t l = 0; l < kLanes; ++l) value[r][l] = saved[l];
-    }
-    for (int c = 0; c < order; ++c) {
-      for (std::size_t l = 0; l < kLanes; ++l) {
-        rows_[static_cast<std::size_t>(c) * stride_ + i + l] = value[c][l];
-      }
-    }
-  }
+  detail::basis_rows<order>(knots_.data(), span, {weighted_->parameters.data() + first, count}, w,
+                            rows_.data(), stride_);
+  for (std::size_t c = 0; c < order; ++c)
+    std::copy_n(rows_.data() + c * stride_, count, basis_.data() + c * stride_ + first);
   for (std::size_t k = 0; k < column_count(); ++k) {
     double* const target = rows_.data() + (static_cast<std::size_t>(order) + k) * stride_;
-    std::copy_n(weighted_->columns[k].data() + first, last - first, target);
-    std::fill(target + (last - first), target + rows, 0.0);
+    std::copy_n(weighted_->columns[k].data() + first, count, target);
+    std::fill(target + count, target + padded(count), 0.0);
   }
 }
 
@@ -219,6 +188,8 @@ bool SplineSolver::full_rank(std::size_t coefficients) const {
   return true;
 }
 
+/// Calls visit(span, first, last) for each knot span with data, from a span on, up to which so many
+/// data belong to others.
 template <class Visit>
 void SplineSolver::for_spans_after(std::size_t span, std::size_t first, Visit visit) const {
   const std::vector<double>& x = weighted_->parameters;
@@ -262,7 +233,7 @@ double SplineSolver::reduce(std::size_t interior) {
   const detail::ReductionStages::Stage from = resume<order>(coefficients);
   double rest = from.rest;
   for_spans_after(from.span, from.data, [&](std::size_t span, std::size_t first, std::size_t last) {
-    basis_rows<order>(span, first, last);
+    take_rows<order>(span, first, last);
     eliminate<order>(span + 1 - order, padded(last - first), rest);
     const std::size_t open = span + 2 - order;
     stages_.keep({span + 1, last, rest}, {band_.data() + open * order, (order - 1) * order},
@@ -271,29 +242,10 @@ double SplineSolver::reduce(std::size_t interior) {
   return full_rank(coefficients) ? rest : kInfinity;
 }
 
-template <class Call>
-auto SplineSolver::with_order(Call call) const {
-  switch (order_) {
-    case 2:
-      return call.template operator()<2>();
-    case 3:
-      return call.template operator()<3>();
-    case 4:
-      return call.template operator()<4>();
-    case 5:
-      return call.template operator()<5>();
-    case 6:
-      return call.template operator()<6>();
-    case 7:
-      return call.template operator()<7>();
-    default:
-      return call.template operator()<8>();
-  }
-}
-
 double SplineSolver::sum_of_squares(std::span<const double> interior_knots) {
   if (!set_knots(interior_knots)) return kInfinity;
-  return with_order([&]<int order>() { return reduce<order>(interior_knots.size()); });
+  return detail::with_order(order_,
+                            [&]<int order>() { return reduce<order>(interior_knots.size()); });
 }
 
 void SplineSolver::substitute_back(std::size_t coefficients) {
@@ -321,26 +273,32 @@ double SplineSolver::coefficient(std::size_t i, std::size_t column) const {
   return solution_[i * column_count() + column];
 }
 
+/// Adds the values of a spline of these coefficients, times the data's weights.
 template <int order>
-void SplineSolver::residual_rows(std::size_t span, std::size_t first, std::size_t last,
-                                 std::span<double> out) {
-  basis_rows<order>(span, first, last);
+void SplineSolver::add_values(const double* coefficients, std::span<double> out) const {
   const std::size_t columns = column_count();
-  for (std::size_t k = 0; k < columns; ++k) {
-    double* const target = out.data() + k * data_count();
-    for (std::size_t i = first; i < last; ++i) target[i] = -weighted_->columns[k][i];
-    for (std::size_t j = 0; j < order; ++j) {
-      const double* const row = rows_.data() + j * stride_;
-      const double c = solution_[(span + 1 - order + j) * columns + k];
-      for (std::size_t i = first; i < last; ++i) target[i] += c * row[i - first];
+  std::size_t first = 0;
+  for (const detail::ReductionStages::Stage& stage : stages_.all()) {
+    for (std::size_t k = 0; k < columns; ++k) {
+      double c[order];
+      for (std::size_t j = 0; j < order; ++j)
+        c[j] = coefficients[(stage.span - order + j) * columns + k];
+      double* const target = out.data() + k * data_count();
+      const double* const rows = basis_.data();
+      for (std::size_t i = first; i < stage.data; ++i) {
+        double sum = target[i];
+        for (std::size_t j = 0; j < order; ++j) sum += c[j] * rows[j * stride_ + i];
+        target[i] = sum;
+      }
     }
+    first = stage.data;
   }
 }
 
-void SplineSolver::residuals(std::span<double> out) {
-  for_each_span([&](std::size_t span, std::size_t first, std::size_t last) {
-    with_order([&]<int order>() { residual_rows<order>(span, first, last, out); });
-  });
+void SplineSolver::residuals(std::span<double> out) const {
+  for (std::size_t k = 0; k < column_count(); ++k)
+    std::ranges::transform(weighted_->columns[k], out.begin() + k * data_count(), std::negate{});
+  detail::with_order(order_, [&]<int order>() { add_values<order>(solution_.data(), out); });
 }
 
 double evaluate(const LeastSquaresSpline& spline, double x, std::size_t column) {

@@ -71,7 +71,7 @@ class SplineSolver {
   }
 
   /// After solve(): sqrt(w_j) (S(x_j) - F_j), the columns one after another; size N * columns.
-  void residuals(std::span<double> out);
+  void residuals(std::span<double> out) const;
 
   /// Full knot vector of the last call.
   std::span<const double> knots() const { return {knots_.data(), knot_count_}; }
@@ -88,22 +88,13 @@ class SplineSolver {
   template <int order>
   detail::ReductionStages::Stage resume(std::size_t coefficients);
   template <int order>
-  void basis_rows(std::size_t span, std::size_t first, std::size_t last);
+  void take_rows(std::size_t span, std::size_t first, std::size_t last);
   template <int order>
   void eliminate(std::size_t row, std::size_t rows, double& rest);
   template <int order>
-  void residual_rows(std::size_t span, std::size_t first, std::size_t last, std::span<double> out);
-  /// Calls visit(span, first, last) for each knot span with data.
-  template <class Visit>
-  void for_each_span(Visit visit) const {
-    for_spans_after(static_cast<std::size_t>(order_) - 1, 0, visit);
-  }
-  /// From a span on, up to which so many data belong to others.
+  void add_values(const double* coefficients, std::span<double> out) const;
   template <class Visit>
   void for_spans_after(std::size_t span, std::size_t first, Visit visit) const;
-  /// Calls call.template operator()<order>() with the order of the spline.
-  template <class Call>
-  auto with_order(Call call) const;
   bool set_knots(std::span<const double> interior);
   bool full_rank(std::size_t coefficients) const;
   void substitute_back(std::size_t coefficients);
@@ -120,7 +111,8 @@ class SplineSolver {
   std::vector<double> right_;     // row i: right-hand sides
   std::vector<double> solution_;  // row i: coefficients
   detail::ReductionStages stages_;
-  std::vector<double> rows_;  // scratch: columns of the rows of one span
+  std::vector<double> basis_;  // columns of the observation matrix, each datum's of its own span
+  std::vector<double> rows_;   // scratch: columns of the rows of one span
   std::size_t stride_ = 0;
 };
 

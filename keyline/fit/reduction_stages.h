@@ -37,6 +37,9 @@ class ReductionStages {
     return stages_.back();
   }
 
+  /// Of every span with data.
+  const std::vector<Stage>& all() const { return stages_; }
+
   /// As kept with the last stage.
   void put_back(std::span<double> band, std::span<double> right) const {
     const auto from = rows_.end() - static_cast<std::ptrdiff_t>(band.size() + right.size());

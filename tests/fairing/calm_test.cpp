@@ -131,6 +131,25 @@ TEST(Calm, StopsAtTheMeanSquare) {
   EXPECT_LE(calm(asked.curve, asked.points, options).waves.turns, 1);
 }
 
+// Errors of points make waves that are tried one by one: on three threads the first that is worth
+// it is the one that goes, as on one.
+TEST(Calm, DoesNotDependOnTheNumberOfThreads) {
+  const auto calmed = [](int threads) {
+    Given g = wavy(1e-3);
+    for (std::size_t j = 0; j < g.points.size(); ++j)
+      g.points[j].position.y += 2e-4 * std::sin(1.7 * static_cast<double>(j * j));
+    g.curve = dense_curve(g.points, false, 200);
+    CalmOptions options;
+    options.band.tolerance = 3e-4;
+    options.most_rms = 2e-4;
+    options.threads = threads;
+    calm(g.curve, g.points, options);
+    return g.curve.value;
+  };
+  const std::vector<double> one = calmed(1);
+  EXPECT_EQ(calmed(3), one);
+}
+
 /// Root of the mean square of the last eight offsets.
 double beside_end(const Given& g) {
   DenseCurve curve = g.curve;

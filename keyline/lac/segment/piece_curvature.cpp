@@ -46,34 +46,46 @@ PieceCurvature::PieceCurvature(double curvature_start, double curvature_end, dou
   log_end_ = std::log(std::max(std::abs(b), 1e-300));
 }
 
-PieceCurvature::LogMean PieceCurvature::log_mean(double v) const {
+double PieceCurvature::log_of_mean(double v) const {
   const double x = x_;
-  const double k2 = v * (1 - v);
   if (std::abs(x) < kNearPower) {
+    const double k2 = v * (1 - v);
     const double k3 = k2 * (1 - 2 * v);
     const double k4 = k2 * (1 - 6 * k2);
-    return {v + x * (k2 / 2 + x * (k3 / 6 + x * k4 / 24)), k2 / 2 + x * (k3 / 3 + x * k4 / 8)};
+    return v + x * (k2 / 2 + x * (k3 / 6 + x * k4 / 24));
   }
   if (x < -1) {  // no cancellation here, and v = 1 gives x itself
+    const double z = (1 - v) + v * exp_x_;
+    return z > 0 ? std::log(z) / x : 1;
+  }
+  return std::log1p(v * expm1_x_) / x;
+}
+
+double PieceCurvature::rate_of_log(double v, double g) const {
+  const double x = x_;
+  if (std::abs(x) < kNearPower) {
+    const double k2 = v * (1 - v);
+    const double k3 = k2 * (1 - 2 * v);
+    const double k4 = k2 * (1 - 6 * k2);
+    return k2 / 2 + x * (k3 / 3 + x * k4 / 8);
+  }
+  if (x < -1) {
     const double last = v * exp_x_;
     const double z = (1 - v) + last;
-    const double g = z > 0 ? std::log(z) / x : 1;
-    return {g, ((z > 0 ? last / z : 1) - g) / x};
+    return ((z > 0 ? last / z : 1) - g) / x;
   }
-  const double z = 1 + v * expm1_x_;
-  const double g = std::log1p(v * expm1_x_) / x;
-  return {g, (v * (1 + expm1_x_) / z - g) / x};
+  return (v * (1 + expm1_x_) / (1 + v * expm1_x_) - g) / x;
 }
 
 CurvatureValue PieceCurvature::same_sign(double v) const {
-  const LogMean m = log_mean(v);
+  const double g = log_of_mean(v);
   CurvatureValue r;
-  r.curvature = start_ * std::exp(log_ratio_ * m.g);
+  r.curvature = start_ * std::exp(log_ratio_ * g);
   const double last = v * exp_x_;
   const double z = (1 - v) + last;
   r.by_start = z > 0 ? r.curvature * (1 - v) / z / start_ : 0;
   r.by_end = r.curvature * (z > 0 ? last / z : 1) / end_;
-  r.by_alpha = -r.curvature * log_ratio_ * log_ratio_ * m.dg;
+  r.by_alpha = -r.curvature * log_ratio_ * log_ratio_ * rate_of_log(v, g);
   return r;
 }
 
@@ -104,7 +116,7 @@ CurvatureValue PieceCurvature::at(double v) const {
 }
 
 double PieceCurvature::curvature(double v) const {
-  if (same_sign_) return start_ * std::exp(log_ratio_ * log_mean(reversed_ ? 1 - v : v).g);
+  if (same_sign_) return start_ * std::exp(log_ratio_ * log_of_mean(reversed_ ? 1 - v : v));
   if (scale_ == 0) return 0;
   return scale_ * numeric::signed_power((1 - v) * power_start_ + v * power_end_, 1 / power_);
 }

@@ -26,12 +26,10 @@ class PieceCurvature {
   double curvature(double v) const;
 
  private:
-  /// log(1 + v (e^x - 1)) / x and its derivative by x: cumulants of a Bernoulli variable.
-  struct LogMean {
-    double g;
-    double dg;
-  };
-  LogMean log_mean(double v) const;
+  /// log(1 + v (e^x - 1)) / x, and its derivative by x from its value: cumulants of a Bernoulli
+  /// variable.
+  double log_of_mean(double v) const;
+  double rate_of_log(double v, double mean) const;
   CurvatureValue same_sign(double v) const;
   CurvatureValue through_zero(double v) const;
 
