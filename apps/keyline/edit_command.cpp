@@ -213,13 +213,16 @@ void add_edited(const json& given, const json& edit, json& written) {
   }
 }
 
-/// Why surfaces that are worth something else than nothing may come back as they were.
+/// Why surfaces that are worth something else than nothing may come back as they were, where the
+/// text of one of several patches does not say so.
 std::string as_given_text(const std::vector<json>& edits, const json& joints) {
+  const bool said =
+      std::ranges::any_of(edits, [](const json& edit) { return edit.contains("patch_edits"); });
   const bool stays = std::ranges::all_of(
       edits, [](const json& edit) { return edit["departure"].get<double>() == 0; });
   const bool wanted = std::ranges::any_of(
       edits, [](const json& edit) { return edit["before"]["sav"].get<double>() > 0; });
-  return stays && wanted && joints["before"]["joints"].get<int>() > 0
+  return stays && wanted && !said && joints["before"]["joints"].get<int>() > 0
              ? "all as given: nothing within the limit lowers SAV and keeps of the joints what is "
                "to be kept; --limit may allow more, --joints G1 or free keeps less\n"
              : "";

@@ -103,8 +103,12 @@ double amount_within(const BezierSurface& s, const BezierSurface& target, double
   return low;
 }
 
-/// Leaves out what is no choice: twice as far away as another of no higher SAV.
+/// Sorts by departure and leaves out what is no choice: the same as another, or twice as far away
+/// as one of no higher SAV.
 void drop_poor(std::vector<Candidate>& all) {
+  std::ranges::stable_sort(all, {}, [](const Candidate& c) { return c.tradeoff.departure; });
+  const auto same = [](const Candidate& a, const Candidate& b) { return a.surface == b.surface; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
   const std::vector<Candidate> others = all;
   std::erase_if(all, [&](const Candidate& c) {
     return std::any_of(others.begin(), others.end(), [&](const Candidate& o) {
@@ -163,9 +167,6 @@ std::vector<Candidate> candidates_of(const BezierSurface& s, const detail::EditT
   }
   add_bicubic(s, task.options, all, missed);
   drop_poor(all);
-  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-    return a.tradeoff.departure < b.tradeoff.departure;
-  });
   return all;
 }
 

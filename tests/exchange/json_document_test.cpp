@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/json/json_surface.h"
+
 /// What a document says beside its curves.
 namespace keyline::exchange {
 namespace {
@@ -45,6 +47,34 @@ TEST(JsonDocument, ASpaceCurveByItselfIsItsValue) {
   EXPECT_EQ(to_json(d)["type"], "polyline");
   d.space_curves[0].label.layer = "l";
   EXPECT_EQ(to_json(d)["curves"][0]["layer"], "l");
+}
+
+// An array of values, or of what stands in either list, is a document of them in their order.
+TEST(JsonDocument, MayBeAnArrayOfCurvesAndSurfaces) {
+  const json patch = {{"type", "bezier-surface"},
+                      {"points", {{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {1, 1, 1}}}}};
+  const json line = {{"type", "polyline"}, {"points", {{0, 0}, {1, 2}}}};
+  const auto mixed = document_from_json(
+      {patch, line, {{"surface", patch}, {"name", "s"}}, {{"curve", line}, {"layer", "l"}}});
+  ASSERT_TRUE(mixed) << mixed.error().message;
+  ASSERT_EQ(mixed->surfaces.size(), 2U);
+  ASSERT_EQ(mixed->paths.size(), 2U);
+  EXPECT_EQ(mixed->surfaces[1].label.name, "s");
+  EXPECT_EQ(mixed->paths[1].label.layer, "l");
+  EXPECT_EQ(to_json(mixed->surfaces[0].surface), patch);
+  const auto listed = document_from_json({{"surfaces", {patch, patch}}});
+  ASSERT_TRUE(listed) << listed.error().message;
+  EXPECT_EQ(listed->surfaces.size(), 2U);
+  ASSERT_TRUE(document_from_json({{"surface", patch}}));
+  json inches = line;
+  inches["unit"] = "in";
+  json other = line;
+  other["unit"] = "mm";
+  EXPECT_EQ(document_from_json(json::array({patch, inches, inches}))->unit, "in");
+  EXPECT_EQ(document_from_json(json::array({inches, other})).error().path, "[1].unit");
+  const auto wrong = document_from_json(json::array({patch, 7}));
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().path, "[1]");
 }
 
 // A closed path of a curve that is no chain says so as a path only.
@@ -139,7 +169,9 @@ TEST(JsonDocument, WhatIsNoListIsNamed) {
   EXPECT_EQ(path_of(R"({"curves": 3})"), "curves");
   EXPECT_EQ(path_of(R"({"surfaces": "x"})"), "surfaces");
   EXPECT_EQ(path_of(R"({"surfaces": [3]})"), "surfaces[0]");
-  EXPECT_EQ(path_of(R"({"surfaces": [P]})"), "surfaces[0]");
+  EXPECT_EQ(path_of(R"({"surfaces": [C]})"), "surfaces[0]");
+  EXPECT_EQ(path_of(R"({"surfaces": [P]})"), "fine");
+  EXPECT_EQ(path_of(R"([P, C, 3])"), "[2]");
   EXPECT_EQ(path_of(R"({"curves": [C, 3]})"), "curves[1]");
   EXPECT_EQ(path_of(R"({"curve": C})"), "fine");
   EXPECT_EQ(path_of(R"({"curves": []})"), "fine");

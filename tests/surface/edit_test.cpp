@@ -211,6 +211,12 @@ TEST(SurfaceEdit, LimitBelowEveryTargetGoesAsFarAsItMay) {
   EXPECT_LT(r.amount, 1);
 }
 
+// A parallelogram cannot be bettered: whatever leaves it as it is, is one choice.
+TEST(SurfaceEdit, TellsEachChoiceOnce) {
+  const BezierSurface flat{{2, 2, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}, {}};
+  EXPECT_EQ(edited(flat, {}).tradeoff.size(), 1U);
+}
+
 TEST(SurfaceEdit, HigherDegreesHaveTheTranslationalTarget) {
   const BezierSurface s = elevate_degree(distorted_patch(), 3, 2);
   const EditResult r = edited(s, {});

@@ -119,9 +119,12 @@ Result<void> add_trim_loops(document::NamedSurface& named, const json& item,
 }
 
 Result<void> add_surface(Document& document, const json& item, const std::string& where) {
-  if (!item.is_object() || !item.contains("surface"))
-    return fail(ErrorCode::bad_input, "a surface is wanted here", "give {\"surface\":{…}}", where);
-  auto read = surface_from_json(item["surface"], in(where, "surface"));
+  const bool wrapped = item.is_object() && item.contains("surface");
+  if (!wrapped && !is_surface_json(item))
+    return fail(ErrorCode::bad_input, "a surface is wanted here",
+                "give {\"surface\":{…}}, or the surface itself", where);
+  auto read = wrapped ? surface_from_json(item["surface"], in(where, "surface"))
+                      : surface_from_json(item, where);
   if (!read) return std::unexpected(read.error());
   auto label = label_of(item, where);
   if (!label) return std::unexpected(label.error());
@@ -136,6 +139,7 @@ Result<void> add_surface(Document& document, const json& item, const std::string
 }
 
 Result<void> add_item(Document& document, const json& item, const std::string& where) {
+  if (item.is_object() && item.contains("surface")) return add_surface(document, item, where);
   auto label = label_of(item, where);
   if (!label) return std::unexpected(label.error());
   const bool wrapped = item.is_object() && item.contains("curve");
@@ -150,6 +154,23 @@ Result<void> add_item(Document& document, const json& item, const std::string& w
     width = *number;
   }
   return add_value(document, item["curve"], in(where, "curve"), std::move(*label), width);
+}
+
+/// Curves and surfaces one after the other, as they stand in either list. Those that name a unit
+/// name the same.
+Result<Document> document_of_array(const json& j) {
+  Document document;
+  for (std::size_t i = 0; i < j.size(); ++i) {
+    const std::string where = in("", i);
+    const auto unit = text_of(j[i], "unit", where);
+    if (!unit) return std::unexpected(unit.error());
+    if (!unit->empty() && !document.unit.empty() && *unit != document.unit)
+      return fail(ErrorCode::bad_input, "two units, " + document.unit + " and " + *unit,
+                  "give all in one", in(where, "unit"));
+    if (!unit->empty()) document.unit = *unit;
+    if (auto done = add_item(document, j[i], where); !done) return std::unexpected(done.error());
+  }
+  return document;
 }
 
 Result<Document> document_of_list(const json& j) {
@@ -253,6 +274,7 @@ Result<Document> document_from_json(const json& j) {
     if (!hull) return std::unexpected(hull.error());
     return hull_document(*hull);
   }
+  if (j.is_array() && !j.empty() && j.front().is_object()) return document_of_array(j);
   const bool typed = j.is_object() && j.contains("type");
   if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
     return document_of_list(j);
@@ -260,12 +282,7 @@ Result<Document> document_from_json(const json& j) {
   auto unit = text_of(j, "unit", "");
   if (!unit) return std::unexpected(unit.error());
   document.unit = std::move(*unit);
-  auto label = label_of(j, "");
-  if (!label) return std::unexpected(label.error());
-  const bool wrapped = j.is_object() && !typed && j.contains("curve");
-  const auto done = wrapped ? add_value(document, j["curve"], "curve", std::move(*label), 0)
-                            : add_value(document, j, "", std::move(*label), 0);
-  if (!done) return std::unexpected(done.error());
+  if (auto done = add_item(document, j, ""); !done) return std::unexpected(done.error());
   return document;
 }
 

@@ -13,9 +13,10 @@
 /// {"unit":"mm", "curves":[{"name":…, "layer":…, "color":"#rrggbb", "stroke_width":w, "curve":{…}},
 ///  …], "surfaces":[{"name":…, "surface":{…}, "trims":n}, …], "skipped":["…"]}
 ///
-/// with everything but one of the lists optional. The answer of an operation that returns one
-/// (`{"curve":{…}}`) is read too, and so is an offset table (hull_table.h).
-/// docs/formats/document.schema.json states it as JSON Schema.
+/// with everything but one of the lists optional. A surface of the list may stand by itself, as a
+/// curve may. An array of curves and surfaces, as they stand in either list, is read too, and so
+/// are the answer of an operation that returns one (`{"curve":{…}}`, `{"surface":{…}}`) and an
+/// offset table (hull_table.h). docs/formats/document.schema.json states it as JSON Schema.
 namespace keyline::exchange {
 
 /// A document of one planar curve or surface without layer is its value, with name, colour and
