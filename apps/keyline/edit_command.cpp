@@ -74,6 +74,8 @@ std::string pieces_text(const std::string& name, const json& result) {
       fmt::format("{} pieces, {} to Class A  CAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
                   pieces.size(), result["edited"].get<int>(), result["cav_before"].get<double>(),
                   result["cav_after"].get<double>(), result["departure"].get<double>());
+  if (const auto off = result["approximated"].get<double>(); off > 0)
+    text += fmt::format("made of Beziers within {:.4g} of the given curve\n", off);
   const json& before = result["joints_before"];
   const json& after = result["joints_after"];
   if (before["g0"] != 0)

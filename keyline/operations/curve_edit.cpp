@@ -25,7 +25,24 @@ double departure_of(const Bezier& given, const Bezier& edited) {
     return std::min(most, classa::deviation_bound(given, edited, kSharp * most));
 }
 
+/// Of the way along its control points: ends nearer than that meet.
+constexpr double kMeet = 1e-9;
+
+/// A curve of one matrix that ends where it begins is a point, or turns by more than the plane of
+/// alpha and s holds.
+template <class Bezier>
+Result<void> check_open(const Bezier& c) {
+  double way = 0;
+  for (std::size_t i = 1; i < c.control.size(); ++i)
+    way += core::distance(c.control[i - 1], c.control[i]);
+  if (core::distance(c.control.front(), c.control.back()) > kMeet * way) return {};
+  return core::fail(core::ErrorCode::undrawable,
+                    "the curve ends where it begins: there is no Class A curve between",
+                    "cut it, as with keyline split --at 0.5, and edit its parts", "curve");
+}
+
 Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::EditOptions& options) {
+  if (auto open = check_open(c); !open) return std::unexpected(open.error());
   const auto edited = classa::edit(c, options);
   if (!edited) return std::unexpected(edited.error());
   CurveEditAnswer answer;
@@ -42,6 +59,7 @@ Result<CurveEditAnswer> run(const CurveEditRequest& request, const Context&) {
   const auto subject = class_a_subject(request.curve);
   if (!subject) return std::unexpected(subject.error());
   if (subject->space) return edit_in_space(*subject->space, options);
+  if (auto open = check_open(subject->planar->curve); !open) return std::unexpected(open.error());
   auto edited = classa::edit(subject->planar->curve, options);
   if (!edited) return std::unexpected(edited.error());
   const auto before = classa::evaluate_curve(*subject->planar, options.cav);

@@ -19,8 +19,10 @@ using curve::Bezier2;
 using document::Path;
 using document::PlanarCurve;
 
-/// Polynomial Beziers for what is one or can be cut into some; polylines as they stand.
-Result<std::vector<PlanarCurve>> pieces_of(const Path& path, std::optional<double> tolerance) {
+/// Polynomial Beziers for what is one or can be cut into some; polylines as they stand. Adds how
+/// far they lie from the path at most to the answer.
+Result<std::vector<PlanarCurve>> pieces_of(const Path& path, std::optional<double> tolerance,
+                                           PiecesAnswer& answer) {
   const double size = analysis::ArcLengthTable(analysis::view(path)).length();
   std::vector<PlanarCurve> all;
   for (const PlanarCurve& c : path.curves) {
@@ -31,6 +33,7 @@ Result<std::vector<PlanarCurve>> pieces_of(const Path& path, std::optional<doubl
     }
     auto row = bounded_pieces({{c}, false}, tolerance.value_or(1e-3 * size));
     if (!row) return std::unexpected(std::move(row.error()));
+    answer.approximated = std::max(answer.approximated, row->deviation);
     for (Bezier2& piece : row->pieces) all.push_back({std::move(piece)});
   }
   return all;
@@ -96,9 +99,9 @@ JointCount joints_of(const std::vector<PlanarCurve>& pieces, bool closed) {
 Result<PiecesAnswer> run(const PiecesRequest& request, const Context&) {
   const auto path = planar_path(request.curve);
   if (!path) return edit_pieces_in_space(request);
-  auto pieces = pieces_of(*path, request.fit_tolerance);
-  if (!pieces) return std::unexpected(std::move(pieces.error()));
   PiecesAnswer answer;
+  auto pieces = pieces_of(*path, request.fit_tolerance, answer);
+  if (!pieces) return std::unexpected(std::move(pieces.error()));
   answer.joints_before = joints_of(*pieces, path->closed);
   for (PlanarCurve& c : *pieces) {
     auto* bezier = std::get_if<Bezier2>(&c.value);
@@ -120,7 +123,7 @@ void add(PiecesAnswer& answer, EditedPiece piece) {
   answer.edited += piece.became == Became::edited;
   answer.cav_before += piece.before.cav.value_or(0);
   answer.cav_after += piece.after.cav.value_or(0);
-  answer.departure = std::max(answer.departure, piece.departure);
+  answer.departure = std::max(answer.departure, answer.approximated + piece.departure);
   answer.pieces.push_back(std::move(piece));
 }
 

@@ -103,6 +103,7 @@ struct PiecesAnswer {
   std::size_t edited = 0;
   double cav_before = 0;
   double cav_after = 0;
+  double approximated = 0;
   double departure = 0;
   JointCount joints_before;
   JointCount joints_after;
@@ -113,7 +114,13 @@ struct PiecesAnswer {
                         core::field<&Answer::edited>("pieces that were"),
                         core::field<&Answer::cav_before>("sum over the pieces that have a value"),
                         core::field<&Answer::cav_after>("the same, now"),
-                        core::field<&Answer::departure>("largest of the pieces").in("length"),
+                        core::field<&Answer::approximated>(
+                            "how far the pieces lay from the given curve at most, where that is "
+                            "no row of polynomial Beziers")
+                            .in("length"),
+                        core::field<&Answer::departure>(
+                            "from the given curve at most: that, and the largest of the pieces")
+                            .in("length"),
                         core::field<&Answer::joints_before>("between the pieces, as given"),
                         core::field<&Answer::joints_after>("now"));
   }

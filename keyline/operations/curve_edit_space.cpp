@@ -33,9 +33,10 @@ std::unexpected<core::Failure> rational() {
                     "give it without weights", "curve");
 }
 
-/// Polynomial Beziers for what is one or can be cut into some; polylines as they stand.
+/// Polynomial Beziers for what is one or can be cut into some; polylines as they stand. Adds how
+/// far they lie from the curves at most to the answer.
 Result<std::vector<SpaceCurve>> pieces_of(const std::vector<SpaceCurve>& curves,
-                                          std::optional<double> tolerance) {
+                                          std::optional<double> tolerance, PiecesAnswer& answer) {
   std::vector<SpaceCurve> all;
   const auto add = [&all](std::vector<Bezier3> pieces) {
     for (Bezier3& c : pieces) all.push_back({std::move(c)});
@@ -45,8 +46,10 @@ Result<std::vector<SpaceCurve>> pieces_of(const std::vector<SpaceCurve>& curves,
       if (is_rational(*spline)) return rational();
       add(curve::to_beziers(*spline));
     } else if (const auto* chain = std::get_if<lac::SpaceChain>(&c.value)) {
-      add(lac::approximate_by_quintics(*chain, tolerance.value_or(1e-3 * lac::arc_length(*chain)))
-              .pieces);
+      auto row =
+          lac::approximate_by_quintics(*chain, tolerance.value_or(1e-3 * lac::arc_length(*chain)));
+      answer.approximated = std::max(answer.approximated, row.deviation);
+      add(std::move(row.pieces));
     } else {
       const auto* bezier = std::get_if<Bezier3>(&c.value);
       if (bezier && is_rational(*bezier)) return rational();
@@ -138,10 +141,10 @@ Result<PiecesAnswer> edit_pieces_in_space(const PiecesRequest& request) {
     path.curves = {*one};
   else
     path = std::get<SpacePath>(request.curve);
-  auto pieces = pieces_of(path.curves, request.fit_tolerance);
+  PiecesAnswer answer;
+  auto pieces = pieces_of(path.curves, request.fit_tolerance, answer);
   if (!pieces) return std::unexpected(std::move(pieces.error()));
   const double size = size_of(*pieces);
-  PiecesAnswer answer;
   answer.joints_before = joints_of(*pieces, path.closed, size);
   for (SpaceCurve& c : *pieces) {
     if (auto* bezier = std::get_if<Bezier3>(&c.value)) {

@@ -283,6 +283,39 @@ TEST(CurveCav, BadInput) {
 
 // A closed path of four cubics with one direction at every joint (the egg) and a corner: judged by
 // the edges at the joints and by curvature along each piece, not by what the answer says of itself.
+// A circle of rational Beziers is made of cubics first: how far they lie off it is told.
+TEST(CurveEditPieces, TellsHowFarItsBeziersLieOff) {
+  const double w = std::sqrt(0.5);
+  const json circle = {
+      {"type", "bspline"},
+      {"degree", 2},
+      {"knots", {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}},
+      {"points", {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}}},
+      {"weights", {1, w, 1, w, 1, w, 1, w, 1}}};
+  const json r = perform_well("curve.edit_pieces", {{"curve", circle}});
+  double most = 0;
+  for (const json& piece : r["curve"]["curves"]) {
+    const json& p = piece["points"];
+    ASSERT_EQ(p.size(), 4U);
+    for (double t = 0; t <= 1; t += 1e-3) {
+      const double u = 1 - t;
+      const auto at = [&](int i) {
+        return u * u * u * p[0][i].get<double>() + 3 * u * u * t * p[1][i].get<double>() +
+               3 * u * t * t * p[2][i].get<double>() + t * t * t * p[3][i].get<double>();
+      };
+      most = std::max(most, std::abs(std::hypot(at(0), at(1)) - 1));
+    }
+  }
+  EXPECT_GE(r["departure"].get<double>(), most);
+  EXPECT_LE(r["approximated"].get<double>(), 1e-3 * 6.3);  // of the length
+}
+
+// Between two ends at one place lies a point: it was given for a circle.
+TEST(CurveEdit, OfWhatEndsWhereItBeginsIsRefused) {
+  const json round = {{"type", "bezier"}, {"points", {{0, 0}, {3, 0}, {3, 3}, {-3, 3}, {0, 0}}}};
+  EXPECT_EQ(code_of("curve.edit", {{"curve", round}}), "undrawable");
+}
+
 TEST(CurveEditPieces, KeepsDirectionsAndCornersOfAClosedPath) {
   const json path = json::parse(R"({"type":"path","closed":true,"curves":[
     {"type":"bezier","points":[[0,0],[0,30],[20,50],[60,50]]},
