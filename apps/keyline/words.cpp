@@ -45,11 +45,11 @@ class Words {
       return j;
     }
     if (type.kind == Kind::optional) return value(type.item(), words);
-    if (type.kind == Kind::list) return list(type, words);
     if (words.empty()) {
       if (type.kind == Kind::boolean) return json(true);
       return wrong("", "give a value after it");
     }
+    if (type.kind == Kind::list) return list(type, words);
     if (words.size() > 1) return wrong(words[1], "give one value");
     return single(type, words[0]);
   }

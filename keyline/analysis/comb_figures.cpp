@@ -9,15 +9,20 @@
 namespace keyline::analysis {
 namespace {
 
-constexpr int kGrid = 4000;      // even steps along the curve
-constexpr int kWithin = 20;      // steps of the grid: 0.5 % of the length
-constexpr double kTail = 0.005;  // of the steps at either end: a range without single spikes
-constexpr double kPace = 0.25;   // of the range within 0.5 %: all of it within 2 %
+constexpr int kGrid = 4000;       // even steps along the curve
+constexpr int kWithin = 20;       // steps of the grid: 0.5 % of the length
+constexpr double kTail = 0.005;   // of the steps at either end: a range without single spikes
+constexpr double kPace = 0.25;    // of the range within 0.5 %: all of it within 2 %
+constexpr double kNoTurn = 1e-8;  // radian that a range turns the curve by, and of its own turning
+
+double length_of(const curve::CurvatureGraph& graph) {
+  return graph.arc_length.back() - graph.arc_length.front();
+}
 
 /// Curvature at even steps of the length.
 std::vector<double> resampled(const curve::CurvatureGraph& graph) {
   const double from = graph.arc_length.front();
-  const double length = graph.arc_length.back() - from;
+  const double length = length_of(graph);
   std::vector<double> grid;
   std::size_t i = 1;
   for (int step = 0; step <= kGrid; ++step) {
@@ -30,8 +35,12 @@ std::vector<double> resampled(const curve::CurvatureGraph& graph) {
   return grid;
 }
 
-double range_of(std::vector<double> grid) {
-  return core::value_at(grid, 1 - kTail) - core::value_at(grid, kTail);
+/// 0 where it is rounding alone, as along an arc given as a rational Bézier.
+double range_of(std::vector<double> grid, double length) {
+  const double high = core::value_at(grid, 1 - kTail);
+  const double low = core::value_at(grid, kTail);
+  const double turning = length * std::max(std::abs(low), std::abs(high));
+  return (high - low) * length > kNoTurn * std::max(1.0, turning) ? high - low : 0;
 }
 
 /// Extrema, each followed by a swing of at least so much.
@@ -96,7 +105,7 @@ void keep_sharpest(std::vector<CombMark>& marks) {
 
 CombFigures comb_figures(const curve::CurvatureGraph& graph) {
   const std::vector<double> grid = resampled(graph);
-  const double range = range_of(grid);
+  const double range = range_of(grid, length_of(graph));
   CombFigures figures;
   if (!(range > 0)) return figures;
   figures.waves = extrema(grid, kSeenWave * range);
@@ -108,7 +117,7 @@ CombFigures comb_figures(const curve::CurvatureGraph& graph) {
 
 std::vector<CombMark> comb_marks(const curve::CurvatureGraph& graph) {
   const std::vector<double> grid = resampled(graph);
-  const double range = range_of(grid);
+  const double range = range_of(grid, length_of(graph));
   if (!(range > 0)) return {};
   std::vector<CombMark> marks = needles(grid, range);
   keep_sharpest(marks);

@@ -25,7 +25,8 @@ struct CombFigures {
 };
 
 /// Range: from the 0.5th to the 99.5th percentile along the length, so that a needle does not hide
-/// waves. Without any curvature's range all figures are 0. The energy is that of the straight lines
+/// waves. Where that range is none, or rounding (it turns the curve by less than 1e-8 radian, or
+/// 1e-8 of its turning), all figures are 0. The energy is that of the straight lines
 /// between the samples: of a curve whose rate is not finite somewhere it grows with their number.
 ///
 /// Precondition: as many curvatures as arc lengths, at least two, arc lengths never falling.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "keyline/core/text.h"
+#include "keyline/curve/length.h"
 #include "keyline/fairing/joint_rates.h"
 #include "keyline/fairing/reading.h"
 #include "keyline/fairing/runs.h"
@@ -138,6 +139,9 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
   if (before) result.curves.push_back(*before);
   for (const RunResult& run : solved) result.curves.push_back(run.chain);
   if (after) result.curves.push_back(*after);
+  result.length = 0;
+  for (const FairCurve& c : result.curves)
+    result.length += std::visit([](const auto& v) { return arc_length(v); }, c);
   const auto calm = [](const RunResult& run) { return !run.dense.joints.empty(); };
   result.calm_missed =
       std::ranges::none_of(solved, calm) && std::ranges::any_of(solved, &RunResult::calm_missed);

@@ -41,13 +41,12 @@ class Job {
   Job(const acquire::KeyLine& line, const FairOptions& options,
       detail::FoundBefore* found = nullptr, const FairResult* before = nullptr)
       : line_(line), options_(options), found_(found), before_(options.region ? nullptr : before) {
-    result_.length = core::polygon_length(line.points, line.closed);
-    if (line.length > 0) result_.length = std::min(result_.length, line.length);
+    size_ = core::polygon_length(line.points, line.closed);
+    if (line.length > 0) size_ = std::min(size_, line.length);
     result_.noise = line.noise;
     result_.tolerance = options.tolerance > 0 ? options.tolerance
-                        : options.sigmas
-                            ? *options.sigmas * line.noise
-                            : default_tolerance(line.noise, result_.length, line.points.size());
+                        : options.sigmas      ? *options.sigmas * line.noise
+                                         : default_tolerance(line.noise, size_, line.points.size());
     result_.closed = line.closed || line.ends_meet;
     result_.smoothness = options.smoothness.value_or(detail::kNearAsNoise);
     result_.notes = line.report.notes;
@@ -88,7 +87,7 @@ class Job {
 
   detail::RunOptions run_options(std::size_t k) const {
     const core::Progress whole = progress_of(k);
-    const double share = runs_[k].length / result_.length;
+    const double share = runs_[k].length / size_;
     const int wanted = static_cast<int>(std::lround(options_.pieces * share));
     const int pieces = options_.pieces == 0 ? 0 : std::max(1, wanted);
     return {.tolerance = result_.tolerance,
@@ -311,7 +310,7 @@ class Job {
     for (std::size_t k = 0; k < runs_.size(); ++k)
       for (const core::HalfPlane& half : runs_[k].inside)
         result_.outside = std::max(result_.outside, detail::outside(solved_[k].chain, half));
-    if (result_.outside > kOutside * result_.length)
+    if (result_.outside > kOutside * size_)
       result_.notes.push_back(fmt::format("a bound is passed by {:.3g}", result_.outside));
     else
       result_.outside = 0;
@@ -364,6 +363,7 @@ class Job {
   std::optional<curve::BSpline2> kept_before_;
   std::optional<curve::BSpline2> kept_after_;
   FairResult result_;
+  double size_ = 0;  ///< length of the way through the points
 };
 
 }  // namespace

@@ -221,7 +221,7 @@ struct FairResult {
   std::vector<int> monotone_spline;               ///< which spline each belongs to
   std::vector<FairPiece> pieces;
   std::vector<double> offsets;  ///< of every point, positive left of the curve
-  double length = 0;
+  double length = 0;            ///< of the curves together
   double noise = 0;
   double tolerance = 0;
   double max_deviation = 0;

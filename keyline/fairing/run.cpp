@@ -27,14 +27,15 @@ constexpr double kRateShare = 0.999;  // of a limit on rates: the rest is for wh
 constexpr double kFar = 1.3;          // of the tolerance: farther off is no matter of rounding
 constexpr double kPassed = 1e3;       // a point to be passed is off by so much less than others may
 
-/// Points on a line need no search, unless more is asked of the run than to pass them.
-bool solve_straight(RunResult& result, const Run& run, const RunOptions& options) {
+/// Points on a line or an arc need no search, unless more is asked of the run than to pass them.
+bool solve_at_sight(RunResult& result, const Run& run, const RunOptions& options) {
   const bool held = run.clamp_start != Clamp::none || run.clamp_end != Clamp::none ||
                     run.tie_start || run.tie_end || run.axis;
   if (run.closed || held || options.pieces > 0) return false;
-  auto line = straight_chain(result.points);
-  if (!line) return false;
-  result.fit = std::move(*line);
+  auto found = straight_chain(result.points);
+  if (!found && run.inside.empty()) found = arc_chain(result.points);
+  if (!found) return false;
+  result.fit = std::move(*found);
   result.accept = {exactness(result.accept), 0};
   result.within_tolerance = result.exact = true;
   result.start_pieces = result.straightened = 1;
@@ -82,12 +83,12 @@ void stand_in(RunResult& result, RunResult shortest) {
   result = std::move(shortest);
 }
 
-/// By what the points are and what is asked for: a line, the chain that reproduces them, the
-/// calmest one. The shortest where that or a number of pieces is asked for, or where the calmest
-/// did not come out within the tolerance, which is told.
+/// By what the points are and what is asked for: a line or an arc, the chain that reproduces them,
+/// the calmest one. The shortest where that or a number of pieces is asked for, or where the
+/// calmest did not come out within the tolerance, which is told.
 void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
                    const curve::BSpline2& spline, const RunOptions& options) {
-  if (solve_straight(result, run, options)) return;
+  if (solve_at_sight(result, run, options)) return;
   if (options.criterion == Criterion::least_variation && options.pieces == 0) {
     RunResult exact = result;
     if (!options.max_rate && solve_exact(exact, run, frame, spline, options) &&

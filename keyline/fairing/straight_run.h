@@ -12,4 +12,8 @@ namespace keyline::fairing::detail {
 /// Precondition: total length about 1.
 std::optional<FitChain> straight_chain(const std::vector<FitPoint>& points);
 
+/// The same for one arc that turns by less than half a turn from point to point: any three points
+/// in order lie on one, which is the calmest curve through them. Empty for points on a line.
+std::optional<FitChain> arc_chain(const std::vector<FitPoint>& points);
+
 }  // namespace keyline::fairing::detail

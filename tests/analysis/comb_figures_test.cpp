@@ -37,6 +37,24 @@ TEST(CombFigures, OfASine) {
   EXPECT_NEAR(f.jolt, std::sin(6 * std::numbers::pi * 0.0025), 1e-3);
 }
 
+// Curvature of an arc given as a rational Bezier: rounding, which turns at every second sample.
+TEST(CombFigures, OfRoundingAreNone) {
+  for (const double turning : {0.0, 1.5, 900.0}) {
+    curve::CurvatureGraph g = graph(20, [](double) { return 0.0; });
+    for (std::size_t i = 0; i < g.curvature.size(); ++i)
+      g.curvature[i] = (turning + (i % 2 == 0 ? 1e-13 : -1e-13) * std::max(1.0, turning)) / 20;
+    const CombFigures f = comb_figures(g);
+    EXPECT_EQ(f.waves, 0);
+    EXPECT_EQ(f.energy, 0);
+    EXPECT_EQ(f.jolt, 0);
+    EXPECT_TRUE(comb_marks(g).empty());
+  }
+  // A needle takes nothing from the waves beside it.
+  curve::CurvatureGraph g = graph(1, [](double t) { return 1e-4 * std::sin(20 * t); });
+  g.curvature[1000] = 1e9;
+  EXPECT_GE(comb_figures(g).waves, 6);
+}
+
 TEST(CombFigures, CountNoWaveThatIsNotSeen) {
   const auto rippled = [](double t) { return 3 * t + 0.02 * std::sin(200 * t); };
   EXPECT_EQ(comb_figures(graph(1, rippled)).waves, 0);

@@ -80,6 +80,7 @@ TEST(Commands, OptionsAreReadAsPeopleTypeThem) {
   EXPECT_EQ(run_keyline(fair + "--must-pass 0 5,9 " + scan).status, 0);
   expect_failure(run_keyline(fair + "--keep yes " + scan), 2, "--keep");  // corners, order, strays
   expect_failure(run_keyline(fair + "--pieces"), 2, "a value is missing");
+  expect_failure(run_keyline(fair + "-o"), 2, "a value is missing");
   expect_failure(run_keyline("edit --quiet --keep corners " + example("cubic.json")), 2,
                  "--keep: this is for surfaces");
   expect_failure(run_keyline("lac.region word"), 2, "word: this word belongs to no option");

@@ -83,6 +83,13 @@ TEST(Fair, CircleIsOneArc) {
   EXPECT_EQ(result.pieces[0].rhythm, analysis::Rhythm::arc);
 }
 
+// The length is that of the curve, not of the way from point to point, which is shorter here.
+TEST(Fair, LengthIsThatOfTheCurve) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 5; ++i) points.push_back({std::cos(0.4 * i), std::sin(0.4 * i)});
+  EXPECT_NEAR(fair(line_through(points)).value().length, 1.6, 1e-3);
+}
+
 TEST(Fair, StraightPointsAreOneLine) {
   std::vector<core::Point2> points;
   for (int i = 0; i < 30; ++i) points.push_back({1.0 * i, 0.5 * i});
@@ -90,6 +97,19 @@ TEST(Fair, StraightPointsAreOneLine) {
   ASSERT_EQ(result.pieces.size(), 1U);
   EXPECT_EQ(result.pieces[0].rhythm, analysis::Rhythm::straight);
   EXPECT_LE(result.max_deviation, 1e-9);
+}
+
+// The arc is the calmest curve through three points, however far it turns.
+TEST(Fair, ThreePointsOfAnArcAreThatArc) {
+  for (const double turning : {0.5, 2.0, 3.1, 4.5}) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 3; ++i)
+      points.push_back({10 * std::cos(turning * i / 2), 10 * std::sin(turning * i / 2)});
+    const FairResult result = fair(line_through(points)).value();
+    EXPECT_EQ(result.pieces.size(), 1U) << turning;
+    EXPECT_EQ(result.fairness.answer.waves, 0) << turning;
+    EXPECT_NEAR(result.length, 10 * turning, 1e-2) << turning;
+  }
 }
 
 TEST(Fair, TwoAndThreePointsAreEnough) {
