@@ -52,7 +52,7 @@ struct Thing {
                         core::field<&Thing::layer>("may be empty"),
                         core::field<&Thing::type>("of its value, members of a path by number"),
                         core::field<&Thing::closed>("of a planar curve or points"),
-                        core::field<&Thing::length>("of a planar curve or points").in("length"),
+                        core::field<&Thing::length>("of a curve or points").in("length"),
                         core::field<&Thing::count>("points, or control points of a surface"),
                         core::field<&Thing::box>("around points of it").in("length"));
   }
@@ -90,6 +90,9 @@ struct TypeName {
   static std::string polyline(std::size_t n) { return "polyline of " + std::to_string(n); }
 };
 
+/// Of the length: what is printed, and more; curves by the ten thousand are measured.
+constexpr double kLengthTolerance = 1e-9;
+
 /// The box around a curve and its length, added to those of others.
 struct Measure {
   Box& box;
@@ -108,10 +111,6 @@ struct Measure {
     box.take(around.high);
     length += lac::arc_length(c);
   }
-
- private:
-  /// Of the length: what is printed, and more; curves by the ten thousand are measured.
-  static constexpr double kLengthTolerance = 1e-9;
 };
 
 void describe_path(const document::Path& path, Thing& thing) {
@@ -140,9 +139,12 @@ curve::BSpline2 shadow(const curve::BSpline3& c, auto along) {
   return flat;
 }
 
-/// The box of a space curve by those of its shadows in the plane.
-struct SpaceBox {
+/// The box of a space curve, by those of its shadows in the plane, and its length, added to those
+/// of others.
+struct SpaceMeasure {
   Box& box;
+  double& length;
+
   template <class C>
   void operator()(const C& c) const {
     const auto plan =
@@ -151,17 +153,21 @@ struct SpaceBox {
         curve::bounding_box(shadow(c, [](Point3 p) { return core::Point2{p.x, p.z}; }));
     box.take(Point3{plan.low.x, plan.low.y, side.low.y});
     box.take(Point3{plan.high.x, plan.high.y, side.high.y});
+    length += curve::arc_length(c, 0, 1, kLengthTolerance);
   }
   void operator()(const lac::SpaceChain& c) const {
     constexpr int kPlaces = 257;
     for (int i = 0; i < kPlaces; ++i) box.take(evaluate(c, static_cast<double>(i) / (kPlaces - 1)));
+    length += lac::arc_length(c);
   }
 };
 
 void describe_space(const document::SpaceCurve& c, Thing& thing) {
   thing.kind = ThingKind::space_curve;
   thing.type = std::visit(TypeName{}, c.value);
-  std::visit(SpaceBox{thing.box}, c.value);
+  double length = 0;
+  std::visit(SpaceMeasure{thing.box, length}, c.value);
+  thing.length = length;
 }
 
 void describe_line(const acquire::KeyLine& line, Thing& thing) {

@@ -180,8 +180,9 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
   if (!read) return std::unexpected(read.error());
   const std::vector<RawCurve>& raw = read->curves;
   ReadAnswer answer;
-  answer.unit = input.unit.empty() ? read->unit : input.unit;
+  answer.unit = read->unit;
   if (!raw.empty()) answer.skipped = raw.front().left_out;
+  take_unit(answer.unit, input.unit, answer.skipped);
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const RawCurve& curve = raw[i];
     if (!is_wanted(raw, i, input.select)) continue;
@@ -214,7 +215,7 @@ Result<ReadAnswer> join_files(const InputRequest& input) {
     if (unit.empty()) unit = raw->unit;
     for (RawCurve& curve : raw->curves) parts.push_back(std::move(curve));
   }
-  if (!input.unit.empty()) unit = input.unit;
+  take_unit(unit, input.unit, answer.skipped);
   auto line = acquire::acquire_joined(parts, acquire_options(input.acquiring));
   if (!line) return std::unexpected(line.error());
   if (!has_plane(*line))

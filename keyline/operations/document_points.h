@@ -28,6 +28,15 @@ bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::s
   return !named && wanted == std::to_string(index + 1);
 }
 
+/// The unit that is asked for in place of the file's own. Numbers stay: where the file tells
+/// another one, that is told.
+inline void take_unit(std::string& own, const std::string& asked, std::vector<std::string>& told) {
+  if (asked.empty()) return;
+  if (!own.empty() && own != asked)
+    told.push_back("the file's own unit, " + own + ": its numbers are taken as " + asked);
+  own = asked;
+}
+
 /// A key-line in its plane's coordinates.
 NamedCurve named_line(acquire::KeyLine line);
 

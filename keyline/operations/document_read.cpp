@@ -125,7 +125,7 @@ Result<ReadAnswer> read_curves(const InputRequest& input, const core::Progress& 
   if (!document) return std::unexpected(document.error());
   if (auto done = in_file(document::select(*document, input.select), file); !done)
     return std::unexpected(done.error());
-  if (!input.unit.empty()) document->unit = input.unit;
+  take_unit(document->unit, input.unit, document->skipped);
   if (input.trims) document::add_trim_curves(*document);
   if (!input.planar) return answer_of(std::move(*document));
   const std::size_t plane_already = document->paths.size();

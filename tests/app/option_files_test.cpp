@@ -74,7 +74,7 @@ TEST(OptionFiles, OfTwoUnitsAreRefused) {
   const std::string in_mm = s.write("mm.json", R"({"unit":"mm)" + curve);
   const std::string in_inches = s.write("in.json", R"({"unit":"in)" + curve);
   expect_failure(run_keyline("curve.compare --curves " + in_mm + " " + in_inches), 2,
-                 in_inches + ": is in in, " + in_mm + " in mm; convert one");
+                 in_inches + ": is in in, " + in_mm + " in mm; bring it to mm first");
 }
 
 // A polygon of 60 corners whose first one is not repeated.

@@ -57,13 +57,42 @@ TEST(CurvesOfFiles, AreNamedBehindTheirFile) {
   EXPECT_NEAR(json::parse(two.out)["largest"].get<double>(), 0, 1e-12);
 }
 
+// A helix of one turn, radius 3 and rise 6 pi, and a line of length 13: list measures in space,
+// too.
+TEST(CurvesOfFiles, InSpaceHaveALength) {
+  const Scratch s;
+  const std::string curves =
+      R"({"curve":{"type":"log-aesthetic-space","start":[3,0,0],)"
+      R"("frame":[[0,0.70710678118654752,0.70710678118654752],[-1,0,0],)"
+      R"([0,-0.70710678118654752,0.70710678118654752]],"pieces":[{"alpha":1,"beta":1,)"
+      R"("length":26.657297628950054,"curvature":[0.16666666666666666,0.16666666666666666],)"
+      R"("torsion":[0.16666666666666666,0.16666666666666666]}]}},)"
+      R"({"curve":{"type":"polyline","points":[[0,0,0],[3,4,12]]}})";
+  const std::string file = s.write("space.json", "{\"curves\":[" + curves + "]}");
+  const json things = json::parse(run_keyline("list --json " + file).out)["things"];
+  ASSERT_EQ(things.size(), 2U);
+  EXPECT_NEAR(things[0].value("length", 0.0), 6 * std::numbers::sqrt2 * std::numbers::pi, 1e-6);
+  EXPECT_NEAR(things[1].value("length", 0.0), 13, 1e-9);
+}
+
 TEST(CurvesOfFiles, OfTwoUnitsAreRefused) {
   const Scratch s;
   const std::string in_mm = s.write("mm.json", document(kArc, "mm"));
   const std::string in_inches = s.write("in.json", document(kArc, "in"));
   const std::string in_none = s.write("none.json", document(kArc));
   expect_failure(run_keyline("compare " + in_mm + " " + in_inches), 2,
-                 in_inches + ": is in in, what was read before in mm; convert one of them");
+                 in_inches +
+                     ": is in in, what was read before in mm; bring it to mm first: keyline "
+                     "transform --scale 25.4 --unit mm");
+  // …which is true: what is brought so agrees
+  const std::string brought = s.path("brought.json");
+  const Outcome scaled =
+      run_keyline("transform --scale 25.4 --unit mm " + in_inches + " -o " + brought);
+  EXPECT_EQ(scaled.status, 0);
+  EXPECT_NE(scaled.err.find("the file's own unit, in: its numbers are taken as mm"),
+            std::string::npos)
+      << scaled.err;
+  EXPECT_EQ(run_keyline("compare " + in_mm + " " + brought).status, 0);
   for (const std::string& files : {in_mm + " " + in_none, in_none + " " + in_mm}) {
     const std::string joined = s.path("joined.json");
     EXPECT_EQ(run_keyline("blend --at 0 1 " + files + " -o " + joined).status, 0);

@@ -37,6 +37,26 @@ TEST(CssColor, OfEveryNotation) {
     EXPECT_EQ(css_color(c.text), c.color) << c.text;
 }
 
+TEST(SvgStyles, TellWhatCssMoves) {
+  SvgStyles styles;
+  styles.add_sheet(".a{transform:rotate(9deg)} .b{transform:none;stroke:red}");
+  struct Case {
+    const char* attributes;
+    bool moves;
+  };
+  for (const Case& c : {Case{"style='stroke:red;transform: translate(1px,2px)'", true},
+                        {"style='rotate:9deg'", true},
+                        {"transform-origin='5 5' transform='rotate(9)'", true},
+                        {"class='a'", true},
+                        {"class='b'", false},
+                        {"transform='rotate(9)' style='stroke:red'", false},
+                        {"style='transform:none'", false}}) {
+    pugi::xml_document xml;
+    ASSERT_TRUE(xml.load_string((std::string("<path ") + c.attributes + "/>").c_str()));
+    EXPECT_EQ(styles.moves(xml.first_child()), c.moves) << c.attributes;
+  }
+}
+
 /// Paint of <path attributes/> under a sheet, within one drawn in black, 3 wide.
 SvgPaint painted(std::string_view sheet, const std::string& attributes) {
   SvgStyles styles;

@@ -82,13 +82,21 @@ void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
     paint.width = in_px(*width);
 }
 
-void declare_all(SvgPaint& paint, std::string_view text) {
+/// Calls each(name, value) for every declaration.
+template <class Each>
+void each_declaration(std::string_view text, Each each) {
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find(';'));
     const std::size_t colon = one.find(':');
-    if (colon != one.npos) declare(paint, trimmed(one.substr(0, colon)), one.substr(colon + 1));
+    if (colon != one.npos) each(trimmed(one.substr(0, colon)), trimmed(one.substr(colon + 1)));
     text.remove_prefix(std::min(text.size(), one.size() + 1));
   }
+}
+
+void declare_all(SvgPaint& paint, std::string_view text) {
+  each_declaration(text, [&paint](std::string_view name, std::string_view value) {
+    declare(paint, name, value);
+  });
 }
 
 std::string without_comments(std::string_view css) {
@@ -137,27 +145,41 @@ void SvgStyles::add_sheet(std::string_view css) {
   }
 }
 
-void SvgStyles::apply_rule(SvgPaint& paint, const std::string& selector) const {
-  if (const auto rule = rules_.find(selector); rule != rules_.end())
-    declare_all(paint, rule->second);
+std::vector<std::string_view> SvgStyles::declarations(const pugi::xml_node& node) const {
+  std::vector<std::string_view> all;
+  const auto add_rule = [&](const std::string& selector) {
+    if (const auto rule = rules_.find(selector); rule != rules_.end()) all.push_back(rule->second);
+  };
+  if (!rules_.empty()) {
+    add_rule(node.name());
+    std::string_view classes = node.attribute("class").value();
+    while (!(classes = trimmed(classes)).empty()) {
+      const std::string_view one = classes.substr(0, classes.find_first_of(kSpace));
+      add_rule("." + std::string(one));
+      classes.remove_prefix(one.size());
+    }
+    if (const char* id = node.attribute("id").value(); *id) add_rule("#" + std::string(id));
+  }
+  if (const pugi::xml_attribute style = node.attribute("style")) all.push_back(style.value());
+  return all;
 }
 
 SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   for (const char* name : {"stroke", "fill", "stroke-width"})
     if (const pugi::xml_attribute own = node.attribute(name)) declare(paint, name, own.value());
-  if (!rules_.empty()) {
-    apply_rule(paint, node.name());
-    std::string_view classes = node.attribute("class").value();
-    while (!(classes = trimmed(classes)).empty()) {
-      const std::string_view one = classes.substr(0, classes.find_first_of(kSpace));
-      apply_rule(paint, "." + std::string(one));
-      classes.remove_prefix(one.size());
-    }
-    if (const char* id = node.attribute("id").value(); *id)
-      apply_rule(paint, "#" + std::string(id));
-  }
-  if (const pugi::xml_attribute style = node.attribute("style")) declare_all(paint, style.value());
+  for (const std::string_view some : declarations(node)) declare_all(paint, some);
   return paint;
+}
+
+bool SvgStyles::moves(const pugi::xml_node& node) const {
+  constexpr std::array kMoving{"transform", "transform-origin", "translate", "rotate", "scale"};
+  if (node.attribute("transform-origin")) return true;
+  bool moved = false;
+  for (const std::string_view some : declarations(node))
+    each_declaration(some, [&](std::string_view name, std::string_view value) {
+      moved = moved || (value != "none" && std::ranges::find(kMoving, name) != kMoving.end());
+    });
+  return moved;
 }
 
 }  // namespace keyline::exchange::detail

@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace keyline::exchange::detail {
 
@@ -25,9 +26,13 @@ class SvgStyles {
   void add_sheet(std::string_view css);
   /// Paint of an element within one that is painted as given.
   SvgPaint paint(const pugi::xml_node& node, SvgPaint inherited) const;
+  /// Whether CSS turns, scales or shifts the element, or says about which place: its attribute
+  /// `transform` then does not tell where it is.
+  bool moves(const pugi::xml_node& node) const;
 
  private:
-  void apply_rule(SvgPaint& paint, const std::string& selector) const;
+  /// Declarations of CSS that apply to the element, the strongest last.
+  std::vector<std::string_view> declarations(const pugi::xml_node& node) const;
 
   std::map<std::string, std::string> rules_;  ///< declarations by selector
 };
