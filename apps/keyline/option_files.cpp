@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "keyline/core/text.h"
-#include "keyline/document/document.h"
 #include "keyline/operations/document_read.h"
 
 namespace keyline::app {
@@ -16,14 +14,6 @@ using core::fail;
 using core::Result;
 using nlohmann::json;
 using operations::ReadAnswer;
-
-std::string unit_advice(const std::string& unit, const std::string& others) {
-  const double from = document::millimetres(unit);
-  const double to = document::millimetres(others);
-  if (!(from > 0 && to > 0)) return "give files in one unit";
-  return fmt::format("bring it to {} first: keyline transform --scale {} --unit {}", others,
-                     core::number_text(from / to, 10), others);
-}
 
 json curve_of(const json& thing) {
   if (thing.contains("curve")) return thing["curve"];
@@ -59,7 +49,7 @@ Result<void> OptionFiles::agree(const operations::Outcome& outcome, const std::s
   if (unit.empty()) return {};
   if (!unit_.empty() && unit != unit_)
     return fail(ErrorCode::bad_input, fmt::format("is in {}, {} in {}", unit, unit_of_, unit_),
-                unit_advice(unit, unit_), word);
+                operations::unit_advice(unit, unit_), word);
   unit_ = unit;
   unit_of_ = word;
   return {};

@@ -15,9 +15,6 @@ namespace keyline::app {
 /// A curve of document.read as a request for one curve has it.
 nlohmann::json curve_of(const nlohmann::json& thing);
 
-/// What to do about a file in one unit among others in another one.
-std::string unit_advice(const std::string& unit, const std::string& others);
-
 /// FILE or FILE#NAME.
 struct FileWord {
   std::string file;

@@ -216,7 +216,7 @@ Result<void> agree(const json& unit, const std::string& file, Made& made) {
   return core::fail(
       core::ErrorCode::bad_input,
       fmt::format("is in {}, what was read before in {}", unit.get<std::string>(), known),
-      unit_advice(unit.get<std::string>(), known), file);
+      operations::unit_advice(unit.get<std::string>(), known), file);
 }
 
 /// Curves of one file, or what of it a name behind # takes.

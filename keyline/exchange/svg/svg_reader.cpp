@@ -207,9 +207,7 @@ class SvgReader {
 
   bool add_transform(const pugi::xml_node& node, Place& place) {
     if (styles_.moves(node))
-      skip(line(node),
-           describe(node) +
-               ": a transform by CSS, or its origin, is ignored; give a plain transform");
+      skip(line(node), describe(node) + ": what CSS turns or shifts it by is ignored");
     if (const pugi::xml_attribute attribute = node.attribute("transform")) {
       const auto own = detail::parse_svg_transform(attribute.value());
       if (own)
