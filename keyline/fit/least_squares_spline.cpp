@@ -297,7 +297,8 @@ void SplineSolver::add_values(const double* coefficients, std::span<double> out)
 
 void SplineSolver::residuals(std::span<double> out) const {
   for (std::size_t k = 0; k < column_count(); ++k)
-    std::ranges::transform(weighted_->columns[k], out.begin() + k * data_count(), std::negate{});
+    std::transform(weighted_->columns[k].begin(), weighted_->columns[k].end(),
+                   out.data() + k * data_count(), std::negate<>{});
   detail::with_order(order_, [&]<int order>() { add_values<order>(solution_.data(), out); });
 }
 
