@@ -90,10 +90,12 @@ struct Made {
   std::string text;
 };
 
-/// `name`: of what it is done to; `heading`: what that is called on the terminal.
+/// Of what it is done to: `heading` is what that is called on the terminal.
 struct Of {
   std::string name;
   std::string heading;
+  std::string layer;
+  std::string color;
 };
 
 /// The name of one of several that come of one.
@@ -111,8 +113,10 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
   std::vector<json> curves;
   gather_curves(*result, curves);
   for (std::size_t i = 0; i < curves.size(); ++i)
-    made.document["curves"].push_back(
-        {{"name", curves.size() > 1 ? numbered(name, i) : name}, {"curve", curves[i]}});
+    made.document["curves"].push_back({{"name", curves.size() > 1 ? numbered(name, i) : name},
+                                       {"layer", of.layer},
+                                       {"color", of.color},
+                                       {"curve", curves[i]}});
   if (result->contains("surface") && (*result)["surface"].is_object())
     made.document["surfaces"].push_back({{"name", name}, {"surface", (*result)["surface"]}});
   made.text += (of.heading.empty() ? "" : of.heading + "\n") +
@@ -194,11 +198,13 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
     return run_one(session, operation, request, {}, session.progress(), made);
   }
   for (std::size_t i = 0; i < things.size(); ++i) {
-    request["curve"] = curve_of(things[i]);
-    const std::string name = things[i]["name"].get<std::string>();
-    if (auto done =
-            run_one(session, operation, request, {name, called(name, "curve", i, things.size())},
-                    one_of_many(session.progress(), i, things.size()), made);
+    const json& thing = things[i];
+    request["curve"] = curve_of(thing);
+    const std::string name = thing["name"].get<std::string>();
+    const Of of{name, called(name, "curve", i, things.size()), thing["layer"].get<std::string>(),
+                thing["color"].get<std::string>()};
+    if (auto done = run_one(session, operation, request, of,
+                            one_of_many(session.progress(), i, things.size()), made);
         !done)
       return std::unexpected(told_how_far(done.error(), i, things.size()));
   }
