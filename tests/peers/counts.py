@@ -167,7 +167,7 @@ def fonttools(file):
 def font_row(program, file):
     theirs, wrong, ours = fonttools(file), [], 0
     for name, count in theirs.items():
-        found = counted(keyline(program, file, "--glyph", "/" + name))[0]
+        found = counted(keyline(program, file, "--glyphs", "/" + name))[0]
         ours += found
         if found != count:
             wrong.append(f"{name}: {found} for {count}")

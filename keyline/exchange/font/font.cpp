@@ -105,7 +105,7 @@ FT_Outline_Funcs drawing() {
 
 std::unexpected<core::Failure> missing(const std::string& what) {
   return core::fail(ErrorCode::bad_input, "the font has no glyph for \"" + what + "\"",
-                    "give a character, /name or U+hexadecimal", "--glyph");
+                    "give a character, /name or U+hexadecimal", "--glyphs");
 }
 
 /// The code point at the front of UTF-8 text, which is taken off.
@@ -164,13 +164,13 @@ Result<void> add_glyph(Document& document, FT_Face face, const Glyph& glyph) {
                       FT_Load_Glyph(face, glyph.index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
   if (!loaded || face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
     return core::fail(ErrorCode::bad_input, "the glyph \"" + glyph.name + "\" has no outline",
-                      "choose another", "--glyph");
+                      "choose another", "--glyphs");
   Contours contours;
   const FT_Outline_Funcs functions = drawing();
   if (FT_Outline_Decompose(&face->glyph->outline, &functions, &contours) != 0)
     return core::fail(ErrorCode::bad_input,
                       "the outline of the glyph \"" + glyph.name + "\" is damaged",
-                      "choose another", "--glyph");
+                      "choose another", "--glyphs");
   contours.close();
   int number = 0;
   for (auto& pieces : contours.list) {
@@ -206,7 +206,7 @@ Result<Document> read_font(std::string_view bytes, const std::string& glyphs) {
   if (glyphs.empty())
     return core::fail(ErrorCode::bad_input,
                       "the font holds " + std::to_string(face.value->num_glyphs) + " glyphs",
-                      "choose some with --glyph S", "--glyph");
+                      "choose some with --glyphs S", "--glyphs");
   const auto wanted = glyphs_of(face.value, glyphs);
   if (!wanted) return std::unexpected(wanted.error());
   Document document;
@@ -215,7 +215,7 @@ Result<Document> read_font(std::string_view bytes, const std::string& glyphs) {
       return std::unexpected(done.error());
   if (document.paths.empty())
     return core::fail(ErrorCode::bad_input, "the glyphs have no outline", "choose others",
-                      "--glyph");
+                      "--glyphs");
   return document;
 }
 
