@@ -28,7 +28,7 @@ double departure_of(const Bezier& given, const Bezier& edited) {
 /// Of the way along its control points: ends nearer than that meet.
 constexpr double kMeet = 1e-9;
 
-/// A curve of one matrix that ends where it begins is a point, or turns by more than the plane of
+/// A curve of one matrix that ends where it starts is a point, or turns by more than the plane of
 /// alpha and s holds.
 template <class Bezier>
 Result<void> check_open(const Bezier& c) {
@@ -37,8 +37,8 @@ Result<void> check_open(const Bezier& c) {
     way += core::distance(c.control[i - 1], c.control[i]);
   if (core::distance(c.control.front(), c.control.back()) > kMeet * way) return {};
   return core::fail(core::ErrorCode::undrawable,
-                    "the curve ends where it begins: there is no Class A curve between",
-                    "cut it, as with keyline split --at 0.5, and edit its parts", "curve");
+                    "the curve ends where it starts: no Class A curve does",
+                    "cut it, as with keyline split --at 0.5, and edit its parts");
 }
 
 Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::EditOptions& options) {
