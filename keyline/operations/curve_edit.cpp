@@ -38,7 +38,7 @@ Result<void> check_open(const Bezier& c) {
   if (core::distance(c.control.front(), c.control.back()) > kMeet * way) return {};
   return core::fail(core::ErrorCode::undrawable,
                     "the curve ends where it starts: no Class A curve does",
-                    "cut it, as with keyline split --at 0.5, and edit its parts");
+                    "cut it, as with keyline split --at 0.5, and edit its parts", "curve");
 }
 
 Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::EditOptions& options) {
