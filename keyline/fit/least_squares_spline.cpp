@@ -20,6 +20,7 @@ using detail::padded;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRankTolerance = 1e-7;
+
 double dot(const double* a, const double* b, std::size_t n) {
   std::array<double, kLanes> sum{};
   for (std::size_t i = 0; i < n; i += kLanes) {
@@ -273,16 +274,16 @@ double SplineSolver::coefficient(std::size_t i, std::size_t column) const {
   return solution_[i * column_count() + column];
 }
 
-/// Adds the values of a spline of these coefficients, times the data's weights.
+/// Adds the values of the spline, times the data's weights.
 template <int order>
-void SplineSolver::add_values(const double* coefficients, std::span<double> out) const {
+void SplineSolver::add_values(std::span<double> out) const {
   const std::size_t columns = column_count();
   std::size_t first = 0;
   for (const detail::ReductionStages::Stage& stage : stages_.all()) {
     for (std::size_t k = 0; k < columns; ++k) {
       double c[order];
       for (std::size_t j = 0; j < order; ++j)
-        c[j] = coefficients[(stage.span - order + j) * columns + k];
+        c[j] = solution_[(stage.span - order + j) * columns + k];
       double* const target = out.data() + k * data_count();
       const double* const rows = basis_.data();
       for (std::size_t i = first; i < stage.data; ++i) {
@@ -299,7 +300,7 @@ void SplineSolver::residuals(std::span<double> out) const {
   for (std::size_t k = 0; k < column_count(); ++k)
     std::transform(weighted_->columns[k].begin(), weighted_->columns[k].end(),
                    out.data() + k * data_count(), std::negate<>{});
-  detail::with_order(order_, [&]<int order>() { add_values<order>(solution_.data(), out); });
+  detail::with_order(order_, [&]<int order>() { add_values<order>(out); });
 }
 
 double evaluate(const LeastSquaresSpline& spline, double x, std::size_t column) {

@@ -92,7 +92,7 @@ class SplineSolver {
   template <int order>
   void eliminate(std::size_t row, std::size_t rows, double& rest);
   template <int order>
-  void add_values(const double* coefficients, std::span<double> out) const;
+  void add_values(std::span<double> out) const;
   template <class Visit>
   void for_spans_after(std::size_t span, std::size_t first, Visit visit) const;
   bool set_knots(std::span<const double> interior);

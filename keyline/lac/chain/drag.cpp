@@ -34,11 +34,11 @@ class DragProblem {
   std::size_t freedom() const;
   Chain moved(const std::vector<double>& change) const;
   /// Misses and their derivatives, for a target given in the units of the problem.
-  std::vector<detail::PieceShape> shapes(const Chain& chain) const;
   Rows misses(const std::vector<double>& change, Point2 target, std::vector<Rows>& by) const;
   const Chain& base() const { return base_; }
 
  private:
+  std::vector<detail::PieceShape> shapes(const Chain& chain) const;
   std::size_t joint_slot(std::size_t i) const { return i == joints_ ? 0 : i; }
 
   Chain base_;
