@@ -32,6 +32,8 @@ constexpr double kChangesOff = 0.01;    ///< of a line, for going over gently be
 constexpr std::array kSteeper = {1.0, 1.4, 2.0, 4.0};  ///< times the angle; the last a step
 constexpr double kAway = 3;      ///< times how near passes lie: a loop goes so far away, or is none
 constexpr double kOnStroke = 1;  ///< widths: where lines are held, so that curves stay on
+constexpr double kMostly =
+    2.0 / 3;  ///< of a stroke runs beside its line: twice as much as does not
 
 class Line {
  public:
@@ -80,8 +82,24 @@ class Line {
     reach_ = near_;
   }
 
-  const SampledStroke& line() const { return line_; }
+  /// The line with those of the strokes, so numbered, that run beside it; the one that does so for
+  /// longest if none does for long enough.
+  MeantLine meant(const std::vector<std::size_t>& numbers) const {
+    MeantLine found{line_.points, line_.closed, {}, 0};
+    std::size_t longest = 0;
+    double most = -1;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const double along = beside(k);
+      if (along > most) longest = k, most = along;
+      if (along < kMostly * strokes_[k].length) continue;
+      found.members.push_back(numbers[k]);
+      found.explained += along;
+    }
+    if (found.members.empty()) found.members = {numbers[longest]};
+    return found;
+  }
 
+ private:
   /// Length of a stroke, by index, that runs beside the line.
   double beside(std::size_t k) const {
     const SampledStroke& s = strokes_[k];
@@ -98,9 +116,6 @@ class Line {
     return s.length * static_cast<double>(count) / static_cast<double>(n);
   }
 
-  double length_of(std::size_t k) const { return strokes_[k].length; }
-
- private:
   /// Usual distance of a place on a stroke from the next stroke that runs along it, at most `most`.
   double spacing(double most) const {
     const StrokeGrid grid(strokes_, most);
@@ -273,27 +288,19 @@ MeantLine meant_line(const std::vector<SampledStroke>& strokes,
   strays.clear();
   const SampledStroke& only = strokes[members.front()];
   if (members.size() == 1) return {only.points, only.closed, members, only.length};
-  Line line(strokes, members, options);
-  line.find();
-  MeantLine meant{line.line().points, line.line().closed, {}, 0};
-  std::size_t longest = 0;
-  double most = -1;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const double beside = line.beside(k);
-    if (beside > most) longest = k, most = beside;
-    if (2 * beside < line.length_of(k)) {
-      strays.push_back(members[k]);
-    } else {
-      meant.members.push_back(members[k]);
-      meant.explained += beside;
-    }
+  std::vector<std::size_t> passes = members;
+  while (true) {
+    Line line(strokes, passes, options);
+    line.find();
+    const MeantLine meant = line.meant(passes);
+    if (meant.members.size() == passes.size()) return meant;
+    for (const std::size_t m : passes)
+      if (std::ranges::find(meant.members, m) == meant.members.end()) strays.push_back(m);
+    passes = meant.members;
+    if (passes.size() > 1) continue;
+    const SampledStroke& last = strokes[passes.front()];
+    return {last.points, last.closed, passes, last.length};
   }
-  if (meant.members.empty()) {  // then the line is the stroke that lies best with it
-    const SampledStroke& best = strokes[members[longest]];
-    std::erase(strays, members[longest]);
-    return {best.points, best.closed, {members[longest]}, best.length};
-  }
-  return meant;
 }
 
 }  // namespace keyline::sketch

@@ -25,8 +25,10 @@ struct LineOptions {
 /// such line, and the longest stroke is taken in place of those that run beside it.
 ///
 /// members: indices into strokes; one alone gives that stroke.
-/// strays:  members of which less than half runs beside the line found, no farther from it than
-///          passes of their own length may lie apart; they are not its members.
+/// strays:  members of which less than two thirds run beside the line found, no farther from it
+/// than
+///          passes of their own length may lie apart; they are not its members, and the line is
+///          that of the others alone.
 MeantLine meant_line(const std::vector<SampledStroke>& strokes,
                      const std::vector<std::size_t>& members, const LineOptions& options,
                      std::vector<std::size_t>& strays);

@@ -185,6 +185,21 @@ TEST(Consolidate, LinesOfWidePassesLieOnAStroke) {
   EXPECT_EQ(share_off(lines[0].points, false, sampled, 1.5), 0);
 }
 
+// Two rims run beside each other for a little more than half of the way, then one goes elsewhere:
+// what is drawn there is not lost, and the other one's line is not drawn towards it.
+TEST(Consolidate, ARimThatGoesElsewhereIsNotLost) {
+  const Curve one = [](double t) { return Point2{t, 0}; };
+  const Curve other = [](double t) {
+    const double turn = std::max(0.0, t - 110) / 60;
+    return Point2{std::min(t, 110.0) + 60 * std::sin(turn), 2.5 + 60 * (1 - std::cos(turn))};
+  };
+  const std::vector<DrawnStroke> rims{drawn(one, 0, 200, 0, 0), drawn(other, 0, 200, 0, 1)};
+  const auto lines = consolidate(rims, {.width = 1, .measured = true, .apart = 3.5, .hand = 0});
+  std::vector<SampledStroke> found;
+  for (const MeantLine& line : lines) found.push_back(sample_stroke(line.points, line.closed, 0.5));
+  for (const DrawnStroke& rim : rims) EXPECT_EQ(share_off(rim.points, false, found, 1), 0);
+}
+
 // Two rails closer than the pen of a rough drawing would allow are two lines; so are a stem and
 // the line it ends at, and lines that cross.
 TEST(Consolidate, NeighboursStemsAndCrossingsStayApart) {
