@@ -10,6 +10,7 @@
 #include "keyline/core/quantile.h"
 #include "keyline/sketch/align_strokes.h"
 #include "keyline/sketch/hold_line.h"
+#include "keyline/sketch/lone_strokes.h"
 #include "keyline/sketch/strip.h"
 #include "keyline/sketch/whittaker.h"
 
@@ -32,6 +33,7 @@ constexpr double kChangesOff = 0.01;    ///< of a line, for going over gently be
 constexpr std::array kSteeper = {1.0, 1.4, 2.0, 4.0};  ///< times the angle; the last a step
 constexpr double kAway = 3;      ///< times how near passes lie: a loop goes so far away, or is none
 constexpr double kOnStroke = 1;  ///< widths: where lines are held, so that curves stay on
+constexpr double kGoOver = 2;    ///< reaches, from the mean of several strokes to one alone
 constexpr double kMostly =
     2.0 / 3;  ///< of a stroke runs beside its line: twice as much as does not
 
@@ -58,7 +60,16 @@ class Line {
     close();
     close_gap();
     for (int round = 0; round < kRounds; ++round) average();
-    if (hold() > kOffShare) take_longest();
+    const double off = hold();
+    if (off > kOffShare) return take_longest();
+    const SampledStroke held = line_;
+    set_line(follow_lone_strokes(line_, strokes_, reach_, kGoOver * reach_), line_.closed);
+    if (share_off() > off) line_ = held;
+  }
+
+  /// Of the line, on paper.
+  double share_off() const {
+    return sketch::share_off(line_.points, line_.closed, strokes_, kMostOff * width_);
   }
 
   /// Keeps the line to its strokes, going over from one to another as gently as little paper
@@ -69,7 +80,7 @@ class Line {
     for (const double steeper : kSteeper) {
       const Going going{4 * near_, std::min(steeper * angle_, M_PI / 2)};
       set_line(hold_to_strokes(before, strokes_, kOnStroke * width_, reach_, going), before.closed);
-      off = share_off(line_.points, line_.closed, strokes_, kMostOff * width_);
+      off = share_off();
       if (off <= kChangesOff) break;
     }
     return off;

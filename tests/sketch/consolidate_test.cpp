@@ -200,6 +200,22 @@ TEST(Consolidate, ARimThatGoesElsewhereIsNotLost) {
   for (const DrawnStroke& rim : rims) EXPECT_EQ(share_off(rim.points, false, found, 1), 0);
 }
 
+// A second stroke runs beside the first half of a wavy one: the waves of its second half stay.
+TEST(Consolidate, WhatOneStrokeDrewAloneStaysAsItIs) {
+  const Curve wavy = [](double t) {
+    return Point2{t, t < 100 ? 0 : 3 * std::sin((t - 100) / 1.5)};
+  };
+  const Curve beside = [](double t) { return Point2{t, 1}; };
+  const DrawnStroke whole = drawn(wavy, 0, 200, 0, 0);
+  const auto lines = consolidate({whole, drawn(beside, 0, 90, 0, 1)},
+                                 {.width = 1, .measured = true, .apart = 3.5, .hand = 0});
+  ASSERT_EQ(lines.size(), 1U);
+  const SampledStroke line = sample_stroke(lines[0].points, lines[0].closed, 0.5);
+  const std::vector<Point2> alone(whole.points.begin() + 130, whole.points.end());
+  EXPECT_EQ(share_off(alone, false, {line}, 0.5), 0);
+  EXPECT_EQ(share_off(line.points, false, {sample_stroke(whole.points, false, 0.5)}, 1.5), 0);
+}
+
 // Two rails closer than the pen of a rough drawing would allow are two lines; so are a stem and
 // the line it ends at, and lines that cross.
 TEST(Consolidate, NeighboursStemsAndCrossingsStayApart) {
