@@ -137,6 +137,7 @@ Image reduced(const Image& image, const OwnSize& size) {
   Image small;
   small.luminance = Raster<std::uint16_t>(size.width, size.height);
   small.pixels_per_mm = image.pixels_per_mm * size.width / image.width();
+  small.on_black = image.on_black;
   for (int y = 0; y < size.height; ++y) {
     const int top = begin_of(y, size.height, image.height(), size.shift);
     const int bottom = begin_of(y + 1, size.height, image.height(), size.shift);

@@ -32,10 +32,11 @@ struct Raster {
 inline constexpr std::int64_t kMaxPixels = 64LL << 20;
 
 /// A picture as the sketch room takes it: luminance (0 black, 65535 white, encoded as in sRGB),
-/// colours weighted, transparency laid over white, turned upright.
+/// colours weighted, transparency laid over white (or black), turned upright.
 struct Image {
   Raster<std::uint16_t> luminance;
   double pixels_per_mm = 0;  ///< resolution the file states; 0: none
+  bool on_black = false;     ///< laid over black: light lines on a transparent ground
 
   int width() const { return luminance.width; }
   int height() const { return luminance.height; }

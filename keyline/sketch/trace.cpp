@@ -236,6 +236,8 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (const OwnSize size = own_size(image); size.width < image.width())
     return trace_enlarged(image, size, options);
   TraceResult result;
+  const char* light =
+      image.on_black ? "light lines on transparent ground" : "light lines on dark ground";
   options.progress.report(0, "reading grey values");
   if (auto done = straighten(image, options, result); !done) return std::unexpected(done.error());
   result.width = image.width();
@@ -243,7 +245,7 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   Tone tone = transform_intensity(std::move(image), options.tone);
   show(options, tone);
   tell_margins(tone.margins, result);
-  if (tone.light_on_dark) result.notes.push_back("light lines on dark ground");
+  if (tone.light_on_dark) result.notes.push_back(light);
   if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
   options.progress.report(0.2, "telling ink from paper");
   Ink found = find_ink(tone, options);

@@ -1,5 +1,6 @@
 #include "keyline/exchange/image/image_reader.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -109,6 +110,32 @@ TEST(ImageReader, LaysTransparencyOverWhite) {
   const auto image = read_image(png_of(PNG_COLOR_TYPE_RGBA, 8, rgba, 4, 1));
   ASSERT_TRUE(image);
   for (int x = 0; x < 4; ++x) EXPECT_NEAR(image->luminance.at(x, 0), 65535 - 65535.0 * x / 3, 300);
+}
+
+// White on nothing is lost on white; a black pixel more, or less than half of nothing, and it is
+// not what is drawn there that is light.
+TEST(ImageReader, LaysLightLinesOnNothingOverBlack) {
+  const auto picture = [](const std::vector<std::array<unsigned char, 2>>& pixels) {
+    std::vector<unsigned char> bytes;  // of grey and opacity
+    for (const auto& p : pixels) bytes.insert(bytes.end(), p.begin(), p.end());
+    const auto image =
+        read_image(png_of(PNG_COLOR_TYPE_GRAY_ALPHA, 8, bytes, static_cast<int>(pixels.size()), 1));
+    EXPECT_TRUE(image);
+    return image.value_or(sketch::Image{});
+  };
+  const auto light = picture({{0, 0}, {255, 51}, {255, 255}, {255, 0}, {0, 0}});
+  EXPECT_TRUE(light.on_black);
+  EXPECT_EQ(light.luminance.data, (std::vector<std::uint16_t>{0, 13107, 65535, 0, 0}));
+  for (const auto& other :
+       {picture({{0, 0}, {255, 255}, {0, 255}, {0, 0}, {0, 0}}),
+        picture({{0, 0}, {255, 255}, {255, 255}, {200, 255}, {0, 0}}), picture({{0, 0}, {0, 0}})}) {
+    EXPECT_FALSE(other.on_black);
+    EXPECT_EQ(other.luminance.data.front(), 65535);
+  }
+  const auto deep = read_image(
+      deep_tiff({0, 0, 0, 0, 65535, 65535, 65535, 65535, 0, 0, 0, 0}, 4, PHOTOMETRIC_RGB));
+  ASSERT_TRUE(deep);
+  EXPECT_EQ(deep->luminance.data, (std::vector<std::uint16_t>{0, 65535, 0}));
 }
 
 TEST(ImageReader, KeepsSixteenBits) {

@@ -42,17 +42,18 @@ struct Reader {
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-/// Asks libpng for 16 bit grey, over white, in the machine's byte order.
-void set_transforms(png_structp png, png_infop info) {
+/// Asks libpng for 16 bit grey, over the ground, in the machine's byte order.
+void set_transforms(png_structp png, png_infop info, Ground ground) {
   png_set_expand_16(png);
   // only a file of another gamma is converted: libpng then weighs colours in linear light
   double gamma = 0;
   if (png_get_gAMA(png, info, &gamma) && std::abs(gamma - 0.4545) > 0.05)
     png_set_gamma(png, PNG_DEFAULT_sRGB, gamma);
-  png_color_16 white{0, 65535, 65535, 65535, 65535};
+  const auto level = static_cast<png_uint_16>(ground);
+  png_color_16 under{0, level, level, level, level};
   if ((png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) ||
       png_get_valid(png, info, PNG_INFO_tRNS))
-    png_set_background(png, &white, PNG_BACKGROUND_GAMMA_SCREEN, 0, 1);
+    png_set_background(png, &under, PNG_BACKGROUND_GAMMA_SCREEN, 0, 1);
   if (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR)
     png_set_rgb_to_gray_fixed(png, PNG_ERROR_ACTION_NONE, 29900, 58700);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
@@ -65,9 +66,10 @@ bool read_header(png_structp png, png_infop info) {
   return true;
 }
 
-bool read_pixels(png_structp png, png_infop info, png_bytep* rows, std::size_t row_bytes) {
+bool read_pixels(png_structp png, png_infop info, Ground ground, png_bytep* rows,
+                 std::size_t row_bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
-  set_transforms(png, info);
+  set_transforms(png, info, ground);
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
   if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "its pixels have an unknown form");
@@ -85,7 +87,7 @@ void skip_texts(png_structp png) {
 
 }  // namespace
 
-Result<Image> read_png(std::string_view bytes) {
+Result<Image> read_png(std::string_view bytes, Ground ground) {
   Source source{bytes, 0, {}};
   Reader reader;
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_error, on_warning);
@@ -106,7 +108,8 @@ Result<Image> read_png(std::string_view bytes) {
   for (int y = 0; y < image->height(); ++y)
     rows.push_back(reinterpret_cast<png_bytep>(&image->luminance.at(0, y)));
   const auto row_bytes = 2 * static_cast<std::size_t>(width);
-  if (!read_pixels(reader.png, reader.info, rows.data(), row_bytes)) return damaged(source.message);
+  if (!read_pixels(reader.png, reader.info, ground, rows.data(), row_bytes))
+    return damaged(source.message);
   image->pixels_per_mm = png_get_pixels_per_meter(reader.png, reader.info) / 1000.0;
   png_bytep exif = nullptr;
   png_uint_32 size = 0;

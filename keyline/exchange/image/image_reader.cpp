@@ -52,6 +52,25 @@ void rearrange(Image& image, int width, int height, const Place& place) {
   image.luminance = std::move(turned);
 }
 
+constexpr std::uint16_t kMidGrey = 32768;
+
+bool is_dark(std::uint16_t level) { return level < kMidGrey; }
+
+/// A picture by a reader that lays what is transparent over white; over black if nothing is dark on
+/// white, and on black most but not all is: then that is the ground, and the lines are light.
+template <class Read>
+Result<Image> read_on_ground(const Read& read, std::string_view bytes) {
+  auto image = read(bytes, detail::Ground::white);
+  if (!image || std::ranges::any_of(image->luminance.data, is_dark)) return image;
+  image->luminance = {};
+  image = read(bytes, detail::Ground::black);
+  if (!image) return image;
+  const std::size_t all = image->luminance.data.size();
+  const auto dark = static_cast<std::size_t>(std::ranges::count_if(image->luminance.data, is_dark));
+  image->on_black = 2 * dark > all && dark < all;
+  return image->on_black ? image : read(bytes, detail::Ground::white);
+}
+
 }  // namespace
 
 namespace detail {
@@ -82,9 +101,9 @@ std::uint16_t luminance(double red, double green, double blue) {
       std::clamp(std::lround(0.299 * red + 0.587 * green + 0.114 * blue), 0L, 65535L));
 }
 
-std::uint16_t over_white(double v, double opacity) {
-  return static_cast<std::uint16_t>(
-      std::clamp(std::lround(v * opacity + 65535 * (1 - opacity)), 0L, 65535L));
+std::uint16_t laid_over(Ground ground, double v, double opacity) {
+  const double rest = static_cast<double>(ground) * (1 - opacity);
+  return static_cast<std::uint16_t>(std::clamp(std::lround(v * opacity + rest), 0L, 65535L));
 }
 
 int exif_orientation(std::string_view exif) {
@@ -139,10 +158,10 @@ bool has_image_name(const std::filesystem::path& path) {
 
 Result<Image> read_image(std::string_view bytes) {
   const std::string_view kind = picture_extension(bytes);
-  if (kind == ".png") return detail::read_png(bytes);
+  if (kind == ".png") return read_on_ground(detail::read_png, bytes);
   if (kind == ".jpg") return detail::read_jpeg(bytes);
-  if (kind == ".tif") return detail::read_tiff(bytes);
-  if (kind == ".webp") return detail::read_webp(bytes);
+  if (kind == ".tif") return read_on_ground(detail::read_tiff, bytes);
+  if (kind == ".webp") return read_on_ground(detail::read_webp, bytes);
   return core::fail(ErrorCode::bad_input, "is no PNG, JPEG, TIFF or WebP picture",
                     "save the drawing in one of these formats");
 }

@@ -18,6 +18,8 @@ bool has_image_name(const std::filesystem::path& path);
 
 /// Decodes a PNG, JPEG, TIFF or WebP picture of 1 to 16 bits a channel, grey or colour (weighted
 /// 0.299, 0.587, 0.114), transparency laid over white, turned upright by its EXIF orientation.
+/// Where nothing of it is darker than mid grey and most of it is transparent it is laid over black,
+/// for light lines are lost on white (on_black).
 ///
 /// Memory: 2 bytes per pixel for the answer and at most 4 more while decoding.
 /// Fails:  bad_input for other or damaged files, and where the header states more than 64
@@ -30,10 +32,13 @@ core::Result<sketch::Image> read_image_file(const std::filesystem::path& path);
 
 namespace detail {
 
-core::Result<sketch::Image> read_png(std::string_view bytes);
+/// Level that what is transparent is laid over.
+enum class Ground : std::uint16_t { black = 0, white = 65535 };
+
+core::Result<sketch::Image> read_png(std::string_view bytes, Ground ground);
 core::Result<sketch::Image> read_jpeg(std::string_view bytes);
-core::Result<sketch::Image> read_tiff(std::string_view bytes);
-core::Result<sketch::Image> read_webp(std::string_view bytes);
+core::Result<sketch::Image> read_tiff(std::string_view bytes, Ground ground);
+core::Result<sketch::Image> read_webp(std::string_view bytes, Ground ground);
 
 /// An image of that size, or why not. `least_bytes` is what the file has to hold at least for it.
 core::Result<sketch::Image> new_image(std::int64_t width, std::int64_t height, double least_bytes,
@@ -44,8 +49,8 @@ std::unexpected<core::Failure> damaged(const std::string& what);
 
 /// 0 … 65535 of channels in the same range.
 std::uint16_t luminance(double red, double green, double blue);
-/// v laid over white with opacity 0 … 1.
-std::uint16_t over_white(double v, double opacity);
+/// v laid over the ground with opacity 0 … 1.
+std::uint16_t laid_over(Ground ground, double v, double opacity);
 
 /// Orientation (1 … 8) stated by an EXIF block (TIFF structure, with or without "Exif\0\0" before
 /// it); 1 where there is none.

@@ -68,6 +68,7 @@ struct Layout {
   std::uint16_t planar = PLANARCONFIG_CONTIG;
   std::uint16_t orientation = 1;
   bool tiled = false;
+  Ground ground = Ground::white;
 };
 
 Layout layout_of(TIFF* tiff) {
@@ -96,7 +97,7 @@ void convert(const std::uint16_t* p, const Layout& l, int count, std::uint16_t* 
     double v = l.samples >= 3 ? luminance(p[0], p[1], p[2]) : p[0];
     if (l.photometric == PHOTOMETRIC_MINISWHITE) v = 65535 - v;
     const bool alpha = l.samples == 2 || l.samples == 4;
-    out[x] = over_white(v, alpha ? p[l.samples - 1] / 65535.0 : 1);
+    out[x] = laid_over(l.ground, v, alpha ? p[l.samples - 1] / 65535.0 : 1);
   }
 }
 
@@ -138,7 +139,7 @@ bool read_deep(TIFF* tiff, const Layout& l, Image& image) {
 }
 
 /// Through libtiff's conversion to RGBA (premultiplied), top row first, as the file orders rows.
-bool read_converted(TIFF* tiff, Image& image) {
+bool read_converted(TIFF* tiff, Ground ground, Image& image) {
   char why[1024] = "";
   if (!TIFFRGBAImageOK(tiff, why)) return false;
   TIFFRGBAImage converter;
@@ -151,9 +152,9 @@ bool read_converted(TIFF* tiff, Image& image) {
   TIFFRGBAImageEnd(&converter);
   for (std::size_t i = 0; good && i < pixels.size(); ++i) {
     const std::uint32_t p = pixels[i];
-    const double white = 255.0 - TIFFGetA(p);
-    image.luminance.data[i] = luminance((TIFFGetR(p) + white) * 257, (TIFFGetG(p) + white) * 257,
-                                        (TIFFGetB(p) + white) * 257);
+    const double rest = ground == Ground::white ? 255.0 - TIFFGetA(p) : 0.0;
+    image.luminance.data[i] = luminance((TIFFGetR(p) + rest) * 257, (TIFFGetG(p) + rest) * 257,
+                                        (TIFFGetB(p) + rest) * 257);
   }
   return good;
 }
@@ -169,7 +170,7 @@ double density(TIFF* tiff) {
 
 }  // namespace
 
-Result<Image> read_tiff(std::string_view bytes) {
+Result<Image> read_tiff(std::string_view bytes, Ground ground) {
   silence();
   Source source{bytes, 0};
   const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen("picture", "r", &source, read_bytes,
@@ -180,7 +181,8 @@ Result<Image> read_tiff(std::string_view bytes) {
   std::uint32_t height = 0;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-  const Layout layout = layout_of(tiff.get());
+  Layout layout = layout_of(tiff.get());
+  layout.ground = ground;
   if (layout.bits > 16)
     return core::fail(core::ErrorCode::unsupported,
                       "the TIFF picture has " + std::to_string(layout.bits) + " bits per sample",
@@ -189,8 +191,8 @@ Result<Image> read_tiff(std::string_view bytes) {
   const double raw = static_cast<double>(width) * height * layout.bits * layout.samples / 8;
   auto image = new_image(width, height, raw / 4000, bytes.size());
   if (!image) return image;
-  const bool good =
-      is_deep(layout) ? read_deep(tiff.get(), layout, *image) : read_converted(tiff.get(), *image);
+  const bool good = is_deep(layout) ? read_deep(tiff.get(), layout, *image)
+                                    : read_converted(tiff.get(), ground, *image);
   if (!good) return damaged("its TIFF pixels cannot be decoded");
   image->pixels_per_mm = density(tiff.get());
   apply_orientation(*image, layout.orientation);

@@ -24,7 +24,7 @@ std::string_view chunk(std::string_view bytes, std::string_view name) {
 
 }  // namespace
 
-core::Result<sketch::Image> read_webp(std::string_view bytes) {
+core::Result<sketch::Image> read_webp(std::string_view bytes, Ground ground) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
@@ -42,7 +42,7 @@ core::Result<sketch::Image> read_webp(std::string_view bytes) {
   for (std::size_t i = 0; i < image->luminance.data.size(); ++i) {
     const std::uint8_t* p = pixels.data() + 4 * i;
     image->luminance.data[i] =
-        over_white(luminance(p[0] * 257.0, p[1] * 257.0, p[2] * 257.0), p[3] / 255.0);
+        laid_over(ground, luminance(p[0] * 257.0, p[1] * 257.0, p[2] * 257.0), p[3] / 255.0);
   }
   apply_orientation(*image, exif_orientation(chunk(bytes, "EXIF")));
   return image;
