@@ -26,6 +26,29 @@ constexpr double kLongDash = 8 * kEven;
 constexpr double kGrid = 1;  ///< pixels that a length, or an end beside it, may be off
 constexpr double kDot = 3;   ///< pixels: what is shorter has no direction
 
+/// Of a line's ink.
+struct Box {
+  Point2 low{HUGE_VAL, HUGE_VAL};
+  Point2 high{-HUGE_VAL, -HUGE_VAL};
+
+  bool meets(Point2 p, Point2 q) const {
+    return std::max(p.x, q.x) >= low.x && std::min(p.x, q.x) <= high.x &&
+           std::max(p.y, q.y) >= low.y && std::min(p.y, q.y) <= high.y;
+  }
+};
+
+Box box_of(const GraphEdge& line) {
+  Box box;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const double r = line.radii[i] + 0.5;
+    box.low = {std::min(box.low.x, line.points[i].x - r),
+               std::min(box.low.y, line.points[i].y - r)};
+    box.high = {std::max(box.high.x, line.points[i].x + r),
+                std::max(box.high.y, line.points[i].y + r)};
+  }
+  return box;
+}
+
 class Bridges {
  public:
   Bridges(const StrokeGraph& graph, double gap, double turn, std::vector<Branch>& branches)
@@ -51,15 +74,19 @@ class Bridges {
   }
 
   /// Dashes: ends each of which is the other's nearest ahead, over gaps as long as the next ones.
+  /// What shows a row is paper: over other ink it goes on only where it does so on both sides.
   void bridge_rows() {
     std::erase_if(ends_, [&](int end) { return at(end).mate >= 0; });
     if (ends_.empty()) return;
     find_nearest();
+    find_paper();
     std::vector<Pair> rows;
     for (const int a : ends_) {
       const Pair p = nearest_[index(a)];
-      if (p.b > a && nearest_[index(p.b)].b == a && (goes_on(a, p.gap) || goes_on(p.b, p.gap)))
-        rows.push_back({p.cost, p.gap, a, p.b});
+      if (p.b < a || !is_mutual(a)) continue;
+      const bool one = goes_on(a, p.gap);
+      const bool other = goes_on(p.b, p.gap);
+      if (paper_[index(a)] ? one || other : one && other) rows.push_back({p.cost, p.gap, a, p.b});
     }
     for (const Pair& p : rows) join(p.a, p.b, p.gap);
   }
@@ -136,24 +163,66 @@ class Bridges {
     });
   }
 
-  /// Whether the line that ends there has, or comes to at its other end, a gap as long, and is no
-  /// longer than a dash between two such gaps.
+  bool is_mutual(int end) const {
+    const int other = nearest_[index(end)].b;
+    return other >= 0 && nearest_[index(other)].b == end;
+  }
+
+  /// Tells the gaps that show paper from those that have ink of other lines in them.
+  void find_paper() {
+    paper_.assign(branches_.size(), false);
+    boxes_.clear();
+    for (const GraphEdge& line : graph_.edges) boxes_.push_back(box_of(line));
+    for (const int a : ends_)
+      if (is_mutual(a) && nearest_[index(a)].b > a)
+        paper_[index(a)] = paper_[index(nearest_[index(a)].b)] = is_paper(a, nearest_[index(a)].b);
+  }
+
+  bool is_paper(int a, int b) {
+    const Point2 from = end_point(a);
+    const Vector2 across = end_point(b) - from;
+    const double length = core::norm(across);
+    const Vector2 along = across / length;
+    const double first = end_radius(a);
+    const double last = length - end_radius(b);
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const GraphEdge& line = graph_.edges[e];
+      if (!line.alive || e == index(a / 2) || e == index(b / 2)) continue;
+      if (!boxes_[e].meets(from, from + across)) continue;
+      for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Vector2 to = line.points[i] - from;
+        const double way = core::dot(to, along);
+        if (way > first && way < last && std::abs(core::cross(to, along)) < line.radii[i] + 0.5)
+          return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether the line that ends there has, or comes to at its other end, a gap as long that shows
+  /// paper, and is no longer than a dash between two such gaps. It may come to it over gaps that do
+  /// not.
   bool goes_on(int end, double gap) {
     const auto even = [gap](double other) {
       return other > 0 && std::max(gap, other) < kEven * std::min(gap, other) + 2 * kGrid;
     };
     int out = end ^ 1;
     double way = dash(end);
-    for (std::size_t steps = 0; at(out).mate >= 0 && steps < branches_.size(); ++steps) {
-      if (way > kLongDash * gap) return false;
-      if (even(over_[index(out)])) return true;
-      way += over_[index(out)] + length_of(edge_of(at(out).mate));
-      out = at(out).mate ^ 1;
+    for (std::size_t steps = 0; way <= kLongDash * gap && steps < branches_.size(); ++steps) {
+      int mate = at(out).mate;
+      if (mate >= 0) {
+        if (even(over_[index(out)])) return true;
+        way += over_[index(out)] + length_of(edge_of(mate));
+      } else {
+        if (!is_mutual(out) || !even(nearest_[index(out)].gap)) return false;
+        if (paper_[index(out)]) return true;
+        mate = nearest_[index(out)].b;
+        way = dash(mate);
+      }
+      out = mate ^ 1;
       if (out == end) return false;
     }
-    if (way > kLongDash * gap) return false;
-    const Pair& next = nearest_[index(out)];
-    return next.b >= 0 && nearest_[index(next.b)].b == out && even(next.gap);
+    return false;
   }
 
   const StrokeGraph& graph_;
@@ -164,6 +233,8 @@ class Bridges {
   std::vector<int> ends_;      ///< free ones, from left to right
   double largest_ = 0;         ///< radius of an end
   std::vector<Pair> nearest_;  ///< by branch
+  std::vector<bool> paper_;    ///< by branch: its nearest lies across paper
+  std::vector<Box> boxes_;     ///< of the edges' ink
 };
 
 }  // namespace

@@ -186,6 +186,23 @@ TEST(Trace, LongLinesAndFarOnesAreNoRowOfDashes) {
   }
 }
 
+// Dashes are a row by the paper between them: strokes that face each other across other lines are
+// none, and a row goes on over a line that it crosses.
+TEST(Trace, OtherInkInEveryGapIsNoRowOfDashes) {
+  struct Case {
+    std::vector<int> lines;  ///< gaps with a line across
+    unsigned strokes;
+  };
+  for (const Case& one : {Case{{}, 1}, {{1}, 2}, {{0, 1, 2}, 7}, {{2}, 3}}) {
+    Image page = blank_page(280, 100);
+    for (int k = 0; k < 4; ++k) draw_line(page, {22.0 + 65 * k, 50}, {51.0 + 65 * k, 50}, 3);
+    for (const int k : one.lines) draw_line(page, {69.0 + 65 * k, 12}, {69.0 + 65 * k, 88}, 3);
+    const auto result = trace(page);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), one.strokes) << one.lines.size();
+  }
+}
+
 /// Sharpest curvature of a stroke.
 double sharpest(const Stroke& stroke) {
   double most = 0;
