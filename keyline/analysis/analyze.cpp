@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <optional>
 
 #include "keyline/analysis/volume.h"
+#include "keyline/numeric/parallel.h"
 
 namespace keyline::analysis {
 namespace {
@@ -67,19 +70,27 @@ MonotoneAnswer monotone_answer(const AnalyzeOptions& options, const Split& split
 
 core::Result<std::vector<PieceAnalysis>> analyze_pieces(const CurveView& curve,
                                                         const ArcLengthTable& table,
-                                                        const std::vector<MonotonePiece>& extents,
+                                                        std::vector<MonotonePiece> extents,
                                                         const AnalyzeOptions& options) {
+  std::erase_if(extents, [&](const MonotonePiece& e) {
+    return !(e.arc_length.high - e.arc_length.low > 1e-12 * table.length());
+  });
+  std::vector<std::optional<core::Result<PieceAnalysis>>> found(extents.size());
+  std::mutex telling;
+  double begun = 0;
+  numeric::parallel_for(extents.size(), options.threads, [&](std::size_t i) {
+    if (options.progress.stop_requested()) return;
+    {
+      const std::scoped_lock lock(telling);
+      options.progress.report(begun++ / static_cast<double>(extents.size()), "analysing pieces");
+    }
+    found[i] = analyze_piece(curve, table, extents[i], options, table.length());
+  });
   std::vector<PieceAnalysis> pieces;
-  const auto count = static_cast<double>(extents.size());
-  for (std::size_t i = 0; i < extents.size(); ++i) {
-    const core::Interval& s = extents[i].arc_length;
-    if (!(s.high - s.low > 1e-12 * table.length())) continue;
-    if (options.progress.stop_requested())
-      return core::fail(core::ErrorCode::cancelled, "cancelled");
-    options.progress.report(static_cast<double>(i) / count, "analysing pieces");
-    auto piece = analyze_piece(curve, table, extents[i], options, table.length());
-    if (!piece) return std::unexpected(piece.error());
-    pieces.push_back(std::move(*piece));
+  for (auto& piece : found) {
+    if (!piece) return core::fail(core::ErrorCode::cancelled, "cancelled");
+    if (!*piece) return std::unexpected(piece->error());
+    pieces.push_back(std::move(**piece));
   }
   return pieces;
 }

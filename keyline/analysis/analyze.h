@@ -32,6 +32,7 @@ struct AnalyzeOptions {
   /// where an extremum was found, else `undecided`.
   std::function<MonotoneAnswer()> certify;
   core::Progress progress;  ///< told and asked before every piece
+  int threads = 0;          ///< at work on pieces (0: all of the machine's); all give the same
 };
 
 struct CurvaturePlotPoint {

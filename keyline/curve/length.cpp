@@ -98,6 +98,19 @@ void integrate(const SpeedView& v, const std::vector<double>& ends, double toler
     refine(v, ends[i], ends[i + 1], whole[i], allowed, 0, halvings, accept);
 }
 
+/// Whether the speed of a panel of that length is the same to rounding at all nodes of the rule
+/// that tells its length: lines, arcs and log-aesthetic pieces run so.
+bool is_even(const SpeedView& v, double low, double high, double length) {
+  constexpr double kRounding = 1e-14;
+  const double mean = length / (high - low);
+  const double middle = 0.5 * (low + high);
+  const double half = 0.5 * (high - low);
+  const auto same = [&](double t) { return std::abs(v(t) - mean) <= kRounding * mean; };
+  return std::ranges::all_of(kNodes, [&](double node) {
+    return same(middle - half * node) && same(middle + half * node);
+  });
+}
+
 }  // namespace
 
 double integrate_speed(const SpeedView& v, const std::vector<double>& breaks, double t0, double t1,
@@ -112,8 +125,9 @@ double integrate_speed(const SpeedView& v, const std::vector<double>& breaks, do
 }
 
 ArcLengthMap map_lengths(const SpeedView& v, const std::vector<double>& breaks, double tolerance) {
-  ArcLengthMap map{{0.0}, {0.0}};
-  integrate(v, cut(breaks, 0, 1), tolerance, [&](double, double high, double s) {
+  ArcLengthMap map{{0.0}, {0.0}, {}};
+  integrate(v, cut(breaks, 0, 1), tolerance, [&](double low, double high, double s) {
+    map.even.push_back(is_even(v, low, high, s));
     map.t.push_back(high);
     map.s.push_back(map.s.back() + s);
   });
@@ -124,6 +138,8 @@ double length_at(const SpeedView& v, const ArcLengthMap& map, double t) {
   t = std::clamp(t, 0.0, 1.0);
   const auto after = std::upper_bound(map.t.begin() + 1, map.t.end() - 1, t);
   const std::size_t i = static_cast<std::size_t>(after - map.t.begin()) - 1;
+  if (map.even[i])
+    return std::lerp(map.s[i], map.s[i + 1], (t - map.t[i]) / (map.t[i + 1] - map.t[i]));
   return map.s[i] + (t > map.t[i] ? gauss(v, map.t[i], t) : 0.0);
 }
 
@@ -137,6 +153,7 @@ double invert_length(const SpeedView& v, const ArcLengthMap& map, double s) {
   double high = map.t[i + 1];
   const double panel = map.s[i + 1] - map.s[i];
   double t = panel > 0 ? low + (high - low) * (s - map.s[i]) / panel : low;
+  if (map.even[i]) return t;
   const double width = high - low;
   double excess = map.s[i] + gauss(v, map.t[i], t) - s;
   for (int step = 0; step < 60 && std::abs(excess) > 2e-16 * map.s.back(); ++step) {

@@ -42,6 +42,7 @@ double arc_length(const Polyline<P>& c, double t0 = 0, double t1 = 1, double tol
 struct ArcLengthMap {
   std::vector<double> t;
   std::vector<double> s;
+  std::vector<bool> even;  ///< panels along which the speed is the same to rounding
 };
 inline double total_length(const ArcLengthMap& map) { return map.s.back(); }
 

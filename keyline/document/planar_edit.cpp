@@ -60,7 +60,7 @@ bool is_zero(const Vector2& v) { return v.x == 0 && v.y == 0; }
 
 /// At a place where the parameter rests (two control points in one place): the point there, all
 /// else from next to it, the direction continued from two places.
-curve::Jet2 resting_jet(const PlanarCurve& c, double t, Point2 point) {
+curve::Jet2 resting_jet(const PlacedCurve& c, double t, Point2 point) {
   constexpr double kBeside = 1e-5;
   const double inwards = t < 0.5 ? kBeside : -kBeside;
   curve::Jet2 beside = jet(c, t + inwards);
@@ -73,7 +73,7 @@ curve::Jet2 resting_jet(const PlanarCurve& c, double t, Point2 point) {
 
 /// Places of a stretch to look at curvature, from inside its ends, where it may jump; farther from
 /// one at which the parameter rests: nearest to that, curvature is rounding.
-std::vector<double> places_to_check(const PlanarCurve& c, double low, double high) {
+std::vector<double> places_to_check(const PlacedCurve& c, double low, double high) {
   const auto inset = [&](double end, double other) {
     const double moving = norm(jet(c, std::lerp(end, other, 0.01)).first);
     return norm(jet(c, std::lerp(end, other, 1e-9)).first) > 1e-5 * moving ? 1e-9 : 1e-4;
@@ -89,7 +89,7 @@ std::vector<double> places_to_check(const PlanarCurve& c, double low, double hig
 /// A member's offset as a planar curve of its own; the third derivative lacks the second derivative
 /// of curvature, which no fit looks at.
 struct OffsetView {
-  const PlanarCurve* base;
+  const PlacedCurve* base;
   double distance;
 };
 curve::Jet2 jet(const OffsetView& c, double t) {
@@ -111,7 +111,7 @@ Point2 evaluate(const OffsetView& c, double t) { return jet(c, t).point; }
 std::vector<double> breakpoints(const OffsetView& c) { return document::breakpoints(*c.base); }
 
 /// The radius of curvature that the distance reaches, if any.
-Result<void> room_for(const PlanarCurve& c, double distance) {
+Result<void> room_for(const PlacedCurve& c, double distance) {
   const std::vector<double> breaks = breakpoints(c);
   double tightest = 0;
   double at = 0;
@@ -147,8 +147,8 @@ std::optional<lac::Chain> exact_offset(const PlanarCurve& c, double distance) {
   return moved;
 }
 
-void append_offset(const PlanarCurve& c, double distance, double tolerance, Offset& to) {
-  if (auto exact = exact_offset(c, distance)) {
+void append_offset(const PlacedCurve& c, double distance, double tolerance, Offset& to) {
+  if (auto exact = exact_offset(c.curve(), distance)) {
     to.path.curves.push_back({std::move(*exact)});
     return;
   }
@@ -235,8 +235,9 @@ Result<Offset> offset(const Path& path, double distance, double tolerance) {
     if (i > 0)
       if (auto done = turn_corner(members[i - 1], members[i], distance, made); !done)
         return std::unexpected(done.error());
-    if (auto room = room_for(members[i], distance); !room) return std::unexpected(room.error());
-    append_offset(members[i], distance, tolerance, made);
+    const PlacedCurve member(members[i]);
+    if (auto room = room_for(member, distance); !room) return std::unexpected(room.error());
+    append_offset(member, distance, tolerance, made);
   }
   const bool alone = members.size() == 1 && std::holds_alternative<lac::Chain>(members[0].value);
   if (path.closed && !alone)

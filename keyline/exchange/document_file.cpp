@@ -190,7 +190,7 @@ Result<Document> read_document(const fs::path& file, const ReadOptions& options)
 
 double extent(const Document& document) {
   Corners corners;
-  for (const auto& named : document.paths) sample_into(corners, named.path);
+  for (const auto& named : document.paths) sample_into(corners, prepared(named.path));
   for (const auto& named : document.space_curves) sample_into(corners, named.curve);
   for (const auto& named : document.surfaces)
     for (const core::Point3 p : net_of(named.surface).points) corners.take(p);

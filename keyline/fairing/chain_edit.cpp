@@ -86,27 +86,37 @@ FitChain without_joint(const FitChain& chain, int at) {
   return next;
 }
 
+FitChain with_joint(const FitChain& chain, int at, double fraction) {
+  FitChain next = chain;
+  const FitPiece& piece = chain.pieces[at];
+  const FitJoint& before = chain.joints[at];
+  const double end = chain.joints[at + 1].curvature;
+  const double alpha = before.curvature * end <= 0 && piece.alpha >= 0 ? -1 : piece.alpha;
+  const lac::Segment whole{
+      {before.position, before.direction}, alpha, piece.length, before.curvature, end};
+  const core::Pose2 pose = lac::pose_at(whole, fraction);
+  next.joints.insert(next.joints.begin() + at + 1,
+                     {pose.position, pose.direction, lac::curvature(whole, fraction)});
+  next.pieces.insert(next.pieces.begin() + at, piece);
+  next.pieces[at].length *= fraction;
+  next.pieces[at + 1].length *= 1 - fraction;
+  for (Foot& foot : next.feet) {
+    if (foot.piece > at) {
+      ++foot.piece;
+    } else if (foot.piece == at && foot.fraction > fraction) {
+      foot = {at + 1, (foot.fraction - fraction) / (1 - fraction)};
+    } else if (foot.piece == at) {
+      foot.fraction /= fraction;
+    }
+  }
+  return next;
+}
+
 FitChain parted(const FitChain& chain, std::size_t pieces) {
   FitChain next = chain;
   while (next.pieces.size() < pieces) {
     const auto longest = std::ranges::max_element(next.pieces, {}, &FitPiece::length);
-    const int at = static_cast<int>(longest - next.pieces.begin());
-    const FitJoint& from = next.joints[at];
-    const lac::Segment whole{{from.position, from.direction},
-                             longest->alpha,
-                             longest->length,
-                             from.curvature,
-                             next.joints[at + 1].curvature};
-    const core::Pose2 middle = pose_at(whole, 0.5);
-    const FitJoint joint{middle.position, middle.direction, curvature(whole, 0.5)};
-    longest->length *= 0.5;
-    next.pieces.insert(longest, *longest);
-    next.joints.insert(next.joints.begin() + at + 1, joint);
-    for (Foot& foot : next.feet) {
-      const bool later = foot.piece == at && foot.fraction > 0.5;
-      if (foot.piece == at) foot.fraction = 2 * foot.fraction - (later ? 1 : 0);
-      if (foot.piece > at || later) ++foot.piece;
-    }
+    next = with_joint(next, static_cast<int>(longest - next.pieces.begin()), 0.5);
   }
   return next;
 }

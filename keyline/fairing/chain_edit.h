@@ -11,6 +11,10 @@ namespace keyline::fairing::detail {
 /// its slope guessed so that it turns as much as they did together.
 FitChain without_joint(const FitChain& chain, int at);
 
+/// The same curve with a joint more, at a fraction of piece `at` (0 <= at < pieces, 0 < fraction <
+/// 1); both parts are of the piece's kind. Feet stay where they are on the curve.
+FitChain with_joint(const FitChain& chain, int at, double fraction);
+
 /// The same curve as `pieces` pieces or more: the longest is parted in its middle, again and again.
 FitChain parted(const FitChain& chain, std::size_t pieces);
 

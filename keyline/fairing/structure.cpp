@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "keyline/fairing/chain_edit.h"
-#include "keyline/lac/segment/segment.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
@@ -12,33 +11,6 @@ namespace {
 
 constexpr int kRounds = 6;        // changes of a joint, one after the other, unless none is better
 constexpr double kSplitGain = 4;  // beyond the price of a joint: errors are not quite normal
-
-/// The chain with a joint more, at a fraction of piece `at`.
-FitChain with_joint(const FitChain& chain, int at, double fraction) {
-  FitChain next = chain;
-  const FitPiece& piece = chain.pieces[at];
-  const FitJoint& before = chain.joints[at];
-  const double end = chain.joints[at + 1].curvature;
-  const double alpha = before.curvature * end <= 0 && piece.alpha >= 0 ? -1 : piece.alpha;
-  const lac::Segment segment{
-      {before.position, before.direction}, alpha, piece.length, before.curvature, end};
-  const core::Pose2 pose = lac::pose_at(segment, fraction);
-  next.joints.insert(next.joints.begin() + at + 1,
-                     {pose.position, pose.direction, lac::curvature(segment, fraction)});
-  next.pieces.insert(next.pieces.begin() + at, piece);
-  next.pieces[at].length *= fraction;
-  next.pieces[at + 1].length *= 1 - fraction;
-  for (Foot& foot : next.feet) {
-    if (foot.piece > at) {
-      ++foot.piece;
-    } else if (foot.piece == at && foot.fraction > fraction) {
-      foot = {at + 1, (foot.fraction - fraction) / (1 - fraction)};
-    } else if (foot.piece == at) {
-      foot.fraction /= fraction;
-    }
-  }
-  return next;
-}
 
 struct Candidate {
   FitChain chain;

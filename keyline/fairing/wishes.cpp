@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "keyline/analysis/rhythm.h"
+#include "keyline/fairing/chain_edit.h"
 #include "keyline/fairing/run.h"
 #include "keyline/fairing/settle.h"
 
@@ -11,27 +12,6 @@ namespace {
 constexpr double kZeroBand = analysis::RhythmOptions{}.zero_band;  // slopes nearer 0 read as zero
 
 std::string piece_name(int piece) { return "piece " + std::to_string(piece); }
-
-/// Splits a piece in its middle; both halves keep its slope.
-void halve(FitChain& chain, int at) {
-  FitPiece& piece = chain.pieces[at];
-  lac::Segment whole{{chain.joints[at].position, chain.joints[at].direction},
-                     piece.alpha,
-                     piece.length,
-                     chain.joints[at].curvature,
-                     chain.joints[at + 1].curvature};
-  const curve::Jet2 middle = jet(whole, 0.5);
-  FitJoint joint{middle.point, tangent_angle(whole, 0.5), lac::curvature(whole, 0.5)};
-  piece.length *= 0.5;
-  chain.pieces.insert(chain.pieces.begin() + at, piece);
-  chain.joints.insert(chain.joints.begin() + at + 1, joint);
-  for (Foot& foot : chain.feet) {
-    if (foot.piece > at) ++foot.piece;
-    if (foot.piece != at) continue;
-    foot.piece += foot.fraction > 0.5 ? 1 : 0;
-    foot.fraction = foot.fraction > 0.5 ? 2 * foot.fraction - 1 : 2 * foot.fraction;
-  }
-}
 
 void limit_slope(FitPiece& piece, double low, double high) {
   piece.alpha_low = low;
@@ -43,7 +23,7 @@ void limit_slope(FitPiece& piece, double low, double high) {
 /// Two slopes in one piece, plus or minus first along growing radius.
 void make_compound(FitChain& chain, int at, bool plus_first) {
   chain.pieces[at].kind = PieceKind::curve;
-  halve(chain, at);
+  chain = with_joint(chain, at, 0.5);
   const bool radius_grows =
       std::abs(chain.joints[at].curvature) > std::abs(chain.joints[at + 2].curvature);
   const int plus = (plus_first == radius_grows) ? at : at + 1;

@@ -63,7 +63,9 @@ PieceEntry piece_entry(const analysis::CurveView& curve, const analysis::ArcLeng
 void measure_rhythm(Entry& entry, const document::Path& path) {
   const analysis::CurveView view =
       path.curves.size() == 1 ? analysis::CurveView(path.curves[0]) : analysis::CurveView(path);
-  const auto found = analysis::analyze(view);
+  analysis::AnalyzeOptions options;
+  options.threads = 1;  // others measure other curves
+  const auto found = analysis::analyze(view, options);
   if (!found) {
     entry.notes.push_back("not measured: " + found.error().message);
     return;

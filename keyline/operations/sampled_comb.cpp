@@ -149,9 +149,10 @@ double integral_of_squares(const std::vector<double>& s, const std::vector<doubl
 /// A chain's pieces are monotone: its extrema lie at joints, its inflections at breakpoints.
 std::vector<CombEvent> events_of(const lac::Chain& chain) {
   std::vector<CombEvent> events;
-  const double whole = lac::arc_length(chain);
+  const lac::PlacedChain placed(chain);
+  const double whole = placed.length();
   const auto add = [&](CombEventKind kind, double s, double curvature) {
-    events.push_back({kind, s, curvature, lac::evaluate(chain, s / whole)});
+    events.push_back({kind, s, curvature, lac::evaluate(placed, s / whole)});
   };
   double sense = 0;
   double side = 0;
@@ -165,7 +166,7 @@ std::vector<CombEvent> events_of(const lac::Chain& chain) {
   }
   const std::vector<double> breaks = lac::breakpoints(chain);
   for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const double k = lac::curvature(chain, 0.5 * (breaks[i - 1] + breaks[i]));
+    const double k = lac::curvature(placed, 0.5 * (breaks[i - 1] + breaks[i]));
     if (side * k < 0) add(CombEventKind::inflection, breaks[i - 1] * whole, 0);
     if (k != 0) side = k;
   }

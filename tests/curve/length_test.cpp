@@ -54,6 +54,19 @@ TEST(ArcLength, InverseGoesBack) {
   }
 }
 
+// Along a line x(t) = t + e t (1 - t) the length up to t is x(t): nearly even, and no more than
+// that.
+TEST(ArcLength, ASpeedThatHardlyChangesCounts) {
+  for (const double e : {1e-2, 1e-5, 1e-8, 1e-11}) {
+    const Bezier2 c{{{0, 0}, {(1 + e) / 2, 0}, {1, 0}}, {}};
+    const ArcLengthMap map = arc_length_map(c);
+    for (const double t : {0.1, 0.3, 0.77}) {
+      EXPECT_NEAR(length_at_parameter(c, map, t), t + e * t * (1 - t), 1e-15) << e;
+      EXPECT_NEAR(parameter_at_length(c, map, t + e * t * (1 - t)), t, 1e-15) << e;
+    }
+  }
+}
+
 // A power of two changes no digit of any number that is measured: what differs has a size of its
 // own.
 TEST(ArcLength, HasNoSizeOfItsOwn) {

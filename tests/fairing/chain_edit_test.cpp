@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/lac/segment/segment.h"
+#include "keyline/lac/chain/chain.h"
 
 /// Surgery on chains of several pieces, by what each joint and foot was before.
 namespace keyline::fairing::detail {
@@ -39,6 +39,40 @@ TEST(ChainEdit, AJointLessMovesTheFeetBehindIt) {
     EXPECT_EQ(merged.feet[j].piece, piece[j]) << j;
     const double length = piece[j] == 1 ? 5 : 1;
     EXPECT_NEAR(merged.feet[j].fraction * length, along[j], 1e-14) << j;
+  }
+}
+
+// Where a foot stands and how the curve runs there is told by the piece as it was.
+TEST(ChainEdit, AJointMoreLeavesTheCurveAndItsFeet) {
+  const std::vector<lac::Piece> laid{{-0.5, 2, 0.5, 1.5}, {-2, 3, 1.5, 0.4}, {0.5, 1, 0.4, 0.9}};
+  const lac::Chain before{{{1, 2}, 0.3}, laid, false};
+  FitChain chain;
+  for (const core::Pose2& pose : joints(before))
+    chain.joints.push_back({pose.position, pose.direction});
+  for (std::size_t i = 0; i < laid.size(); ++i) {
+    chain.joints[i].curvature = laid[i].curvature_start;
+    chain.joints[i + 1].curvature = laid[i].curvature_end;
+    chain.pieces.push_back({.length = laid[i].length, .alpha = laid[i].alpha});
+    for (const double t : {0.1, 0.3, 0.7}) chain.feet.push_back({static_cast<int>(i), t});
+  }
+  const auto place = [](const FitChain& c, const Foot& foot) {
+    const FitJoint& from = c.joints[foot.piece];
+    const FitPiece& p = c.pieces[foot.piece];
+    const lac::Segment s{{from.position, from.direction},
+                         p.alpha,
+                         p.length,
+                         from.curvature,
+                         c.joints[foot.piece + 1].curvature};
+    return lac::jet(s, foot.fraction);
+  };
+  const FitChain more = with_joint(chain, 1, 0.4);
+  ASSERT_EQ(more.pieces.size(), 4U);
+  ASSERT_EQ(more.joints.size(), 5U);
+  EXPECT_EQ(more.pieces[1].length + more.pieces[2].length, 3);
+  for (std::size_t j = 0; j < chain.feet.size(); ++j) {
+    const auto was = place(chain, chain.feet[j]), is = place(more, more.feet[j]);
+    EXPECT_NEAR(distance(was.point, is.point), 0, 1e-14) << j;
+    EXPECT_NEAR(curve::curvature(was), curve::curvature(is), 1e-13) << j;
   }
 }
 

@@ -145,8 +145,9 @@ double add_lifted(std::string& text, const std::string& id, const document::Path
                   int samples) {
   const auto* line =
       is_polyline(path) ? &std::get<curve::Polyline2>(path.curves.front().value) : nullptr;
+  const document::PlacedPath placed = prepared(path);
   return add_space(text, id, line, samples, [&](double t, int i) {
-    const core::Point2 p = line ? line->points[static_cast<std::size_t>(i)] : evaluate(path, t);
+    const core::Point2 p = line ? line->points[static_cast<std::size_t>(i)] : evaluate(placed, t);
     return core::Point3{p.x, p.y, 0};
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "keyline/core/angle.h"
@@ -64,24 +65,34 @@ double total_turning(const Chain& chain) {
   return sum;
 }
 
+std::vector<double> joint_lengths(const Chain& chain) {
+  std::vector<double> at{0};
+  at.reserve(chain.pieces.size() + 1);
+  for (const Piece& piece : chain.pieces) at.push_back(at.back() + piece.length);
+  return at;
+}
+
 namespace {
 
-/// Where t lies on the chain of this length.
-ChainLocation located(const Chain& chain, double whole, double t) {
+/// Where t lies on the chain whose joints are at these lengths.
+ChainLocation located(const Chain& chain, std::span<const double> joints, double t) {
   const std::size_t last = chain.pieces.size() - 1;
   if (t >= 1) return {last, 1};
-  double left = std::max(t, 0.0) * whole;
-  for (std::size_t i = 0; i < last; ++i) {
-    const double length = chain.pieces[i].length;
-    if (left < length) return {i, left / length};
-    left -= length;
-  }
-  return {last, std::min(1.0, left / chain.pieces[last].length)};
+  const double s = std::max(t, 0.0) * joints.back();
+  const auto inner = joints.subspan(1, last);
+  const auto i = static_cast<std::size_t>(std::ranges::upper_bound(inner, s) - inner.begin());
+  return {i, std::min(1.0, (s - joints[i]) / chain.pieces[i].length)};
 }
 
 }  // namespace
 
-ChainLocation locate(const Chain& chain, double t) { return located(chain, arc_length(chain), t); }
+ChainLocation locate(const Chain& chain, double t) {
+  return located(chain, joint_lengths(chain), t);
+}
+
+ChainLocation locate(const PlacedChain& placed, double t) {
+  return located(placed.chain(), placed.joint_lengths(), t);
+}
 
 std::vector<Segment> segments(const Chain& chain) {
   std::vector<Segment> placed;
@@ -140,12 +151,17 @@ curve::Jet2 jet(const Chain& chain, double t) {
 }
 
 Point2 evaluate(const PlacedChain& placed, double t) {
-  const ChainLocation at = located(placed.chain(), placed.length(), t);
+  const ChainLocation at = locate(placed, t);
   return evaluate(placed.segments()[at.piece], at.t);
 }
 
+double curvature(const PlacedChain& placed, double t) {
+  const ChainLocation at = locate(placed, t);
+  return curvature(placed.segments()[at.piece], at.t);
+}
+
 curve::Jet2 jet(const PlacedChain& placed, double t) {
-  const ChainLocation at = located(placed.chain(), placed.length(), t);
+  const ChainLocation at = locate(placed, t);
   return jet_within(placed.segments()[at.piece], at.t, placed.length());
 }
 
@@ -166,13 +182,14 @@ std::vector<double> breakpoints(const Chain& chain) {
 std::vector<Point2> sample(const Chain& chain, int n) {
   if (n < 2) throw core::InvalidInput("sample: fewer than two points asked for");
   const std::vector<Segment> placed = segments(chain);
+  const std::vector<double> joints = joint_lengths(chain);
   std::vector<Point2> points(n);
   std::vector<double> at;
   int done = 0;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     at.clear();
     for (int k = done; k < n; ++k) {
-      const ChainLocation where = locate(chain, k / (n - 1.0));
+      const ChainLocation where = located(chain, joints, k / (n - 1.0));
       if (where.piece != i) break;
       at.push_back(where.t);
     }

@@ -45,6 +45,8 @@ struct ChainLocation {
   double t = 0;
 };
 ChainLocation locate(const Chain& chain, double t);
+/// Arc length up to the start, every inner joint and the end: pieces.size() + 1 of them.
+std::vector<double> joint_lengths(const Chain& chain);
 
 /// The i-th piece in its place, i < pieces.size(); all of them in one pass.
 Segment segment_at(const Chain& chain, std::size_t i);
@@ -83,18 +85,21 @@ class PlacedChain {
   explicit PlacedChain(Chain chain)
       : chain_(std::move(chain)),
         segments_(lac::segments(chain_)),
-        length_(lac::arc_length(chain_)) {}
+        joint_lengths_(lac::joint_lengths(chain_)) {}
 
   const Chain& chain() const { return chain_; }
-  double length() const { return length_; }
+  double length() const { return joint_lengths_.back(); }
+  const std::vector<double>& joint_lengths() const { return joint_lengths_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
  private:
   Chain chain_;
   std::vector<Segment> segments_;
-  double length_;
+  std::vector<double> joint_lengths_;
 };
 
+ChainLocation locate(const PlacedChain& placed, double t);
+double curvature(const PlacedChain& placed, double t);
 core::Point2 evaluate(const PlacedChain& placed, double t);
 curve::Jet2 jet(const PlacedChain& placed, double t);
 inline std::vector<double> breakpoints(const PlacedChain& placed) {
