@@ -41,7 +41,8 @@ std::vector<Point2> points_of(const document::Path& path, int samples) {
     const document::PlacedCurve placed = prepared(c);
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
       for (int k = 0; k <= samples; ++k)
-        points.push_back(evaluate(placed, std::lerp(breaks[i], breaks[i + 1], k / double(samples))));
+        points.push_back(
+            evaluate(placed, std::lerp(breaks[i], breaks[i + 1], k / double(samples))));
   }
   if (path.closed && !points.empty()) points.push_back(points.front());
   return points;
