@@ -62,6 +62,25 @@ struct Companion {
 };
 using Companions = std::vector<std::optional<Companion>>;
 
+/// The stroke, one of `all`, that a line goes with at the sample before; as many as there are:
+/// none.
+struct Before {
+  std::size_t stroke = 0;
+  double cost = 0;
+};
+
+/// The one from which going on with stroke b at sample k costs least.
+Before best_before(const std::vector<Offsets>& all, const std::vector<double>& cost, std::size_t k,
+                   std::size_t b) {
+  Before best{all.size(), std::numeric_limits<double>::infinity()};
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    if (!std::isfinite(cost[a])) continue;
+    const double way = a == b ? 0 : *all[a][k - 1] - *all[b][k];
+    if (const double sum = cost[a] + kChange * way * way; sum < best.cost) best = {a, sum};
+  }
+  return best;
+}
+
 /// By sample the stroke the line goes with: least squares of the offsets and, at a price, of the
 /// ways from one stroke to another.
 Companions choose(const std::vector<Offsets>& all, std::size_t m) {
@@ -77,17 +96,9 @@ Companions choose(const std::vector<Offsets>& all, std::size_t m) {
     std::size_t best = n;
     for (std::size_t b = 0; b < n; ++b) {
       if (!all[b][k]) continue;
-      double c = free_cost;
-      std::size_t f = n;
-      if (k > 0)
-        for (std::size_t a = 0; a < n; ++a) {
-          if (!(cost[k - 1][a] < kNone)) continue;
-          const double way = a == b ? 0 : *all[a][k - 1] - *all[b][k];
-          if (const double sum = cost[k - 1][a] + kChange * way * way; f == n || sum < c)
-            c = sum, f = a;
-        }
-      cost[k][b] = c + *all[b][k] * *all[b][k];
-      from[k][b] = f;
+      const Before before = k > 0 ? best_before(all, cost[k - 1], k, b) : Before{n, kNone};
+      cost[k][b] = (before.stroke < n ? before.cost : free_cost) + *all[b][k] * *all[b][k];
+      from[k][b] = before.stroke;
       if (cost[k][b] < least) least = cost[k][b], best = b;
     }
     if (best < n) {

@@ -287,38 +287,44 @@ void Refiner::trim_end(std::vector<Point2>& points, std::vector<double>& widths,
   }
 }
 
+std::size_t Refiner::read_centres(const RawStroke& raw, const std::vector<double>& usual,
+                                  const std::vector<Point2>& line, Centres& read) const {
+  const std::size_t n = raw.points.size();
+  std::size_t good = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    read.weights[i] = 0;
+    read.widths[i] = 2 * std::max<double>(usual[i], raw.radii[i]);
+    const double to_end = std::min(raw.free_start ? static_cast<double>(i) : 1e9,
+                                   raw.free_end ? static_cast<double>(n - 1 - i) : 1e9);
+    if (!raw.sure[i] || to_end < 0.7 * usual[i]) continue;
+    const auto reach = static_cast<long>(2 + usual[i]);
+    const Vector2 normal = core::perpendicular_left(tangent_at(line, i, reach, raw.closed));
+    const Profile found = profile(line[i], normal, usual[i]);
+    const double most =
+        raw.sure[i] == 2 ? kAloneWidth * usual[i] + kAloneRounding : 3 * usual[i] + 1.5;
+    if (!found.good || std::abs(found.centre) > 0.6 * usual[i] + 1 || found.width > most ||
+        found.width < 0.8 * usual[i])
+      continue;
+    read.places[i] = line[i] + found.centre * normal;
+    // of a grainy line, the ink's
+    read.widths[i] = std::max({found.width, 2 * usual[i], 2.0 * raw.radii[i] - 1});
+    read.weights[i] = 1;
+    ++good;
+  }
+  return good;
+}
+
 FineStroke Refiner::refine(const RawStroke& raw) const {
   const std::size_t n = raw.points.size();
   const std::vector<double> usual = usual_radii(raw);
   const double half = core::quantile(usual);
   const double wave = 5 + 1.2 * half;
-  std::vector<double> weights(n, 1);
-  std::vector<Point2> centres = raw.points;
-  std::vector<double> widths(usual);
+  Centres read{raw.points, usual, std::vector<double>(n, 1)};
+  auto& [centres, widths, weights] = read;
   std::vector<Point2> line =
       smooth_points(raw.points, weights, lambda_of_wavelength(8 + 3 * half), raw.closed);
   for (int round = 0; round < 2; ++round) {
-    std::size_t good = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      weights[i] = 0;
-      widths[i] = 2 * std::max<double>(usual[i], raw.radii[i]);
-      const double to_end = std::min(raw.free_start ? static_cast<double>(i) : 1e9,
-                                     raw.free_end ? static_cast<double>(n - 1 - i) : 1e9);
-      if (!raw.sure[i] || to_end < 0.7 * usual[i]) continue;
-      const auto reach = static_cast<long>(2 + usual[i]);
-      const Vector2 normal = core::perpendicular_left(tangent_at(line, i, reach, raw.closed));
-      const Profile found = profile(line[i], normal, usual[i]);
-      const double most =
-          raw.sure[i] == 2 ? kAloneWidth * usual[i] + kAloneRounding : 3 * usual[i] + 1.5;
-      if (!found.good || std::abs(found.centre) > 0.6 * usual[i] + 1 || found.width > most ||
-          found.width < 0.8 * usual[i])
-        continue;
-      centres[i] = line[i] + found.centre * normal;
-      // of a grainy line, the ink's
-      widths[i] = std::max({found.width, 2 * usual[i], 2.0 * raw.radii[i] - 1});
-      weights[i] = 1;
-      ++good;
-    }
+    const std::size_t good = read_centres(raw, usual, line, read);
     if (good < 2 || 4 * good < n)
       for (std::size_t i = 0; i < n; ++i)
         if (weights[i] == 0) weights[i] = raw.sure[i] ? 0.1 : 0.01, centres[i] = raw.points[i];

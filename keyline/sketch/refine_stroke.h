@@ -48,6 +48,15 @@ class Refiner {
     double width = 0;
   };
   Profile profile(core::Point2 p, core::Vector2 normal, double half_width) const;
+  /// What was read beside a line, by its points; weight 0 where nothing was.
+  struct Centres {
+    std::vector<core::Point2> places;
+    std::vector<double> widths;
+    std::vector<double> weights;
+  };
+  /// Reads them along the normals of `line`; how many there are. `usual`: half widths.
+  std::size_t read_centres(const RawStroke& raw, const std::vector<double>& usual,
+                           const std::vector<core::Point2>& line, Centres& read) const;
   /// From its values by steps, which are there up to `reach` of them either way.
   template <class Values>
   static Profile profile_along(Values&& at, int reach, double half_width);

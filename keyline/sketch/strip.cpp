@@ -242,6 +242,41 @@ std::vector<Reader> readers_of(const Strip& strip, const std::vector<SampledStro
   return readers;
 }
 
+/// How far inside a stroke a place lies; its ends at the strip's, which are no ends within the
+/// line, do not count.
+double weighty_inside(const Reader& r, const Strip& strip, double place, double ramp) {
+  const bool from_start = r.start() < strip.first + ramp;
+  if (r.end() > strip.last - ramp) return from_start ? ramp : place - r.start();
+  return from_start ? r.end() - place : r.inside(place);
+}
+
+/// Weighted sums of the strokes at a place, and of where those go that reach to the next one, too.
+struct MeanStep {
+  std::size_t strokes = 0;
+  Vector2 sum{};
+  Vector2 going{};
+  double all = 0;   ///< weights of sum
+  double both = 0;  ///< weights of going
+};
+
+template <class Weight>
+MeanStep mean_step(const std::vector<Reader>& readers, double place, double next,
+                   const Weight& weight) {
+  MeanStep found;
+  for (const Reader& r : readers) {
+    if (!r.covers(place)) continue;
+    ++found.strokes;
+    const double w = weight(r);
+    const Point2 here = r.position(place);
+    found.sum = found.sum + w * (here - Point2{});
+    found.all += w;
+    if (!r.covers(next)) continue;
+    found.going = found.going + w * (r.position(next) - here);
+    found.both += w;
+  }
+  return found;
+}
+
 /// The points l of least Σ |l_{k+1} − l_k − way_k|² + Σ hold_k |l_k − mean_k|².
 std::vector<Point2> follow(const std::vector<Vector2>& way, const std::vector<double>& sure,
                            const std::vector<Point2>& mean, const std::vector<double>& hold) {
@@ -341,35 +376,17 @@ std::vector<Point2> middle_of(const Strip& strip, const std::vector<SampledStrok
   std::vector<double> hold(steps + 1, 0);
   std::vector<Vector2> way(steps);
   std::vector<double> sure(steps, 1e-3);
-  const auto weight = [&](const Reader& r, double place) {
-    double inside = r.inside(place);
-    if (r.start() < strip.first + ramp) inside = r.end() - place;
-    if (r.end() > strip.last - ramp)
-      inside = r.start() < strip.first + ramp ? ramp : place - r.start();
-    return std::min(1.0, (inside + 0.5 * h) / ramp);
-  };
   for (std::size_t k = 0; k <= steps; ++k) {
     const double place = k == steps ? strip.last : strip.first + static_cast<double>(k) * h;
     const double next = k + 1 >= steps ? strip.last : place + h;
-    Vector2 sum{};
-    Vector2 going{};
-    double all = 0;
-    double both = 0;
-    for (const Reader& r : readers) {
-      if (!r.covers(place)) continue;
-      ++count[k];
-      const double w = weight(r, place);
-      const Point2 here = r.position(place);
-      sum = sum + w * (here - Point2{});
-      all += w;
-      if (k == steps || !r.covers(next)) continue;
-      going = going + w * (r.position(next) - here);
-      both += w;
-    }
-    if (all > 0) mean[k] = Point2{} + sum / all;
-    hold[k] = all > 0 ? (h / ramp) * (h / ramp) : 0;
-    if (both > 0) {
-      way[k] = going / both;
+    const MeanStep found = mean_step(readers, place, next, [&](const Reader& r) {
+      return std::min(1.0, (weighty_inside(r, strip, place, ramp) + 0.5 * h) / ramp);
+    });
+    count[k] = found.strokes;
+    if (found.all > 0) mean[k] = Point2{} + found.sum / found.all;
+    hold[k] = found.all > 0 ? (h / ramp) * (h / ramp) : 0;
+    if (k < steps && found.both > 0) {
+      way[k] = found.going / found.both;
       sure[k] = 1;
     }
   }

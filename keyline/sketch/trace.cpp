@@ -58,6 +58,12 @@ void turn_up(Stroke& stroke, double height) {
   for (fit::CurvatureTarget& target : stroke.target) target.curvature = -target.curvature;
 }
 
+void turn_up(TraceResult& result) {
+  for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);
+  for (DrawnStroke& pass : result.passes)
+    for (Point2& p : pass.points) p.y = result.height - p.y;
+}
+
 core::Result<TraceResult> nothing_found() {
   return core::fail(core::ErrorCode::undrawable, "nothing in the picture looks like a line",
                     "give --threshold, or a picture with more contrast");
@@ -137,6 +143,16 @@ void tell_passes(const std::vector<FineStroke>& strokes, const ConsolidateOption
                          core::counted(lines, "line") + ": consolidate makes one curve of each");
 }
 
+/// Makes one line of every group of a picture's lines.
+core::Result<Merged> merge_traced(std::vector<FineStroke>& lines, const ConsolidateOptions& passes,
+                                  const GroupWishes& wishes, TraceResult& result) {
+  number_lines(lines);
+  for (const FineStroke& s : lines) result.passes.push_back({s.points, s.closed});
+  if (auto sound = check_wishes(wishes, lines.size()); !sound)
+    return std::unexpected(sound.error());
+  return merge(lines, passes.width, passes, wishes, result.notes);
+}
+
 /// Share of all ink, the faint that was lost included, that the lines explain.
 double explained_share(Ink& found, const Tone& tone, const TraceResult& result,
                        const Merged& merged) {
@@ -207,6 +223,42 @@ void warn_of_photograph(const Tone& tone, const Binary& ink, double width, Trace
                            " % of the picture is dark; is it a drawing?");
 }
 
+/// Drawn strokes with as many points as those of pictures have; the numbers of those left over.
+core::Result<std::vector<FineStroke>> lines_of(const std::vector<DrawnStroke>& strokes,
+                                               double width, std::vector<std::size_t>& left_over) {
+  const auto bad = [](const std::string& what) {
+    return core::fail(core::ErrorCode::bad_input, what, "give strokes of two places and more");
+  };
+  std::vector<FineStroke> lines;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const DrawnStroke& s = strokes[i];
+    if (!std::all_of(s.points.begin(), s.points.end(), [](Point2 p) { return is_finite(p); }))
+      return bad("a stroke is not finite");
+    const double length = core::polygon_length(s.points, s.closed);
+    if (!(length > 0.5 * width)) {
+      left_over.push_back(i);
+      continue;
+    }
+    if (length > 1e6 * width) return bad("a stroke is a million times longer than its pen is wide");
+    FineStroke fine;
+    fine.closed = s.closed;
+    fine.width = width;
+    fine.members = {i};
+    resample(s.points, std::vector<double>(s.points.size(), width), kStrokeStep * width, s.closed,
+             fine.points, fine.widths);
+    lines.push_back(std::move(fine));
+  }
+  if (lines.empty()) return bad("no stroke has any length");
+  return lines;
+}
+
+/// Lengths counted in another unit.
+void reduce(FineStroke& line, double unit) {
+  for (Point2& p : line.points) p = {p.x / unit, p.y / unit};
+  line.width /= unit;
+  for (double& w : line.widths) w /= unit;
+}
+
 /// A picture whose pixels were repeated is traced at its own size: the steps are not its lines'.
 core::Result<TraceResult> trace_enlarged(const Image& image, const OwnSize& size,
                                          const TraceOptions& options) {
@@ -260,11 +312,9 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
       .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
   Merged merged;
   if (options.consolidate) {
-    number_lines(lines);
-    for (const FineStroke& s : lines) result.passes.push_back({s.points, s.closed});
-    if (auto sound = check_wishes(options.wishes, lines.size()); !sound)
-      return std::unexpected(sound.error());
-    merged = merge(lines, width, passes, options.wishes, result.notes);
+    auto found_lines = merge_traced(lines, passes, options.wishes, result);
+    if (!found_lines) return std::unexpected(found_lines.error());
+    merged = std::move(*found_lines);
   } else if (options.edge == Edge::center) {
     tell_passes(lines, passes, result);
   }
@@ -280,43 +330,21 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
     result.explained = explained_share(found, tone, result, merged);
     tell_explained("ink", result);
   }
-  for (Stroke& stroke : result.strokes) turn_up(stroke, result.height);
-  for (DrawnStroke& pass : result.passes)
-    for (Point2& p : pass.points) p.y = result.height - p.y;
+  turn_up(result);
   return result;
 }
 
 core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes, double width,
                                         const TraceOptions& options) {
-  const auto bad = [](const std::string& what) {
-    return core::fail(core::ErrorCode::bad_input, what, "give strokes of two places and more");
-  };
   if (auto sound = check_wishes(options.wishes, strokes.size()); !sound)
     return std::unexpected(sound.error());
-  std::vector<FineStroke> lines;
   TraceResult result;
   result.passes = strokes;
+  auto found = lines_of(strokes, width, result.left_over);
+  if (!found) return std::unexpected(found.error());
+  std::vector<FineStroke>& lines = *found;
   double drawn = 0;
-  for (std::size_t i = 0; i < strokes.size(); ++i) {
-    const DrawnStroke& s = strokes[i];
-    if (!std::all_of(s.points.begin(), s.points.end(), [](Point2 p) { return is_finite(p); }))
-      return bad("a stroke is not finite");
-    const double length = core::polygon_length(s.points, s.closed);
-    drawn += length;
-    if (!(length > 0.5 * width)) {
-      result.left_over.push_back(i);
-      continue;
-    }
-    if (length > 1e6 * width) return bad("a stroke is a million times longer than its pen is wide");
-    FineStroke fine;
-    fine.closed = s.closed;
-    fine.width = width;
-    fine.members = {i};
-    resample(s.points, std::vector<double>(s.points.size(), width), kStrokeStep * width, s.closed,
-             fine.points, fine.widths);
-    lines.push_back(std::move(fine));
-  }
-  if (lines.empty()) return bad("no stroke has any length");
+  for (const DrawnStroke& s : strokes) drawn += core::polygon_length(s.points, s.closed);
   double explained = drawn;
   if (options.consolidate)
     explained = merge(lines, width, {.width = width}, options.wishes, result.notes).explained;
@@ -326,11 +354,7 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   tell_explained("strokes", result);
   // what counts pixels in pictures counts steps between points here, so that no unit matters
   const double unit = kStrokeStep * width;
-  for (FineStroke& line : lines) {
-    for (Point2& p : line.points) p = {p.x / unit, p.y / unit};
-    line.width /= unit;
-    for (double& w : line.widths) w /= unit;
-  }
+  for (FineStroke& line : lines) reduce(line, unit);
   TraceOptions scaled = options;
   scaled.curve.straightness *= width / unit;
   scaled.curve.tolerance *= width / unit;

@@ -150,59 +150,6 @@ TEST(Trace, OvershootsAreNoLines) {
   EXPECT_EQ(result->strokes.size(), 2U);
 }
 
-// A gap is what one sees: from ink to ink.
-TEST(Trace, BridgesGapsInTheInk) {
-  Image page = blank_page(400, 60);
-  for (int k = 0; k < 12; ++k)  // dashes of 20 pixels, round ends included, with gaps of 10
-    draw_line(page, {22.0 + 30 * k, 30}, {38.0 + 30 * k, 30}, 4);
-  for (const auto& [gap, strokes] : {std::pair{std::optional<double>(7), 12U},
-                                     {std::optional<double>(12), 1U},
-                                     {std::optional<double>(), 1U}}) {
-    TraceOptions options;
-    options.gap = gap;
-    const auto result = trace(page, options);
-    ASSERT_TRUE(result) << result.error().message;
-    EXPECT_EQ(result->strokes.size(), strokes) << "gap " << gap.value_or(-1);
-  }
-}
-
-// A line between two gaps as long is a dash where it is no longer than long dashes are; windows on
-// both sides of a pillar are none. No gap of a row is much longer than 18 widths: strokes farther
-// apart are no row, however even.
-TEST(Trace, LongLinesAndFarOnesAreNoRowOfDashes) {
-  struct Row {
-    int dash, gap;
-    unsigned strokes;
-  };
-  for (const auto& [dash, gap, strokes] :
-       {Row{60, 16, 1}, {150, 16, 1}, {320, 16, 3}, {60, 54, 1}, {60, 108, 3}}) {
-    const double next = dash + gap;
-    Image page = blank_page(3 * dash + 2 * gap + 28, 40);
-    for (int k = 0; k < 3; ++k)
-      draw_line(page, {12 + next * k, 20}, {12 + next * k + dash - 3, 20}, 3);
-    const auto result = trace(page);
-    ASSERT_TRUE(result) << result.error().message;
-    EXPECT_EQ(result->strokes.size(), strokes) << dash << ' ' << gap;
-  }
-}
-
-// Dashes are a row by the paper between them: strokes that face each other across other lines are
-// none, and a row goes on over a line that it crosses.
-TEST(Trace, OtherInkInEveryGapIsNoRowOfDashes) {
-  struct Case {
-    std::vector<int> lines;  ///< gaps with a line across
-    unsigned strokes;
-  };
-  for (const Case& one : {Case{{}, 1}, {{1}, 2}, {{0, 1, 2}, 7}, {{2}, 3}}) {
-    Image page = blank_page(280, 100);
-    for (int k = 0; k < 4; ++k) draw_line(page, {22.0 + 65 * k, 50}, {51.0 + 65 * k, 50}, 3);
-    for (const int k : one.lines) draw_line(page, {69.0 + 65 * k, 12}, {69.0 + 65 * k, 88}, 3);
-    const auto result = trace(page);
-    ASSERT_TRUE(result) << result.error().message;
-    EXPECT_EQ(result->strokes.size(), one.strokes) << one.lines.size();
-  }
-}
-
 /// Sharpest curvature of a stroke.
 double sharpest(const Stroke& stroke) {
   double most = 0;
