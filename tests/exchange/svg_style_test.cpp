@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/exchange/svg/svg_reader.h"
+
 namespace keyline::exchange::detail {
 namespace {
 
@@ -30,6 +32,14 @@ TEST(CssColor, OfEveryNotation) {
            {"red", "#ff0000"},
            {"NAVY", "#000080"},
            {"Grey", "#808080"},
+           {"hsl(210, 65%, 20%)", "#123354"},  // colorsys.hls_to_rgb
+           {"hsla(-30 40% 75% / 0.5)", "#d9a6bf"},
+           {"HSL(0.25turn,100%,50%)", "#80ff00"},
+           {"hsl(100grad 30% 60%)", "#99b87a"},
+           {"hsl(2rad 80% 45%)", "#27cf17"},
+           {"hsl(20, 30%)", ""},
+           {"RebeccaPurple", "#663399"},
+           {"mediumaquamarine", "#66cdaa"},
            {"none", ""},
            {"url(#p)", ""},
            {"", ""},
@@ -83,6 +93,8 @@ constexpr PaintCase kPaints[] = {
     {"", "stroke='none' fill='none'", "", "", 3},
     {"", "style='stroke:red;fill:lime;stroke-width:7'", "#ff0000", "#00ff00", 7},
     {"", "style=' stroke : red ; ; fill:lime ; nonsense; '", "#ff0000", "#00ff00", 3},
+    {"", "color='red' stroke='currentColor'", "#ff0000", "#ffffff", 3},
+    {"", "stroke='url(#p) blue' fill='url(#p)'", "#0000ff", "", 3},
     // The last word: attribute, name, class, id, style.
     {"path{stroke:blue}", "stroke='red'", "#0000ff", "#ffffff", 3},
     {"path{stroke:blue} .a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
@@ -115,6 +127,30 @@ TEST(SvgStyles, TheLastWordIsThatOfTheCascade) {
     EXPECT_EQ(paint.fill, c.fill);
     EXPECT_DOUBLE_EQ(paint.width, c.width);
   }
+}
+
+// A paint that is no colour known is told; none is no such paint.
+TEST(SvgStyles, TellPaintsThatAreNoColour) {
+  EXPECT_EQ(painted("", "stroke='lab(50% 20 30)'").unknown, "lab(50% 20 30)");
+  EXPECT_EQ(painted("", "fill='url(#p)'").unknown, "url(#p)");
+  for (const char* known : {"stroke='none'", "stroke='url(#p) none'", "fill='transparent'", ""})
+    EXPECT_EQ(painted("", known).unknown, "") << known;
+}
+
+// What of a style is not followed: once for the sheets, once for a paint, at every clipped shape.
+TEST(SvgStyles, AreToldWhereTheyAreLetPass) {
+  const auto read = read_svg(
+      "<svg xmlns='http://www.w3.org/2000/svg'><style>g > path{stroke:red} path{fill:none}</style>"
+      "<g id='a' clip-path='url(#c)'><path stroke='lab(1 2 3)' d='M0 0L1 1'/>"
+      "<path stroke='lab(1 2 3)' d='M0 0L1 2'/></g><path clip-path='none' d='M0 0L1 2'/></svg>");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->curves.size(), 3U);
+  ASSERT_EQ(read->skipped.size(), 3U);
+  std::string all;
+  for (const SvgSkipped& s : read->skipped) all += s.what + "\n";
+  for (const char* part : {"1 rule of its style sheets", "g \"a\": is not clipped",
+                           "the paint \"lab(1 2 3)\" is no plain colour"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
 }
 
 TEST(SvgPaint, AnOutlineHasTheColourOfItsStrokeElseOfItsFill) {

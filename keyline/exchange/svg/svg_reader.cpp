@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <pugixml.hpp>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -21,13 +22,9 @@ namespace {
 
 using core::ErrorCode;
 using detail::Affine;
+using detail::describe;
 using detail::local_name;
-
-int line_of(std::string_view bytes, std::ptrdiff_t offset) {
-  const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
-  const auto head = bytes.substr(0, end);
-  return 1 + static_cast<int>(std::count(head.begin(), head.end(), '\n'));
-}
+using detail::name_of;
 
 /// Where an element is met: the map to the outermost user space, and its surroundings.
 struct Place {
@@ -57,6 +54,9 @@ class SvgReader {
     read_children(root, place);
     for (const auto& [name, count] : ignored_)
       skip(count.first, name + ": " + core::counted(count.second, "element") + " without curves");
+    if (styles_.passed() > 0)
+      skip(line(root), core::counted(styles_.passed(), "rule") +
+                           " of its style sheets: only plain selectors are followed");
     sort_skipped();
     return std::move(contents_);
   }
@@ -163,7 +163,7 @@ class SvgReader {
     Place place = outer;
     ++place.depth;
     if (!add_transform(node, place)) return;
-    place.paint = styles_.paint(node, place.paint);
+    take_paint(node, place);
     if (shape) return read_shape(node, place);
     open_.push_back(node);
     if (use) {
@@ -220,15 +220,14 @@ class SvgReader {
     return false;
   }
 
-  static std::string name_of(const pugi::xml_node& node) {
-    for (const char* attribute : {"inkscape:label", "data-name", "id"})
-      if (const char* value = node.attribute(attribute).value(); *value) return value;
-    return {};
-  }
-
-  static std::string describe(const pugi::xml_node& node) {
-    const std::string name = name_of(node);
-    return std::string(local_name(node)) + (name.empty() ? "" : " \"" + name + "\"");
+  /// Its style; what of it is not followed is told, a colour that is none known once.
+  void take_paint(const pugi::xml_node& node, Place& place) {
+    if (styles_.clips(node)) skip(line(node), describe(node) + ": is not clipped, whole here");
+    place.paint = styles_.paint(node, place.paint);
+    const std::string unknown(core::whole_characters(place.paint.unknown, 40));
+    if (unknown.empty() || !unknown_colors_.insert(unknown).second) return;
+    skip(line(node),
+         describe(node) + ": the paint \"" + unknown + "\" is no plain colour: none taken");
   }
 
   void read_shape(const pugi::xml_node& node, const Place& place) {
@@ -333,7 +332,7 @@ class SvgReader {
       place.map = combined(place.map, Affine{1, 0, 0, 1, x, y});
     if (local_name(shown) != "symbol") return read_element(shown, place);
     if (!add_transform(shown, place)) return;
-    place.paint = styles_.paint(shown, place.paint);
+    take_paint(shown, place);
     enter_viewport(shown, node, place);
     open_.push_back(shown);
     read_children(shown, place);
@@ -365,6 +364,7 @@ class SvgReader {
   std::vector<pugi::xml_node> open_;                    ///< elements being read, outermost first
   std::map<std::string, std::pair<int, int>> ignored_;  ///< name: first line, count
   std::size_t visited_ = 0;
+  std::set<std::string> unknown_colors_;
   std::size_t memory_ = 0;
   std::size_t room_;  ///< for the curves
   bool full_ = false;
@@ -384,9 +384,10 @@ core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& 
       document.load_buffer(bytes.data(), bytes.size(),
                            pugi::parse_default | pugi::parse_ws_pcdata_single, pugi::encoding_utf8);
   if (!parsed)
-    return core::fail(
-        ErrorCode::bad_input, std::string("the SVG file is no XML: ") + parsed.description(),
-        "check that the file is complete", "line " + std::to_string(line_of(bytes, parsed.offset)));
+    return core::fail(ErrorCode::bad_input,
+                      std::string("the SVG file is no XML: ") + parsed.description(),
+                      "check that the file is complete",
+                      "line " + std::to_string(detail::line_of(bytes, parsed.offset)));
   const pugi::xml_node root = document.document_element();
   if (local_name(root) != "svg")
     return core::fail(ErrorCode::bad_input, "the file holds XML but no SVG", {}, "line 1");

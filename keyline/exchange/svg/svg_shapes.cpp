@@ -17,6 +17,17 @@ std::string_view local_name(const pugi::xml_node& node) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
+std::string name_of(const pugi::xml_node& node) {
+  for (const char* attribute : {"inkscape:label", "data-name", "id"})
+    if (const char* value = node.attribute(attribute).value(); *value) return value;
+  return {};
+}
+
+std::string describe(const pugi::xml_node& node) {
+  const std::string name = name_of(node);
+  return std::string(local_name(node)) + (name.empty() ? "" : " \"" + name + "\"");
+}
+
 bool is_svg_shape(std::string_view name) {
   static constexpr std::array<std::string_view, 7> kShapes = {
       "path", "rect", "circle", "ellipse", "line", "polyline", "polygon"};

@@ -12,6 +12,12 @@ namespace keyline::exchange::detail {
 /// Name of an element without its namespace prefix.
 std::string_view local_name(const pugi::xml_node& node);
 
+/// What the drawing calls an element: its label, else its id; may be empty.
+std::string name_of(const pugi::xml_node& node);
+
+/// "path \"roof\"".
+std::string describe(const pugi::xml_node& node);
+
 /// True for path, rect, circle, ellipse, line, polyline and polygon.
 bool is_svg_shape(std::string_view name);
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <pugixml.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,9 @@ namespace keyline::exchange::detail {
 struct SvgPaint {
   std::string stroke;  ///< "#rrggbb"; empty: none, or a pattern
   std::string fill;
-  double width = 1;  ///< of the stroke, in px of its user space
+  double width = 1;                 ///< of the stroke, in px of its user space
+  std::string current = "#000000";  ///< what currentColor means
+  std::string unknown = {};  ///< of this element alone: what it gives as a colour and is none
 
   /// The colour of an outline: of its stroke, else of what fills it.
   const std::string& color() const { return stroke.empty() ? fill : stroke; }
@@ -24,21 +27,29 @@ class SvgStyles {
  public:
   /// Takes the rules of one <style> element; of very long sheets the first 10,000.
   void add_sheet(std::string_view css);
+  /// Rules let pass, of selectors that are not plain.
+  std::size_t passed() const { return passed_; }
   /// Paint of an element within one that is painted as given.
   SvgPaint paint(const pugi::xml_node& node, SvgPaint inherited) const;
   /// Whether CSS turns, scales or shifts the element, or says about which place: its attribute
   /// `transform` then does not tell where it is.
   bool moves(const pugi::xml_node& node) const;
+  /// Whether the element shows only what is within another.
+  bool clips(const pugi::xml_node& node) const;
 
  private:
   /// Declarations of CSS that apply to the element, the strongest last.
   std::vector<std::string_view> declarations(const pugi::xml_node& node) const;
 
+  /// Whether the element has one of these properties, by its attributes or in CSS.
+  bool declares(const pugi::xml_node& node, std::span<const char* const> names) const;
+
   std::map<std::string, std::string> rules_;  ///< declarations by selector
+  std::size_t passed_ = 0;
 };
 
-/// "#rrggbb" of a CSS colour: #rgb, #rrggbb, rgb(…), the sixteen basic names and the commonest
-/// others; empty for "none" and what is not known.
+/// "#rrggbb" of a CSS colour: #rgb, #rrggbb, rgb(…), hsl(…) and all names; opacity is let pass.
+/// Empty for what is no such colour.
 std::string css_color(std::string_view text);
 
 }  // namespace keyline::exchange::detail

@@ -179,6 +179,12 @@ Result<SvgText> svg_text(std::string_view bytes, std::size_t largest) {
   return text;
 }
 
+int line_of(std::string_view bytes, std::ptrdiff_t offset) {
+  const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
+  const auto head = bytes.substr(0, end);
+  return 1 + static_cast<int>(std::count(head.begin(), head.end(), '\n'));
+}
+
 std::string compressed_svg(std::string_view text) {
   z_stream stream{};
   constexpr int kGzip = 16 + MAX_WBITS;
