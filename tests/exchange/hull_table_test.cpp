@@ -64,6 +64,23 @@ TEST(HullTable, MistakesHaveTheirPlace) {
   EXPECT_EQ(line(hull_document(*table), "waterline-2").points[1], (Point3{5, 2, 2}));
 }
 
+// The names of waterlines or stations before their numbers: read, and told.
+TEST(HullCsv, NumbersMayStandBehindNames) {
+  const std::string named = "station [m],WL 0,WL 0.5,wl1\nSt 0,0,0.2,0.4\n2.5,0.1,0.6,0.9\n";
+  ASSERT_TRUE(is_hull_csv(named));
+  const auto table = read_hull_csv(named);
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->unit, "m");
+  EXPECT_EQ(table->stations, (std::vector<double>{0, 2.5}));
+  EXPECT_EQ(table->waterlines, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(table->half_breadth, (std::vector<double>{0, 0.1, 0.2, 0.6, 0.4, 0.9}));
+  ASSERT_EQ(table->left_out.size(), 1U);
+  EXPECT_THAT(table->left_out[0], testing::HasSubstr("\"WL 0\" and its like"));
+  EXPECT_TRUE(is_hull_csv("WL;Station 0;Station 2\n1;0;1\n"));
+  EXPECT_FALSE(is_hull_csv("station,speed 1,speed 2\n0,1,2\n"));
+  EXPECT_FALSE(is_hull_csv("station,st 1,st 2\n0,1,2\n"));
+}
+
 TEST(HullCsv, ReadsShipyardsTables) {
   const auto yard = read_hull_csv(
       "# yacht\nunits,ft\nStation\\WL,2-0-0,1-6-0\n1,3-4-4,3-0-6+\n0,-,1/2\n2,--,2 3/4\n");

@@ -72,6 +72,15 @@ TEST(ReadPoints, TheHeaderTellsTheUnit) {
   EXPECT_EQ(file_of("x / ft, y / ft\n" + rows)->unit, "ft");
   EXPECT_EQ(file_of("# x_m,y_m,w_m\n0,0,1\n1,2,1\n3,4,1\n")->unit, "m");
   EXPECT_EQ(file_of("x,y\n" + rows)->unit, "");
+  // in a line of their own
+  EXPECT_EQ(file_of("x,y\nmm,mm\n" + rows)->unit, "mm");
+  EXPECT_EQ(file_of("# x,y\n# [m],[m]\n" + rows)->unit, "m");
+  EXPECT_EQ(file_of("x;y;w\n\"in\";\"in\";-\n0;0;1\n1;2;1\n3;4;1\n")->unit, "in");
+  EXPECT_EQ(file_of("x,y\nmm,mm\n" + rows)->curves[0].points.size(), 3U);
+  EXPECT_FALSE(file_of("x,y\nmm,in\n" + rows));
+  EXPECT_FALSE(file_of("x,y\nmm,1\n" + rows));
+  EXPECT_EQ(file_of("x,y\n[µm],[µm]\n" + rows)->curves[0].left_out[0].substr(0, 20),
+            "line 2: the unit µm");
   const auto two = parse("x [mm],y [in]\n" + rows);
   ASSERT_FALSE(two);
   EXPECT_EQ(two.error().path, "data.csv:2");

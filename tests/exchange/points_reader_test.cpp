@@ -6,6 +6,7 @@
 #include <streambuf>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/shared_data.h"
@@ -158,6 +159,21 @@ struct RealCase {
   std::size_t points;
   std::vector<std::string> left_out;
 };
+
+// An airfoil may be called by its number; a count of rows is no name.
+TEST(ReadPoints, ANumberBeforeTheRowsIsATitleUnlessItCountsThem) {
+  const std::string rows = "1.0 0.0\n0.5 0.06\n0.0 0.0\n0.5 -0.06\n1.0 0.0\n";
+  const auto named = parse("2412\n" + rows);
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_EQ(named->front().id, "2412");
+  EXPECT_THAT(named->front().left_out,
+              testing::ElementsAre(
+                  "the number before the rows, 2412, counts none of them: taken for a title"));
+  const auto counted = parse("5\n" + rows);
+  ASSERT_TRUE(counted);
+  EXPECT_EQ(counted->front().id, "");
+  EXPECT_EQ(counted->front().points.size(), 5U);
+}
 
 // Lines as people leave them in files of points; what is data there was counted by hand.
 TEST(ReadPoints, RealFilesAreReadAsAPersonReadsThem) {

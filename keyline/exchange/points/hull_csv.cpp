@@ -59,6 +59,9 @@ std::optional<double> fraction_of(std::string_view text) {
   return whole + static_cast<double>(*over) / *under;
 }
 
+constexpr std::array<std::string_view, 4> kStations = {"station", "stations", "st", "sta"};
+constexpr std::array<std::string_view, 3> kWaterlines = {"waterline", "waterlines", "wl"};
+
 class HullCsv {
  public:
   explicit HullCsv(std::string_view text) : lines_(text) {}
@@ -85,7 +88,7 @@ class HullCsv {
   /// others.
   bool is_table() {
     const auto is_number = [this](std::string_view cell) {
-      const auto value = number(cell);
+      const auto value = at_axis(cell, !by_station_);
       return value && std::isfinite(*value);
     };
     const bool plain = header_.front() == "waterline" || header_.front() == "station";
@@ -94,7 +97,7 @@ class HullCsv {
   }
 
   Result<HullTable> read() {
-    const auto across = numbers(header_);
+    const auto across = axis_across();
     if (!across) return std::unexpected(across.error());
     if (!std::all_of(across->begin(), across->end(), [](double v) { return std::isfinite(v); }))
       return fail(ErrorCode::bad_input, "the first line needs a number in every column", "mend it",
@@ -107,7 +110,7 @@ class HullCsv {
       if (detail::trimmed(line).empty() || detail::is_comment(line)) continue;
       const auto fields = detail::split(line, style_);
       if (fields.empty()) continue;
-      const auto at = number(fields.front());
+      const auto at = at_axis(fields.front(), by_station_);
       if (!at && !rows.empty() && detail::is_remark(fields, style_, 0, header_.size())) {
         if (remark.empty()) remark = lines_.place();
         left_out_.push_back(lines_.place() + ": " + detail::shortened(detail::trimmed(line)));
@@ -136,8 +139,8 @@ class HullCsv {
       const char next = name.size() > word.size() ? name[word.size()] : ' ';
       return !(next >= 'a' && next <= 'z') && !(next >= '0' && next <= '9');
     };
-    by_station_ = starts("station") || starts("stations") || starts("st") || starts("sta");
-    const bool waterline = starts("waterline") || starts("waterlines") || starts("wl");
+    by_station_ = std::ranges::any_of(kStations, starts);
+    const bool waterline = std::ranges::any_of(kWaterlines, starts);
     const std::size_t open = cell.find_first_of("([");
     if (open != cell.npos)
       take_unit(cell.substr(open + 1, cell.find_first_of(")]", open) - open - 1));
@@ -160,14 +163,45 @@ class HullCsv {
     return fraction_of(field);
   }
 
+  /// A station or waterline, maybe with its name before the number: "WL 1.5".
+  std::optional<double> at_axis(std::string_view cell, bool station) {
+    if (const auto plain = number(cell)) return plain;
+    std::size_t digits = cell.find_first_of("0123456789");
+    if (digits == cell.npos || digits == 0) return std::nullopt;
+    if (cell[digits - 1] == '-' || cell[digits - 1] == '.') --digits;
+    const std::string name = detail::lower_case(detail::trimmed(cell.substr(0, digits)));
+    const bool known = station ? std::ranges::find(kStations, name) != kStations.end()
+                               : std::ranges::find(kWaterlines, name) != kWaterlines.end();
+    return known ? number(cell.substr(digits)) : std::nullopt;
+  }
+
+  /// The numbers of the first line; those behind names are told, as they might only count.
+  Result<std::vector<double>> axis_across() {
+    std::vector<double> values;
+    for (std::size_t k = 1; k < header_.size(); ++k) {
+      const auto value = at_axis(header_[k], !by_station_);
+      if (!value || std::abs(*value) > core::kLargestCoordinate) return misplaced(k);
+      values.push_back(*value);
+    }
+    if (header_.size() > 1 && !number(header_[1]))
+      left_out_.push_back(lines_.place() + ": the number in \"" + detail::shortened(header_[1]) +
+                          "\" and its like is taken for the " +
+                          (by_station_ ? "height of a waterline" : "position of a station"));
+    return values;
+  }
+
+  std::unexpected<core::Failure> misplaced(std::size_t column) const {
+    return fail(ErrorCode::bad_input,
+                "a number is expected in column " + std::to_string(column + 1),
+                "mend it, or leave it empty outside the hull", lines_.place());
+  }
+
   /// The numbers behind a row's first cell.
   Result<std::vector<double>> numbers(const std::vector<std::string_view>& fields) {
     std::vector<double> values;
     for (std::size_t k = 1; k < fields.size(); ++k) {
       const auto value = number(fields[k]);
-      if (!value || std::abs(*value) > core::kLargestCoordinate)
-        return fail(ErrorCode::bad_input, "a number is expected in column " + std::to_string(k + 1),
-                    "mend it, or leave it empty outside the hull", lines_.place());
+      if (!value || std::abs(*value) > core::kLargestCoordinate) return misplaced(k);
       values.push_back(*value);
     }
     return values;

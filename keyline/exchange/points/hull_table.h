@@ -23,10 +23,10 @@ struct HullTable {
 /// Text parted by commas, semicolons or tabs: after comments and lines of one or two cells (the
 /// unit among them: "unit,ft"), a line of "waterline" (or "WL", with a unit in brackets: "WL [m]")
 /// and the stations; every further line the height of a waterline and its half-breadths, empty or
-/// dashes outside the hull. Or "station" ("ST") first and the two exchanged. Rows and columns in
-/// any order. Numbers plain, as fractions (3 1/2) or, in feet, as feet-inches-eighths (2-3-4, and
-/// 2-3-4+ for a sixteenth more). Text behind the rows is `left_out`. Fails: bad_input with "line
-/// N".
+/// dashes outside the hull. Or "station" ("ST") first and the two exchanged. Heights and stations
+/// may have their names before them ("WL 0.5"), which is told. Rows and columns in any order.
+/// Numbers plain, as fractions (3 1/2) or, in feet, as feet-inches-eighths (2-3-4, and 2-3-4+ for a
+/// sixteenth more). Text behind the rows is `left_out`. Fails: bad_input with "line N".
 core::Result<HullTable> read_hull_csv(std::string_view text);
 bool is_hull_csv(std::string_view head);
 

@@ -60,10 +60,29 @@ bool PointsTable::take_header(std::string_view text, int number, bool comment) {
   return false;
 }
 
+/// A second line of a header, of units alone: "mm,mm", "[m];[m];-".
+bool PointsTable::take_unit_row(std::string_view text, int number) {
+  if (names_.empty()) return false;
+  const Fields fields = split(text, {header_separator_, false});
+  if (fields.size() < 2 || fields.size() > names_.size()) return false;
+  std::vector<HeaderUnit> units;
+  for (const std::string_view field : fields) {
+    if (parse_number(field, style_) && !field.empty()) return false;
+    units.push_back(unit_alone(field));
+  }
+  const auto says = [](const HeaderUnit& u) { return !u.known.empty() || !u.unknown.empty(); };
+  if (std::ranges::none_of(units, says)) return false;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    if (says(units[i])) units_[i] = units[i];
+  header_line_ = number;
+  return true;
+}
+
 core::Result<void> PointsTable::before_data(std::string_view line, int number,
                                             const std::string& place) {
   const bool comment = is_comment(line);
   const std::string_view text = comment ? comment_text(line) : line;
+  if (take_unit_row(text, number)) return {};
   if (!comment) {
     take_style(line);
     const Fields fields = split(line, style_);

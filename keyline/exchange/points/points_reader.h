@@ -30,8 +30,9 @@ struct PointsFile {
 /// commas where semicolons, tabs or spaces separate), one point per line, maybe in brackets.
 ///
 /// - Comment lines start with #, %, // or !; a header line (also a comment) of names chooses the
-///   columns, and units after their names ("x [mm]", "x_m") the unit. Without a header the first
-///   two or three columns are x, y, z; a fourth and later ones are ignored and noted.
+///   columns, and units after their names ("x [mm]", "x_m") or in a line of units alone behind
+///   them ("mm,mm") the unit. Without a header the first two or three columns are x, y, z; a fourth
+///   and later ones are ignored and noted.
 /// - Airfoil files: title lines before the points are noted; text behind them (lines with words,
 ///   not of a row's shape) and a line of more or fewer numbers before them, as a window's, are
 ///   `left_out`; Lednicer files (counts of both sides first, maybe off) become one curve from

@@ -271,12 +271,23 @@ void PointsTable::add(Row row, int number) {
   if (columns_.weight != PointsColumns::kNone) curve.weights.push_back(row.weight);
 }
 
-/// A curve takes the title of its file, if that is no number; of several, those without a name of
-/// their own.
+/// Of a title that is a number: whether it counts the rows behind it.
+bool PointsTable::title_counts(double number) const {
+  return number == static_cast<double>(rows_) ||
+         number == static_cast<double>(curves_.front().source_lines.size());
+}
+
+/// A curve takes the title of its file, if that does not count its points; of several, those
+/// without a name of their own.
 void PointsTable::name_curves() {
   const bool title_is_header = unknown_header_ && text_lines_ == 1;
   if (columns_.id != PointsColumns::kNone || text_lines_ == 0 || title_is_header) return;
-  const std::string title = parse_number(first_text_, style_) ? std::string() : first_text_;
+  const auto value = parse_number(first_text_, style_);
+  const bool counts = value && title_counts(*value);
+  const std::string title = counts ? std::string() : first_text_;
+  if (value && !counts)
+    left_out_.push_back("the number before the rows, " + first_text_ +
+                        ", counts none of them: taken for a title");
   std::size_t number = 0;
   for (RawCurve& curve : curves_) {
     ++number;

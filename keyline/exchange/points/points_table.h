@@ -56,6 +56,7 @@ class PointsTable {
   core::Failure too_few(std::size_t fields, const std::string& place) const;
   bool first_was_none(const Fields& fields) const;
   bool take_header(std::string_view text, int number, bool comment);
+  bool take_unit_row(std::string_view text, int number);
   void take_style(std::string_view line);
   bool tabs_part(std::string_view line) const;
   core::Result<void> take_units(const std::string& place);
@@ -71,6 +72,7 @@ class PointsTable {
   void watch_counter(const Fields& fields);
   void drop_counter();
   void tell_columns();
+  bool title_counts(double number) const;
   void name_curves();
   void tell_left_out();
 

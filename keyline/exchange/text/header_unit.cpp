@@ -42,10 +42,24 @@ std::size_t start_of_unit(std::string_view cell) {
   return named ? mark : cell.npos;
 }
 
-HeaderUnit unit_of(std::string_view cell) {
+namespace {
+
+std::string unquoted_cell(std::string_view cell) {
   std::string name(trimmed(cell));
   std::erase(name, '"');
   std::erase(name, '\'');
+  return name;
+}
+
+}  // namespace
+
+HeaderUnit unit_alone(std::string_view cell) {
+  const std::string unit = unit_in_words(unquoted_cell(cell));
+  return unit.empty() ? unit_of(cell) : HeaderUnit{unit, {}};
+}
+
+HeaderUnit unit_of(std::string_view cell) {
+  const std::string name = unquoted_cell(cell);
   const std::size_t at = start_of_unit(name);
   if (at == std::string::npos) return {};
   const bool square = name[at] == '[';

@@ -20,5 +20,7 @@ struct HeaderUnit {
   std::string unknown;  ///< what stands in square brackets and is no unit of documents
 };
 HeaderUnit unit_of(std::string_view cell);
+/// The same of a cell that holds a unit alone, in brackets or not.
+HeaderUnit unit_alone(std::string_view cell);
 
 }  // namespace keyline::exchange::detail
