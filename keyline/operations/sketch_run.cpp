@@ -7,6 +7,7 @@
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/core/polygon.h"
+#include "keyline/core/text.h"
 
 namespace keyline::operations {
 using core::ErrorCode;
@@ -23,7 +24,12 @@ document::Path path_of(const sketch::Stroke& stroke, const core::Similarity2& ma
 Result<sketch::TraceResult> trace_picture([[maybe_unused]] sketch::Image image,
                                           [[maybe_unused]] const sketch::TraceOptions& options) {
 #ifdef KEYLINE_HAS_SKETCH
-  return sketch::trace(std::move(image), options);
+  const std::size_t further = image.further_pages;
+  auto traced = sketch::trace(std::move(image), options);
+  if (traced && further > 0)
+    traced->notes.push_back(core::counted(further, "further page") +
+                            " of the file left out: the first is what is read");
+  return traced;
 #else
   return core::fail(ErrorCode::unsupported, "this Keyline was built without room sketch",
                     "build it with -DKEYLINE_SKETCH=ON");

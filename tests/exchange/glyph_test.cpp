@@ -148,6 +148,25 @@ TEST(Glif, TheGridIsKeptAndItsDeviationMeasured) {
     }
 }
 
+// Table "post" of format 3, as in most fonts of the web: characters and code points are still read.
+TEST(Font, MayNotNameItsGlyphs) {
+  std::ifstream in(KEYLINE_SOURCE_DIR "/fuzz/seeds/font_reader_fuzz/composite.ttf",
+                   std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::size_t entry = bytes.find("post");
+  ASSERT_NE(entry, std::string::npos);
+  std::size_t table = 0;
+  for (std::size_t i = 8; i < 12; ++i)
+    table = table << 8 | static_cast<unsigned char>(bytes[entry + i]);
+  ASSERT_TRUE(read_font(bytes, "/a"));
+  bytes[table + 1] = 3;
+  const auto named = read_font(bytes, "/a");
+  ASSERT_FALSE(named);
+  EXPECT_EQ(named.error().message, "the font does not name its glyphs");
+  EXPECT_TRUE(read_font(bytes, "a"));
+  EXPECT_TRUE(read_font(bytes, "U+0061"));
+}
+
 // A contour of handles alone, (0,0) (100,0) (100,100) (0,100) by the matrix of fuzz/make_fonts.py:
 // (50,600) (100,625) (75,675) (25,650). TrueType's points between stand halfway, at halves of a
 // unit.

@@ -57,6 +57,29 @@ TEST(ImageReader, TellsTheResolution) {
   EXPECT_NEAR(read_image(tiff_of(8, 3, 1))->pixels_per_mm, 300 / 25.4, 1e-6);
 }
 
+// Of a file of several pages the first; a smaller copy of it is no page.
+TEST(ImageReader, CountsThePagesBehindTheFirst) {
+  const fs::path file = fs::temp_directory_path() / "keyline-pages.tif";
+  TIFF* tiff = TIFFOpen(file.c_str(), "w");
+  for (const std::uint32_t type : {0U, 0U, unsigned{FILETYPE_REDUCEDIMAGE}, 0U}) {
+    unsigned char grey = type == 0 ? 200 : 10;
+    TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, type);
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 1U);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 1U);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    TIFFWriteEncodedStrip(tiff, 0, &grey, 1);
+    TIFFWriteDirectory(tiff);
+  }
+  TIFFClose(tiff);
+  const auto image = read_image(file_content(file));
+  fs::remove(file);
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->further_pages, 2U);
+  EXPECT_EQ(image->luminance.at(0, 0), 200 * 257);
+  EXPECT_EQ(read_image(tiff_of(8, 3, 1))->further_pages, 0U);
+}
+
 /// A TIFF of one row of 16 bit pixels with these samples.
 std::string deep_tiff(const std::vector<std::uint16_t>& samples, int per_pixel, int photometric) {
   const fs::path file = fs::temp_directory_path() / "keyline-deep.tif";

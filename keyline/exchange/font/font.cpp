@@ -11,6 +11,7 @@
 #include FT_OUTLINE_H
 
 #include "keyline/core/leading_number.h"
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 
 namespace keyline::exchange {
@@ -138,6 +139,9 @@ Result<std::vector<Glyph>> glyphs_of(FT_Face face, const std::string& wanted) {
   };
   if (!core::is_utf8(wanted)) return missing("(no UTF-8)");
   if (wanted.size() > 1 && wanted[0] == '/') {
+    if (!FT_HAS_GLYPH_NAMES(face))
+      return core::fail(ErrorCode::bad_input, "the font does not name its glyphs",
+                        "give a character or U+hexadecimal", "--glyphs");
     const FT_UInt index = FT_Get_Name_Index(face, wanted.c_str() + 1);
     if (index == 0 && wanted.substr(1) != name_of(face, 0)) return missing(wanted);
     return std::vector<Glyph>{{index, wanted.substr(1)}};
@@ -172,6 +176,8 @@ Result<void> add_glyph(Document& document, FT_Face face, const Glyph& glyph) {
                       "the outline of the glyph \"" + glyph.name + "\" is damaged",
                       "choose another", "--glyphs");
   contours.close();
+  if (contours.list.empty())
+    document.skipped.push_back("the glyph \"" + glyph.name + "\": it has no outline");
   int number = 0;
   for (auto& pieces : contours.list) {
     if (pieces.empty()) continue;
@@ -213,6 +219,9 @@ Result<Document> read_font(std::string_view bytes, const std::string& glyphs) {
   for (const Glyph& glyph : *wanted)
     if (auto done = add_glyph(document, face.value, glyph); !done)
       return std::unexpected(done.error());
+  if (const FT_Long others = face.value->num_faces - 1; others > 0)
+    document.skipped.push_back(core::counted(static_cast<std::size_t>(others), "further font") +
+                               " of the collection");
   if (document.paths.empty())
     return core::fail(ErrorCode::bad_input, "the glyphs have no outline", "choose others",
                       "--glyphs");

@@ -168,6 +168,18 @@ double density(TIFF* tiff) {
   return unit == RESUNIT_CENTIMETER ? resolution / 10.0 : resolution / 25.4;
 }
 
+/// Pictures behind the current one; smaller copies of it are none.
+std::size_t further_pages(TIFF* tiff) {
+  constexpr std::size_t kMost = 10'000;
+  std::size_t pages = 0;
+  while (pages < kMost && TIFFReadDirectory(tiff) != 0) {
+    std::uint32_t type = 0;
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &type);
+    if ((type & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0) ++pages;
+  }
+  return pages;
+}
+
 }  // namespace
 
 Result<Image> read_tiff(std::string_view bytes, Ground ground) {
@@ -195,6 +207,7 @@ Result<Image> read_tiff(std::string_view bytes, Ground ground) {
                                     : read_converted(tiff.get(), ground, *image);
   if (!good) return damaged("its TIFF pixels cannot be decoded");
   image->pixels_per_mm = density(tiff.get());
+  image->further_pages = further_pages(tiff.get());
   apply_orientation(*image, layout.orientation);
   return image;
 }
