@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/curve/view.h"
+#include "keyline/document/path_gap.h"
 
 namespace keyline::document {
 namespace {
@@ -216,6 +217,39 @@ Path part(const Path& path, const core::Interval& t) {
   return result;
 }
 
+namespace {
+
+/// Puts what follows to the end of a curve where both are one polyline, or one chain without a
+/// corner between them; false where they stay two.
+bool went_on(PlanarCurve& curve, const PlanarCurve& next) {
+  auto* line = std::get_if<curve::Polyline2>(&curve.value);
+  const auto* more = std::get_if<curve::Polyline2>(&next.value);
+  if (line && more) {
+    line->points.insert(line->points.end(), more->points.begin() + 1, more->points.end());
+    return true;
+  }
+  auto* chain = std::get_if<lac::Chain>(&curve.value);
+  const auto* rest = std::get_if<lac::Chain>(&next.value);
+  if (!chain || !rest) return false;
+  const double turn = core::wrap_angle(rest->start.direction - end_pose(*chain).direction);
+  if (std::abs(turn) > kCorner) return false;
+  chain->pieces.insert(chain->pieces.end(), rest->pieces.begin(), rest->pieces.end());
+  return true;
+}
+
+}  // namespace
+
+Path part_over_seam(const Path& path, double from, double to) {
+  if (from >= 1) return part(path, {0, to});
+  Path whole = part(path, {from, 1});
+  if (to <= 0) return whole;
+  const Path rest = part(path, {0, to});
+  auto next = rest.curves.begin();
+  if (path.curves.size() == 1 && went_on(whole.curves.back(), *next)) ++next;
+  whole.curves.insert(whole.curves.end(), next, rest.curves.end());
+  return whole;
+}
+
 PlanarCurve mirrored(const PlanarCurve& c, const core::Pose2& axis) {
   return std::visit([&](const auto& v) { return PlanarCurve{image(v, axis)}; }, c.value);
 }
@@ -303,6 +337,7 @@ Result<Joined> joined(const std::vector<Path>& curves, double gap) {
   const double closing = core::distance(evaluate(made.path, 1), evaluate(made.path, 0));
   made.path.closed = made.path.curves.size() > 1 && closing <= gap;
   if (made.path.closed) made.gap = std::max(made.gap, closing);
+  close_gaps(made.path);
   return made;
 }
 

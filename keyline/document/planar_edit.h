@@ -16,6 +16,11 @@ PlanarCurve part(const PlanarCurve& c, const core::Interval& t);
 /// The same of a path: whole members stay as they are. Never closed.
 Path part(const Path& path, const core::Interval& t);
 
+/// The part of a closed path from one parameter over its seam to another: open, of one member where
+/// the parts beside the seam go on as one chain or polyline. Precondition: 0 <= to < from <= 1, not
+/// all of [0, 1] left out; the ends meet.
+Path part_over_seam(const Path& path, double from, double to);
+
 /// The mirror image in the line through the pose's position along its direction.
 PlanarCurve mirrored(const PlanarCurve& c, const core::Pose2& axis);
 Path mirrored(const Path& path, const core::Pose2& axis);
@@ -38,7 +43,8 @@ struct Joined {
   std::vector<std::size_t> reversed;  ///< curves that run the other way in it
 };
 /// Curves end to end in one path: from the first on, each end goes on with the curve whose end is
-/// nearest. Closed where the last end meets the first start within `gap`.
+/// nearest. Closed where the last end meets the first start within `gap`. Gaps that first_gap()
+/// finds are closed by straight lines.
 /// Fails: undrawable where the nearest end is farther than `gap`, with how far.
 core::Result<Joined> joined(const std::vector<Path>& curves, double gap);
 

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/text.h"
+#include "keyline/document/path_gap.h"
 #include "keyline/document/units.h"
 #include "keyline/exchange/dxf/dxf_reader.h"
 #include "keyline/exchange/dxf/dxf_writer.h"
@@ -170,6 +171,18 @@ void sample_into(Corners& corners, const C& curve) {
       corners.take(evaluate(curve, at[i - 1] + (at[i] - at[i - 1]) * k / kBetween));
 }
 
+/// Paths of other programs may have gaps: told, and left.
+void tell_gaps(Document& document) {
+  for (std::size_t i = 0; i < document.paths.size(); ++i) {
+    const auto gap = document::first_gap(document.paths[i].path);
+    if (!gap) continue;
+    const std::string& name = document.paths[i].label.name;
+    document.skipped.push_back((name.empty() ? "curve " + std::to_string(i + 1) : name) +
+                               ": nothing closes a gap in it: its part " +
+                               std::to_string(gap->member + 1) + " " + in_words(*gap));
+  }
+}
+
 }  // namespace
 
 Result<Document> read_document(const fs::path& file, const ReadOptions& options) {
@@ -185,6 +198,7 @@ Result<Document> read_document(const fs::path& file, const ReadOptions& options)
     if (document->skipped.size() > kMost) what += " and others";
     return fail(ErrorCode::bad_input, what, "give a file with curves", file.string());
   }
+  tell_gaps(*document);
   return document;
 }
 

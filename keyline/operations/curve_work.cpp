@@ -84,15 +84,28 @@ struct TrimRequest {
                         core::field<&TrimRequest::from>("where the part begins, as a fraction of "
                                                         "the length")
                             .within(core::from_to(0, 1)),
-                        core::field<&TrimRequest::to>("where it ends").within(core::from_to(0, 1)));
+                        core::field<&TrimRequest::to>("where it ends; of a closed curve before "
+                                                      "\"from\" where the part runs over its start")
+                            .within(core::from_to(0, 1)));
   }
 };
 
+/// Whether the curve ends where it begins.
+bool comes_back(const document::Path& path, double length) {
+  constexpr double kShare = 1e-6;  // of the length, as where curves are faired
+  return core::distance(evaluate(path, 0), evaluate(path, 1)) <= kShare * length;
+}
+
 Result<CurveOnly> run_trim(const TrimRequest& request, const Context&) {
+  const Places places(request.curve);
+  const bool over = request.from > request.to && !(request.from == 1 && request.to == 0) &&
+                    comes_back(request.curve, places.length());
+  if (over)
+    return CurveOnly{made_path(document::part_over_seam(
+        request.curve, places.parameter(request.from), places.parameter(request.to)))};
   if (!(request.from < request.to))
     return core::fail(ErrorCode::bad_input, "nothing would be left",
-                      "give \"from\" less than \"to\"", "to");
-  const Places places(request.curve);
+                      "give \"from\" less than \"to\"; more only of a closed curve", "to");
   return CurveOnly{made_path(document::part(
       request.curve, {places.parameter(request.from), places.parameter(request.to)}))};
 }
@@ -200,7 +213,8 @@ struct JoinResult {
   static constexpr auto describe() {
     return core::fields(
         core::flattened<&JoinResult::curve>(),
-        core::field<&JoinResult::gap>("largest between neighbours").in("length"),
+        core::field<&JoinResult::gap>("largest between neighbours; a line closes one that shows")
+            .in("length"),
         core::field<&JoinResult::reversed>("curves that run the other way in it, from 0"));
   }
 };

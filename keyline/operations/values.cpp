@@ -42,22 +42,10 @@ json curve_json(const AnyCurve& curve) {
   return std::visit([](const auto& c) { return path_json(c); }, curve);
 }
 
-bool is_space_path(const json& j) {
-  if (!j.is_object() || j.value("type", json()) != "path") return false;
-  const auto members = j.find("curves");
-  if (members == j.end() || !members->is_array()) return false;
-  return std::any_of(members->begin(), members->end(),
-                     [](const json& m) { return exchange::is_space_curve(m); });
-}
-
 Result<SpacePath> space_path_from_json(const json& j, const std::string& where) {
-  SpacePath path;
-  for (std::size_t i = 0; i < j["curves"].size(); ++i) {
-    auto c = exchange::space_curve_from_json(j["curves"][i],
-                                             where + ".curves[" + std::to_string(i) + "]");
-    if (!c) return std::unexpected(c.error());
-    path.curves.push_back(std::move(*c));
-  }
+  auto members = exchange::space_path_from_json(j, where);
+  if (!members) return std::unexpected(members.error());
+  SpacePath path{std::move(*members)};
   if (j.contains("closed") && j["closed"].is_boolean()) path.closed = j["closed"].get<bool>();
   return path;
 }
@@ -67,7 +55,7 @@ Result<AnyCurve> any_curve_from_json(const json& j, const std::string& where) {
     if (!read) return std::unexpected(std::move(read.error()));
     return AnyCurve{std::move(*read)};
   };
-  if (is_space_path(j)) return any(space_path_from_json(j, where));
+  if (exchange::is_space_path(j)) return any(space_path_from_json(j, where));
   if (j.is_object() && exchange::is_space_curve(j))
     return any(exchange::space_curve_from_json(j, where));
   if (j.is_object() && j.value("type", json()) == "path")

@@ -46,6 +46,24 @@ TEST(JsonCurve, EndsAreGivenByTheirRadiiOrTheirCurvatures) {
   }
 }
 
+json line(json from, json to) { return {{"type", "bezier"}, {"points", {from, to}}}; }
+
+TEST(JsonCurve, PathsAreEndToEnd) {
+  json path{{"type", "path"}, {"curves", {line({0, 0}, {1, 1}), line({1, 1.5}, {2, 1})}}};
+  const auto gap = path_from_json(path, "curve");
+  ASSERT_FALSE(gap);
+  EXPECT_EQ(gap.error().path, "curve.curves[1]");
+  EXPECT_NE(gap.error().message.find("begins 0.5 away"), std::string::npos);
+  path["curves"][1]["points"][0] = {1, 1.00001};  // 0.000005 of its size
+  EXPECT_TRUE(path_from_json(path, "curve"));
+  // a closed path comes back to its start
+  path["closed"] = true;
+  const auto closed = path_from_json(path, "curve");
+  ASSERT_TRUE(closed);
+  ASSERT_EQ(closed->curves.size(), 3U);
+  EXPECT_EQ(evaluate(*closed, 1), (core::Point2{0, 0}));
+}
+
 TEST(JsonCurve, EndsAreOneOfTheTwo) {
   const auto path = [](const json& j) {
     const auto c = curve_from_json(j, "curve");

@@ -142,6 +142,15 @@ TEST(JsonDocument, LabelsAreTexts) {
   EXPECT_EQ(path_of(R"({"curve": C, "unit": true})"), "unit");
 }
 
+TEST(JsonDocument, APathInSpaceIsItsCurves) {
+  const auto d = read(R"({"curves": [{"name": "rail", "curve": {"type": "path", "curves":
+    [E, {"type": "polyline", "points": [[1, 2, 1], [3, 3, 0]]}]}}]})");
+  ASSERT_TRUE(d) << d.error().message;
+  ASSERT_EQ(d->space_curves.size(), 2U);
+  EXPECT_EQ(d->space_curves[1].label.name, "rail");
+  EXPECT_EQ(path_of(R"({"type": "path", "curves": [E, E]})"), "curves[1]");
+}
+
 TEST(JsonDocument, PathsAreClosedOrNot) {
   const auto path = [](const std::string& closed) {
     return path_of(R"({"type": "path", "curves": [C], "closed": )" + closed + "}");

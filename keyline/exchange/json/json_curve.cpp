@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyline/document/path_gap.h"
 #include "keyline/exchange/json/json_parts.h"
 #include "keyline/lac/chain/chain.h"
 
@@ -204,6 +205,11 @@ Result<Path> path_from_json(const json& j, const std::string& where) {
   const auto closed = closed_of(j, where);
   if (!closed) return std::unexpected(closed.error());
   path.closed = *closed;
+  if (const auto gap = document::first_gap(path))
+    return fail(ErrorCode::bad_input, "this curve of a path " + in_words(*gap),
+                "close the gap with a line, or give two paths",
+                in(in(where, "curves"), gap->member));
+  if (path.closed) close_gaps(path);  // as in drawings
   return path;
 }
 

@@ -90,6 +90,13 @@ Result<void> add_value(Document& document, const json& value, const std::string&
     document.space_curves.push_back({std::move(label), std::move(*curve)});
     return {};
   }
+  if (is_space_path(value)) {
+    auto members = space_path_from_json(value, where);
+    if (!members) return std::unexpected(members.error());
+    for (document::SpaceCurve& member : *members)
+      document.space_curves.push_back({label, std::move(member)});
+    return {};
+  }
   auto path = path_from_json(value, where);
   if (!path) return std::unexpected(path.error());
   document.paths.push_back({std::move(label), std::move(*path), stroke_width});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "keyline/document/path_gap.h"
 #include "keyline/exchange/json/json_parts.h"
 
 namespace keyline::exchange {
@@ -157,6 +158,29 @@ bool is_space_curve(const json& j) {
   return std::any_of(points->begin(), points->end(), [](const json& p) {
     return p.is_array() && p.size() == 3 && p[2].is_number() && p[2].get<double>() != 0;
   });
+}
+
+bool is_space_path(const json& j) {
+  if (!j.is_object() || j.value("type", json()) != "path") return false;
+  const auto members = j.find("curves");
+  return members != j.end() && members->is_array() &&
+         std::any_of(members->begin(), members->end(), is_space_curve);
+}
+
+Result<std::vector<document::SpaceCurve>> space_path_from_json(const json& j,
+                                                               const std::string& where) {
+  std::vector<document::SpaceCurve> members;
+  const std::string list = detail::in(where, "curves");
+  for (std::size_t i = 0; i < j["curves"].size(); ++i) {
+    auto c = space_curve_from_json(j["curves"][i], detail::in(list, i));
+    if (!c) return std::unexpected(c.error());
+    members.push_back(std::move(*c));
+  }
+  if (const auto gap = document::first_gap(members))
+    return core::fail(core::ErrorCode::bad_input, "this curve of a path " + in_words(*gap),
+                      "close the gap with a line, or give two curves",
+                      detail::in(list, gap->member));
+  return members;
 }
 
 Result<document::SpaceCurve> space_curve_from_json(const json& j, const std::string& where) {

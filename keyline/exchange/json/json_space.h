@@ -33,6 +33,13 @@ core::Result<lac::SpaceChain> space_chain_from_json(const nlohmann::json& j,
 /// third coordinate other than 0.
 bool is_space_curve(const nlohmann::json& j);
 
+/// True for a "path" of which a member is such a value.
+bool is_space_path(const nlohmann::json& j);
+
+/// The members of a path in space, end to end. Fails: bad_input at a gap.
+core::Result<std::vector<document::SpaceCurve>> space_path_from_json(const nlohmann::json& j,
+                                                                     const std::string& where);
+
 /// Any space curve type, checked as its validate() does.
 core::Result<document::SpaceCurve> space_curve_from_json(const nlohmann::json& j,
                                                          const std::string& where);

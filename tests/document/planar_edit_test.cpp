@@ -1,0 +1,44 @@
+#include "keyline/document/planar_edit.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace keyline::document {
+namespace {
+
+// A circle of radius 2 from its lowest point on; from 0.8 to 0.3 of it are its half.
+TEST(PartOverSeam, OfACircleIsAnArcOfOneChain) {
+  const double half = 2 * std::numbers::pi;
+  const lac::Chain circle{{{0, -2}, 0}, {{-1, half, 0.5, 0.5}, {-1, half, 0.5, 0.5}}, true};
+  const Path part = part_over_seam({{{circle}}, true}, 0.8, 0.3);
+  EXPECT_FALSE(part.closed);
+  ASSERT_EQ(part.curves.size(), 1U);
+  const auto& arc = std::get<lac::Chain>(part.curves[0].value);
+  EXPECT_NEAR(lac::arc_length(arc), half, 1e-14);
+  for (const auto& [t, turn] : {std::pair{0.0, 0.8}, {1.0, 0.3}}) {
+    const double angle = 2 * std::numbers::pi * turn;
+    EXPECT_LT(distance(evaluate(part, t), {2 * std::sin(angle), -2 * std::cos(angle)}), 1e-13);
+  }
+}
+
+TEST(PartOverSeam, KeepsTheMembersOfAPath) {
+  const Path triangle{{{curve::Bezier2{{{0, 0}, {4, 0}}, {}}},
+                       {curve::Bezier2{{{4, 0}, {0, 3}}, {}}},
+                       {curve::Bezier2{{{0, 3}, {0, 0}}, {}}}},
+                      true};
+  const Path part = part_over_seam(triangle, 0.5, 1.0 / 6);
+  ASSERT_EQ(part.curves.size(), 3U);
+  EXPECT_LT(distance(evaluate(part, 0), {2, 1.5}), 1e-15);
+  EXPECT_LT(distance(evaluate(part, 1), {2, 0}), 1e-15);
+  EXPECT_EQ(part_over_seam(triangle, 1, 0.5).curves.size(), 2U);
+  EXPECT_EQ(part_over_seam(triangle, 0.5, 0).curves.size(), 2U);
+  const Path square{{{curve::Polyline2{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}}}}, true};
+  const Path line = part_over_seam(square, 0.875, 0.125);
+  ASSERT_EQ(line.curves.size(), 1U);
+  EXPECT_EQ(std::get<curve::Polyline2>(line.curves[0].value).points,
+            (std::vector<core::Point2>{{0, 0.5}, {0, 0}, {0.5, 0}}));
+}
+
+}  // namespace
+}  // namespace keyline::document
