@@ -51,7 +51,10 @@ int run_convert(const Words& words) {
   if (!written) return report_failure(written.error());
   for (const json& one : (*written)["written"])  // the others were told when they were written
     if (one["deviation"] == 0) say(quiet, one["file"].get<std::string>() + ": deviation 0");
-  if (!session.door().json) return kDone;
+  if (!session.door().json) {
+    session.note_unused(json::object());
+    return kDone;
+  }
   auto shown = shown_of(*outcome);
   if (!shown) return report_failure(shown.error());
   (*shown)["written"] = (*written)["written"];

@@ -229,8 +229,8 @@ json document_of(const Faired& faired, const std::vector<json>& shown, const Rea
   for (std::size_t i = 0; i < faired.all.size(); ++i) {
     const Shown& one = faired.all[i];
     json curve{{"name", faired.things[i]["name"]}, {"curve", shown[i]["curve"]}};
-    for (const char* look : {"layer", "color", "stroke_width", "plane"})
-      if (faired.things[i].contains(look)) curve[look] = faired.things[i][look];
+    take_look(curve, faired.things[i]);
+    if (faired.things[i].contains("plane")) curve["plane"] = faired.things[i]["plane"];
     document["curves"].push_back(std::move(curve));
     tolerance = std::min(tolerance, answer_of(one).tolerance);
   }

@@ -63,6 +63,18 @@ constexpr const char* kSkipped = "skipped: ";
 constexpr const char* kNamed = "; keyline list names them";
 constexpr const char* kPlanes = " curves in planes";
 
+/// The fields that a result tells to have had no use.
+std::vector<std::string> unused_in(const operations::Outcome& outcome) {
+  std::vector<std::string> names;
+  core::visit_fields(
+      *outcome.operation->result, outcome.result.get(),
+      [&](const core::Field& field, const void* member) {
+        if (field.name == "unused" && &field.type() == &core::type_of<std::vector<std::string>>())
+          names = *static_cast<const std::vector<std::string>*>(member);
+      });
+  return names;
+}
+
 }  // namespace
 
 Session::Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes_files)
@@ -147,7 +159,11 @@ Result<operations::Outcome> Session::perform(const std::string& operation, json 
   if (usage_.forms && operations::further_options(*named))
     request.update(arguments_.of(door_record_ - 1));
   auto outcome = operations::carry_out(operation, request, {door_.threads, progress, true});
-  if (outcome) return outcome;
+  if (outcome) {
+    keep_uses(*named->request, request, unused_in(*outcome));
+    if (usage_.forms) keep_uses(*usage_.forms, request, {});
+    return outcome;
+  }
   const std::string& place = outcome.error().path;  // a file "points" is no option
   if (std::ranges::find(files(), place) != files().end()) return outcome;
   return std::unexpected(as_options(outcome.error()));
@@ -160,6 +176,8 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
   const auto written = presentation::write_files(door_.output, pages, output, progress);
   end_progress();
   if (!written) return std::unexpected(as_options(written.error()));
+  for (const std::string& name : written->unused)
+    keep_uses(core::type_of<operations::FormatOptions>(), {{name, true}}, written->unused);
   for (const operations::Written& one : written->written) {
     for (const std::string& note : one.notes) say(door_.quiet, one.file + ": " + note);
     if (one.deviation > 0)
@@ -171,6 +189,8 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
 Result<json> Session::write(const presentation::Pages& pages, json document, Ending ending) const {
   if (door_.output.empty()) return write(pages, presentation::Output{}, ending);
   if (door_.tolerance && !document.contains("tolerance")) document["tolerance"] = *door_.tolerance;
+  if (usage_.forms && arguments_.of(door_record_ - 1).contains("samples"))
+    document["samples"] = arguments_.of(door_record_ - 1)["samples"];
   const auto output = presentation::output_of(std::move(document));
   if (!output) return std::unexpected(output.error());
   return write(pages, *output, ending);
@@ -192,7 +212,33 @@ void Session::note_read(const operations::ReadAnswer& read) {
   note_some(kSkipped, read.skipped, kNamed);
 }
 
-void Session::print(const json& shown, const std::string& text) const {
+void Session::keep_uses(const core::Type& record, const json& given,
+                        const std::vector<std::string>& unused) const {
+  const std::lock_guard alone(uses_at_);
+  core::visit_fields(record, record.make().get(), [&](const core::Field& field, void*) {
+    const std::string name(field.name);
+    if (!given.contains(name)) return;
+    const bool found = std::ranges::find(unused, name) == unused.end();
+    Use& use = uses_.try_emplace(name, Use{field.text}).first->second;
+    use.found = use.found || found;
+  });
+}
+
+void Session::note_unused(const json& result) {
+  const json told = result.is_object() ? result.value("unused", json::array()) : json::array();
+  for (const auto& [name, use] : uses_) {
+    if (use.found) continue;
+    const std::string text = fmt::format("{} has no use here ({})", option_name(name), use.text);
+    if (std::ranges::find(told, json(name)) == told.end())
+      note(text);
+    else
+      say(door_.quiet, text);
+  }
+  uses_.clear();
+}
+
+void Session::print(const json& shown, const std::string& text) {
+  note_unused(shown);
   if (door_.json) {
     json whole = shown;
     for (const std::string& note : notes_) whole["notes"].push_back(note);
@@ -263,6 +309,11 @@ Result<ReadFiles> read_files(Session& session, json request, bool planar) {
 json subject_of(const json& thing) {
   if (thing.contains("line")) return {{"line", thing["line"]}};
   return {{"curve", thing["curve"]}};
+}
+
+void take_look(json& to, const json& thing) {
+  for (const char* look : {"layer", "color", "stroke_width"})
+    if (thing.contains(look)) to[look] = thing[look];
 }
 
 json one_or_all(const std::vector<json>& shown, const char* what) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -125,8 +127,12 @@ class Session {
   /// The same of what a file tells: how curves lie in space, and what was left out.
   void note_read(const operations::ReadAnswer& read);
 
-  /// With --json the object, what was noted among its "notes"; else the text unless quiet.
-  void print(const nlohmann::json& shown, const std::string& text) const;
+  /// Notes the options that nothing which was performed had a use for; those that the result tells
+  /// itself are only said.
+  void note_unused(const nlohmann::json& result);
+  /// With --json the object, what was noted among its "notes"; else the text unless quiet. Notes
+  /// unused options first.
+  void print(const nlohmann::json& shown, const std::string& text);
 
   /// The command as completion and manual pages tell it.
   Manual manual() const;
@@ -142,6 +148,16 @@ class Session {
   std::string typed_;
   std::function<std::string(const std::string&)> explain_;
   std::vector<std::string> notes_;
+
+  /// Of options that some operation had no use for: what they are, and whether another had one.
+  struct Use {
+    std::string_view text;
+    bool found = false;
+  };
+  void keep_uses(const core::Type& record, const nlohmann::json& given,
+                 const std::vector<std::string>& unused) const;
+  mutable std::mutex uses_at_;  ///< curves are worked on side by side
+  mutable std::map<std::string, Use> uses_;
 };
 
 /// Files of a session through document.read.
@@ -171,6 +187,9 @@ std::string called(const std::string& name, const char* kind, std::size_t index,
 
 /// A curve of document.read as a request for measured points has it.
 nlohmann::json subject_of(const nlohmann::json& thing);
+
+/// What a curve of document.read carries beside its geometry and name, on its way into a file.
+void take_look(nlohmann::json& to, const nlohmann::json& thing);
 
 /// {"curves": […]} of several, each with its name; the one alone.
 nlohmann::json one_or_all(const std::vector<nlohmann::json>& shown, const char* what);

@@ -94,8 +94,7 @@ struct Made {
 struct Of {
   std::string name;
   std::string heading;
-  std::string layer;
-  std::string color;
+  json look = json::object();  ///< take_look()
 };
 
 /// The name of one of several that come of one.
@@ -112,11 +111,12 @@ Result<void> run_one(Session& session, const Operation& operation, const json& r
   if (!result) return std::unexpected(result.error());
   std::vector<json> curves;
   gather_curves(*result, curves);
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    made.document["curves"].push_back({{"name", curves.size() > 1 ? numbered(name, i) : name},
-                                       {"layer", of.layer},
-                                       {"color", of.color},
-                                       {"curve", curves[i]}});
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    json written = of.look;
+    written["name"] = curves.size() > 1 ? numbered(name, i) : name;
+    written["curve"] = curves[i];
+    made.document["curves"].push_back(std::move(written));
+  }
   if (result->contains("surface") && (*result)["surface"].is_object())
     made.document["surfaces"].push_back({{"name", name}, {"surface", (*result)["surface"]}});
   made.text += (of.heading.empty() ? "" : of.heading + "\n") +
@@ -201,8 +201,10 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
     const json& thing = things[i];
     request["curve"] = curve_of(thing);
     const std::string name = thing["name"].get<std::string>();
-    const Of of{name, called(name, "curve", i, things.size()), thing["layer"].get<std::string>(),
-                thing["color"].get<std::string>()};
+    Of of{name, called(name, "curve", i, things.size())};
+    take_look(of.look, thing);
+    if (of.look.contains("stroke_width"))  // what enlarges a curve enlarges its line
+      of.look["stroke_width"] = of.look["stroke_width"].get<double>() * request.value("scale", 1.0);
     if (auto done = run_one(session, operation, request, of,
                             one_of_many(session.progress(), i, things.size()), made);
         !done)
@@ -317,6 +319,7 @@ std::string text_of(const json& listed) {
         low[0].get<double>(), low[1].get<double>(), low[2].get<double>(), high[0].get<double>(),
         high[1].get<double>(), high[2].get<double>());
   }
+  for (const json& note : listed["notes"]) all += "note: " + text(note) + "\n";
   for (const json& skipped : listed["skipped"]) all += "skipped: " + text(skipped) + "\n";
   return all;
 }

@@ -126,6 +126,8 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
                               request.plot_samples, context.progress);
     if (!found) return std::unexpected(found.error());
     AnalyzeAnswer answer = analyze_answer(std::move(*found));
+    answer.unused = unused_of(subject, line->has_value());
+    std::erase(answer.unused, "noise");  // it is the curve's here
     answer.path = *subject.curve;
     answer.comb = comb_figures_of(answer.path);
     return answer;
@@ -135,6 +137,7 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
   auto found = analyze_path(*spline, (**line).noise, request.plot_samples, context.progress);
   if (!found) return std::unexpected(found.error());
   AnalyzeAnswer answer = analyze_answer(std::move(*found));
+  answer.unused = unused_of(subject, true);
   answer.noise = (**line).noise;
   answer.spline = *spline;
   answer.path = std::move(*spline);

@@ -156,6 +156,7 @@ struct AnalyzeAnswer {
   analysis::CombFigures comb;
   std::optional<double> noise;
   std::optional<document::Path> spline;
+  std::vector<std::string> unused;
 
   analysis::CurveAnalysis analysis;  ///< not part of the public form, like `path`: for pictures
   document::Path path;
@@ -177,7 +178,8 @@ struct AnalyzeAnswer {
         core::field<&Answer::comb>("its comb in figures; energy is the variation"),
         core::field<&Answer::noise>("of points: their standard deviation").in("length"),
         core::field<&Answer::spline>(
-            "of points: the splines through them, one between two corners, which were analysed"));
+            "of points: the splines through them, one between two corners, which were analysed"),
+        core::field<&Answer::unused>(kUnusedText));
   }
 };
 

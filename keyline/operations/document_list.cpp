@@ -61,11 +61,15 @@ struct Thing {
 struct ListAnswer {
   std::string unit;
   std::vector<Thing> things;
+  std::vector<std::string> notes;
   std::vector<std::string> skipped;
+  std::vector<std::string> unused;
   static constexpr auto describe() {
     return core::fields(core::field<&ListAnswer::unit>("of all lengths; empty: none given"),
                         core::field<&ListAnswer::things>("in the order that \"select\" counts"),
-                        core::field<&ListAnswer::skipped>("what the file holds beside, in words"));
+                        core::field<&ListAnswer::notes>("how it was read, in words"),
+                        core::field<&ListAnswer::skipped>("what the file holds beside, in words"),
+                        core::field<&ListAnswer::unused>(kUnusedText));
   }
 };
 
@@ -212,7 +216,7 @@ Thing thing_of(const NamedSurfaceValue& named) {
 Result<ListAnswer> run(const InputRequest& request, const Context& context) {
   const auto read = read_input(request, context.progress);
   if (!read) return std::unexpected(read.error());
-  ListAnswer answer{read->unit, {}, read->skipped};
+  ListAnswer answer{read->unit, {}, read->notes, read->skipped, read->unused};
   for (std::size_t i = 0; i < read->curves.size(); ++i) {
     if (context.progress.stop_requested()) return fail(ErrorCode::cancelled, "cancelled");
     context.progress.report(static_cast<double>(i) / static_cast<double>(read->curves.size()),

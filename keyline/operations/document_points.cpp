@@ -229,7 +229,15 @@ Result<ReadAnswer> join_files(const InputRequest& input) {
 }  // namespace
 
 Result<ReadAnswer> read_points_input(const InputRequest& input) {
-  return input.file.size() > 1 ? join_files(input) : read_points_of(input, input.file.front());
+  const bool alone = input.file.size() == 1;
+  auto read = alone ? read_points_of(input, input.file.front()) : join_files(input);
+  if (!read) return read;
+  read->kind = alone ? InputRequest::kAlone : 0U;
+  if (input.row || input.column)
+    read->kind |= input.row ? InputRequest::kLatticeRow : InputRequest::kLatticeColumn;
+  else
+    read->kind |= InputRequest::kTable | (input.section.empty() ? 0U : InputRequest::kCloud);
+  return read;
 }
 
 }  // namespace keyline::operations

@@ -48,14 +48,23 @@ Result<ReadAnswer> read_drawing(const InputRequest& input, const core::Progress&
     if (is_wanted(*lines, i, input.select)) answer.curves.push_back(named_line((*lines)[i]));
   if (answer.curves.empty())
     return in_file<ReadAnswer>(std::unexpected(document::nothing_named(input.select, names)), file);
+  answer.notes = trace->notes;
   if (skipped > 0)
-    answer.curves.front().line->report.notes.push_back(
-        std::to_string(skipped) + " short strokes of the drawing were left out");
+    answer.skipped.push_back(core::counted(skipped, "short stroke") + " of the drawing");
+  auto& told = answer.curves.front().line->report.notes;  // those who fair it tell these
+  told.insert(told.end(), answer.notes.begin(), answer.notes.end());
+  for (const std::string& one : answer.skipped) told.push_back(one + " left out");
   return answer;
 }
 
+/// What a file holds, and of which InputRequest::Kind it is.
+struct Opened {
+  document::Document document;
+  unsigned kind = 0;
+};
+
 /// The lines in which a plane cuts a mesh; of a cloud, its section as acquired.
-Result<document::Document> section_document(const InputRequest& input, const std::string& file) {
+Result<Opened> open_section(const InputRequest& input, const std::string& file) {
   const auto cut = cut_file(input, file);
   if (!cut) return std::unexpected(cut.error());
   document::Document document;
@@ -75,7 +84,22 @@ Result<document::Document> section_document(const InputRequest& input, const std
     if (closed) line.points.push_back(line.points.front());
     document.paths.push_back({{curve.id, {}, {}}, {{{std::move(line)}}, closed}, 0});
   }
-  return document;
+  return Opened{std::move(document), cut->ordered ? InputRequest::kMesh : InputRequest::kCloud};
+}
+
+exchange::Format format_of(const std::string& file) {
+  return exchange::format_of(file, exchange::head_of(file).value_or(""));
+}
+
+Result<Opened> open_curves(const InputRequest& input, const core::Progress& progress) {
+  const std::string& file = input.file.front();
+  if (exchange::is_mesh_file(file) && !input.section.empty()) return open_section(input, file);
+  auto document = exchange::read_document(
+      file, {.glyphs = input.glyphs, .cancellation = progress.cancellation});
+  if (!document) return std::unexpected(document.error());
+  unsigned kind = format_of(file) == exchange::Format::font ? InputRequest::kFont : 0U;
+  if (!document->surfaces.empty()) kind |= InputRequest::kSurfaces;
+  return Opened{std::move(*document), kind};
 }
 
 template <class Thing>
@@ -83,8 +107,10 @@ NamedCurve named(const document::Label& label, const Thing& curve, double width)
   return {label.name, label.layer, label.color, width, AnyCurve{curve}, {}};
 }
 
-ReadAnswer answer_of(document::Document document) {
+ReadAnswer answer_of(Opened opened) {
+  document::Document& document = opened.document;
   ReadAnswer answer;
+  answer.kind = opened.kind;
   answer.unit = document.unit;
   for (const auto& p : document.paths)
     answer.curves.push_back(named(p.label, simplest(p.path), p.stroke_width));
@@ -118,22 +144,20 @@ void place(NamedCurve& curve, const exchange::Laid& laid) {
 
 Result<ReadAnswer> read_curves(const InputRequest& input, const core::Progress& progress) {
   const std::string& file = input.file.front();
-  auto document = exchange::is_mesh_file(file) && !input.section.empty()
-                      ? section_document(input, file)
-                      : exchange::read_document(
-                            file, {.glyphs = input.glyphs, .cancellation = progress.cancellation});
-  if (!document) return std::unexpected(document.error());
-  if (auto done = in_file(document::select(*document, input.select), file); !done)
+  auto opened = open_curves(input, progress);
+  if (!opened) return std::unexpected(opened.error());
+  document::Document& document = opened->document;
+  if (auto done = in_file(document::select(document, input.select), file); !done)
     return std::unexpected(done.error());
-  take_unit(document->unit, input.unit, document->skipped);
-  if (input.trims) document::add_trim_curves(*document);
-  if (!input.planar) return answer_of(std::move(*document));
-  const std::size_t plane_already = document->paths.size();
-  const auto planes = exchange::flatten(*document);
-  if (document->paths.empty() && document->surfaces.empty())
+  take_unit(document.unit, input.unit, document.skipped);
+  if (input.trims) document::add_trim_curves(document);
+  if (!input.planar) return answer_of(std::move(*opened));
+  const std::size_t plane_already = document.paths.size();
+  const auto planes = exchange::flatten(document);
+  if (document.paths.empty() && document.surfaces.empty())
     return fail(ErrorCode::bad_input, "there is no planar curve in it",
                 "give curves that lie in a plane", file);
-  ReadAnswer answer = answer_of(std::move(*document));
+  ReadAnswer answer = answer_of(std::move(*opened));
   for (std::size_t i = 0; i < planes.size(); ++i) {
     NamedCurve& curve = answer.curves[plane_already + i];
     place(curve, planes[i]);
@@ -144,20 +168,18 @@ Result<ReadAnswer> read_curves(const InputRequest& input, const core::Progress& 
   return answer;
 }
 
-bool holds_points(const std::string& file) {
-  return exchange::format_of(file, exchange::head_of(file).value_or("")) ==
-         exchange::Format::points;
-}
-
 Result<ReadAnswer> read_files(const InputRequest& request, const core::Progress& progress) {
   const std::string& file = request.file.front();
-  const bool points = !exchange::has_image_name(file) && holds_points(file);
+  const bool points =
+      !exchange::has_image_name(file) && format_of(file) == exchange::Format::points;
   if (!points && request.file.size() > 1)
     return fail(ErrorCode::bad_input, "several files are parts of one key-line of points",
                 "give one file of curves, or one drawing, at a time", "file");
-  if (exchange::has_image_name(file)) return read_drawing(request, progress);
-  if (!points) return read_curves(request, progress);
-  return read_points_input(request);
+  if (points) return read_points_input(request);
+  auto read = exchange::has_image_name(file) ? read_drawing(request, progress)
+                                             : read_curves(request, progress);
+  if (read) read->kind |= InputRequest::kAlone;
+  return read;
 }
 
 Result<ReadAnswer> run(const InputRequest& request, const Context& context) {
@@ -178,6 +200,7 @@ Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress&
   auto read = read_files(readable, progress);
   if (read && progress.stop_requested())
     return fail(ErrorCode::cancelled, "cancelled", {}, request.file.front());
+  if (read) read->unused = unused_fields(request, read->kind);
   if (!read)
     for (const exchange::InputFile& file : files)
       read = std::unexpected(file.as_named(read.error()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,18 @@ namespace keyline::operations {
 
 /// Where curves, points or surfaces come from and how they are to be read.
 struct InputRequest {
+  /// What a file turned out to be, several at once: a table that is cut is a cloud too.
+  enum Kind : unsigned {
+    kTable = 1,
+    kCloud = 2,
+    kLatticeRow = 4,
+    kLatticeColumn = 8,
+    kMesh = 16,
+    kFont = 32,
+    kSurfaces = 64,
+    kAlone = 128  ///< one file, not several that are parts of one key-line
+  };
+
   std::vector<std::string> file;
   std::vector<std::string> columns;
   std::string weight_column;
@@ -29,6 +42,17 @@ struct InputRequest {
   std::string unit;
   bool planar = false;
   bool trims = false;
+  static constexpr auto uses() {
+    using Request = InputRequest;
+    constexpr unsigned kLattice = kLatticeRow | kLatticeColumn;
+    constexpr unsigned kPoints = kTable | kCloud | kLattice;
+    return std::array{use<&Request::columns>(kTable),        use<&Request::weight_column>(kTable),
+                      use<&Request::id_column>(kTable),      use<&Request::select>(kAlone),
+                      use<&Request::glyphs>(kFont),          use<&Request::section>(kCloud | kMesh),
+                      use<&Request::band>(kCloud),           use<&Request::row>(kLatticeRow),
+                      use<&Request::column>(kLatticeColumn), use<&Request::acquiring>(kPoints),
+                      use<&Request::trims>(kSurfaces)};
+  }
   static constexpr auto describe() {
     using Request = InputRequest;
     return core::fields(
@@ -50,18 +74,19 @@ struct InputRequest {
         core::field<&Request::glyphs>("of a font, which to read: characters, /name or U+0053"),
         core::field<&Request::section>(
             "cut a cloud or mesh with a plane, as in y=0; auto: with its plane of symmetry"),
-        core::field<&Request::band>("half thickness of the section of a cloud")
+        core::field<&Request::band>("of a cloud that is cut: half thickness of its section")
             .in("length")
             .within(core::kPositive),
-        core::field<&Request::row>("of a lattice of range data, which to take, from 0")
+        core::field<&Request::row>("of a lattice of range data, which row to take, from 0")
             .within(core::at_least(0)),
-        core::field<&Request::column>("of a lattice of range data, which to take, from 0")
+        core::field<&Request::column>("of a lattice of range data, which column to take, from 0")
             .within(core::at_least(0)),
         core::flattened<&Request::acquiring>(),
         core::field<&Request::unit>("unit of the coordinates; the file's own unless given"),
         core::field<&Request::planar>(
             "curves in space that lie in a plane as planar ones; others stay as they are"),
-        core::field<&Request::trims>("also read the curves that trim surfaces, as curves"));
+        core::field<&Request::trims>(
+            "of surfaces: also read the curves that trim them, as curves"));
   }
 };
 
@@ -138,17 +163,22 @@ struct ReadAnswer {
   std::optional<Page> page;
   std::vector<std::string> notes;
   std::vector<std::string> skipped;
+  std::vector<std::string> unused;
 
   document::Document document;  ///< not part of the public form: for pictures
+  unsigned kind = 0;            ///< likewise: of InputRequest::Kind
 
   static constexpr auto describe() {
     using Answer = ReadAnswer;
-    return core::fields(core::field<&Answer::unit>("of all lengths; empty: none given"),
-                        core::field<&Answer::curves>("planar, then in space, in the file's order"),
-                        core::field<&Answer::surfaces>("in the file's order"),
-                        core::field<&Answer::page>("what a drawing shows"),
-                        core::field<&Answer::notes>("planes of curves in space, in words"),
-                        core::field<&Answer::skipped>("what the file holds beside, in words"));
+    return core::fields(
+        core::field<&Answer::unit>("of all lengths; empty: none given"),
+        core::field<&Answer::curves>("planar, then in space, in the file's order"),
+        core::field<&Answer::surfaces>("in the file's order"),
+        core::field<&Answer::page>("what a drawing shows"),
+        core::field<&Answer::notes>("how it was read: planes of curves in space, the "
+                                    "order of points, what a picture shows"),
+        core::field<&Answer::skipped>("what the file holds beside, in words"),
+        core::field<&Answer::unused>(kUnusedText));
   }
 };
 

@@ -75,6 +75,7 @@ Result<WriteAnswer> write(const document::Document& document, const std::vector<
   }
   if (progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (auto done = files.commit(); !done) return std::unexpected(done.error());
+  answer.unused = unused_of(options, names);
   return answer;
 }
 
@@ -103,10 +104,25 @@ struct ConvertRequest {
 Result<WriteAnswer> run_convert(const ConvertRequest& request, const Context& context) {
   const auto read = read_input(request.input, context.progress);
   if (!read) return std::unexpected(read.error());
-  return write(document_of(*read), request.to, request.format, is_picture(*read), context.progress);
+  auto answer =
+      write(document_of(*read), request.to, request.format, is_picture(*read), context.progress);
+  if (answer) answer->unused.insert(answer->unused.end(), read->unused.begin(), read->unused.end());
+  return answer;
 }
 
 }  // namespace
+
+std::vector<std::string> unused_of(const FormatOptions& options,
+                                   const std::vector<std::string>& files) {
+  unsigned kind = 0;
+  for (const std::string& file : files) {
+    const std::string extension = exchange::extension_of(file);
+    if (extension == ".dxf") kind |= FormatOptions::kDxf;
+    if (extension == ".glif") kind |= FormatOptions::kGlif;
+    if (extension == ".csv") kind |= FormatOptions::kCsv;
+  }
+  return unused_fields(options, kind);
+}
 
 document::Document document_of(const WriteRequest& request) {
   document::Document document;
@@ -142,10 +158,12 @@ document::Document document_of(const ReadAnswer& read) {
 Result<exchange::Written> formatted(const document::Document& document,
                                     const std::string& extension, const FormatOptions& options,
                                     bool on_page, const core::CancellationToken& cancellation) {
-  const exchange::WriteOptions how{.tolerance = options.tolerance,
-                                   .polylines = options.polylines,
-                                   .grid = options.grid,
-                                   .cancellation = cancellation};
+  const exchange::WriteOptions how{
+      .tolerance = options.tolerance,
+      .samples = options.samples.value_or(exchange::WriteOptions{}.samples),
+      .polylines = options.polylines,
+      .grid = options.grid,
+      .cancellation = cancellation};
   if (!is_planar_format(extension)) return exchange::format_document(document, extension, how);
   document::Document planar;
   const document::Document* shown = &document;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,13 @@ struct FormatOptions {
   double tolerance = 0;
   bool polylines = false;
   bool grid = false;
+  std::optional<int> samples;
+  /// Formats that ask.
+  enum Kind : unsigned { kDxf = 1, kGlif = 2, kCsv = 4 };
+  static constexpr auto uses() {
+    return std::array{use<&FormatOptions::polylines>(kDxf), use<&FormatOptions::grid>(kGlif),
+                      use<&FormatOptions::samples>(kCsv)};
+  }
   static constexpr auto describe() {
     using Options = FormatOptions;
     return core::fields(
@@ -23,7 +32,11 @@ struct FormatOptions {
             .in("length")
             .within(core::kPositive),
         core::field<&Options::polylines>("for dxf: write polylines in place of splines"),
-        core::field<&Options::grid>("for glif: put nodes and handles on whole numbers"));
+        core::field<&Options::grid>("for glif: put nodes and handles on whole numbers"),
+        core::field<&Options::samples>(
+            "for csv: points of every curve that is no polyline, more where it has more corners; "
+            "1001 unless given")
+            .within(core::from_to(2, 10'000'000)));
   }
 };
 
@@ -66,10 +79,17 @@ struct Written {
 
 struct WriteAnswer {
   std::vector<Written> written;
+  std::vector<std::string> unused;
   static constexpr auto describe() {
-    return core::fields(core::field<&WriteAnswer::written>("one for each file"));
+    return core::fields(core::field<&WriteAnswer::written>("one for each file"),
+                        core::field<&WriteAnswer::unused>(
+                            "fields given that have no use for these formats, or for the input"));
   }
 };
+
+/// Which were given and have no use for any of the files.
+std::vector<std::string> unused_of(const FormatOptions& options,
+                                   const std::vector<std::string>& files);
 
 /// What a request writes, as a document.
 document::Document document_of(const WriteRequest& request);

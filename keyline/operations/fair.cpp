@@ -42,8 +42,11 @@ core::Result<std::vector<std::size_t>> indices_in(const acquire::KeyLine& line,
 }
 
 core::Result<FairAnswer> run(const FairRequest& request, const Context& context) {
-  auto line = key_line_of(request);
-  if (!line) return std::unexpected(line.error());
+  auto measured = measured_line(request.subject);
+  if (!measured) return std::unexpected(std::move(measured.error()));
+  auto line = *measured ? core::Result<acquire::KeyLine>(**measured)
+                        : sampled_line(*request.subject.curve, request.options.tolerance);
+  if (!line) return std::unexpected(std::move(line.error()));
   fairing::FairOptions options = request.options;
   // [Fairing]'s plain search: random first knots, no polish.
   if (options.spline.knots == fit::KnotPlacement::ga) options.spline.smart_start = false;
@@ -54,17 +57,12 @@ core::Result<FairAnswer> run(const FairRequest& request, const Context& context)
   options.progress = context.progress;
   auto result = fairing::fair(*line, options);
   if (!result) return std::unexpected(result.error());
-  return fair_answer(std::move(*line), std::move(*result));
+  FairAnswer answer = fair_answer(std::move(*line), std::move(*result));
+  answer.unused = unused_of(request.subject, measured->has_value());
+  return answer;
 }
 
 }  // namespace
-
-core::Result<acquire::KeyLine> key_line_of(const FairRequest& request) {
-  auto line = measured_line(request.subject);
-  if (!line) return std::unexpected(std::move(line.error()));
-  if (*line) return std::move(**line);
-  return sampled_line(*request.subject.curve, request.options.tolerance);
-}
 
 document::Path fair_curve(const fairing::FairResult& result) {
   document::Path path{{}, result.closed};

@@ -81,6 +81,7 @@ struct FairAnswer {
   fairing::JointRates joints;
   std::vector<Joint> continuity;
   std::vector<std::string> report;
+  std::vector<std::string> unused;
 
   acquire::KeyLine line;       ///< what was faired; not part of the answer's public form
   fairing::FairResult faired;  ///< likewise: for pictures
@@ -110,12 +111,10 @@ struct FairAnswer {
         core::field<&FairAnswer::joints>(
             "inside the chains, by the rate at which curvature changes: G3, at turns, jumps"),
         core::field<&FairAnswer::continuity>("at the joints, inside chains and between curves"),
-        core::field<&FairAnswer::report>("everything dropped, merged or overridden, in words"));
+        core::field<&FairAnswer::report>("everything dropped, merged or overridden, in words"),
+        core::field<&FairAnswer::unused>(kUnusedText));
   }
 };
-
-/// The key-line that is faired: of points, or of samples of a curve.
-core::Result<acquire::KeyLine> key_line_of(const FairRequest& request);
 
 /// The answer as one curve (log-aesthetic) or a path of several.
 document::Path fair_curve(const fairing::FairResult& result);

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/acquire/key_line.h"
+#include "keyline/operations/uses.h"
 #include "keyline/operations/values.h"
 
 /// What `fair` and `curve.analyze` work on: one place decides what counts as measured points.
@@ -20,16 +23,17 @@ struct Acquiring {
   static constexpr auto describe() {
     return core::fields(
         core::field<&Acquiring::closed>(
-            "whether the points are a closed outline; recognised unless given"),
+            "whether measured points are a closed outline; recognised unless given"),
         core::field<&Acquiring::noise>(
-            "standard deviation of the positions; estimated unless given")
+            "of measured points: standard deviation of the positions; estimated unless given")
             .in("length")
             .within(core::at_least(0)),
         core::field<&Acquiring::detail>(
-            "waves shorter than this are taken for noise; found where texture shows unless given")
+            "of measured points: waves shorter than this are taken for noise; found where texture "
+            "shows unless given")
             .in("length"),
-        core::field<&Acquiring::keep_order>("never put points in another order"),
-        core::field<&Acquiring::keep_strays>("never drop a point as stray"));
+        core::field<&Acquiring::keep_order>("never put measured points in another order"),
+        core::field<&Acquiring::keep_strays>("never drop a measured point as stray"));
   }
 };
 
@@ -41,6 +45,11 @@ struct Subject {
   std::optional<acquire::KeyLine> line;
   std::vector<double> weights;
   Acquiring acquiring;
+  /// Points put in order and cleaned here, or curves and key-lines taken as they are.
+  enum Kind : unsigned { kAcquired = 1, kAsGiven = 2 };
+  static constexpr auto uses() {
+    return std::array{use<&Subject::weights>(kAcquired), use<&Subject::acquiring>(kAcquired)};
+  }
   static constexpr auto describe() {
     return core::fields(
         core::field<&Subject::points>("measured points; or curve, or line").count(1),
@@ -61,6 +70,11 @@ bool are_points_of_a_curve(const std::vector<core::Point2>& vertices);
 /// cleaned), those of a line as they are, the vertices of a polyline in their order. Empty where it
 /// is another curve. bad_input unless it is one of the three.
 core::Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject);
+
+/// What was given with a subject and has no use for it; measured: that measured_line() has one.
+inline std::vector<std::string> unused_of(const Subject& subject, bool measured) {
+  return unused_fields(subject, measured && !subject.line ? Subject::kAcquired : Subject::kAsGiven);
+}
 
 /// A curve as a key-line: samples evenly spaced in arc length, no noise, the curve's own corners:
 /// kinks that within the tolerance neither a step of curvature beside them hides nor a bend too

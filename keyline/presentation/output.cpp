@@ -115,6 +115,7 @@ Result<operations::WriteAnswer> write_files(const std::vector<std::string>& file
   }
   if (progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (auto done = beside.commit(); !done) return std::unexpected(done.error());
+  answer.unused = operations::unused_of(output.format, files);
   return answer;
 }
 

@@ -61,5 +61,39 @@ TEST(LeftOut, IsToldOfWhatIsCut) {
               HasSubstr("keyline: skipped: line 4"));
 }
 
+// An option that nothing of the input or output asks for is told wherever it is given.
+TEST(LeftOut, OptionsWithoutAUseAreTold) {
+  const Scratch s;
+  const std::string curve =
+      s.write("c.json", R"({"type":"bezier","points":[[0,0],[1,2],[3,2],[4,0]]})");
+  const std::string table = s.write("t.csv", "x,y\n0,0\n1,1\n2,1.5\n3,1\n4,0\n");
+  const auto told = [](const std::string& command) {
+    const Outcome done = run_keyline(command);
+    EXPECT_EQ(done.status, 0) << command << "\n" << done.err;
+    return done.err;
+  };
+  const std::string listed =
+      told("list " + curve + " --section y=0 --glyphs S --columns 1,2 --band 1 --row 2 --closed");
+  for (const char* option : {"section", "glyphs", "columns", "band", "row", "closed"})
+    EXPECT_THAT(listed, HasSubstr("keyline: --" + std::string(option) + " has no use here ("));
+  EXPECT_THAT(told("fair " + curve + " --noise 0.1"), HasSubstr("--noise has no use here ("));
+  EXPECT_THAT(told("analyze " + curve + " --noise 0.1"), Not(HasSubstr("no use")));
+  EXPECT_THAT(told("analyze " + table + " --noise 0.1"), Not(HasSubstr("no use")));
+  EXPECT_THAT(told("list " + table + " --columns 1,2 --trims"), HasSubstr("keyline: --trims has"));
+  EXPECT_THAT(told("list " + table + " --columns 1,2"), Not(HasSubstr("no use")));
+
+  const std::string svg = " -o " + s.path("a.svg");
+  const std::string written = told("convert " + curve + svg + " --polylines --grid");
+  EXPECT_THAT(written, HasSubstr("--polylines has no use here ("));
+  EXPECT_THAT(written, HasSubstr("--grid has no use here ("));
+  EXPECT_THAT(told("convert " + curve + svg + " -o " + s.path("a.dxf") + " --polylines"),
+              Not(HasSubstr("no use")));
+  // of two files one has a use for it
+  EXPECT_THAT(told("compare " + curve + " " + table + " --columns 1,2"), Not(HasSubstr("no use")));
+  EXPECT_THAT(told("compare " + curve + " " + curve + " --columns 1,2"), HasSubstr("no use"));
+  EXPECT_THAT(run_keyline("list " + curve + " --columns 1,2 --json").out,
+              HasSubstr(R"("unused":["columns"])"));
+}
+
 }  // namespace
 }  // namespace keyline::app_test

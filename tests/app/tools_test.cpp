@@ -75,17 +75,21 @@ TEST(CurvesOfFiles, InSpaceHaveALength) {
   EXPECT_NEAR(things[1].value("length", 0.0), 13, 1e-9);
 }
 
-TEST(CurvesOfFiles, KeepTheirLayerAndColour) {
+TEST(CurvesOfFiles, KeepTheirLayerColourAndStroke) {
   const Scratch s;
-  const std::string file =
-      s.write("in.json", document(R"({"name":"hood","layer":"body","color":"#c00000",)"
-                                  R"("curve":{"type":"bezier","points":[[0,0],[1,2],[3,1]]}})"));
+  const std::string file = s.write(
+      "in.json", document(R"({"name":"hood","layer":"body","color":"#c00000","stroke_width":0.5,)"
+                          R"("curve":{"type":"bezier","points":[[0,0],[1,2],[3,1]]}})"));
   const std::string scaled = s.path("out.json");
   ASSERT_EQ(run_keyline("transform --scale 2 " + file + " -o " + scaled).status, 0);
   const json curve = json::parse(slurp(scaled))["curves"][0];
   EXPECT_EQ(curve["name"], "hood");
   EXPECT_EQ(curve["layer"], "body");
   EXPECT_EQ(curve["color"], "#c00000");
+  EXPECT_EQ(curve["stroke_width"], 1);
+  const std::string turned = s.path("turned.json");
+  ASSERT_EQ(run_keyline("reverse " + file + " -o " + turned).status, 0);
+  EXPECT_EQ(json::parse(slurp(turned))["curves"][0]["stroke_width"], 0.5);
 }
 
 TEST(CurvesOfFiles, OfTwoUnitsAreRefused) {

@@ -36,8 +36,7 @@ class DxfWriter {
 
   Result<Written> write(const Document& document) {
     if (document.paths.empty() && document.space_curves.empty() && !document.surfaces.empty())
-      return core::fail(core::ErrorCode::bad_input, "DXF holds no surfaces",
-                        "choose .step, .iges or .json");
+      return core::fail(core::ErrorCode::bad_input, "DXF holds no surfaces", kHoldSurfaces);
     for (const auto& named : document.paths)
       if (auto done = add(named); !done) return std::unexpected(done.error());
     for (const auto& named : document.space_curves) add(named);

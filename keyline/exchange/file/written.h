@@ -12,4 +12,8 @@ struct Written {
   std::vector<std::string> notes;  ///< what the format could not hold, in words
 };
 
+/// What to do where a format cannot hold what it is asked to.
+inline constexpr const char* kHoldSurfaces = "choose .step, .iges or .json";
+inline constexpr const char* kHoldSpaceCurves = "choose .step, .iges, .dxf or .json";
+
 }  // namespace keyline::exchange

@@ -162,7 +162,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
   };
   if (document.paths.empty() && document.space_curves.empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve to write as points",
-                      "choose a format that holds surfaces");
+                      kHoldSurfaces);
   if (!document.surfaces.empty())
     written.notes.push_back(std::to_string(document.surfaces.size()) +
                             " surfaces are not in the table");

@@ -113,7 +113,7 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
   Written written;
   if (document.paths.empty() && size(document) > 0)
     return core::fail(core::ErrorCode::bad_input, "there is no planar curve to draw",
-                      "choose a format of space (.step, .iges, .dxf, .json)");
+                      document.surfaces.empty() ? kHoldSpaceCurves : kHoldSurfaces);
   const std::vector<SvgLayer> layers = drawing_layers(document, tolerance, written);
   SvgWriteOptions options = drawing_options(document, written);
   const auto plain = write_svg(layers, options);
