@@ -67,11 +67,15 @@ std::string class_a_text(const json& value) {
 
 std::string text_of(const std::string& name, const json& result) {
   std::string text = name.empty() ? "" : name + "\n";
-  text += fmt::format(
-      "length {:.8g}  curvature {:.6g} to {:.6g}  inflections {}  extrema {}  monotone {}\n",
-      result["length"].get<double>(), result["curvature"]["min"].get<double>(),
-      result["curvature"]["max"].get<double>(), result["inflections"].size(),
-      result["extrema"].size(), result["monotone"].get<std::string>());
+  const auto bound = [&result](const char* which, const char* none) {
+    const json& value = result["curvature"][which];
+    return value.is_number() ? core::number_text(value.get<double>(), 6) : none;
+  };
+  text +=
+      fmt::format("length {:.8g}  curvature {} to {}  inflections {}  extrema {}  monotone {}\n",
+                  result["length"].get<double>(), bound("min", "-infinity"),
+                  bound("max", "infinity"), result["inflections"].size(), result["extrema"].size(),
+                  result["monotone"].get<std::string>());
   text += fmt::format("comb: {}, variation {:.3g}, jolt {:.2g}\n",
                       core::counted(result["comb"]["waves"].get<std::size_t>(), "wave"),
                       result["comb"]["energy"].get<double>(), result["comb"]["jolt"].get<double>());

@@ -1,9 +1,12 @@
 #include "keyline/operations/curve_analyze.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "keyline/curve/monotone.h"
 #include "keyline/fairing/points_splines.h"
+#include "keyline/operations/cusped.h"
 #include "keyline/operations/diagram_shown.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/sampled_comb.h"
@@ -165,7 +168,8 @@ AnalyzeAnswer analyze_answer(analysis::CurveAnalysis analysis) {
   AnalyzeAnswer answer;
   answer.length = analysis.length;
   answer.volume = analysis.volume;
-  answer.curvature = {analysis.curvature_min, analysis.curvature_max, {}};
+  if (std::isfinite(analysis.curvature_min)) answer.curvature.min = analysis.curvature_min;
+  if (std::isfinite(analysis.curvature_max)) answer.curvature.max = analysis.curvature_max;
   for (const auto& p : analysis.plot) answer.curvature.plot.push_back({p.arc_length, p.curvature});
   answer.inflections = events_of(analysis.split.inflections);
   answer.extrema = events_of(analysis.split.extrema);
@@ -196,8 +200,13 @@ core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, d
   options.plot_samples = plot_samples;
   options.progress = progress;
   options.certify = certificate_of(path);
-  return path.curves.size() == 1 ? analysis::analyze(path.curves[0], options)
-                                 : analysis::analyze(path, options);
+  const CuspedPath cusped(path);
+  auto found = analysis::analyze(analysis::CurveView(cusped), options);
+  if (!found) return found;
+  for (const Cusp& cusp : cusped.cusps())
+    (cusp.sign > 0 ? found->curvature_max : found->curvature_min) =
+        cusp.sign * std::numeric_limits<double>::infinity();
+  return found;
 }
 
 Operation curve_analyze_operation() {

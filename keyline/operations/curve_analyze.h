@@ -120,13 +120,18 @@ struct AnalyzedPiece {
 };
 
 struct CurvatureSummary {
-  double min = 0;
-  double max = 0;
+  std::optional<double> min;
+  std::optional<double> max;
   std::vector<std::array<double, 2>> plot;
   static constexpr auto describe() {
-    return core::fields(core::field<&CurvatureSummary::min>("least").in("1/length"),
-                        core::field<&CurvatureSummary::max>("largest").in("1/length"),
-                        core::field<&CurvatureSummary::plot>("[arc length, curvature]"));
+    return core::fields(
+        core::field<&CurvatureSummary::min>("least; null where it has no bound, at a cusp")
+            .in("1/length")
+            .null_if_empty(),
+        core::field<&CurvatureSummary::max>("largest; null where it has no bound, at a cusp")
+            .in("1/length")
+            .null_if_empty(),
+        core::field<&CurvatureSummary::plot>("[arc length, curvature]; cusps left out"));
   }
 };
 

@@ -19,11 +19,15 @@ using curve::Bezier2;
 using document::Path;
 using document::PlanarCurve;
 
+/// A curve alone does not say that it is closed: its ends do.
+bool is_closed(const Path& path, double size) {
+  return path.closed || core::distance(evaluate(path, 0), evaluate(path, 1)) <= kOneEnd * size;
+}
+
 /// Polynomial Beziers for what is one or can be cut into some; polylines as they stand. Adds how
 /// far they lie from the path at most to the answer.
-Result<std::vector<PlanarCurve>> pieces_of(const Path& path, std::optional<double> tolerance,
-                                           PiecesAnswer& answer) {
-  const double size = analysis::ArcLengthTable(analysis::view(path)).length();
+Result<std::vector<PlanarCurve>> pieces_of(const Path& path, double size,
+                                           std::optional<double> tolerance, PiecesAnswer& answer) {
   std::vector<PlanarCurve> all;
   for (const PlanarCurve& c : path.curves) {
     const auto* bezier = std::get_if<Bezier2>(&c.value);
@@ -100,9 +104,11 @@ Result<PiecesAnswer> run(const PiecesRequest& request, const Context&) {
   const auto path = planar_path(request.curve);
   if (!path) return edit_pieces_in_space(request);
   PiecesAnswer answer;
-  auto pieces = pieces_of(*path, request.fit_tolerance, answer);
+  const double size = analysis::ArcLengthTable(analysis::view(*path)).length();
+  auto pieces = pieces_of(*path, size, request.fit_tolerance, answer);
   if (!pieces) return std::unexpected(std::move(pieces.error()));
-  answer.joints_before = joints_of(*pieces, path->closed);
+  const bool closed = pieces->size() > 1 && is_closed(*path, size);
+  answer.joints_before = joints_of(*pieces, closed);
   for (PlanarCurve& c : *pieces) {
     auto* bezier = std::get_if<Bezier2>(&c.value);
     EditedPiece shown;
@@ -112,8 +118,8 @@ Result<PiecesAnswer> run(const PiecesRequest& request, const Context&) {
       shown.why = "a polyline";
     add(answer, std::move(shown));
   }
-  answer.joints_after = joints_of(*pieces, path->closed);
-  answer.curve.curve = simplest({std::move(*pieces), path->closed});
+  answer.joints_after = joints_of(*pieces, closed);
+  answer.curve.curve = simplest({std::move(*pieces), closed || path->closed});
   return answer;
 }
 

@@ -133,6 +133,13 @@ JointCount joints_of(const std::vector<SpaceCurve>& pieces, bool closed, double 
   return count;
 }
 
+/// A curve alone does not say that it is closed: its ends do.
+bool is_closed(const SpacePath& path, double size) {
+  const core::Point3 start = evaluate(path.curves.front(), 0),
+                     end = evaluate(path.curves.back(), 1);
+  return path.closed || core::distance(start, end) <= kOneEnd * size;
+}
+
 }  // namespace
 
 Result<PiecesAnswer> edit_pieces_in_space(const PiecesRequest& request) {
@@ -145,7 +152,8 @@ Result<PiecesAnswer> edit_pieces_in_space(const PiecesRequest& request) {
   auto pieces = pieces_of(path.curves, request.fit_tolerance, answer);
   if (!pieces) return std::unexpected(std::move(pieces.error()));
   const double size = size_of(*pieces);
-  answer.joints_before = joints_of(*pieces, path.closed, size);
+  const bool closed = pieces->size() > 1 && is_closed(path, size);
+  answer.joints_before = joints_of(*pieces, closed, size);
   for (SpaceCurve& c : *pieces) {
     if (auto* bezier = std::get_if<Bezier3>(&c.value)) {
       add(answer, edit_piece(*bezier, request));
@@ -155,11 +163,11 @@ Result<PiecesAnswer> edit_pieces_in_space(const PiecesRequest& request) {
     shown.why = "a polyline";
     add(answer, std::move(shown));
   }
-  answer.joints_after = joints_of(*pieces, path.closed, size);
+  answer.joints_after = joints_of(*pieces, closed, size);
   if (pieces->size() == 1)
     answer.curve.curve = std::move(pieces->front());
   else
-    answer.curve.curve = SpacePath{std::move(*pieces), path.closed};
+    answer.curve.curve = SpacePath{std::move(*pieces), closed};
   return answer;
 }
 

@@ -306,6 +306,8 @@ TEST(CurveEditPieces, TellsHowFarItsBeziersLieOff) {
       most = std::max(most, std::abs(std::hypot(at(0), at(1)) - 1));
     }
   }
+  EXPECT_EQ(r["curve"]["closed"], true);  // its ends meet
+  EXPECT_EQ(r["joints_after"]["g1"], r["curve"]["curves"].size());
   EXPECT_GE(r["departure"].get<double>(), most);
   EXPECT_LE(r["approximated"].get<double>(), 1e-3 * 6.3);  // of the length
 }
