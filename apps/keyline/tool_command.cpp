@@ -6,6 +6,7 @@
 
 #include "keyline/core/text.h"
 
+#include "list_text.h"
 #include "option_files.h"
 #include "result_table.h"
 #include "session.h"
@@ -300,30 +301,6 @@ Session tool_session(const Tool& tool) {
       {group_of(operation, "Options"), reading_group(), door_group()});
 }
 
-std::string text_of(const json& listed) {
-  const auto text = [](const json& j) { return j.is_string() ? j.get<std::string>() : ""; };
-  std::string all = fmt::format(
-      "{:>4} {:<12} {:<24} {:<26} {:>12}  {}\n", "", "kind", "name", "type", "length",
-      "bounding box" + (text(listed["unit"]).empty() ? "" : " in " + text(listed["unit"])));
-  int number = 0;
-  for (const json& thing : listed["things"]) {
-    const json& low = thing["box"]["low"];
-    const json& high = thing["box"]["high"];
-    all += fmt::format(
-        "{:>4} {:<12} {:<24} {:<26} {:>12}  {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n",
-        ++number, text(thing["kind"]),
-        text(thing["name"]) +
-            (text(thing["layer"]).empty() ? "" : " [" + text(thing["layer"]) + "]"),
-        text(thing["type"]),
-        thing.contains("length") ? core::number_text(thing["length"].get<double>(), 6) : "",
-        low[0].get<double>(), low[1].get<double>(), low[2].get<double>(), high[0].get<double>(),
-        high[1].get<double>(), high[2].get<double>());
-  }
-  for (const json& note : listed["notes"]) all += "note: " + text(note) + "\n";
-  for (const json& skipped : listed["skipped"]) all += "skipped: " + text(skipped) + "\n";
-  return all;
-}
-
 Session list_session() {
   const Operation& operation = named("document.list");
   return Session({"list", "FILE ", operation.summary, "Example: keyline list examples/skin.json"},
@@ -371,7 +348,7 @@ int run_list(const Words& words) {
   if (!outcome) return report_failure(outcome.error());
   const auto listed = shown_of(*outcome);
   if (!listed) return report_failure(listed.error());
-  session.print(*listed, text_of(*listed));
+  session.print(*listed, list_text(*listed));
   return kDone;
 }
 
