@@ -173,6 +173,12 @@ void tell_explained(const char* of_what, TraceResult& result) {
                            of_what);
 }
 
+/// How curves are fitted: they may pass grainy lines farther off.
+TraceOptions curves_of(const Ink& ink, TraceOptions options) {
+  if (ink.grainy) options.curve.width_share = kGrainShare;
+  return options;
+}
+
 /// Curves of all strokes, longest first.
 core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceOptions& options,
                               TraceResult& result) {
@@ -210,6 +216,15 @@ void tell_margins(const Margins& margins, TraceResult& result) {
     sides += (sides.empty() ? "" : ", ") + std::string(kSides[k]) + " " + std::to_string(deep);
   }
   result.notes.push_back("dark margins, as a scanner leaves them, are left out; pixels: " + sides);
+}
+
+/// What was made of the paper is told.
+void tell_ground(const Tone& tone, bool on_black, TraceResult& result) {
+  tell_margins(tone.margins, result);
+  if (tone.light_on_dark)
+    result.notes.push_back(on_black ? "light lines on transparent ground"
+                                    : "light lines on dark ground");
+  if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
 }
 
 /// A picture of which much is dark, or ink in broad areas, may be no drawing.
@@ -288,17 +303,14 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
   if (const OwnSize size = own_size(image); size.width < image.width())
     return trace_enlarged(image, size, options);
   TraceResult result;
-  const char* light =
-      image.on_black ? "light lines on transparent ground" : "light lines on dark ground";
+  const bool on_black = image.on_black;
   options.progress.report(0, "reading grey values");
   if (auto done = straighten(image, options, result); !done) return std::unexpected(done.error());
   result.width = image.width();
   result.height = image.height();
   Tone tone = transform_intensity(std::move(image), options.tone);
   show(options, tone);
-  tell_margins(tone.margins, result);
-  if (tone.light_on_dark) result.notes.push_back(light);
-  if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
+  tell_ground(tone, on_black, result);
   options.progress.report(0.2, "telling ink from paper");
   Ink found = find_ink(tone, options);
   const Binary& ink = found.picture;
@@ -312,18 +324,15 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
       .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
   Merged merged;
   if (options.consolidate) {
-    auto found_lines = merge_traced(lines, passes, options.wishes, result);
-    if (!found_lines) return std::unexpected(found_lines.error());
-    merged = std::move(*found_lines);
+    auto done = merge_traced(lines, passes, options.wishes, result);
+    if (!done) return std::unexpected(done.error());
+    merged = std::move(*done);
   } else if (options.edge == Edge::center) {
     tell_passes(lines, passes, result);
   }
-  TraceOptions curves = options;
-  if (found.grainy) {
-    result.notes.push_back("grainy lines: looked at through a blur");
-    curves.curve.width_share = kGrainShare;
-  }
-  if (auto done = add_curves(lines, curves, result); !done) return std::unexpected(done.error());
+  if (found.grainy) result.notes.push_back("grainy lines: looked at through a blur");
+  if (auto done = add_curves(lines, curves_of(found, options), result); !done)
+    return std::unexpected(done.error());
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
   if (options.edge == Edge::center) {
