@@ -240,32 +240,59 @@ Frame moved(const Frame& y, const Frame& d, double by) {
 
 }  // namespace
 
+namespace {
+
+/// 0, 1 and between them where curvature or torsion of a piece changes its sign: there their rates
+/// may have no bound.
+std::vector<double> changes_of(const json& p) {
+  std::vector<double> at{0, 1};
+  for (const auto& [slope, ends] : {std::pair{"alpha", "curvature"}, {"beta", "torsion"}}) {
+    const double k0 = p[ends][0], k1 = p[ends][1];
+    if (!(k0 * k1 < 0)) continue;
+    const double power = -p[slope].get<double>();
+    const double before = std::pow(std::abs(k0), power), after = std::pow(std::abs(k1), power);
+    at.push_back(before / (before + after));
+  }
+  std::ranges::sort(at);
+  return at;
+}
+
+}  // namespace
+
 SpaceEnd integrated(const json& curve, int steps) {
   Frame y{};
   for (std::size_t i = 0; i < 3; ++i) y[i] = curve["start"][i];
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t i = 0; i < 3; ++i) y[3 + 3 * row + i] = curve["frame"][row][i];
   for (const json& p : curve["pieces"]) {
-    const double step = p["length"].get<double>() / steps;
-    const auto rate = [&](const Frame& at, double v) {
-      const double bend = law(p["alpha"], p["curvature"][0], p["curvature"][1], v);
-      const double twist = law(p["beta"], p["torsion"][0], p["torsion"][1], v);
-      Frame d{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        d[i] = at[3 + i];
-        d[3 + i] = bend * at[6 + i];
-        d[6 + i] = -bend * at[3 + i] + twist * at[9 + i];
-        d[9 + i] = -twist * at[6 + i];
+    const std::vector<double> breaks = changes_of(p);
+    for (std::size_t k = 1; k < breaks.size(); ++k) {
+      const double low = breaks[k - 1], wide = breaks[k] - low;
+      // By x from 0 to 1, v = low + wide (10 x^3 - 15 x^4 + 6 x^5): steps shrink towards the
+      // breaks.
+      const auto rate = [&](const Frame& at, double x) {
+        const double v = low + wide * x * x * x * (10 + x * (6 * x - 15));
+        const double pace = p["length"].get<double>() * wide * 30 * x * x * (1 - x) * (1 - x);
+        const double bend = pace * law(p["alpha"], p["curvature"][0], p["curvature"][1], v);
+        const double twist = pace * law(p["beta"], p["torsion"][0], p["torsion"][1], v);
+        Frame d{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          d[i] = pace * at[3 + i];
+          d[3 + i] = bend * at[6 + i];
+          d[6 + i] = -bend * at[3 + i] + twist * at[9 + i];
+          d[9 + i] = -twist * at[6 + i];
+        }
+        return d;
+      };
+      const double step = 1.0 / steps;
+      for (int n = 0; n < steps; ++n) {
+        const double x = n * step, half = x + step / 2;
+        const Frame a = rate(y, x), b = rate(moved(y, a, step / 2), half);
+        const Frame c = rate(moved(y, b, step / 2), half);
+        const Frame d = rate(moved(y, c, step), x + step);
+        for (std::size_t i = 0; i < y.size(); ++i)
+          y[i] += step / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
       }
-      return d;
-    };
-    for (int n = 0; n < steps; ++n) {
-      const double v = static_cast<double>(n) / steps, half = v + 0.5 / steps;
-      const Frame a = rate(y, v), b = rate(moved(y, a, step / 2), half);
-      const Frame c = rate(moved(y, b, step / 2), half);
-      const Frame d = rate(moved(y, c, step), v + 1.0 / steps);
-      for (std::size_t i = 0; i < y.size(); ++i)
-        y[i] += step / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
     }
   }
   return {{y[0], y[1], y[2]}, {y[3], y[4], y[5]}};
