@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "keyline/curve/shares.h"
+
 namespace keyline::curve {
 
 using core::Point2;
@@ -10,22 +12,11 @@ using core::Point3;
 
 namespace {
 
-struct Place {
-  std::size_t edge;
-  double fraction;
-};
-
-/// Edge and fraction of it at t. Vertices are compared as breakpoints() prints them, so that a
-/// breakpoint always belongs to the edge that starts there.
+/// The edge and the fraction of it at t.
 template <class P>
-Place locate(const Polyline<P>& c, double t) {
+Share locate(const Polyline<P>& c, double t) {
   if (c.points.size() < 2) throw core::InvalidInput("Polyline: fewer than two points");
-  const double edges = static_cast<double>(c.points.size() - 1);
-  t = t >= 0 ? std::min(t, 1.0) : 0.0;  // 0 for NaN, too
-  auto edge = std::min(static_cast<std::size_t>(t * edges), c.points.size() - 2);
-  if (edge + 2 < c.points.size() && static_cast<double>(edge + 1) / edges <= t) ++edge;
-  if (edge > 0 && t < static_cast<double>(edge) / edges) --edge;
-  return {edge, std::clamp(t * edges - static_cast<double>(edge), 0.0, 1.0)};
+  return share_of(c.points.size() - 1, t);
 }
 
 }  // namespace
@@ -47,16 +38,16 @@ core::Result<void> validate(const Polyline<P>& c) {
 
 template <class P>
 P evaluate(const Polyline<P>& c, double t) {
-  const Place at = locate(c, t);
-  return mix(c.points[at.edge], c.points[at.edge + 1], at.fraction);
+  const Share at = locate(c, t);
+  return mix(c.points[at.index], c.points[at.index + 1], at.t);
 }
 
 template <class P>
 Jet<P> jet(const Polyline<P>& c, double t) {
-  const Place at = locate(c, t);
-  const P& a = c.points[at.edge];
-  const P& b = c.points[at.edge + 1];
-  return {mix(a, b, at.fraction), static_cast<double>(c.points.size() - 1) * (b - a), {}, {}};
+  const Share at = locate(c, t);
+  const P& a = c.points[at.index];
+  const P& b = c.points[at.index + 1];
+  return {mix(a, b, at.t), static_cast<double>(c.points.size() - 1) * (b - a), {}, {}};
 }
 
 template <class P>
@@ -75,13 +66,13 @@ std::pair<Polyline<P>, Polyline<P>> split(const Polyline<P>& c, double t) {
 
 template <class P>
 Polyline<P> subcurve(const Polyline<P>& c, double t0, double t1) {
-  const Place from = locate(c, t0);
-  const Place to = locate(c, std::max(t0, t1));
+  const Share from = locate(c, t0);
+  const Share to = locate(c, std::max(t0, t1));
   Polyline<P> part;
-  part.points.push_back(mix(c.points[from.edge], c.points[from.edge + 1], from.fraction));
-  for (std::size_t i = from.edge + 1; i <= to.edge; ++i) part.points.push_back(c.points[i]);
-  if (to.fraction > 0 || part.points.size() < 2) {
-    part.points.push_back(mix(c.points[to.edge], c.points[to.edge + 1], to.fraction));
+  part.points.push_back(mix(c.points[from.index], c.points[from.index + 1], from.t));
+  for (std::size_t i = from.index + 1; i <= to.index; ++i) part.points.push_back(c.points[i]);
+  if (to.t > 0 || part.points.size() < 2) {
+    part.points.push_back(mix(c.points[to.index], c.points[to.index + 1], to.t));
   }
   return part;
 }

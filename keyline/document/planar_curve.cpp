@@ -4,22 +4,6 @@
 #include <cmath>
 
 namespace keyline::document {
-namespace {
-
-struct Share {
-  std::size_t index;
-  double t;
-};
-
-/// The member of the path that owns parameter t, and the member's own parameter.
-Share share_of(const Path& path, double t) {
-  const double n = static_cast<double>(path.curves.size());
-  const double at = std::clamp(t, 0.0, 1.0) * n;
-  const auto index = static_cast<std::size_t>(std::min(std::floor(at), n - 1));
-  return {index, at - static_cast<double>(index)};
-}
-
-}  // namespace
 
 core::Point2 evaluate(const PlanarCurve& c, double t) {
   return std::visit([t](const auto& v) { return evaluate(v, t); }, c.value);
@@ -46,12 +30,12 @@ core::Result<void> validate(const PlanarCurve& c) {
 }
 
 core::Point2 evaluate(const Path& path, double t) {
-  const Share share = share_of(path, t);
+  const curve::Share share = curve::share_of(path.curves.size(), t);
   return evaluate(path.curves[share.index], share.t);
 }
 
 curve::Jet2 jet(const Path& path, double t) {
-  const Share share = share_of(path, t);
+  const curve::Share share = curve::share_of(path.curves.size(), t);
   const auto own = jet(path.curves[share.index], share.t);
   return curve::rescaled(own, static_cast<double>(path.curves.size()));
 }
@@ -69,15 +53,31 @@ curve::Jet2 jet(const PlacedCurve& placed, double t) {
 }
 
 PlacedPath::PlacedPath(const Path& path)
-    : path_(&path), members_(path.curves.begin(), path.curves.end()) {}
+    : path_(&path),
+      members_(path.curves.begin(), path.curves.end()),
+      breaks_(document::breakpoints(path)) {
+  for (std::size_t i = 0; i < path.curves.size(); ++i) {
+    const auto own = document::breakpoints(path.curves[i]);
+    for (std::size_t k = 1; k < own.size(); ++k) stretches_.push_back({i, own[k - 1], own[k]});
+  }
+}
+
+curve::Share PlacedPath::locate(double t) const {
+  t = t >= 0 ? t : 0.0;  // 0 for NaN, too
+  const auto after = std::ranges::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, t);
+  const Stretch& s = stretches_[static_cast<std::size_t>(after - breaks_.begin()) - 1];
+  const double n = static_cast<double>(members_.size());
+  const double last = t < 1 ? std::nextafter(s.to, s.from) : s.to;
+  return {s.member, std::clamp(t * n - static_cast<double>(s.member), s.from, last)};
+}
 
 core::Point2 evaluate(const PlacedPath& placed, double t) {
-  const Share share = share_of(placed.path(), t);
+  const curve::Share share = placed.locate(t);
   return evaluate(placed.members()[share.index], share.t);
 }
 
 curve::Jet2 jet(const PlacedPath& placed, double t) {
-  const Share share = share_of(placed.path(), t);
+  const curve::Share share = placed.locate(t);
   const auto own = jet(placed.members()[share.index], share.t);
   return curve::rescaled(own, static_cast<double>(placed.path().curves.size()));
 }

@@ -10,6 +10,7 @@
 #include "keyline/curve/bspline.h"
 #include "keyline/curve/jet.h"
 #include "keyline/curve/polyline.h"
+#include "keyline/curve/shares.h"
 #include "keyline/lac/chain/chain.h"
 
 namespace keyline::document {
@@ -74,17 +75,26 @@ class PlacedPath {
 
   const Path& path() const { return *path_; }
   const std::vector<PlacedCurve>& members() const { return members_; }
+  const std::vector<double>& breakpoints() const { return breaks_; }
+  /// The member at t and its own parameter; what is before a breakpoint, by however little, is
+  /// before the member's, too.
+  curve::Share locate(double t) const;
 
  private:
+  /// Of a member between two of its breakpoints.
+  struct Stretch {
+    std::size_t member;
+    double from, to;
+  };
   const Path* path_;
   std::vector<PlacedCurve> members_;
+  std::vector<double> breaks_;
+  std::vector<Stretch> stretches_;
 };
 
 core::Point2 evaluate(const PlacedPath& placed, double t);
 curve::Jet2 jet(const PlacedPath& placed, double t);
-inline std::vector<double> breakpoints(const PlacedPath& placed) {
-  return breakpoints(placed.path());
-}
+inline std::vector<double> breakpoints(const PlacedPath& placed) { return placed.breakpoints(); }
 /// What curve::PlanarView looks at in the path's stead.
 inline PlacedPath prepared(const Path& path) { return PlacedPath(path); }
 

@@ -1,5 +1,7 @@
 #include "keyline/document/planar_curve.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace keyline::document {
@@ -52,6 +54,47 @@ TEST(PlacedPath, GivesTheSameToTheBit) {
   }
   EXPECT_EQ(breakpoints(placed), breakpoints(path));
   EXPECT_EQ(evaluate(prepared(path.curves[1]), 0.7), evaluate(path.curves[1], 0.7));
+}
+
+// Lines that turn by a radian each: which member is looked at is told by the direction. In 49 parts
+// a breakpoint times their number is not a whole number.
+TEST(Path, ABreakpointIsOfTheMemberBehindIt) {
+  Path path;
+  core::Point2 at;
+  for (int i = 0; i < 98; ++i) {
+    const core::Point2 next = at + core::unit_vector(1.0 * i);
+    path.curves.push_back({curve::Bezier2{{at, next}, {}}});
+    at = next;
+  }
+  const PlacedPath placed = prepared(path);
+  const std::vector<double> breaks = breakpoints(path);
+  const auto turns = [](const curve::Jet2& j, int i) {
+    const core::Vector2 along = core::unit_vector(1.0 * i);
+    return dot(curve::unit_tangent(j), along) < 1 - 1e-12;
+  };
+  for (int i = 0; i < 98; ++i) {
+    EXPECT_FALSE(turns(jet(path, breaks[i]), i)) << i;
+    EXPECT_FALSE(turns(jet(placed, breaks[i]), i)) << i;
+    EXPECT_FALSE(turns(jet(path, std::nextafter(breaks[i + 1], 0)), i)) << i;
+    EXPECT_FALSE(turns(jet(placed, std::nextafter(breaks[i + 1], 0)), i)) << i;
+  }
+}
+
+// Where a member has breakpoints of its own, at which its curvature jumps.
+TEST(PlacedPath, WhatIsBeforeABreakpointOfAMemberIsBeforeIt) {
+  Path path;
+  for (int i = 0; i < 7; ++i) {
+    lac::Chain chain{{{0, 0}, 0}, {}, false};
+    for (int k = 0; k < 11; ++k) chain.pieces.push_back({-1, 0.3 + 0.1 * k, 1.0 + k, 1.0 + k});
+    path.curves.push_back({chain});
+  }
+  const PlacedPath placed = prepared(path);
+  const std::vector<double> breaks = breakpoints(path);
+  ASSERT_EQ(breaks.size(), 78U);
+  for (int i = 0; i < 77; ++i) {
+    EXPECT_NEAR(curve::curvature(jet(placed, breaks[i])), 1 + i % 11, 1e-9) << i;
+    EXPECT_NEAR(curve::curvature(jet(placed, std::nextafter(breaks[i + 1], 0))), 1 + i % 11, 1e-9);
+  }
 }
 
 }  // namespace

@@ -41,6 +41,24 @@ TEST(Chain, LocatesBySharesOfTheLength) {
   EXPECT_EQ(at(7).piece, 2U);
 }
 
+// Lengths that are no powers of two: a joint's parameter times the length is the joint's length
+// rounded.
+TEST(Chain, WhatIsBeforeABreakpointIsOfThePieceBefore) {
+  Chain c{{{0, 0}, 0}, {}, false};
+  for (int i = 0; i < 300; ++i)
+    c.pieces.push_back({-1, 0.5 + std::fmod(0.618 * i, 1.0), 0.1 + i % 2, 1.1 - i % 2});
+  const PlacedChain placed = prepared(c);
+  const std::vector<double> at = breakpoints(c);
+  ASSERT_EQ(at.size(), 301U);
+  for (std::size_t i = 0; i < 300; ++i) {
+    EXPECT_EQ(locate(c, at[i]).piece, i);
+    EXPECT_EQ(locate(c, std::nextafter(at[i + 1], 0)).piece, i);
+    EXPECT_EQ(locate(placed, at[i]).piece, i);
+    EXPECT_EQ(locate(placed, std::nextafter(at[i + 1], 0)).piece, i);
+    EXPECT_NEAR(curvature(placed, at[i]), c.pieces[i].curvature_start, 1e-12);
+  }
+}
+
 TEST(Chain, JointsAreWherePiecesMeet) {
   const Chain c = three();
   const auto poses = joints(c);

@@ -72,26 +72,20 @@ std::vector<double> joint_lengths(const Chain& chain) {
   return at;
 }
 
-namespace {
-
-/// Where t lies on the chain whose joints are at these lengths.
-ChainLocation located(const Chain& chain, std::span<const double> joints, double t) {
-  const std::size_t last = chain.pieces.size() - 1;
+ChainLocation located(std::span<const double> joints, double t) {
+  const std::size_t last = joints.size() - 2;
   if (t >= 1) return {last, 1};
-  const double s = std::max(t, 0.0) * joints.back();
+  const double whole = joints.back();
   const auto inner = joints.subspan(1, last);
-  const auto i = static_cast<std::size_t>(std::ranges::upper_bound(inner, s) - inner.begin());
-  return {i, std::min(1.0, (s - joints[i]) / chain.pieces[i].length)};
+  const auto after = std::ranges::upper_bound(inner, t, {}, [&](double s) { return s / whole; });
+  const auto i = static_cast<std::size_t>(after - inner.begin());
+  return {i, std::clamp((t * whole - joints[i]) / (joints[i + 1] - joints[i]), 0.0, 1.0)};
 }
 
-}  // namespace
-
-ChainLocation locate(const Chain& chain, double t) {
-  return located(chain, joint_lengths(chain), t);
-}
+ChainLocation locate(const Chain& chain, double t) { return located(joint_lengths(chain), t); }
 
 ChainLocation locate(const PlacedChain& placed, double t) {
-  return located(placed.chain(), placed.joint_lengths(), t);
+  return located(placed.joint_lengths(), t);
 }
 
 std::vector<Segment> segments(const Chain& chain) {
@@ -189,7 +183,7 @@ std::vector<Point2> sample(const Chain& chain, int n) {
   for (std::size_t i = 0; i < placed.size(); ++i) {
     at.clear();
     for (int k = done; k < n; ++k) {
-      const ChainLocation where = located(chain, joints, k / (n - 1.0));
+      const ChainLocation where = located(joints, k / (n - 1.0));
       if (where.piece != i) break;
       at.push_back(where.t);
     }

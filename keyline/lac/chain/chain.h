@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct ChainLocation {
 ChainLocation locate(const Chain& chain, double t);
 /// Arc length up to the start, every inner joint and the end: pieces.size() + 1 of them.
 std::vector<double> joint_lengths(const Chain& chain);
+/// The same by these lengths alone, of at least one piece. On which side of a joint t lies is told
+/// by the joint's share of the whole, as breakpoints() prints it: t times the length may be rounded
+/// to the other side.
+ChainLocation located(std::span<const double> joint_lengths, double t);
 
 /// The i-th piece in its place, i < pieces.size(); all of them in one pass.
 Segment segment_at(const Chain& chain, std::size_t i);

@@ -8,6 +8,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/chain/chain.h"
 #include "keyline/lac/space/space_shooting.h"
 #include "keyline/lac/space/space_stretch.h"
 #include "keyline/numeric/power_mean.h"
@@ -139,16 +140,10 @@ class Walker {
   double first_step_ = 0.1;
 };
 
-struct Location {
-  std::size_t piece = 0;
-  double t = 0;
-};
-
-Location locate(const SpaceChain& chain, double t) {
-  double s = std::clamp(t, 0.0, 1.0) * arc_length(chain);
-  std::size_t i = 0;
-  while (i + 1 < chain.pieces.size() && s >= chain.pieces[i].length) s -= chain.pieces[i++].length;
-  return {i, std::min(1.0, s / chain.pieces[i].length)};
+ChainLocation locate(const SpaceChain& chain, double t) {
+  std::vector<double> joints{0};
+  for (const SpacePiece& piece : chain.pieces) joints.push_back(joints.back() + piece.length);
+  return located(joints, t);
 }
 
 bool is_frame(const SpaceFrame& f) {
@@ -208,12 +203,12 @@ SpaceJointGap largest_joint_gap(const SpaceChain& chain) {
 }
 
 double curvature(const SpaceChain& chain, double t) {
-  const Location at = locate(chain, t);
+  const ChainLocation at = locate(chain, t);
   return curvature(curvature_law(chain.pieces[at.piece]), at.t);
 }
 
 double torsion(const SpaceChain& chain, double t) {
-  const Location at = locate(chain, t);
+  const ChainLocation at = locate(chain, t);
   return curvature(torsion_law(chain.pieces[at.piece]), at.t);
 }
 
@@ -223,7 +218,7 @@ std::vector<SpaceFrame> frames(const SpaceChain& chain, std::span<const double> 
   std::size_t piece = 0;
   std::optional<Walker> walker(std::in_place, chain.start, chain.pieces[0]);
   for (const double each : t) {
-    const Location at = locate(chain, each);
+    const ChainLocation at = locate(chain, each);
     while (piece < at.piece) {
       const SpaceFrame joint = walker->at(1);
       walker.emplace(joint, chain.pieces[++piece]);
@@ -247,7 +242,7 @@ Point3 evaluate(const SpaceChain& chain, double t) { return frame_at(chain, t).p
 
 namespace {
 
-curve::Jet3 jet_of(const SpaceChain& chain, const Location& at, const SpaceFrame& f) {
+curve::Jet3 jet_of(const SpaceChain& chain, const ChainLocation& at, const SpaceFrame& f) {
   const SpacePiece& piece = chain.pieces[at.piece];
   const double length = arc_length(chain);
   const double bend = curvature(curvature_law(piece), at.t);
