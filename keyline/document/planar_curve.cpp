@@ -64,7 +64,7 @@ PlacedPath::PlacedPath(const Path& path)
 
 curve::Share PlacedPath::locate(double t) const {
   t = t >= 0 ? t : 0.0;  // 0 for NaN, too
-  const auto after = std::ranges::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, t);
+  const auto after = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, t);
   const Stretch& s = stretches_[static_cast<std::size_t>(after - breaks_.begin()) - 1];
   const double n = static_cast<double>(members_.size());
   const double last = t < 1 ? std::nextafter(s.to, s.from) : s.to;
