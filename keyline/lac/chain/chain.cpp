@@ -72,6 +72,15 @@ std::vector<double> joint_lengths(const Chain& chain) {
   return at;
 }
 
+namespace {
+
+/// In piece i, from one length to another of the whole.
+ChainLocation within(std::size_t i, double from, double to, double whole, double t) {
+  return {i, std::clamp((t * whole - from) / (to - from), 0.0, 1.0)};
+}
+
+}  // namespace
+
 ChainLocation located(std::span<const double> joints, double t) {
   const std::size_t last = joints.size() - 2;
   if (t >= 1) return {last, 1};
@@ -79,10 +88,20 @@ ChainLocation located(std::span<const double> joints, double t) {
   const auto inner = joints.subspan(1, last);
   const auto after = std::ranges::upper_bound(inner, t, {}, [&](double s) { return s / whole; });
   const auto i = static_cast<std::size_t>(after - inner.begin());
-  return {i, std::clamp((t * whole - joints[i]) / (joints[i + 1] - joints[i]), 0.0, 1.0)};
+  return within(i, joints[i], joints[i + 1], whole, t);
 }
 
-ChainLocation locate(const Chain& chain, double t) { return located(joint_lengths(chain), t); }
+/// As located(), without a list of lengths: a single place costs no allocation.
+ChainLocation locate(const Chain& chain, double t) {
+  const std::size_t last = chain.pieces.size() - 1;
+  if (t >= 1) return {last, 1};
+  const double whole = arc_length(chain);
+  double from = 0;
+  double to = chain.pieces[0].length;
+  std::size_t i = 0;
+  for (; i < last && t >= to / whole; to += chain.pieces[++i].length) from = to;
+  return within(i, from, to, whole, t);
+}
 
 ChainLocation locate(const PlacedChain& placed, double t) {
   return located(placed.joint_lengths(), t);
