@@ -36,6 +36,7 @@ inline constexpr std::int64_t kMaxPixels = 64LL << 20;
 struct Image {
   Raster<std::uint16_t> luminance;
   double pixels_per_mm = 0;       ///< resolution the file states; 0: none
+  bool transparent = false;       ///< the file's kind of pixels may be: then they were laid over
   bool on_black = false;          ///< laid over black: light lines on a transparent ground
   std::size_t further_pages = 0;  ///< pictures of the file beside this one
 

@@ -42,6 +42,11 @@ struct Reader {
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
+bool is_transparent(png_structp png, png_infop info) {
+  return (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+         png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+}
+
 /// Asks libpng for 16 bit grey, over the ground, in the machine's byte order.
 void set_transforms(png_structp png, png_infop info, Ground ground) {
   png_set_expand_16(png);
@@ -51,9 +56,7 @@ void set_transforms(png_structp png, png_infop info, Ground ground) {
     png_set_gamma(png, PNG_DEFAULT_sRGB, gamma);
   const auto level = static_cast<png_uint_16>(ground);
   png_color_16 under{0, level, level, level, level};
-  if ((png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) ||
-      png_get_valid(png, info, PNG_INFO_tRNS))
-    png_set_background(png, &under, PNG_BACKGROUND_GAMMA_SCREEN, 0, 1);
+  if (is_transparent(png, info)) png_set_background(png, &under, PNG_BACKGROUND_GAMMA_SCREEN, 0, 1);
   if (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR)
     png_set_rgb_to_gray_fixed(png, PNG_ERROR_ACTION_NONE, 29900, 58700);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
@@ -104,6 +107,7 @@ Result<Image> read_png(std::string_view bytes, Ground ground) {
   constexpr double kBestDeflate = 1040;  // deflate cannot pack closer
   auto image = new_image(width, height, raw / kBestDeflate, bytes.size());
   if (!image) return image;
+  image->transparent = is_transparent(reader.png, reader.info);
   std::vector<png_bytep> rows;
   for (int y = 0; y < image->height(); ++y)
     rows.push_back(reinterpret_cast<png_bytep>(&image->luminance.at(0, y)));

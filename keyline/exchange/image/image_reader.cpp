@@ -61,7 +61,8 @@ bool is_dark(std::uint16_t level) { return level < kMidGrey; }
 template <class Read>
 Result<Image> read_on_ground(const Read& read, std::string_view bytes) {
   auto image = read(bytes, detail::Ground::white);
-  if (!image || std::ranges::any_of(image->luminance.data, is_dark)) return image;
+  if (!image || !image->transparent) return image;
+  if (std::ranges::any_of(image->luminance.data, is_dark)) return image;
   image->luminance = {};
   image = read(bytes, detail::Ground::black);
   if (!image) return image;

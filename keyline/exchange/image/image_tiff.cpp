@@ -207,6 +207,7 @@ Result<Image> read_tiff(std::string_view bytes, Ground ground) {
                                     : read_converted(tiff.get(), ground, *image);
   if (!good) return damaged("its TIFF pixels cannot be decoded");
   image->pixels_per_mm = density(tiff.get());
+  image->transparent = layout.samples != 1 && layout.samples != 3;
   image->further_pages = further_pages(tiff.get());
   apply_orientation(*image, layout.orientation);
   return image;

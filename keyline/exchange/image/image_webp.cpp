@@ -36,6 +36,7 @@ core::Result<sketch::Image> read_webp(std::string_view bytes, Ground ground) {
   const double blocks = features.width / 16.0 * features.height / 16.0;
   auto image = new_image(features.width, features.height, blocks / 800, bytes.size());
   if (!image) return image;
+  image->transparent = features.has_alpha != 0;
   std::vector<std::uint8_t> pixels(4 * image->luminance.data.size());
   if (!WebPDecodeRGBAInto(data, bytes.size(), pixels.data(), pixels.size(), 4 * features.width))
     return damaged("its WebP pixels cannot be decoded");
