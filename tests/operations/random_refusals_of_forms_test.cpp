@@ -295,7 +295,7 @@ bool has_rational_cubic(const Handles& h, double length, double first_bend, doub
 TEST(RandomRefusals, NoRationalCubicIsFoundByItsWeights) {
   Random random(own::seed(49));
   const int wanted = refusals(12);
-  int refused = 0, answered_ = 0;
+  int refused = 0, answered_ = 0, found = 0;
   for (int n = 0; refused < wanted && n < 100 * wanted; ++n) {
     Handles h{std::exp(uniform(random, std::log(0.02), std::log(2.9)))};
     const double edge = own::power_of_ten(random, -6, -0.3);
@@ -313,13 +313,17 @@ TEST(RandomRefusals, NoRationalCubicIsFoundByItsWeights) {
     request["form"] = "rational-cubic";
     SCOPED_TRACE(request.dump());
     const json answer = answered(request);
-    answered_ += answer["ok"] == true;
-    if (answer["ok"] == true) continue;
+    const bool exists = has_rational_cubic(h, piece["length"], first, last);
+    if (answer["ok"] == true) {
+      ++answered_;
+      found += exists;
+      continue;
+    }
     ++refused;
-    EXPECT_FALSE(has_rational_cubic(h, piece["length"], first, last)) << answer;
+    EXPECT_FALSE(exists) << answer;
   }
   EXPECT_EQ(refused, wanted);
-  EXPECT_GT(answered_, 3 * wanted);
+  EXPECT_LE(answered_ - found, 2 + answered_ / 50);  // else it has no say in what is refused
 }
 
 // Found with seed 9112: end curvatures 3e8 times apart, which weights below 1e4 give only where
