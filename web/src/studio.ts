@@ -18,7 +18,7 @@ import { actionsPanel, split } from "./panels/actions.ts";
 import { ClassAPanel } from "./panels/classa.ts";
 import { FairPanel } from "./panels/fair.ts";
 import { FileBar } from "./panels/filebar.ts";
-import { listPanel } from "./panels/list.ts";
+import { listPanel, reveal } from "./panels/list.ts";
 import { LooksBar } from "./panels/looks.ts";
 import { measuresPanel, reading } from "./panels/measures.ts";
 import { placePanel } from "./panels/place.ts";
@@ -60,6 +60,7 @@ export class Studio {
   private readonly panel = h("aside", { class: "panel", "aria-label": "Properties" });
   private readonly status = h("div", { class: "status", role: "status" });
   private readonly bar = new FileBar(this);
+  private revealed: number | null = null; // the thing that the list was scrolled to
 
   constructor(readonly client: Client, root: HTMLElement) {
     const wantsLight = matchMedia("(prefers-color-scheme: light)").matches;
@@ -272,6 +273,8 @@ export class Studio {
       this.sketch.element(),
       subject && h("section", {}, h("h2", {}, "Comb"), this.looks.combControls()));
     this.renderMeasures();
+    if (e && e.id !== this.revealed) reveal(e.id);
+    this.revealed = e?.id ?? null;
   }
 
   private renderMeasures(): void {

@@ -15,13 +15,19 @@ function change(store: Store, label: string, doc: Doc): void {
   store.commit(label, doc);
 }
 
+/** What tells names of one file apart stands at their end: a long one is shortened before it. */
+function shortened(name: string): HTMLElement {
+  const kept = 10;
+  return h("span", { class: "shortened" }, h("span", {}, name.slice(0, -kept)), h("span", {}, name.slice(-kept)));
+}
+
 function row(store: Store, e: Entity): HTMLElement {
   const { doc, state } = store;
   const put = (label: string, part: Partial<Entity>) =>
     change(store, label, { ...doc, entities: doc.entities.map((x) => (x.id === e.id ? ({ ...x, ...part } as Entity) : x)) });
   const name = h("button", {
     type: "button", class: "name", id: `entity-${e.id}`, "aria-pressed": String(state.selection.includes(e.id)),
-    title: "Click to choose, Shift adds, double click or F2 renames",
+    title: `${e.name}\nClick to choose, Shift adds, double click or F2 renames`,
     click: (event: MouseEvent) => {
       const others = state.selection.filter((id) => id !== e.id);
       const added = others.length < state.selection.length ? others : [...others, e.id];
@@ -31,7 +37,7 @@ function row(store: Store, e: Entity): HTMLElement {
     keydown: (event: KeyboardEvent) => {
       if (event.key === "F2") rename(name, e.name, (to) => put("Rename", { name: to }));
     },
-  }, svg(iconOf[e.kind], 16), h("span", {}, e.name));
+  }, svg(iconOf[e.kind], 16), shortened(e.name));
   return h("li", { class: state.selection.includes(e.id) ? "chosen" : "" },
     name,
     iconButton({
@@ -126,14 +132,25 @@ function layerOfChosen(store: Store): HTMLElement | null {
   });
 }
 
+const kList = "things"; // scrolls by itself, so that what belongs to the chosen thing stands in sight
+
+/** Scrolls the list, and nothing around it, as far as the thing needs to be seen. */
+export function reveal(id: number): void {
+  const list = document.getElementById(kList)?.getBoundingClientRect();
+  const row = document.getElementById(`entity-${id}`)?.getBoundingClientRect();
+  if (!list || !row) return;
+  const by = row.top < list.top ? row.top - list.top : Math.max(0, row.bottom - list.bottom);
+  document.getElementById(kList)?.scrollBy(0, by);
+}
+
 export function listPanel(store: Store): HTMLElement {
   const { doc } = store;
   const used = doc.layers.filter((l) => doc.entities.some((e) => e.layer === l.name));
   return section("Document",
-    ...used.flatMap((layer) => [
+    h("div", { id: kList }, ...used.flatMap((layer) => [
       used.length > 1 || !layer.visible || layer.locked ? layerRow(store, layer) : null,
       h("ul", { class: "things" }, ...doc.entities.filter((e) => e.layer === layer.name).map((e) => row(store, e))),
-    ]),
+    ])),
     layerOfChosen(store),
     doc.entities.length === 0 && h("p", { class: "quiet" }, "Nothing drawn yet. Choose a tool on the left, or drop a file here."));
 }

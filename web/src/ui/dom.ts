@@ -31,12 +31,14 @@ export function svg(path: string, size = 20): SVGSVGElement {
   return element;
 }
 
-/** The element's content replaced; what has the focus keeps it where something of the same id is there. */
+/** The element's content replaced; what has the focus keeps it, and what is scrolled its place, where something of the same id is there. */
 export function fill(element: Element, ...children: Child[]): void {
   const focused = document.activeElement?.id;
   const within = element.contains(document.activeElement);
+  const scrolled = [...element.querySelectorAll("[id]")].filter((e) => e.scrollTop > 0).map((e) => [e.id, e.scrollTop] as const);
   element.replaceChildren(...children.filter((c): c is Node | string => !!c || c === ""));
-  if (within && focused) document.getElementById(focused)?.focus();
+  for (const [id, top] of scrolled) document.getElementById(id)?.scrollTo(0, top);
+  if (within && focused) document.getElementById(focused)?.focus({ preventScroll: true });
 }
 
 /** Texts and attributes of what is there, where the new children are built alike: nothing is laid out anew for a number. */

@@ -247,4 +247,36 @@ onStage("moving curves of a file", [], (stage) => {
     expect(own.kind).toBe("fixed");
     expect(own.start?.[0]).toBeCloseTo((image.image?.[0] ?? 0) + 7, 9);
   });
+
+  it("lists sixty curves beside what belongs to the chosen one", async () => {
+    const { page } = stage.at;
+    const curves = Array.from({ length: 60 }, (_, i) => ({
+      name: `a name too long for the list ${i}`, curve: { type: "polyline", points: [[i, 100], [i, 110]] },
+    }));
+    const choosing = page.waitForEvent("filechooser");
+    await page.click("#open");
+    await (await choosing).setFiles({ name: "sixty.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ curves })) });
+    await page.waitForFunction(() => window.keyline.store.doc.entities.length >= 60);
+    await settled(page);
+    const shown = (name: string) => page.evaluate((n) => {
+      const id = window.keyline.store.doc.entities.find((e) => e.name === n)?.id;
+      const row = document.getElementById(`entity-${id}`);
+      const list = document.querySelector("#things")?.getBoundingClientRect(), at = row?.getBoundingClientRect();
+      const end = row?.querySelector(".shortened :last-child")?.getBoundingClientRect();
+      return {
+        listed: !!list && !!at && at.top >= list.top - 1 && at.bottom <= list.bottom + 1,
+        number: !!end && !!at && end.width > 0 && end.right <= at.right + 1,
+        place: (document.querySelector("#place-x")?.getBoundingClientRect().bottom ?? Infinity) < window.innerHeight,
+      };
+    }, name);
+    const last = "a name too long for the list 59", before = "a name too long for the list 58";
+    await choose(last);
+    expect(await shown(last)).toEqual({ listed: true, number: true, place: true });
+    // what is done to another row leaves the list where it is
+    await page.click(`[aria-label="Hide ${before}"]`);
+    expect(await shown(last)).toEqual({ listed: true, number: true, place: true });
+    await choose("a name too long for the list 0");
+    expect((await shown("a name too long for the list 0")).listed).toBe(true);
+    expect((await shown(last)).listed).toBe(false);
+  });
 });
