@@ -1,5 +1,7 @@
 #include "studio.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/leading_number.h"
@@ -22,9 +24,10 @@ using operations::Operation;
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 2048;  // requests
-constexpr std::size_t kMostLong = 16;       // long works
-constexpr std::size_t kEndedEarly = 64;     // names of cancelled works that have not come yet
+constexpr std::size_t kMostWaiting = 2048;         // requests
+constexpr std::size_t kMostLong = 16;              // long works
+constexpr std::uintmax_t kLargestSent = 64 << 20;  // as large as what is uploaded
+constexpr std::size_t kEndedEarly = 64;  // names of cancelled works that have not come yet
 
 std::string text_of(const json& j) {
   return j.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -205,6 +208,7 @@ void Studio::serve(const RequestHead& head, std::string body, std::shared_ptr<Re
       return back->reply(data(200, text_of(operations::openapi_document())));
     if (name == "studio/session") return back->reply(data(200, session()));
     if (name == "studio/recovery") return back->reply(data(200, recovery_.kept()));
+    if (name == "studio/file") return send_opened(head, *back);
     return back->reply(failed({ErrorCode::unsupported, "there is nothing at " + head.path,
                                "GET /api/v1/operations lists what can be asked", ""}));
   }
@@ -317,6 +321,22 @@ void Studio::upload(const RequestHead& head, const std::string& body, Responder&
   if (!kept) return back.reply(failed(kept.error()));
   folder_.allow(folder / name);
   back.reply(data(200, text_of({{"ok", true}, {"file", (folder / name).string()}})));
+}
+
+void Studio::send_opened(const RequestHead& head, Responder& back) const {
+  const std::string name = query_value(head.query, "name");
+  if (std::ranges::find(settings_.files, name) == settings_.files.end())
+    return back.reply(failed({ErrorCode::bad_input, "the studio was not started with this file",
+                              "GET /api/v1/studio/session lists those it was", name}));
+  const auto place = folder_.place_of(name);
+  if (!place) return back.reply(failed(place.error()));
+  std::error_code unknown;
+  if (!(fs::file_size(*place, unknown) <= kLargestSent) || unknown)
+    return back.reply(failed({ErrorCode::bad_input, "the file is no file, or too large to be sent",
+                              "files of up to 64 MB are", name}));
+  Reply reply = data(200, contents(*place));
+  reply.type = "application/octet-stream";
+  back.reply(std::move(reply));
 }
 
 void Studio::export_document(const RequestHead& head, std::string body,

@@ -49,6 +49,7 @@ class Studio {
   void upload(const RequestHead& head, const std::string& body, Responder& back);
   void export_document(const RequestHead& head, std::string body,
                        const std::shared_ptr<Responder>& back);
+  void send_opened(const RequestHead& head, Responder& back) const;
   void send_asset(const std::string& path, Responder& back) const;
   std::string session() const;
 

@@ -189,10 +189,15 @@ export class Studio {
       }
       const kept = await this.client.upload(file.name, file);
       if (!kept.ok) this.store.say(kept.error.message, kept.error.hint ?? "", true);
-      else if (isImage(file.name)) await layUnder(this.store, file, kept.result);
-      else await openNamed(this.client, this.store, kept.result);
+      else await this.openThere(kept.result, file);
     }
     this.fit();
+  }
+
+  /** A file the other side has: a picture to draw over, whatever else it holds. */
+  private async openThere(file: string, content: Blob | null): Promise<void> {
+    if (isImage(file) && content) await layUnder(this.client, this.store, content, file);
+    else await openNamed(this.client, this.store, file);
   }
 
   /** All that is shown, as a drawing other programs paste. */
@@ -319,7 +324,7 @@ export class Studio {
       this.store.commit("Recover", kept.doc, { selection: kept.doc.entities.slice(-1).map((e) => e.id) });
       this.store.say("Your work is back as you left it", "Undo starts afresh");
     } else if (session.files.length > 0) {
-      for (const file of session.files) await openNamed(this.client, this.store, file);
+      for (const file of session.files) await this.openThere(file, isImage(file) ? await this.client.given(file) : null);
     } else {
       this.store.commit(kExample, example(), { selection: [1] });
     }

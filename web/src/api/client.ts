@@ -39,6 +39,8 @@ export interface Client {
 
   /** What the page was opened with. */
   session(): Promise<Answer<Session>>;
+  /** What a file of the session holds; null where it cannot be had. */
+  given(file: string): Promise<Blob | null>;
   /** What keep() was last given; null: nothing. */
   kept(): Promise<unknown>;
   /** Whether it is kept beyond this page. */

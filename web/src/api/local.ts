@@ -50,6 +50,11 @@ export class LocalClient implements Client {
     return { ok: true, result: { version: "", folder: "", files, kept: false } };
   }
 
+  async given(file: string): Promise<Blob | null> {
+    const content = this.files.get(file);
+    return content ? new Blob([content as BlobPart]) : null;
+  }
+
   /** The browser's own store, which is asked beside this, is all there is. */
   async kept(): Promise<unknown> {
     return null;

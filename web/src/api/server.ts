@@ -46,6 +46,11 @@ export class ServerClient implements Client {
     return result ? { ok: true, result } : { ok: false, error: kUnknown };
   }
 
+  async given(file: string): Promise<Blob | null> {
+    const reply = await this.ask(`studio/file?name=${encodeURIComponent(file)}`, {});
+    return reply?.ok ? reply.blob() : null;
+  }
+
   kept(): Promise<unknown> {
     return this.get<unknown>("studio/recovery");
   }

@@ -35,6 +35,8 @@ export function withFile(doc: Doc, file: string, read: DocumentReadResult): { do
 
 export const isImage = (name: string): boolean => /\.(png|jpe?g|tiff?|webp)$/i.test(name);
 
+const kNamed = 5; // of what was skipped
+
 /** Reads the file the server knows by that name. */
 export async function openNamed(client: Client, store: Store, file: string): Promise<number[]> {
   const work = client.long<DocumentReadResult>("document.read", { file, planar: true }, () => {});
@@ -48,7 +50,8 @@ export async function openNamed(client: Client, store: Store, file: string): Pro
   const { doc, ids } = withFile(store.opened, file, answer.result);
   store.commit(`Open ${baseOf(file)}`, doc, { selection: ids.slice(0, 1) });
   const skipped = answer.result.skipped ?? [];
-  if (skipped.length > 0) store.say(skipped.join("; "));
+  const rest = skipped.length > kNamed ? `; and ${skipped.length - kNamed} more` : "";
+  if (skipped.length > 0) store.say(`${baseOf(file)}: skipped`, skipped.slice(0, kNamed).join("; ") + rest);
   return ids;
 }
 

@@ -11,16 +11,28 @@ import { Regions } from "./regions.ts";
 
 const kLayer = "Sketch";
 
+type Picture = Pick<Underlay, "url" | "width" | "height">;
+
+/** What tracing sees of a picture that the browser cannot show (TIFF). */
+async function seenOf(client: Client, store: Store, file: string): Promise<Picture | null> {
+  const answer = await client.long<SketchTraceResult>("sketch.trace", { file, stages: true }, () => {}).answer;
+  const [first] = answer.ok ? answer.result.stages ?? [] : [];
+  if (first) return { url: await pictureOf(first), width: first.width ?? 1, height: first.height ?? 1 };
+  const why = answer.ok ? undefined : answer.error;
+  store.say(why?.message ?? "this picture cannot be shown here", why?.hint ?? "save it as PNG or JPEG", true);
+  return null;
+}
+
 /** One pixel is one unit, the lower left corner the origin, as sketch.trace has it. */
-export async function layUnder(store: Store, picture: Blob, file: string): Promise<void> {
-  const { width, height } = await createImageBitmap(picture);
+export async function layUnder(client: Client, store: Store, picture: Blob, file: string): Promise<void> {
+  const shown: Picture | null = await createImageBitmap(picture).then(
+    ({ width, height }) => ({ url: URL.createObjectURL(picture), width, height }),
+    () => seenOf(client, store, file));
+  if (!shown) return;
   const old = store.state.underlay;
   if (old) URL.revokeObjectURL(old.url);
   store.set({
-    underlay: {
-      url: URL.createObjectURL(picture), name: file.replace(/^.*\//, ""), file, width, height, at: [0, 0], scale: 1, opacity: 0.5,
-      stages: [], stage: "",
-    },
+    underlay: { ...shown, name: file.replace(/^.*\//, ""), file, at: [0, 0], scale: 1, opacity: 0.5, stages: [], stage: "" },
   });
 }
 
@@ -46,7 +58,8 @@ function withStrokes(doc: Doc, answer: SketchTraceResult, under: Underlay): { do
     now = made.doc;
     ids.push(made.id);
   }
-  return { doc: { ...now, unit: under.scale === 1 ? now.unit : "mm" }, ids };
+  const unit = under.scale !== 1 ? "mm" : now.entities.length === ids.length ? "px" : now.unit;
+  return { doc: { ...now, unit }, ids };
 }
 
 export class SketchPanel {
