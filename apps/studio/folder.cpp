@@ -50,14 +50,15 @@ void Folder::allow(const fs::path& file) {
   named_.push_back(resolved(file));
 }
 
+bool Folder::is_named(const fs::path& place) const {
+  const std::scoped_lock lock(mutex_);
+  return std::ranges::find(named_, place) != named_.end();
+}
+
 Result<std::string> Folder::place_of(const std::string& name) const {
   const bool plain = !name.empty() && name.find('\0') == std::string::npos;
   const fs::path place = plain ? resolved(root_ / name) : fs::path();
-  const bool known = [&] {
-    const std::scoped_lock lock(mutex_);
-    return std::ranges::find(named_, place) != named_.end();
-  }();
-  if (!place.empty() && (known || is_inside(place, root_))) return place.string();
+  if (!place.empty() && (is_named(place) || is_inside(place, root_))) return place.string();
   return core::fail(ErrorCode::bad_input, "the file is outside the folder the studio works in",
                     "start keyline studio in the folder that holds it", name);
 }

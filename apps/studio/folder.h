@@ -21,6 +21,9 @@ class Folder {
   /// Where the name leads, links followed. Fails: bad_input where that is outside.
   core::Result<std::string> place_of(const std::string& name) const;
 
+  /// Whether the file was named at the start or allowed since. Any thread.
+  bool is_named(const std::filesystem::path& place) const;
+
   /// The request with every file in it at its place. An operation that reads or writes files names
   /// them in "file" and "library". Fails as place_of; unsupported where it would use a file of its
   /// own choice.

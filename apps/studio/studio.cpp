@@ -1,7 +1,5 @@
 #include "studio.h"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/leading_number.h"
@@ -208,7 +206,7 @@ void Studio::serve(const RequestHead& head, std::string body, std::shared_ptr<Re
       return back->reply(data(200, text_of(operations::openapi_document())));
     if (name == "studio/session") return back->reply(data(200, session()));
     if (name == "studio/recovery") return back->reply(data(200, recovery_.kept()));
-    if (name == "studio/file") return send_opened(head, *back);
+    if (name == "studio/file") return send_given(head, *back);
     return back->reply(failed({ErrorCode::unsupported, "there is nothing at " + head.path,
                                "GET /api/v1/operations lists what can be asked", ""}));
   }
@@ -323,13 +321,13 @@ void Studio::upload(const RequestHead& head, const std::string& body, Responder&
   back.reply(data(200, text_of({{"ok", true}, {"file", (folder / name).string()}})));
 }
 
-void Studio::send_opened(const RequestHead& head, Responder& back) const {
+void Studio::send_given(const RequestHead& head, Responder& back) const {
   const std::string name = query_value(head.query, "name");
-  if (std::ranges::find(settings_.files, name) == settings_.files.end())
-    return back.reply(failed({ErrorCode::bad_input, "the studio was not started with this file",
-                              "GET /api/v1/studio/session lists those it was", name}));
   const auto place = folder_.place_of(name);
   if (!place) return back.reply(failed(place.error()));
+  if (!folder_.is_named(*place))
+    return back.reply(failed({ErrorCode::bad_input, "the studio was not given this file",
+                              "start it with the file, or upload it", name}));
   std::error_code unknown;
   if (!(fs::file_size(*place, unknown) <= kLargestSent) || unknown)
     return back.reply(failed({ErrorCode::bad_input, "the file is no file, or too large to be sent",

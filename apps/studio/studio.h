@@ -49,7 +49,8 @@ class Studio {
   void upload(const RequestHead& head, const std::string& body, Responder& back);
   void export_document(const RequestHead& head, std::string body,
                        const std::shared_ptr<Responder>& back);
-  void send_opened(const RequestHead& head, Responder& back) const;
+  /// A file that was named at the start or uploaded.
+  void send_given(const RequestHead& head, Responder& back) const;
   void send_asset(const std::string& path, Responder& back) const;
   std::string session() const;
 

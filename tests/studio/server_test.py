@@ -10,6 +10,7 @@ import tempfile
 import threading
 import time
 import unittest
+from urllib.parse import quote
 
 from studio_server import EARLY, KEYLINE, PATIENCE, SEGMENT, SOURCE, TOKEN, Server, ServerTest
 
@@ -130,7 +131,7 @@ class StudioServer(ServerTest):
         status, body, _ = self.ask("POST", "/api/v1/document.read", {"file": file})
         self.assertEqual(len(json.loads(body)["result"]["curves"]), 1)
 
-    def test_gives_the_files_it_was_started_with_and_no_others(self):
+    def test_gives_the_files_it_was_given_and_no_others(self):
         with open(os.path.join(SOURCE, "examples/sketch.png"), "rb") as f:
             content = f.read()
         started = Server("examples/sketch.png")
@@ -138,10 +139,14 @@ class StudioServer(ServerTest):
         path = "/api/v1/studio/file?name="
         status, body, _ = started.ask("GET", path + "examples/sketch.png")
         self.assertEqual((status, body), (200, content))
-        for name in ("examples/roof.csv", "/etc/passwd", "examples/../../x", ""):
+        _, body, _ = started.ask("POST", "/api/v1/studio/upload?name=a.png", content)
+        status, body, _ = started.ask("GET", path + quote(json.loads(body)["file"]))
+        self.assertEqual((status, body), (200, content))
+        for name, why in (("examples/roof.csv", "not given"), ("examples", "not given"),
+                          ("/etc/passwd", "outside"), ("examples/../../x", "outside"), ("", "")):
             status, body, _ = started.ask("GET", path + name)
             self.assertEqual(status, 400, name)
-            self.assertIn("not started with", json.loads(body)["error"]["message"])
+            self.assertIn(why, json.loads(body)["error"]["message"])
         status, body, _ = started.ask("GET", path + "examples/sketch.png", Authorization=None)
         self.assertEqual(status, 401)
 

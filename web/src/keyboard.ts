@@ -111,7 +111,7 @@ export class Keyboard {
         this.studio.chooseFile();
         return true;
       case "s":
-        this.studio.saveDocument();
+        void this.studio.saveDocument();
         return true;
       case "a":
         store.set({ selection: store.doc.entities.map((x) => x.id) });

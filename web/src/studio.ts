@@ -24,7 +24,7 @@ import { measuresPanel, reading } from "./panels/measures.ts";
 import { placePanel } from "./panels/place.ts";
 import { Notices } from "./panels/notices.ts";
 import { shapePanel } from "./panels/shape.ts";
-import { layUnder, SketchPanel } from "./panels/sketch.ts";
+import { layAgain, layUnder, SketchPanel } from "./panels/sketch.ts";
 import { SurfacePanel } from "./panels/surface.ts";
 import { TargetPanel } from "./panels/target.ts";
 import { ToolRail } from "./panels/toolbar.ts";
@@ -185,6 +185,7 @@ export class Studio {
       const own = await ownDocument(file);
       if (own) {
         this.store.commit(`Open ${file.name}`, own.doc, { selection: own.doc.entities.slice(-1).map((e) => e.id) });
+        if (own.picture) await layAgain(this.client, this.store, own.picture);
         continue;
       }
       const kept = await this.client.upload(file.name, file);
@@ -210,9 +211,9 @@ export class Studio {
   }
 
   /** The document itself, with everything that can still be moved. */
-  saveDocument(): void {
+  async saveDocument(): Promise<void> {
     const name = (this.autosave.files[0] ?? "keyline").replace(/^.*\//, "").replace(/\..*$/, "");
-    this.save(`${name}.keyline.json`, new Blob([this.autosave.text()], { type: "application/json" }));
+    this.save(`${name}.keyline.json`, new Blob([await this.autosave.whole()], { type: "application/json" }));
   }
 
   private listenToDrops(): void {
@@ -323,6 +324,7 @@ export class Studio {
     if (kept && goesOn) {
       this.store.commit("Recover", kept.doc, { selection: kept.doc.entities.slice(-1).map((e) => e.id) });
       this.store.say("Your work is back as you left it", "Undo starts afresh");
+      if (kept.picture) await layAgain(this.client, this.store, kept.picture);
     } else if (session.files.length > 0) {
       for (const file of session.files) await this.openThere(file, isImage(file) ? await this.client.given(file) : null);
     } else {

@@ -39,7 +39,7 @@ export interface Client {
 
   /** What the page was opened with. */
   session(): Promise<Answer<Session>>;
-  /** What a file of the session holds; null where it cannot be had. */
+  /** What a file of the session, or one that was uploaded, holds; null where it cannot be had. */
   given(file: string): Promise<Blob | null>;
   /** What keep() was last given; null: nothing. */
   kept(): Promise<unknown>;

@@ -61,6 +61,10 @@ export interface Underlay {
   at: [number, number];
   scale: number;
   opacity: number;
+  /** what the file holds */
+  picture: Blob;
+  /** whether what is shown is what tracing saw: a photo mapped back to its sheet */
+  mapped: boolean;
   /** pictures of what tracing saw, and the name of the one shown; "": the picture itself */
   stages: readonly { name: string; url: string }[];
   stage: string;

@@ -21,7 +21,7 @@ export class FileBar {
     fill(this.element,
       iconButton({ id: "open", icon: icons.open, label: "Open a file", key: "Ctrl O", onClick: () => studio.chooseFile() }),
       iconButton({
-        id: "save", icon: icons.save, label: "Save the whole document", key: "Ctrl S", onClick: () => studio.saveDocument(),
+        id: "save", icon: icons.save, label: "Save the whole document", key: "Ctrl S", onClick: () => void studio.saveDocument(),
       }),
       iconButton({
         id: "undo", icon: icons.undo, label: past ? `Undo ${past.label}` : "Nothing to undo", key: "Ctrl Z", disabled: !past,
@@ -43,7 +43,7 @@ export class FileBar {
       h("option", { value: kDocument }, "Keyline document"));
     choose.addEventListener("change", () => {
       if (choose.value === kClipboard) void this.studio.copy();
-      else if (choose.value === kDocument) this.studio.saveDocument();
+      else if (choose.value === kDocument) void this.studio.saveDocument();
       else if (choose.value) this.studio.export(choose.value);
       choose.value = "";
     });

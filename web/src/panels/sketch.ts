@@ -3,6 +3,7 @@ import {
   type Curve, defaultsOfSketchTrace, type SketchTraceRequest, type SketchTraceResult, type StageShown,
 } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
+import { contentOf, type KeptPicture } from "../model/autosave.ts";
 import { added, type Doc } from "../model/document.ts";
 import { type Store, type Underlay, workTold } from "../model/state.ts";
 import { button, choice, section, slider, toggle } from "../ui/controls.ts";
@@ -13,7 +14,7 @@ const kLayer = "Sketch";
 
 type Picture = Pick<Underlay, "url" | "width" | "height">;
 
-/** What tracing sees of a picture that the browser cannot show (TIFF). */
+/** What tracing sees of a picture: of one that the browser cannot show (TIFF), of a photo that it mapped. */
 async function seenOf(client: Client, store: Store, file: string): Promise<Picture | null> {
   const answer = await client.long<SketchTraceResult>("sketch.trace", { file, stages: true }, () => {}).answer;
   const [first] = answer.ok ? answer.result.stages ?? [] : [];
@@ -23,17 +24,34 @@ async function seenOf(client: Client, store: Store, file: string): Promise<Pictu
   return null;
 }
 
-/** One pixel is one unit, the lower left corner the origin, as sketch.trace has it. */
-export async function layUnder(client: Client, store: Store, picture: Blob, file: string): Promise<void> {
-  const shown: Picture | null = await createImageBitmap(picture).then(
+/** One pixel is one unit, the lower left corner the origin, as sketch.trace has it, unless it lay otherwise before. */
+export async function layUnder(client: Client, store: Store, picture: Blob, file: string, before?: KeptPicture): Promise<void> {
+  const mapped = before?.mapped ?? false;
+  const shown: Picture | null = mapped ? await seenOf(client, store, file) : await createImageBitmap(picture).then(
     ({ width, height }) => ({ url: URL.createObjectURL(picture), width, height }),
     () => seenOf(client, store, file));
   if (!shown) return;
   const old = store.state.underlay;
   if (old) URL.revokeObjectURL(old.url);
   store.set({
-    underlay: { ...shown, name: file.replace(/^.*\//, ""), file, at: [0, 0], scale: 1, opacity: 0.5, stages: [], stage: "" },
+    underlay: {
+      ...shown, name: before?.name ?? file.replace(/^.*\//, ""), file, picture, mapped,
+      at: before?.at ?? [0, 0], scale: before?.scale ?? 1, opacity: before?.opacity ?? 0.5, stages: [], stage: "",
+    },
   });
+}
+
+/** The picture of work that was kept, or of a saved document, as it lay. */
+export async function layAgain(client: Client, store: Store, kept: KeptPicture): Promise<void> {
+  const saved = contentOf(kept);
+  if (saved) {
+    const there = await client.upload(kept.name, saved);
+    if (there.ok) return layUnder(client, store, saved, there.result, kept);
+    return store.say(there.error.message, there.error.hint ?? "", true);
+  }
+  const picture = await client.given(kept.file);
+  if (picture) return layUnder(client, store, picture, kept.file, kept);
+  store.say(`the picture below, ${kept.name}, is not there any more`, "drop it on the page again", true);
 }
 
 async function pictureOf(stage: StageShown): Promise<string> {
@@ -93,7 +111,7 @@ export class SketchPanel {
     this.put({ stages, stage: stages.some((s) => s.name === underlay.stage) ? underlay.stage : "" });
     const [first] = answer.result.stages ?? [];
     if (answer.result.sheet && first) // a photo was mapped back to its sheet, whose lines these are
-      this.put({ url: await pictureOf(first), width: first.width ?? underlay.width, height: first.height ?? underlay.height });
+      this.put({ mapped: true, url: await pictureOf(first), width: first.width ?? underlay.width, height: first.height ?? underlay.height });
     this.store.commit("Trace", doc, { selection: ids.slice(0, 1) });
     const explained = answer.result.explained === undefined ? "" : `, ${(100 * answer.result.explained).toFixed(0)} % of the ink lies beside one`;
     this.store.say(`${ids.length} line${ids.length === 1 ? "" : "s"} found${explained}`, (answer.result.report ?? []).join("; "));

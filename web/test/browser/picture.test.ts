@@ -1,4 +1,5 @@
 /** A picture that the studio is started with, and one of a kind that browsers do not show. */
+import { readFileSync } from "node:fs";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Browser, Page } from "playwright-core";
 import { openBrowser, Server } from "./studio.ts";
@@ -24,11 +25,13 @@ function tiff(width: number, height: number): Buffer {
 
 describe("a picture", () => {
   const server = new Server();
+  const errors: string[] = [];
   let browser: Browser, page: Page;
   beforeAll(async () => {
     await server.start(["examples/sketch.png"]);
     browser = await openBrowser(false);
     page = await browser.newPage();
+    page.on("pageerror", (e) => errors.push(e.message));
     await page.goto(server.url);
   });
   afterAll(async () => {
@@ -54,6 +57,36 @@ describe("a picture", () => {
     expect(traced.unit).toBe("px");
   });
 
+  it("is there again, as it lay, when the page is opened anew, and in a saved document", async () => {
+    const place = () => page.evaluate(() => {
+      const { underlay } = window.keyline.store.state;
+      return underlay && [underlay.name, underlay.at, underlay.scale, underlay.opacity, underlay.width, underlay.height];
+    });
+    await page.evaluate(() => {
+      const { store } = window.keyline;
+      if (store.state.underlay) store.set({ underlay: { ...store.state.underlay, at: [3, 4], scale: 0.25, opacity: 0.75 } });
+    });
+    const lay = await place();
+    expect(lay?.slice(0, 4)).toEqual(["sketch.png", [3, 4], 0.25, 0.75]);
+    const downloading = page.waitForEvent("download");
+    await page.keyboard.press("Control+s");
+    const saved = await (await downloading).path();
+    const remembered = () => page.evaluate(() => {
+      const kept = JSON.parse(localStorage.getItem("keyline-work") ?? "null") as { picture?: { opacity: number } } | null;
+      return kept?.picture?.opacity;
+    });
+    await expect.poll(remembered, { timeout: 60_000 }).toBe(0.75);
+    await page.reload();
+    await page.waitForFunction(() => window.keyline?.store.state.underlay);
+    expect(await place()).toEqual(lay);
+    await page.evaluate(() => window.keyline.store.set({ underlay: null }));
+    const choosing = page.waitForEvent("filechooser");
+    await page.click("#open");
+    await (await choosing).setFiles({ name: "saved.json", mimeType: "application/json", buffer: readFileSync(saved) });
+    await page.waitForFunction(() => window.keyline.store.state.underlay);
+    expect(await place()).toEqual(lay);
+  });
+
   it("that the browser cannot show is shown as tracing sees it", async () => {
     const choosing = page.waitForEvent("filechooser");
     await page.click("#open");
@@ -62,4 +95,6 @@ describe("a picture", () => {
     expect((await under())?.size).toEqual([160, 60]);
     expect((await lines()).count).toBe(1);
   });
+
+  it("complains of nothing", () => expect(errors).toEqual([]));
 });
