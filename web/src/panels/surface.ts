@@ -1,6 +1,6 @@
 /** A surface: what light and curvature show, what it is worth, and its way to Class A. */
 import {
-  type CurveCondition, defaultsOfSurfaceEdit, type NetworkCurveShown, type Surface, type SurfaceEditRequest,
+  type CurveCondition, defaultsOfSurfaceEdit, type NetworkCurveShown, type PatchValueShown, type Surface, type SurfaceEditRequest,
   type SurfaceEditResult, type SurfaceSavResult, type SurfaceValueShown,
 } from "../../generated/operations.ts";
 import type { Client } from "../api/client.ts";
@@ -23,6 +23,8 @@ const kKeep: readonly { value: SurfaceWishes["keep"]; name: string }[] = [
   { value: "boundary", name: "boundary" },
 ];
 
+const nameOf = (patch: readonly number[] = []): string => patch.join(", ");
+
 interface Told {
   before: SurfaceValueShown;
   after: SurfaceValueShown | null;
@@ -37,6 +39,7 @@ export class SurfacePanel {
   private readonly scale = h("div", { class: "scale" });
   private readonly plane: NetworkPlane;
   private entity = 0;
+  private patch: string | null = null; // of several: the one whose curves are listed; null: the worst
 
   constructor(private readonly client: Client, private readonly store: Store, private readonly stage: SurfaceStage) {
     this.plane = new NetworkPlane(client);
@@ -45,6 +48,7 @@ export class SurfacePanel {
 
   element(e: SurfaceEntity): HTMLElement[] {
     if (this.entity !== e.id) this.wishes = e.wishes ?? { keep: "corners", amount: 1, conditions: [] };
+    if (this.entity !== e.id) this.patch = null;
     this.entity = e.id;
     const { looks } = this.stage;
     const curved = looks.look === "mean" || looks.look === "gaussian";
@@ -213,17 +217,34 @@ export class SurfacePanel {
 
   private renderTable({ before, after }: Told): void {
     const now = after ?? before;
-    const typesOf = ({ curves = [] }: SurfaceValueShown) => new Map(curves.map((c) => [c.name ?? "", c.type ?? 5]));
+    const several = (now.patches?.length ?? 0) > 1;
+    // the net of several patches is no network: its lines have no types
+    const typesOf = ({ curves = [] }: SurfaceValueShown) => new Map(several ? [] : curves.map((c) => [c.name ?? "", c.type ?? 5]));
     this.stage.types = typesOf(now);
     this.stage.typesBefore = typesOf(before);
     this.stage.paint();
-    const several = (now.patches?.length ?? 0) > 1;
+    const patch = this.patch ?? nameOf(now.worst_patch);
+    const curves = (now.curves ?? []).filter((c) => !several || nameOf(c.patch) === patch);
     fill(this.table,
       h("p", { class: "figure", id: "sav-value" }, after && h("span", { class: "was" }, `${measure(before.sav ?? 0, 4)} \u2192 `), measure(now.sav ?? 0, 4)),
-      several && h("p", { class: "quiet" }, `${now.patches?.length} patches; shown: the worst, ${now.worst_patch?.join(", ")}`),
+      several && h("p", { class: "quiet" }, `the sum of ${now.patches?.length} patches; curves of one of them:`),
+      several && this.patches(now.patches ?? [], patch),
       h("table", { class: "figures" },
         h("thead", {}, h("tr", {}, ...["curve", "type", "CAV", "\u03b1", "s"].map((name) => h("th", { scope: "col" }, name)))),
-        h("tbody", {}, ...(now.curves ?? []).map((c) => this.row(c)))));
+        h("tbody", {}, ...curves.map((c) => this.row(c)))));
+  }
+
+  /** Which of them the curves are of, the worst first. */
+  private patches(all: readonly PatchValueShown[], patch: string): HTMLElement {
+    const sorted = [...all].sort((a, b) => (b.sav ?? 0) - (a.sav ?? 0));
+    return choice({
+      id: "patch", label: "Patch", value: patch,
+      options: sorted.map((p) => ({ value: nameOf(p.patch), name: `${nameOf(p.patch)}: ${measure(p.sav ?? 0, 4)}` })),
+      onChoose: (name) => {
+        this.patch = name;
+        this.follow();
+      },
+    });
   }
 
   private row(c: NetworkCurveShown): HTMLElement {

@@ -157,3 +157,25 @@ onStage("a patch", ["examples/panel-b.json"], (stage) => {
     await page.keyboard.press("Control+z");
   });
 });
+
+onStage("a skin of several patches", ["examples/skin.json"], (stage) => {
+  it("lists the curves of one patch at a time, the worst first", async () => {
+    const { page } = stage.at;
+    const surface = await page.evaluate(() => {
+      const e = window.keyline.store.doc.entities[0];
+      return e?.kind === "surface" ? e.surface : null;
+    });
+    interface Value { curves: { name: string; cav: number; patch: number[] }[]; patches: { patch: number[]; sav: number }[]; worst_patch: number[] }
+    const told = await stage.server.ask<Value>("surface.sav", { surface });
+    const listed = () => page.locator("#sav tbody tr").evaluateAll((rows) => rows.map((row) =>
+      [row.children[0]?.textContent, Number(row.children[2]?.textContent)]));
+    const expected = (patch: number[]) => told.curves.filter((c) => String(c.patch) === String(patch))
+      .map((c) => [c.name, Number(c.cav.toPrecision(3))]);
+    await page.waitForSelector("#patch");
+    expect(await listed()).toEqual(expected(told.worst_patch));
+    const least = [...told.patches].sort((a, b) => a.sav - b.sav)[0]?.patch ?? [];
+    await page.selectOption("#patch", least.join(", "));
+    expect(await listed()).toEqual(expected(least));
+    expect(told.patches.length).toBe(6);
+  });
+});
