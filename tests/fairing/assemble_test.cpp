@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -168,6 +171,112 @@ TEST(NoteRun, TellsWhatBecameOfIt) {
   run.waves.untried = false;
   run.straightened = 1;
   EXPECT_TRUE(last_has("1 piece is an exact line or arc"));
+}
+
+// Along a spline whose parameter runs unevenly (x = 10 t + 3 t (1 - t) (1 - 2 t)) a point's foot is
+// not where its share of the length says: the places where x is met, by Newton's method here.
+TEST(PointsInRegion, FeetAreWhereTheSplineIsNearest) {
+  curve::BSpline2 spline = straight();
+  spline.control = {{0, 0}, {13 / 3.0, 0}, {17 / 3.0, 0}, {10, 0}};
+  std::vector<core::Point2> points;
+  for (int i = 0; i <= 40; ++i) points.push_back({0.25 * i, -0.2});
+  const auto at = [](double x) {
+    double t = x / 10;
+    for (int i = 0; i < 50; ++i)
+      t -= (10 * t + 3 * t * (1 - t) * (1 - 2 * t) - x) / (10 + 3 * (1 - 6 * t + 6 * t * t));
+    return t;
+  };
+  for (const auto& [low, high] : {std::pair{0.25, 0.75}, {0.125, 0.95}, {0.3, 0.6}}) {
+    const RegionPoints part = points_in_region(points, false, {low, high}, spline);
+    EXPECT_NEAR(part.t_first, at(0.25 * double(part.first)), 2e-9);
+    EXPECT_NEAR(part.t_last, at(0.25 * double(part.last)), 2e-9);
+    EXPECT_GT(std::abs(part.t_first - 0.025 * double(part.first)), 0.01);
+  }
+}
+
+// The last point of a closed line is no end: its foot is looked for.
+TEST(PointsInRegion, TheLastPointOfAClosedLineHasAFoot) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 9; ++i) points.push_back({1.0 * i, 0});
+  points.push_back({9, 0.5});
+  const RegionPoints closed = points_in_region(points, true, {0.2, 1}, straight());
+  EXPECT_EQ(closed.last, 9U);
+  EXPECT_LT(closed.t_last, 0.91);
+  EXPECT_EQ(points_in_region(points, false, {0.2, 1}, straight()).t_last, 1);
+}
+
+/// A run of one clothoid that leaves its arc by 0.0014, and points on it or beside it by turns.
+Solved bow(int points, double off) {
+  Solved s;
+  s.result.chain = {{{0, 0}, 0}, {{-1, 1, 0.5, 0.7}}, false};
+  for (int j = 0; j < points; ++j) {
+    const double t = (j + 0.5) / points;
+    const core::Pose2 at = lac::pose_at(lac::segments(s.result.chain)[0], t);
+    const core::Vector2 left = core::perpendicular_left(core::unit_vector(at.direction));
+    s.run.points.push_back(at.position + (j % 2 == 0 ? off : -off) * left);
+    s.run.index.push_back(static_cast<std::size_t>(j));
+    s.result.fit.feet.push_back({0, t});
+    s.result.point_of.push_back(static_cast<std::size_t>(j));
+  }
+  s.run.length = 1;
+  return s;
+}
+
+// Errors of 0.01 do not tell the slope, whether they are known or the offsets show them; nor do
+// four points.
+TEST(ReadRun, PiecesAreReadWithTheErrorsThatThereAre) {
+  const auto told = [](int points, double off, double noise) {
+    const Solved s = bow(points, off);
+    FairResult result;
+    result.noise = noise;
+    result.offsets.assign(s.run.points.size(), 0);
+    read_run(result, s.result, s.run, 0, 0, {});
+    return result.pieces[0].told;
+  };
+  EXPECT_TRUE(told(20, 1e-6, 1e-6));
+  EXPECT_FALSE(told(20, 1e-2, 1e-6));
+  EXPECT_FALSE(told(20, 1e-6, 1e-2));
+  EXPECT_FALSE(told(4, 1e-6, 1e-6));
+}
+
+TEST(Assemble, LengthsAddUpAndSeamsOfWholesAreJoints) {
+  RunResult run;
+  run.chain = {{{10, 0}, 0}, {{-1, 4, 0, 0.5}, {-1, 6, 0.5, 0.5}}, false};
+  FairResult result;
+  result.length = 99;
+  assemble(result, {run}, straight(), straight());
+  EXPECT_NEAR(result.length, 30, 1e-9);
+  EXPECT_EQ(result.curves.size(), 3U);
+  EXPECT_EQ(result.joints.size(), 3U);  // one inside, two between
+  FairResult closed;
+  closed.closed = true;
+  assemble(closed, {run, run}, std::nullopt, std::nullopt);
+  EXPECT_EQ(closed.joints.size(), 4U);  // one inside either, two between
+  // Of one chain that is closed its own seam.
+  run.chain.closed = true;
+  FairResult one;
+  one.closed = true;
+  assemble(one, {run}, std::nullopt, std::nullopt);
+  EXPECT_EQ(one.joints.size(), 2U);
+  EXPECT_EQ(one.joint_rates.g3 + one.joint_rates.turns + one.joint_rates.jumps, 2);
+}
+
+// Told where no run has a calmest chain and one of them was looked for and missed.
+TEST(Assemble, CalmIsMissedWhereNoRunHasIt) {
+  RunResult other;
+  other.chain = {{{0, 0}, 0}, {{-1, 4, 0, 0.5}}, false};
+  RunResult missed = other, calm = other;
+  missed.calm_missed = true;
+  calm.dense.joints.resize(2);
+  const auto told = [](const std::vector<RunResult>& runs) {
+    FairResult result;
+    assemble(result, runs, std::nullopt, std::nullopt);
+    return result.calm_missed;
+  };
+  EXPECT_FALSE(told({other, other}));
+  EXPECT_TRUE(told({other, missed}));
+  EXPECT_FALSE(told({calm, missed}));
+  EXPECT_FALSE(told({calm, other}));
 }
 
 }  // namespace

@@ -70,5 +70,73 @@ TEST(FairFigures, TheSplineToCompareWithStaysOpenAtACorner) {
   }
 }
 
+/// A clothoid from 0.1 to 0.5 along 2: its energy is 0.4^2 * 2^2, its comb a straight line.
+FairResult one_clothoid() {
+  FairResult answer;
+  answer.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 2, 0.1, 0.5}}});
+  return answer;
+}
+
+// No more waves than the other's, at most half as much energy and jolt again.
+TEST(FairFigures, FairIsNearlyAsCalmAsWhatItIsHeldAgainst) {
+  FairFigures any;
+  any.smoothing_spline = analysis::CombFigures{};
+  const double energy = 0.64, jolt = fair_figures({}, one_clothoid(), &any).answer.jolt;
+  EXPECT_GT(jolt, 0);
+  const auto fair_beside = [&](int waves, double rival_energy, double rival_jolt) {
+    FairFigures before;
+    before.smoothing_spline = analysis::CombFigures{waves, rival_energy, rival_jolt};
+    const FairFigures found = fair_figures({}, one_clothoid(), &before);
+    EXPECT_NEAR(found.answer.energy, energy, 1e-3);
+    EXPECT_EQ(found.answer.waves, 0);
+    return found.fair;
+  };
+  EXPECT_TRUE(fair_beside(0, energy, jolt));
+  EXPECT_TRUE(fair_beside(0, energy / 1.49, jolt));
+  EXPECT_FALSE(fair_beside(0, energy / 1.51, jolt));
+  EXPECT_TRUE(fair_beside(0, energy, jolt / 1.49));
+  EXPECT_FALSE(fair_beside(0, energy, jolt / 1.51));
+  EXPECT_FALSE(fair_beside(-1, energy, jolt));
+  EXPECT_TRUE(fair_beside(5, energy, jolt));
+  // Without variation nothing is calmer.
+  FairResult arc;
+  arc.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 2, 0.1, 0.1}}});
+  const FairFigures none;
+  EXPECT_TRUE(fair_figures({}, arc, &none).fair);
+  EXPECT_FALSE(fair_figures({}, one_clothoid(), &none).fair);
+}
+
+// Of several members waves add up; of energy and jolt the worst counts.
+TEST(FairFigures, AreOfAllMembers) {
+  FairResult answer = one_clothoid();
+  const lac::Chain wave{.start = {}, .pieces = {{-1, 1, 0.1, 0.3}, {-1, 1, 0.3, 0.1}}};
+  answer.curves.emplace_back(wave);
+  answer.curves.emplace_back(wave);
+  const FairFigures any;
+  const FairFigures found = fair_figures({}, answer, &any);
+  EXPECT_EQ(found.answer.waves, 2);
+  EXPECT_NEAR(found.answer.energy, 0.64, 1e-3);
+  FairResult other;
+  other.curves = {answer.curves[1], answer.curves[0]};
+  EXPECT_NEAR(fair_figures({}, other, &any).answer.energy, 0.64, 1e-3);
+}
+
+// A step of curvature within 0.02 of a length of 10: it is marked where it is, behind what lies
+// before its chain.
+TEST(CombMarks, AreByTheLengthOfTheWhole) {
+  const lac::Chain step{.start = {},
+                        .pieces = {{-1, 4, 0.1, 0.1}, {-1, 0.02, 0.1, 0.5}, {-1, 5.98, 0.5, 0.5}}};
+  curve::BSpline2 spline;  // along x, 3 long
+  spline.knots = {0, 0, 0, 0, 1, 1, 1, 1};
+  spline.control = {{0, 0}, {1, 0}, {2, 0}, {3, 0}};
+  FairResult result;
+  result.curves = {FairCurve{step}, FairCurve{spline}, FairCurve{step}};
+  const auto marks = comb_marks(result);
+  ASSERT_EQ(marks.size(), 2U);
+  EXPECT_NEAR(marks[0].at, 4.01, 0.02);
+  EXPECT_NEAR(marks[1].at, 10 + 3 + 4.01, 0.02);
+  EXPECT_FALSE(marks[0].needle);
+}
+
 }  // namespace
 }  // namespace keyline::fairing

@@ -52,5 +52,83 @@ TEST(ReadPieces, TellsWhichAreLongEnoughToBeSeen) {
   EXPECT_EQ(pieces[1].rhythm, Rhythm::straight);
 }
 
+TEST(RhythmOf, IsByThePiecesNumbers) {
+  EXPECT_EQ(rhythm_of({-1, 1, 0, 0}), Rhythm::straight);
+  EXPECT_EQ(rhythm_of({-1, 1, 2, 2}), Rhythm::arc);
+  EXPECT_EQ(rhythm_of({-1, 1, 0, 2}), Rhythm::minus);
+  EXPECT_EQ(rhythm_of({-1, 1, 2, 0}), Rhythm::minus);
+  EXPECT_EQ(rhythm_of({0, 1, 1, 2}), Rhythm::zero);
+  EXPECT_EQ(rhythm_of({2, 1, 1, 2}), Rhythm::plus);
+  const double band = analysis::RhythmOptions{}.zero_band;
+  EXPECT_EQ(rhythm_of({band, 1, 1, 2}), Rhythm::zero);
+  EXPECT_EQ(rhythm_of({-band, 1, 1, 2}), Rhythm::zero);
+  EXPECT_EQ(rhythm_of({1.01 * band, 1, 1, 2}), Rhythm::plus);
+  EXPECT_EQ(rhythm_of({-1.01 * band, 1, 1, 2}), Rhythm::minus);
+}
+
+InterpretationOverride asked_for(Rhythm rhythm) {
+  InterpretationOverride asked;
+  asked.rhythm = rhythm;
+  return asked;
+}
+
+TEST(WishFor, RhythmsAreKindsOrRangesOfSlopes) {
+  const double band = analysis::RhythmOptions{}.zero_band;
+  const auto wish = [](Rhythm rhythm) { return wish_for(asked_for(rhythm), 3).value(); };
+  EXPECT_EQ(wish(Rhythm::straight).kind, PieceKind::line);
+  EXPECT_EQ(wish(Rhythm::arc).kind, PieceKind::arc);
+  EXPECT_EQ(wish(Rhythm::arc).piece, 3);
+  EXPECT_FALSE(wish(Rhythm::minus).kind);
+  EXPECT_EQ(wish(Rhythm::minus).alpha_low, -kSteepestSlope);
+  EXPECT_EQ(wish(Rhythm::minus).alpha_high, -band);
+  EXPECT_EQ(wish(Rhythm::plus).alpha_low, band);
+  EXPECT_EQ(wish(Rhythm::plus).alpha_high, kSteepestSlope);
+  EXPECT_EQ(wish(Rhythm::zero).alpha_low, 0);
+  EXPECT_EQ(wish(Rhythm::zero).alpha_high, 0);
+  EXPECT_FALSE(wish(Rhythm::zero).compound);
+  EXPECT_TRUE(wish(Rhythm::plus_minus).compound);
+  EXPECT_TRUE(wish(Rhythm::plus_minus).plus_first);
+  EXPECT_TRUE(wish(Rhythm::minus_plus).compound);
+  EXPECT_FALSE(wish(Rhythm::minus_plus).plus_first);
+  EXPECT_EQ(wish_for(asked_for(Rhythm::arcs), 0).error().code, core::ErrorCode::unsupported);
+}
+
+TEST(WishFor, SlopesGoFromMinusTwelveToTwelve) {
+  InterpretationOverride asked;
+  for (const double slope : {-12.0, 0.7, 12.0}) {
+    asked.slope = slope;
+    const PieceWish wish = wish_for(asked, 2).value();
+    EXPECT_EQ(wish.piece, 2);
+    EXPECT_EQ(wish.alpha_low, slope);
+    EXPECT_EQ(wish.alpha_high, slope);
+  }
+  for (const double slope : {-12.1, 12.1, HUGE_VAL, std::nan("")}) {
+    asked.slope = slope;
+    EXPECT_EQ(wish_for(asked, 2).error().code, core::ErrorCode::bad_input) << slope;
+  }
+}
+
+// Of five points on a clothoid its slope is told, of four it is not; an arc is told by any.
+TEST(ReadPieces, FivePointsTellASlope) {
+  const lac::Chain clothoid{{}, {{-1, 1, 0.5, 3}}, false};
+  EXPECT_TRUE(read_pieces(clothoid, 1e-9, {5}, {}).front().told);
+  EXPECT_FALSE(read_pieces(clothoid, 1e-9, {4}, {}).front().told);
+  EXPECT_TRUE(read_pieces({{}, {{-1, 1, 2, 2}}, false}, 1e-9, {0}, {}).front().told);
+}
+
+// What was asked for stays as the piece is, however the points would read.
+TEST(ReadPieces, WhatWasAskedForIsNotReadOtherwise) {
+  const lac::Chain chain{{}, {{-1, 1, 0.5, 0.7}, {-1, 1, 0.7, 0.9}}, false};
+  RunOptions options;
+  options.asked = {1};
+  const auto pieces = read_pieces(chain, 1e-2, {20, 20}, options);
+  EXPECT_FALSE(pieces[0].overridden);
+  EXPECT_EQ(pieces[0].rhythm, Rhythm::minus);
+  EXPECT_FALSE(pieces[0].told);
+  EXPECT_TRUE(pieces[1].overridden);
+  EXPECT_TRUE(pieces[1].told);
+  EXPECT_EQ(pieces[1].slopes, std::vector<double>{-1});
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

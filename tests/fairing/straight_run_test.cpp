@@ -1,5 +1,9 @@
 #include "keyline/fairing/straight_run.h"
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace keyline::fairing::detail {
@@ -32,6 +36,81 @@ TEST(StraightRun, IsNoneWherePointsBendOrTurnBack) {
   std::swap(back[20], back[21]);
   EXPECT_FALSE(straight_chain(back));
   EXPECT_FALSE(straight_chain({}));
+}
+
+TEST(StraightRun, PointsMayBeOffByRoundingAndNoMore) {
+  auto points = points_on_a_line();
+  points[7].high = 0.9e-12;
+  EXPECT_TRUE(straight_chain(points));
+  points[7].high = 1.1e-12;
+  EXPECT_FALSE(straight_chain(points));
+  points[7].high = 0;
+  points[7].low = -1.1e-12;
+  EXPECT_FALSE(straight_chain(points));
+  auto twice = points_on_a_line();
+  twice[3] = twice[2];
+  EXPECT_FALSE(straight_chain(twice));
+  auto back = points_on_a_line();
+  back.back() = back.front();
+  EXPECT_FALSE(straight_chain(back));  // no length
+  const auto two = points_on_a_line();
+  EXPECT_TRUE(straight_chain({two[0], two[9]}));
+  EXPECT_FALSE(straight_chain({two[0]}));
+  const auto chain = straight_chain(points_on_a_line()).value();
+  for (std::size_t j = 0; j <= 40; ++j) EXPECT_NEAR(chain.feet[j].fraction, j / 40.0, 1e-15);
+  EXPECT_NEAR(chain.joints[1].direction, std::atan2(0.8, 0.6), 1e-15);
+}
+
+/// Points of a circle of this radius about (1, -2), from one angle on.
+std::vector<FitPoint> on_circle(double radius, double from, double turn, int n) {
+  std::vector<FitPoint> points;
+  for (int i = 0; i < n; ++i) {
+    const double t = from + turn * i / (n - 1);
+    points.push_back({.position = {1 + radius * std::cos(t), -2 + radius * std::sin(t)}});
+  }
+  return points;
+}
+
+// Either way round, less than a circle and more: direction, curvature, length and feet are known.
+TEST(ArcRun, IsTheArcThroughItsPoints) {
+  for (const double sense : {1.0, -1.0})
+    for (const auto& [turn, n] : {std::pair{0.7, 3}, {3.0, 5}, {4.5, 12}, {7.0, 20}}) {
+      const double radius = 1 / turn, from = 0.4;
+      const auto points = on_circle(radius, from, sense * turn, n);
+      const auto chain = arc_chain(points);
+      ASSERT_TRUE(chain) << turn << ' ' << sense;
+      ASSERT_EQ(chain->pieces.size(), 1U);
+      EXPECT_EQ(chain->pieces[0].kind, PieceKind::arc);
+      EXPECT_NEAR(chain->pieces[0].length, 1, 1e-11);
+      for (const FitJoint& joint : chain->joints) EXPECT_NEAR(joint.curvature, sense * turn, 1e-10);
+      const double start = from + sense * M_PI / 2;
+      EXPECT_NEAR(std::remainder(chain->joints[0].direction - start, 2 * M_PI), 0, 1e-11);
+      EXPECT_NEAR(chain->joints[1].direction - chain->joints[0].direction, sense * turn, 1e-11);
+      EXPECT_EQ(chain->joints[0].position, points.front().position);
+      EXPECT_EQ(chain->joints[1].position, points.back().position);
+      ASSERT_EQ(chain->feet.size(), points.size());
+      for (int i = 0; i < n; ++i)
+        EXPECT_NEAR(chain->feet[i].fraction, i / (n - 1.0), 1e-11) << turn;
+    }
+}
+
+TEST(ArcRun, IsNoneWherePointsAreOffOrTurnBack) {
+  EXPECT_FALSE(arc_chain(points_on_a_line()));
+  EXPECT_FALSE(arc_chain({}));
+  EXPECT_FALSE(arc_chain(on_circle(0.3, 0, 1, 2)));
+  auto off = on_circle(0.3, 0, 2, 9);
+  ASSERT_TRUE(arc_chain(off));
+  off[2].high = 2e-12;
+  EXPECT_FALSE(arc_chain(off));
+  off[2].high = 0;
+  off[2].position.x += 1e-9;
+  EXPECT_FALSE(arc_chain(off));
+  auto back = on_circle(0.3, 0, 2, 9);
+  std::swap(back[5], back[6]);
+  EXPECT_FALSE(arc_chain(back));
+  auto twice = on_circle(0.3, 0, 2, 9);
+  twice[5] = twice[6];
+  EXPECT_FALSE(arc_chain(twice));
 }
 
 }  // namespace
