@@ -218,5 +218,56 @@ TEST(Band, MultipliersStayPositive) {
   EXPECT_NEAR(sprung.pull(1).weight, 2 * (0.1 + 0.1 + 1.5), 1e-14);
 }
 
+// Products of slack and multiplier stay within ten thousand times the barrier, to either side.
+TEST(Band, MultipliersStayNearTheirBarrier) {
+  const auto given = points(1);
+  constexpr double kNear = 1e-6;
+  Band band(given, 1.0, 0);
+  band.start({0}, 0.1);
+  band.move({1 - kNear}, {0}, 1);
+  // Above the slack is 1e-6, where 0.1 / 1e-6 / 1e4 = 10 is the least; below 0.1 stays.
+  EXPECT_NEAR(band.pull(0).weight, 10 / kNear + 0.1 / (2 - kNear), 1);
+  Band low(given, 1.0, 0);
+  low.start({0}, 0.1);
+  low.move({kNear - 1}, {0}, 1);
+  EXPECT_NEAR(low.pull(0).weight, 10 / kNear + 0.1 / (2 - kNear), 1);
+  // Back from there a slack of 1 has a multiplier of 0.1 * 1e4 at most.
+  band.set_barrier(1e-5);
+  band.move({0}, {0}, 1e-9);
+  EXPECT_LE(band.pull(0).weight, 1e-5 * 1e4 + 0.2);
+}
+
+// The extra width is the largest, whichever side of which point has it.
+TEST(Band, ExtraIsTheLargestOfAllSides) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto given = points(3);
+    Band band(given, 1.0, 0);
+    band.start({sign * 1.1, sign * 1.5, -sign * 1.3}, 0.1);
+    EXPECT_NEAR(band.extra(), 1.0, 1e-15);
+    EXPECT_NEAR(band.pull(2).weight, 0.1 / 0.5 / 0.5 + 0.1 / 2.3 / 2.3, 1e-14);
+    band.move({sign * 1.1, sign * 1.5, -sign * 1.3}, {0, 0, 0}, 0.25);
+    EXPECT_NEAR(band.extra(), 0.75, 1e-15);
+  }
+}
+
+// A step that means to give back more than the extra width goes as far as 0.995 of the slack.
+TEST(Band, OfExtraWidthStepsEndAtTheLowerLimitToo) {
+  const auto given = points(1);
+  Band band(given, 1.0, 0);
+  band.start({-1.5}, 0.1);  // below: slack 0.5 with extra width 1
+  EXPECT_EQ(band.longest({0.6}), 1);
+  EXPECT_NEAR(band.longest({0.0}), 0.995 * 0.5, 1e-14);
+  EXPECT_TRUE(band.allows({-0.9}, 1));
+  EXPECT_FALSE(band.allows({-1.5}, 1));
+  const double logs = -0.1 * std::log(0.5 * 2.5);
+  EXPECT_NEAR(band.merit({-1.5}, 0), 2 * 0.1 / 0.5 * 1.0 + logs, 1e-13);
+  // After a whole step m' = (barrier + m (extra - meant)) / slack below.
+  const double low = 0.1 / 0.5, high = 0.1 / 2.5, meant = 0.8;
+  band.move({-0.7}, {meant}, 1);
+  const double next_low = (0.1 + low * (1 - meant)) / 0.5;
+  const double next_high = (0.1 + high * meant) / 2.5;
+  EXPECT_NEAR(band.pull(0).weight, next_low / 0.3 + next_high / 1.7, 1e-13);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

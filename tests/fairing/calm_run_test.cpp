@@ -1,11 +1,13 @@
 #include "keyline/fairing/calm_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
 #include "keyline/fairing/calm.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/lac/chain/chain.h"
@@ -51,6 +53,125 @@ TEST(CalmRun, WavesThatWereNotTriedAreTold) {
   EXPECT_FALSE(told());
   options.tolerance = line.noise;
   EXPECT_TRUE(told());
+}
+
+/// Two pieces of a length of 2: a clothoid to the left, an arc, in four even cells.
+DenseCurve two_pieces() {
+  DenseCurve curve;
+  curve.at = {0, 0.25, 0.5, 0.75, 1};
+  for (int i = 0; i <= 4; ++i) curve.joints.push_back({{0.5 * i, 1}, 0.1 * i, 99});
+  curve.cut = {0, 2, 4};
+  curve.value = {1, 3, 3.2};
+  curve.alpha = {-0.6, -1};
+  curve.kind = {PieceKind::curve, PieceKind::arc};
+  curve.length = 2;
+  curve.feet = {{0, 0}, {1, 0.5}, {2, 0}, {3, 0.25}, {3, 1}};
+  return curve;
+}
+
+TEST(ChainOf, IsTheSamePieces) {
+  const FitChain chain = chain_of(two_pieces());
+  ASSERT_EQ(chain.pieces.size(), 2U);
+  ASSERT_EQ(chain.joints.size(), 3U);
+  EXPECT_FALSE(chain.closed);
+  EXPECT_TRUE(chain.first_at_start && chain.last_at_end);
+  EXPECT_EQ(chain.pieces[0].length, 1);
+  EXPECT_EQ(chain.pieces[0].alpha, -0.6);
+  EXPECT_EQ(chain.pieces[0].kind, PieceKind::curve);
+  EXPECT_EQ(chain.pieces[1].kind, PieceKind::arc);
+  EXPECT_EQ(chain.joints[0].curvature, 0.5);            // of a length of 2
+  EXPECT_NEAR(chain.joints[1].curvature, 1.55, 1e-15);  // one on the whole arc
+  EXPECT_EQ(chain.joints[2].curvature, chain.joints[1].curvature);
+  EXPECT_EQ(chain.joints[1].position, (core::Point2{1, 1}));
+  EXPECT_EQ(chain.joints[1].direction, 0.2);
+  const std::vector<int> piece{0, 0, 1, 1, 1};
+  const std::vector<double> fraction{0, 0.75, 0, 0.625, 1};
+  ASSERT_EQ(chain.feet.size(), 5U);
+  for (std::size_t j = 0; j < 5; ++j) {
+    EXPECT_EQ(chain.feet[j].piece, piece[j]) << j;
+    EXPECT_NEAR(chain.feet[j].fraction, fraction[j], 1e-15) << j;
+  }
+}
+
+// A held end is where it is held, as much of it as is.
+TEST(ChainOf, HeldEndsAreToTheLastDigit) {
+  for (const Hold hold : {Hold::free, Hold::position, Hold::direction, Hold::curvature})
+    for (const bool slides : {false, true}) {
+      DenseCurve curve = two_pieces();
+      curve.kind.clear();
+      curve.hold_start = curve.hold_end = hold;
+      curve.slides_start = curve.slides_end = slides;
+      curve.held_start = {{0.01, 1.01}, 0.02, 0.7};
+      curve.held_end = {{2.01, 1.02}, 0.5, 1.7};
+      const FitChain chain = chain_of(curve);
+      EXPECT_EQ(chain.hold_start, hold);
+      EXPECT_EQ(chain.hold_end, hold);
+      const FitJoint &first = chain.joints.front(), &last = chain.joints.back();
+      const bool at = hold >= Hold::position;
+      EXPECT_EQ(first.position, (core::Point2{at && !slides ? 0.01 : 0, at ? 1.01 : 1}));
+      EXPECT_EQ(last.position, (core::Point2{at && !slides ? 2.01 : 2, at ? 1.02 : 1}));
+      EXPECT_EQ(first.direction, hold >= Hold::direction ? 0.02 : 0);
+      EXPECT_EQ(last.direction, hold >= Hold::direction ? 0.5 : 0.4);
+      EXPECT_EQ(first.curvature, hold >= Hold::curvature ? 0.7 : 0.5);
+      EXPECT_EQ(last.curvature, hold >= Hold::curvature ? 1.7 : 1.6);
+    }
+}
+
+TEST(ChainOf, ClosedCurvesAreNotPinned) {
+  DenseCurve curve = two_pieces();
+  curve.closed = true;
+  curve.turning = 6;
+  const FitChain chain = chain_of(curve);
+  EXPECT_TRUE(chain.closed);
+  EXPECT_FALSE(chain.first_at_start || chain.last_at_end);
+  EXPECT_EQ(chain.turning, 6);
+}
+
+/// A clothoid in cells, and points on it.
+struct Clothoid {
+  DenseCurve curve;
+  std::vector<FitPoint> points;
+  lac::Chain chain{{{0, 0}, 0.3}, {{-1, 1, 0.5, 2.5}}, false};
+  Clothoid() {
+    for (int i = 0; i <= 40; ++i) {
+      const double t = i / 40.0;
+      curve.at.push_back(t);
+      curve.joints.push_back(
+          {lac::evaluate(chain, t), lac::tangent_angle(chain, t), lac::curvature(chain, t)});
+      points.push_back({.position = curve.joints.back().position});
+      curve.feet.push_back(i < 40 ? Foot{i, 0} : Foot{39, 1});
+    }
+    set_free(curve);
+  }
+};
+
+// Held a little beside themselves ends go there, a turn more or less being none.
+TEST(HoldEnds, EndsComeToWhereTheyAreHeld) {
+  for (const Hold hold : {Hold::position, Hold::direction, Hold::curvature})
+    for (const bool at_start : {false, true}) {
+      Clothoid c;
+      FitJoint joint = at_start ? c.curve.joints.front() : c.curve.joints.back();
+      joint.position = joint.position + core::Vector2{2e-4, -1e-4};
+      joint.direction += 2e-4;
+      joint.curvature += 0.01;
+      HeldEnd held{hold, joint};
+      held.joint.direction += 4 * core::kPi;
+      const BandReport found = hold_ends(c.curve, c.points, 1e-3, 0, at_start ? held : HeldEnd{},
+                                         at_start ? HeldEnd{} : held);
+      EXPECT_TRUE(found.within);
+      EXPECT_LE(found.max_offset, 1e-3);
+      const FitChain chain = chain_of(c.curve);
+      const FitJoint& now = at_start ? chain.joints.front() : chain.joints.back();
+      EXPECT_NEAR(core::distance(now.position, joint.position), 0, 1e-12);
+      const double turn = std::abs(now.direction - joint.direction);
+      const double bend = std::abs(now.curvature - joint.curvature);
+      EXPECT_EQ(turn < 1e-12, hold >= Hold::direction) << turn;
+      EXPECT_EQ(bend < 1e-12, hold >= Hold::curvature) << bend;
+      const FitJoint& other = at_start ? c.curve.joints.back() : c.curve.joints.front();
+      EXPECT_LT(core::distance(other.position,
+                               at_start ? c.points.back().position : c.points.front().position),
+                1.5e-3);
+    }
 }
 
 }  // namespace

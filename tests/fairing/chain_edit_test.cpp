@@ -1,6 +1,7 @@
 #include "keyline/fairing/chain_edit.h"
 
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -201,6 +202,115 @@ TEST(ChainEdit, AShorterWindowMovesWhatIsBehindIt) {
   EXPECT_NEAR(back.feet[4].fraction, (2 + 0.75) / 5, 1e-14);
   EXPECT_TRUE(back.first_at_start);
   EXPECT_TRUE(back.last_at_end);
+}
+
+// The longest is halved, again and again, of equal ones the first: 4 is 2 and 2, then 3, then the
+// first 2.
+TEST(ChainEdit, PartedIsTheLongestHalved) {
+  const auto lengths = [](std::size_t pieces) {
+    std::vector<double> all;
+    for (const FitPiece& piece : parted(four(), pieces).pieces) all.push_back(piece.length);
+    return all;
+  };
+  EXPECT_EQ(lengths(3), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(lengths(4), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(lengths(5), (std::vector<double>{1, 2, 3, 2, 2}));
+  EXPECT_EQ(lengths(7), (std::vector<double>{1, 1, 1, 1.5, 1.5, 2, 2}));
+}
+
+// A foot at the cut belongs to the first part, and is its end.
+TEST(ChainEdit, FeetAtACutStayBeforeIt) {
+  FitChain chain = four();
+  chain.feet = {{1, 0.4}, {1, 0.4000001}, {2, 0}, {0, 1}};
+  const FitChain more = with_joint(chain, 1, 0.4);
+  EXPECT_EQ(more.feet[0].piece, 1);
+  EXPECT_NEAR(more.feet[0].fraction, 1, 1e-15);
+  EXPECT_EQ(more.feet[1].piece, 2);
+  EXPECT_NEAR(more.feet[1].fraction, 0, 1e-6);
+  EXPECT_EQ(more.feet[2].piece, 3);
+  EXPECT_EQ(more.feet[3].piece, 0);
+  EXPECT_EQ(more.pieces[1].alpha, -0.1);
+  EXPECT_EQ(more.pieces[2].alpha, -0.1);
+}
+
+// Of a slope of 0 or more nothing passes an inflection: cut as a clothoid, whose curvature half way
+// is the mean.
+TEST(ChainEdit, InflectionsAreCutAsClothoids) {
+  FitChain chain = four();
+  chain.joints[1].curvature = -1;
+  chain.joints[2].curvature = 3;
+  chain.pieces[1].alpha = 0.5;
+  EXPECT_NEAR(with_joint(chain, 1, 0.5).joints[2].curvature, 1, 1e-14);
+  chain.joints[1].curvature = 0;
+  EXPECT_NEAR(with_joint(chain, 1, 0.5).joints[2].curvature, 1.5, 1e-14);
+  chain.pieces[1].alpha = 0;
+  EXPECT_NEAR(with_joint(chain, 1, 0.5).joints[2].curvature, 1.5, 1e-14);
+}
+
+// What turns more than curvatures between its ends can is a clothoid whose ends both move, as far
+// as the mean asks; less than a fiftieth of their range inside is no slope's.
+TEST(ChainEdit, TurningsBeyondTheEndsMoveThem) {
+  const auto merged = [](double turning) {
+    FitChain chain = four();  // pieces 1 and 2: 5 long, from 2 to 4
+    chain.joints[3].direction = chain.joints[1].direction + turning;
+    return without_joint(chain, 2);
+  };
+  for (const double mean : {4.5, 1.0}) {
+    const FitChain beyond = merged(5 * mean);
+    EXPECT_EQ(beyond.pieces[1].alpha, -1);
+    EXPECT_NEAR(beyond.joints[1].curvature, 2 + mean - 3, 1e-12);
+    EXPECT_NEAR(beyond.joints[2].curvature, 4 + mean - 3, 1e-12);
+  }
+  for (const double mean : {3.97, 2.03}) EXPECT_NE(merged(5 * mean).joints[1].curvature, 2) << mean;
+  for (const double mean : {3.95, 2.05}) EXPECT_EQ(merged(5 * mean).joints[1].curvature, 2) << mean;
+  // A clothoid's mean is half way: less is a flatter slope, for its curvature stays low longer.
+  EXPECT_NEAR(merged(5 * 3.0).pieces[1].alpha, -1, 0.02);
+  EXPECT_GT(merged(5 * 2.8).pieces[1].alpha, -0.9);
+  EXPECT_LT(merged(5 * 3.2).pieces[1].alpha, -1.1);
+}
+
+// Pasted back a chain is closed and held as it was.
+TEST(ChainEdit, WindowsKeepTheWhole) {
+  FitChain chain = four();
+  chain.closed = true;
+  chain.turning = 6;
+  chain.hold_start = Hold::direction;
+  chain.hold_end = Hold::position;
+  chain.first_at_start = false;
+  const std::vector<FitPoint> points(8);
+  const Window w = cut_window(chain, points, 1, 2);
+  EXPECT_EQ(w.chain.hold_start, Hold::curvature);
+  const Window front = cut_window(chain, points, 0, 2), back = cut_window(chain, points, 2, 2);
+  EXPECT_EQ(front.chain.hold_start, Hold::curvature);  // closed: its neighbour is the last piece
+  EXPECT_EQ(back.chain.hold_end, Hold::curvature);
+  EXPECT_FALSE(front.chain.first_at_start);
+  const FitChain same = paste_window(chain, w, 2);
+  EXPECT_TRUE(same.closed);
+  EXPECT_EQ(same.turning, 6);
+  EXPECT_EQ(same.hold_start, Hold::direction);
+  EXPECT_EQ(same.hold_end, Hold::position);
+  EXPECT_FALSE(same.first_at_start);
+  EXPECT_TRUE(same.last_at_end);
+  for (std::size_t j = 0; j < 8; ++j) {
+    EXPECT_EQ(same.feet[j].piece, chain.feet[j].piece);
+    EXPECT_EQ(same.feet[j].fraction, chain.feet[j].fraction);
+  }
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(same.joints[i].curvature, chain.joints[i].curvature);
+}
+
+TEST(ChainEdit, StartsMoveOnRoundAndRound) {
+  for (const int by : {0, 1, 4, 6}) {
+    FitChain chain = four();
+    chain.closed = true;
+    chain.turning = 2 * std::numbers::pi;
+    chain.joints.back() = chain.joints.front();
+    chain.joints.back().direction += chain.turning;
+    rotate_start(chain, by);
+    EXPECT_EQ(chain.joints[0].position.x, by % 4);
+    EXPECT_EQ(chain.pieces[0].length, 1.0 + by % 4);
+    EXPECT_EQ(chain.feet[0].piece, (4 - by % 4) % 4) << by;
+  }
 }
 
 }  // namespace

@@ -158,5 +158,60 @@ TEST(DenseStep, EndsAreDrawnToWhereTheyBelong) {
   EXPECT_TRUE(end().closed);
 }
 
+// What is missing behind a cell and how that moves with the state before it, against differences.
+TEST(DenseStep, StepsOfACellAreThoseOfItsEnd) {
+  DenseCurve curve = three();
+  curve.alpha = {-0.5, 0.5};
+  curve.value = {1, 2, 4};
+  curve.joints = {{{0.1, 0.2}, 0.3, 0}, {{0.7, 0.4}, 0.6, 0}, {{1.5, 1}, 1, 0}, {{2, 2}, 2, 0}};
+  const auto end_of = [](DenseCurve c, int k, double by) {
+    FitJoint& joint = c.joints[1];
+    if (k == 0) joint.position.x += by;
+    if (k == 1) joint.position.y += by;
+    if (k == 2) joint.direction += by;
+    if (k == 3 || k == 4) c.value[static_cast<std::size_t>(k - 3)] += by;
+    if (k == 5) c.length += by;
+    const auto shapes = shapes_of(c);
+    return place_in_cell(c, shapes[1], 1, 1);
+  };
+  const Shapes shapes = shapes_of(curve);
+  Cell cell;
+  set_step(cell, curve, gaps_of(curve, shapes), 1);
+  const CellPlace here = end_of(curve, 0, 0);
+  EXPECT_NEAR(cell.gap(0), here.at.x - 1.5, 1e-14);
+  EXPECT_NEAR(cell.gap(1), here.at.y - 1, 1e-14);
+  EXPECT_NEAR(cell.gap(2), here.angle - 1, 1e-14);
+  constexpr double h = 1e-6;
+  for (int k = 0; k < 6; ++k) {
+    const CellPlace up = end_of(curve, k, h), down = end_of(curve, k, -h);
+    EXPECT_NEAR(cell.step(0, k), (up.at.x - down.at.x) / (2 * h), 1e-8) << k;
+    EXPECT_NEAR(cell.step(1, k), (up.at.y - down.at.y) / (2 * h), 1e-8) << k;
+    EXPECT_NEAR(cell.step(2, k), (up.angle - down.angle) / (2 * h), 1e-8) << k;
+  }
+}
+
+TEST(DenseStep, SquaresAndSlopesAddUp) {
+  Cell cell;
+  Vector6 d, e;
+  d << 1, 2, 0, -1, 3, 0.5;
+  e << 0, 1, 1, 0, 0, 2;
+  add(cell, d, 2, 7);
+  add(cell, e, 0.5, -3);
+  EXPECT_EQ(cell.hessian, Matrix6(2 * d * d.transpose() + 0.5 * e * e.transpose()));
+  EXPECT_EQ(cell.gradient, Vector6(7 * d - 3 * e));
+}
+
+// Of places and directions alone, each as much as its cell is of the length.
+TEST(DenseStep, DampingWeighsPosesByTheirCells) {
+  const DenseCurve curve = three();
+  std::vector<Cell> cells(3);
+  damp(cells, curve, 10);
+  const double share[] = {0.2, 0.3, 0.5};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int k = 0; k < 6; ++k)
+      EXPECT_NEAR(cells[i].hessian(k, k), k < 3 ? 10 * share[i] : 0, 1e-15) << i << ' ' << k;
+  EXPECT_EQ(cells[0].hessian(0, 1), 0);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

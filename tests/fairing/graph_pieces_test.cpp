@@ -1,7 +1,10 @@
 #include "keyline/fairing/graph_pieces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +119,106 @@ TEST(GraphPieces, ClosedCurvesBeginAtATurn) {
   EXPECT_NEAR(cut.value[2], 6, 1e-12);
   EXPECT_EQ(cut.cut, (std::vector<int>{0, 40, 80}));
   EXPECT_EQ(cut.sense, (std::vector<signed char>{-1, 1}));
+}
+
+/// What one piece between two nodes loses, by this test's own sums: the slope is found by halving
+/// where the piece turns as far as the graph, both made of straight lines between the nodes.
+double own_loss(const DenseCurve& curve, int from, int to, double energy, double tolerance) {
+  const double a = curve.value[from], b = curve.value[to];
+  const double length = curve.at[to] - curve.at[from];
+  const auto off = [&](double alpha, int i) {
+    const double v = (curve.at[i] - curve.at[from]) / length;
+    const double p = -alpha;
+    const double k = p == 0 ? a * std::pow(b / a, v)
+                            : std::pow((1 - v) * std::pow(a, p) + v * std::pow(b, p), 1 / p);
+    return k - curve.value[i];
+  };
+  const auto turn = [&](double alpha) {
+    double sum = 0;
+    for (int i = from; i < to; ++i)
+      sum += (curve.at[i + 1] - curve.at[i]) * 0.5 * (off(alpha, i) + off(alpha, i + 1));
+    return sum;
+  };
+  double low = -3, high = 3;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (turn(middle) * turn(low) > 0 ? low : high) = middle;
+  }
+  const double alpha = 0.5 * (low + high);
+  double excess = 0, direction = 0, y = 0;
+  std::vector<double> away{0};
+  for (int i = from; i < to; ++i) {
+    const double h = curve.at[i + 1] - curve.at[i], o = off(alpha, i), next = off(alpha, i + 1);
+    excess += (next - o) * (next - o) / h;
+    y += h * direction + h * h * (2 * o + next) / 6;
+    direction += 0.5 * h * (o + next);
+    away.push_back(y);
+  }
+  double bow = 0.25 * std::abs(y);
+  for (int i = from; i <= to; ++i)
+    bow = std::max(bow, std::abs(away[static_cast<std::size_t>(i - from)] -
+                                 y * (curve.at[i] - curve.at[from]) / length));
+  return excess / energy + 0.1 * std::pow(bow / tolerance, 2);
+}
+
+double cubic(double t) { return 1 + t + 6 * t * t * t; }
+
+// One piece does where the loss of that is let pass, and not where it is a little more: of its
+// variation where the tolerance is wide, of its bow where that is narrow.
+TEST(GraphPieces, WhatAPieceLosesIsVariationAndBow) {
+  const DenseCurve curve = graph(cubic, 60);
+  for (const auto& [energy, tolerance] : {std::pair{20.0, 10.0}, {1e9, 1e-3}, {40.0, 5e-3}}) {
+    const GraphPieces pieces(curve, {}, kSlopes, energy, tolerance);
+    const double loss = own_loss(curve, 0, 60, energy, tolerance);
+    EXPECT_EQ(pieces.within(1.03 * loss, 40), std::vector<int>{1}) << energy;
+    EXPECT_GT(pieces.within(0.97 * loss, 40)[0], 1) << energy;
+  }
+  // A tolerance is of the length.
+  DenseCurve longer = curve;
+  longer.length = 3;
+  const GraphPieces pieces(longer, {}, kSlopes, 1e9, 3e-3);
+  const double loss = own_loss(curve, 0, 60, 1e9, 1e-3);
+  EXPECT_EQ(pieces.within(1.03 * loss, 40), std::vector<int>{1});
+  EXPECT_GT(pieces.within(0.97 * loss, 40)[0], 1);
+}
+
+// Two pieces are cut where the sum of both losses is least: every node is tried here.
+TEST(GraphPieces, CutsWhereTheLeastIsLost) {
+  const DenseCurve curve = graph([](double t) { return 1 + 3 * std::pow(t, 5) + t; }, 30);
+  const double energy = 20, tolerance = 5e-3;
+  const GraphPieces pieces(curve, {}, kSlopes, energy, tolerance);
+  const DenseCurve cut = pieces.cut_by({2});
+  ASSERT_EQ(cut.cut.size(), 3U);
+  double least = HUGE_VAL;
+  for (int i = 2; i <= 28; ++i)
+    least = std::min(least, own_loss(curve, 0, i, energy, tolerance) +
+                                own_loss(curve, i, 30, energy, tolerance));
+  const double taken = own_loss(curve, 0, cut.cut[1], energy, tolerance) +
+                       own_loss(curve, cut.cut[1], 30, energy, tolerance);
+  EXPECT_LE(taken, 1.1 * least);
+  EXPECT_EQ(pieces.within(1.03 * taken, 40), std::vector<int>{2});
+  EXPECT_GT(pieces.within(0.9 * least, 40)[0], 2);
+}
+
+// The run that loses gets the pieces, and no more are made than are allowed.
+TEST(GraphPieces, PiecesGoWhereTheyHelp) {
+  const DenseCurve curve =
+      graph([](double t) { return t < 0.5 ? 4 - 2 * t : 3 + 40 * std::pow(t - 0.5, 3); }, 60);
+  const GraphPieces pieces(curve, {30}, kSlopes, 20, 1e-3);
+  const std::vector<int> count = pieces.within(1e-2, 40);
+  ASSERT_EQ(count.size(), 2U);
+  EXPECT_EQ(count[0], 1);
+  EXPECT_GT(count[1], 1);
+  int before = 2;
+  for (const int most : {2, 3, 4, 6}) {
+    const std::vector<int> few = pieces.within(0, most);
+    const int sum = few[0] + few[1];
+    EXPECT_GE(sum, before);
+    EXPECT_LE(sum, most + 1);
+    before = sum;
+  }
+  // At most one piece between any two of the forty places and the ends.
+  EXPECT_LE(pieces.within(0, 1000)[1], 42);
 }
 
 }  // namespace

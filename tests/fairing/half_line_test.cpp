@@ -205,5 +205,42 @@ TEST(Unfold, TheSeamOfAClosedOneIsJoinedAtItsStart) {
   EXPECT_NEAR(core::distance(all[0].start.position, {0, -1}), 0, 1e-14);
 }
 
+// Of a pair the heavier one counts as often as it weighs.
+TEST(Fold, PairsAreWeightedMeans) {
+  acquire::KeyLine line = ellipse(40, 0.5);
+  for (Point2& p : line.points) {
+    const bool above = p.y > 0;
+    line.weights.push_back(above ? 1 : 3);
+    if (above) p = {1.001 * p.x, 1.001 * p.y};
+  }
+  const auto half = fold(line, kAxis);
+  ASSERT_TRUE(half);
+  ASSERT_EQ(half->line.points.size(), 20U);
+  std::vector<Point2> found = half->line.points;
+  std::ranges::sort(found, {}, [](Point2 p) { return -p.x; });
+  for (int i = 0; i < 20; ++i) {
+    const double t = 2 * std::numbers::pi * (i + 0.5) / 40;
+    EXPECT_NEAR(found[i].x, 2 * std::cos(t) * (1.001 + 3) / 4, 1e-12) << i;
+    EXPECT_NEAR(std::abs(found[i].y), std::sin(t) * (1.001 + 3) / 4, 1e-12) << i;
+    EXPECT_EQ(half->line.weights[i], 4);
+  }
+}
+
+// Side by side is within three tenths of the points' spacing: here a step of 9 degrees of a circle
+// turned by so much of it that images stand twice that beside points.
+TEST(Fold, SideBySideIsThreeTenthsOfTheSpacing) {
+  const auto count = [](double turned) {
+    acquire::KeyLine circle;
+    circle.closed = true;
+    for (int i = 0; i < 40; ++i) {
+      const double t = 2 * std::numbers::pi * (i + 0.5 + turned) / 40;
+      circle.points.push_back({std::cos(t), std::sin(t)});
+    }
+    return fold(circle, kAxis)->line.points.size();
+  };
+  EXPECT_EQ(count(0.13), 20U);
+  EXPECT_GT(count(0.17), 37U);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

@@ -116,5 +116,31 @@ TEST(Mirror, MeasuredInALineThatIsNotTheAxis) {
   EXPECT_LT(open.largest, 1e-12);
 }
 
+// A parabola mirrored beside its axis by d: the image of (x, x^2) lies 4 d x above or below the
+// curve, across it by that over sqrt(1 + 4 x^2). Its largest is at the ends, its mean square
+// 4 (1 - atan(2) / 2) d^2 on [-1, 1].
+TEST(Mirror, MisfitOfAParabolaIsKnown) {
+  std::vector<Point2> points;
+  for (int i = 0; i <= 400; ++i) {
+    const double x = i / 200.0 - 1;
+    points.push_back({x, x * x});
+  }
+  for (const double d : {1e-3, -2e-3}) {
+    const Mirror found = measured_in({{d, 5}, core::kPi / 2}, points, false);
+    EXPECT_NEAR(found.largest, 4 / std::sqrt(5.0) * std::abs(d), 0.01 * std::abs(d));
+    EXPECT_NEAR(found.rms, 2 * std::sqrt(1 - std::atan(2.0) / 2) * std::abs(d), 0.01 * std::abs(d));
+  }
+  EXPECT_LT(measured_in({{0, 5}, core::kPi / 2}, points, false).largest, 1e-9);
+}
+
+// Of more than 500 points too, whose curve has fewer vertices a gap.
+TEST(Mirror, ManyPointsHaveTheirAxis) {
+  const auto found = best_mirror(pear(0.7, 1500, 0.001), true);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(std::sin(found->line.direction - 0.7), 0, 1e-5);
+  EXPECT_NEAR(beside({{2, 1}, 0.7}, found->line.position), 0, 1e-4);
+  EXPECT_LT(found->largest, 1e-4);
+}
+
 }  // namespace
 }  // namespace keyline::fairing

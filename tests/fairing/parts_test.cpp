@@ -85,6 +85,91 @@ TEST(Riccati, ClosedChainsMeetAndHeldControlsStay) {
   EXPECT_EQ(step.control[2](1), 0);
 }
 
+/// The same with what is held added as equations: controls that are fixed, a fixed start, and the
+/// end tied to the start where the chain is closed.
+Eigen::VectorXd held_solution(const std::vector<Stage>& stages, const Boundary& boundary) {
+  const int n = static_cast<int>(stages.size());
+  const int states = 4 * (n + 1), unknowns = states + 3 * n;
+  std::vector<Eigen::VectorXd> rows;
+  std::vector<double> right;
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(unknowns);
+  const auto equation = [&](double value) -> Eigen::VectorXd& {
+    right.push_back(value);
+    return rows.emplace_back(Eigen::VectorXd::Zero(unknowns));
+  };
+  for (int i = 0; i < n; ++i) {
+    const Stage& stage = stages[static_cast<std::size_t>(i)];
+    const auto at = [&](int v) { return v < 4 ? 4 * i + v : states + 3 * i + v - 4; };
+    for (int r = 0; r < 7; ++r) {
+      g(at(r)) += stage.gradient(r);
+      for (int c = 0; c < 7; ++c) h(at(r), at(c)) += stage.hessian(r, c);
+    }
+    for (int r = 0; r < 4; ++r) {
+      auto& row = equation(-stage.gap(r));
+      for (int c = 0; c < 7; ++c) row(at(c)) = stage.step(r, c);
+      row(4 * (i + 1) + r) = -1;
+    }
+    for (int k = 0; k < 3; ++k)
+      if (stage.fixed[k]) equation(0)(at(4 + k)) = 1;
+  }
+  for (int k = 0; k < 4; ++k)
+    if (boundary.fixed_start[k]) equation(0)(k) = 1;
+  h.block<4, 4>(4 * n, 4 * n) += boundary.end_hessian;
+  g.segment<4>(4 * n) += boundary.end_gradient;
+  if (boundary.closed) {
+    h.block<4, 4>(0, 0) += boundary.end_hessian;
+    h.block<4, 4>(0, 4 * n) -= boundary.end_hessian;
+    h.block<4, 4>(4 * n, 0) -= boundary.end_hessian;
+    g.segment<4>(0) -= boundary.end_gradient;
+  }
+  const int m = static_cast<int>(rows.size());
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(unknowns + m, unknowns + m);
+  Eigen::VectorXd rhs(unknowns + m);
+  k.topLeftCorner(unknowns, unknowns) = h;
+  rhs.head(unknowns) = -g;
+  for (int r = 0; r < m; ++r) {
+    k.row(unknowns + r).head(unknowns) = rows[static_cast<std::size_t>(r)].transpose();
+    k.col(unknowns + r).head(unknowns) = rows[static_cast<std::size_t>(r)];
+    rhs(unknowns + r) = right[static_cast<std::size_t>(r)];
+  }
+  return k.fullPivLu().solve(rhs);
+}
+
+TEST(Riccati, AgreesWithTheDenseSystemWhereThingsAreHeld) {
+  numeric::Random random(9);
+  for (const bool closed : {false, true}) {
+    std::vector<Stage> stages;
+    for (int i = 0; i < 5; ++i) stages.push_back(random_stage(random));
+    stages[1].fixed[1] = stages[3].fixed[0] = stages[3].fixed[2] = true;
+    Boundary boundary;
+    boundary.closed = closed;
+    boundary.end_hessian.diagonal() << 40, 30, 20, 5;
+    boundary.end_gradient << 1, -2, 0.5, 4;
+    boundary.fixed_start[1] = boundary.fixed_start[3] = true;
+    const Step step = solve_stages(stages, boundary);
+    ASSERT_TRUE(step.sound);
+    const Eigen::VectorXd dense = held_solution(stages, boundary);
+    const double size = dense.head(24 + 15).norm();
+    for (int i = 0; i <= 5; ++i)
+      EXPECT_LE((step.state[i] - dense.segment<4>(4 * i)).norm(), 1e-7 * size) << closed << i;
+    for (int i = 0; i < 5; ++i)
+      EXPECT_LE((step.control[i] - dense.segment<3>(24 + 3 * i)).norm(), 1e-7 * size) << closed;
+  }
+}
+
+TEST(Riccati, WhatHasNoMinimumIsNotSound) {
+  numeric::Random random(9);
+  std::vector<Stage> stages;
+  for (int i = 0; i < 3; ++i) stages.push_back(random_stage(random));
+  EXPECT_TRUE(solve_stages(stages, {}).sound);
+  stages[1].hessian = -1e9 * Matrix7::Identity();
+  EXPECT_FALSE(solve_stages(stages, {}).sound);
+  stages[1].hessian = Matrix7::Identity();
+  stages[0].hessian.topLeftCorner<4, 4>() = -1e6 * Matrix4::Identity();  // of the start
+  EXPECT_FALSE(solve_stages(stages, {}).sound);
+}
+
 TEST(PieceTable, AgreesWithSegmentsAndDifferences) {
   struct Case {
     double k0, k1, length, alpha;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -195,6 +197,152 @@ TEST(TooFast, OfClothoidsIsTheirRiseOverTheirWidth) {
   EXPECT_TRUE(std::isinf(too_fast(curve)));
   curve.most_rate = HUGE_VAL;
   EXPECT_EQ(too_fast(curve), 0);
+}
+
+// Moved across zero a piece gets a slope that passes an inflection; others keep theirs.
+TEST(KeepRises, PiecesMovedAcrossZeroBecomeClothoids) {
+  DenseCurve curve = of({4, 1, -3, 5}, {1, 1, 1});
+  curve.alpha = {0.5, 0.7, -0.5};
+  keep_rises(curve);
+  EXPECT_TRUE(keeps_senses(curve));
+  EXPECT_NEAR(curve.value[0] + curve.value[1] + curve.value[2], 2, 1e-13);
+  for (std::size_t p = 0; p < 3; ++p)
+    if (curve.value[p] * curve.value[p + 1] <= 0) {
+      EXPECT_TRUE(curve.alpha[p] == -1 || curve.alpha[p] == -0.5) << p;
+    }
+  // As they are senses are kept: nothing moves, nothing is given another slope.
+  DenseCurve still = of({-1, 2}, {1});
+  still.alpha = {0.5};
+  keep_rises(still);
+  EXPECT_EQ(still.alpha[0], 0.5);
+  DenseCurve crossing = of({2, -2.1, -2, 3}, {1, 1, 1});
+  crossing.alpha = {0.5, 0.5, 0.5};
+  keep_rises(crossing);
+  // The mean is -0.7: all three lie within a hundredth of the range of it.
+  EXPECT_EQ(crossing.alpha[0], 0.5);
+  EXPECT_EQ(crossing.alpha[1], 0.5);
+  EXPECT_EQ(crossing.alpha[2], -1);
+}
+
+// Tilted by a hundredth of the range either way, but no more than the values were apart, nor a
+// quarter of the way to the next mean.
+TEST(KeepRises, TiltsStayClear) {
+  DenseCurve near = of({0, 5.01, 5.0, 10}, {1, 1, 1});
+  keep_rises(near);
+  EXPECT_NEAR(near.value[1], 5.005 - 0.01, 1e-13);
+  EXPECT_NEAR(near.value[2], 5.005 + 0.01, 1e-13);
+  DenseCurve equal = of({0, 5, 5, 10}, {1, 1, 1});
+  keep_rises(equal);
+  EXPECT_NEAR(equal.value[1], 4.9, 1e-13);
+  EXPECT_NEAR(equal.value[2], 5.1, 1e-13);
+  DenseCurve below = of({4.88, 5.5, 4.5, 10}, {1, 1, 1});
+  keep_rises(below);
+  const double tilt = std::min(1e-2 * 5.5, 0.25 * 0.12);
+  EXPECT_NEAR(below.value[1], 5 - tilt, 1e-13);
+  EXPECT_NEAR(below.value[2], 5 + tilt, 1e-13);
+  DenseCurve above = of({0, 5.5, 4.5, 5.1}, {1, 1, 1});
+  keep_rises(above);
+  EXPECT_NEAR(above.value[1], 5 - 0.025, 1e-13);
+  EXPECT_NEAR(above.value[2], 5 + 0.025, 1e-13);
+}
+
+// Uneven pieces are tilted as they stand along the curve.
+TEST(KeepRises, TiltsAreEvenAlongTheCurve) {
+  DenseCurve curve = of({0, 6, 5, 4, 9}, {1, 1, 1, 1});
+  curve.at = {0, 0.3, 0.4, 0.7, 1};
+  keep_rises(curve);
+  const double tilt = 1e-2 * 9;
+  EXPECT_NEAR(curve.value[1], 5 - tilt, 1e-13);
+  EXPECT_NEAR(curve.value[2], 5 + tilt * (2 * 0.25 - 1), 1e-13);
+  EXPECT_NEAR(curve.value[3], 5 + tilt, 1e-13);
+}
+
+// Across the seam of a closed curve what runs one way is pooled as anywhere: begun at another node
+// the same values come out.
+TEST(KeepRises, OfClosedCurvesTheBeginningDoesNotCount) {
+  const std::vector<double> value{1, 4, 3, 6, 2, 0, 1.5};
+  const std::vector<int> sense{1, 1, 1, -1, -1, 1, 1};  // of the pieces behind them
+  const std::size_t n = value.size();
+  const auto from = [&](std::size_t start) {
+    std::vector<double> v;
+    std::vector<int> s;
+    for (std::size_t i = 0; i < n; ++i) {
+      v.push_back(value[(start + i) % n]);
+      s.push_back(sense[(start + i) % n]);
+    }
+    v.push_back(v.front());
+    DenseCurve curve = of(v, s);
+    curve.closed = true;
+    keep_rises(curve);
+    EXPECT_TRUE(keeps_senses(curve)) << start;
+    std::vector<double> back;
+    for (std::size_t i = 0; i < n; ++i) back.push_back(curve.value[(i + n - start) % n]);
+    return back;
+  };
+  const std::vector<double> first = from(0);
+  for (std::size_t start = 1; start < n; ++start) {
+    const std::vector<double> again = from(start);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(again[i], first[i], 1e-12) << start << ' ' << i;
+  }
+}
+
+TEST(KeepRises, OfClosedCurvesRatesAreKeptAcrossTheSeam) {
+  const std::vector<double> value{8, 0, 0, 0, 0, 0};
+  for (std::size_t start = 0; start < 6; ++start) {
+    std::vector<double> v;
+    for (std::size_t i = 0; i <= 6; ++i) v.push_back(value[(start + i) % 6]);
+    DenseCurve curve = of(v, {});
+    curve.closed = true;
+    curve.most_rate = 6;  // a rise of 1 over a sixth, of which 0.9 are taken
+    keep_rises(curve);
+    const auto at = [&](std::size_t i) { return curve.value[(i + 6 - start) % 6]; };
+    EXPECT_NEAR(at(0), 0.5 * (0.9 + 8), 1e-12) << start;
+    EXPECT_NEAR(at(1), 0.5 * (0 + 7.1), 1e-12) << start;
+    EXPECT_NEAR(at(5), 0.5 * (0 + 7.1), 1e-12) << start;
+    EXPECT_NEAR(at(3), 0.5 * (0 + 5.3), 1e-12) << start;
+    EXPECT_EQ(curve.value.front(), curve.value.back());
+    EXPECT_LE(too_fast(curve), 0.9 + 1e-12) << start;
+  }
+}
+
+// A sense and a rate together are two limits: the rise above 0 and below the most.
+TEST(RiseBarrier, SensesAndRatesLimitTogether) {
+  DenseCurve curve = of({1, 2, 1.5}, {1, -1});
+  curve.length = 2;
+  curve.most_rate = 1.5;  // most rise 3
+  const RiseBarrier barrier(curve, 0.1);
+  EXPECT_EQ(barrier.count(), 4);
+  EXPECT_NEAR(barrier.pull(0).slope, -0.1 / 1 + 0.1 / 2, 1e-14);
+  EXPECT_NEAR(barrier.pull(1).slope, 0.1 / 0.5 - 0.1 / 2.5, 1e-14);
+  EXPECT_NEAR(barrier.pull(1).weight, 0.1 / 0.25 + 0.1 / 6.25, 1e-14);
+  // An arc has none.
+  curve.kind = {PieceKind::arc, PieceKind::curve};
+  EXPECT_EQ(RiseBarrier(curve, 0.1).count(), 2);
+  EXPECT_EQ(RiseBarrier(curve, 0.1).pull(0).weight, 0);
+}
+
+// Of a slope that is no clothoid's the most rise is less: what its fastest rate is over its mean
+// rate. Of slope 1 from 1 to 2 over a half the rate is 1 / (1 - t / 2)^2, 2 at its end and the rise
+// 1: a fastest rate of 4 (over half of the length).
+TEST(RiseBarrier, RatesAreThoseOfThePiecesFastestPlace) {
+  DenseCurve curve = of({1, 2, 2}, {});
+  curve.alpha = {1, -1};
+  curve.most_rate = 10;
+  const double most = 10 * 0.5 * 1 / (4 * 0.5);
+  EXPECT_NEAR(RiseBarrier(curve, 0.1).pull(0).slope, -0.1 / (most + 1) + 0.1 / (most - 1), 1e-13);
+  EXPECT_NEAR(too_fast(curve), 4.0 / 10, 1e-14);
+  std::swap(curve.value[0], curve.value[1]);  // falling: fastest at its start
+  EXPECT_NEAR(too_fast(curve), 4.0 / 10, 1e-14);
+}
+
+// Products of room and multiplier stay within ten thousand times the barrier.
+TEST(RiseBarrier, MultipliersStayNearTheirBarrier) {
+  RiseBarrier barrier(of({1, 2}, {1}), 0.1);
+  barrier.move(of({1, 1 + 1e-6}, {1}), {0});
+  EXPECT_NEAR(barrier.pull(0).weight, 10 / 1e-6, 1);
+  barrier.set_barrier(1e-5);
+  barrier.move(of({1, 2}, {1}), {0});
+  EXPECT_NEAR(barrier.pull(0).weight, 0.1, 1e-9);
 }
 
 }  // namespace

@@ -65,5 +65,46 @@ TEST(FairRun, SeeksTheShortestChainOfARunOnce) {
   EXPECT_GT(reports_of(run, options), 0);
 }
 
+/// A run of so many points and a chain of one arc that turns by so much.
+bool winds_by(double turn, std::size_t points) {
+  detail::Run run;
+  run.points.resize(points);
+  RunResult result;
+  result.fit.joints = {{{}, 0, turn}, {{}, 0, turn}};
+  result.fit.pieces = {{.length = 1, .kind = PieceKind::arc}};
+  return winds(result, run);
+}
+
+// Half a circle from point to point and one more is the most that points can tell.
+TEST(Winds, ByMoreThanHalfACircleFromPointToPoint) {
+  EXPECT_FALSE(winds_by(3.99 * M_PI, 3));
+  EXPECT_TRUE(winds_by(4.01 * M_PI, 3));
+  EXPECT_TRUE(winds_by(-4.01 * M_PI, 3));
+  EXPECT_FALSE(winds_by(4.01 * M_PI, 4));
+}
+
+// Points on a line or an arc are that at sight, unless more is asked of their run.
+TEST(FairRun, LinesAndArcsAreSeenAtOnce) {
+  acquire::KeyLine line;
+  for (int i = 0; i <= 12; ++i)
+    line.points.push_back({10 * std::sin(0.1 * i), 10 - 10 * std::cos(0.1 * i)});
+  RunOptions options;
+  options.tolerance = 1e-3;
+  const detail::Run run = run_between(line, 0, 12);
+  const RunResult solved = fair_run(run, {}, options);
+  EXPECT_TRUE(solved.exact);
+  EXPECT_TRUE(solved.within_tolerance);
+  EXPECT_EQ(solved.straightened, 1);
+  EXPECT_EQ(solved.start_pieces, 1);
+  ASSERT_EQ(solved.chain.pieces.size(), 1U);
+  EXPECT_NEAR(solved.chain.pieces[0].length, 12, 1e-9);
+  EXPECT_NEAR(solved.chain.pieces[0].curvature_start, 0.1, 1e-11);
+  detail::Run tied = run;
+  tied.tie_end = run.points.back() + core::Vector2{5e-4, 0};
+  const RunResult other = fair_run(tied, {}, options);
+  EXPECT_EQ(other.straightened, 0);
+  EXPECT_NEAR(core::distance(lac::end_pose(other.chain).position, *tied.tie_end), 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

@@ -1,5 +1,7 @@
 #include "keyline/fairing/runs.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 /// Key-lines cut at their corners.
@@ -98,6 +100,55 @@ TEST(Runs, BetweenTwoPointsIsThatPart) {
   EXPECT_EQ(run.index, (std::vector<std::size_t>{1, 2, 3, 4}));
   EXPECT_EQ(run.length, 3);
   EXPECT_TRUE(run.must_pass.empty());
+}
+
+// Ends on a border, or beyond it by less than the tolerance, stand on it; of several on all.
+TEST(BoundRuns, EndsOnABorderStayThere) {
+  acquire::KeyLine line = ell();
+  line.corners.clear();
+  line.points.front().y = -0.01;
+  FairOptions options;
+  options.keep_inside = {{Axis::y, 0.0, {}}, {Axis::x, {}, 3.0}};
+  auto runs = runs_of(line, options);
+  ASSERT_TRUE(bound_runs(runs, line, options, 0.02));
+  EXPECT_EQ(runs[0].inside.size(), 2U);
+  ASSERT_TRUE(runs[0].tie_start);
+  EXPECT_NEAR(core::distance(*runs[0].tie_start, {0, 0}), 0, 1e-15);
+  ASSERT_TRUE(runs[0].tie_end);  // (3, 2) stands on x = 3
+  EXPECT_NEAR(core::distance(*runs[0].tie_end, {3, 2}), 0, 1e-15);
+  // Farther out than the tolerance it is refused by name.
+  const auto refused = bound_runs(runs, line, options, 0.009);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().path, "keep_inside");
+  EXPECT_NE(refused.error().message.find("(0, -0.01) lies 0.01 outside"), std::string::npos)
+      << refused.error().message;
+}
+
+TEST(BoundRuns, OnlyOuterEndsThatAreFreeAreTied) {
+  acquire::KeyLine line = ell();  // its corner (3, 0) stands on both borders
+  FairOptions options;
+  options.keep_inside = {{Axis::y, 0.0, {}}};
+  auto runs = runs_of(line, options);
+  ASSERT_TRUE(bound_runs(runs, line, options, 0.01));
+  EXPECT_EQ(runs[1].inside.size(), 1U);
+  EXPECT_TRUE(runs[0].tie_start);
+  EXPECT_FALSE(runs[0].tie_end);
+  EXPECT_FALSE(runs[1].tie_start);
+  EXPECT_FALSE(runs[1].tie_end);  // (3, 2) is inside
+  options.clamp.start = Clamp::g0;
+  runs = runs_of(line, options);
+  ASSERT_TRUE(bound_runs(runs, line, options, 0.01));
+  EXPECT_FALSE(runs[0].tie_start);
+  acquire::KeyLine round = square();
+  auto closed = runs_of(round, options);
+  ASSERT_TRUE(bound_runs(closed, round, options, 0.01));
+  EXPECT_EQ(closed[0].inside.size(), 1U);
+  EXPECT_FALSE(closed[0].tie_start);
+  EXPECT_FALSE(closed[0].tie_end);
+  round.corners = {0, 2};
+  auto parts = runs_of(round, options);
+  ASSERT_TRUE(bound_runs(parts, round, options, 0.01));
+  EXPECT_FALSE(parts[0].tie_start);
 }
 
 }  // namespace
