@@ -1,6 +1,9 @@
 #include "keyline/fairing/calm.h"
 
 #include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -173,6 +176,119 @@ TEST(Calm, StaysCalmForPointsThatPullHarder) {
   EXPECT_TRUE(again.within);
   EXPECT_LE(turns_of(g.curve).size(), static_cast<std::size_t>(calmed.waves.turns));
   EXPECT_LT(beside_end(g), 0.5 * before);
+}
+
+/// Curve and points of curvature k(t) times the length 1, laid out by many small steps.
+Given of_curvature(const std::function<double(double)>& k, int n, bool closed = false) {
+  Given g;
+  constexpr int kFine = 400;
+  double direction = 0.2;
+  core::Point2 at{0, 0};
+  g.curve.closed = closed;
+  for (int i = 0; i <= n; ++i) {
+    const double t = double(i) / n;
+    g.curve.at.push_back(t);
+    g.curve.joints.push_back({at, direction, k(t)});
+    if (!closed || i < n) {
+      g.points.push_back({.position = at});
+      g.curve.feet.push_back(i < n ? Foot{i, 0} : Foot{n - 1, 1});
+    }
+    for (int f = 0; f < kFine && i < n; ++f) {
+      const double h = 1.0 / n / kFine, middle = t + (f + 0.5) * h;
+      direction += 0.5 * h * k(middle);
+      at = at + h * core::unit_vector(direction);
+      direction += 0.5 * h * k(middle);
+    }
+  }
+  if (closed) {
+    g.curve.turning = direction - 0.2;
+    g.curve.joints.back() = g.curve.joints.front();
+    g.curve.joints.back().direction += g.curve.turning;
+  }
+  set_free(g.curve);
+  return g;
+}
+
+// Solved again with the turns it has, curvature is told to run in every cell the way it runs: up to
+// a turn, down behind it, whichever comes first.
+TEST(Calm, SensesAreThoseOfTheCurve) {
+  const std::vector<std::pair<const char*, std::function<double(double)>>> shapes{
+      {"up", [](double t) { return 1 + 2 * t; }},
+      {"down", [](double t) { return 3 - 2 * t; }},
+      {"hill", [](double t) { return 3 - 8 * (t - 0.3) * (t - 0.3); }},
+      {"valley", [](double t) { return 1 + 8 * (t - 0.7) * (t - 0.7); }},
+      {"low hill", [](double t) { return 2 + 0.5 * t - 8 * std::pow(t - 0.05, 2); }},
+      {"two", [](double t) { return 2 + std::sin(2 * M_PI * t); }},
+      {"two down", [](double t) { return 2 - std::sin(2 * M_PI * t); }},
+      {"three", [](double t) { return 2 + std::sin(3 * M_PI * t); }}};
+  for (const auto& [name, k] : shapes) {
+    SCOPED_TRACE(name);
+    Given g = of_curvature(k, 40);
+    const std::vector<int> turns = turns_of(g.curve);
+    CalmOptions options;
+    options.band.tolerance = 1e-4;
+    const BandReport found = calm_again(g.curve, g.points, 0, options);
+    EXPECT_TRUE(found.within);
+    EXPECT_EQ(turns_of(g.curve).size(), turns.size());
+    ASSERT_EQ(g.curve.sense.size(), 40U);
+    int changes = 0;
+    for (std::size_t c = 0; c < 40; ++c) {
+      const double middle = (static_cast<double>(c) + 0.5) / 40, h = 0.5 / 40;
+      const double rise = k(middle + h) - k(middle - h);
+      // Turns may move on by a few cells.
+      if (std::abs(rise) > 0.02) {
+        EXPECT_EQ(g.curve.sense[c], rise > 0 ? 1 : -1) << c;
+      }
+      EXPECT_GT(g.curve.sense[c] * (g.curve.value[c + 1] - g.curve.value[c]), 0) << c;
+      changes += c > 0 && g.curve.sense[c] != g.curve.sense[c - 1];
+    }
+    EXPECT_EQ(changes, static_cast<int>(turns.size()));
+  }
+}
+
+TEST(Calm, SensesOfClosedCurvesGoRound) {
+  const auto k = [](double t) { return 2 * M_PI * (1 + 0.3 * std::sin(4 * M_PI * t + 1)); };
+  Given g = of_curvature(k, 60, true);
+  CalmOptions options;
+  options.band.tolerance = 1e-3;
+  EXPECT_TRUE(calm_again(g.curve, g.points, 0, options).within);
+  for (std::size_t c = 0; c < 60; ++c) {
+    const double rise = k((static_cast<double>(c) + 1) / 60) - k(static_cast<double>(c) / 60);
+    if (std::abs(rise) > 0.03) {
+      EXPECT_EQ(g.curve.sense[c], rise > 0 ? 1 : -1) << c;
+    }
+  }
+  // A circle has no turns, and either way is open.
+  Given circle = of_curvature([](double) { return 2 * M_PI; }, 60, true);
+  calm_again(circle.curve, circle.points, 0, options);
+  for (const signed char sense : circle.curve.sense) EXPECT_EQ(sense, 0);
+}
+
+// The lower of two bumps goes, the higher stays, whichever comes first along the curve.
+TEST(Calm, TheLowerWaveGoesFirst) {
+  for (const bool first : {false, true}) {
+    SCOPED_TRACE(first);
+    Given g;
+    for (int i = 0; i <= 100; ++i) {
+      const double x = i / 100.0;
+      const auto bump = [&](double at, double height) {
+        return height * std::exp(-std::pow((x - at) / 0.06, 2));
+      };
+      const double low = bump(first ? 0.25 : 0.75, 2e-4), high = bump(first ? 0.75 : 0.25, 8e-3);
+      g.points.push_back({.position = {x, 0.3 * x * x + low + high}});
+    }
+    g.curve = dense_curve(g.points, false, 100);
+    CalmOptions options;
+    options.band.tolerance = 5e-4;
+    options.worth = 2;
+    const Calmed calmed = calm(g.curve, g.points, options);
+    EXPECT_TRUE(calmed.band.within);
+    EXPECT_GE(calmed.waves.turns, 2);
+    for (const int node : turns_of(g.curve)) {
+      const double at = g.curve.at[static_cast<std::size_t>(node)];
+      EXPECT_GT(std::abs(at - (first ? 0.25 : 0.75)), 0.1) << at;
+    }
+  }
 }
 
 }  // namespace

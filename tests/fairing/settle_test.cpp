@@ -197,5 +197,54 @@ TEST(LayOut, HeldEndsAreMet) {
   }
 }
 
+// Beside a line no line: one of two straight pieces stays a curve.
+TEST(Straighten, NothingStraightBesideALine) {
+  std::vector<FitPoint> points;
+  FitChain chain = from({{{0, 0}, 0.1}, {{-1, 0.5, 0, 0}, {-1, 0.5, 0, 0}}, false}, 20, points);
+  chain.joints[1].curvature = 1e-5;
+  EXPECT_EQ(straighten(chain, points, {.tolerance = 1e-3, .noise = 1e-4}), 1);
+  EXPECT_EQ(chain.pieces[0].kind, PieceKind::line);
+  EXPECT_EQ(chain.pieces[1].kind, PieceKind::curve);
+}
+
+// A circle in four pieces, a little off: laid out it comes back to its start, a turn on, with one
+// curvature at the seam.
+TEST(LayOut, ClosedChainsMeet) {
+  FitChain chain;
+  chain.closed = true;
+  chain.turning = 2 * kPi;
+  for (int i = 0; i <= 4; ++i) {
+    const double t = kPi / 2 * i;
+    chain.joints.push_back({{std::cos(t), std::sin(t)}, t + kPi / 2, 1 + 1e-3 * (i % 4)});
+    if (i < 4) chain.pieces.push_back({.length = kPi / 2 * (1 + 1e-3 * i)});
+  }
+  chain.joints[4].curvature = 1.0004;
+  const lac::Chain laid = lay_out(chain, {}, false);
+  EXPECT_TRUE(laid.closed);
+  const core::Pose2 end = lac::end_pose(laid);
+  EXPECT_NEAR(core::distance(end.position, laid.start.position), 0, 1e-13);
+  EXPECT_NEAR(end.direction - laid.start.direction, 2 * kPi, 1e-12);
+  EXPECT_EQ(laid.pieces.back().curvature_end, laid.pieces.front().curvature_start);
+}
+
+// The start gives way where it is not held, the end where nothing but its place is.
+TEST(LayOut, WhatIsNotHeldGivesWay) {
+  std::vector<FitPoint> points;
+  FitChain chain = from({{{0, 0}, 0.1}, {{-1, 0.5, 0.5, 2}, {-1, 0.5, 2, 4}}, false}, 2, points);
+  chain.joints.back().position.x += 1e-4;
+  chain.hold_end = Hold::curvature;
+  for (const Hold start : {Hold::position, Hold::direction, Hold::curvature}) {
+    chain.hold_start = start;
+    const lac::Chain laid = lay_out(chain, {}, false);
+    EXPECT_EQ(laid.start.direction == 0.1, start >= Hold::direction);
+    EXPECT_EQ(laid.pieces[0].curvature_start == 0.5, start >= Hold::curvature);
+    EXPECT_EQ(laid.pieces[1].curvature_end, 4);
+    EXPECT_NEAR(core::distance(lac::end_pose(laid).position, chain.joints.back().position), 0,
+                1e-13);
+  }
+  chain.hold_end = Hold::free;
+  EXPECT_EQ(lay_out(chain, {}, false).pieces[1].length, 0.5);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

@@ -97,5 +97,32 @@ TEST(Stretches, ArcsThatStepInCurvatureAreFairedWithoutNeedles) {
   for (const FairPiece& piece : result->pieces) EXPECT_GT(piece.length, 0.02 * 2.2);
 }
 
+// In the points' own unit, however large.
+TEST(Stretches, OnePieceIsFoundInAnyUnit) {
+  auto points = as_fit_points(along_arcs({{2, 1}}, 200));
+  for (FitPoint& p : points) p.position = {30 * p.position.x, 30 * p.position.y};
+  const auto chain = detail::one_exact_piece(points, false, 30 * kExact);
+  ASSERT_TRUE(chain);
+  EXPECT_NEAR(chain->pieces[0].length, 30, 1e-3);
+  EXPECT_NEAR(chain->joints[0].curvature, 2 / 30.0, 1e-6);
+  EXPECT_NEAR(core::distance(chain->joints[0].position, points.front().position), 0, 1e-4);
+  EXPECT_NEAR(core::distance(chain->joints[1].position, points.back().position), 0, 1e-4);
+}
+
+// A step of a twentieth of the larger curvature may be the fit's error; ovals of four arcs have
+// steps, here at points, circles none.
+TEST(Stretches, SmallStepsMayBeErrorsAndOvalsHaveSteps) {
+  EXPECT_TRUE(
+      detail::may_be_exact(as_fit_points(along_arcs({{1, 1}, {1.03, 1}}, 400)), false, kExact));
+  const double pi = core::kPi;
+  auto oval = as_fit_points(
+      along_arcs({{1, pi / 4}, {2, pi / 4}, {1, pi / 2}, {2, pi / 4}, {1, pi / 4}}, 409));
+  oval.pop_back();
+  EXPECT_FALSE(detail::may_be_exact(oval, true, kExact));
+  auto circle = as_fit_points(along_arcs({{2 * pi, 1}}, 401));
+  circle.pop_back();
+  EXPECT_TRUE(detail::may_be_exact(circle, true, kExact));
+}
+
 }  // namespace
 }  // namespace keyline::fairing

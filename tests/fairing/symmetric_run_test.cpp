@@ -100,5 +100,84 @@ TEST(MirrorWithinNoise, NoPointIsFartherOffThanTwiceTheTolerance) {
   EXPECT_FALSE(mirror_within_noise(line, off / 2.1));
 }
 
+TEST(AgainstSymmetry, NamesWhatBreaksIt) {
+  const auto against = [](auto set) {
+    FairOptions options;
+    set(options);
+    return against_symmetry(options);
+  };
+  EXPECT_EQ(against([](auto&) {}), "");
+  EXPECT_EQ(against([](auto& o) { o.region = core::Interval{0, 0.5}; }), "a region");
+  EXPECT_EQ(against([](auto& o) { o.clamp.start = Clamp::g0; }), "clamps");
+  EXPECT_EQ(against([](auto& o) { o.clamp.end = Clamp::g0; }), "clamps");
+  EXPECT_EQ(against([](auto& o) { o.interpretations.resize(1); }), "readings asked for");
+  EXPECT_EQ(against([](auto& o) { o.must_pass = {0}; }), "points to be passed");
+  EXPECT_EQ(against([](auto& o) { o.pieces = 1; }), "the shortest chain");
+  EXPECT_EQ(against([](auto& o) { o.criterion = Criterion::fewest_pieces; }), "the shortest chain");
+}
+
+/// A chain along x and a run of one point beside it.
+struct Beside {
+  RunResult result;
+  Run run;
+  explicit Beside(double off) {
+    result.chain = {{{0, 0}, 0}, {{-1, 2, 0.1, 0.4}, {-1, 2, 0.4, 0.1}}, false};
+    const core::Pose2 at = lac::end_pose(lac::segments(result.chain)[0]);
+    run.points = {at.position + off * core::perpendicular_left(core::unit_vector(at.direction))};
+    result.fit.feet = {{1, 0}};
+    result.point_of = {0};
+  }
+};
+
+TEST(SolvedRuns, OffsetsAreTheLargestAndWavesTheSum) {
+  const Beside one(0.02), two(-0.05), three(0.03);
+  EXPECT_NEAR(largest_of({one.result, two.result, three.result}, {one.run, two.run, three.run}),
+              0.05, 1e-9);
+  EXPECT_EQ(waves_of({one.result, two.result, three.result}), 3);
+  EXPECT_EQ(waves_of({}), 0);
+}
+
+// Points and their images err independently, so that their distances are root two of the noise; of
+// 200 points by three standard errors more, 3 / sqrt(200).
+TEST(MirrorWithinNoise, IsWhatTwoErrorsExplain) {
+  acquire::KeyLine line;
+  line.length = 2;
+  for (int i = 0; i < 200; ++i) {
+    const double x = (i - 99.5) / 100;
+    line.points.push_back({x, x * x + (i < 100 ? 1 : -1) * 0.001 * std::sin(7.0 * i)});
+  }
+  line.noise = 1;
+  const double rms = mirror_within_noise(line, 1)->rms;
+  ASSERT_GT(rms, 3e-4);
+  const double most = rms / (std::numbers::sqrt2 * (1 + 3 / std::sqrt(200.0)));
+  line.noise = 1.01 * most;
+  EXPECT_TRUE(mirror_within_noise(line, 1));
+  line.noise = 0.99 * most;
+  EXPECT_FALSE(mirror_within_noise(line, 1));
+  // However exact: 1e-5 of the length is what interpolating points is off by.
+  line.noise = 0;
+  line.length = 1.01 * rms / 1e-5;
+  EXPECT_TRUE(mirror_within_noise(line, 1));
+  line.length = 0.99 * rms / 1e-5;
+  EXPECT_FALSE(mirror_within_noise(line, 1));
+}
+
+// Of 4,000 points a thousand means are looked at, which err half as much.
+TEST(MirrorWithinNoise, MeansErrLess) {
+  acquire::KeyLine line;
+  line.length = 2;
+  for (int i = 0; i < 4000; ++i) {
+    const double x = (i - 1999.5) / 2000;
+    line.points.push_back({x, x * x + 1e-3 * std::sin(40 * x)});
+  }
+  line.noise = 1;
+  const double rms = mirror_within_noise(line, 1)->rms;
+  const double most = rms / (std::numbers::sqrt2 * (1 + 3 / std::sqrt(1000.0)) * 0.5);
+  line.noise = 1.01 * most;
+  EXPECT_TRUE(mirror_within_noise(line, 1));
+  line.noise = 0.99 * most;
+  EXPECT_FALSE(mirror_within_noise(line, 1));
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

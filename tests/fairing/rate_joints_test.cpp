@@ -1,0 +1,177 @@
+#include "keyline/fairing/rate_joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "keyline/lac/chain/chain.h"
+
+/// Joints of one rate, of small chains whose rates are known.
+namespace keyline::fairing::detail {
+namespace {
+
+/// Points on a chain laid out from these pieces.
+struct Given {
+  FitChain chain;
+  std::vector<FitPoint> points;
+  explicit Given(const std::vector<lac::Piece>& pieces) {
+    const lac::Chain truth{{{0, 0}, 0.2}, pieces, false};
+    const auto segments = lac::segments(truth);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const lac::Segment& s = segments[i];
+      chain.joints.push_back({s.start.position, s.start.direction, s.curvature_start});
+      chain.pieces.push_back({.length = s.length, .alpha = s.alpha});
+      for (int k = i == 0 ? 0 : 1; k <= 8; ++k) {
+        points.push_back({.position = lac::evaluate(s, k / 8.0)});
+        chain.feet.push_back({static_cast<int>(i), k / 8.0});
+      }
+    }
+    const core::Pose2 end = lac::end_pose(truth);
+    chain.joints.push_back({end.position, end.direction, pieces.back().curvature_end});
+    chain.first_at_start = chain.last_at_end = true;
+  }
+  RateReport join(double tolerance) {
+    RateOptions options;
+    options.tolerance = tolerance;
+    return join_rates(chain, points, options);
+  }
+};
+
+/// Logarithm of the rate's jump before a piece.
+double jump_before(const FitChain& chain, int piece) {
+  const auto of = [&](int p) {
+    return lac::Piece{chain.pieces[p].alpha, chain.pieces[p].length, chain.joints[p].curvature,
+                      chain.joints[p + 1].curvature};
+  };
+  return std::log(
+      std::abs(lac::curvature_rate(of(piece - 1), 1) / lac::curvature_rate(of(piece), 0)));
+}
+
+/// Of joints that are of one rate.
+int joined(const FitChain& chain) {
+  int count = 0;
+  for (int p = 1; p < static_cast<int>(chain.pieces.size()); ++p)
+    count += std::abs(jump_before(chain, p)) < 1e-6;
+  return count;
+}
+
+double farthest(const FitChain& chain, const std::vector<FitPoint>& points) {
+  double most = 0;
+  for (const double offset : offsets(chain, points)) most = std::max(most, std::abs(offset));
+  return most;
+}
+
+TEST(JoinRates, ArcsHaveNoneAndOnePieceHasNoJoint) {
+  Given arc({{-1, 0.5, 1, 2}, {-1, 0.5, 2, 2}});
+  arc.chain.pieces[1].kind = PieceKind::arc;
+  const RateReport none = arc.join(1e-3);
+  EXPECT_FALSE(none.within);
+  EXPECT_EQ(none.joints, 0);
+  Given one({{-1, 1, 1, 2}});
+  const RateReport single = one.join(1e-3);
+  EXPECT_TRUE(single.within);
+  EXPECT_EQ(single.missed, 0);
+  EXPECT_TRUE(single.stay.empty());
+}
+
+// Parts of one piece are of one rate already.
+TEST(JoinRates, PartsOfOnePieceAreJoined) {
+  const lac::Piece whole{-0.5, 1, 1, 3};
+  const double k = lac::curvature(whole, 0.4);
+  Given g({{-0.5, 0.4, 1, k}, {-0.5, 0.6, k, 3}});
+  const RateReport report = g.join(1e-3);
+  EXPECT_TRUE(report.within);
+  EXPECT_EQ(report.joints, 1);
+  EXPECT_EQ(report.missed, 0);
+  EXPECT_TRUE(report.stay.empty());
+  EXPECT_EQ(joined(g.chain), 1);
+  EXPECT_LE(farthest(g.chain, g.points), 1e-3);
+}
+
+// A rate that grows by a twentieth at a joint becomes one; feet are where they were.
+TEST(JoinRates, AJumpGoesWhileThePointsStayNear) {
+  Given g({{-1, 0.5, 1, 2}, {-1, 0.5, 2, 3.05}});
+  const RateReport report = g.join(2e-3);
+  EXPECT_TRUE(report.within);
+  EXPECT_EQ(report.joints, static_cast<int>(g.chain.pieces.size()) - 1);
+  EXPECT_EQ(report.missed, 0);
+  EXPECT_EQ(joined(g.chain), report.joints);
+  EXPECT_LE(farthest(g.chain, g.points), 2e-3);
+  double before = -1;
+  std::vector<double> starts{0};
+  for (const FitPiece& piece : g.chain.pieces) starts.push_back(starts.back() + piece.length);
+  for (std::size_t j = 0; j < g.points.size(); ++j) {
+    const Foot& foot = g.chain.feet[j];
+    const double along = starts[static_cast<std::size_t>(foot.piece)] +
+                         foot.fraction * g.chain.pieces[foot.piece].length;
+    EXPECT_GT(along, before);
+    EXPECT_NEAR(along, static_cast<double>(j) / 16, 0.01);
+    before = along;
+  }
+}
+
+// Within a tolerance that leaves no room pieces are parted beside the jump: with more of them it
+// can be one.
+TEST(JoinRates, PiecesBesideAJumpArePartedWhereThatHelps) {
+  Given g({{-1, 0.5, 1, 1.5}, {-1, 0.5, 1.5, 6}});
+  const RateReport report = g.join(3e-4);
+  EXPECT_EQ(report.joints >= 1, true);
+  EXPECT_EQ(joined(g.chain), report.joints - report.missed);
+  EXPECT_EQ(static_cast<int>(report.stay.size()), report.missed);
+  if (report.within) {
+    EXPECT_LE(farthest(g.chain, g.points), 3e-4);
+  }
+}
+
+/// Four parts of one piece, whose points err a little.
+Given parts() {
+  const lac::Piece whole{-0.5, 1, 1, 3};
+  const auto k = [&](double t) { return lac::curvature(whole, t); };
+  Given g({{-0.5, 0.25, 1, k(0.25)},
+           {-0.5, 0.25, k(0.25), k(0.5)},
+           {-0.5, 0.25, k(0.5), k(0.75)},
+           {-0.5, 0.25, k(0.75), 3}});
+  for (std::size_t j = 0; j < g.points.size(); ++j)
+    g.points[j].position.y += 2e-4 * std::sin(7.0 * static_cast<double>(j));
+  return g;
+}
+
+// Where no two may be held, by a rule of the test's own, all but one give way, each of them once.
+TEST(JoinRates, TiesGiveWayOneByOne) {
+  Given g = parts();
+  RateOptions options;
+  options.tolerance = 5e-3;
+  options.loses = [](const FitChain& chain) {
+    return joined(chain) > 1 ? std::optional(RateLoss::waves) : std::nullopt;
+  };
+  const RateReport report = join_rates(g.chain, g.points, options);
+  EXPECT_TRUE(report.within);
+  ASSERT_EQ(report.joints, 3);
+  EXPECT_EQ(report.missed, 2);
+  EXPECT_EQ(joined(g.chain), 1);
+  ASSERT_EQ(report.stay.size(), 2U);
+  EXPECT_NE(report.stay[0].piece, report.stay[1].piece);
+  for (const RateReport::Stay& stay : report.stay) {
+    EXPECT_EQ(stay.loss, RateLoss::waves);
+    EXPECT_GT(std::abs(jump_before(g.chain, stay.piece)), 1e-6);
+  }
+}
+
+// Where none may be, none is, and why is told of each.
+TEST(JoinRates, WhereNothingMayBeHeldNothingIs) {
+  Given g = parts();
+  RateOptions options;
+  options.tolerance = 5e-3;
+  options.loses = [](const FitChain&) { return std::optional(RateLoss::bounds); };
+  const RateReport report = join_rates(g.chain, g.points, options);
+  EXPECT_FALSE(report.within);
+  EXPECT_EQ(report.missed, report.joints);
+  ASSERT_EQ(report.stay.size(), 3U);
+  for (const RateReport::Stay& stay : report.stay) EXPECT_EQ(stay.loss, RateLoss::bounds);
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail
