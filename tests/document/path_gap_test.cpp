@@ -12,6 +12,12 @@ PlanarCurve line(core::Point2 from, core::Point2 to) { return {curve::Bezier2{{f
 TEST(PathGap, IsFoundWhereACurveDoesNotBeginWhereTheOneBeforeEnds) {
   const Path whole{{line({0, 0}, {100, 0}), line({100, 1e-4}, {100, 50})}, false};
   EXPECT_FALSE(first_gap(whole));  // a millionth of its size
+  // 1e-5 of how far it reaches, the diagonal of 125
+  const auto torn = [](double gap) {
+    return first_gap(Path{{line({0, 0}, {100, 0}), line({100 + gap, 0}, {100, 75})}, false});
+  };
+  EXPECT_FALSE(torn(1.2e-3));
+  EXPECT_TRUE(torn(1.3e-3));
   const Path parted{{line({0, 0}, {100, 0}), line({100, 0}, {100, 50}), line({100, 53}, {0, 0})},
                     false};
   ASSERT_TRUE(first_gap(parted));

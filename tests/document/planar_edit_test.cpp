@@ -20,6 +20,22 @@ TEST(PartOverSeam, OfACircleIsAnArcOfOneChain) {
     const double angle = 2 * std::numbers::pi * turn;
     EXPECT_LT(distance(evaluate(part, t), {2 * std::sin(angle), -2 * std::cos(angle)}), 1e-13);
   }
+  const Path beginning = part_over_seam({{{circle}}, true}, 1, 0.25);
+  ASSERT_EQ(beginning.curves.size(), 1U);
+  EXPECT_NEAR(lac::arc_length(std::get<lac::Chain>(beginning.curves[0].value)), half / 2, 1e-14);
+}
+
+// A drop: three quarters of a circle round, its straight sides meet at right angles at the seam.
+TEST(PartOverSeam, LeavesACornerAtTheSeam) {
+  const double turn = 1.5 * std::numbers::pi;
+  const lac::Chain drop{
+      {{0, 0}, -std::numbers::pi / 4}, {{-1, 1, 0, 0}, {-1, turn, 1, 1}, {-1, 1, 0, 0}}, true};
+  const Path closed{{{drop}}, true};
+  ASSERT_LT(distance(evaluate(closed, 0), evaluate(closed, 1)), 1e-15);
+  const Path part = part_over_seam(closed, 0.9, 0.1);
+  ASSERT_EQ(part.curves.size(), 2U);
+  EXPECT_LT(distance(evaluate(part.curves[0], 1), {0, 0}), 1e-15);
+  EXPECT_LT(distance(evaluate(part.curves[1], 0), {0, 0}), 1e-15);
 }
 
 TEST(PartOverSeam, KeepsTheMembersOfAPath) {
@@ -38,6 +54,10 @@ TEST(PartOverSeam, KeepsTheMembersOfAPath) {
   ASSERT_EQ(line.curves.size(), 1U);
   EXPECT_EQ(std::get<curve::Polyline2>(line.curves[0].value).points,
             (std::vector<core::Point2>{{0, 0.5}, {0, 0}, {0.5, 0}}));
+  const Path halves{
+      {{curve::Polyline2{{{0, 0}, {1, 0}, {1, 1}}}}, {curve::Polyline2{{{1, 1}, {0, 1}, {0, 0}}}}},
+      true};
+  EXPECT_EQ(part_over_seam(halves, 0.75, 0.25).curves.size(), 2U);
 }
 
 }  // namespace

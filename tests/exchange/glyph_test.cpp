@@ -148,6 +148,32 @@ TEST(Glif, TheGridIsKeptAndItsDeviationMeasured) {
     }
 }
 
+// The space has none; two of the same font are a collection (ISO 14496-22, 4.6.3).
+TEST(Font, TellsWhatIsNotRead) {
+  std::ifstream in(KEYLINE_SOURCE_DIR "/fuzz/seeds/font_reader_fuzz/plain.ttf", std::ios::binary);
+  std::string font{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto alone = read_font(font, "S");
+  ASSERT_TRUE(alone) << alone.error().message;
+  EXPECT_TRUE(alone->skipped.empty());
+  EXPECT_THAT(read_font(font, "S ").value().skipped,
+              testing::ElementsAre("the glyph \" \": it has no outline"));
+  constexpr unsigned char kHead = 20;
+  for (int table = 0; table < font[5]; ++table) {  // their offsets count from the file's start
+    unsigned carry = kHead;
+    for (std::size_t at = 12 + 16 * static_cast<std::size_t>(table) + 11; carry > 0; --at) {
+      carry += static_cast<unsigned char>(font[at]);
+      font[at] = static_cast<char>(carry & 255);
+      carry >>= 8;
+    }
+  }
+  const std::string head{'t', 't', 'c', 'f', 0, 1,     0, 0, 0, 0,
+                         0,   2,   0,   0,   0, kHead, 0, 0, 0, kHead};
+  const auto collection = read_font(head + font, "S");
+  ASSERT_TRUE(collection) << collection.error().message;
+  EXPECT_THAT(collection->skipped, testing::ElementsAre("1 further font of the collection"));
+  EXPECT_EQ(collection->paths.size(), alone->paths.size());
+}
+
 // Table "post" of format 3, as in most fonts of the web: characters and code points are still read.
 TEST(Font, MayNotNameItsGlyphs) {
   std::ifstream in(KEYLINE_SOURCE_DIR "/fuzz/seeds/font_reader_fuzz/composite.ttf",

@@ -76,6 +76,9 @@ TEST(HullCsv, NumbersMayStandBehindNames) {
   EXPECT_EQ(table->half_breadth, (std::vector<double>{0, 0.1, 0.2, 0.6, 0.4, 0.9}));
   ASSERT_EQ(table->left_out.size(), 1U);
   EXPECT_THAT(table->left_out[0], testing::HasSubstr("\"WL 0\" and its like"));
+  const auto below = read_hull_csv("station,WL -0.5,WL .5\n0,0.1,0.2\n1,0.3,0.4\n");
+  ASSERT_TRUE(below) << below.error().message;
+  EXPECT_EQ(below->waterlines, (std::vector<double>{-0.5, 0.5}));
   EXPECT_TRUE(is_hull_csv("WL;Station 0;Station 2\n1;0;1\n"));
   EXPECT_FALSE(is_hull_csv("station,speed 1,speed 2\n0,1,2\n"));
   EXPECT_FALSE(is_hull_csv("station,st 1,st 2\n0,1,2\n"));

@@ -173,6 +173,12 @@ TEST(ReadPoints, ANumberBeforeTheRowsIsATitleUnlessItCountsThem) {
   ASSERT_TRUE(counted);
   EXPECT_EQ(counted->front().id, "");
   EXPECT_EQ(counted->front().points.size(), 5U);
+  for (const char* count : {"5", "7", "8"}) {  // of the first, of both, of the row between them too
+    const auto both = parse(std::string(count) + "\n" + rows + "999 999\n0.2 0.4\n0.8 0.4\n");
+    ASSERT_TRUE(both);
+    ASSERT_EQ(both->size(), 2U);
+    EXPECT_EQ(both->front().id, "") << count;
+  }
 }
 
 // Lines as people leave them in files of points; what is data there was counted by hand.

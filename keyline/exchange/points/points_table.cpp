@@ -1,6 +1,7 @@
 #include "keyline/exchange/points/points_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -271,10 +272,14 @@ void PointsTable::add(Row row, int number) {
   if (columns_.weight != PointsColumns::kNone) curve.weights.push_back(row.weight);
 }
 
-/// Of a title that is a number: whether it counts the rows behind it.
+/// Of a title that is a number: whether it counts the rows behind it, the points among them or
+/// those of the first curve.
 bool PointsTable::title_counts(double number) const {
-  return number == static_cast<double>(rows_) ||
-         number == static_cast<double>(curves_.front().source_lines.size());
+  std::size_t points = 0;
+  for (const auto& curve : curves_) points += curve.source_lines.size();
+  const std::array counts = {rows_, points, curves_.front().source_lines.size()};
+  return std::ranges::any_of(
+      counts, [&](std::size_t count) { return number == static_cast<double>(count); });
 }
 
 /// A curve takes the title of its file, if that does not count its points; of several, those
