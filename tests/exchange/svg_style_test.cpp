@@ -37,6 +37,7 @@ TEST(CssColor, OfEveryNotation) {
            {"HSL(0.25turn,100%,50%)", "#80ff00"},
            {"hsl(100grad 30% 60%)", "#99b87a"},
            {"hsl(2rad 80% 45%)", "#27cf17"},
+           {"hsl(-120, 100%, 50%)", "#0000ff"},
            {"hsl(20, 30%)", ""},
            {"RebeccaPurple", "#663399"},
            {"mediumaquamarine", "#66cdaa"},
@@ -151,6 +152,10 @@ TEST(SvgStyles, AreToldWhereTheyAreLetPass) {
   for (const char* part : {"1 rule of its style sheets", "g \"a\": is not clipped",
                            "the paint \"lab(1 2 3)\" is no plain colour"})
     EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
+  const auto once = read_svg(
+      "<svg xmlns='http://www.w3.org/2000/svg'><path stroke='lab(1 2 3)' d='M0 0L1 1'/></svg>");
+  ASSERT_TRUE(once);
+  EXPECT_EQ(once->skipped.size(), 1U);
 }
 
 TEST(SvgPaint, AnOutlineHasTheColourOfItsStrokeElseOfItsFill) {
