@@ -12,4 +12,9 @@ struct InkMeasure {
 
 InkMeasure measure_ink(const Binary& ink);
 
+/// True for what is too broad in a picture of that size to be a line: an area.
+constexpr bool is_broad(double line, int width, int height) {
+  return line > 0.06 * (width > height ? width : height);
+}
+
 }  // namespace keyline::sketch

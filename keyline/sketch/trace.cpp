@@ -14,7 +14,9 @@
 #include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
 #include "keyline/sketch/find_ink.h"
+#include "keyline/sketch/ink_measure.h"
 #include "keyline/sketch/join_strokes.h"
+#include "keyline/sketch/light_lines.h"
 #include "keyline/sketch/meet_lines.h"
 #include "keyline/sketch/merge_strokes.h"
 #include "keyline/sketch/morphology.h"
@@ -227,13 +229,23 @@ void tell_ground(const Tone& tone, bool on_black, TraceResult& result) {
   if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
 }
 
+/// What was made of light parts among dark ones is told, from a hundredth of all on.
+void tell_light(const LightShare& light, TraceResult& result) {
+  const auto tell = [&](double share, const std::string& what) {
+    if (share >= 0.01)
+      result.notes.push_back(std::to_string(std::lround(100 * share)) +
+                             " % of what is drawn on the transparent ground is " + what);
+  };
+  tell(light.lines, "light lines: traced like dark ones (polarity dark leaves them out)");
+  tell(light.rest, "light areas or rims of dark lines: left out, as paper");
+}
+
 /// A picture of which much is dark, or ink in broad areas, may be no drawing.
 void warn_of_photograph(const Tone& tone, const Binary& ink, double width, TraceResult& result) {
   const auto dark = static_cast<double>(count_ink(ink.data.data(), ink.data.size()));
   const double share = dark / static_cast<double>(ink.data.size());
-  const bool broad = width > 0.06 * std::max(ink.width, ink.height);
   const double most = std::max(share, tone.shaded);
-  if (most > (broad ? 0.15 : 0.25))
+  if (most > (is_broad(width, ink.width, ink.height) ? 0.15 : 0.25))
     result.notes.push_back("warning: " + std::to_string(std::lround(100 * most)) +
                            " % of the picture is dark; is it a drawing?");
 }
@@ -274,6 +286,9 @@ void reduce(FineStroke& line, double unit) {
   for (double& w : line.widths) w /= unit;
 }
 
+/// A picture of grey levels on one ground.
+core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options);
+
 /// A picture whose pixels were repeated is traced at its own size: the steps are not its lines'.
 core::Result<TraceResult> trace_enlarged(const Image& image, const OwnSize& size,
                                          const TraceOptions& options) {
@@ -285,7 +300,7 @@ core::Result<TraceResult> trace_enlarged(const Image& image, const OwnSize& size
     own.curve.tolerance = std::max(own.curve.tolerance / times, StrokeCurveOptions{}.tolerance);
   if (own.sheet)
     for (Point2& p : *own.sheet) p = {p.x / times, p.y / times};
-  auto result = trace(reduced(image, size), own);
+  auto result = trace_grey(reduced(image, size), own);
   if (!result) return result;
   if (result->sheet)
     enlarge(*result, static_cast<int>(std::lround(times * result->width)),
@@ -297,9 +312,7 @@ core::Result<TraceResult> trace_enlarged(const Image& image, const OwnSize& size
   return result;
 }
 
-}  // namespace
-
-core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
+core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   if (const OwnSize size = own_size(image); size.width < image.width())
     return trace_enlarged(image, size, options);
   TraceResult result;
@@ -340,6 +353,15 @@ core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
     tell_explained("ink", result);
   }
   turn_up(result);
+  return result;
+}
+
+}  // namespace
+
+core::Result<TraceResult> trace(Image image, const TraceOptions& options) {
+  const LightShare light = darken_light_lines(image, options.tone.polarity);
+  auto result = trace_grey(std::move(image), options);
+  if (result) tell_light(light, *result);
   return result;
 }
 

@@ -135,8 +135,8 @@ TEST(ImageReader, LaysTransparencyOverWhite) {
   for (int x = 0; x < 4; ++x) EXPECT_NEAR(image->luminance.at(x, 0), 65535 - 65535.0 * x / 3, 300);
 }
 
-// White on nothing is lost on white; a black pixel more, or less than half of nothing, and it is
-// not what is drawn there that is light.
+// White on nothing is lost on white; a black pixel more, and both grounds are needed; less than
+// half of nothing, and it is not what is drawn there that is light.
 TEST(ImageReader, LaysLightLinesOnNothingOverBlack) {
   const auto picture = [](const std::vector<std::array<unsigned char, 2>>& pixels) {
     std::vector<unsigned char> bytes;  // of grey and opacity
@@ -150,11 +150,16 @@ TEST(ImageReader, LaysLightLinesOnNothingOverBlack) {
   EXPECT_TRUE(light.on_black);
   EXPECT_EQ(light.luminance.data, (std::vector<std::uint16_t>{0, 13107, 65535, 0, 0}));
   for (const auto& other :
-       {picture({{0, 0}, {255, 255}, {0, 255}, {0, 0}, {0, 0}}),
+       {picture({{0, 0}, {0, 255}, {0, 0}, {0, 0}}),
         picture({{0, 0}, {255, 255}, {255, 255}, {200, 255}, {0, 0}}), picture({{0, 0}, {0, 0}})}) {
     EXPECT_FALSE(other.on_black);
     EXPECT_EQ(other.luminance.data.front(), 65535);
+    EXPECT_TRUE(other.over_black.data.empty());
   }
+  const auto both = picture({{0, 0}, {255, 255}, {0, 255}, {0, 0}, {255, 51}});
+  EXPECT_FALSE(both.on_black);
+  EXPECT_EQ(both.luminance.data, (std::vector<std::uint16_t>{65535, 65535, 0, 65535, 65535}));
+  EXPECT_EQ(both.over_black.data, (std::vector<std::uint16_t>{0, 65535, 0, 0, 13107}));
   const auto deep = read_image(
       deep_tiff({0, 0, 0, 0, 65535, 65535, 65535, 65535, 0, 0, 0, 0}, 4, PHOTOMETRIC_RGB));
   ASSERT_TRUE(deep);

@@ -56,20 +56,24 @@ constexpr std::uint16_t kMidGrey = 32768;
 
 bool is_dark(std::uint16_t level) { return level < kMidGrey; }
 
-/// A picture by a reader that lays what is transparent over white; over black if nothing is dark on
-/// white, and on black most but not all is: then that is the ground, and the lines are light.
+/// A picture by a reader that lays what is transparent over white. If on black most but not all of
+/// it is dark, light is drawn on that ground: it is laid over black if nothing is dark on white,
+/// else both ways.
 template <class Read>
 Result<Image> read_on_ground(const Read& read, std::string_view bytes) {
   auto image = read(bytes, detail::Ground::white);
   if (!image || !image->transparent) return image;
-  if (std::ranges::any_of(image->luminance.data, is_dark)) return image;
-  image->luminance = {};
-  image = read(bytes, detail::Ground::black);
-  if (!image) return image;
-  const std::size_t all = image->luminance.data.size();
-  const auto dark = static_cast<std::size_t>(std::ranges::count_if(image->luminance.data, is_dark));
-  image->on_black = 2 * dark > all && dark < all;
-  return image->on_black ? image : read(bytes, detail::Ground::white);
+  auto black = read(bytes, detail::Ground::black);
+  if (!black) return black;
+  const std::size_t all = black->luminance.data.size();
+  const auto dark = static_cast<std::size_t>(std::ranges::count_if(black->luminance.data, is_dark));
+  if (2 * dark <= all || dark == all) return image;
+  if (std::ranges::any_of(image->luminance.data, is_dark)) {
+    image->over_black = std::move(black->luminance);
+    return image;
+  }
+  black->on_black = true;
+  return black;
 }
 
 }  // namespace

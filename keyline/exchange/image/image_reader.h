@@ -18,10 +18,10 @@ bool has_image_name(const std::filesystem::path& path);
 
 /// Decodes a PNG, JPEG, TIFF or WebP picture of 1 to 16 bits a channel, grey or colour (weighted
 /// 0.299, 0.587, 0.114), transparency laid over white, turned upright by its EXIF orientation.
-/// Where nothing of it is darker than mid grey and most of it is transparent it is laid over black,
-/// for light lines are lost on white (on_black).
+/// Where most of it is transparent and some of it lighter than mid grey it is laid over black, for
+/// light lines are lost on white (on_black); over both if some of it is darker, too (over_black).
 ///
-/// Memory: 2 bytes per pixel for the answer and at most 4 more while decoding.
+/// Memory: 2 bytes per pixel for the answer (4 over both) and at most 4 more while decoding.
 /// Fails:  bad_input for other or damaged files, and where the header states more than 64
 ///         megapixels (sketch::kMaxPixels) or more than the file can hold: before anything of that
 ///         size is allocated.
