@@ -75,13 +75,16 @@ GroupWishes wishes_among(const GroupWishes& wishes, const std::vector<std::size_
   const auto placed = [&some](const std::vector<std::size_t>& numbers) {
     std::vector<std::size_t> places;
     for (const std::size_t n : numbers)
-      if (const auto at = std::ranges::find(some, n); at != some.end())
-        places.push_back(static_cast<std::size_t>(at - some.begin()));
+      for (std::size_t k = 0; k < some.size(); ++k)
+        if (some[k] == n) places.push_back(k);
     return places;
   };
   GroupWishes among{placed(wishes.keep), {}, {}};
   for (const auto& set : wishes.join) among.join.push_back(placed(set));
-  for (const auto& set : wishes.split) among.split.push_back(placed(set));
+  for (const auto& set : wishes.split)
+    for (const std::size_t a : placed(set))
+      for (const std::size_t b : placed(set))
+        if (a < b && some[a] != some[b]) among.split.push_back({a, b});
   return among;
 }
 

@@ -17,9 +17,10 @@ struct Merged {
   double beside = 1;               ///< share of these passes' length beside their line
 };
 
-/// Strokes drawn several times become one; notes say what wishes could not be met. Precondition:
-/// every stroke has its number for a member.
-Merged merge(std::vector<FineStroke>& strokes, double width, ConsolidateOptions passes,
+/// Strokes drawn several times become one; notes say what wishes could not be met. Where the hand
+/// turned back along the same line (turn_backs.h) a stroke is as many passes, unless it is to be
+/// kept. Precondition: every stroke has its number for a member.
+Merged merge(std::vector<FineStroke>& strokes, double width, const ConsolidateOptions& passes,
              const GroupWishes& wishes, std::vector<std::string>& notes);
 
 }  // namespace keyline::sketch
