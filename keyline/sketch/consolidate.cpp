@@ -7,6 +7,7 @@
 #include "keyline/core/error.h"
 #include "keyline/core/polygon.h"
 #include "keyline/sketch/hand_seen.h"
+#include "keyline/sketch/lone_passes.h"
 #include "keyline/sketch/meant_line.h"
 #include "keyline/sketch/pass_evidence.h"
 #include "keyline/sketch/stroke_grid.h"
@@ -140,6 +141,12 @@ std::vector<MeantLine> consolidate(const std::vector<DrawnStroke>& strokes,
                                {.width = pen.held, .step = model.width, .passes = model}, strays));
     for (auto& rest : groups_among(strays, evidence)) open.push_back(std::move(rest));
   }
+  take_lone_passes(lines, pen.held, model.angle, [&](std::size_t stroke, const MeantLine& line) {
+    return std::ranges::none_of(line.members, [&](std::size_t m) {
+      const auto said = evidence[stroke].find(m);
+      return said != evidence[stroke].end() && said->second < -kTwoLines;  // a wish
+    });
+  });
   std::sort(lines.begin(), lines.end(), [](const MeantLine& a, const MeantLine& b) {
     return a.members.front() < b.members.front();
   });
