@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "keyline/core/nearest_word.h"
+
 #include "words.h"
 
 namespace keyline::app {
@@ -20,22 +22,6 @@ const core::Type& kind_of(const Field& field) {
 }
 
 bool is_flag(const Field& field) { return kind_of(field).kind == Kind::boolean; }
-
-/// Changes of one letter (added, dropped, another) that lead from one word to the other.
-std::size_t letters_apart(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t other = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({other, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
 
 std::string long_name(const std::string& word) {
   if (word == "-o") return "--output";
@@ -149,13 +135,15 @@ Result<void> Arguments::put(const Known& known, const std::vector<std::string>& 
 }
 
 std::string Arguments::nearest(const std::string& option) const {
-  for (const Known& known : fields_) {
-    const std::string name = option_name(known.field.name);
-    if (name.starts_with(option) || option.starts_with(name) ||
-        (option.size() < 40 && letters_apart(option, name) <= 2))
-      return "did you mean " + name + "?";
-  }
-  return "";
+  std::vector<std::string> names;
+  for (const Known& known : fields_) names.push_back(option_name(known.field.name));
+  const auto extends = std::ranges::find_if(names, [&](const std::string& name) {
+    return name.starts_with(option) || option.starts_with(name);
+  });
+  const std::vector<std::string_view> words(names.begin(), names.end());
+  const std::string_view meant =
+      extends != names.end() ? std::string_view(*extends) : core::nearest_word(option, words);
+  return meant.empty() ? "" : "did you mean " + std::string(meant) + "?";
 }
 
 std::vector<OptionTexts> Arguments::texts() const {

@@ -9,6 +9,7 @@
 
 #include "keyline/curve/length.h"
 #include "keyline/exchange/json/json_curve.h"
+#include "keyline/exchange/json/json_members.h"
 #include "keyline/exchange/json/json_space.h"
 #include "keyline/lac/chain/chain_sampler.h"
 #include "keyline/numeric/parallel.h"
@@ -161,6 +162,8 @@ struct HeldCurve::Body {
 };
 
 Result<HeldCurve> HeldCurve::from_json(const json& value) {
+  if (auto known = exchange::check_members(value, "curve"); !known)
+    return std::unexpected(known.error());
   auto body = std::make_shared<Body>();
   if (exchange::is_space_curve(value)) {
     auto curve = exchange::space_curve_from_json(value, "curve");

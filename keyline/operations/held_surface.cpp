@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/exchange/json/json_members.h"
 #include "keyline/exchange/json/json_surface.h"
 #include "keyline/operations/held_curve.h"
 
@@ -26,6 +27,8 @@ Result<void> check_parameters(std::span<const double> u, std::span<const double>
 }  // namespace
 
 Result<HeldSurface> HeldSurface::from_json(const nlohmann::json& value) {
+  if (auto known = exchange::check_members(value, "surface"); !known)
+    return std::unexpected(known.error());
   auto surface = exchange::surface_from_json(value, "surface");
   if (!surface) return std::unexpected(surface.error());
   return HeldSurface(std::make_shared<Body>(Body{std::move(*surface)}));

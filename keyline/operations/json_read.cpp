@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/nearest_word.h"
 #include "keyline/core/text.h"
 #include "keyline/operations/json_form.h"
 
@@ -251,19 +252,6 @@ Result<void> read_one_of(const Type& type, const Field& field, const json& j, co
   return not_a(place, wanted.c_str());
 }
 
-std::size_t letters_apart(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t i = 0; i < row.size(); ++i) row[i] = i;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t other = diagonal + (a[i - 1] == b[k - 1] ? 0 : 1);
-      diagonal = std::exchange(row[k], std::min({other, row[k] + 1, row[k - 1] + 1}));
-    }
-  }
-  return row.back();
-}
-
 /// The field of that name read where a record has it: true; false where none has.
 Result<bool> read_member(std::span<const Part> parts, std::string_view name, const json& j,
                          const Place& parent) {
@@ -279,12 +267,11 @@ Result<bool> read_member(std::span<const Part> parts, std::string_view name, con
 }
 
 std::string nearest_name(std::span<const Part> parts, std::string_view name) {
-  std::string best;
+  std::vector<std::string_view> names;
   for (const Part& part : parts)
-    core::visit_fields(*part.type, part.record, [&](const Field& field, void*) {
-      if (name.size() < 40 && letters_apart(field.name, name) <= 2) best = field.name;
-    });
-  return best;
+    core::visit_fields(*part.type, part.record,
+                       [&](const Field& field, void*) { names.push_back(field.name); });
+  return std::string(core::nearest_word(name, names));
 }
 
 /// `subject`: what the fields are of, "lac.segment"; empty inside a request.

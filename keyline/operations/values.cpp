@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/exchange/json/json_curve.h"
+#include "keyline/exchange/json/json_members.h"
 #include "keyline/exchange/json/json_space.h"
 #include "keyline/exchange/json/json_surface.h"
 #include "keyline/operations/json_form.h"
@@ -19,6 +20,13 @@ Result<void> keep(Result<T> read, void* value) {
   if (!read) return std::unexpected(std::move(read.error()));
   *static_cast<T*>(value) = std::move(*read);
   return {};
+}
+
+/// What the reader makes of a value none of whose members would be lost.
+template <auto Read, class T>
+Result<void> take(const json& j, const std::string& where, void* value) {
+  if (auto known = exchange::check_members(j, where); !known) return known;
+  return keep<T>(Read(j, where), value);
 }
 
 /// Whether the member says all that the path does.
@@ -46,7 +54,7 @@ Result<SpacePath> space_path_from_json(const json& j, const std::string& where) 
   auto members = exchange::space_path_from_json(j, where);
   if (!members) return std::unexpected(members.error());
   SpacePath path{std::move(*members)};
-  if (j.contains("closed") && j["closed"].is_boolean()) path.closed = j["closed"].get<bool>();
+  path.closed = j.value("closed", false);
   return path;
 }
 
@@ -65,9 +73,7 @@ Result<AnyCurve> any_curve_from_json(const json& j, const std::string& where) {
   return simplest(std::move(*read));
 }
 
-constexpr ValueForm kPathForm{[](const json& j, const std::string& where, void* value) {
-                                return keep(exchange::path_from_json(j, where), value);
-                              },
+constexpr ValueForm kPathForm{take<exchange::path_from_json, document::Path>,
                               [](const void* value) {
                                 const auto& path = *static_cast<const document::Path*>(value);
                                 return is_alone(path) ? path_json(path.curves.front())
@@ -76,16 +82,15 @@ constexpr ValueForm kPathForm{[](const json& j, const std::string& where, void* 
                               R"({"$ref":"#/$defs/Curve"})"};
 
 constexpr ValueForm kAnyCurveForm{
-    [](const json& j, const std::string& where, void* value) {
-      return keep(any_curve_from_json(j, where), value);
-    },
+    take<any_curve_from_json, AnyCurve>,
     [](const void* value) { return curve_json(*static_cast<const AnyCurve*>(value)); },
     R"({"$ref":"#/$defs/Curve"})"};
 
 constexpr ValueForm kBoundedForm{
     [](const json& j, const std::string& where, void* value) -> Result<void> {
       auto& bounded = *static_cast<BoundedCurve*>(value);
-      if (auto done = keep(any_curve_from_json(j, where), &bounded.curve); !done) return done;
+      if (auto done = take<any_curve_from_json, AnyCurve>(j, where, &bounded.curve); !done)
+        return done;
       const auto deviation = j.find("deviation");
       if (deviation == j.end()) return {};
       return keep(exchange::number_from_json(*deviation, where + ".deviation"), &bounded.deviation);
@@ -100,9 +105,7 @@ constexpr ValueForm kBoundedForm{
         "properties":{"deviation":{"type":"number","minimum":0}},"required":["deviation"]})"};
 
 constexpr ValueForm kSurfaceForm{
-    [](const json& j, const std::string& where, void* value) {
-      return keep(exchange::surface_from_json(j, where), value);
-    },
+    take<exchange::surface_from_json, surface::Surface>,
     [](const void* value) {
       return exchange::to_json(*static_cast<const surface::Surface*>(value));
     },

@@ -7,6 +7,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/error.h"
+#include "keyline/core/nearest_word.h"
 #include "keyline/core/polygon.h"
 #include "keyline/core/pose.h"
 #include "keyline/core/progress.h"
@@ -22,6 +23,21 @@ TEST(Text, Counted) {
   EXPECT_EQ(counted(0, "piece"), "0 pieces");
   EXPECT_EQ(counted(2, "entity", "entities"), "2 entities");
   EXPECT_EQ(counted(1, "piece is", "pieces are"), "1 piece is");
+}
+
+// Changes counted by hand: kitten > sitten > sittin > sitting.
+TEST(NearestWord, IsFewestLettersApart) {
+  EXPECT_EQ(letters_apart("kitten", "sitting"), 3U);
+  EXPECT_EQ(letters_apart("", "abc"), 3U);
+  const auto nearest = [](std::string_view given) {
+    constexpr std::string_view kWords[] = {"weights", "weight", "x", "y", "knots"};
+    return nearest_word(given, kWords);
+  };
+  EXPECT_EQ(nearest("weihgts"), "weights");
+  EXPECT_EQ(nearest("wieght"), "weight");
+  EXPECT_EQ(nearest("knot"), "knots");
+  EXPECT_EQ(nearest("z"), "");  // any letter is one apart
+  EXPECT_EQ(nearest("points"), "");
 }
 
 TEST(Angle, WrapsIntoHalfOpenTurn) {

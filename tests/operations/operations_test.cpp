@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "keyline/operations/held_curve.h"
 #include "keyline/operations/perform.h"
 #include "keyline/operations/schema.h"
 
@@ -41,6 +42,32 @@ TEST(Operations, UnknownAndMissingFieldsAreNamed) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().path, "alpha");
   EXPECT_EQ(missing.error().code, core::ErrorCode::bad_input);
+}
+
+// A slip in a curve would be another curve.
+TEST(Operations, UnknownMembersOfValuesAreRefused) {
+  const json bezier{{"type", "bezier"}, {"points", {{0, 0}, {1, 2}, {3, 0}}}};
+  const auto with = [](json value, const char* name) {
+    value[name] = json::array({1, 2, 1});
+    return value;
+  };
+  const auto blamed = [](const char* name, const json& request) {
+    const auto result = perform(name, request, {});
+    return result ? "nothing" : result.error().path + ": " + result.error().hint;
+  };
+  EXPECT_EQ(blamed("curve.analyze", {{"curve", with(bezier, "weihgts")}}),
+            "curve.weihgts: did you mean \"weights\"?");
+  const json path{{"type", "path"}, {"curves", {bezier, with(bezier, "color")}}};
+  EXPECT_EQ(blamed("curve.analyze", {{"curve", path}}),
+            "curve.curves[1].color: it has points and weights");
+  const json patch{{"type", "bezier-surface"},
+                   {"points", {{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {1, 1, 1}}}}};
+  EXPECT_EQ(blamed("surface.sav", {{"surface", with(patch, "x")}}),
+            "surface.x: it has points and weights");
+  EXPECT_EQ(blamed("curve.continuity", {{"curves", {bezier, with(bezier, "knots")}}}),
+            "curves[1].knots: it has points and weights");
+  EXPECT_EQ(HeldCurve::from_json(with(bezier, "weigths")).error().path, "curve.weigths");
+  EXPECT_EQ(HeldSurface::from_json(with(patch, "weigths")).error().path, "surface.weigths");
 }
 
 TEST(Operations, PathOfABadPointIsExact) {

@@ -14,6 +14,7 @@ using core::ErrorCode;
 using core::fail;
 using core::Point2;
 using core::Result;
+using detail::closed_of;
 using detail::in;
 using detail::member;
 using detail::numbers;
@@ -81,15 +82,6 @@ Result<lac::Piece> read_piece(const json& j, const std::string& where) {
   piece.curvature_start = (*ends)[0];
   piece.curvature_end = (*ends)[1];
   return piece;
-}
-
-/// "closed", false where it is absent.
-Result<bool> closed_of(const json& j, const std::string& where) {
-  const auto it = j.find("closed");
-  if (it == j.end()) return false;
-  if (!it->is_boolean())
-    return fail(ErrorCode::bad_input, "true or false is wanted here", "", in(where, "closed"));
-  return it->get<bool>();
 }
 
 Result<PlanarCurve> read_chain(const json& j, const std::string& where) {

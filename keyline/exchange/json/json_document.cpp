@@ -3,9 +3,11 @@
 #include "keyline/document/color.h"
 #include "keyline/exchange/json/json_hull.h"
 #include "keyline/exchange/json/json_lists.h"
+#include "keyline/exchange/json/json_members.h"
 #include "keyline/exchange/json/json_parts.h"
 #include "keyline/exchange/json/json_surface.h"
 #include "keyline/exchange/json/json_text.h"
+#include "keyline/exchange/text/header_unit.h"
 
 namespace keyline::exchange {
 namespace {
@@ -60,6 +62,14 @@ Result<std::string> text_of(const json& j, const char* key, const std::string& w
   if (it == j.end() || it->is_null()) return std::string();
   if (it->is_string()) return it->get<std::string>();
   return fail(ErrorCode::bad_input, "a text is wanted here", "put it in quotes", in(where, key));
+}
+
+/// "unit", also in words ("inches", "MM"); as it is where it is unknown.
+Result<std::string> unit_of(const json& j, const std::string& where) {
+  auto given = text_of(j, "unit", where);
+  if (!given) return given;
+  std::string unit = detail::unit_in_words(*given);
+  return unit.empty() ? std::move(*given) : std::move(unit);
 }
 
 Result<Label> label_of(const json& j, const std::string& where) {
@@ -146,13 +156,12 @@ Result<void> add_surface(Document& document, const json& item, const std::string
 }
 
 Result<void> add_item(Document& document, const json& item, const std::string& where) {
-  if (item.is_object() && item.contains("surface")) return add_surface(document, item, where);
+  if (item.is_object() && (item.contains("surface") || is_surface_json(item)))
+    return add_surface(document, item, where);
   auto label = label_of(item, where);
   if (!label) return std::unexpected(label.error());
-  const bool wrapped = item.is_object() && item.contains("curve");
-  if (!wrapped) return add_value(document, item, where, std::move(*label), 0);
   double width = 0;
-  if (item.contains("stroke_width")) {
+  if (item.is_object() && item.contains("stroke_width")) {
     const auto number = number_from_json(item["stroke_width"], in(where, "stroke_width"));
     if (!number) return std::unexpected(number.error());
     if (*number < 0)
@@ -160,7 +169,9 @@ Result<void> add_item(Document& document, const json& item, const std::string& w
                   in(where, "stroke_width"));
     width = *number;
   }
-  return add_value(document, item["curve"], in(where, "curve"), std::move(*label), width);
+  const bool wrapped = item.is_object() && item.contains("curve");
+  return add_value(document, wrapped ? item["curve"] : item, wrapped ? in(where, "curve") : where,
+                   std::move(*label), width);
 }
 
 /// Curves and surfaces one after the other, as they stand in either list. Those that name a unit
@@ -169,7 +180,7 @@ Result<Document> document_of_array(const json& j) {
   Document document;
   for (std::size_t i = 0; i < j.size(); ++i) {
     const std::string where = in("", i);
-    const auto unit = text_of(j[i], "unit", where);
+    const auto unit = unit_of(j[i], where);
     if (!unit) return std::unexpected(unit.error());
     if (!unit->empty() && !document.unit.empty() && *unit != document.unit)
       return fail(ErrorCode::bad_input, "two units, " + document.unit + " and " + *unit,
@@ -182,7 +193,7 @@ Result<Document> document_of_array(const json& j) {
 
 Result<Document> document_of_list(const json& j) {
   Document document;
-  auto unit = text_of(j, "unit", "");
+  auto unit = unit_of(j, "");
   if (!unit) return std::unexpected(unit.error());
   document.unit = std::move(*unit);
   for (const auto& [key, add] : {std::pair{"curves", &add_item}, {"surfaces", &add_surface}}) {
@@ -197,6 +208,16 @@ Result<Document> document_of_list(const json& j) {
   if (const auto skipped = j.find("skipped"); skipped != j.end() && skipped->is_array())
     for (const json& line : *skipped)
       if (line.is_string()) document.skipped.push_back(line.get<std::string>());
+  return document;
+}
+
+/// A value by itself, or the answer of an operation.
+Result<Document> document_of_one(const json& j) {
+  Document document;
+  auto unit = unit_of(j, "");
+  if (!unit) return std::unexpected(unit.error());
+  document.unit = std::move(*unit);
+  if (auto done = add_item(document, j, ""); !done) return std::unexpected(done.error());
   return document;
 }
 
@@ -276,20 +297,21 @@ std::string json_text(const Document& document, int indent) {
 }
 
 Result<Document> document_from_json(const json& j) {
-  if (is_hull_json(j)) {
-    const auto hull = hull_from_json(j);
-    if (!hull) return std::unexpected(hull.error());
-    return hull_document(*hull);
-  }
-  if (j.is_array() && !j.empty() && j.front().is_object()) return document_of_array(j);
-  const bool typed = j.is_object() && j.contains("type");
-  if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
-    return document_of_list(j);
-  Document document;
-  auto unit = text_of(j, "unit", "");
-  if (!unit) return std::unexpected(unit.error());
-  document.unit = std::move(*unit);
-  if (auto done = add_item(document, j, ""); !done) return std::unexpected(done.error());
+  auto document = [&]() -> Result<Document> {
+    if (is_hull_json(j)) {
+      const auto hull = hull_from_json(j);
+      if (!hull) return std::unexpected(hull.error());
+      return hull_document(*hull);
+    }
+    if (j.is_array() && !j.empty() && j.front().is_object()) return document_of_array(j);
+    const bool typed = j.is_object() && j.contains("type");
+    if (j.is_object() && !typed && (j.contains("curves") || j.contains("surfaces")))
+      return document_of_list(j);
+    return document_of_one(j);
+  }();
+  if (!document) return document;
+  for (std::string& line : in_words(stray_members_of_document(j)))
+    document->skipped.push_back(std::move(line));
   return document;
 }
 

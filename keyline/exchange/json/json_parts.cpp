@@ -61,6 +61,14 @@ Result<int> degree_of(const json& j, const std::string& where) {
   return static_cast<int>(n);
 }
 
+Result<bool> closed_of(const json& j, const std::string& where) {
+  const auto it = j.find("closed");
+  if (it == j.end()) return false;
+  if (!it->is_boolean())
+    return fail(ErrorCode::bad_input, "true or false is wanted here", "", in(where, "closed"));
+  return it->get<bool>();
+}
+
 Result<std::string> type_of(const json& j, const std::string& where) {
   if (!j.is_object())
     return fail(ErrorCode::bad_input, "a curve is wanted here", "give {\"type\":…}", where);

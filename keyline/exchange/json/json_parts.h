@@ -31,6 +31,8 @@ core::Result<double> number_member(const nlohmann::json& j, const char* key,
 core::Result<std::vector<double>> numbers(const nlohmann::json& j, const std::string& where);
 /// "weights", empty where there are none.
 core::Result<std::vector<double>> weights_of(const nlohmann::json& j, const std::string& where);
+/// "closed" of an object, false where it is absent.
+core::Result<bool> closed_of(const nlohmann::json& j, const std::string& where);
 /// "type" of an object.
 core::Result<std::string> type_of(const nlohmann::json& j, const std::string& where);
 /// The failure of a value's validate() with the place of the value in front.

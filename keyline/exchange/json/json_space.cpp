@@ -171,6 +171,8 @@ Result<std::vector<document::SpaceCurve>> space_path_from_json(const json& j,
                                                                const std::string& where) {
   std::vector<document::SpaceCurve> members;
   const std::string list = detail::in(where, "curves");
+  if (const auto closed = detail::closed_of(j, where); !closed)
+    return std::unexpected(closed.error());
   for (std::size_t i = 0; i < j["curves"].size(); ++i) {
     auto c = space_curve_from_json(j["curves"][i], detail::in(list, i));
     if (!c) return std::unexpected(c.error());

@@ -95,8 +95,9 @@ Result<Document> read_svg_document(std::string_view bytes) {
   auto svg = read_svg(bytes);
   if (!svg) return std::unexpected(svg.error());
   if (svg->metadata.empty()) return document_of(std::move(*svg));
-  const auto metadata = parse_json(svg->metadata);
+  auto metadata = parse_json(svg->metadata);
   if (metadata && is_current(*metadata, *svg)) {
+    metadata->erase(kFingerprint);
     auto exact = document_from_json(*metadata);
     if (exact) {
       exact->page = svg->page;
