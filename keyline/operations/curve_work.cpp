@@ -115,11 +115,13 @@ struct SplitRequest {
   std::vector<double> at;
   bool corners = false;
   static constexpr auto describe() {
-    return core::fields(core::field<&SplitRequest::curve>(kAnyPlanar).needed(),
-                        core::field<&SplitRequest::at>("where, as fractions of the length")
-                            .within(core::between(0, 1))
-                            .or_bare_item(),
-                        core::field<&SplitRequest::corners>("also wherever the direction jumps"));
+    return core::fields(
+        core::field<&SplitRequest::curve>(kAnyPlanar).needed(),
+        core::field<&SplitRequest::at>("where, as fractions of the length; a closed curve "
+                                       "is cut at its start only where 0 is given")
+            .within(core::from_to(0, 1))
+            .or_bare_item(),
+        core::field<&SplitRequest::corners>("also wherever the direction jumps"));
   }
 };
 
@@ -130,25 +132,43 @@ struct SplitResult {
   }
 };
 
+/// Parameters where the direction jumps, of one that comes back also 0 where it does at its start.
+std::vector<double> corners_of(const document::Path& path, bool comes_back) {
+  const analysis::CurveView view = analysis::view(path);
+  const auto joints = analysis::inner_continuity(view);
+  const auto breaks = document::breakpoints(path);
+  std::vector<double> corners;
+  for (std::size_t i = 0; i < joints.size() && i + 2 < breaks.size(); ++i)
+    if (joints[i].order <= 0) corners.push_back(breaks[i + 1]);
+  if (comes_back && analysis::continuity(std::vector{view}, true).back().order <= 0)
+    corners.push_back(0);
+  return corners;
+}
+
 Result<SplitResult> run_split(const SplitRequest& request, const Context&) {
   const Places places(request.curve);
-  std::vector<double> cuts{0, 1};
-  for (const double fraction : request.at) cuts.push_back(places.parameter(fraction));
-  if (request.corners) {
-    const analysis::CurveView view = analysis::view(request.curve);
-    const auto joints = analysis::inner_continuity(view);
-    const auto breaks = document::breakpoints(request.curve);
-    for (std::size_t i = 0; i < joints.size() && i + 2 < breaks.size(); ++i)
-      if (joints[i].order <= 0) cuts.push_back(breaks[i + 1]);
+  const bool ring = comes_back(request.curve, places.length());
+  std::vector<double> cuts;
+  if (request.corners) cuts = corners_of(request.curve, ring);
+  for (const double fraction : request.at) {
+    const double at = places.parameter(fraction);
+    if (!ring && (at == 0 || at == 1))
+      return core::fail(ErrorCode::bad_input, "the curve ends there already",
+                        "give fractions between 0 and 1; the ends only of a closed curve", "at");
+    cuts.push_back(at == 1 ? 0 : at);
   }
-  std::sort(cuts.begin(), cuts.end());
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-  if (cuts.size() == 2)
+  if (cuts.empty())
     return core::fail(ErrorCode::bad_input, "there is nowhere to split",
                       "give \"at\", or \"corners\" for a curve that has some", "at");
+  if (!ring) cuts.insert(cuts.end(), {0, 1});
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   SplitResult result;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
     result.parts.push_back({made_path(document::part(request.curve, {cuts[i], cuts[i + 1]}))});
+  if (ring)
+    result.parts.push_back(
+        {made_path(document::part_over_seam(request.curve, cuts.back(), cuts.front()))});
   return result;
 }
 

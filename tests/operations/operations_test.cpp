@@ -70,6 +70,33 @@ TEST(Operations, UnknownMembersOfValuesAreRefused) {
   EXPECT_EQ(HeldSurface::from_json(with(patch, "weigths")).error().path, "surface.weigths");
 }
 
+// A unit square: the start of a closed curve is no end.
+TEST(Operations, ClosedCurvesAreSplitOverTheirStart) {
+  const auto parts = [](const json& curve, const json& more) {
+    json request{{"curve", curve}};
+    request.update(more);
+    const auto result = perform("curve.split", request, {});
+    return result ? (*result)["parts"] : json(result.error().path);
+  };
+  const json line{{"type", "polyline"}, {"points", {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}}};
+  const json ring{{"type", "path"}, {"curves", {line}}, {"closed", true}};
+  for (const json& square : {line, ring}) {
+    const json two = parts(square, {{"at", {0.125, 0.625}}});
+    ASSERT_EQ(two.size(), 2U);
+    EXPECT_EQ(two[1]["curve"]["points"],
+              json::parse("[[0.5, 1.0], [0.0, 1.0], [0.0, 0.0], [0.5, 0.0]]"));
+    const json opened = parts(square, {{"at", 0.125}});
+    ASSERT_EQ(opened.size(), 1U);
+    EXPECT_EQ(opened[0]["curve"]["points"].size(), 6U);
+    EXPECT_EQ(parts(square, {{"at", {0, 0.5}}}).size(), 2U);
+    EXPECT_EQ(parts(square, {{"corners", true}}).size(), 4U);
+    EXPECT_EQ(parts(square, {{"corners", true}, {"at", 1}}).size(), 4U);
+  }
+  const json open{{"type", "polyline"}, {"points", {{0, 0}, {1, 0}, {1, 1}}}};
+  EXPECT_EQ(parts(open, {{"at", 0}}), "at");
+  EXPECT_EQ(parts(open, {{"at", 0.5}}).size(), 2U);
+}
+
 TEST(Operations, PathOfABadPointIsExact) {
   const auto result =
       perform("lac.segment", {{"points", {{0, 0}, {1, "a"}, {2, 1}}}, {"alpha", 1}}, {});
