@@ -119,5 +119,39 @@ TEST(DxfReader, LettersOfOtherCodePagesAreSaid) {
   EXPECT_EQ(read("0 LINE 8 \x80\xe4 10 1 20 2 11 3 21 4").paths.at(0).label.layer, "\u20ac\u00e4");
 }
 
+// Curves do not show it, or show what the drawing does not.
+TEST(DxfReader, WhatCurvesDoNotTellIsSaid) {
+  const std::string layers =
+      "0 SECTION 2 TABLES 0 TABLE 2 LAYER 0 LAYER 2 off 62 -3 0 LAYER 2 ice 70 1 62 5 0 LAYER 2 on "
+      "62 1 0 ENDTAB 0 ENDSEC";
+  const auto said = [&](const std::string& entity) { return read(entity, layers).skipped; };
+  const std::string line = "0 LINE 10 0 20 0 11 1 21 0 ";
+  EXPECT_THAT(said(line + "8 on 60 0 39 0"), testing::IsEmpty());
+  EXPECT_THAT(said(line + "8 off " + line + "8 off"), ElementsAre(HasSubstr("layer off")));
+  EXPECT_THAT(said(line + "8 off " + line + "8 off"), ElementsAre(HasSubstr("2 entities")));
+  EXPECT_THAT(said(line + "8 ice"), ElementsAre(HasSubstr("layer ice")));
+  EXPECT_THAT(said(line + "8 on 60 1"), ElementsAre(HasSubstr("not to be seen: 1 entity")));
+  EXPECT_THAT(said(line + "8 on 39 2"), ElementsAre("the thickness of 1 entity"));
+  const std::string two = "0 LWPOLYLINE 8 on 90 2 70 0 10 0 20 0 10 2 20 0 ";
+  EXPECT_THAT(said(two + "43 0.0"), testing::IsEmpty());
+  EXPECT_THAT(said(two + "43 0.5"), ElementsAre("the width of 1 polyline"));
+  EXPECT_THAT(said(two + "41 0.5"), ElementsAre("the width of 1 polyline"));
+  EXPECT_THAT(
+      said("0 POLYLINE 8 on 66 1 70 0 0 VERTEX 10 0 20 0 40 0.1 0 VERTEX 10 1 20 0 0 SEQEND"),
+      ElementsAre("the width of 1 polyline"));
+  EXPECT_THAT(said("0 SPLINE 8 on 70 8 71 3 74 3 11 0 21 0 11 1 21 1 11 2 21 0"),
+              ElementsAre(HasSubstr("1 spline without control points")));
+}
+
+// As some programs pad their lines.
+TEST(DxfReader, BlanksBehindTypesCountForNothing) {
+  const auto document = read_dxf(
+      "0\nSECTION \n2\nENTITIES\n0\n LINE  \n8\n0\n10\n0\n20\n0\n11\n1"
+      "\n21\n0\n0\nENDSEC \n0\nEOF \n");
+  ASSERT_TRUE(document) << document.error().message;
+  EXPECT_EQ(document->paths.size(), 1U);
+  EXPECT_THAT(document->skipped, testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -12,6 +12,7 @@
 #include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/document/units.h"
+#include "keyline/exchange/dxf/dxf_beside.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
 #include "keyline/exchange/dxf/dxf_units.h"
@@ -105,10 +106,7 @@ class DxfReader {
 
   Result<Document> finish() {
     for (const Item& item : items_) place(item, Outer{});
-    if (paper_ > 0)
-      problems_.push_back(core::counted(paper_, "entity", "entities") + " in paper space");
-    for (const auto& [type, count] : ignored_)
-      problems_.push_back(type + ": " + core::counted(count, "entity", "entities"));
+    beside_.tell(problems_);
     document_.skipped = std::move(problems_);
     if (scale_ != 1) return document::scaled(std::move(document_), scale_);
     return std::move(document_);
@@ -205,21 +203,15 @@ class DxfReader {
     if (entity.type != "LAYER") return;
     const int exact = color_number(entity, 420, -1);
     const int index = std::abs(color_number(entity, 62, 7));
-    layer_colors_[detail::text(entity.tags, 2)] =
-        exact >= 0 ? detail::true_color(exact) : detail::aci_color(index);
+    const std::string name = detail::text(entity.tags, 2);
+    layer_colors_[name] = exact >= 0 ? detail::true_color(exact) : detail::aci_color(index);
+    beside_.take_layer(entity, name);
   }
 
   void add_entity(const DxfEntity& entity) {
     const bool insert = entity.type == "INSERT";
-    if (!insert && !detail::is_dxf_curve(entity.type)) {
-      if (entity.type != "SEQEND" && entity.type != "VIEWPORT" && entity.type != "VERTEX")
-        ++ignored_[std::string(core::whole_characters(entity.type, 40))];
-      return;
-    }
-    if (!block_ && detail::integer(entity.tags, 67) == 1) {
-      ++paper_;
-      return;
-    }
+    if (!insert && !detail::is_dxf_curve(entity.type)) return beside_.take_other(entity);
+    if (!block_ && detail::integer(entity.tags, 67) == 1) return beside_.take_of_paper();
     if (!is_readable(entity)) return;
     Item item = labelled(entity);
     if (insert) {
@@ -230,6 +222,7 @@ class DxfReader {
       if (!curve) return problem(describe(entity) + ": " + curve.error().message);
       item.curve = std::move(*curve);
     }
+    beside_.take(entity, item.layer);
     if (block_) return block_->items.push_back(std::move(item));
     // Blocks may stand behind the drawing.
     const bool later = insert && !blocks_.contains(item.block);
@@ -382,9 +375,8 @@ class DxfReader {
   std::vector<Item> items_;
   std::unordered_map<std::string, std::string> layer_colors_;
   std::map<std::string, int> numbers_;
-  std::map<std::string, int> ignored_;
+  detail::DxfBeside beside_;
   std::vector<std::string> problems_;
-  int paper_ = 0;
   std::size_t made_points_ = 0;
   std::size_t cells_ = 0;
   std::size_t visits_ = 0;

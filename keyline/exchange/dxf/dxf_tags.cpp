@@ -141,6 +141,7 @@ Result<std::optional<DxfTag>> DxfTags::next_text() {
   DxfTag tag;
   tag.code = *code;
   tag.text = line();
+  if (tag.code == 0) tag.text = trimmed(tag.text);
   tag.place = static_cast<std::uint32_t>(line_);
   return tag;
 }
