@@ -280,6 +280,15 @@ struct FileCase {
 
 // A binary file is told by its size, whatever its header says, and by bytes no text has where the
 // size is wrong: what is there of it is read.
+TEST(Mesh, WordsOfStlMayBeCapitals) {
+  const auto mesh = read_stl(
+      "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1.0E+00 0 0\nVERTEX 0 1 0\n"
+      "ENDLOOP\nENDFACET\nENDSOLID A\n");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles.size(), 1U);
+  EXPECT_TRUE(mesh->skipped.empty());
+}
+
 TEST(Mesh, BinaryStlIsToldByItsSize) {
   const float corners[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};  // a normal, three corners
   for (const std::string name : {"solid facet", "made elsewhere"}) {

@@ -90,6 +90,56 @@ TEST(ReadPoints, TheHeaderTellsTheUnit) {
   EXPECT_EQ(unknown.left_out[0].substr(0, 20), "line 1: the unit µm");
 }
 
+TEST(ReadPoints, LinesBeforeTheRowsTellTheUnit) {
+  const std::string rows = "0 0\n1 2\n3 4\n";
+  for (const auto& [line, unit] : {std::pair{"# units: mm", "mm"},
+                                   {"Units = inches", "in"},
+                                   {"all dimensions in millimetres", "mm"},
+                                   {"# Section A, all in cm", "cm"},
+                                   {"units,mm", "mm"},
+                                   {"# unit m", "m"},
+                                   {"NACA 0012 at 3 in", ""},
+                                   {"cut in m", ""},
+                                   {"a foot", ""},
+                                   {"units: furlong", ""}})
+    EXPECT_EQ(file_of(std::string(line) + "\n" + rows)->unit, unit) << line;
+  // what stands at the columns counts first
+  EXPECT_EQ(file_of("# units: mm\nx [in],y [in]\n0,0\n1,2\n3,4\n")->unit, "in");
+  EXPECT_EQ(only("units: mm\n" + rows).id, "");
+  EXPECT_EQ(only("hull, units: mm\n" + rows).id, "hull, units: mm");
+}
+
+// Words around the letter of an axis: without them the numbers of the points would be x.
+TEST(ReadPoints, AxesAreKnownByAWordOfTheirNames) {
+  for (const char* header : {"Punkt;X-Koordinate [mm];Y-Koordinate [mm]",
+                             "no;Position X (mm);Position Y (mm)", "n;x_pos [mm];y_pos [mm]"}) {
+    const auto read = file_of(std::string(header) + "\n7;0;1\n8;2;3\n9;4;7\n");
+    ASSERT_TRUE(read) << header;
+    EXPECT_EQ(read->curves[0].points[2], (Point3{4, 7, 0})) << header;
+    EXPECT_FALSE(read->curves[0].has_z);
+    EXPECT_EQ(read->unit, "mm");
+  }
+  // of two columns of one letter neither is meant
+  EXPECT_EQ(only("x upper,y upper,x lower,y lower\n0,0,5,6\n1,2,5,6\n3,4,5,6\n").left_out.size(),
+            2U);
+  EXPECT_EQ(only("east,north,normal_x,normal_y\n0,0,0,1\n1,2,0,1\n3,4,0,1\n").points[1].x, 1);
+  EXPECT_EQ(only("x_err,x,y\n9,0,0\n9,1,2\n9,3,4\n").points[1], (Point3{1, 2, 0}));
+}
+
+TEST(ReadPoints, RemarksBehindRowsAreTold) {
+  for (const char* mark : {"# a", "! a b", "// 3", "% x"}) {
+    const std::string row = std::string(" ") + mark + "\n";
+    const RawCurve curve = only("0 0\n1 2" + row + "3 4" + row);
+    ASSERT_EQ(curve.points.size(), 3U) << mark;
+    EXPECT_EQ(curve.left_out, std::vector<std::string>{"remarks behind 2 rows"});
+  }
+  EXPECT_EQ(only("Title # 1\n0 0 ! nose\n1 2\n3 4\n").id, "Title # 1");
+  const auto named = parse("x,y,id\n0,0, #1\n1,2, #1\n3,4, #2\n");  // names of curves
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->size(), 2U);
+  EXPECT_EQ(only("sep=;\nx;y\n0;0\n1;2\n3;4\n").id, "");
+}
+
 // An entry that is missing must not move those behind it one column to the left.
 TEST(ReadPoints, TabsOfAHeaderKeepMissingEntriesInTheirColumn) {
   const RawCurve curve = only("x\ty\tz\tq\n1\t2\t3\t9\n2\t\t3\t4\n3\t4\t5\t6\n");

@@ -51,6 +51,7 @@ constexpr FormatCase kFormats[] = {
     {"three columns", "1.5 -2 7\n0.25 1e3 8\n3 4 9\n", true},
     {"six columns", "1.5 -2 7 0 0 1\n0.25 1e3 8 0 0 1\n3 4 9 0 0 1\n", true},
     {"bars", "x|y\n1.5|-2\n0.25|1e3\n3|4\n", false},
+    {"a list of C", "double p[][2] = {\n  {1.5, -2},\n  {0.25, 1e3},\n  {3, 4}\n};\n", false},
     {"points in brackets", "(1.5, -2)\n(0.25, 1e3)\n(3, 4)\n", false},
     {"Fortran", "1.5D0 -2.0D0\n2.5d-1 1.0D+03\n3 4\n", false},
 };

@@ -5,6 +5,7 @@
 #include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/text/byte_lines.h"
+#include "keyline/exchange/text/text_table.h"
 
 namespace keyline::exchange {
 namespace {
@@ -90,7 +91,7 @@ Result<Mesh> read_text(std::string_view bytes) {
   std::size_t have = 0;
   bool open = false;
   for (std::string_view line; lines.next(line);) {
-    const std::string_view word = detail::take_word(line);
+    const std::string word = detail::lower_case(detail::take_word(line));
     if (word == "solid" || word == "endsolid") open = word == "solid";
     if (word == "endloop" || word == "facet") {
       if (word == "endloop" && have != 3)
@@ -127,8 +128,9 @@ Result<Mesh> read_stl(std::string_view bytes) {
   // Binary files may start with "solid" too: their size tells them.
   const bool fits =
       bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * count_at(bytes);
-  const bool text = bytes.substr(0, 512).find("facet") != std::string_view::npos ||
-                    (bytes.starts_with("solid") && bytes.find('\0') == std::string_view::npos);
+  const std::string start = detail::lower_case(bytes.substr(0, 512));
+  const bool text = start.find("facet") != std::string::npos ||
+                    (start.starts_with("solid") && bytes.find('\0') == std::string_view::npos);
   if (fits || (!text && bytes.size() >= kHeader)) return read_binary(bytes);
   return read_text(bytes);
 }

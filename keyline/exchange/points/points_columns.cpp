@@ -1,6 +1,7 @@
 #include "keyline/exchange/points/points_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <utility>
 
@@ -25,6 +26,38 @@ int find_name(const Names& names, std::initializer_list<const char*> wanted) {
     if (at != names.end()) return static_cast<int>(at - names.begin());
   }
   return kNone;
+}
+
+/// Whether the name is that letter among words for coordinates: "x-koordinate", "position x",
+/// "x/c". "normal_x" is something else.
+bool names_axis(std::string_view name, char axis) {
+  static constexpr auto kWords = std::to_array<std::string_view>(
+      {"coordinate", "coord", "coords", "koordinate", "position", "pos", "axis", "achse", "value",
+       "wert", "point", "punkt", "pt", "p", "c", "coordinates"});
+  int letters = 0;
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of(" _-/.:"), name.size());
+    const std::string_view word = name.substr(0, end);
+    const bool letter = word.size() == 1 && word[0] == axis;
+    letters += letter;
+    if (!letter && !word.empty() && std::ranges::find(kWords, word) == kWords.end()) return false;
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return letters == 1;
+}
+
+/// The column whose name says that axis, where it is the only one.
+int find_word(const Names& names, char axis) {
+  const auto says = [axis](const std::string& name) { return names_axis(name, axis); };
+  const auto at = std::ranges::find_if(names, says);
+  const bool alone = at != names.end() && std::find_if(at + 1, names.end(), says) == names.end();
+  return alone ? static_cast<int>(at - names.begin()) : kNone;
+}
+
+/// The column of an axis, by its name or by a word of it.
+int find_axis(const Names& names, const std::initializer_list<const char*>& axis) {
+  const int named = find_name(names, axis);
+  return named != kNone ? named : find_word(names, **axis.begin());
 }
 
 Result<int> column_named(const Names& names, const std::string& wanted, const std::string& place) {
@@ -59,7 +92,7 @@ Result<void> take_asked(PointsColumns& columns, const Names& names, const Points
 void take_named(PointsColumns& columns, const Names& names) {
   std::vector<int> found;
   for (const auto& axis : kAxes) {
-    const int column = find_name(names, axis);
+    const int column = find_axis(names, axis);
     if (column != kNone) found.push_back(column);
   }
   while (found.size() < 2) found.push_back(static_cast<int>(found.size()));
@@ -68,11 +101,17 @@ void take_named(PointsColumns& columns, const Names& names) {
   if (found.size() > 2) columns.z = found[2];
 }
 
+constexpr std::initializer_list<const char*> kOfCurves = {"id", "curve", "name", "curve_id"};
+
 }  // namespace
+
+bool names_curves(const Names& names, const PointsOptions& options) {
+  return !options.id_column.empty() || find_name(names, kOfCurves) != kNone;
+}
 
 bool is_points_header(const Names& names, const PointsOptions& options) {
   if (names.size() < 2) return false;
-  const auto named = [&](const auto& axis) { return find_name(names, axis) != kNone; };
+  const auto named = [&](const auto& axis) { return find_axis(names, axis) != kNone; };
   const auto wanted = [&](const std::string& name) {
     return !name.empty() && find_name(names, {plain_name(name).c_str()}) != kNone;
   };
@@ -95,7 +134,7 @@ Result<PointsColumns> choose_columns(const Names& names, const PointsOptions& op
     columns = {first, first + 1, three ? first + 2 : kNone, kNone, text_id ? 0 : kNone};
   }
   if (columns.weight == kNone) columns.weight = find_name(names, {"weight", "weights", "w"});
-  if (columns.id == kNone) columns.id = find_name(names, {"id", "curve", "name", "curve_id"});
+  if (columns.id == kNone) columns.id = find_name(names, kOfCurves);
   for (const auto& [name, target] : {std::pair{&options.weight_column, &columns.weight},
                                      std::pair{&options.id_column, &columns.id}}) {
     if (name->empty()) continue;

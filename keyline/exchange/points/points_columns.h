@@ -26,6 +26,9 @@ struct PointsColumns {
 /// True for names (plain_name) of which the axes, or a column asked for, are some.
 bool is_points_header(const std::vector<std::string>& names, const PointsOptions& options);
 
+/// Whether a column of that header names the curve of each row.
+bool names_curves(const std::vector<std::string>& names, const PointsOptions& options);
+
 /// The columns of a table with that header (empty: none) and so many fields in its first row;
 /// text_id: the first field is a name.
 /// Fails: bad_input where a column asked for is not there.

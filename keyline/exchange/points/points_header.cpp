@@ -82,7 +82,7 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
                                             const std::string& place) {
   const bool comment = is_comment(line);
   const std::string_view text = comment ? comment_text(line) : line;
-  if (take_unit_row(text, number)) return {};
+  if (take_unit_row(text, number) || lower_case(text).starts_with("sep=")) return {};
   if (!comment) {
     take_style(line);
     const Fields fields = split(line, style_);
@@ -101,7 +101,12 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
                         "give numbers only, or start the line with #", place);
     }
   }
-  if (!take_header(text, number, comment) && !comment) remember_title(line, number);
+  if (take_header(text, number, comment)) return {};
+  if (const std::string unit = unit_said(text); !unit.empty()) {
+    said_unit_ = unit;
+    if (lower_case(text).starts_with("unit")) return {};  // it says nothing else
+  }
+  if (!comment) remember_title(line, number);
   return {};
 }
 
@@ -120,6 +125,7 @@ core::Result<void> PointsTable::take_units(const std::string& place) {
                         "give all coordinates in one", place);
     unit_ = known;
   }
+  if (unit_.empty()) unit_ = said_unit_;
   return {};
 }
 

@@ -28,9 +28,28 @@ bool PointsTable::all_numbers(const Fields& fields, std::size_t from) const {
 core::Result<void> PointsTable::take(std::string_view line, int number, const std::string& place) {
   line = trimmed(line);
   if (line.empty()) return {};
+  if (!is_comment(line)) line = without_remark(line);
   if (!started_) return before_data(line, number, place);
   if (is_comment(line)) return {};
   return among_data(line, number, place);
+}
+
+/// A row without what a comment's mark parts from its numbers: "0.5 0.1  ! tip". Where names of
+/// curves stand in rows, the mark may be of one.
+std::string_view PointsTable::without_remark(std::string_view line) {
+  if (columns_.id != PointsColumns::kNone || names_curves(names_, options_)) return line;
+  for (std::size_t at = line.find_first_of(" \t"); at != line.npos;
+       at = line.find_first_of(" \t", at + 1)) {
+    if (!is_comment(line.substr(at))) continue;
+    const std::string_view row = trimmed(line.substr(0, at));
+    const bool numbers = row.find_first_not_of("0123456789+-.,;eEdD \t") == row.npos &&
+                         row.find_first_of(",;", row.size() - 1) == row.npos &&
+                         row.find_first_of(",; \t") != row.npos;
+    if (!numbers) return line;
+    ++remarks_;
+    return row;
+  }
+  return line;
 }
 
 /// Of the first row with a fraction in it: whether a comma parts it or a point.
@@ -196,6 +215,8 @@ void PointsTable::tell_columns() {
   if (!others.empty()) left_out_.insert(left_out_.begin(), "columns beside: " + shortened(others));
   if (ignored_columns_ > 0)
     left_out_.insert(left_out_.begin(), core::counted(ignored_columns_, "further column"));
+  if (remarks_ > 0)
+    left_out_.insert(left_out_.begin(), "remarks behind " + core::counted(remarks_, "row"));
 }
 
 RawCurve& PointsTable::curve_of(std::string_view id) {

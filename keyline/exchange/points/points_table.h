@@ -58,6 +58,7 @@ class PointsTable {
   bool take_header(std::string_view text, int number, bool comment);
   bool take_unit_row(std::string_view text, int number);
   void take_style(std::string_view line);
+  std::string_view without_remark(std::string_view line);
   bool tabs_part(std::string_view line) const;
   core::Result<void> take_units(const std::string& place);
   core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
@@ -83,6 +84,7 @@ class PointsTable {
   std::vector<std::string> names_;
   std::vector<HeaderUnit> units_;  // of the columns that have names
   std::string unit_;
+  std::string said_unit_;  // by a line of text before the rows
   char header_separator_ = 0;
   bool header_counts_ = false;  // it is a comment: its mark may stand for a number of the point
   std::string first_text_;      // shortened
@@ -98,6 +100,7 @@ class PointsTable {
   int first_line_ = 0;
   int header_line_ = 0;
   std::size_t ignored_columns_ = 0;
+  std::size_t remarks_ = 0;                // rows with one behind them
   std::optional<core::Failure> remark_;    // the last line of text behind rows, as a failure
   std::optional<core::Failure> unproven_;  // of the text before rows too few to be a curve
   std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers

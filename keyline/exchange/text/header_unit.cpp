@@ -1,7 +1,9 @@
 #include "keyline/exchange/text/header_unit.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "keyline/document/document.h"
 #include "keyline/exchange/text/text_table.h"
@@ -33,6 +35,29 @@ std::string unit_in_words(std::string_view text) {
   for (const auto& [word, unit] : kWords)
     if (name == word) return unit;
   return {};
+}
+
+std::string unit_said(std::string_view line) {
+  static constexpr std::array kSubjects = {"unit",       "units",      "dimension",
+                                           "dimensions", "coordinate", "coordinates",
+                                           "lengths",    "einheit",    "einheiten"};
+  std::vector<std::string> words;
+  bool open = false;
+  for (const char c : lower_case(line)) {
+    const bool parts = std::string_view(" \t:=,;()[]\"'").find(c) != std::string_view::npos;
+    if (!parts && !std::exchange(open, true)) words.emplace_back();
+    if (parts)
+      open = false;
+    else
+      words.back() += c;
+  }
+  if (words.size() < 2) return {};
+  const bool about = std::ranges::any_of(words, [](const std::string& word) {
+    return std::ranges::find(kSubjects, word) != kSubjects.end();
+  });
+  const std::string& last = words.back();
+  const bool in_it = words[words.size() - 2] == "in" && last.size() > 1;
+  return about || in_it ? unit_in_words(last) : std::string();
 }
 
 std::size_t start_of_unit(std::string_view cell) {

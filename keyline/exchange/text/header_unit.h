@@ -4,11 +4,15 @@
 #include <string>
 #include <string_view>
 
-/// Units in the headers of tables: "x [mm]", "y (in)", "z/m", "x_cm".
+/// Units in the headers of tables: "x [mm]", "y (in)", "z/m", "x_cm", and in lines of text.
 namespace keyline::exchange::detail {
 
 /// "mm", "Millimetres", "inch" … as documents have it; empty for anything else.
 std::string unit_in_words(std::string_view text);
+
+/// The unit that a line of text says all lengths have: "units: mm", "all dimensions in inches";
+/// empty where it says none.
+std::string unit_said(std::string_view line);
 
 /// Where a header's cell goes on to its unit, behind "[", "(", or a "/" or "_" before a known one;
 /// npos where it has none.

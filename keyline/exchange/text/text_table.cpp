@@ -104,9 +104,10 @@ std::optional<double> parse_number(std::string_view field, TableStyle style) {
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
     field = trimmed(field.substr(1, field.size() - 2));
   }
-  // Points written as (x, y) or [x, y].
-  while (field.starts_with('(') || field.starts_with('[')) field = trimmed(field.substr(1));
-  while (field.ends_with(')') || field.ends_with(']'))
+  // Points written as (x, y), [x, y] or {x, y}.
+  const auto is_one_of = [](char c, std::string_view marks) { return marks.find(c) != marks.npos; };
+  while (!field.empty() && is_one_of(field.front(), "([{")) field = trimmed(field.substr(1));
+  while (!field.empty() && is_one_of(field.back(), ")]}"))
     field = trimmed(field.substr(0, field.size() - 1));
   std::array<char, 128> text;
   if (field.size() > text.size()) return std::nullopt;
