@@ -167,6 +167,33 @@ TEST_F(Cad, IgesCutOffIsNotWhole) {
               testing::Contains(HasSubstr("not in the file")));
 }
 
+// The last of three lines that go on from each other is moved a unit off in the file's text.
+TEST_F(Cad, ChainsThatAreNotEndToEndAreTold) {
+  document::Document document;
+  document.unit = "mm";
+  const auto line = [](core::Point2 a, core::Point2 b) {
+    return document::PlanarCurve{curve::Bezier2{{a, b}, {}}};
+  };
+  document.paths.push_back(
+      {{}, {{line({0, 0}, {4, 0}), line({4, 0}, {4, 3}), line({4, 3}, {0, 7})}, false}, 0});
+  const auto written = write_cad(document, CadFormat::iges, 1e-3);
+  ASSERT_TRUE(written) << written.error().message;
+  const fs::path file = folder_ / "gap.iges";
+  const auto read = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return read_cad(file, CadFormat::iges).value_or(document::Document{});
+  };
+  EXPECT_THAT(read(written->content).skipped, testing::IsEmpty());
+  std::string text = written->content;
+  const std::string start = "110,4.0000000000000000E+00,3.0000000000000000E+00,";
+  const std::size_t at = text.find(start);
+  ASSERT_NE(at, std::string::npos);
+  text[at + start.size() - 23] = '4';
+  const document::Document apart = read(text);
+  EXPECT_EQ(apart.paths.size(), 3U);
+  EXPECT_THAT(apart.skipped, testing::Contains(HasSubstr("part 3 of its chain begins 1 away")));
+}
+
 // Asked to stop, the work of the other process ends at once, and what Ctrl-C sends to it too does
 // not look like a broken file.
 TEST(ChildProcess, EndsWhereTheCallerAsks) {

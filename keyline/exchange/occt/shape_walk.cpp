@@ -15,9 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "keyline/core/text.h"
+#include "keyline/document/path_gap.h"
 #include "keyline/exchange/occt/geometry.h"
 
 namespace keyline::exchange::occt {
@@ -174,10 +174,10 @@ void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
 
 namespace {
 
-/// Curves of one wire as one path where they lie in z = 0 and each goes on where the one before
-/// ends, to 1e-7 of their size (the precision of CAD files); empty otherwise.
-std::optional<document::Path> chained(const document::Document& parts) {
-  if (!parts.space_curves.empty() || parts.paths.empty()) return std::nullopt;
+/// Curves of one wire in z = 0 as one path where each goes on where the one before ends, to 1e-7 of
+/// their size (the precision of CAD files).
+/// Fails: undrawable, with the first that does not.
+core::Result<document::Path> chained(const document::Document& parts) {
   document::Path path;
   double size = 0;
   const core::Point2 first = evaluate(parts.paths.front().path, 0);
@@ -186,10 +186,14 @@ std::optional<document::Path> chained(const document::Document& parts) {
       size = std::max(size, distance(first, evaluate(named.path, t)));
   const double reach = 1e-7 * size;
   core::Point2 last = first;
-  for (const auto& named : parts.paths) {
-    if (distance(last, evaluate(named.path, 0)) > reach) return std::nullopt;
-    last = evaluate(named.path, 1);
-    path.curves.insert(path.curves.end(), named.path.curves.begin(), named.path.curves.end());
+  for (std::size_t i = 0; i < parts.paths.size(); ++i) {
+    const document::Path& part = parts.paths[i].path;
+    if (const double width = distance(last, evaluate(part, 0)); width > reach)
+      return core::fail(core::ErrorCode::undrawable, "part " + std::to_string(i + 1) +
+                                                         " of its chain " +
+                                                         in_words(document::PathGap{i, width}));
+    last = evaluate(part, 1);
+    path.curves.insert(path.curves.end(), part.curves.begin(), part.curves.end());
   }
   path.closed = distance(last, first) <= reach;
   return path;
@@ -213,19 +217,32 @@ void ShapeWalk::add_wire(const TopoDS_Shape& shape, Label label) {
     } catch (const Standard_Failure& failure) {
       failed = failure.GetMessageString();
     }
-  auto path = failed.empty() ? chained(parts) : std::nullopt;
+  const bool flat = parts.space_curves.empty() && !parts.paths.empty();
+  if (!failed.empty() || !flat) {
+    chains_in_space_ += failed.empty() && parts.paths.size() + parts.space_curves.size() > 1;
+    return add_edges(shape, label);
+  }
+  auto path = chained(parts);
+  const bool named = !label.name.empty() && label.name.back() != '/';
+  const std::string name = named ? label.name : label.name + "edge-" + std::to_string(edges_ + 1);
   if (!path) {
-    for (TopoDS_Iterator part(shape); part.More(); part.Next()) add_edge(part.Value(), label);
-    return;
+    skip(name, path.error().message + "; its curves stand by themselves");
+    return add_edges(shape, label);
   }
   ++edges_;
-  if (label.name.empty() || label.name.back() == '/')
-    label.name += "edge-" + std::to_string(edges_);
+  label.name = name;
   document_.paths.push_back({std::move(label), std::move(*path), 0});
+}
+
+void ShapeWalk::add_edges(const TopoDS_Shape& wire, const Label& label) {
+  for (TopoDS_Iterator part(wire); part.More(); part.Next()) add_edge(part.Value(), label);
 }
 
 void ShapeWalk::finish() {
   if (points_ > 0) document_.skipped.push_back(core::counted(points_, "point"));
+  if (chains_in_space_ > 0)
+    document_.skipped.push_back(core::counted(chains_in_space_, "chain") +
+                                " of curves in space; the curves stand by themselves");
 }
 
 }  // namespace keyline::exchange::occt

@@ -34,6 +34,7 @@ class ShapeWalk {
   void add_face(const TopoDS_Shape& shape, document::Label label);
   void add_edge(const TopoDS_Shape& shape, document::Label label);
   void add_wire(const TopoDS_Shape& shape, document::Label label);
+  void add_edges(const TopoDS_Shape& wire, const document::Label& label);
   void add_trims(const TopoDS_Shape& face, document::NamedSurface& named);
   void skip(const std::string& name, const std::string& why);
 
@@ -42,6 +43,7 @@ class ShapeWalk {
   int faces_ = 0;
   int edges_ = 0;
   int points_ = 0;
+  int chains_in_space_ = 0;
 };
 
 }  // namespace keyline::exchange::occt
