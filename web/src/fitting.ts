@@ -17,6 +17,8 @@ const kSameComb = Math.log(2.5); // combs whose scales differ by less stay compa
 export class Fitting {
   /** the view as it was fitted last; null: not yet */
   private fitted: { scale: number; center: Point } | null = null;
+  /** whether curves were on their way then */
+  private coming = false;
 
   constructor(private readonly store: Store, private readonly live: Live, private readonly view: Viewport,
               private readonly subject: () => Shown | undefined, private readonly paint: () => void) {}
@@ -38,7 +40,19 @@ export class Fitting {
     if (!looks.combOwn && looks.combScale > 0) this.fitComb();
     this.show([...drawn, ...this.tips()], kAroundComb);
     this.fitted = { scale: this.view.scale, center: this.view.center };
+    this.coming = this.live.asking;
     this.paint();
+  }
+
+  /** The last curve on its way has come: what was fitted without it, and not moved by hand since, is fitted again. */
+  completed(): void {
+    if (!this.coming || this.live.asking) return;
+    this.coming = false;
+    if (this.unmoved()) this.fit();
+  }
+
+  private unmoved(): boolean {
+    return this.fitted?.scale === this.view.scale && this.fitted.center === this.view.center;
   }
 
   private show(points: readonly Point[], around: number): boolean {
@@ -64,9 +78,8 @@ export class Fitting {
 
   /** The canvas has another size: what was fitted and never moved by hand is fitted again. */
   resized(inSpace: boolean): void {
-    const { fitted, view } = this;
-    if (!fitted) this.fitOnce();
-    else if (fitted.scale === view.scale && fitted.center === view.center && !inSpace) this.fit();
+    if (!this.fitted) this.fitOnce();
+    else if (this.unmoved() && !inSpace) this.fit();
   }
 
   /** The longest tooth of the chosen curve (else of any) as long as is good to look at. */

@@ -147,6 +147,7 @@ export class Studio {
     if (state.looks.combScale === 0) this.fitting.fitComb();
     else if (!state.draft && state.selection.includes(id)) this.fitting.refitComb();
     this.fitting.fitOnce();
+    this.fitting.completed();
     this.canvas.paint();
     void this.region.update();
     if (state.selection.includes(id)) {

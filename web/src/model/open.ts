@@ -23,7 +23,7 @@ export function withFile(doc: Doc, file: string, read: DocumentReadResult): { do
       kind: "surface", name: s.name || `${name} ${i + 1}`, surface: s.surface as Surface,
     })),
   ];
-  let now: Doc = doc.entities.length === 0 && read.unit ? { ...doc, unit: read.unit } : doc;
+  let now: Doc = doc.entities.length === 0 ? { ...doc, unit: read.unit ?? "" } : doc;
   for (const fresh of things) {
     if (!fresh) continue;
     const step = added(now, fresh);
@@ -37,9 +37,12 @@ export const isImage = (name: string): boolean => /\.(png|jpe?g|tiff?|webp)$/i.t
 
 const kNamed = 5; // of what was skipped
 
-/** Reads the file the server knows by that name. */
+const isMesh = (name: string): boolean => /\.(obj|stl|ply)$/i.test(name);
+
+/** Reads the file the server knows by that name; of a mesh the section in its plane of symmetry. */
 export async function openNamed(client: Client, store: Store, file: string): Promise<number[]> {
-  const work = client.long<DocumentReadResult>("document.read", { file, planar: true }, () => {});
+  const request = { file, planar: true, ...(isMesh(file) && { section: "auto" }) };
+  const work = client.long<DocumentReadResult>("document.read", request, () => {});
   store.set({ work: { doing: `reading ${baseOf(file)}`, fraction: 0, trace: [], cancel: work.cancel } });
   const answer = await work.answer;
   store.set({ work: null });
@@ -49,6 +52,7 @@ export async function openNamed(client: Client, store: Store, file: string): Pro
   }
   const { doc, ids } = withFile(store.opened, file, answer.result);
   store.commit(`Open ${baseOf(file)}`, doc, { selection: ids.slice(0, 1) });
+  if (isMesh(file)) store.say(`${baseOf(file)}: its section in the plane of symmetry`, "keyline convert --section cuts it elsewhere");
   const skipped = answer.result.skipped ?? [];
   const rest = skipped.length > kNamed ? `; and ${skipped.length - kNamed} more` : "";
   if (skipped.length > 0) store.say(`${baseOf(file)}: skipped`, skipped.slice(0, kNamed).join("; ") + rest);

@@ -251,13 +251,20 @@ onStage("moving curves of a file", [], (stage) => {
   it("lists sixty curves beside what belongs to the chosen one", async () => {
     const { page } = stage.at;
     const curves = Array.from({ length: 60 }, (_, i) => ({
-      name: `a name too long for the list ${i}`, curve: { type: "polyline", points: [[i, 100], [i, 110]] },
+      name: `a name too long for the list ${i}`, curve: { type: "polyline", points: [[20 * i, 900], [20 * i, 1000]] },
     }));
     const choosing = page.waitForEvent("filechooser");
     await page.click("#open");
     await (await choosing).setFiles({ name: "sixty.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ curves })) });
     await page.waitForFunction(() => window.keyline.store.doc.entities.length >= 60);
     await settled(page);
+    // the first of them came before the last, but all are in sight
+    const board = await page.locator(".board").boundingBox();
+    for (const end of [[0, 900], [1180, 1000]] as const) {
+      const { x, y } = await onPage(page, end);
+      expect(x > (board?.x ?? 0) && x < (board?.x ?? 0) + (board?.width ?? 0)).toBe(true);
+      expect(y > (board?.y ?? 0) && y < (board?.y ?? 0) + (board?.height ?? 0)).toBe(true);
+    }
     const shown = (name: string) => page.evaluate((n) => {
       const id = window.keyline.store.doc.entities.find((e) => e.name === n)?.id;
       const row = document.getElementById(`entity-${id}`);
