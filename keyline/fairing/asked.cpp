@@ -29,6 +29,19 @@ Result<void> check_joints(const FairOptions& options) {
               "joints");
 }
 
+/// Only a closed line goes on before its start and behind its end.
+Result<void> check_region(bool closed, const std::optional<core::Interval>& region) {
+  if (!region) return {};
+  const core::Interval& r = *region;
+  const bool within = r.low >= 0 && r.high <= 1;
+  const bool around = closed && r.low >= -1 && r.high <= 2 && r.high - r.low <= 1;
+  if (r.low < r.high && (within || around)) return {};
+  return fail(ErrorCode::bad_input, "the region is not a part of the key-line",
+              closed ? "give a:b with a < b <= a + 1; -0.1:0.2 runs over the start"
+                     : "give a:b with 0 <= a < b <= 1",
+              "region");
+}
+
 }  // namespace
 
 Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
@@ -60,10 +73,7 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
     if (index >= line.points.size())
       return fail(ErrorCode::bad_input, "a point to be passed does not exist",
                   fmt::format("give indices below {}", line.points.size()), "must_pass");
-  if (const auto& r = options.region; r && !(r->low >= 0 && r->low < r->high && r->high <= 1))
-    return fail(ErrorCode::bad_input, "the region is not a part of the key-line",
-                "give a:b with 0 <= a < b <= 1", "region");
-  return {};
+  return check_region(line.closed, options.region);
 }
 
 }  // namespace keyline::fairing::detail

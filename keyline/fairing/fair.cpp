@@ -19,6 +19,7 @@
 #include "keyline/fairing/shortest_run.h"
 #include "keyline/fairing/solve_runs.h"
 #include "keyline/fairing/symmetric_run.h"
+#include "keyline/fairing/turned_start.h"
 #include "keyline/fairing/until_fair.h"
 #include "keyline/lac/chain/chain_graph.h"
 
@@ -374,6 +375,12 @@ const char* impression(const FairPiece& piece) {
 
 Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options) {
   if (auto sound = detail::check(line, options); !sound) return std::unexpected(sound.error());
+  if (detail::runs_over_start(options)) {
+    const detail::TurnedStart turned = detail::turn_start(line, options);
+    auto result = fair(turned.line, turned.options);
+    if (result) detail::turn_back(*result, turned.first);
+    return result;
+  }
   detail::FoundBefore found;
   return detail::until_fair(line, options, [&](const FairOptions& o, const FairResult* before) {
     return Job(line, o, &found, before).run();

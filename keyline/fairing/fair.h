@@ -151,8 +151,10 @@ struct FairOptions {
         core::field<&FairOptions::keep_corners>("keep corners of the points; chains end there"),
         core::field<&FairOptions::clamp>(
             "what is held at the ends: G0 position, G1 also direction, G2 also curvature"),
-        core::field<&FairOptions::region>("fair only this part of the length, as fractions of it")
-            .within(core::from_to(0, 1)),
+        core::field<&FairOptions::region>(
+            "fair only this part of the length, as fractions of it; of a closed line from below 0 "
+            "or to above 1 where the part runs over its start")
+            .within(core::from_to(-1, 2)),
         core::field<&FairOptions::interpretations>("readings that replace those found, by piece")
             .named("interpretation")
             .or_bare_item(),

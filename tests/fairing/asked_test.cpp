@@ -76,6 +76,19 @@ TEST(Asked, RegionsArePartsOfTheWhole) {
   EXPECT_EQ(of(0.6, 0.5), "region");
 }
 
+// A closed line goes on behind its end.
+TEST(Asked, RegionsOfClosedLinesMayRunOverTheStart) {
+  acquire::KeyLine line = line_of(8);
+  line.closed = true;
+  const auto of = [&](double low, double high) {
+    return blamed(with([&](auto& o) { o.region = core::Interval{low, high}; }), line);
+  };
+  EXPECT_EQ(of(-0.1, 0.2), "");
+  EXPECT_EQ(of(0.9, 1.1), "");
+  EXPECT_EQ(of(-0.1, 1), "region");
+  EXPECT_EQ(of(-1.1, -1), "region");
+}
+
 TEST(Asked, ALimitOfTheRateDoesNotGoWithTheShortestChain) {
   EXPECT_EQ(blamed(with([](auto& o) { o.max_rate = 1; })), "");
   EXPECT_EQ(blamed(with([](auto& o) {
