@@ -29,14 +29,6 @@ struct Piece {
   double size = 1;  ///< length of the points, of which both are shares
 };
 
-double turning_of(const std::vector<FitPoint>& points) {
-  double sum = 0;
-  for (std::size_t i = 2; i < points.size(); ++i)
-    sum += core::angle_between(points[i - 1].position - points[i - 2].position,
-                               points[i].position - points[i - 1].position);
-  return sum;
-}
-
 /// The single piece nearest to the points, moved to lie along a length of 1.
 Piece one_piece(std::vector<FitPoint> points, double exact, double reach) {
   const double by = 1 / make_track(points, false).total;
@@ -45,8 +37,6 @@ Piece one_piece(std::vector<FitPoint> points, double exact, double reach) {
   FitChain chain;
   chain.first_at_start = chain.last_at_end = true;
   chain.joints = {local_pose(track, 0, reach), local_pose(track, 1, reach)};
-  const double turned = chain.joints[0].direction + turning_of(points);
-  chain.joints[1].direction = turned + core::wrap_angle(chain.joints[1].direction - turned);
   chain.pieces = {{.length = 1}};
   for (std::size_t j = 0; j < points.size(); ++j) chain.feet.push_back({0, track.at(long(j))});
   ChainFitOptions fit;

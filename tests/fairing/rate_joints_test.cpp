@@ -139,17 +139,21 @@ Given parts() {
   return g;
 }
 
-// Where no two may be held, by a rule of the test's own, all but one give way, each of them once.
+// Where no two may be held, by a rule of the test's own, all but one give way, each of them once:
+// three chains are judged, with three ties, two and one.
 TEST(JoinRates, TiesGiveWayOneByOne) {
   Given g = parts();
   RateOptions options;
   options.tolerance = 5e-3;
-  options.loses = [](const FitChain& chain) {
+  int judged = 0;
+  options.loses = [&](const FitChain& chain) {
+    ++judged;
     return joined(chain) > 1 ? std::optional(RateLoss::waves) : std::nullopt;
   };
   const RateReport report = join_rates(g.chain, g.points, options);
   EXPECT_TRUE(report.within);
   ASSERT_EQ(report.joints, 3);
+  EXPECT_EQ(judged, 3);
   EXPECT_EQ(report.missed, 2);
   EXPECT_EQ(joined(g.chain), 1);
   ASSERT_EQ(report.stay.size(), 2U);

@@ -124,5 +124,19 @@ TEST(StraightStretches, BeyondTheEndsOfAnOpenCurveNothingIsBent) {
   EXPECT_EQ(straight_stretches(strong.curve, strong.points, 1e-4).size(), 1U);
 }
 
+// 101 points by turns s to either side of a line have a mean square of s^2 * 101 / 99 about it, for
+// two freedoms are the line's; two standard errors, 1 + 2 sqrt(2 / 101) times the noise's, are let
+// pass.
+TEST(StraightStretches, MayBeTwoStandardErrorsOff) {
+  constexpr double s = 1e-4;
+  const Given g = bent_line(s, 0);
+  const double least = s * std::sqrt(101 / 99.0 / (1 + 2 * std::sqrt(2 / 101.0)));
+  const auto found = straight_stretches(g.curve, g.points, 1.005 * least);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].first, 0);
+  EXPECT_EQ(found[0].last, 200);
+  EXPECT_TRUE(straight_stretches(g.curve, g.points, 0.995 * least).empty());
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
