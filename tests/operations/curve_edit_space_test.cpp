@@ -128,6 +128,21 @@ TEST(CurveEditInSpace, TakesEveryPieceToClassAAndKeepsItsJoints) {
   EXPECT_LT(calm_before, 0.8 * pieces);
 }
 
+// Two half turns of opposite bends out of the plane: a spline does not say that it is closed, its
+// ends do.
+TEST(CurveEditInSpace, KeepsAClosedCurveClosed) {
+  const json loop{
+      {"type", "bspline"},
+      {"degree", 3},
+      {"knots", {0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2}},
+      {"points",
+       {{0, 0, 0}, {1, 2, 0.5}, {4, 2, 1}, {5, 0, 0}, {4, -2, -1}, {1, -2, -0.5}, {0, 0, 0}}}};
+  const json r = result_of({{"op", "curve.edit_pieces"}, {"curve", loop}});
+  EXPECT_EQ(r["curve"]["closed"], true);
+  ASSERT_EQ(r["curve"]["curves"].size(), 2U);
+  EXPECT_EQ(r["curve"]["curves"][1]["points"].back(), r["curve"]["curves"][0]["points"].front());
+}
+
 TEST(CurveEditInSpace, HalfTheWayAndLimitsAreKept) {
   std::mt19937 random(4);
   const json spline = rail(random, 9);

@@ -114,6 +114,19 @@ TEST(CurveTransform, BeyondTheNumbersTheRequestIsWrong) {
   EXPECT_EQ(answer["error"]["path"], "scale");
 }
 
+TEST(CurveTrim, RunsOverTheStartOfWhatEndsWhereItBegins) {
+  json square{{"type", "polyline"}, {"points", {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}}};
+  const auto trimmed = [&square](double from, double to) {
+    return answered({{"op", "curve.trim"}, {"curve", square}, {"from", from}, {"to", to}});
+  };
+  EXPECT_EQ(trimmed(0.875, 0.125)["result"]["curve"]["points"], json({{0, 0.5}, {0, 0}, {0.5, 0}}));
+  EXPECT_EQ(trimmed(1, 0.125)["result"]["curve"]["points"], json({{0, 0}, {0.5, 0}}));
+  EXPECT_EQ(trimmed(1, 0)["error"]["path"], "to");
+  EXPECT_EQ(trimmed(0.5, 0.5)["error"]["path"], "to");
+  square["points"].erase(4);
+  EXPECT_EQ(trimmed(0.875, 0.125)["error"]["path"], "to");
+}
+
 TEST(RandomCurves, AreWorkedOnAsTheyStand) {
   Random random(own::seed(16));
   for (int n = 0; n < requests(0.04); ++n) {
