@@ -67,12 +67,11 @@ std::vector<FineStroke> pieces_of(const std::vector<FineStroke>& strokes, const 
 
 /// Takes cuts back of which the two sides did not become one line; true if there were some.
 bool take_back(Cuts& cuts, const std::vector<MeantLine>& lines) {
-  std::vector<std::size_t> line_of_piece;
+  std::size_t pieces = 0;
+  for (const auto& of_stroke : cuts) pieces += of_stroke.size() + 1;
+  std::vector<std::size_t> line_of_piece(pieces, lines.size());
   for (std::size_t l = 0; l < lines.size(); ++l)
-    for (const std::size_t piece : lines[l].members) {
-      line_of_piece.resize(std::max(line_of_piece.size(), piece + 1));
-      line_of_piece[piece] = l;
-    }
+    for (const std::size_t piece : lines[l].members) line_of_piece[piece] = l;
   bool any = false;
   std::size_t piece = 0;
   for (auto& of_stroke : cuts) {

@@ -78,6 +78,7 @@ TEST(JsonMembers, DocumentsTellWhatNothingReads) {
             Lines{R"("weihgts" is not a field of a bezier; did you mean "weights"?)"});
   EXPECT_EQ(told("{" + kLine + R"(,"closed":true})")[0].substr(0, 55),
             R"("closed" is not a field of a bezier; a path says so: {")");
+  EXPECT_TRUE(told("{" + kLine + R"(,"closed":false})").empty());  // which is what a bezier is
   EXPECT_EQ(
       told(R"({"uint":"mm","curves":[{"nmae":"a","curve":{)" + kLine + R"(}}]})"),
       (Lines{R"("uint" is not a field of a document; did you mean "unit"?)",

@@ -143,8 +143,10 @@ class Search {
   void look(const json& object, const std::string& where, const std::string& of,
             const Names& allowed, const Names& named) {
     if (!object.is_object()) return;
-    for (const auto& [name, value] : object.items())
-      if (!has(allowed, name)) add(where, name, of, allowed, named);
+    for (const auto& [name, value] : object.items()) {
+      const bool says_nothing = name == "closed" && value == false;
+      if (!has(allowed, name) && !says_nothing) add(where, name, of, allowed, named);
+    }
   }
 
   /// `named`: those of the fields there are that are told where none is near.
