@@ -1,12 +1,11 @@
 #include "folder.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
-
-#include <stdlib.h>
 
 #include <nlohmann/json.hpp>
 

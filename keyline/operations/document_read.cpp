@@ -57,7 +57,7 @@ Result<ReadAnswer> read_drawing(const InputRequest& input, const core::Progress&
   return answer;
 }
 
-/// What a file holds, and of which InputRequest::Kind it is.
+/// What a file holds, and which kinds of InputRequest it is of.
 struct Opened {
   document::Document document;
   unsigned kind = 0;

@@ -17,16 +17,14 @@ namespace keyline::operations {
 /// Where curves, points or surfaces come from and how they are to be read.
 struct InputRequest {
   /// What a file turned out to be, several at once: a table that is cut is a cloud too.
-  enum Kind : unsigned {
-    kTable = 1,
-    kCloud = 2,
-    kLatticeRow = 4,
-    kLatticeColumn = 8,
-    kMesh = 16,
-    kFont = 32,
-    kSurfaces = 64,
-    kAlone = 128  ///< one file, not several that are parts of one key-line
-  };
+  static constexpr unsigned kTable = 1;
+  static constexpr unsigned kCloud = 2;
+  static constexpr unsigned kLatticeRow = 4;
+  static constexpr unsigned kLatticeColumn = 8;
+  static constexpr unsigned kMesh = 16;
+  static constexpr unsigned kFont = 32;
+  static constexpr unsigned kSurfaces = 64;
+  static constexpr unsigned kAlone = 128;  ///< one file, not several that are parts of one key-line
 
   std::vector<std::string> file;
   std::vector<std::string> columns;
@@ -166,7 +164,7 @@ struct ReadAnswer {
   std::vector<std::string> unused;
 
   document::Document document;  ///< not part of the public form: for pictures
-  unsigned kind = 0;            ///< likewise: of InputRequest::Kind
+  unsigned kind = 0;            ///< likewise: kinds of InputRequest
 
   static constexpr auto describe() {
     using Answer = ReadAnswer;

@@ -18,7 +18,9 @@ struct FormatOptions {
   bool grid = false;
   std::optional<int> samples;
   /// Formats that ask.
-  enum Kind : unsigned { kDxf = 1, kGlif = 2, kCsv = 4 };
+  static constexpr unsigned kDxf = 1;
+  static constexpr unsigned kGlif = 2;
+  static constexpr unsigned kCsv = 4;
   static constexpr auto uses() {
     return std::array{use<&FormatOptions::polylines>(kDxf), use<&FormatOptions::grid>(kGlif),
                       use<&FormatOptions::samples>(kCsv)};

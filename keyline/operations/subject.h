@@ -46,7 +46,8 @@ struct Subject {
   std::vector<double> weights;
   Acquiring acquiring;
   /// Points put in order and cleaned here, or curves and key-lines taken as they are.
-  enum Kind : unsigned { kAcquired = 1, kAsGiven = 2 };
+  static constexpr unsigned kAcquired = 1;
+  static constexpr unsigned kAsGiven = 2;
   static constexpr auto uses() {
     return std::array{use<&Subject::weights>(kAcquired), use<&Subject::acquiring>(kAcquired)};
   }
