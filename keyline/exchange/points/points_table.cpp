@@ -284,7 +284,7 @@ core::Result<PointsTable::Row> PointsTable::row_of(const Fields& fields,
   return row;
 }
 
-void PointsTable::add(Row row, int number) {
+void PointsTable::add(const Row& row, int number) {
   ++rows_;
   if (++run_ >= kFewest) unproven_.reset();
   RawCurve& curve = curve_of(row.id);

@@ -64,7 +64,7 @@ class PointsTable {
   core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
   core::Result<double> number_in(const Fields& fields, int column, const std::string& place) const;
   core::Result<Row> row_of(const Fields& fields, const std::string& place) const;
-  void add(Row row, int number);
+  void add(const Row& row, int number);
   acquire::RawCurve& curve_of(std::string_view id);
   bool all_numbers(const Fields& fields, std::size_t from) const;
   void remember_title(std::string_view line, int number);

@@ -30,7 +30,7 @@ std::string unit_in_words(std::string_view text) {
        {"foot", "ft"},
        {"feet", "ft"},
        {"ft.", "ft"}}};
-  const std::string name = lower_case(trimmed(text));
+  std::string name = lower_case(trimmed(text));
   if (document::millimetres(name) > 0) return name;
   for (const auto& [word, unit] : kWords)
     if (name == word) return unit;
