@@ -52,7 +52,7 @@ TEST(JsonMembers, FieldsAreThoseOfTheSchema) {
       expect_fields(stray, fields, "curve");
       if (!fields.contains("pieces")) continue;
       json piece = keys_of(fields["pieces"]["items"]["properties"]);
-      value["pieces"] = {piece};
+      value["pieces"] = json::array({piece});
       EXPECT_TRUE(stray_members(value, "curve").empty()) << value;
       piece["xxxxx"] = 1;
       value["pieces"].push_back(piece);
