@@ -5,7 +5,7 @@ import { added, type Doc, entityOf, type Fresh, isShown, lineOf } from "./docume
 import type { Live } from "./live.ts";
 import type { Store } from "./state.ts";
 
-const baseOf = (file: string): string => file.replace(/^.*\//, "");
+export const baseOf = (file: string): string => file.replace(/^.*\//, "");
 
 function freshCurve(c: NamedCurve, otherwise: string): Fresh | null {
   const common = { name: c.name || otherwise, ...(c.layer ? { layer: c.layer } : {}), ...(c.color ? { color: c.color } : {}) };

@@ -5,6 +5,7 @@ import {
 import type { Client } from "../api/client.ts";
 import { contentOf, type KeptPicture } from "../model/autosave.ts";
 import { added, type Doc } from "../model/document.ts";
+import { baseOf } from "../model/open.ts";
 import { type Store, type Underlay, workTold } from "../model/state.ts";
 import { button, choice, section, slider, toggle } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
@@ -35,7 +36,7 @@ export async function layUnder(client: Client, store: Store, picture: Blob, file
   if (old) URL.revokeObjectURL(old.url);
   store.set({
     underlay: {
-      ...shown, name: before?.name ?? file.replace(/^.*\//, ""), file, picture, mapped,
+      ...shown, name: before?.name ?? baseOf(file), file, picture, mapped,
       at: before?.at ?? [0, 0], scale: before?.scale ?? 1, opacity: before?.opacity ?? 0.5, stages: [], stage: "",
     },
   });
