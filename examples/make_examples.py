@@ -48,7 +48,7 @@ def bonnet_scan():
     for i in (61, 187, 342, 343, 519, 660):  # specks of dust, and a reflection of two points
         x, y = points[i]
         points[i] = (x + noise.normal(1.0), y + 4 + 6 * noise.random())
-    head = "# key-line of a car, side view, scanned from a clay model at 1:4, mm\nx,z\n"
+    head = "# key-line of a car, side view, scanned from a clay model at 1:4\nx [mm],z [mm]\n"
     return {"bonnet-scan.csv": head + rows(points, "%.3f"),
             "bonnet-scan-truth.json": truth(chain, sigma=sigma)}
 

@@ -39,6 +39,15 @@ const kNamed = 5; // of what was skipped
 
 const isMesh = (name: string): boolean => /\.(obj|stl|ply)$/i.test(name);
 
+/** What is said of a file that was read: that it was cut, and what was skipped. Empty where nothing is. */
+export function noticeOf(file: string, skipped: readonly string[]): { what: string; more: string } {
+  const rest = skipped.length > kNamed ? `; and ${skipped.length - kNamed} more` : "";
+  const left = skipped.slice(0, kNamed).join("; ") + rest;
+  if (!isMesh(file)) return { what: left && "skipped", more: left };
+  const elsewhere = "keyline convert --section cuts it elsewhere";
+  return { what: "its section in the plane of symmetry", more: left ? `${elsewhere}. Skipped: ${left}` : elsewhere };
+}
+
 /** Reads the file the server knows by that name; of a mesh the section in its plane of symmetry. */
 export async function openNamed(client: Client, store: Store, file: string): Promise<number[]> {
   const request = { file, planar: true, ...(isMesh(file) && { section: "auto" }) };
@@ -52,10 +61,8 @@ export async function openNamed(client: Client, store: Store, file: string): Pro
   }
   const { doc, ids } = withFile(store.opened, file, answer.result);
   store.commit(`Open ${baseOf(file)}`, doc, { selection: ids.slice(0, 1) });
-  if (isMesh(file)) store.say(`${baseOf(file)}: its section in the plane of symmetry`, "keyline convert --section cuts it elsewhere");
-  const skipped = answer.result.skipped ?? [];
-  const rest = skipped.length > kNamed ? `; and ${skipped.length - kNamed} more` : "";
-  if (skipped.length > 0) store.say(`${baseOf(file)}: skipped`, skipped.slice(0, kNamed).join("; ") + rest);
+  const { what, more } = noticeOf(file, answer.result.skipped ?? []);
+  if (what) store.say(`${baseOf(file)}: ${what}`, more);
   return ids;
 }
 

@@ -77,7 +77,7 @@ onStage("fairing a scan", ["examples/bonnet-scan.csv"], (stage) => {
     const text = await stage.at.page.locator(".panel").textContent();
     expect(text).toContain(`Pieces (${answer.pieces.length})`);
     expect(text).toContain(answer.deviation.max.toPrecision(3));
-    expect(text).not.toMatch(/\bmm\b/); // the table tells no unit
+    expect(text).toMatch(/Largest deviation\s*[\d.]+\smm/); // the table's header tells it
     expect(await stage.at.page.evaluate(() => window.keyline.live.of(2)?.curve)).toEqual(answer.curve);
     await stage.at.page.waitForSelector("#measures .was");
     // near enough and calm enough, as the operation has it, and the points' deviation along the curve

@@ -8,6 +8,7 @@ import { carried, carriedComb, followedBy, type Placement, shiftedBy, still } fr
 import { controlsOf, withControl } from "../../src/model/controls.ts";
 import { crosses, taken } from "../../src/gestures/band.ts";
 import { isKept, ownDocument } from "../../src/model/autosave.ts";
+import { noticeOf, withFile } from "../../src/model/open.ts";
 
 const points: [Point, Point, Point] = [[0, 0], [2, 0], [3, 1]];
 
@@ -183,5 +184,25 @@ describe("a band", () => {
     expect(crosses(rect, [-1, 0.5], [1, 2.5])).toBe(true);
     expect(crosses(rect, [1, 1], [1, 1.5])).toBe(true);
     expect(crosses(rect, [3, -1], [3, 3])).toBe(false);
+  });
+});
+
+describe("a file", () => {
+  it("gives the document its unit, or none", () => {
+    const read = (unit: string) => withFile(emptyDoc(), "a.csv", { curves: [], surfaces: [], unit, skipped: [], notes: [] });
+    expect(read("in").doc.unit).toBe("in");
+    expect(read("").doc.unit).toBe("");
+  });
+});
+
+describe("the notice of a file", () => {
+  it("tells both that a mesh was cut and what of it was skipped", () => {
+    const both = noticeOf("car.stl", ["line 4: no number"]);
+    expect(both.what).toContain("plane of symmetry");
+    expect(both.more).toContain("line 4: no number");
+    expect(noticeOf("car.stl", []).more).not.toContain("kipped");
+    expect(noticeOf("points.csv", ["line 4: no number"])).toEqual({ what: "skipped", more: "line 4: no number" });
+    expect(noticeOf("points.csv", []).what).toBe("");
+    expect(noticeOf("points.csv", ["a", "b", "c", "d", "e", "f", "g"]).more).toBe("a; b; c; d; e; and 2 more");
   });
 });
