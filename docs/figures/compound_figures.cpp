@@ -125,7 +125,7 @@ Drawing standard_forms() {
               330,
               260};
   scene.lines.push_back({"", sample(given, 200), color(0), 2.2});
-  scene.notes = {{kTriangle[0], "Pa"}, {kTriangle[1], "Pb"}, {kTriangle[2], "Pc"}};
+  scene.notes = {{kTriangle[0], "Pa", {9, 8}}, {kTriangle[1], "Pb"}, {kTriangle[2], "Pc"}};
   const double theta = total_turning(given) < 0 ? -total_turning(given) : total_turning(given);
   return figure::tile({draw(scene), standard("(a) α ≤ 1: ρ = 1 at P0", -1, 0.25, {0, theta}),
                        standard("(b) α > 1: ρ = 1 at P2", 2, 0.5, {-theta, 0})},
@@ -174,7 +174,7 @@ Drawing handles_figure() {
   scene.lines.push_back({"", {first, second}, figure::kRaw, 1, {3, 3}});
   add_pieces(chain, scene);
   scene.marks.push_back(poses[1].position);
-  scene.notes = {{kTriangle[0], "a0"},
+  scene.notes = {{kTriangle[0], "a0", {9, 8}},
                  {kTriangle[1], "a1"},
                  {kTriangle[2], "a2"},
                  {core::mix(poses[0].position, poses[1].position, 0.5), "α0", {10, 12}},
@@ -205,7 +205,10 @@ Drawing configuration(const char* title, const lac::CompoundRhythm& rhythm, bool
                                 poses[2].position, meeting(poses[0], poses[2])};
   for (int k = 0; k < 6; ++k) {
     scene.marks.push_back(placed(p[static_cast<std::size_t>(k)]));
-    scene.notes.push_back({scene.marks.back(), "p" + std::to_string(k)});
+    const core::Vector2 beside = k == 1   ? core::Vector2{-17, 12}
+                                 : k == 2 ? core::Vector2{9, 11}
+                                          : core::Vector2{6, -6};
+    scene.notes.push_back({scene.marks.back(), "p" + std::to_string(k), beside});
   }
   scene.lines.push_back(handles({scene.marks[0], scene.marks[5], scene.marks[4]}));
   scene.lines.push_back(handles({scene.marks[1], scene.marks[3]}));

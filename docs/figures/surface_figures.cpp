@@ -92,6 +92,7 @@ void tradeoff() {
   const BezierSurface given = panel("panel-c");
   figure::Plot plot;
   plot.title = "Panel c: what a lower SAV costs";
+  plot.subtitle = "a SAV of 0 stands at the bottom";
   plot.x.title = "largest departure [mm]";
   plot.y.title = "SAV";
   plot.y.scale = figure::Scale::log10;
