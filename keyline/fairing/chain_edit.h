@@ -8,7 +8,8 @@
 namespace keyline::fairing::detail {
 
 /// The chain without the joint before piece `at` (1 <= at < pieces): the two pieces become one,
-/// its slope guessed so that it turns as much as they did together.
+/// its slope guessed so that it turns as much as they did together, from -8 to 8; where curvature
+/// passes zero from -5 to -0.3.
 FitChain without_joint(const FitChain& chain, int at);
 
 /// The same curve with a joint more, at a fraction of piece `at` (0 <= at < pieces, 0 < fraction <

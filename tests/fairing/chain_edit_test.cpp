@@ -313,5 +313,22 @@ TEST(ChainEdit, StartsMoveOnRoundAndRound) {
   }
 }
 
+// What turns more, or less, than any slope of the range can gets the range's end: 8 either way, and
+// through an inflection -5 and -0.3.
+TEST(ChainEdit, GuessedSlopesEndAtTheirRange) {
+  const auto slope = [](double start, double end, double mean) {
+    FitChain chain;
+    chain.joints = {{{}, 0, start}, {{}, 0, 0}, {{}, mean, end}};
+    chain.pieces.assign(2, {.length = 0.5});
+    return without_joint(chain, 1).pieces[0].alpha;
+  };
+  EXPECT_EQ(slope(1, 3, 2.9), -8);
+  EXPECT_EQ(slope(1, 3, 1.06), 8);
+  EXPECT_EQ(slope(3, 1, 2.9), -8);
+  EXPECT_EQ(slope(-0.5, 1.5, 1.4), -5);
+  EXPECT_EQ(slope(-0.5, 1.5, -0.2), -0.3);
+  EXPECT_EQ(slope(1.5, -0.5, 1.4), -5);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

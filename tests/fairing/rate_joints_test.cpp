@@ -13,20 +13,21 @@
 namespace keyline::fairing::detail {
 namespace {
 
-/// Points on a chain laid out from these pieces.
+/// Points on a chain laid out from these pieces, so many steps on each.
 struct Given {
   FitChain chain;
   std::vector<FitPoint> points;
-  explicit Given(const std::vector<lac::Piece>& pieces) {
+  explicit Given(const std::vector<lac::Piece>& pieces, int steps = 8) {
     const lac::Chain truth{{{0, 0}, 0.2}, pieces, false};
     const auto segments = lac::segments(truth);
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const lac::Segment& s = segments[i];
       chain.joints.push_back({s.start.position, s.start.direction, s.curvature_start});
       chain.pieces.push_back({.length = s.length, .alpha = s.alpha});
-      for (int k = i == 0 ? 0 : 1; k <= 8; ++k) {
-        points.push_back({.position = lac::evaluate(s, k / 8.0)});
-        chain.feet.push_back({static_cast<int>(i), k / 8.0});
+      for (int k = i == 0 ? 0 : 1; k <= steps; ++k) {
+        const double t = static_cast<double>(k) / steps;
+        points.push_back({.position = lac::evaluate(s, t)});
+        chain.feet.push_back({static_cast<int>(i), t});
       }
     }
     const core::Pose2 end = lac::end_pose(truth);
@@ -175,6 +176,49 @@ TEST(JoinRates, WhereNothingMayBeHeldNothingIs) {
   EXPECT_EQ(report.missed, report.joints);
   ASSERT_EQ(report.stay.size(), 3U);
   for (const RateReport::Stay& stay : report.stay) EXPECT_EQ(stay.loss, RateLoss::bounds);
+}
+
+// Of a chain with one joint: tied with the others, then without it, then joint by joint in two
+// passes, each of which makes the points outside dearer twice before it gives up. A judge who lets
+// the last of these pass, and only that, has the joint.
+TEST(JoinRates, PointsOutsideAreMadeDearerTwice) {
+  const lac::Piece whole{-0.5, 1, 1, 3};
+  const double k = lac::curvature(whole, 0.4);
+  for (const int passes : {8, 9}) {
+    Given g({{-0.5, 0.4, 1, k}, {-0.5, 0.6, k, 3}});
+    RateOptions options;
+    options.tolerance = 1e-3;
+    int judged = 0;
+    options.loses = [&](const FitChain&) {
+      return ++judged < passes ? std::optional(RateLoss::tolerance) : std::nullopt;
+    };
+    const RateReport report = join_rates(g.chain, g.points, options);
+    EXPECT_EQ(judged, 8);
+    EXPECT_EQ(report.within, passes == 8);
+    EXPECT_EQ(joined(g.chain) == 1 && report.missed == 0, passes == 8);
+  }
+}
+
+// Clothoids of one rate but for one joint, where it jumps by a hundredth, which the points do not
+// let go: that one gives way, not its neighbours.
+TEST(JoinRates, TheTieThatIsStrainedMostGivesWay) {
+  for (const int bad : {2, 4}) {
+    std::vector<lac::Piece> pieces;
+    double curvature = 1;
+    for (int i = 0; i < 6; ++i) {
+      const double next = curvature + 0.4 * (i < bad ? 1 : std::exp(0.01));
+      pieces.push_back({-1, 0.2, curvature, next});
+      curvature = next;
+    }
+    Given g(pieces, 12);
+    const RateReport report = g.join(3e-6);
+    EXPECT_TRUE(report.within);
+    EXPECT_EQ(report.joints, 5);
+    EXPECT_EQ(joined(g.chain), 4);
+    ASSERT_EQ(report.stay.size(), 1U);
+    EXPECT_EQ(report.stay[0].piece, bad);
+    EXPECT_EQ(report.stay[0].loss, RateLoss::tolerance);
+  }
 }
 
 }  // namespace
