@@ -57,5 +57,19 @@ TEST(Continuity, BreakpointsInsideACurve) {
   EXPECT_NEAR(joints[0].curvature_jump, 1, 1e-9);
 }
 
+// Jumps are told beside the larger side, but no less than one over the size, and its square for the
+// rate: 0.01 beside 1/2, 0.01 beside 1/4.
+TEST(Continuity, SmallJumpsAreToldBesideTheSize) {
+  const auto along = [](double curvature, double rate) {
+    return curve::Jet2{{0, 0}, {1, 0}, {0, curvature}, {-curvature * curvature, rate}};
+  };
+  const auto joint = joint_continuity(along(0, 0.02), along(0.01, 0.03), 2, {});
+  EXPECT_NEAR(joint.relative_curvature_jump, 0.02, 1e-12);
+  EXPECT_NEAR(joint.relative_curvature_rate_jump, 0.04, 1e-12);
+  const auto large = joint_continuity(along(4, 0), along(3, -5), 2, {});
+  EXPECT_NEAR(large.relative_curvature_jump, 0.25, 1e-12);
+  EXPECT_NEAR(large.relative_curvature_rate_jump, 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace keyline::analysis

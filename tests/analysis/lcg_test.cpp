@@ -1,6 +1,7 @@
 #include "keyline/analysis/lcg.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,20 @@ TEST(ArcLengthTable, InvertsItself) {
     EXPECT_NEAR(table.length_at(table.parameter_at(s)), s, 1e-12);
   EXPECT_EQ(table.parameter_at(-1), 0);
   EXPECT_EQ(table.parameter_at(3), 1);
+}
+
+// Points (0, 0), (1, 3) and (2, 0): the nearest line is level at 1, and they are 1, 2 and 1 off it.
+TEST(Lcg, LineAndVarianceAreThoseOfLeastSquares) {
+  CurvatureProfile profile;
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 3}, {2, 0}}) {
+    profile.curvature.push_back(std::exp(-x));
+    profile.curvature_rate.push_back(std::exp(-x - y));
+  }
+  const Lcg graph = logarithmic_curvature_graph(profile);
+  ASSERT_TRUE(graph.defined);
+  EXPECT_NEAR(graph.slope, 0, 1e-14);
+  EXPECT_NEAR(graph.intercept, 1, 1e-14);
+  EXPECT_NEAR(graph.variance, 2, 1e-14);
 }
 
 }  // namespace
