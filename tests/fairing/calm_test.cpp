@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
+
 /// Turns of curvature.
 namespace keyline::fairing::detail {
 namespace {
@@ -264,17 +266,19 @@ TEST(Calm, SensesOfClosedCurvesGoRound) {
   for (const signed char sense : circle.curve.sense) EXPECT_EQ(sense, 0);
 }
 
-// The lower of two bumps goes, the higher stays, whichever comes first along the curve.
+// The lower of two bumps goes, the higher stays, whichever comes first along the curve and though
+// the higher is narrower: none of those behind one that cannot go would be asked.
 TEST(Calm, TheLowerWaveGoesFirst) {
   for (const bool first : {false, true}) {
     SCOPED_TRACE(first);
     Given g;
     for (int i = 0; i <= 100; ++i) {
       const double x = i / 100.0;
-      const auto bump = [&](double at, double height) {
-        return height * std::exp(-std::pow((x - at) / 0.06, 2));
+      const auto bump = [&](double at, double height, double width) {
+        return height * std::exp(-std::pow((x - at) / width, 2));
       };
-      const double low = bump(first ? 0.25 : 0.75, 2e-4), high = bump(first ? 0.75 : 0.25, 8e-3);
+      const double low = bump(first ? 0.25 : 0.75, 6e-4, 0.1);
+      const double high = bump(first ? 0.75 : 0.25, 1.6e-2, 0.04);
       g.points.push_back({.position = {x, 0.3 * x * x + low + high}});
     }
     g.curve = dense_curve(g.points, false, 100);

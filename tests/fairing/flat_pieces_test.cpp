@@ -136,6 +136,20 @@ TEST(MakeArcs, SeveralAtOnce) {
   EXPECT_EQ(g.curve.kind, (std::vector{arc, curve, arc, curve, arc}));
 }
 
+// Where all of them have more energy than an answer may cost, the half that has least: the first
+// here, 0.18^2 / 0.15 for 0.25^2 / 0.2.
+TEST(MakeArcs, HalfOfThemWhereAllCostTooMuch) {
+  const double least = 0.18 * 0.18 / 0.15, more = 0.25 * 0.25 / 0.2;
+  for (const bool all : {false, true}) {
+    Given g({{-1, 0.15, 1, 1.18}, {-1, 0.35, 1.18, 3}, {-1, 0.2, 3, 3.25}, {-1, 0.3, 3.25, 6}}, 20,
+            3e-3);
+    g.options.worth = 1 + (least + (all ? 1.5 : 0.5) * more) / g.band.energy;
+    make_arcs(g.curve, g.band, g.points, g.options);
+    EXPECT_EQ(g.curve.kind[0], PieceKind::arc);
+    EXPECT_EQ(g.curve.kind[2], all ? PieceKind::arc : PieceKind::curve);
+  }
+}
+
 /// The same as a free curve, as it is before pieces are chosen.
 Given free(const std::vector<lac::Piece>& pieces) {
   Given g(pieces, 60);
