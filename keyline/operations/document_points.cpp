@@ -94,6 +94,7 @@ Result<exchange::PointsFile> read_raw(const InputRequest& input, const std::stri
   options.columns = input.columns;
   options.weight_column = input.weight_column;
   options.id_column = input.id_column;
+  options.blank_lines_part = input.section.empty();
   auto raw = exchange::read_points_file(file, options);
   if (!raw || input.section.empty()) return raw;
   auto cuts = cut_table(input, raw->curves);

@@ -120,8 +120,7 @@ TEST(ReadPoints, AxesAreKnownByAWordOfTheirNames) {
     EXPECT_EQ(read->unit, "mm");
   }
   // of two columns of one letter neither is meant
-  EXPECT_EQ(only("x upper,y upper,x lower,y lower\n0,0,5,6\n1,2,5,6\n3,4,5,6\n").left_out.size(),
-            2U);
+  EXPECT_EQ(only("x left,y left,x right,y right\n0,0,5,6\n1,2,5,6\n3,4,5,6\n").left_out.size(), 2U);
   EXPECT_EQ(only("east,north,normal_x,normal_y\n0,0,0,1\n1,2,0,1\n3,4,0,1\n").points[1].x, 1);
   EXPECT_EQ(only("x_err,x,y\n9,0,0\n9,1,2\n9,3,4\n").points[1], (Point3{1, 2, 0}));
 }

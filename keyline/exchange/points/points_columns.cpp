@@ -31,16 +31,13 @@ int find_name(const Names& names, std::initializer_list<const char*> wanted) {
 /// Whether the name is that letter among words for coordinates: "x-koordinate", "position x",
 /// "x/c". "normal_x" is something else.
 bool names_axis(std::string_view name, char axis) {
-  static constexpr auto kWords = std::to_array<std::string_view>(
-      {"coordinate", "coord", "coords", "koordinate", "position", "pos", "axis", "achse", "value",
-       "wert", "point", "punkt", "pt", "p", "c", "coordinates"});
   int letters = 0;
   while (!name.empty()) {
     const std::size_t end = std::min(name.find_first_of(" _-/.:"), name.size());
     const std::string_view word = name.substr(0, end);
     const bool letter = word.size() == 1 && word[0] == axis;
     letters += letter;
-    if (!letter && !word.empty() && std::ranges::find(kWords, word) == kWords.end()) return false;
+    if (!letter && !word.empty() && !is_coordinate_word(word)) return false;
     name.remove_prefix(std::min(end + 1, name.size()));
   }
   return letters == 1;
@@ -104,6 +101,13 @@ void take_named(PointsColumns& columns, const Names& names) {
 constexpr std::initializer_list<const char*> kOfCurves = {"id", "curve", "name", "curve_id"};
 
 }  // namespace
+
+bool is_coordinate_word(std::string_view word) {
+  static constexpr auto kWords = std::to_array<std::string_view>(
+      {"coordinate", "coord", "coords", "koordinate", "position", "pos", "axis", "achse", "value",
+       "wert", "point", "punkt", "pt", "p", "c", "coordinates"});
+  return std::ranges::find(kWords, word) != kWords.end();
+}
 
 bool names_curves(const Names& names, const PointsOptions& options) {
   return !options.id_column.empty() || find_name(names, kOfCurves) != kNone;

@@ -19,8 +19,16 @@ struct PointsColumns {
   int z = kNone;
   int weight = kNone;
   int id = kNone;
+  int x2 = kNone;  ///< of a second curve in the same rows (points_sides.h)
+  int y2 = kNone;
 
-  int last() const { return std::max({x, y, z, weight, id}); }
+  bool two() const { return y2 != kNone; }
+  bool own_x() const { return two() && x2 != x; }
+  int last() const { return std::max({x, y, z, weight, id, x2, y2}); }
+  bool takes(int column) const {
+    return column == x || column == y || column == z || column == weight || column == id ||
+           column == x2 || column == y2;
+  }
 };
 
 /// True for names (plain_name) of which the axes, or a column asked for, are some.
@@ -35,6 +43,9 @@ bool names_curves(const std::vector<std::string>& names, const PointsOptions& op
 core::Result<PointsColumns> choose_columns(const std::vector<std::string>& names,
                                            const PointsOptions& options, std::size_t fields,
                                            bool text_id, const std::string& place);
+
+/// Whether a word beside an axis' letter says that the column holds coordinates: "position".
+bool is_coordinate_word(std::string_view word);
 
 /// The first 40 characters without control characters, for messages and names.
 std::string shortened(std::string_view text);

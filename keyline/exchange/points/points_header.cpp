@@ -45,11 +45,14 @@ bool PointsTable::take_header(std::string_view text, int number, bool comment) {
   for (const char separator : {',', ';', '\t', ' '}) {
     std::vector<std::string> names;
     std::vector<HeaderUnit> units;
-    for (const auto field : split(text, {separator, false})) {
+    const Fields cells = split(text, {separator, false});
+    for (const auto field : cells) {
       names.push_back(plain_name(field));
       units.push_back(unit_of(field));
     }
-    if (!is_points_header(names, options_)) continue;
+    auto sides = find_sides(cells, separator == ' ');
+    if (!sides && !is_points_header(names, options_)) continue;
+    sides_ = std::move(sides);
     names_ = std::move(names);
     units_ = std::move(units);
     header_separator_ = separator;
@@ -112,7 +115,7 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
 
 /// The unit that the header gives the coordinates.
 core::Result<void> PointsTable::take_units(const std::string& place) {
-  for (const int column : {columns_.x, columns_.y, columns_.z}) {
+  for (const int column : {columns_.x, columns_.y, columns_.z, columns_.x2, columns_.y2}) {
     if (column < 0 || static_cast<std::size_t>(column) >= units_.size()) continue;
     const auto& [known, unknown] = units_[static_cast<std::size_t>(column)];
     if (!unknown.empty() && unit_.empty())
@@ -136,6 +139,9 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
   if (header_counts_ && fields.size() == names_.size() + 1 && fields[0] == "1") {
     names_.insert(names_.begin(), "#");
     units_.insert(units_.begin(), HeaderUnit{});
+    if (sides_)
+      for (int* column : {&sides_->first.x, &sides_->first.y, &sides_->second.x, &sides_->second.y})
+        ++*column;
   }
   first_line_ = number;
   // Words between spaces are a title; a line with tabs heads columns, which tabs or spaces part.
@@ -148,6 +154,7 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
   const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
   if (!chosen) return std::unexpected(chosen.error());
   columns_ = *chosen;
+  take_sides();
   if (auto taken = take_units(place); !taken) return taken;
   if (names_.empty() && options_.columns.empty())
     ignored_columns_ = width_ - std::min<std::size_t>(width_, text_id_ ? 4 : 3);

@@ -18,6 +18,7 @@ struct PointsOptions {
   std::string weight_column;         ///< empty: a column named w, weight or weights
   std::string id_column;             ///< empty: a column named id, curve or name
   char separator = 0;                ///< 0: found out; ' ' stands for any white space
+  bool blank_lines_part = true;      ///< rows into curves of their own; false of a cloud
   std::size_t longest_line = 1 << 20;
 };
 
@@ -41,6 +42,10 @@ struct PointsFile {
 ///   sides of it, and is a failure elsewhere; likewise a number by itself that counts the rows
 ///   behind it. Where no rows follow, it is `left_out`.
 /// - An id column makes one curve for each id, in order of first appearance.
+/// - A header of upper and lower y over one x ("x yu yl", "station,upper,lower"), or with an x of
+///   each ("xu,yu,xl,yl"), makes two curves, named after the columns ("yu"), behind the curve's own
+///   name, if any ("wing/yu").
+/// - Blank lines part rows into curves, as part_blocks says; not where an id column names them.
 /// - Numbers behind the columns of the first row are `left_out`, and a failure where commas
 ///   separate: a decimal comma makes two of one number.
 /// - Missing entries (empty, nan, inf, null, NA) give non-finite coordinates, left to

@@ -8,7 +8,6 @@
 
 #include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
-#include "keyline/exchange/points/airfoil_points.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -27,7 +26,10 @@ bool PointsTable::all_numbers(const Fields& fields, std::size_t from) const {
 
 core::Result<void> PointsTable::take(std::string_view line, int number, const std::string& place) {
   line = trimmed(line);
-  if (line.empty()) return {};
+  if (line.empty()) {
+    meet_blank(number);
+    return {};
+  }
   if (!is_comment(line)) line = without_remark(line);
   if (!started_) return before_data(line, number, place);
   if (is_comment(line)) return {};
@@ -64,7 +66,10 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
                                            const std::string& place) {
   learn_fraction(line);
   const Fields fields = split(line, style_);
-  if (fields.empty()) return {};
+  if (fields.empty()) {  // nothing but separators
+    meet_blank(number);
+    return {};
+  }
   const auto x = static_cast<std::size_t>(columns_.x);
   const bool remark = columns_.id == PointsColumns::kNone
                           ? is_remark(fields, style_, x, width_)
@@ -126,10 +131,10 @@ core::Result<void> PointsTable::surplus(const Fields& fields, int number,
   if (std::none_of(fields.begin() + static_cast<std::ptrdiff_t>(most_), fields.end(), is_number))
     return {};
   if (style_.separator == ',')
-    return core::fail(
-        ErrorCode::bad_input,
-        std::to_string(fields.size()) + " columns where the first row has " + std::to_string(most_),
-        "where numbers have a decimal comma, separate columns by ; or blanks", place);
+    return core::fail(ErrorCode::bad_input,
+                      core::counted(fields.size(), "column") + " where the first row has " +
+                          std::to_string(most_),
+                      "where numbers have a decimal comma, separate columns by ; or blanks", place);
   left_out_.push_back("line " + std::to_string(number) + ": what stands behind column " +
                       std::to_string(most_));
   return {};
@@ -144,12 +149,14 @@ bool PointsTable::first_was_none(const Fields& fields) const {
 }
 
 void PointsTable::restart(std::size_t fields, const std::string& place) {
-  misfit_ = {ErrorCode::bad_input,
-             std::to_string(fields) + " columns where the row before has " + std::to_string(width_),
-             "give every point all its coordinates", place};
+  misfit_ = {
+      ErrorCode::bad_input,
+      core::counted(fields, "column") + " where the row before has " + std::to_string(width_),
+      "give every point all its coordinates", place};
   left_out_.push_back("line " + std::to_string(first_line_) + ": " +
                       core::counted(width_, "number") + " before the rows of points");
   curves_.clear();
+  seconds_.clear();
   index_.clear();
   current_ = 0;
   rows_ = run_ = 0;
@@ -207,9 +214,7 @@ void PointsTable::tell_columns() {
   std::string others;
   for (std::size_t k = 0; k < names_.size(); ++k) {
     const int column = static_cast<int>(k);
-    if (column == columns_.x || column == columns_.y || column == columns_.z ||
-        column == columns_.weight || column == columns_.id || names_[k].empty())
-      continue;
+    if (columns_.takes(column) || names_[k].empty()) continue;
     others += (others.empty() ? "" : ", ") + names_[k];
   }
   if (!others.empty()) left_out_.insert(left_out_.begin(), "columns beside: " + shortened(others));
@@ -238,8 +243,8 @@ RawCurve& PointsTable::curve_of(std::string_view id) {
 
 core::Failure PointsTable::too_few(std::size_t fields, const std::string& place) const {
   return {ErrorCode::bad_input,
-          "only " + std::to_string(fields) + " of at least " + std::to_string(columns_.last() + 1) +
-              " columns",
+          "only " + std::to_string(fields) + " of at least " +
+              core::counted(static_cast<std::size_t>(columns_.last()) + 1, "column"),
           "give every point all its coordinates", place};
 }
 
@@ -276,6 +281,11 @@ core::Result<PointsTable::Row> PointsTable::row_of(const Fields& fields,
     if (!value) return std::unexpected(value.error());
     *target = *value;
   }
+  if (columns_.two()) {
+    const auto second = second_of(fields, place);
+    if (!second) return std::unexpected(second.error());
+    row.second = *second;
+  }
   const auto k = static_cast<std::size_t>(columns_.id);
   if (columns_.id == PointsColumns::kNone || k >= fields.size()) return row;
   const std::string_view id = fields[k];
@@ -288,9 +298,10 @@ void PointsTable::add(const Row& row, int number) {
   ++rows_;
   if (++run_ >= kFewest) unproven_.reset();
   RawCurve& curve = curve_of(row.id);
-  curve.points.push_back(row.point);
-  curve.source_lines.push_back(number);
-  if (columns_.weight != PointsColumns::kNone) curve.weights.push_back(row.weight);
+  put(curve, row.point, row.weight, number);
+  if (!columns_.two()) return;
+  seconds_.resize(curves_.size());
+  put(seconds_[current_], row.second, row.weight, number);
 }
 
 /// Of a title that is a number: whether it counts the rows behind it, the points among them or
@@ -360,10 +371,13 @@ core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
                       "give a text file with two or three numbers on each line", name);
   }
   drop_counter();
-  if (names_.empty())
-    for (RawCurve& curve : curves_) unfold_lednicer(curve, left_out_);
-  if (curves_.size() == 1 && names_.empty()) part_elements(curves_);
-  name_curves();
+  const bool sides = columns_.two();
+  if (sides) {
+    name_curves();
+    part_sides();
+  }
+  part_curves();
+  if (!sides) name_curves();
   tell_left_out();
   return std::move(curves_);
 }

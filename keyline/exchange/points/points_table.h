@@ -10,8 +10,10 @@
 #include "keyline/acquire/raw_curve.h"
 #include "keyline/core/error.h"
 #include "keyline/core/point.h"
+#include "keyline/exchange/points/points_blocks.h"
 #include "keyline/exchange/points/points_columns.h"
 #include "keyline/exchange/points/points_reader.h"
+#include "keyline/exchange/points/points_sides.h"
 #include "keyline/exchange/text/header_unit.h"
 #include "keyline/exchange/text/text_table.h"
 
@@ -36,6 +38,7 @@ class PointsTable {
   using Fields = std::vector<std::string_view>;
   struct Row {
     core::Point3 point;
+    core::Point3 second;  // where columns_.two()
     double weight = 1;
     std::string id;
   };
@@ -64,7 +67,10 @@ class PointsTable {
   core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
   core::Result<double> number_in(const Fields& fields, int column, const std::string& place) const;
   core::Result<Row> row_of(const Fields& fields, const std::string& place) const;
+  core::Result<core::Point3> second_of(const Fields& fields, const std::string& place) const;
   void add(const Row& row, int number);
+  void put(acquire::RawCurve& curve, core::Point3 p, double weight, int number) const;
+  void meet_blank(int number);
   acquire::RawCurve& curve_of(std::string_view id);
   bool all_numbers(const Fields& fields, std::size_t from) const;
   void remember_title(std::string_view line, int number);
@@ -73,6 +79,9 @@ class PointsTable {
   void watch_counter(const Fields& fields);
   void drop_counter();
   void tell_columns();
+  void take_sides();
+  void part_curves();
+  void part_sides();
   bool title_counts(double number) const;
   void name_curves();
   void tell_left_out();
@@ -111,6 +120,9 @@ class PointsTable {
   std::vector<double> fourth_;  // numbers of column 4 then
   std::vector<std::string> left_out_;
   Curves curves_;
+  Curves seconds_;                  // the second curve of each, where columns_.two()
+  std::optional<Sides> sides_;      // what the header says of two curves
+  std::vector<BlankLines> blanks_;  // among the rows
   std::map<std::string, std::size_t, std::less<>> index_;
   std::size_t current_ = 0;
 };
