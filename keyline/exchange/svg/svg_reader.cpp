@@ -15,6 +15,7 @@
 #include "keyline/exchange/svg/svg_style.h"
 #include "keyline/exchange/svg/svg_text.h"
 #include "keyline/exchange/svg/svg_transform.h"
+#include "keyline/exchange/svg/svg_unseen.h"
 
 namespace keyline::exchange {
 
@@ -57,6 +58,8 @@ class SvgReader {
     if (styles_.passed() > 0)
       skip(line(root), core::counted(styles_.passed(), "rule") +
                            " of its style sheets: only plain selectors are followed");
+    if (!full_)
+      for (auto& [node, what] : unseen_.told(root)) skip(line(node), std::move(what));
     sort_skipped();
     return std::move(contents_);
   }
@@ -68,13 +71,7 @@ class SvgReader {
   }
 
   /// By line; what stands on one line stays in the order met.
-  void sort_skipped() {
-    std::map<int, std::vector<SvgSkipped>> by_line;
-    for (SvgSkipped& item : contents_.skipped) by_line[item.line].push_back(std::move(item));
-    contents_.skipped.clear();
-    for (auto& [number, items] : by_line)
-      for (SvgSkipped& item : items) contents_.skipped.push_back(std::move(item));
-  }
+  void sort_skipped() { std::ranges::stable_sort(contents_.skipped, {}, &SvgSkipped::line); }
 
   int line(const pugi::xml_node& node) const {
     const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
@@ -83,17 +80,11 @@ class SvgReader {
 
   /// First element of every id, found without recursion.
   void find_ids(const pugi::xml_node& root) {
-    pugi::xml_node node = root;
-    while (node) {
+    const auto enter = [this](const pugi::xml_node& node) {
       if (const char* id = node.attribute("id").value(); *id) ids_.emplace(id, node);
       if (local_name(node) == "style") styles_.add_sheet(node.text().get());
-      if (node.first_child()) {
-        node = node.first_child();
-        continue;
-      }
-      while (node && node != root && !node.next_sibling()) node = node.parent();
-      node = node && node != root ? node.next_sibling() : pugi::xml_node();
-    }
+    };
+    detail::walk_svg(root, enter, [](const pugi::xml_node&) {});
   }
 
   /// A side of the page in a unit; empty where there is none, or a share of the window.
@@ -231,6 +222,8 @@ class SvgReader {
   }
 
   void read_shape(const pugi::xml_node& node, const Place& place) {
+    if (!place.paint.seen()) unseen_.take_hidden(node);
+    if (place.use_depth > 0) unseen_.take_used(node);
     check_lengths(node, {"rx", "ry"});
     SvgPathData data = detail::svg_shape(node, place.viewport);
     if (!data.error.empty())
@@ -345,11 +338,13 @@ class SvgReader {
         contents_.metadata = child.text().get();
   }
 
-  /// Definitions and descriptions are silent; anything else is counted under its name.
+  /// Descriptions are silent, definitions told by their shapes; anything else is counted under its
+  /// name.
   void ignore(const pugi::xml_node& node, std::string_view name) {
-    for (const char* silent : {"defs", "title", "desc", "style", "namedview", "symbol", "clipPath",
-                               "mask", "marker", "pattern", "linearGradient", "radialGradient",
-                               "filter", "script", "i18n", "guide", "perspective", "pgf"})
+    if (detail::is_svg_definition(name)) return;
+    for (const char* silent :
+         {"title", "desc", "style", "namedview", "linearGradient", "radialGradient", "filter",
+          "script", "i18n", "guide", "perspective", "pgf"})
       if (name == silent) return;
     auto& count = ignored_[std::string(name)];
     if (count.second++ == 0) count.first = line(node);
@@ -361,6 +356,7 @@ class SvgReader {
   SvgContents contents_;
   std::unordered_map<std::string, pugi::xml_node> ids_;
   detail::SvgStyles styles_;
+  detail::SvgUnseen unseen_;
   std::vector<pugi::xml_node> open_;                    ///< elements being read, outermost first
   std::map<std::string, std::pair<int, int>> ignored_;  ///< name: first line, count
   std::size_t visited_ = 0;

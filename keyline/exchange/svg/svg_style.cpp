@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/exchange/svg/svg_transform.h"
 
 namespace keyline::exchange::detail {
@@ -48,6 +49,24 @@ void take_current(SvgPaint& paint, std::string_view name, std::string_view value
   const std::string color = css_color(trimmed(value.substr(0, value.find('!'))));
   if (!color.empty()) paint.current = color;
 }
+
+/// What an element says by itself of being seen; the last that is said counts.
+struct Sight {
+  bool displayed = true;
+  bool opaque = true;
+
+  void take(SvgPaint& paint, std::string_view name, std::string_view value) {
+    value = trimmed(value.substr(0, value.find('!')));
+    if (name == "display") displayed = value != "none";
+    if (name == "opacity") {
+      const auto number = core::leading_number(value);
+      opaque = !number || number->value > 0;
+    }
+    if (name != "visibility") return;
+    if (value == "visible") paint.visible = true;
+    if (value == "hidden" || value == "collapse") paint.visible = false;
+  }
+};
 
 /// Calls each(name, value) for every declaration.
 template <class Each>
@@ -120,7 +139,8 @@ SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   paint.unknown.clear();
   const auto declared = declarations(node);
   const auto each = [&](auto take) {
-    for (const char* name : {"color", "stroke", "fill", "stroke-width"})
+    for (const char* name :
+         {"color", "stroke", "fill", "stroke-width", "display", "visibility", "opacity"})
       if (const pugi::xml_attribute own = node.attribute(name)) take(paint, name, own.value());
     for (const std::string_view some : declared)
       each_declaration(
@@ -128,6 +148,11 @@ SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   };
   each(take_current);
   each(declare);
+  Sight sight;
+  each([&sight](SvgPaint& own, std::string_view name, std::string_view value) {
+    sight.take(own, name, value);
+  });
+  paint.cut_out = paint.cut_out || !sight.displayed || !sight.opaque;
   return paint;
 }
 
