@@ -104,7 +104,9 @@ void place_end(RunResult& result, const Run& run, const RunOptions& options, boo
   // The last point itself must stay within the tolerance, now perhaps beyond the end.
   const PointPlace& last = from_end ? places.back() : places.front();
   const double beyond = std::max(0.0, move - along(0));
-  if (std::hypot(last.offset, beyond) > options.tolerance) return;
+  const double past = std::min(0.0, along(0));  // of which a point beyond the end has it now
+  const double aside = std::sqrt(std::max(0.0, last.offset * last.offset - past * past));
+  if (std::hypot(aside, beyond) > options.tolerance) return;
   const lac::Chain chain = from_end ? result.chain : lac::reverse(result.chain);
   const auto moved = lengthened(chain, -move);
   if (!moved) return;

@@ -135,6 +135,7 @@ TEST(FreeEnds, TheLastPointKeepsTheTolerance) {
       return last ? 2 - line.placed_end() : line.placed_start();
     };
     EXPECT_NEAR(end(2 * kError), -kError * kFirst, 1e-12) << last;
+    EXPECT_NEAR(end(1.01 * kError * (1 - kFirst)), -kError * kFirst, 1e-12) << last;
     EXPECT_NEAR(end(0.99 * kError * (1 - kFirst)), 0, 1e-12) << last;
   }
 }
