@@ -21,6 +21,7 @@
 #include "keyline/exchange/font/font.h"
 #include "keyline/exchange/font/glif.h"
 #include "keyline/exchange/json/json_document.h"
+#include "keyline/exchange/lost_labels.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/pdf/pdf_document.h"
 #include "keyline/exchange/points/csv_writer.h"
@@ -54,8 +55,8 @@ Result<Document> points_document(const fs::path& file) {
     std::copy_if(raw.points.begin(), raw.points.end(), std::back_inserter(points),
                  [](core::Point3 p) { return core::is_finite(p); });
     if (points.size() < raw.points.size())
-      document.skipped.push_back(std::to_string(raw.points.size() - points.size()) +
-                                 " points without all coordinates");
+      document.skipped.push_back(core::counted(raw.points.size() - points.size(), "point") +
+                                 " without all coordinates");
     if (points.size() < 2) {
       document.skipped.push_back((raw.id.empty() ? "a curve" : raw.id) + ": fewer than two points");
       continue;
@@ -114,11 +115,11 @@ Result<Document> mesh_document(const fs::path& file) {
   }
   if (document.space_curves.empty())
     return fail(ErrorCode::bad_input,
-                "a mesh or cloud of " + std::to_string(mesh->points.size()) + " points and " +
-                    std::to_string(mesh->triangles.size()) + " triangles is no curve",
+                "a mesh or cloud of " + core::counted(mesh->points.size(), "point") + " and " +
+                    core::counted(mesh->triangles.size(), "triangle") + " is no curve",
                 "cut it: --section y=0, or --section auto");
   if (!mesh->triangles.empty())
-    document.skipped.push_back(std::to_string(mesh->triangles.size()) + " triangles");
+    document.skipped.push_back(core::counted(mesh->triangles.size(), "triangle"));
   return document;
 }
 
@@ -233,10 +234,8 @@ std::string unit_in(const std::string& extension, const std::string& unit) {
 Result<Written> format_in_unit(const Document& document, const std::string& extension,
                                const WriteOptions& options);
 
-}  // namespace
-
-Result<Written> format_document(const Document& document, const std::string& extension,
-                                const WriteOptions& options) {
+Result<Written> format_in_its_unit(const Document& document, const std::string& extension,
+                                   const WriteOptions& options) {
   const std::string unit = unit_in(extension, document.unit);
   if (unit == document.unit) {
     auto written = format_in_unit(document, extension, options);
@@ -260,6 +259,16 @@ Result<Written> format_document(const Document& document, const std::string& ext
   written->deviation /= factor;
   written->notes.push_back("the file has no " + document.unit + ": written in mm, one " +
                            document.unit + " being " + core::number_text(factor, 6) + " mm");
+  return written;
+}
+
+}  // namespace
+
+Result<Written> format_document(const Document& document, const std::string& extension,
+                                const WriteOptions& options) {
+  auto written = format_in_its_unit(document, extension, options);
+  const std::string lost = lost_labels(document, extension);
+  if (written && !lost.empty()) written->notes.push_back("the format has no place for: " + lost);
   return written;
 }
 

@@ -91,6 +91,28 @@ TEST_F(Chains, ClosedStaysClosedAndChainsStayChains) {
   }
 }
 
+// What comes back from STEP and IGES ends a rounding off its start.
+TEST_F(Chains, ClosedUpToRoundingStaysClosed) {
+  Document d;
+  d.unit = "mm";
+  const curve::Bezier2 loop{{{40, 0}, {45, -5}, {55, 5}, {50, 10}}, {}};
+  d.paths.push_back(
+      {{"two", "", ""}, {{{loop}, {curve::Bezier2{{{50, 10}, {40, 7e-15}}, {}}}}, true}, 0});
+  d.paths.push_back(
+      {{"one", "", ""}, {{{curve::Bezier2{{{0, 0}, {9, -5}, {9, 5}, {-4e-16, 0}}, {}}}}, true}, 0});
+  for (const char* name : {"r.dxf", "r.step", "r.iges"}) {
+    SCOPED_TRACE(name);
+    const auto written = write_document(d, folder_ / name);
+    ASSERT_TRUE(written);
+    EXPECT_LT(written->deviation, 1e-9);
+    const auto read = read_document(folder_ / name);
+    ASSERT_TRUE(read);
+    ASSERT_EQ(read->paths.size(), 2U);
+    EXPECT_TRUE(read->paths[0].path.closed);
+    EXPECT_TRUE(read->paths[1].path.closed);
+  }
+}
+
 // Gaps part what is no chain: nothing is drawn between.
 TEST_F(Chains, PartsThatDoNotMeetStayApart) {
   Document d;

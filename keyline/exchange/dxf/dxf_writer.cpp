@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/cad/cad_parts.h"
@@ -48,8 +49,9 @@ class DxfWriter {
  private:
   void note(const Document& document) {
     if (!document.surfaces.empty())
-      written_.notes.push_back(std::to_string(document.surfaces.size()) +
-                               " surfaces are not in the file: DXF holds none");
+      written_.notes.push_back(
+          core::counted(document.surfaces.size(), "surface is", "surfaces are") +
+          " not in the file: DXF holds none");
   }
 
   Result<void> add(const document::NamedPath& named) {
@@ -65,15 +67,27 @@ class DxfWriter {
       return {};
     }
     if (chain) {
-      const ChainSpline whole = chain_spline(*parts, share);
+      ChainSpline whole = chain_spline(*parts, share);
       written_.deviation = std::max(written_.deviation, whole.deviation);
+      if (named.path.closed) close_up(whole.curve, share);
       add_part(named.label, whole.curve);
       return {};
     }
     written_.deviation = std::max(written_.deviation, parts->deviation);
-    for (const CadPart& part : parts->parts)
+    for (CadPart& part : parts->parts) {
+      auto* const spline = std::get_if<curve::BSpline2>(&part);
+      if (spline && named.path.closed && parts->parts.size() == 1) close_up(*spline, share);
       std::visit([&](const auto& p) { add_part(named.label, p); }, part);
+    }
     return {};
+  }
+
+  /// Of a closed path, whose end other formats leave a rounding off its start, the same point.
+  void close_up(curve::BSpline2& c, double share) {
+    const double gap = distance(c.control.front(), c.control.back());
+    if (gap > share) return;
+    c.control.back() = c.control.front();
+    written_.deviation = std::max(written_.deviation, gap);
   }
 
   void add_part(const Label& label, const CadLine& line) {

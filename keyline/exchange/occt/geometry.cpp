@@ -144,7 +144,10 @@ void add_curve(document::Document& document, const opencascade::handle<Geom_Curv
     document.space_curves.push_back({label, {std::move(made)}});
     return;
   }
-  const bool closed = made.control.front() == made.control.back();
+  const Point3 start = made.control.front();
+  double size = 0;
+  for (const Point3& p : made.control) size = std::max(size, distance(start, p));
+  const bool closed = distance(start, made.control.back()) <= kMeeting * size;
   const curve::BSpline2 planar{made.degree, std::move(made.knots), flat(made.control),
                                std::move(made.weights)};
   document.paths.push_back({label, {detail::parted_at_corners(planar), closed}, 0});

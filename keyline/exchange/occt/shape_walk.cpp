@@ -184,7 +184,7 @@ core::Result<document::Path> chained(const document::Document& parts) {
   for (const auto& named : parts.paths)
     for (const double t : {0.5, 1.0})
       size = std::max(size, distance(first, evaluate(named.path, t)));
-  const double reach = 1e-7 * size;
+  const double reach = kMeeting * size;
   core::Point2 last = first;
   for (std::size_t i = 0; i < parts.paths.size(); ++i) {
     const document::Path& part = parts.paths[i].path;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "keyline/analysis/profile.h"
 #include "keyline/analysis/split.h"
@@ -152,20 +154,42 @@ double add_lifted(std::string& text, const std::string& id, const document::Path
   });
 }
 
+/// What tells the curves of a table apart: their names, numbered where one stands twice.
+class Ids {
+ public:
+  std::string next(const std::string& name) {
+    std::string id = name;
+    for (int number = 2; !used_.insert(id).second; ++number) {
+      again_ = true;
+      id = (name.empty() ? "curve" : name) + '#' + std::to_string(number);
+    }
+    return id;
+  }
+  bool again() const { return again_; }
+
+ private:
+  std::set<std::string> used_;
+  bool again_ = false;
+};
+
+constexpr const char* kNumbered =
+    "curves of one name are numbered in the table, as in \"wing#2\"; else they were one";
+
 }  // namespace
 
 core::Result<Written> write_csv(const document::Document& document, int samples) {
   Written written;
   const bool several = document.paths.size() + document.space_curves.size() > 1;
-  const auto id = [several](const document::Label& label) {
-    return several ? field(label.name) + ',' : std::string();
+  Ids ids;
+  const auto id = [&](const document::Label& label) {
+    return several ? field(ids.next(label.name)) + ',' : std::string();
   };
   if (document.paths.empty() && document.space_curves.empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve to write as points",
                       kHoldSurfaces);
   if (!document.surfaces.empty())
-    written.notes.push_back(std::to_string(document.surfaces.size()) +
-                            " surfaces are not in the table");
+    written.notes.push_back(core::counted(document.surfaces.size(), "surface is", "surfaces are") +
+                            " not in the table");
   const auto take = [&](double off) { written.deviation = std::max(written.deviation, off); };
   std::string& text = written.content;
   if (!document.space_curves.empty()) {
@@ -174,6 +198,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
       take(add_lifted(text, id(named.label), named.path, samples));
     for (const auto& named : document.space_curves)
       take(add_space(text, id(named.label), named.curve, samples));
+    if (ids.again()) written.notes.emplace_back(kNumbered);
     return written;
   }
   text = several ? "id,x,y,arc_length,curvature\n" : "x,y,arc_length,curvature\n";
@@ -184,6 +209,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
     else
       take(add_path(text, id(named.label), named.path, samples));
   }
+  if (ids.again()) written.notes.emplace_back(kNumbered);
   return written;
 }
 

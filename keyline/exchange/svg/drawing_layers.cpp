@@ -41,11 +41,12 @@ std::vector<SvgLayer> drawing_layers(const document::Document& document, double 
     layers.of(named).paths.push_back(std::move(cubics.path));
   }
   if (!document.space_curves.empty())
-    written.notes.push_back(std::to_string(document.space_curves.size()) +
-                            " space curves are not in the drawing: it is planar");
+    written.notes.push_back(
+        core::counted(document.space_curves.size(), "space curve is", "space curves are") +
+        " not in the drawing: it is planar");
   if (!document.surfaces.empty())
-    written.notes.push_back(std::to_string(document.surfaces.size()) +
-                            " surfaces are not in the drawing");
+    written.notes.push_back(core::counted(document.surfaces.size(), "surface is", "surfaces are") +
+                            " not in the drawing");
   return layers.take();
 }
 
