@@ -73,6 +73,35 @@ TEST(Glif, ReadsEveryKindOfContour) {
   EXPECT_THAT(d->skipped, testing::ElementsAre(HasSubstr("anchor"), HasSubstr("acute")));
 }
 
+// What a contour holds beside what the format means: read as it can be, and told.
+TEST(Glif, OddContoursAreTold) {
+  const auto told = [](const std::string& points) {
+    const auto d =
+        read_glif("<glyph name='a'><outline><contour>" + points + "</contour></outline></glyph>");
+    return d ? d->skipped : std::vector<std::string>{d.error().message};
+  };
+  const std::string start = "<point x='0' y='0' type='line'/><point x='9' y='0' type='line'/>";
+  const std::string handle = "<point x='9' y='5'/>";
+  const std::string up = "<point x='9' y='9' type='";
+  EXPECT_TRUE(told(start + handle + handle + up + "curve'/>").empty());
+  EXPECT_TRUE(told(start + "<point x='9' y='5' type='offcurve'/>" + up + "qcurve'/>").empty());
+  EXPECT_EQ(told(start + handle + up + "line'/>"),
+            std::vector<std::string>{"1 handle that no curve of a contour uses"});
+  EXPECT_EQ(
+      told(start + handle + up + "curve'/>"),
+      std::vector<std::string>{"1 curve of one or more than two handles, taken for quadratics"});
+  EXPECT_EQ(told(start + handle + "<point x='8' y='8' type='corve'/>" + up + "curve'/>"),
+            std::vector<std::string>{"1 point of an unknown type, taken for a handle"});
+  EXPECT_EQ(told(start + up + "move'/>"),
+            std::vector<std::string>{
+                "1 point of type move within a contour, taken for the end of a line"});
+  EXPECT_EQ(told("<point x='0' y='0' type='move'/>" + up + "line'/>" + handle + handle),
+            std::vector<std::string>{"2 handles that no curve of a contour uses"});
+  const auto image = read_glif("<glyph><image fileName='a.png'/><outline><contour>" + start + up +
+                               "line'/></contour></outline></glyph>");
+  EXPECT_EQ(image.value().skipped, std::vector<std::string>{"an image"});
+}
+
 TEST(Glif, BadGlyphsAreFailuresWithTheLine) {
   EXPECT_THAT(read_glif("<glyph>\n<outline>").error().path, HasSubstr("line "));
   EXPECT_EQ(read_glif("<glyph><outline><contour>\n<point x='1'/></contour></outline></glyph>")
@@ -172,6 +201,45 @@ TEST(Font, TellsWhatIsNotRead) {
   ASSERT_TRUE(collection) << collection.error().message;
   EXPECT_THAT(collection->skipped, testing::ElementsAre("1 further font of the collection"));
   EXPECT_EQ(collection->paths.size(), alone->paths.size());
+}
+
+/// A font with two more tables in its directory.
+std::string with_tables(const std::string& font, const std::string& one, const std::string& other) {
+  const auto number = [](std::size_t value, int bytes) {
+    std::string text;
+    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 255);
+    return text;
+  };
+  const auto at = [](const std::string& text, std::size_t from) {
+    std::size_t value = 0;
+    for (std::size_t i = from; i < from + 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(text[i]);
+    return value;
+  };
+  const std::size_t count = static_cast<unsigned char>(font[5]);
+  const std::size_t head = 12 + 16 * count;
+  std::string made = font.substr(0, 4) + number(count + 2, 2) + font.substr(6, 6);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string entry = font.substr(12 + 16 * i, 16);
+    made += entry.substr(0, 8) + number(at(entry, 8) + 32, 4) + entry.substr(12);
+  }
+  const std::size_t end = font.size() + 32;
+  made += one.substr(0, 4) + number(0, 4) + number(end, 4) + number(one.size() - 4, 4);
+  made += other.substr(0, 4) + number(0, 4) + number(end + one.size() - 4, 4) +
+          number(other.size() - 4, 4);
+  return made + font.substr(head) + one.substr(4) + other.substr(4);
+}
+
+// A font whose weight varies (OpenType, tables fvar and gvar) is read as it is by default.
+TEST(Font, VariationsAreTold) {
+  std::ifstream in(KEYLINE_SOURCE_DIR "/fuzz/seeds/font_reader_fuzz/plain.ttf", std::ios::binary);
+  const std::string font{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  using namespace std::string_literals;
+  const std::string axis = "wght\0\x64\0\0\x01\x90\0\0\x03\x84\0\0\0\0\x01\0"s;
+  const std::string fvar = "fvar\0\x01\0\0\0\x10\0\x02\0\x01\0\x14\0\0\0\x08"s + axis;
+  const auto read = read_font(with_tables(font, fvar, "gvar" + std::string(20, '\0')), "S");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_THAT(read->skipped, testing::ElementsAre(HasSubstr("varies")));
 }
 
 // Table "post" of format 3, as in most fonts of the web: characters and code points are still read.

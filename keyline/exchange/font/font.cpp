@@ -211,7 +211,8 @@ Result<Document> read_font(std::string_view bytes, const std::string& glyphs) {
                       "give a TrueType or OpenType font");
   if (glyphs.empty())
     return core::fail(ErrorCode::bad_input,
-                      "the font holds " + std::to_string(face.value->num_glyphs) + " glyphs",
+                      "the font holds " +
+                          core::counted(static_cast<std::size_t>(face.value->num_glyphs), "glyph"),
                       "choose some with --glyphs S", "--glyphs");
   const auto wanted = glyphs_of(face.value, glyphs);
   if (!wanted) return std::unexpected(wanted.error());
@@ -222,6 +223,9 @@ Result<Document> read_font(std::string_view bytes, const std::string& glyphs) {
   if (const FT_Long others = face.value->num_faces - 1; others > 0)
     document.skipped.push_back(core::counted(static_cast<std::size_t>(others), "further font") +
                                " of the collection");
+  if (FT_HAS_MULTIPLE_MASTERS(face.value))
+    document.skipped.emplace_back(
+        "what the font varies in: its glyphs stand as they do by default");
   if (document.paths.empty())
     return core::fail(ErrorCode::bad_input, "the glyphs have no outline", "choose others",
                       "--glyphs");

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -37,11 +36,20 @@ std::size_t line_of(std::string_view bytes, std::ptrdiff_t offset) {
   return 1 + static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
 }
 
-Kind kind_of(const char* type) {
-  if (std::strcmp(type, "move") == 0) return Kind::move;
-  if (std::strcmp(type, "line") == 0) return Kind::line;
-  if (std::strcmp(type, "curve") == 0) return Kind::curve;
-  if (std::strcmp(type, "qcurve") == 0) return Kind::qcurve;
+/// What of contours is read otherwise than it stands, or not at all.
+struct Oddities {
+  std::size_t unknown = 0;  ///< points of no known type
+  std::size_t unused = 0;   ///< handles that belong to no curve
+  std::size_t curves = 0;   ///< of one handle, or more than two
+  std::size_t moves = 0;    ///< behind the first point
+};
+
+Kind kind_of(std::string_view type, Oddities& odd) {
+  if (type == "move") return Kind::move;
+  if (type == "line") return Kind::line;
+  if (type == "curve") return Kind::curve;
+  if (type == "qcurve") return Kind::qcurve;
+  odd.unknown += !type.empty() && type != "offcurve";
   return Kind::handle;
 }
 
@@ -57,12 +65,15 @@ void add_quadratics(std::vector<Bezier2>& pieces, Point2 from, const std::vector
 }
 
 void add_piece(std::vector<Bezier2>& pieces, Point2 from, const std::vector<Point2>& handles,
-               const Node& to) {
+               const Node& to, Oddities& odd) {
+  odd.moves += to.kind == Kind::move;
   if (handles.empty() || to.kind == Kind::line) {
+    odd.unused += handles.size();
     if (from != to.at) pieces.push_back({{from, to.at}, {}});
   } else if (to.kind == Kind::curve && handles.size() == 2) {
     pieces.push_back({{from, handles[0], handles[1], to.at}, {}});
   } else {
+    odd.curves += to.kind == Kind::curve;
     add_quadratics(pieces, from, handles, to.at);
   }
 }
@@ -77,7 +88,7 @@ std::vector<Bezier2> handle_contour(const std::vector<Node>& nodes) {
   return pieces;
 }
 
-document::Path path_of(std::vector<Node> nodes) {
+document::Path path_of(std::vector<Node> nodes, Oddities& odd) {
   document::Path path;
   const bool open = nodes.front().kind == Kind::move;
   path.closed = !open;
@@ -96,10 +107,11 @@ document::Path path_of(std::vector<Node> nodes) {
         handles.push_back(nodes[i].at);
         continue;
       }
-      add_piece(pieces, at, handles, nodes[i]);
+      add_piece(pieces, at, handles, nodes[i], odd);
       handles.clear();
       at = nodes[i].at;
     }
+    odd.unused += handles.size();
   }
   for (Bezier2& piece : pieces) path.curves.push_back({std::move(piece)});
   return path;
@@ -121,12 +133,27 @@ class GlifReader {
     if (!glyph) return std::unexpected(glyph.error());
     name_ = glyph->attribute("name").as_string("glyph");
     if (auto done = add(*glyph, bytes, {}, 0); !done) return std::unexpected(done.error());
+    tell_odd();
+    if (glyph->child("image")) document_.skipped.emplace_back("an image");
     if (anchors_ > 0)
       document_.skipped.insert(document_.skipped.begin(), core::counted(anchors_, "anchor"));
     return std::move(document_);
   }
 
  private:
+  void tell_odd() {
+    const auto tell = [this](std::size_t count, const char* one, const char* many,
+                             const char* what) {
+      if (count > 0) document_.skipped.push_back(core::counted(count, one, many) + what);
+    };
+    tell(odd_.unknown, "point of an unknown type, taken for a handle",
+         "points of unknown types, taken for handles", "");
+    tell(odd_.unused, "handle", "handles", " that no curve of a contour uses");
+    tell(odd_.curves, "curve", "curves", " of one or more than two handles, taken for quadratics");
+    tell(odd_.moves, "point", "points",
+         " of type move within a contour, taken for the end of a line");
+  }
+
   static Result<pugi::xml_node> parse(pugi::xml_document& xml, std::string_view bytes) {
     const auto parsed = xml.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
     if (!parsed)
@@ -151,7 +178,7 @@ class GlifReader {
         if (!x || !y)
           return core::fail(ErrorCode::bad_input, "a point needs the numbers x and y", "mend it",
                             "line " + std::to_string(line_of(bytes, point.offset_debug())));
-        nodes.push_back({apply(map, {*x, *y}), kind_of(point.attribute("type").value())});
+        nodes.push_back({apply(map, {*x, *y}), kind_of(point.attribute("type").value(), odd_)});
       }
       add_contour(std::move(nodes));
     }
@@ -165,7 +192,7 @@ class GlifReader {
       ++anchors_;
       return;
     }
-    document::Path path = path_of(std::move(nodes));
+    document::Path path = path_of(std::move(nodes), odd_);
     if (path.curves.empty()) {
       document_.skipped.push_back("a contour without extent");
       return;
@@ -233,6 +260,7 @@ class GlifReader {
   std::size_t components_ = 0;
   std::uintmax_t read_ = 0;  ///< bytes of components
   int anchors_ = 0;
+  Oddities odd_;
 };
 
 }  // namespace
