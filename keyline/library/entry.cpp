@@ -60,11 +60,11 @@ PieceEntry piece_entry(const analysis::CurveView& curve, const analysis::ArcLeng
   return entry;
 }
 
-void measure_rhythm(Entry& entry, const document::Path& path) {
+void measure_rhythm(Entry& entry, const document::Path& path, int threads) {
   const analysis::CurveView view =
       path.curves.size() == 1 ? analysis::CurveView(path.curves[0]) : analysis::CurveView(path);
   analysis::AnalyzeOptions options;
-  options.threads = 1;  // others measure other curves
+  options.threads = threads;
   const auto found = analysis::analyze(view, options);
   if (!found) {
     entry.notes.push_back("not measured: " + found.error().message);
@@ -109,8 +109,8 @@ void measure_cav(Entry& entry, const document::Path& path) {
   if (found->nearest_value) entry.nearest_cav = found->nearest_value->cav;
 }
 
-void measure_path(Entry& entry, const document::Path& path) {
-  measure_rhythm(entry, path);
+void measure_path(Entry& entry, const document::Path& path, int threads) {
+  measure_rhythm(entry, path, threads);
   if (entry.length && !is_polygon(path)) measure_cav(entry, path);
 }
 
@@ -126,20 +126,20 @@ void measure_surface(Entry& entry, const surface::Surface& surface) {
     entry.notes.push_back("SAV is the sum over " + std::to_string(patches->size()) + " patches");
 }
 
-Entry describe_thing(Document thing, const std::string& source) {
+Entry describe_thing(Document thing, const std::string& source, int threads) {
   Entry entry;
   entry.source = source;
   entry.size = exchange::extent(thing);
   entry.thumbnail = thumbnail(thing);
   if (!thing.paths.empty()) {
-    measure_path(entry, thing.paths.front().path);
+    measure_path(entry, thing.paths.front().path, threads);
   } else if (!thing.surfaces.empty()) {
     entry.kind = Kind::surface;
     measure_surface(entry, thing.surfaces.front().surface);
   } else {
     entry.kind = Kind::space_curve;
     const auto planar = exchange::planar_form(thing.space_curves.front().curve);
-    if (planar) measure_path(entry, document::Path{{planar->curve}, false});
+    if (planar) measure_path(entry, document::Path{{planar->curve}, false}, threads);
     if (!planar) entry.notes.push_back("not in a plane: no rhythm, no CAV");
   }
   entry.thing = std::move(thing);
@@ -161,11 +161,12 @@ Result<std::vector<Entry>> describe(const Document& document, const std::string&
   things.erase(things.begin(), things.begin() + std::min(options.first, things.size()));
   if (options.most && *options.most < things.size()) things.resize(*options.most);
   std::vector<Entry> entries(things.size());
+  const int within = things.size() == 1 ? options.threads : 1;  // else others measure other curves
   std::atomic<std::size_t> done = 0;
   std::mutex telling;
   numeric::parallel_for(things.size(), options.threads, [&](std::size_t i) {
     if (progress.stop_requested()) return;
-    entries[i] = describe_thing(std::move(things[i]), source);
+    entries[i] = describe_thing(std::move(things[i]), source, within);
     const std::size_t count = ++done;
     const std::scoped_lock lock(telling);
     progress.report(static_cast<double>(count) / static_cast<double>(entries.size()),
