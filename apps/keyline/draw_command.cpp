@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/text.h"
+
 #include "session.h"
 #include "terminal.h"
 #include "words.h"
@@ -107,14 +109,15 @@ Result<json> points_of(const json& given, bool space) {
   for (const json& point : given) {
     if (!point.is_array()) return wrong("\"" + point.get<std::string>() + "\" is no point", form);
     if (point.size() != coordinates)
-      return wrong(fmt::format("{} has {} coordinates", point.dump(), point.size()), form);
+      return wrong(
+          fmt::format("{} has {}", point.dump(), core::counted(point.size(), "coordinate")), form);
   }
   return given;
 }
 
 Result<void> want(const json& points, std::size_t count, const std::string& what) {
   if (points.size() == count) return {};
-  return wrong(fmt::format("{} points are given", points.size()), "give " + what);
+  return wrong(core::counted(points.size(), "point is given", "points are given"), "give " + what);
 }
 
 json less(const json& a, const json& b) {

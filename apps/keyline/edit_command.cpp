@@ -70,10 +70,10 @@ std::string text_of(const std::string& name, const json& result) {
 std::string pieces_text(const std::string& name, const json& result) {
   const json& pieces = result["pieces"];
   std::string text = name.empty() ? "" : name + "\n";
-  text +=
-      fmt::format("{} pieces, {} to Class A  CAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
-                  pieces.size(), result["edited"].get<int>(), result["cav_before"].get<double>(),
-                  result["cav_after"].get<double>(), result["departure"].get<double>());
+  text += fmt::format("{}, {} to Class A  CAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
+                      core::counted(pieces.size(), "piece"), result["edited"].get<int>(),
+                      result["cav_before"].get<double>(), result["cav_after"].get<double>(),
+                      result["departure"].get<double>());
   if (const auto off = result["approximated"].get<double>(); off > 0)
     text += fmt::format("made of Beziers within {:.4g} of the given curve\n", off);
   const json& before = result["joints_before"];
@@ -87,7 +87,7 @@ std::string pieces_text(const std::string& name, const json& result) {
         pieces, [&](const json& piece) { return piece[when].value("monotone", json()) == "yes"; });
   };
   if (std::ranges::any_of(pieces, [](const json& p) { return p["before"].contains("monotone"); }))
-    text += fmt::format("curvature runs one way in {} to {} pieces\n", one_way("before"),
+    text += fmt::format("curvature runs one way in {} to {} of them\n", one_way("before"),
                         one_way("after"));
   std::map<std::string, int> kept;
   for (const json& piece : pieces)

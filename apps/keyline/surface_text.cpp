@@ -98,9 +98,10 @@ std::string one_patch_text(const json& r) {
 
 std::string many_patches_text(const json& r) {
   const json& patches = r["patch_edits"];
-  std::string text = fmt::format("{} patches  SAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
-                                 patches.size(), r["before"]["sav"].get<double>(),
-                                 r["after"]["sav"].get<double>(), r["departure"].get<double>());
+  std::string text = fmt::format("{}  SAV {:.5g} to {:.5g}  largest departure {:.4g}\n",
+                                 core::counted(patches.size(), "patch", "patches"),
+                                 r["before"]["sav"].get<double>(), r["after"]["sav"].get<double>(),
+                                 r["departure"].get<double>());
   text += limit_text(r);
   if (const int lost = r["joints"]["lost"].get<int>(); lost > 0)
     text += fmt::format("{} of {} joints lost their order\n", lost,
@@ -133,8 +134,9 @@ std::string surface_text(const json& result) {
   const json& k = result["curvature"];
   std::string text = result["name"].get<std::string>() + "\n";
   if (result.contains("trims"))
-    text += fmt::format("whole surface; {} edges cut a face out of it in the file\n",
-                        result["trims"].get<int>());
+    text +=
+        fmt::format("whole surface; {} a face out of it in the file\n",
+                    core::counted(result["trims"].get<std::size_t>(), "edge cuts", "edges cut"));
   text += fmt::format("Gaussian curvature {} to {}  mean curvature {} to {}\n",
                       number_of(k["gaussian"]["min"]), number_of(k["gaussian"]["max"]),
                       number_of(k["mean"]["min"]), number_of(k["mean"]["max"]));
@@ -183,9 +185,10 @@ std::string lost_joints_text(const json& joints) {
         "not let them\n",
         turned, count(before, "G1"));
   if (const int folded = joints["folded"].get<int>(); folded > 0)
-    text += fmt::format("warning: {} over, so that it folds over itself; {}\n",
-                        folded == 1 ? "1 patch turns" : fmt::format("{} patches turn", folded),
-                        "--joints zebra, G1 or G2 lets none");
+    text +=
+        fmt::format("warning: {} over, so that it folds over itself; {}\n",
+                    core::counted(static_cast<std::size_t>(folded), "patch turns", "patches turn"),
+                    "--joints zebra, G1 or G2 lets none");
   if (const auto growth = joints["fold_growth"].get<double>(); growth > kSharper)
     text += fmt::format("warning: a fold grows by {:.3g} degrees\n", degrees_of(growth));
   return text;

@@ -6,6 +6,7 @@
 
 #include "keyline/acquire/statistics.h"
 #include "keyline/core/coordinate.h"
+#include "keyline/core/text.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -28,8 +29,8 @@ core::Result<void> check_input(const RawCurve& raw) {
   }
   if (!raw.weights.empty() && raw.weights.size() != raw.points.size()) {
     return core::fail(ErrorCode::bad_input,
-                      std::to_string(raw.weights.size()) + " weights for " +
-                          std::to_string(raw.points.size()) + " points",
+                      core::counted(raw.weights.size(), "weight") + " for " +
+                          core::counted(raw.points.size(), "point"),
                       "give one weight for each point, or none", "weights");
   }
   for (std::size_t i = 0; i < raw.points.size(); ++i) {

@@ -36,7 +36,7 @@ core::Result<RawCurve> too_few(std::size_t found, std::vector<double> distances,
   }
   return core::fail(
       core::ErrorCode::bad_input,
-      std::to_string(found) + " points within " + core::number_text(band, 4) + " of the plane",
+      core::counted(found, "point") + " within " + core::number_text(band, 4) + " of the plane",
       hint, "section");
 }
 

@@ -15,6 +15,7 @@
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/text.h"
 
 namespace keyline::acquire {
 namespace {
@@ -309,8 +310,8 @@ std::vector<RawCurve> section_curves(const RawCurve& section, const Plane& plane
     curves.front().notes.push_back("the section consists of " + std::to_string(curves.size()) +
                                    " curves");
   if (sorter.left() > 0)
-    curves.front().notes.push_back(std::to_string(sorter.left()) +
-                                   " points of the section lie on no curve and were left out");
+    curves.front().notes.push_back(core::counted(sorter.left(), "point") +
+                                   " of the section on no curve, left out");
   return curves;
 }
 

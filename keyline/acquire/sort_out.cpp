@@ -13,6 +13,7 @@
 #include "keyline/acquire/statistics.h"
 #include "keyline/acquire/turnbacks.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/text.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -32,8 +33,8 @@ void merge_anywhere(Working& work, KeyLine& line) {
   remove_points(work, repeated);
   line.report.duplicates += repeated.size();
   if (!repeated.empty()) {
-    line.report.notes.push_back(std::to_string(repeated.size()) +
-                                " further point(s) at the same place as another merged");
+    line.report.notes.push_back(core::counted(repeated.size(), "further point") +
+                                " at the same place as another merged");
   }
 }
 
@@ -98,8 +99,8 @@ void order_anew(Working& work, KeyLine& line) {
   const Ordering ordering = order_points(work.points);
   line.report.apart = ordering.dropped.size();
   if (!ordering.dropped.empty()) {
-    line.report.notes.push_back(std::to_string(ordering.dropped.size()) +
-                                " point(s) apart from the curve dropped");
+    line.report.notes.push_back(core::counted(ordering.dropped.size(), "point") +
+                                " apart from the curve dropped");
   }
   permute(work, ordering.order);
 }
@@ -200,8 +201,8 @@ void join_runs(Working& work, KeyLine& line) {
 void calm(Working& work, KeyLine& line) {
   const std::size_t averaged = average_turnbacks(work);
   if (averaged > 0)
-    line.report.notes.push_back(std::to_string(averaged) +
-                                " point(s) at which the way through the sample would turn back "
+    line.report.notes.push_back(core::counted(averaged, "point") +
+                                " at which the way through the sample would turn back "
                                 "averaged with their neighbours");
   const std::size_t sharp = sharp_turns(work);
   if (sharp > kFewTurns)

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/fairing/chain_edit.h"
 #include "keyline/fairing/chain_weights.h"
 #include "keyline/fairing/structure.h"
@@ -212,7 +213,7 @@ class Merger {
   void report() {
     if (start_pieces_ == 0) start_pieces_ = pieces() + 1;
     const double done = 1 - static_cast<double>(pieces()) / start_pieces_;
-    options_.progress.report(done, std::to_string(pieces()) + " pieces");
+    options_.progress.report(done, core::counted(chain_.pieces.size(), "piece"));
   }
 
   FitChain chain_;

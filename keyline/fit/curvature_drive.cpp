@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/curve/chain_deviation.h"
 #include "keyline/curve/jet.h"
 #include "keyline/curve/monotone.h"
@@ -306,7 +307,9 @@ Result<CurvatureDrive> drive(const PiecewiseBezier& given, std::vector<Curvature
   int splits = 0;
   const PiecewiseBezier chain = detail::split_pieces(*quintics, *targets, splits);
   if (splits > 0)
-    result.notes.push_back("split at " + std::to_string(splits) + " inflections inside pieces");
+    result.notes.push_back("split at " +
+                           core::counted(static_cast<std::size_t>(splits), "inflection") +
+                           " inside pieces");
   const auto edges = edges_of(chain);
   if (!edges) return std::unexpected(edges.error());
   const Problem problem{

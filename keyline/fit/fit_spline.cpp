@@ -120,7 +120,8 @@ core::Result<void> check_points(std::span<const Point2> points, int order) {
   if (points.size() < static_cast<std::size_t>(order)) {
     return core::fail(ErrorCode::bad_input,
                       "a spline of order " + std::to_string(order) + " needs at least " +
-                          std::to_string(order) + " points, got " + std::to_string(points.size()),
+                          core::counted(static_cast<std::size_t>(order), "point") + ", got " +
+                          std::to_string(points.size()),
                       "give more points, or a smaller order");
   }
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -103,7 +103,7 @@ void set_numbers(const Material& m, report::Report& report) {
       {"Largest deviation", length_text(r.max_deviation, unit, 3),
        fmt::format("tolerance {}; at point {}", length_text(r.tolerance, unit, 3), r.worst_point)},
       {"Rms deviation", length_text(r.rms_deviation, unit, 3),
-       fmt::format("of {} points", m.line.points.size())},
+       fmt::format("of {}", core::counted(m.line.points.size(), "point"))},
       {"Noise of the points", length_text(r.noise, unit, 3),
        r.noise > 0 ? "standard deviation, normal to the curve" : "none found"},
       {"Waves of curvature", fmt::format("{}", comb.waves), beside(fmt::format("{}", rival.waves))},

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/figure/plot.h"
 #include "keyline/figure/ticks.h"
 #include "keyline/presentation/surface_pictures.h"
@@ -260,9 +261,9 @@ Result<report::Report> surface_edit_report(const Surface& given, const surface::
   const surface::PatchesEdit& all = edit.edited;
   const std::string loss = joint_loss(all);
   report.verdict = loss.empty() ? report::Verdict::good : report::Verdict::caution;
-  report.verdict_line =
-      fmt::format("SAV of {} patches from {} to {}; {}.", all.surfaces.size(), number(before),
-                  number(after), loss.empty() ? "their joints are as good as before" : loss);
+  report.verdict_line = fmt::format(
+      "SAV of {} from {} to {}; {}.", core::counted(all.surfaces.size(), "patch", "patches"),
+      number(before), number(after), loss.empty() ? "their joints are as good as before" : loss);
   report.numbers = {{"SAV before", number(before), "sum of all patches"},
                     {"SAV after", number(after), {}},
                     {"Largest departure",

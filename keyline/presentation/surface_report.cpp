@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/text.h"
 #include "keyline/figure/plot.h"
 #include "keyline/figure/ticks.h"
 #include "keyline/presentation/surface_pictures.h"
@@ -130,10 +131,12 @@ Result<report::Report> surface_report(const SurfaceSubject& subject, const Repor
   set_head(subject, options, report);
   set_verdict(subject, report);
   if (subject.trims > 0)
-    report.notes.push_back({report::NoteKind::note,
-                            fmt::format("{}: {} edges cut a face out of this surface in the file; "
-                                        "the whole surface is shown and valued.",
-                                        subject.name, subject.trims)});
+    report.notes.push_back(
+        {report::NoteKind::note, fmt::format("{}: {} a face out of this surface in the file; "
+                                             "the whole surface is shown and valued.",
+                                             subject.name,
+                                             core::counted(static_cast<std::size_t>(subject.trims),
+                                                           "edge cuts", "edges cut"))});
   report::Section pictures{"Surface", {}, {}, {}};
   for (const auto& shot : look.shots) {
     auto drawing = shot_of({subject.surface}, shot, look, options.unit);

@@ -382,6 +382,7 @@ TEST_F(Files, LinesOfAMeshAreNumberedInTheirOrder) {
       file("l.obj", "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 1 2 3\nl 1 2\nl 2 3 4\nl 4 1\nf 1 2 3\n"));
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->space_curves.size(), 3U);
+  EXPECT_EQ(read->skipped, std::vector<std::string>{"1 triangle"});
   const char* const names[] = {"line-1", "line-2", "line-3"};
   const std::size_t corners[] = {2, 3, 2};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -83,8 +84,9 @@ Result<DxfCurve> light_polyline_of(const Tags& tags) {
     if (tag.code == 42) vertices.back().bulge = *value;
   }
   if (const int wanted = integer(tags, 90); wanted > static_cast<int>(vertices.size()))
-    return none("only " + std::to_string(vertices.size()) + " of its " + std::to_string(wanted) +
-                " vertices are there");
+    return none("only " + std::to_string(vertices.size()) + " of its " +
+                core::counted(static_cast<std::size_t>(wanted), "vertex is", "vertices are") +
+                " there");
   return bent(vertices, (integer(tags, 70) & 1) != 0, frame_of(tags));
 }
 
@@ -146,8 +148,10 @@ Result<DxfCurve> spline_of(const Tags& tags) {
   if (lists.control.empty()) {
     auto& fit = lists.fit;
     if (const int wanted = integer(tags, 74); wanted > static_cast<int>(fit.size()))
-      return none("only " + std::to_string(fit.size()) + " of its " + std::to_string(wanted) +
-                  " fit points are there");
+      return none(
+          "only " + std::to_string(fit.size()) + " of its " +
+          core::counted(static_cast<std::size_t>(wanted), "fit point is", "fit points are") +
+          " there");
     fit.erase(std::unique(fit.begin(), fit.end()), fit.end());
     if (fit.size() < 2) return none("it has neither control points nor two fit points");
     return DxfCurve{fit_point_spline(fit, vector(tags, 12), vector(tags, 13), closed), closed};

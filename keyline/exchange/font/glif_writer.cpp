@@ -156,7 +156,8 @@ core::Result<Written> write_glif(const document::Document& document, const GlifO
                             " (of " + core::number_text(jump.of, 3) + ") at smooth nodes");
   const std::size_t left_out = document.space_curves.size() + document.surfaces.size();
   if (left_out > 0)
-    written.notes.push_back(std::to_string(left_out) + " things in space are not in the glyph");
+    written.notes.push_back(core::counted(left_out, "thing in space is", "things in space are") +
+                            " not in the glyph");
   return written;
 }
 

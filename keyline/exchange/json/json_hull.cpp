@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/json/json_parts.h"
 
 namespace keyline::exchange {
@@ -51,7 +52,7 @@ Result<std::vector<double>> axis(const json& table, const char* name, double uni
 Result<void> add_row(HullTable& hull, const json& row, double unit, const std::string& where) {
   if (!row.is_array() || row.size() != hull.stations.size())
     return fail(ErrorCode::bad_input,
-                "a row needs " + std::to_string(hull.stations.size()) + " half-breadths",
+                "a row needs " + core::counted(hull.stations.size(), "half-breadth"),
                 "give one per station, null outside the hull", where);
   for (std::size_t k = 0; k < row.size(); ++k) {
     if (row[k].is_null()) {

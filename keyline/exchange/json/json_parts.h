@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/error.h"
+#include "keyline/core/text.h"
 #include "keyline/curve/bezier.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/curve/polyline.h"
@@ -90,7 +91,7 @@ core::Result<std::vector<Point>> read_points(const nlohmann::json& j, const std:
     if (!p) return std::unexpected(p.error());
     if (j[i].size() != j[0].size())  // a decimal comma makes two numbers of one
       return core::fail(core::ErrorCode::bad_input,
-                        std::to_string(j[i].size()) + " coordinates where the first point has " +
+                        core::counted(j[i].size(), "coordinate") + " where the first point has " +
                             std::to_string(j[0].size()),
                         "give every point the same", in(where, i));
     points.push_back(*p);

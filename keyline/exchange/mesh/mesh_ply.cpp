@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/mesh/ply_header.h"
 
@@ -22,13 +23,15 @@ class PlyReader {
     for (const PlyElement& element : header_.elements)
       if (auto done = read(element); !done) return std::unexpected(done.error());
     if (bad_points_ > 0)
-      mesh_.skipped.push_back(std::to_string(bad_points_) + " vertices that are not finite");
+      mesh_.skipped.push_back(core::counted(bad_points_, "vertex that is", "vertices that are") +
+                              " not finite");
     if (!header_.binary && values_.more())
       mesh_.skipped.push_back(
           "what stands behind the last element its header tells of: check that no number is "
           "missing");
     if (bad_faces_ > 0)
-      mesh_.skipped.push_back(std::to_string(bad_faces_) + " faces that name no vertices");
+      mesh_.skipped.push_back(core::counted(bad_faces_, "face that names", "faces that name") +
+                              " no vertices");
     return std::move(mesh_);
   }
 

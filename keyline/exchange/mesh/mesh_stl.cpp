@@ -63,7 +63,7 @@ Result<Mesh> read_binary(std::string_view bytes) {
   const std::size_t count = count_at(bytes);
   if (bytes.size() < kHeader + kTriangle * count)
     return core::fail(ErrorCode::bad_input,
-                      "the file ends before its " + std::to_string(count) + " triangles",
+                      "the file ends before its " + core::counted(count, "triangle"),
                       "check that it is complete", "byte " + std::to_string(bytes.size()));
   std::size_t bad = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -80,7 +80,8 @@ Result<Mesh> read_binary(std::string_view bytes) {
       ++bad;
   }
   if (bad > 0)
-    vertices.mesh().skipped.push_back(std::to_string(bad) + " triangles that are not finite");
+    vertices.mesh().skipped.push_back(core::counted(bad, "triangle that is", "triangles that are") +
+                                      " not finite");
   return vertices.take();
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "keyline/core/text.h"
+
 namespace keyline::exchange::detail {
 
 namespace {
@@ -80,7 +82,8 @@ bool unfold_lednicer(acquire::RawCurve& c, std::vector<std::string>& left_out) {
   if (counts.x != static_cast<double>(above) || counts.y != below)
     left_out.push_back("line " + std::to_string(c.source_lines.front()) + ": the counts " +
                        plain(counts.x) + " and " + plain(counts.y) + " of sides that have " +
-                       plain(static_cast<double>(above)) + " and " + plain(below) + " points");
+                       plain(static_cast<double>(above)) + " and " +
+                       core::counted(static_cast<std::size_t>(below), "point"));
   const auto unfold = [&](auto& values) {
     values.erase(values.begin());
     std::reverse(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(above));

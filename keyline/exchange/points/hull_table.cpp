@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "keyline/core/text.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -29,7 +31,8 @@ class Lines {
 
   void finish() {
     if (short_ > 0)
-      document_.skipped.push_back(std::to_string(short_) + " lines of fewer than two points");
+      document_.skipped.push_back(core::counted(static_cast<std::size_t>(short_), "line") +
+                                  " of fewer than two points");
   }
 
  private:

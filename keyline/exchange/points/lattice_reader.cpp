@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "keyline/core/coordinate.h"
+#include "keyline/core/text.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
 
@@ -55,8 +56,8 @@ core::Result<acquire::Lattice> shaped(std::vector<core::Point3> points,
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       if (lengths[i] == lattice.columns) continue;
       return core::fail(ErrorCode::bad_input,
-                        "row " + std::to_string(i) + " has " + std::to_string(lengths[i]) +
-                            " points, the first row " + std::to_string(lattice.columns),
+                        "row " + std::to_string(i) + " has " + core::counted(lengths[i], "point") +
+                            ", the first row " + std::to_string(lattice.columns),
                         "give rows of equal length, with nan for missing points", name);
     }
   }

@@ -54,8 +54,8 @@ core::Result<void> check_points(std::span<const Point2> points, bool closed) {
 core::Result<void> check_options(const SplineOptions& options, std::size_t spans) {
   if (options.alpha.size() > 1 && options.alpha.size() != spans) {
     return core::fail(ErrorCode::bad_input,
-                      "give one slope, or one for each of the " + std::to_string(spans) + " spans",
-                      {}, "alpha");
+                      "give one slope, or one for each span: " + std::to_string(spans), {},
+                      "alpha");
   }
   for (std::size_t i = 0; i < options.alpha.size(); ++i) {
     if (!is_slope(options.alpha[i])) {
