@@ -59,10 +59,10 @@ std::string compressed_svg(std::string_view) {
   throw core::InvalidInput("SVGZ is not for a page without a server: write SVG");
 }
 
-Result<sketch::Image> read_png(std::string_view, Ground) { return absent("PNG to be traced"); }
+Result<sketch::Image> read_png(std::string_view) { return absent("PNG to be traced"); }
 Result<sketch::Image> read_jpeg(std::string_view) { return absent("JPEG to be traced"); }
-Result<sketch::Image> read_tiff(std::string_view, Ground) { return absent("TIFF to be traced"); }
-Result<sketch::Image> read_webp(std::string_view, Ground) { return absent("WebP to be traced"); }
+Result<sketch::Image> read_tiff(std::string_view) { return absent("TIFF to be traced"); }
+Result<sketch::Image> read_webp(std::string_view) { return absent("WebP to be traced"); }
 
 }  // namespace detail
 }  // namespace exchange

@@ -36,7 +36,6 @@ inline constexpr std::int64_t kMaxPixels = 64LL << 20;
 struct Image {
   Raster<std::uint16_t> luminance;
   double pixels_per_mm = 0;  ///< resolution the file states; 0: none
-  bool transparent = false;  ///< the file's kind of pixels may be: then they were laid over
   bool on_black = false;     ///< laid over black: light lines on a transparent ground
   /// The same laid over black, where what is drawn on a transparent ground is dark and light
   /// (light_lines.h); else empty.

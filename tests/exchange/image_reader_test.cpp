@@ -166,6 +166,18 @@ TEST(ImageReader, LaysLightLinesOnNothingOverBlack) {
   EXPECT_EQ(deep->luminance.data, (std::vector<std::uint16_t>{0, 65535, 0}));
 }
 
+// Both grounds of an interlaced picture that lies on its side, by hand: pixel (x, y) of 3 x 2 is
+// seen at (1 - y, x).
+TEST(ImageReader, KeepsBothGroundsInterlacedAndTurned) {
+  const std::vector<unsigned char> bytes = {0, 0, 255, 255, 0, 255, 0, 0, 0, 0, 255, 51};
+  const auto image = read_image(png_of(PNG_COLOR_TYPE_GRAY_ALPHA, 8, bytes, 3, 2, true, 6));
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->width(), 2);
+  EXPECT_EQ(image->luminance.data,
+            (std::vector<std::uint16_t>{65535, 65535, 65535, 65535, 65535, 0}));
+  EXPECT_EQ(image->over_black.data, (std::vector<std::uint16_t>{0, 0, 0, 65535, 13107, 0}));
+}
+
 TEST(ImageReader, KeepsSixteenBits) {
   std::vector<unsigned char> grey(16);
   for (std::size_t i = 0; i < 8; ++i) {

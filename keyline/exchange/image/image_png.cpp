@@ -47,16 +47,13 @@ bool is_transparent(png_structp png, png_infop info) {
          png_get_valid(png, info, PNG_INFO_tRNS) != 0;
 }
 
-/// Asks libpng for 16 bit grey, over the ground, in the machine's byte order.
-void set_transforms(png_structp png, png_infop info, Ground ground) {
+/// Asks libpng for 16 bit grey, with opacity if there is any, in the machine's byte order.
+void set_transforms(png_structp png, png_infop info) {
   png_set_expand_16(png);
   // only a file of another gamma is converted: libpng then weighs colours in linear light
   double gamma = 0;
   if (png_get_gAMA(png, info, &gamma) && std::abs(gamma - 0.4545) > 0.05)
     png_set_gamma(png, PNG_DEFAULT_sRGB, gamma);
-  const auto level = static_cast<png_uint_16>(ground);
-  png_color_16 under{0, level, level, level, level};
-  if (is_transparent(png, info)) png_set_background(png, &under, PNG_BACKGROUND_GAMMA_SCREEN, 0, 1);
   if (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR)
     png_set_rgb_to_gray_fixed(png, PNG_ERROR_ACTION_NONE, 29900, 58700);
   if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
@@ -69,16 +66,47 @@ bool read_header(png_structp png, png_infop info) {
   return true;
 }
 
-bool read_pixels(png_structp png, png_infop info, Ground ground, png_bytep* rows,
-                 std::size_t row_bytes) {
+/// `channels` numbers a pixel into `rows`; `take` is called after each row that is complete.
+template <class Take>
+bool read_rows(png_structp png, png_infop info, png_bytep* rows, int channels, const Take& take) {
   if (setjmp(png_jmpbuf(png))) return false;
-  set_transforms(png, info, ground);
-  png_set_interlace_handling(png);
+  set_transforms(png, info);
+  const int passes = png_set_interlace_handling(png);
   png_read_update_info(png, info);
-  if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "its pixels have an unknown form");
-  png_read_image(png, rows);
+  const png_uint_32 height = png_get_image_height(png, info);
+  const auto numbers = static_cast<std::size_t>(channels) * png_get_image_width(png, info);
+  if (png_get_rowbytes(png, info) != 2 * numbers) png_error(png, "its pixels have an unknown form");
+  for (int pass = 1; pass <= passes; ++pass)
+    for (png_uint_32 y = 0; y < height; ++y) {
+      png_read_row(png, rows[y], nullptr);
+      if (pass == passes) take(static_cast<int>(y));
+    }
   png_read_end(png, info);
   return true;
+}
+
+bool read_grey(png_structp png, png_infop info, Image& image) {
+  std::vector<png_bytep> rows;
+  for (int y = 0; y < image.height(); ++y)
+    rows.push_back(reinterpret_cast<png_bytep>(&image.luminance.at(0, y)));
+  return read_rows(png, info, rows.data(), 1, [](int) {});
+}
+
+/// Rows of grey and opacity, kept no longer than until they are laid; of interlaced pictures all
+/// are complete with the last pass only.
+bool read_transparent(png_structp png, png_infop info, Image& image) {
+  const bool interlaced = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
+  sketch::Raster<std::uint16_t> pixels(2 * image.width(), interlaced ? image.height() : 1);
+  const auto row = [&](int y) { return &pixels.at(0, interlaced ? y : 0); };
+  std::vector<png_bytep> rows;
+  for (int y = 0; y < image.height(); ++y) rows.push_back(reinterpret_cast<png_bytep>(row(y)));
+  return read_rows(png, info, rows.data(), 2, [&](int y) {
+    const std::uint16_t* p = row(y);
+    for (int x = 0; x < image.width(); ++x, p += 2) {
+      const double opacity = p[1] / 65535.0;
+      lay(image, image.luminance.index(x, y), p[0] * opacity, opacity);
+    }
+  });
 }
 
 /// Chunks that say nothing about the pixels are passed over; libpng would make room for what their
@@ -90,7 +118,7 @@ void skip_texts(png_structp png) {
 
 }  // namespace
 
-Result<Image> read_png(std::string_view bytes, Ground ground) {
+Result<Image> read_png(std::string_view bytes) {
   Source source{bytes, 0, {}};
   Reader reader;
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_error, on_warning);
@@ -107,13 +135,8 @@ Result<Image> read_png(std::string_view bytes, Ground ground) {
   constexpr double kBestDeflate = 1040;  // deflate cannot pack closer
   auto image = new_image(width, height, raw / kBestDeflate, bytes.size());
   if (!image) return image;
-  image->transparent = is_transparent(reader.png, reader.info);
-  std::vector<png_bytep> rows;
-  for (int y = 0; y < image->height(); ++y)
-    rows.push_back(reinterpret_cast<png_bytep>(&image->luminance.at(0, y)));
-  const auto row_bytes = 2 * static_cast<std::size_t>(width);
-  if (!read_pixels(reader.png, reader.info, ground, rows.data(), row_bytes))
-    return damaged(source.message);
+  const auto read = is_transparent(reader.png, reader.info) ? read_transparent : read_grey;
+  if (!read(reader.png, reader.info, *image)) return damaged(source.message);
   image->pixels_per_mm = png_get_pixels_per_meter(reader.png, reader.info) / 1000.0;
   png_bytep exif = nullptr;
   png_uint_32 size = 0;

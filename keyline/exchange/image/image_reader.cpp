@@ -43,37 +43,42 @@ class Fields {
 /// Copies pixels to where `place` says, into an image of that size.
 template <class Place>
 void rearrange(Image& image, int width, int height, const Place& place) {
-  sketch::Raster<std::uint16_t> turned(width, height);
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) {
-      const auto [u, v] = place(x, y);
-      turned.at(u, v) = image.luminance.at(x, y);
-    }
-  image.luminance = std::move(turned);
+  for (auto* levels : {&image.luminance, &image.over_black}) {
+    if (levels->data.empty()) continue;
+    sketch::Raster<std::uint16_t> turned(width, height);
+    for (int y = 0; y < levels->height; ++y)
+      for (int x = 0; x < levels->width; ++x) {
+        const auto [u, v] = place(x, y);
+        turned.at(u, v) = levels->at(x, y);
+      }
+    *levels = std::move(turned);
+  }
 }
 
 constexpr std::uint16_t kMidGrey = 32768;
 
 bool is_dark(std::uint16_t level) { return level < kMidGrey; }
 
-/// A picture by a reader that lays what is transparent over white. If on black most but not all of
-/// it is dark, light is drawn on that ground: it is laid over black if nothing is dark on white,
-/// else both ways.
-template <class Read>
-Result<Image> read_on_ground(const Read& read, std::string_view bytes) {
-  auto image = read(bytes, detail::Ground::white);
-  if (!image || !image->transparent) return image;
-  auto black = read(bytes, detail::Ground::black);
-  if (!black) return black;
-  const std::size_t all = black->luminance.data.size();
-  const auto dark = static_cast<std::size_t>(std::ranges::count_if(black->luminance.data, is_dark));
-  if (2 * dark <= all || dark == all) return image;
-  if (std::ranges::any_of(image->luminance.data, is_dark)) {
-    image->over_black = std::move(black->luminance);
-    return image;
+/// A picture on the grounds that show what is drawn. If on black most but not all of it is dark,
+/// light is drawn on a transparent ground: it stays on black if nothing is dark on white, else on
+/// both.
+Result<Image> on_its_ground(Result<Image> image) {
+  if (!image || image->over_black.data.empty()) return image;
+  auto& black = image->over_black;
+  const std::size_t all = black.data.size();
+  const auto dark = static_cast<std::size_t>(std::ranges::count_if(black.data, is_dark));
+  const bool light_drawn = 2 * dark > all && dark < all;
+  if (light_drawn && std::ranges::any_of(image->luminance.data, is_dark)) return image;
+  if (light_drawn) {
+    image->luminance = std::move(black);
+    image->on_black = true;
   }
-  black->on_black = true;
-  return black;
+  black = {};
+  return image;
+}
+
+std::uint16_t level(double v) {
+  return static_cast<std::uint16_t>(std::clamp(std::lround(v), 0L, 65535L));
 }
 
 }  // namespace
@@ -102,13 +107,14 @@ Result<Image> new_image(std::int64_t width, std::int64_t height, double least_by
 }
 
 std::uint16_t luminance(double red, double green, double blue) {
-  return static_cast<std::uint16_t>(
-      std::clamp(std::lround(0.299 * red + 0.587 * green + 0.114 * blue), 0L, 65535L));
+  return level(0.299 * red + 0.587 * green + 0.114 * blue);
 }
 
-std::uint16_t laid_over(Ground ground, double v, double opacity) {
-  const double rest = static_cast<double>(ground) * (1 - opacity);
-  return static_cast<std::uint16_t>(std::clamp(std::lround(v * opacity + rest), 0L, 65535L));
+void lay(Image& image, std::size_t i, double v, double opacity) {
+  auto& black = image.over_black;
+  if (opacity < 1 && black.data.empty()) black = image.luminance;
+  image.luminance.data[i] = level(v + 65535 * (1 - opacity));
+  if (!black.data.empty()) black.data[i] = level(v);
 }
 
 int exif_orientation(std::string_view exif) {
@@ -163,10 +169,10 @@ bool has_image_name(const std::filesystem::path& path) {
 
 Result<Image> read_image(std::string_view bytes) {
   const std::string_view kind = picture_extension(bytes);
-  if (kind == ".png") return read_on_ground(detail::read_png, bytes);
+  if (kind == ".png") return on_its_ground(detail::read_png(bytes));
   if (kind == ".jpg") return detail::read_jpeg(bytes);
-  if (kind == ".tif") return read_on_ground(detail::read_tiff, bytes);
-  if (kind == ".webp") return read_on_ground(detail::read_webp, bytes);
+  if (kind == ".tif") return on_its_ground(detail::read_tiff(bytes));
+  if (kind == ".webp") return on_its_ground(detail::read_webp(bytes));
   return core::fail(ErrorCode::bad_input, "is no PNG, JPEG, TIFF or WebP picture",
                     "save the drawing in one of these formats");
 }

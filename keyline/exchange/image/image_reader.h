@@ -32,13 +32,11 @@ core::Result<sketch::Image> read_image_file(const std::filesystem::path& path);
 
 namespace detail {
 
-/// Level that what is transparent is laid over.
-enum class Ground : std::uint16_t { black = 0, white = 65535 };
-
-core::Result<sketch::Image> read_png(std::string_view bytes, Ground ground);
+/// These lay what is transparent over white, and over black too if there is any.
+core::Result<sketch::Image> read_png(std::string_view bytes);
 core::Result<sketch::Image> read_jpeg(std::string_view bytes);
-core::Result<sketch::Image> read_tiff(std::string_view bytes, Ground ground);
-core::Result<sketch::Image> read_webp(std::string_view bytes, Ground ground);
+core::Result<sketch::Image> read_tiff(std::string_view bytes);
+core::Result<sketch::Image> read_webp(std::string_view bytes);
 
 /// An image of that size, or why not. `least_bytes` is what the file has to hold at least for it.
 core::Result<sketch::Image> new_image(std::int64_t width, std::int64_t height, double least_bytes,
@@ -49,13 +47,14 @@ std::unexpected<core::Failure> damaged(const std::string& what);
 
 /// 0 … 65535 of channels in the same range.
 std::uint16_t luminance(double red, double green, double blue);
-/// v laid over the ground with opacity 0 … 1.
-std::uint16_t laid_over(Ground ground, double v, double opacity);
+/// Sets pixel i, of level v on black and opacity 0 … 1, on the grounds needed so far; the first
+/// that is not opaque makes room for the second ground.
+void lay(sketch::Image& image, std::size_t i, double v, double opacity);
 
 /// Orientation (1 … 8) stated by an EXIF block (TIFF structure, with or without "Exif\0\0" before
 /// it); 1 where there is none.
 int exif_orientation(std::string_view exif);
-/// Turns the image upright.
+/// Turns the image upright, on both grounds.
 void apply_orientation(sketch::Image& image, int orientation);
 
 }  // namespace detail

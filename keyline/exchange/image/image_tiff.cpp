@@ -68,7 +68,6 @@ struct Layout {
   std::uint16_t planar = PLANARCONFIG_CONTIG;
   std::uint16_t orientation = 1;
   bool tiled = false;
-  Ground ground = Ground::white;
 };
 
 Layout layout_of(TIFF* tiff) {
@@ -91,13 +90,14 @@ bool is_deep(const Layout& l) {
   return l.bits == 16 && known && l.planar == PLANARCONFIG_CONTIG;
 }
 
-/// `count` pixels of 16 bit samples to luminance.
-void convert(const std::uint16_t* p, const Layout& l, int count, std::uint16_t* out) {
+/// `count` pixels of 16 bit samples to those of the image from `at` on.
+void convert(const std::uint16_t* p, const Layout& l, int count, Image& image, std::size_t at) {
   for (int x = 0; x < count; ++x, p += l.samples) {
     double v = l.samples >= 3 ? luminance(p[0], p[1], p[2]) : p[0];
     if (l.photometric == PHOTOMETRIC_MINISWHITE) v = 65535 - v;
     const bool alpha = l.samples == 2 || l.samples == 4;
-    out[x] = laid_over(l.ground, v, alpha ? p[l.samples - 1] / 65535.0 : 1);
+    const double opacity = alpha ? p[l.samples - 1] / 65535.0 : 1;
+    lay(image, at + static_cast<std::size_t>(x), v * opacity, opacity);
   }
 }
 
@@ -107,7 +107,7 @@ bool read_deep_rows(TIFF* tiff, const Layout& l, Image& image) {
   std::vector<std::uint16_t> row(size / 2 + 1);
   for (int y = 0; y < image.height(); ++y) {
     if (TIFFReadScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) < 0) return false;
-    convert(row.data(), l, image.width(), &image.luminance.at(0, y));
+    convert(row.data(), l, image.width(), image, image.luminance.index(0, y));
   }
   return true;
 }
@@ -128,8 +128,8 @@ bool read_deep_tiles(TIFF* tiff, const Layout& l, Image& image) {
       if (TIFFReadTile(tiff, tile.data(), x, y, 0, 0) < 0) return false;
       for (std::uint32_t row = 0; row < std::min(height, h - y); ++row)
         convert(tile.data() + static_cast<std::size_t>(row) * width * l.samples, l,
-                static_cast<int>(std::min(width, w - x)),
-                &image.luminance.at(static_cast<int>(x), static_cast<int>(y + row)));
+                static_cast<int>(std::min(width, w - x)), image,
+                image.luminance.index(static_cast<int>(x), static_cast<int>(y + row)));
     }
   return true;
 }
@@ -139,7 +139,7 @@ bool read_deep(TIFF* tiff, const Layout& l, Image& image) {
 }
 
 /// Through libtiff's conversion to RGBA (premultiplied), top row first, as the file orders rows.
-bool read_converted(TIFF* tiff, Ground ground, Image& image) {
+bool read_converted(TIFF* tiff, Image& image) {
   char why[1024] = "";
   if (!TIFFRGBAImageOK(tiff, why)) return false;
   TIFFRGBAImage converter;
@@ -152,9 +152,8 @@ bool read_converted(TIFF* tiff, Ground ground, Image& image) {
   TIFFRGBAImageEnd(&converter);
   for (std::size_t i = 0; good && i < pixels.size(); ++i) {
     const std::uint32_t p = pixels[i];
-    const double rest = ground == Ground::white ? 255.0 - TIFFGetA(p) : 0.0;
-    image.luminance.data[i] = luminance((TIFFGetR(p) + rest) * 257, (TIFFGetG(p) + rest) * 257,
-                                        (TIFFGetB(p) + rest) * 257);
+    lay(image, i, luminance(TIFFGetR(p) * 257, TIFFGetG(p) * 257, TIFFGetB(p) * 257),
+        TIFFGetA(p) / 255.0);
   }
   return good;
 }
@@ -182,7 +181,7 @@ std::size_t further_pages(TIFF* tiff) {
 
 }  // namespace
 
-Result<Image> read_tiff(std::string_view bytes, Ground ground) {
+Result<Image> read_tiff(std::string_view bytes) {
   silence();
   Source source{bytes, 0};
   const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen("picture", "r", &source, read_bytes,
@@ -193,8 +192,7 @@ Result<Image> read_tiff(std::string_view bytes, Ground ground) {
   std::uint32_t height = 0;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-  Layout layout = layout_of(tiff.get());
-  layout.ground = ground;
+  const Layout layout = layout_of(tiff.get());
   if (layout.bits > 16)
     return core::fail(core::ErrorCode::unsupported,
                       "the TIFF picture has " + std::to_string(layout.bits) + " bits per sample",
@@ -203,11 +201,10 @@ Result<Image> read_tiff(std::string_view bytes, Ground ground) {
   const double raw = static_cast<double>(width) * height * layout.bits * layout.samples / 8;
   auto image = new_image(width, height, raw / 4000, bytes.size());
   if (!image) return image;
-  const bool good = is_deep(layout) ? read_deep(tiff.get(), layout, *image)
-                                    : read_converted(tiff.get(), ground, *image);
+  const bool good =
+      is_deep(layout) ? read_deep(tiff.get(), layout, *image) : read_converted(tiff.get(), *image);
   if (!good) return damaged("its TIFF pixels cannot be decoded");
   image->pixels_per_mm = density(tiff.get());
-  image->transparent = layout.samples != 1 && layout.samples != 3;
   image->further_pages = further_pages(tiff.get());
   apply_orientation(*image, layout.orientation);
   return image;

@@ -24,7 +24,7 @@ std::string_view chunk(std::string_view bytes, std::string_view name) {
 
 }  // namespace
 
-core::Result<sketch::Image> read_webp(std::string_view bytes, Ground ground) {
+core::Result<sketch::Image> read_webp(std::string_view bytes) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
@@ -36,14 +36,13 @@ core::Result<sketch::Image> read_webp(std::string_view bytes, Ground ground) {
   const double blocks = features.width / 16.0 * features.height / 16.0;
   auto image = new_image(features.width, features.height, blocks / 800, bytes.size());
   if (!image) return image;
-  image->transparent = features.has_alpha != 0;
   std::vector<std::uint8_t> pixels(4 * image->luminance.data.size());
   if (!WebPDecodeRGBAInto(data, bytes.size(), pixels.data(), pixels.size(), 4 * features.width))
     return damaged("its WebP pixels cannot be decoded");
   for (std::size_t i = 0; i < image->luminance.data.size(); ++i) {
     const std::uint8_t* p = pixels.data() + 4 * i;
-    image->luminance.data[i] =
-        laid_over(ground, luminance(p[0] * 257.0, p[1] * 257.0, p[2] * 257.0), p[3] / 255.0);
+    const double opacity = p[3] / 255.0;
+    lay(*image, i, luminance(p[0] * 257.0, p[1] * 257.0, p[2] * 257.0) * opacity, opacity);
   }
   apply_orientation(*image, exif_orientation(chunk(bytes, "EXIF")));
   return image;
