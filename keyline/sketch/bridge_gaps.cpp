@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/quantile.h"
+#include "keyline/sketch/dash_row.h"
 
 namespace keyline::sketch {
 namespace {
@@ -14,17 +15,13 @@ using core::Point2;
 using core::Vector2;
 
 constexpr double kStraightest = 0.8;  ///< of the turn at a junction a line may make over a gap
-constexpr double kRowTurn = 0.4;      ///< radians, from a dash to the next
-constexpr double kRowGap = 3;         ///< times the shorter dash: no gap of a row is longer
-constexpr double kEven = 1.5;         ///< times another: gaps of one row
 /// Widths of the line: nor is a gap longer than this. The longest that drawings have are 18 widths
 /// ([ISO 128-20], spaced dashes); half as much again as gaps of a row may differ.
 constexpr double kWidestGap = 18 * kEven;
 /// Gaps: a dash between two gaps is no longer. The longest that drawings have are eight times as
 /// long as their gaps ([ISO 128-20], long dashes); half as much again as gaps of a row may differ.
 constexpr double kLongDash = 8 * kEven;
-constexpr double kGrid = 1;  ///< pixels that a length, or an end beside it, may be off
-constexpr double kDot = 3;   ///< pixels: what is shorter has no direction
+constexpr double kDot = 3;  ///< pixels: what is shorter has no direction
 
 /// Of a line's ink.
 struct Box {
@@ -203,9 +200,7 @@ class Bridges {
   /// paper, and is no longer than a dash between two such gaps. It may come to it over gaps that do
   /// not.
   bool goes_on(int end, double gap) {
-    const auto even = [gap](double other) {
-      return other > 0 && std::max(gap, other) < kEven * std::min(gap, other) + 2 * kGrid;
-    };
+    const auto even = [gap](double other) { return other > 0 && is_even(gap, other); };
     int out = end ^ 1;
     double way = dash(end);
     for (std::size_t steps = 0; way <= kLongDash * gap && steps < branches_.size(); ++steps) {

@@ -4,8 +4,10 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
+#include "keyline/sketch/dash_row.h"
 #include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/rows.h"
 
@@ -165,21 +167,18 @@ bool is_small(Binary& ink, std::size_t start, bool diagonal, std::size_t least,
 }
 
 /// Flips connected pieces of `value` of fewer than `least` pixels. Pieces of paper that touch the
-/// rim are no holes. A piece is looked for at pixels that can be its first, row by row; all
-/// pixels flipped are added to `pixels`.
-int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal,
-               std::vector<std::size_t>& pixels) {
-  if (least <= 1) return 0;
+/// rim are no holes. A piece is looked for at pixels that can be its first, row by row; all those
+/// flipped are added to `pieces`.
+void flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal, InkPieces& pieces) {
+  if (least <= 1) return;
   std::vector<std::size_t> piece;
-  int flipped = 0;
   const auto look = [&](int x, int y) {
     const auto is = [&](int u, int v) { return ink.contains(u, v) && ink.at(u, v) == value; };
     if (ink.at(x, y) != value || is(x - 1, y) || is(x, y - 1)) return;
     if (diagonal && (is(x - 1, y - 1) || is(x + 1, y - 1))) return;
     if (!is_small(ink, ink.index(x, y), diagonal, static_cast<std::size_t>(least), piece)) return;
     for (const std::size_t i : piece) ink.data[i] = static_cast<std::uint8_t>(1 - value);
-    pixels.insert(pixels.end(), piece.begin(), piece.end());
-    ++flipped;
+    pieces.add(piece);
   };
   for (int x = 0; x < ink.width; ++x) look(x, 0);
   for (int y = 1; y < ink.height; ++y) look(0, y);
@@ -187,7 +186,26 @@ int flip_small(Binary& ink, std::uint8_t value, int least, bool diagonal,
       ink, 1, ink.height - 1, value, [](const Around& p) { return ~(p.left | p.above); }, look);
   for (int y = 1; y < ink.height; ++y) look(ink.width - 1, y);
   for (int x = 0; x < ink.width; ++x) look(x, ink.height - 1);
-  return flipped;
+}
+
+std::int64_t count_pixels(const InkPieces& pieces) {
+  return static_cast<std::int64_t>(pieces.pixels.size());
+}
+
+void put_back(Binary& ink, std::span<const std::size_t> pixels) {
+  for (const std::size_t i : pixels) ink.data[i] = 1;
+}
+
+/// Of pieces that went, dashes in rows are ink again. Returns how many stay away.
+int put_back_rows(Binary& ink, const InkPieces& gone) {
+  const std::vector<bool> in_row = dashes_in_rows(gone, ink.width);
+  int away = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i)
+    if (in_row[i])
+      put_back(ink, gone[i]);
+    else
+      ++away;
+  return away;
 }
 
 }  // namespace
@@ -208,19 +226,20 @@ long smooth_edges(Binary& ink, int times) {
 }
 
 Removed remove_specks(Binary& ink, int specks, int pinholes) {
-  Removed removed;
-  std::vector<std::size_t> pixels;
-  removed.pinholes = flip_small(ink, 0, pinholes, false, pixels);
-  pixels.clear();
-  removed.specks = flip_small(ink, 1, specks, true, pixels);
-  const auto size = [](const auto& list) { return static_cast<std::int64_t>(list.size()); };
-  const std::int64_t gone = size(pixels);
+  InkPieces pieces;
+  flip_small(ink, 0, pinholes, false, pieces);
+  Removed removed{.pinholes = static_cast<int>(pieces.size())};
+  pieces = {};
+  flip_small(ink, 1, specks, true, pieces);
+  const std::int64_t gone = count_pixels(pieces);
   const std::int64_t all = gone + count_ink(ink.data.data(), ink.data.size());
-  if (2 * gone <= all) return removed;
-  for (const std::size_t i : pixels) ink.data[i] = 1;
-  pixels.clear();
-  removed.specks = flip_small(ink, 1, specks / 2, true, pixels);
-  if (2 * (gone - size(pixels)) <= all) removed.specks += flip_small(ink, 1, specks, true, pixels);
+  if (2 * gone > all) {
+    put_back(ink, pieces.pixels);
+    pieces = {};
+    flip_small(ink, 1, specks / 2, true, pieces);
+    if (2 * (gone - count_pixels(pieces)) <= all) flip_small(ink, 1, specks, true, pieces);
+  }
+  removed.specks = put_back_rows(ink, pieces);
   return removed;
 }
 

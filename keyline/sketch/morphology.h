@@ -21,8 +21,8 @@ long smooth_edges(Binary& ink, int times);
 
 /// Pieces of ink (8-connected) of fewer than `specks` pixels become paper, holes (4-connected) of
 /// fewer than `pinholes` pixels ink. Where more than half of the ink lies in pieces between that
-/// size and half of it they are what was drawn (fine dashes), and only smaller ones go. Returns how
-/// many pieces and holes went.
+/// size and half of it they are what was drawn (fine dashes), and only smaller ones go; dashes of a
+/// row (dash_row.h) stay in any case. Returns how many pieces and holes went.
 struct Removed {
   int specks = 0;
   int pinholes = 0;

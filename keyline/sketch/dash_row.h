@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace keyline::sketch {
+
+/// What makes a row of dashes.
+inline constexpr double kRowTurn = 0.4;  ///< radians, from a dash to the next
+inline constexpr double kRowGap = 3;     ///< times the shorter dash: no gap of a row is longer
+inline constexpr double kEven = 1.5;     ///< times another: gaps of one row
+inline constexpr double kGrid = 1;       ///< pixels that a length, or an end beside it, may be off
+
+/// True where gaps that long may be those of one row.
+bool is_even(double gap, double other);
+
+/// Pieces of ink, each a list of pixels: indices into the picture's rows.
+struct InkPieces {
+  std::vector<std::size_t> pixels;  ///< of one piece after the other
+  std::vector<std::size_t> ends;    ///< where each ends in that list
+
+  std::size_t size() const { return ends.size(); }
+  std::span<const std::size_t> operator[](std::size_t piece) const {
+    const std::size_t first = piece == 0 ? 0 : ends[piece - 1];
+    return std::span(pixels).subspan(first, ends[piece] - first);
+  }
+  void add(std::span<const std::size_t> piece) {
+    pixels.insert(pixels.end(), piece.begin(), piece.end());
+    ends.push_back(pixels.size());
+  }
+};
+
+/// Which pieces of a picture with rows of `width` pixels are dashes: at least four times as long as
+/// broad (drawings have six, [ISO 128-20], half as much again as gaps of a row may differ), and one
+/// of three that follow each other in a row, with even gaps.
+std::vector<bool> dashes_in_rows(const InkPieces& pieces, int width);
+
+}  // namespace keyline::sketch
