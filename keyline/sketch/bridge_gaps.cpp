@@ -55,15 +55,23 @@ class Bridges {
     std::sort(ends_.begin(), ends_.end(),
               [&](int a, int b) { return end_point(a).x < end_point(b).x; });
     for (const int end : ends_) largest_ = std::max(largest_, end_radius(end));
+    if (ends_.empty()) return;
+    for (const GraphEdge& line : graph_.edges) {
+      boxes_.push_back(box_of(line));
+      for (const float radius : line.radii) broadest_ = std::max<double>(broadest_, radius + 0.5);
+    }
   }
 
-  /// Nearest and straightest pairs first.
+  /// Nearest and straightest pairs first. What lies under other ink is not seen, so it is no gap:
+  /// a line that stops short of a broad or darker one goes on behind it.
   void bridge_short() {
     std::vector<Pair> pairs;
-    visit_pairs(most_, [&](int a, int b, double gap) {
-      if (gap > most_ || !long_enough(a, b, gap)) return;
+    visit_pairs(most_ + 2 * broadest_, [&](int a, int b, double gap) {
+      if (gap > most_ + 2 * broadest_ || !long_enough(a, b, gap)) return;
       const double turn = bend_between(at(a), at(b));
-      if (turn < kStraightest * turn_) pairs.push_back({gap / most_ + turn, gap, a, b});
+      if (turn >= kStraightest * turn_) return;
+      const double paper = gap > most_ ? gap - ink_between(a, b) : gap;
+      if (paper <= most_) pairs.push_back({gap / most_ + turn, gap, a, b});
     });
     std::ranges::sort(pairs, {}, &Pair::cost);
     for (const Pair& p : pairs)
@@ -168,20 +176,21 @@ class Bridges {
   /// Tells the gaps that show paper from those that have ink of other lines in them.
   void find_paper() {
     paper_.assign(branches_.size(), false);
-    boxes_.clear();
-    for (const GraphEdge& line : graph_.edges) boxes_.push_back(box_of(line));
     for (const int a : ends_)
       if (is_mutual(a) && nearest_[index(a)].b > a)
-        paper_[index(a)] = paper_[index(nearest_[index(a)].b)] = is_paper(a, nearest_[index(a)].b);
+        paper_[index(a)] = paper_[index(nearest_[index(a)].b)] =
+            ink_between(a, nearest_[index(a)].b) == 0;
   }
 
-  bool is_paper(int a, int b) {
+  /// How much of the gap between two ends other lines' ink covers.
+  double ink_between(int a, int b) {
     const Point2 from = end_point(a);
     const Vector2 across = end_point(b) - from;
     const double length = core::norm(across);
     const Vector2 along = across / length;
     const double first = end_radius(a);
     const double last = length - end_radius(b);
+    std::vector<std::pair<double, double>> covered;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       const GraphEdge& line = graph_.edges[e];
       if (!line.alive || e == index(a / 2) || e == index(b / 2)) continue;
@@ -189,11 +198,21 @@ class Bridges {
       for (std::size_t i = 0; i < line.points.size(); ++i) {
         const Vector2 to = line.points[i] - from;
         const double way = core::dot(to, along);
-        if (way > first && way < last && std::abs(core::cross(to, along)) < line.radii[i] + 0.5)
-          return false;
+        const double off = std::abs(core::cross(to, along));
+        const double radius = line.radii[i] + 0.5;
+        if (way <= first || way >= last || off >= radius) continue;
+        const double half = std::sqrt(radius * radius - off * off);
+        covered.emplace_back(std::max(first, way - half), std::min(last, way + half));
       }
     }
-    return true;
+    std::ranges::sort(covered);
+    double ink = 0;
+    double end = first;
+    for (const auto& [low, high] : covered) {
+      ink += std::max(0.0, high - std::max(low, end));
+      end = std::max(end, high);
+    }
+    return ink;
   }
 
   /// Whether the line that ends there has, or comes to at its other end, a gap as long that shows
@@ -227,6 +246,7 @@ class Bridges {
   std::vector<double> over_;   ///< the gap that was bridged, by branch
   std::vector<int> ends_;      ///< free ones, from left to right
   double largest_ = 0;         ///< radius of an end
+  double broadest_ = 0;        ///< radius of any ink
   std::vector<Pair> nearest_;  ///< by branch
   std::vector<bool> paper_;    ///< by branch: its nearest lies across paper
   std::vector<Box> boxes_;     ///< of the edges' ink

@@ -32,6 +32,28 @@ TEST(BridgeGaps, FromInkToInk) {
   }
 }
 
+// What lies under other ink is no gap: pale lines, whose ink stops beside a dark one's, go on
+// across it, and so does one that stops short of a broad one. Paper of more than the gap does not.
+TEST(BridgeGaps, OtherInkIsNoGap) {
+  Image pale = blank_page(200, 120);
+  for (const double y : {25, 50, 75}) draw_line(pale, {10, y}, {190, y + 8}, 1.6, 0.35);
+  draw_line(pale, {90, 10}, {100, 110}, 4);
+  const auto crossed = trace(pale);
+  ASSERT_TRUE(crossed) << crossed.error().message;
+  EXPECT_EQ(crossed->strokes.size(), 4U);
+  for (const auto& [paper, strokes] : {std::pair{4, 2U}, {7, 3U}}) {
+    Image page = blank_page(200, 120);
+    draw_line(page, {100, 8}, {100, 112}, 12);
+    draw_line(page, {10, 60}, {92.5 - paper, 60}, 3);
+    draw_line(page, {107.5 + paper, 60}, {190, 60}, 3);
+    TraceOptions options;
+    options.gap = 10;
+    const auto result = trace(page, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), strokes) << paper << " pixels of paper on either side";
+  }
+}
+
 // A line between two gaps as long is a dash where it is no longer than long dashes are; windows on
 // both sides of a pillar are none. No gap of a row is much longer than 18 widths: strokes farther
 // apart are no row, however even.
