@@ -240,12 +240,15 @@ void tell_light(const LightShare& light, TraceResult& result) {
   tell(light.rest, "light areas or rims of dark lines: left out, as paper");
 }
 
-/// A picture of which much is dark, or ink in broad areas, may be no drawing.
-void warn_of_photograph(const Tone& tone, const Binary& ink, double width, TraceResult& result) {
+/// A picture of which much is dark, or ink in broad areas, may be no drawing. One in shade is where
+/// lines explain its ink.
+void warn_of_photograph(const Tone& tone, const Ink& found, Edge edge, TraceResult& result) {
+  const Binary& ink = found.picture;
   const auto dark = static_cast<double>(count_ink(ink.data.data(), ink.data.size()));
   const double share = dark / static_cast<double>(ink.data.size());
-  const double most = std::max(share, tone.shaded);
-  if (most > (is_broad(width, ink.width, ink.height) ? 0.15 : 0.25))
+  const bool in_shade = edge == Edge::center && result.explained >= kEnoughExplained;
+  const double most = in_shade ? share : std::max(share, tone.shaded);
+  if (most > (is_broad(found.width, ink.width, ink.height) ? 0.15 : 0.25))
     result.notes.push_back("warning: " + std::to_string(std::lround(100 * most)) +
                            " % of the picture is dark; is it a drawing?");
 }
@@ -330,7 +333,6 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   const double width = found.width;
   if (options.stage) show_stage(options, "edges", laplacian_edges(ink));
   options.progress.report(0.4, "thinning");
-  warn_of_photograph(tone, ink, width, result);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(found, tone, options);
   const ConsolidateOptions passes{
@@ -352,6 +354,7 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
     result.explained = explained_share(found, tone, result, merged);
     tell_explained("ink", result);
   }
+  warn_of_photograph(tone, found, options.edge, result);
   turn_up(result);
   return result;
 }

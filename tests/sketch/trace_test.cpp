@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -282,6 +283,29 @@ TEST(Trace, SaysThatBlankPicturesHoldNoLine) {
       EXPECT_EQ(result.error().code, core::ErrorCode::undrawable);
     }
   }
+}
+
+// Half of a drawing in deep shade is still a drawing, as its lines show; a shaded ball is none.
+TEST(Trace, ADrawingInShadeIsNoPhotograph) {
+  const auto doubts = [](const Image& image) {
+    const auto result = trace(image);
+    EXPECT_TRUE(result) << result.error().message;
+    return result && std::ranges::any_of(result->notes, [](const std::string& note) {
+             return note.find("is it a drawing?") != std::string::npos;
+           });
+  };
+  Image drawing = rings(400, {60, 120, 170}, 4);
+  Image ball = blank_page(400, 400);
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const double shade = 0.4 / (1 + std::exp((190.0 - x) / 40));
+      auto& v = drawing.luminance.at(x, y);
+      v = static_cast<std::uint16_t>((1 - shade) * v);
+      const double r = std::hypot(x - 200.0, y - 200.0) / 150;
+      if (r < 1) ball.luminance.at(x, y) = static_cast<std::uint16_t>(40'000 - 30'000 * r);
+    }
+  EXPECT_FALSE(doubts(drawing));
+  EXPECT_TRUE(doubts(ball));
 }
 
 TEST(Trace, DrawnStrokesSayWhoStandsForThem) {
