@@ -9,9 +9,8 @@
 #include "keyline/acquire/kd_tree.h"
 #include "keyline/acquire/order.h"
 #include "keyline/acquire/statistics.h"
-#include "keyline/core/angle.h"
-#include "keyline/core/axis.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/second_moments.h"
 
 namespace keyline::acquire {
 namespace {
@@ -39,17 +38,11 @@ Spread spread_of(std::span<const core::Point2> points, std::span<const double> w
   }
   Spread s;
   s.mean = origin + sum / total;
-  double xx = 0, xy = 0, yy = 0;
-  for (const std::size_t i : near) {
-    const core::Vector2 d = points[i] - s.mean;
-    xx += weight(i) * d.x * d.x;
-    xy += weight(i) * d.x * d.y;
-    yy += weight(i) * d.y * d.y;
-  }
-  const double half = 0.5 * std::hypot(xx - yy, 2 * xy);
-  s.direction = core::unit_vector(core::principal_angle(xx, xy, yy));
-  s.along = std::sqrt((0.5 * (xx + yy) + half) / total);
-  s.across = std::sqrt(std::max(0.5 * (xx + yy) - half, 0.0) / total);
+  core::SecondMoments moments;
+  for (const std::size_t i : near) moments.add(points[i] - s.mean, weight(i));
+  s.direction = moments.direction();
+  s.along = std::sqrt(moments.along() / total);
+  s.across = std::sqrt(moments.across() / total);
   return s;
 }
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
-#include "keyline/core/axis.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/second_moments.h"
 
 namespace keyline::acquire {
 namespace {
@@ -60,17 +60,11 @@ Arm arm_of(const Ring& ring, std::ptrdiff_t from, std::ptrdiff_t to) {
   const double count = static_cast<double>(to - from + 1);
   for (std::ptrdiff_t i = from; i <= to; ++i) sum = sum + (ring[i] - ring[from]);
   const core::Point2 mean = ring[from] + sum / count;
-  double xx = 0, xy = 0, yy = 0;
-  for (std::ptrdiff_t i = from; i <= to; ++i) {
-    const core::Vector2 d = ring[i] - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  core::Vector2 v = core::unit_vector(core::principal_angle(xx, xy, yy));
+  core::SecondMoments moments;
+  for (std::ptrdiff_t i = from; i <= to; ++i) moments.add(ring[i] - mean);
+  core::Vector2 v = moments.direction();
   if (core::dot(v, ring[to] - ring[from]) < 0) v = -v;
-  const double spread = 0.5 * (xx + yy) + 0.5 * std::hypot(2 * xy, xx - yy);
-  return {v, spread};
+  return {v, moments.along()};
 }
 
 struct Turn {

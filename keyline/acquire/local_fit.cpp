@@ -3,22 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/core/angle.h"
-#include "keyline/core/axis.h"
+#include "keyline/core/second_moments.h"
 
 namespace keyline::acquire::detail {
 namespace {
 
 /// Unit principal direction of the points, pointing from first to last.
 core::Vector2 principal_direction(std::span<const core::Point2> points, core::Point2 mean) {
-  double xx = 0, xy = 0, yy = 0;
-  for (const core::Point2& p : points) {
-    const core::Vector2 d = p - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  const core::Vector2 v = core::unit_vector(core::principal_angle(xx, xy, yy));
+  core::SecondMoments moments;
+  for (const core::Point2& p : points) moments.add(p - mean);
+  const core::Vector2 v = moments.direction();
   return core::dot(v, points.back() - points.front()) < 0 ? -v : v;
 }
 

@@ -15,6 +15,7 @@
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/polygon.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/second_moments.h"
 #include "keyline/core/text.h"
 
 namespace keyline::acquire {
@@ -52,17 +53,10 @@ Spread spread_of(const std::vector<core::Point2>& points, std::span<const std::s
   core::Vector2 mean;
   for (const std::size_t i : near) mean = mean + (points[i] - points[near[0]]);
   mean = mean / static_cast<double>(near.size());
-  double xx = 0, xy = 0, yy = 0;
-  for (const std::size_t i : near) {
-    const core::Vector2 d = points[i] - points[near[0]] - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  const double half = 0.5 * std::hypot(xx - yy, 2 * xy);
-  const double middle = 0.5 * (xx + yy);
+  core::SecondMoments moments;
+  for (const std::size_t i : near) moments.add(points[i] - points[near[0]] - mean);
   const auto count = static_cast<double>(near.size());
-  return {std::sqrt((middle + half) / count), std::sqrt(std::max(middle - half, 0.0) / count)};
+  return {std::sqrt(moments.along() / count), std::sqrt(moments.across() / count)};
 }
 
 /// Width over length of the points' scatter; 1 for a round one.

@@ -7,8 +7,7 @@
 #include <Eigen/Dense>
 
 #include "keyline/acquire/kd_tree.h"
-#include "keyline/core/angle.h"
-#include "keyline/core/axis.h"
+#include "keyline/core/second_moments.h"
 
 namespace keyline::acquire::detail {
 namespace {
@@ -30,17 +29,12 @@ struct Nearby {
 
 Nearby nearby(std::span<const core::Point2> feet, std::span<const double> away,
               const std::vector<std::size_t>& near, core::Point2 at) {
-  double xx = 0, xy = 0, yy = 0;
   core::Vector2 mean;
   for (const std::size_t i : near) mean = mean + (feet[i] - at) / static_cast<double>(near.size());
-  for (const std::size_t i : near) {
-    const core::Vector2 d = feet[i] - at - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
+  core::SecondMoments moments;
+  for (const std::size_t i : near) moments.add(feet[i] - at - mean);
   Nearby n;
-  n.along = core::unit_vector(core::principal_angle(xx, xy, yy));
+  n.along = moments.direction();
   const auto count = static_cast<Eigen::Index>(near.size());
   n.u.resize(count);
   n.v.resize(count);

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyline/core/angle.h"
-#include "keyline/core/axis.h"
 #include "keyline/core/polygon.h"
+#include "keyline/core/second_moments.h"
 
 namespace keyline::sketch {
 
@@ -44,16 +43,9 @@ Axis principal_axis(const std::vector<Point2>& points, std::size_t first, std::s
   const auto count = static_cast<double>(last - first + 1);
   for (std::size_t i = first; i <= last; ++i)
     axis.centre = axis.centre + (points[i] - Point2{}) / count;
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  for (std::size_t i = first; i <= last; ++i) {
-    const Vector2 d = points[i] - axis.centre;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  axis.direction = core::unit_vector(core::principal_angle(xx, xy, yy));
+  core::SecondMoments moments;
+  for (std::size_t i = first; i <= last; ++i) moments.add(points[i] - axis.centre);
+  axis.direction = moments.direction();
   if (core::dot(axis.direction, points[last] - points[first]) < 0) axis.direction = -axis.direction;
   for (std::size_t i = first; i <= last; ++i)
     axis.largest_offset = std::max(axis.largest_offset,

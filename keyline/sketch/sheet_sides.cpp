@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "keyline/core/second_moments.h"
+
 namespace keyline::sketch {
 namespace {
 
@@ -139,17 +141,9 @@ Side Borders::fitted(const Side& side) const {
   }
   if (own.size() < 8) return side;
   const Point2 middle = Point2{} + sum / static_cast<double>(own.size());
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  for (const Point2 p : own) {
-    const Vector2 d = p - middle;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  const double along = 0.5 * std::atan2(2 * xy, xx - yy);
-  Vector2 normal{-std::sin(along), std::cos(along)};
+  core::SecondMoments moments;
+  for (const Point2 p : own) moments.add(p - middle);
+  Vector2 normal = core::perpendicular_left(moments.direction());
   if (core::dot(normal, side.normal) < 0) normal = -normal;
   return {normal, core::dot(normal, middle - Point2{})};
 }
