@@ -103,13 +103,25 @@ void append_table(std::string& html, const ReportTable& table) {
   html += "</tbody>\n</table>\n</div>\n";
 }
 
+/// Numbers of the figures that the linked curve stands for, counted from `first`: "2 and 3".
+std::string numbers_on_paper(const Section& section, int first) {
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < section.figures.size(); ++i)
+    if (section.figures[i].on_paper) numbers.push_back(std::to_string(first + static_cast<int>(i)));
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < numbers.size() ? ", " : " and ") + numbers[i];
+  return text;
+}
+
 void append_section(std::string& html, const Section& section, int number, int& figures) {
   const std::string id = "section-" + std::to_string(number);
   append(html, {"<section aria-labelledby=\"", id, "\">\n<h2 id=\"", id, "\">", safe(section.title),
                 "</h2>\n"});
   for (const std::string& paragraph : section.paragraphs)
     append(html, {"<p>", safe(paragraph), "</p>\n"});
-  if (section.linked) html += detail::linked_curve(*section.linked);
+  if (section.linked)
+    html += detail::linked_curve(*section.linked, numbers_on_paper(section, figures + 1));
   bool paired = false;
   for (const ReportFigure& item : section.figures) {
     const bool narrow = item.drawing.width < kNarrowFigure;

@@ -13,7 +13,7 @@ inline constexpr std::string_view kScript = R"js(
   const kInk = "#212529", kQuiet = "#5a6268", kFrame = "#adb5bd", kGrid = "#e9ecef", kCurve = "#0069aa";
   const kBefore = "#8c9399", kBand = "#f5f7f9", kMark = "#ce5400";
   const kFont = "12px system-ui, 'Liberation Sans', 'DejaVu Sans', sans-serif";
-  const kLeft = 64, kRight = 14, kTop = 18, kBottom = 34, kReach = 60, kTooth = 4;
+  const kLeft = 64, kRight = 14, kTop = 18, kBottom = 34, kReach = 60, kTooth = 4, kMargin = 18;
 
   const make = (tag, attributes, ...children) => {
     const element = document.createElement(tag);
@@ -76,19 +76,36 @@ inline constexpr std::string_view kScript = R"js(
     const inRange = (v) => v >= range[0] ? range[1] >= v : false;
     const pieceAt = (i) => joints.filter((joint) => i >= joint).length;
 
-    /** Fits the part in range, its teeth beside it. */
-    const lay = () => {
-      const tooth = (0.2 * height * longer) / usual;
-      let box = [Infinity, Infinity, -Infinity, -Infinity], most = 0;
+    const tipOf = ([px, py], i, tooth) => [px + tooth * k[i] * Math.sin(a[i]), py + tooth * k[i] * Math.cos(a[i])];
+
+    /** The box, in pixels, of the part in range and its teeth, at so many pixels a length. */
+    const boxAt = (scale, tooth) => {
+      let box = [Infinity, Infinity, -Infinity, -Infinity];
       for (let i = 0; n > i; ++i) {
         if (!inRange(s[i])) continue;
-        box = [Math.min(box[0], x[i]), Math.min(box[1], y[i]), Math.max(box[2], x[i]), Math.max(box[3], y[i])];
-        most = Math.max(most, Math.abs(k[i]) * tooth);
+        const foot = [x[i] * scale, -y[i] * scale];
+        for (const [px, py] of [foot, tipOf(foot, i, tooth)])
+          box = [Math.min(box[0], px), Math.min(box[1], py), Math.max(box[2], px), Math.max(box[3], py)];
       }
-      const pad = 18 + Math.min(most, 0.3 * Math.min(width, height));
-      const scale = Math.min((width - 2 * pad) / Math.max(box[2] - box[0], 1e-9 * length), (height - 2 * pad) / Math.max(box[3] - box[1], 1e-9 * length));
-      const center = [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2];
-      return { scale, tooth, at: (i) => [width / 2 + (x[i] - center[0]) * scale, height / 2 - (y[i] - center[1]) * scale] };
+      return box;
+    };
+
+    /** Fits the part in range with its teeth, unless they leave it less than a third of its size. */
+    const lay = () => {
+      const tooth = longer * height * Math.min(0.2 / usual, 0.5 / (sizes[n - 1] || usual));
+      const room = [width - 2 * kMargin, height - 2 * kMargin];
+      const fits = (box) => room[0] >= box[2] - box[0] ? room[1] >= box[3] - box[1] : false;
+      const bare = boxAt(1, 0);
+      let most = Math.min(room[0] / Math.max(bare[2] - bare[0], 1e-9 * length), room[1] / Math.max(bare[3] - bare[1], 1e-9 * length));
+      let scale = most / 3;
+      for (let step = 0; 12 > step; ++step) {
+        const middle = (scale + most) / 2;
+        if (fits(boxAt(middle, tooth))) scale = middle;
+        else most = middle;
+      }
+      const box = boxAt(scale, fits(boxAt(scale, tooth)) ? tooth : 0);
+      const shift = [(width - box[0] - box[2]) / 2, (height - box[1] - box[3]) / 2];
+      return { tooth, at: (i) => [x[i] * scale + shift[0], shift[1] - y[i] * scale] };
     };
     const begin = (canvas) => {
       width = canvas.clientWidth;
@@ -127,7 +144,7 @@ inline constexpr std::string_view kScript = R"js(
       begin(comb);
       const { tooth, at } = lay();
       const feet = s.map((_, i) => at(i));
-      const tips = s.map((_, i) => [feet[i][0] + tooth * k[i] * Math.sin(a[i]), feet[i][1] + tooth * k[i] * Math.cos(a[i])]);
+      const tips = feet.map((foot, i) => tipOf(foot, i, tooth));
       let since = Infinity;
       const teeth = [];
       for (let i = 0; n > i; ++i) {
@@ -206,7 +223,7 @@ inline constexpr std::string_view kScript = R"js(
       told.textContent = mark >= 0
         ? ["s " + text(s[mark]) + behind, "radius " + text(1 / Math.abs(k[mark])) + (k[mark] === 0 ? "" : behind),
           "curvature " + text(k[mark], 3) + (unit ? "\u00a01/" + unit : ""), pieces[pieceAt(mark)] || ""].filter(Boolean).join("  \u00b7  ")
-        : "Point at the comb or the plot: the place is marked in both. Drag to move along, + and \u2212, or Ctrl and the wheel, to zoom.";
+        : "Figures " + place.dataset.figures + ", linked. Point at the comb or the plot: the place is marked in both. Drag to move along, + and \u2212, or Ctrl and the wheel, to zoom.";
     }
 
     const point = (i) => {
@@ -279,6 +296,6 @@ inline constexpr std::string_view kScript = R"js(
 
 /// SHA-256 of it, base64: what the page's policy lets run. tests/report/linked_page_test.py
 /// compares.
-inline constexpr std::string_view kScriptHash = "TnJ0VZFLTOP/3Kiu1GuPjCGA99yvaZSjSorDYXLYL1Q=";
+inline constexpr std::string_view kScriptHash = "MEckA4IUJJjH25q/wJXyFTM5N6CMB7U+pgU9Kkjc2X0=";
 
 }  // namespace keyline::report::detail

@@ -72,13 +72,14 @@ std::string numbers_of(const LinkedCurve& linked) {
 
 }  // namespace
 
-std::string linked_curve(const LinkedCurve& linked) {
+std::string linked_curve(const LinkedCurve& linked, const std::string& figures) {
   check(linked.curve);
   check(linked.before);
   const auto safe = [](std::string_view text) {
     return core::escape_markup(figure::clean_text(text));
   };
-  std::string html = "<div class=\"explorer\" data-unit=\"" + safe(linked.unit) + "\">\n";
+  std::string html = "<div class=\"explorer\" data-unit=\"" + safe(linked.unit) +
+                     "\" data-figures=\"" + figures + "\">\n";
   if (!linked.pieces.empty()) {
     html += "<ul hidden=\"hidden\">";
     for (const std::string& piece : linked.pieces) html += "<li>" + safe(piece) + "</li>";
