@@ -197,7 +197,8 @@ void Studio::stop() {
   for (const auto& [name, token] : jobs_) token.request_stop();
 }
 
-void Studio::serve(const RequestHead& head, std::string body, std::shared_ptr<Responder> back) {
+void Studio::serve(const RequestHead& head, std::string body,
+                   const std::shared_ptr<Responder>& back) {
   if (!head.path.starts_with(kApi)) return send_asset(head.path, *back);
   const std::string name = head.path.substr(std::string(kApi).size());
   if (head.method == "GET") {
@@ -217,11 +218,11 @@ void Studio::serve(const RequestHead& head, std::string body, std::shared_ptr<Re
     const auto kept = recovery_.keep(body);
     return back->reply(kept ? data(200, R"({"ok":true})") : failed(kept.error()));
   }
-  perform(name, head, std::move(body), std::move(back));
+  perform(name, head, std::move(body), back);
 }
 
 void Studio::perform(const std::string& name, const RequestHead& head, std::string body,
-                     std::shared_ptr<Responder> back) {
+                     const std::shared_ptr<Responder>& back) {
   const Operation* operation = operations::find_operation(name);
   if (!operation)
     return back->reply(failed({ErrorCode::unsupported, "there is no operation \"" + name + "\"",
@@ -241,7 +242,7 @@ void Studio::perform(const std::string& name, const RequestHead& head, std::stri
 }
 
 void Studio::perform_long(const Operation& operation, const RequestHead& head, std::string body,
-                          std::shared_ptr<Responder> back) {
+                          const std::shared_ptr<Responder>& back) {
   const bool told = head.accept.find("text/event-stream") != std::string::npos;
   const core::CancellationToken token = back->gone();
   std::string job = head.job;
@@ -293,7 +294,7 @@ void Studio::cancel(const std::string& body, Responder& back) {
   back.reply(data(200, text_of({{"ok", true}, {"found", at != jobs_.end()}})));
 }
 
-void Studio::message(std::string line, std::function<void(std::string)> answer) {
+void Studio::message(const std::string& line, const std::function<void(std::string)>& answer) {
   const auto work = [this, line, answer] {
     auto request = request_in(line);
     if (!request) return answer(operations::failed_line(line, request.error()));

@@ -32,18 +32,18 @@ class Studio {
   explicit Studio(Settings settings);
   ~Studio();
 
-  void serve(const RequestHead& head, std::string body, std::shared_ptr<Responder> back);
+  void serve(const RequestHead& head, std::string body, const std::shared_ptr<Responder>& back);
   /// One line of `keyline batch`, for operations that are answered at once.
-  void message(std::string line, std::function<void(std::string)> answer);
+  void message(const std::string& line, const std::function<void(std::string)>& answer);
 
   /// Long works are told to end.
   void stop();
 
  private:
   void perform(const std::string& name, const RequestHead& head, std::string body,
-               std::shared_ptr<Responder> back);
+               const std::shared_ptr<Responder>& back);
   void perform_long(const operations::Operation& operation, const RequestHead& head,
-                    std::string body, std::shared_ptr<Responder> back);
+                    std::string body, const std::shared_ptr<Responder>& back);
   void forget(const std::string& job);
   void cancel(const std::string& body, Responder& back);
   void upload(const RequestHead& head, const std::string& body, Responder& back);
