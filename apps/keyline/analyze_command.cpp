@@ -36,7 +36,7 @@ Session new_session() {
 }
 
 /// The value of a curve that one Bezier curve stands for; "class_a" of the result, or why not.
-json class_a_of(const Session& session, const json& curve, const core::Progress& progress,
+json class_a_of(Session& session, const json& curve, const core::Progress& progress,
                 ShownAnalysis& shown) {
   json request{{"curve", curve}};
   if (session.door().tolerance) request["fit_tolerance"] = *session.door().tolerance;

@@ -63,18 +63,6 @@ constexpr const char* kSkipped = "skipped: ";
 constexpr const char* kNamed = "; keyline list names them";
 constexpr const char* kPlanes = " curves in planes";
 
-/// The fields that a result tells to have had no use.
-std::vector<std::string> unused_in(const operations::Outcome& outcome) {
-  std::vector<std::string> names;
-  core::visit_fields(
-      *outcome.operation->result, outcome.result.get(),
-      [&](const core::Field& field, const void* member) {
-        if (field.name == "unused" && &field.type() == &core::type_of<std::vector<std::string>>())
-          names = *static_cast<const std::vector<std::string>*>(member);
-      });
-  return names;
-}
-
 }  // namespace
 
 Session::Session(Usage usage, const std::vector<OptionGroup>& groups, bool takes_files)
@@ -154,14 +142,14 @@ Result<void> Session::check_outputs() const {
 }
 
 Result<operations::Outcome> Session::perform(const std::string& operation, json request,
-                                             const core::Progress& progress) const {
+                                             const core::Progress& progress) {
   const Operation* named = operations::find_operation(operation);
   if (usage_.forms && operations::further_options(*named))
     request.update(arguments_.of(door_record_ - 1));
   auto outcome = operations::carry_out(operation, request, {door_.threads, progress, true});
   if (outcome) {
-    keep_uses(*named->request, request, unused_in(*outcome));
-    if (usage_.forms) keep_uses(*usage_.forms, request, {});
+    uses_.add(*named->request, request, unused_in(*outcome));
+    if (usage_.forms) uses_.add(*usage_.forms, request, {});
     return outcome;
   }
   const std::string& place = outcome.error().path;  // a file "points" is no option
@@ -170,14 +158,14 @@ Result<operations::Outcome> Session::perform(const std::string& operation, json 
 }
 
 Result<json> Session::write(const presentation::Pages& pages, const presentation::Output& output,
-                            Ending ending) const {
+                            Ending ending) {
   core::Progress progress = this->progress();
   if (ending == Ending::kept) progress.cancellation = {};
   const auto written = presentation::write_files(door_.output, pages, output, progress);
   end_progress();
   if (!written) return std::unexpected(as_options(written.error()));
   for (const std::string& name : written->unused)
-    keep_uses(core::type_of<operations::FormatOptions>(), {{name, true}}, written->unused);
+    uses_.add(core::type_of<operations::FormatOptions>(), {{name, true}}, written->unused);
   for (const operations::Written& one : written->written) {
     for (const std::string& note : one.notes) say(door_.quiet, one.file + ": " + note);
     if (one.deviation > 0)
@@ -186,7 +174,7 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
   return operations::write_json(core::type_of<operations::WriteAnswer>(), &*written);
 }
 
-Result<json> Session::write(const presentation::Pages& pages, json document, Ending ending) const {
+Result<json> Session::write(const presentation::Pages& pages, json document, Ending ending) {
   if (door_.output.empty()) return write(pages, presentation::Output{}, ending);
   if (door_.tolerance && !document.contains("tolerance")) document["tolerance"] = *door_.tolerance;
   if (usage_.forms && arguments_.of(door_record_ - 1).contains("samples"))
@@ -212,29 +200,15 @@ void Session::note_read(const operations::ReadAnswer& read) {
   note_some(kSkipped, read.skipped, kNamed);
 }
 
-void Session::keep_uses(const core::Type& record, const json& given,
-                        const std::vector<std::string>& unused) const {
-  const std::lock_guard alone(uses_at_);
-  core::visit_fields(record, record.make().get(), [&](const core::Field& field, void*) {
-    const std::string name(field.name);
-    if (!given.contains(name)) return;
-    const bool found = std::ranges::find(unused, name) == unused.end();
-    Use& use = uses_.try_emplace(name, Use{field.text}).first->second;
-    use.found = use.found || found;
-  });
-}
-
 void Session::note_unused(const json& result) {
   const json told = result.is_object() ? result.value("unused", json::array()) : json::array();
-  for (const auto& [name, use] : uses_) {
-    if (use.found) continue;
-    const std::string text = fmt::format("{} has no use here ({})", option_name(name), use.text);
+  for (const auto& [name, what] : uses_.take_unused()) {
+    const std::string text = fmt::format("{} has no use here ({})", option_name(name), what);
     if (std::ranges::find(told, json(name)) == told.end())
       note(text);
     else
       say(door_.quiet, text);
   }
-  uses_.clear();
 }
 
 void Session::print(const json& shown, const std::string& text) {

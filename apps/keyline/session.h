@@ -1,8 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +13,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "option_uses.h"
 #include "words.h"
 
 /// What the commands share: their options beside an operation's own, files in, results out.
@@ -95,9 +94,10 @@ class Session {
   core::Result<void> check_outputs(const std::vector<std::string>& known) const;
   core::Result<void> check_outputs() const;
 
-  /// Performs one operation, its curves also in the forms asked for; failures name options.
+  /// Performs one operation, its curves also in the forms asked for; failures name options. Several
+  /// threads may perform at a time.
   core::Result<operations::Outcome> perform(const std::string& operation, nlohmann::json request,
-                                            const core::Progress& progress) const;
+                                            const core::Progress& progress);
 
   /// The i-th record as it was given; failures name options.
   template <class Record>
@@ -115,10 +115,10 @@ class Session {
   /// Writes the files of -o; says what a format could not hold.
   core::Result<nlohmann::json> write(const presentation::Pages& pages,
                                      const presentation::Output& output,
-                                     Ending ending = Ending::cancellable) const;
+                                     Ending ending = Ending::cancellable);
   /// The same of a request of document.write; "tolerance" of the door where it has none.
   core::Result<nlohmann::json> write(const presentation::Pages& pages, nlohmann::json document,
-                                     Ending ending = Ending::cancellable) const;
+                                     Ending ending = Ending::cancellable);
 
   /// Says it, and keeps it for the notes of the result; of many lines some are said (say_some()).
   void note(const std::string& text);
@@ -148,16 +148,7 @@ class Session {
   std::string typed_;
   std::function<std::string(const std::string&)> explain_;
   std::vector<std::string> notes_;
-
-  /// Of options that some operation had no use for: what they are, and whether another had one.
-  struct Use {
-    std::string_view text;
-    bool found = false;
-  };
-  void keep_uses(const core::Type& record, const nlohmann::json& given,
-                 const std::vector<std::string>& unused) const;
-  mutable std::mutex uses_at_;  ///< curves are worked on side by side
-  mutable std::map<std::string, Use> uses_;
+  OptionUses uses_;
 };
 
 /// Files of a session through document.read.
