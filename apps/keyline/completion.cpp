@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <map>
+
 #include <fmt/format.h>
 
 #include "manual.h"
@@ -30,6 +33,27 @@ std::string quoted(const std::string& text) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+/// What may stand behind a first word that is no command with options, or beside its options.
+std::map<std::string, std::vector<std::string>> second_words(const std::vector<Manual>& manuals) {
+  std::map<std::string, std::vector<std::string>> words{{"completion", {"bash", "zsh", "fish"}}};
+  for (const Manual& manual : manuals) {
+    for (const char* first : {"help", "man"}) words[first].push_back(manual.command);
+    const std::size_t dot = manual.command.find('.');
+    if (dot == std::string::npos) continue;
+    for (const char* first : {"operations", "perform"}) words[first].push_back(manual.command);
+    words[manual.command.substr(0, dot)].push_back(manual.command.substr(dot + 1));
+  }
+  return words;
+}
+
+/// First words that are no commands of their own: "help", "library".
+std::vector<std::string> other_first_words(const std::vector<Manual>& manuals) {
+  std::vector<std::string> others;
+  for (const auto& [word, behind] : second_words(manuals))
+    if (std::ranges::find(manuals, word, &Manual::command) == manuals.end()) others.push_back(word);
+  return others;
+}
+
 std::string bash(const std::vector<Manual>& manuals) {
   std::string names;
   std::string options;
@@ -44,10 +68,15 @@ std::string bash(const std::vector<Manual>& manuals) {
           choices += fmt::format("    \"{} {}\") words=\"{}\" ;;\n", manual.command, option.name,
                                  joined(option.choices));
   }
+  names += joined(other_first_words(manuals));
+  std::string second;
+  for (const auto& [first, words] : second_words(manuals))
+    second += fmt::format("    \"{} 2\") words=\"{}\" ;;\n", first, joined(words));
   return "_keyline() {\n  local words=\"\" now=\"${COMP_WORDS[COMP_CWORD]}\"\n"
          "  case \"${COMP_WORDS[1]}\" in\n" +
          options + "  esac\n  [[ \"$now\" == -* ]] || words=\"\"\n" +
-         "  case \"${COMP_WORDS[1]} ${COMP_WORDS[COMP_CWORD-1]}\" in\n" + choices +
+         "  [[ \"$now\" == -* ]] || case \"${COMP_WORDS[1]} $COMP_CWORD\" in\n" + second +
+         "  esac\n  case \"${COMP_WORDS[1]} ${COMP_WORDS[COMP_CWORD-1]}\" in\n" + choices +
          "  esac\n  [ \"$COMP_CWORD\" -eq 1 ] && words=\"" + names +
          "\"\n  COMPREPLY=($(compgen -W \"$words\" -- \"$now\"))\n}\n"
          "complete -o default -F _keyline keyline\n";
@@ -75,10 +104,14 @@ std::string zsh(const std::vector<Manual>& manuals) {
                  "\n";
     cases += "    ) ;;\n";
   }
+  for (const std::string& word : other_first_words(manuals)) names += "    " + word + "\n";
+  std::string second;
+  for (const auto& [first, words] : second_words(manuals))
+    second += fmt::format("      {}) compadd -- {} ;;\n", first, joined(words));
   return "#compdef keyline\n_keyline() {\n  local -a commands options\n  commands=(\n" + names +
          "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
-         "  case $words[2] in\n" +
-         cases +
+         "  if (( CURRENT == 3 )) && [[ $words[3] != -* ]]; then\n    case $words[2] in\n" +
+         second + "    esac\n  fi\n  case $words[2] in\n" + cases +
          "  esac\n  shift words\n  (( CURRENT-- ))\n  _arguments -S $options '*:file:_files'\n}\n"
          "if [ \"$funcstack[1]\" = _keyline ]; then _keyline \"$@\"; else compdef _keyline "
          "keyline; fi\n";
@@ -89,6 +122,11 @@ std::string fish(const std::vector<Manual>& manuals) {
   for (const Manual& manual : manuals)
     text += fmt::format("complete -c keyline -n __fish_use_subcommand -f -a {} -d {}\n",
                         manual.command, quoted(first_line(manual.text)));
+  for (const std::string& word : other_first_words(manuals))
+    text += fmt::format("complete -c keyline -n __fish_use_subcommand -f -a {}\n", word);
+  for (const auto& [first, words] : second_words(manuals))
+    text += fmt::format("complete -c keyline -n '__fish_seen_subcommand_from {}' -f -a {}\n", first,
+                        quoted(joined(words)));
   for (const Manual& manual : manuals)
     for (const OptionTexts& group : manual.groups)
       for (const OptionText& option : group.options) {

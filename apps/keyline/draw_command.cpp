@@ -160,13 +160,15 @@ void complete(const Operation& operation, json& request) {
   }
 }
 
-/// Numbers, words and ranges as a person writes them: a range without an end has none told.
+/// Numbers, words and ranges as a person writes them: a range tells the ends it has.
 std::string in_words(const json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return core::number_text(value.get<double>(), 6);
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_array() && value.size() == 2 && value[0].is_null() != value[1].is_null())
-    return value[0].is_null() ? "up to " + in_words(value[1]) : "from " + in_words(value[0]);
+  if (value.is_array() && value.size() == 2 && (value[0].is_null() || value[1].is_null()))
+    return !value[0].is_null()   ? "from " + in_words(value[0])
+           : !value[1].is_null() ? "up to " + in_words(value[1])
+                                 : "any";
   if (!value.is_structured()) return value.dump();
   std::string all;
   for (const auto& [name, item] : value.items())

@@ -4,10 +4,14 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "keyline/core/nearest_word.h"
 #include "keyline/core/version.h"
 #include "keyline/operations/perform.h"
 
@@ -57,8 +61,32 @@ int print(const core::Result<std::string>& text) {
   return kDone;
 }
 
+bool asks_for_help(const Words& words) {
+  return !words.empty() && (words.front() == "--help" || words.front() == "-h");
+}
+
+constexpr const char* kManHelp =
+    "Manual pages, from the commands' own declarations.\n\n"
+    "keyline man            the page about keyline, for man -l -\n"
+    "keyline man COMMAND    that of a command: keyline man fair | man -l -\n"
+    "keyline man --all FOLDER\n"
+    "                       writes all pages into the folder\n";
+
+constexpr const char* kCompletionHelp =
+    "Completion of commands, options and their choices for a shell.\n\n"
+    "bash    source <(keyline completion bash)\n"
+    "zsh     source <(keyline completion zsh)\n"
+    "fish    keyline completion fish | source\n";
+
+/// keyline completion SHELL
+int run_completion(const Words& words) {
+  if (asks_for_help(words)) return print(std::string(kCompletionHelp));
+  return print(completion(words.size() == 1 ? words.front() : ""));
+}
+
 /// keyline man [COMMAND], keyline man --all FOLDER
 int run_man(const Words& words) {
+  if (asks_for_help(words)) return print(std::string(kManHelp));
   if (words.size() == 2 && words.front() == "--all") {
     const auto written = write_manual_pages(words.back());
     return written ? kDone : report_failure(written.error());
@@ -78,10 +106,45 @@ std::string help_of_room(const std::string& room) {
   return text;
 }
 
+/// The command or room that was probably meant: "; did you mean …?" or nothing.
+std::string guess(const std::string& given) {
+  std::vector<std::string> names{"man", "completion", "help", "library"};
+  for (const Manual& manual : manuals()) names.push_back(manual.command);
+  const std::vector<std::string_view> words(names.begin(), names.end());
+  const std::string_view meant = core::nearest_word(given, words);
+  return meant.empty() ? "" : fmt::format("did you mean {}? ", meant);
+}
+
+std::string lists_them(const std::string& command) {
+  return "keyline " + (command.empty() ? "" : command + " ") + "--help lists them";
+}
+
+int without_such(const std::string& name) {
+  return report_failure({core::ErrorCode::bad_input, "there is no command \"" + name + "\"",
+                         guess(name) + lists_them(""), ""});
+}
+
+/// "library", the room, and words behind it that are no operation of it.
+int run_room(const std::string& room, const std::string& help, const Words& words) {
+  if (asks_for_help(words)) {
+    fmt::print("{}\nkeyline OPERATION --help tells more.\n", help);
+    return kDone;
+  }
+  if (words.empty() || words.front().starts_with('-'))
+    return report_failure(
+        {core::ErrorCode::bad_input, "a command is missing behind it", lists_them(room), room});
+  return report_failure({core::ErrorCode::bad_input,
+                         "there is no command \"" + room + " " + words.front() + "\"",
+                         lists_them(room), ""});
+}
+
 /// "lac.segment", "perform lac.segment" and "lac segment" alike.
 int run_named(const std::string& first, Words words) {
   std::string name = first;
-  if (name == "perform" && !words.empty()) {
+  if (name == "perform") {
+    if (words.empty())
+      return report_failure({core::ErrorCode::bad_input, "an operation is missing behind it",
+                             "keyline operations lists them", name});
     name = words.front();
     words.erase(words.begin());
   } else if (!words.empty() && operations::find_operation(first + "." + words.front())) {
@@ -89,17 +152,9 @@ int run_named(const std::string& first, Words words) {
     words.erase(words.begin());
   }
   if (operations::find_operation(name)) return run_plain(name, words);
-  const std::string room = help_of_room(name);
-  const bool option_next = !words.empty() && words.front().starts_with('-');
-  if (!room.empty() && option_next && (words.front() == "--help" || words.front() == "-h")) {
-    fmt::print("{}\nkeyline OPERATION --help tells more.\n", room);
-    return kDone;
-  }
-  const std::string lists = room.empty() ? "keyline --help" : "keyline " + name + " --help";
-  const std::string asked =
-      room.empty() || option_next || words.empty() ? name : name + " " + words.front();
-  return report_failure({core::ErrorCode::bad_input, "there is no command \"" + asked + "\"",
-                         lists + " lists them", ""});
+  if (const std::string help = help_of_room(name); !help.empty())
+    return run_room(name, help, words);
+  return without_such(name);
 }
 
 int run(const Words& all) {
@@ -108,6 +163,11 @@ int run(const Words& all) {
         {core::ErrorCode::bad_input, "a command is missing", "see keyline --help", ""});
   const std::string& first = all.front();
   const Words words(all.begin() + 1, all.end());
+  if (first == "help" && !words.empty() && !words.front().starts_with('-')) {
+    Words asked = words;
+    asked.emplace_back("--help");
+    return run(asked);
+  }
   if (first == "--help" || first == "-h" || first == "help") {
     fmt::print("{}", help());
     return kDone;
@@ -116,7 +176,7 @@ int run(const Words& all) {
     fmt::print("keyline {}\n", core::version());
     return kDone;
   }
-  if (first == "completion") return print(completion(words.size() == 1 ? words.front() : ""));
+  if (first == "completion") return run_completion(words);
   if (first == "man") return run_man(words);
   for (const Command& command : commands())
     if (first == command.name) return command.run(words);

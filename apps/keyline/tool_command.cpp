@@ -43,6 +43,14 @@ const Operation& named(const std::string& operation) {
   return *operations::find_operation(operation);
 }
 
+/// A text for the terminal; of one that is longer than any name (a thumbnail) how it begins.
+std::string line_of(const std::string& text) {
+  constexpr std::size_t kLongest = 300, kBeginning = 20;
+  if (text.size() <= kLongest) return text;
+  return fmt::format("{}... ({} characters, which --json prints)", text.substr(0, kBeginning),
+                     text.size());
+}
+
 /// Single values of a result, one line each, and lists of records as tables; the rest is left to
 /// --json.
 std::string summary(const core::Type& type, const void* value) {
@@ -62,8 +70,9 @@ std::string summary(const core::Type& type, const void* value) {
     const auto shown = operations::write_json(*its, member);
     if (!shown) return;
     const std::string said = shown->is_number_float() ? core::number_text(shown->get<double>(), 8)
-                             : shown->is_string()     ? shown->get<std::string>()
+                             : shown->is_string()     ? line_of(shown->get<std::string>())
                                                       : shown->dump();
+    if (said.empty()) return;
     text += fmt::format(
         "{:<20} {}{}\n", field.name, said,
         field.unit.empty() || field.unit == "length" ? "" : " " + std::string(field.unit));

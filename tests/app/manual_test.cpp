@@ -47,6 +47,10 @@ TEST(Manual, BashCompletesOptionsAndTheirWords) {
   EXPECT_EQ(completed("keyline fai", 1), "fair\n");
   EXPECT_EQ(completed("keyline fair --piec", 2), "--pieces\n");
   EXPECT_EQ(completed("keyline edit --joints \"\"", 3), "free G1 G2 zebra\n");
+  EXPECT_EQ(completed("keyline complet", 1), "completion\n");
+  EXPECT_EQ(completed("keyline completion \"\"", 2), "bash zsh fish\n");
+  EXPECT_EQ(completed("keyline library f", 2), "find\n");
+  EXPECT_EQ(completed("keyline man compa", 2), "compare\n");
   EXPECT_EQ(completed("keyline fair exam", 2), "\n");  // a file: the shell's own part
 }
 
@@ -81,6 +85,15 @@ TEST(Manual, ARoomListsItsOperations) {
   expect_failure(run_keyline("library"), 2, "keyline library --help lists them");
   expect_failure(run_keyline("nonsense --help"), 2, "there is no command");
   expect_failure(run_keyline("library survey --library x"), 2, "no command \"library survey\"");
+}
+
+TEST(Manual, HelpIsThereWhereverOneAsks) {
+  EXPECT_EQ(run_keyline("help draw").out, run_keyline("draw --help").out);
+  EXPECT_THAT(run_keyline("man --help").out, HasSubstr("keyline man --all FOLDER"));
+  EXPECT_THAT(run_keyline("completion --help").out, HasSubstr("source <(keyline completion bash)"));
+  expect_failure(run_keyline("fairr x.csv"), 2, "did you mean fair? keyline --help lists them");
+  expect_failure(run_keyline("perform"), 2, "an operation is missing behind it");
+  expect_failure(run_keyline("library --bogus"), 2, "a command is missing behind it");
 }
 
 /// A line that begins with a dot or a quote would be taken for a request and vanish.
