@@ -219,5 +219,22 @@ TEST_F(Chains, NumbersOfCadFilesAreChecked) {
   }
 }
 
+// A decimal comma makes two coordinates of one: OCCT takes the first three, whatever they are.
+TEST_F(Chains, PointsOfAStepFileHaveThreeCoordinates) {
+  Document d;
+  d.unit = "mm";
+  d.paths.push_back(
+      {{"a", "", ""}, {{{curve::Bezier2{{{0, 0}, {1, 2.125}, {3, 3}, {4, 0}}, {}}}}, false}, 0});
+  std::string text = format_document(d, ".step").value().content;
+  const std::size_t at = text.find("2.1250000000000000E+00");
+  ASSERT_NE(at, std::string::npos);
+  text[at + 1] = ',';
+  std::ofstream(folder_ / "comma.step", std::ios::binary) << text;
+  const auto read = read_document(folder_ / "comma.step");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().path, HasSubstr("comma.step:"));
+  EXPECT_THAT(read.error().message, HasSubstr("more than three coordinates"));
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -85,6 +85,31 @@ TEST(PointsSides, AreNotGuessed) {
   EXPECT_EQ(curves_of("x upper lower of wing 7\n0 1 2\n1 1 2\n")[0].id, "x upper lower of wing 7");
 }
 
+// Rows of more columns than the header has names: told, or refused where a decimal comma makes two
+// of one number.
+TEST(PointsColumns, WithoutANameAreTold) {
+  EXPECT_EQ(curves_of("x,y\n0.5,1,7\n1.5,1,8\n")[0].left_out,
+            std::vector<std::string>{"1 further column"});
+  for (const char* text : {"x,y\n0,5,1,25\n1,5,2,25\n", "time,value\n0,5,1,25\n1,5,2,25\n"}) {
+    std::istringstream in(text);
+    const auto read = read_points(in, "data.csv");
+    ASSERT_FALSE(read) << text;
+    EXPECT_EQ(read.error().path, "data.csv:2");
+  }
+  EXPECT_EQ(names_of(curves_of("x,y\n0,5.0,1,25\n1,5.0,2,25\n")), ":2 ");
+}
+
+// A number with a mistake in it is no name of what follows.
+TEST(PointsColumns, ARowWithAMistakeNamesNoCurve) {
+  std::istringstream in("0.1 0.1\n0.2 0.2\n0.3 0.1\nabc 0.25\n0.5 0.1\n0.6 0.2\n0.7 0.1\n");
+  const auto read = read_points(in, "data.dat");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().path, "data.dat:4");
+  EXPECT_EQ(names_of(curves_of("0.1 0.1\n0.2 0.2\n0.3 0.1\nflap 2\n0.5 0.1\n0.6 0.2\n0.7 0.1\n")),
+            ":3 flap 2:3 ");
+  EXPECT_EQ(names_of(curves_of("0.1 0.1\n0.2 0.2\n0.3 0.1\nt/c 0.25\n")), ":3 ");
+}
+
 const std::string kArch = "0 0\n1 1\n2 0\n";
 
 // As gnuplot draws them: a blank line ends a line, two end a data set.

@@ -59,6 +59,7 @@ TEST(SvgUnseen, VisibilityIsOverridden) {
   EXPECT_TRUE(seen("<g opacity='0.01' display='block' visibility='visible'>" + kPath + "</g>")
                   .skipped.empty());
   EXPECT_TRUE(seen("<g display='none' style='display:inline'>" + kPath + "</g>").skipped.empty());
+  EXPECT_TRUE(seen("<g opacity='0,5'>" + kPath + "</g>").skipped.empty());  // no number: ignored
 }
 
 // Shapes of definitions are not read unless something brings them in: told, in one line.

@@ -33,10 +33,14 @@ class StepValues {
         at_ = std::min(text_.find("*/", at_ + 2), text_.size() - 1) + 1;
       } else if (is_start(c)) {
         const std::size_t from = at_;
-        if (!is_value(word())) return told(line_of(from), text_.substr(from, at_ - from));
+        const std::string_view value = word();
+        if (!is_value(value)) return told(line_of(from), value);
+        if (is_fourth(value))
+          return "line " + std::to_string(line_of(from)) +
+                 ": a point or direction of more than three coordinates";
       } else {
         depth_ += c == '(' ? 1 : c == ')' ? -1 : 0;
-        if (c == ';') depth_ = 0;
+        if (c == ';') depth_ = listed_ = 0;
         ++at_;
       }
     }
@@ -71,6 +75,16 @@ class StepValues {
     return next < text_.size() && text_[next] == '(';
   }
 
+  /// A number behind the third of a point's or direction's, as a decimal comma makes it.
+  bool is_fourth(std::string_view word) {
+    if (word == "CARTESIAN_POINT" || word == "DIRECTION") {
+      listed_ = depth_ + 2;
+      coordinates_ = 0;
+    }
+    const bool counts = depth_ == listed_ && listed_ > 0 && !is_letter(word.front());
+    return counts && ++coordinates_ > 3;
+  }
+
   std::size_t line_of(std::size_t place) const {
     return 1 + static_cast<std::size_t>(std::count(
                    text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
@@ -79,6 +93,8 @@ class StepValues {
   std::string_view text_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  int listed_ = 0;  ///< depth of the coordinates of the point or direction last met
+  int coordinates_ = 0;
 };
 
 /// A number as Fortran writes it too, with D before the exponent.

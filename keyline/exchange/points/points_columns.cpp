@@ -180,4 +180,12 @@ bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, st
   return fields.size() < width || (words == fields.size() && sentence);
 }
 
+bool is_like_row(const std::vector<std::string_view>& fields, TableStyle style, std::size_t width) {
+  const auto is_fraction = [&](std::string_view f) {
+    return f.find_first_of(".,") != f.npos && parse_number(f, style).has_value();
+  };
+  const auto fractions = static_cast<std::size_t>(std::ranges::count_if(fields, is_fraction));
+  return fields.size() == width && width >= 2 && fractions + 1 == width;
+}
+
 }  // namespace keyline::exchange::detail

@@ -55,4 +55,7 @@ std::string shortened(std::string_view text);
 bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, std::size_t column,
                std::size_t width);
 
+/// Whether a line of text has as many fields as a row, all but one of them numbers with fractions.
+bool is_like_row(const std::vector<std::string_view>& fields, TableStyle style, std::size_t width);
+
 }  // namespace keyline::exchange::detail

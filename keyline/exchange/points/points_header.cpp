@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -132,6 +133,22 @@ core::Result<void> PointsTable::take_units(const std::string& place) {
   return {};
 }
 
+namespace {
+
+bool line_has_no_point(const std::vector<std::string_view>& fields) {
+  return std::ranges::all_of(fields, [](auto field) { return field.find('.') == field.npos; });
+}
+
+/// Twice as many whole numbers as the header has names are what decimal commas make of them.
+core::Result<void> too_wide(std::size_t named, const std::string& place) {
+  return core::fail(
+      ErrorCode::bad_input,
+      std::to_string(2 * named) + " columns below a header of " + std::to_string(named),
+      "where numbers have a decimal comma, separate columns by ; or blanks", place);
+}
+
+}  // namespace
+
 core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
   started_ = true;
   width_ = fields.size();
@@ -151,13 +168,16 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
       text_lines_ > 0 && heads.separator != ' ' ? split(last_text_, heads).size() : 0;
   unknown_header_ = headed == fields.size();
   most_ = std::max({width_, names_.size(), headed});
+  const std::size_t named = names_.empty() ? headed : names_.size();
+  if (style_.separator == ',' && named >= 2 && width_ == 2 * named && line_has_no_point(fields))
+    return too_wide(named, place);
   const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
   if (!chosen) return std::unexpected(chosen.error());
   columns_ = *chosen;
   take_sides();
   if (auto taken = take_units(place); !taken) return taken;
-  if (names_.empty() && options_.columns.empty())
-    ignored_columns_ = width_ - std::min<std::size_t>(width_, text_id_ ? 4 : 3);
+  const std::size_t known = !names_.empty() ? names_.size() : text_id_ ? 4 : 3;
+  if (options_.columns.empty()) ignored_columns_ = width_ - std::min(width_, known);
   auto row = row_of(fields, place);
   if (!row) return std::unexpected(row.error());
   counting_ =

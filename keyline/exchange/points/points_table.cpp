@@ -100,6 +100,7 @@ core::Result<void> PointsTable::set_aside(const Fields& fields, std::string_view
                                           const std::string& place) {
   if (auto all = meet_count(); !all) return all;
   remark_text_ = shortened(line);
+  like_row_ = is_like_row(fields, style_, width_);
   if (is_lone(fields)) {
     if (run_ < kFewest && !remark_) return std::unexpected(too_few(1, place));
     count_ = {.rows = *parse_number(fields[0], style_), .failure = too_few(1, place)};
@@ -167,7 +168,7 @@ void PointsTable::restart(std::size_t fields, const std::string& place) {
 
 /// Rows behind a line of text are a curve of its own where there are enough on both sides of it.
 core::Result<void> PointsTable::take_up_again() {
-  if (run_ < kFewest || unproven_ || columns_.id != PointsColumns::kNone)
+  if (run_ < kFewest || unproven_ || columns_.id != PointsColumns::kNone || like_row_)
     return std::unexpected(unproven_ ? *unproven_ : *remark_);
   unproven_ = std::exchange(remark_, std::nullopt);
   left_out_.pop_back();  // it is the name of what follows

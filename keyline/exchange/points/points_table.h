@@ -115,8 +115,9 @@ class PointsTable {
   std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers
   std::optional<Count> count_;             // of the rows since the last such line
   std::string remark_text_;
-  std::size_t run_ = 0;         // rows since the last line of text
-  bool counting_ = false;       // column 1 counts the rows so far: 1, 2, 3 ...
+  bool like_row_ = false;  // the remark is rather a row with a mistake in it: it names no curve
+  std::size_t run_ = 0;    // rows since the last line of text
+  bool counting_ = false;  // column 1 counts the rows so far: 1, 2, 3 ...
   std::vector<double> fourth_;  // numbers of column 4 then
   std::vector<std::string> left_out_;
   Curves curves_;

@@ -60,7 +60,9 @@ struct Sight {
     if (name == "display") displayed = value != "none";
     if (name == "opacity") {
       const auto number = core::leading_number(value);
-      opaque = !number || number->value > 0;
+      const bool whole =
+          number && (number->length == value.size() || value.substr(number->length) == "%");
+      opaque = !whole || number->value > 0;
     }
     if (name != "visibility") return;
     if (value == "visible") paint.visible = true;
