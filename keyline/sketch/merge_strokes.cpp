@@ -56,8 +56,6 @@ std::vector<FineStroke> pieces_of(const std::vector<FineStroke>& strokes, const 
       FineStroke piece = strokes[i];
       piece.points = part(strokes[i].points);
       piece.widths = part(strokes[i].widths);
-      piece.free_start = piece.free_start || k > 0;
-      piece.free_end = piece.free_end || !last;
       pieces.push_back(std::move(piece));
       from = to;
     }

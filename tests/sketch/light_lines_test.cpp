@@ -87,5 +87,19 @@ TEST(LightLines, AreasAndRimsArePaper) {
   EXPECT_TRUE(tells(*result, "light areas or rims of dark lines: left out"));
 }
 
+// A line is as wide as twice its area for each side of its border: of 20 by 150 pixels 17.6, of 24
+// by 150 20.7. A share of 0.06 of the larger side, here 18, is broad.
+TEST(LightLines, AreNarrowByTheirAreaAndBorder) {
+  for (const int width : {20, 24}) {
+    Sheet sheet;
+    for (int y = 30; y < 180; ++y)
+      for (int x = 40; x < 40 + width; ++x) sheet.image.over_black.at(x, y) = 65535;
+    const LightShare light = darken_light_lines(sheet.image, Polarity::automatic);
+    EXPECT_EQ(light.lines, width == 20 ? 1 : 0);
+    EXPECT_EQ(light.rest, width == 20 ? 0 : 1);
+    EXPECT_EQ(sheet.image.luminance.at(45, 100), width == 20 ? 0 : 65535);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::sketch

@@ -52,6 +52,18 @@ TEST(TurnBacks, AreNoCornersNorNarrowEnds) {
   EXPECT_EQ(turn_backs(along({{0, 0}, {100, 0}, {100, 4}, {20, 4}}), kAnyHand).size(), 1U);
 }
 
+// Two thirds of the shorter way, here the second, have to run beside the other: of 100 steps behind
+// the turn three quarters do, then three fifths. That the first is twice as long is no matter.
+TEST(TurnBacks, RunBesideTheOtherWayForTwoThirds) {
+  const auto back = [](double beside) {
+    const double x = 200 - (beside - 12);  // 4 over to it, and 8 more until it is too far off
+    return turn_backs(along({{0, 0}, {200, 0}, {200, 4}, {x, 4}, {x, 104 - beside + 8}}), kAnyHand);
+  };
+  ASSERT_EQ(back(75).size(), 1U);
+  EXPECT_NEAR(static_cast<double>(back(75)[0]), 202, 6);
+  EXPECT_TRUE(back(60).empty());
+}
+
 // The hand goes there and back without being lifted, and once more: one line of that length.
 TEST(TurnBacks, DoNotDoubleTheLine) {
   std::vector<Point2> once = scribble(1);
@@ -63,6 +75,19 @@ TEST(TurnBacks, DoNotDoubleTheLine) {
   EXPECT_EQ(result->strokes[0].members, (std::vector<std::size_t>{0, 1}));
   EXPECT_NEAR(core::polygon_length(result->strokes[0].points), 1.2 * 102, 5);
   EXPECT_GT(result->explained, 0.98);
+}
+
+// The way back is as long beside the way there as it is away from it: they do not become one line,
+// and what was drawn in one stroke stays one.
+TEST(TurnBacks, WaysThatAreNotOneLineStayOneStroke) {
+  const std::vector<Point2> stroke = along({{0, 0}, {100, 0}, {100, 6}, {40, 6}, {40, 46}});
+  ASSERT_EQ(turn_backs(stroke, kAnyHand).size(), 1U);
+  TraceOptions options;
+  options.consolidate = true;
+  const auto result = trace_strokes({{stroke}}, 2, options);
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_EQ(result->strokes.size(), 1U);
+  EXPECT_NEAR(core::polygon_length(result->strokes[0].points), 206, 3);
 }
 
 // Kept strokes stay as they were drawn, those split are split as wholes.

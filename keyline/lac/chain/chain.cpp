@@ -214,8 +214,7 @@ std::vector<Point2> sample(const Chain& chain, int n) {
 
 Chain part(const Chain& chain, double t0, double t1) {
   const ChainLocation from = locate(chain, t0);
-  ChainLocation to = locate(chain, t1);
-  if (to.t == 0 && to.piece > from.piece) to = {to.piece - 1, 1};
+  const ChainLocation to = locate(chain, t1);
   const Segment first = segment_at(chain, from.piece);
   Chain result{pose_at(first, from.t), {}, false};
   for (std::size_t i = from.piece; i <= to.piece; ++i) {
