@@ -74,6 +74,27 @@ TEST(LeastVariation, IsTheLeastToTheGapAskedFor) {
   for (const double gap : {0.1, 0.03, 0.01}) EXPECT_LE(energy(gap), (1 + gap) * least) << gap;
 }
 
+// Where the least runs the way that is asked for anyway, asking costs nothing but the gaps.
+TEST(LeastVariation, SensesThatItKeepsAnywayCostNothing) {
+  const lac::Chain truth{{{0, 0}, 0.3}, {{-1, 0.5, 0.5, 2.5}, {-1, 0.5, 2.5, 4}}, false};
+  for (const double tolerance : {1e-3, 1e-2}) {
+    std::vector<FitPoint> points = fit_points(lac::sample(truth, 5));
+    for (std::size_t j = 0; j < points.size(); ++j)
+      points[j].position.y += (j % 2 == 1 ? 0.5 : -0.5) * tolerance;
+    DenseCurve free = detail::dense_curve(points, false, 10);
+    DenseCurve asked = free;
+    asked.sense.assign(asked.alpha.size(), 1);
+    const auto least = [&](DenseCurve& curve) {
+      return detail::least_variation(curve, points, {.tolerance = tolerance, .progress = {}});
+    };
+    const BandReport found = least(free);
+    for (std::size_t i = 1; i < free.value.size(); ++i) EXPECT_GE(free.value[i], free.value[i - 1]);
+    const BandReport same = least(asked);
+    EXPECT_TRUE(same.converged) << tolerance;
+    EXPECT_LE(same.energy, 1.02 * found.energy) << tolerance;
+  }
+}
+
 TEST(LeastVariation, OfACircleIsNone) {
   std::vector<core::Point2> circle;
   for (int i = 0; i < 90; ++i) {

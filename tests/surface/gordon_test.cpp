@@ -84,6 +84,22 @@ TEST(Gordon, ACylindersBordersGiveTheCylinder) {
   EXPECT_LE(radius_off(made->surface, 50, false), 1e-3);
 }
 
+// Borders that miss each other by a hundredth: nothing is nearer to both than half of that, and
+// what is as near as they are to each other is taken, however little the tolerance.
+TEST(Gordon, CurvesThatMissEachOtherAreMetAsNearAsTheyMeet) {
+  std::vector<BSpline3> arcs, lines;
+  for (const double z : {0.0, 70.0})
+    arcs.push_back(drawn([z](double t) { return Point3{50 * std::cos(t), 50 * std::sin(t), z}; }));
+  for (const double a : {0.0, 1.0})
+    lines.push_back(
+        drawn([a](double t) { return Point3{50.01 * std::cos(a), 50.01 * std::sin(a), 70 * t}; }));
+  const auto made = gordon_surface(arcs, lines, {1e-5, 0.02});
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_NEAR(made->gap, 0.01, 1e-6);
+  EXPECT_GE(made->deviation, 0.005 - 1e-6);
+  EXPECT_LE(made->deviation, 0.01 + 1e-6);
+}
+
 // The more sections of a sphere there are, the more of a sphere comes out.
 TEST(Gordon, SectionsOfASphereGiveTheSphere) {
   double before = HUGE_VAL;

@@ -118,6 +118,33 @@ TEST(Sweep, CarriesTheProfileAsARigidBodyAlongASpaceRail) {
   }
 }
 
+// Without twist a normal turns back, against the rail's own, by the integral of its torsion: to the
+// fourth order of steps, which are eight for each place that a loose tolerance takes.
+TEST(Sweep, TurnsAgainstTheRailsNormalByItsTorsion) {
+  const BSpline3 rail{
+      3, {0, 0, 0, 0, 1, 1, 1, 1}, {{0, 0, 0}, {0, 0, 5}, {6, 3, 9}, {9, 9, 9}}, {}};
+  const auto binormal = [](const curve::Jet3& j) {
+    const Vector3 b = cross(j.first, j.second);
+    return b / norm(b);
+  };
+  double turn = 0;  // by Simpson's rule
+  constexpr int kSteps = 1000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const auto j = curve::jet(rail, static_cast<double>(i) / kSteps);
+    const double rate = curve::torsion(j) * norm(j.first);
+    turn -= rate * (i == 0 || i == kSteps ? 1 : i % 2 == 1 ? 4 : 2) / (3.0 * kSteps);
+  }
+  EXPECT_GT(std::abs(turn), 0.5);
+  const auto start = curve::jet(rail, 0), end = curve::jet(rail, 1);
+  const Vector3 first = cross(binormal(start), start.first) / norm(start.first);
+  const Vector3 last = cross(binormal(end), end.first) / norm(end.first);
+  const auto made = sweep({1, {0, 0, 1, 1}, {{0, 0, 0}, Point3{} + first}, {}}, rail, 1e-2);
+  ASSERT_TRUE(made) << made.error().message;
+  const Vector3 there = evaluate(made->surface, 1, 1) - end.point;
+  const Vector3 expected = std::cos(turn) * last + std::sin(turn) * binormal(end);
+  EXPECT_LT(norm(there - expected), 1e-8);
+}
+
 TEST(Sweep, FollowsARailWhoseCurvatureJumps) {
   const BSpline3 rail{2, {0, 0, 0, 1, 2, 2, 2}, {{0, 0, 0}, {1, 0.5, 0}, {2, 0, 0}, {3, 1, 0}}, {}};
   const BSpline3 profile{1, {0, 0, 1, 1}, {{0, 0, 0}, {0, 1, 2}}, {}};
