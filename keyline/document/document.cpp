@@ -17,23 +17,6 @@ bool within(const std::string& name, const std::string& wanted) {
   return name.size() == end || name[end] == '/' || name[end] == '#';
 }
 
-/// Which things to keep; empty where the text means nothing.
-std::vector<bool> chosen(const std::vector<Label>& all, const std::string& wanted) {
-  std::vector<bool> keep(all.size(), false);
-  const auto any_where = [&](auto&& meant) {
-    for (std::size_t i = 0; i < all.size(); ++i) keep[i] = meant(all[i]);
-    return std::find(keep.begin(), keep.end(), true) != keep.end();
-  };
-  if (any_where([&](const Label& label) { return label.name == wanted; }) ||
-      any_where([&](const Label& label) { return label.layer == wanted; }) ||
-      any_where([&](const Label& label) { return within(label.name, wanted); }))
-    return keep;
-  const auto index = core::parse_whole<std::size_t>(wanted);
-  if (!index || *index < 1 || *index > all.size()) return {};
-  keep[*index - 1] = true;
-  return keep;
-}
-
 std::string known_names(const std::vector<std::string>& all) {
   constexpr std::size_t kMost = 8;
   std::string list;
@@ -55,6 +38,23 @@ void keep_only(std::vector<T>& things, const std::vector<bool>& keep, std::size_
 }
 
 }  // namespace
+
+std::vector<bool> chosen(const std::vector<Label>& all, const std::string& wanted) {
+  std::vector<bool> keep(all.size(), wanted.empty());
+  if (wanted.empty()) return keep;
+  const auto any_where = [&](auto&& meant) {
+    for (std::size_t i = 0; i < all.size(); ++i) keep[i] = meant(all[i]);
+    return std::find(keep.begin(), keep.end(), true) != keep.end();
+  };
+  if (any_where([&](const Label& label) { return label.name == wanted; }) ||
+      any_where([&](const Label& label) { return label.layer == wanted; }) ||
+      any_where([&](const Label& label) { return within(label.name, wanted); }))
+    return keep;
+  const auto index = core::parse_whole<std::size_t>(wanted);
+  if (!index || *index < 1 || *index > all.size()) return {};
+  keep[*index - 1] = true;
+  return keep;
+}
 
 std::size_t size(const Document& document) {
   return document.paths.size() + document.space_curves.size() + document.surfaces.size();

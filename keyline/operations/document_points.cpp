@@ -10,7 +10,6 @@
 #include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
 #include "keyline/core/text.h"
-#include "keyline/document/select.h"
 #include "keyline/exchange/cad/planar_form.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/points/lattice_reader.h"
@@ -184,9 +183,11 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
   answer.unit = read->unit;
   if (!raw.empty()) answer.skipped = raw.front().left_out;
   take_unit(answer.unit, input.unit, answer.skipped);
+  const auto wanted = in_file(wanted_of(raw, input.select), file);
+  if (!wanted) return std::unexpected(wanted.error());
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const RawCurve& curve = raw[i];
-    if (!is_wanted(raw, i, input.select)) continue;
+    if (!(*wanted)[i]) continue;
     const std::string place = raw.size() > 1 ? file + ": " + curve.id : file;
     auto line = in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)), place);
     if (!line) return std::unexpected(line.error());
@@ -194,11 +195,6 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
     if (auto added = in_file(add_line(answer, std::move(*line), curve, input.planar), place);
         !added)
       return std::unexpected(added.error());
-  }
-  if (answer.curves.empty()) {
-    std::vector<std::string> names;
-    for (const RawCurve& curve : raw) names.push_back(curve.id);
-    return in_file<ReadAnswer>(std::unexpected(document::nothing_named(input.select, names)), file);
   }
   return answer;
 }

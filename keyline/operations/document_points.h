@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "keyline/core/error.h"
+#include "keyline/document/select.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/mesh/section_file.h"
 #include "keyline/operations/document_read.h"
@@ -19,13 +19,20 @@ core::Result<T> in_file(core::Result<T> result, const std::string& file) {
   return std::unexpected(exchange::in_file(result.error(), file));
 }
 
-/// Whether a curve has the wanted name or, where none has it, the wanted number, counted from 1.
+/// Which of the curves are wanted, by name, name of what they are parts of, or number from 1.
+/// Fails: bad_input where none is.
 template <class Curve>
-bool is_wanted(const std::vector<Curve>& curves, std::size_t index, const std::string& wanted) {
-  if (wanted.empty() || curves[index].id == wanted) return true;
-  const bool named = std::any_of(curves.begin(), curves.end(),
-                                 [&](const Curve& curve) { return curve.id == wanted; });
-  return !named && wanted == std::to_string(index + 1);
+core::Result<std::vector<bool>> wanted_of(const std::vector<Curve>& curves,
+                                          const std::string& wanted) {
+  std::vector<document::Label> labels;
+  std::vector<std::string> names;
+  for (const Curve& curve : curves) {
+    labels.push_back({curve.id, {}, {}});
+    names.push_back(curve.id);
+  }
+  auto keep = document::chosen(labels, wanted);
+  if (keep.empty()) return std::unexpected(document::nothing_named(wanted, names));
+  return keep;
 }
 
 /// The unit that is asked for in place of the file's own. Numbers stay: where the file tells

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "keyline/core/text.h"
-#include "keyline/document/select.h"
 #include "keyline/exchange/cad/planar_form.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image/image_reader.h"
@@ -42,12 +41,10 @@ Result<ReadAnswer> read_drawing(const InputRequest& input, const core::Progress&
   if (lines->empty())
     return fail(ErrorCode::bad_input, "holds no line long enough to fair",
                 "give a drawing of longer lines", file);
-  std::vector<std::string> names;
-  for (const KeyLine& line : *lines) names.push_back(line.id);
+  const auto wanted = in_file(wanted_of(*lines, input.select), file);
+  if (!wanted) return std::unexpected(wanted.error());
   for (std::size_t i = 0; i < lines->size(); ++i)
-    if (is_wanted(*lines, i, input.select)) answer.curves.push_back(named_line((*lines)[i]));
-  if (answer.curves.empty())
-    return in_file<ReadAnswer>(std::unexpected(document::nothing_named(input.select, names)), file);
+    if ((*wanted)[i]) answer.curves.push_back(named_line((*lines)[i]));
   answer.notes = trace->notes;
   if (skipped > 0)
     answer.skipped.push_back(core::counted(skipped, "short stroke") + " of the drawing");

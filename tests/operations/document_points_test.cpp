@@ -37,6 +37,11 @@ class PointFiles : public testing::Test {
     for (const Point3 p : points) out << p.x << ',' << p.y << ',' << p.z << '\n';
     return file.string();
   }
+  std::string text(const std::string& content) {
+    const fs::path file = folder_ / "a.txt";
+    std::ofstream(file) << content;
+    return file.string();
+  }
   static core::Result<ReadAnswer> read(std::vector<std::string> files, bool planar) {
     InputRequest request;
     request.file = std::move(files);
@@ -80,6 +85,23 @@ TEST_F(PointFiles, StayWhereTheyLieInSpace) {
   }
   const auto flat = read({table("x,y,z", {{0, 0, 0}, {1, 2, 0}, {3, 3, 0}})}, false);
   EXPECT_EQ(document_of(*flat).paths.size(), 1U);
+}
+
+// The name of a table's curve stands for its parts, as in other files.
+TEST_F(PointFiles, PartsAreChosenByTheNameOfTheWhole) {
+  const std::string file = text("wing\nx yu yl\n0 0 0\n1 2 -1\n2 2.5 -1.5\n3 2 -1\n");
+  const auto found = [&](const std::string& wanted) {
+    InputRequest input;
+    input.file = {file};
+    input.select = wanted;
+    const auto answer = read_input(input, {});
+    return answer ? answer->curves.size() : 0;
+  };
+  EXPECT_EQ(found(""), 2U);
+  EXPECT_EQ(found("wing"), 2U);
+  EXPECT_EQ(found("wing/yl"), 1U);
+  EXPECT_EQ(found("2"), 1U);
+  EXPECT_EQ(found("yl"), 0U);
 }
 
 TEST_F(PointFiles, AreToldInTheirPlaneWhereAsked) {
