@@ -335,48 +335,6 @@ TEST_F(Files, NamesComeBackFromATable) {
     EXPECT_EQ(read->paths[i].label.name, i == 3 ? "tab here" : names[i]);
 }
 
-// Two curves of one name are two in a table, too, and those without any; the note says so.
-TEST_F(Files, CurvesOfOneNameStayApartInATable) {
-  Document d;
-  for (const char* name : {"twin", "twin", "", "", "twin#2"})
-    d.paths.push_back({{name, "", ""}, {{{curve::Polyline2{{{0, 0}, {1, 2}, {3, 4}}}}}, false}, 0});
-  const auto csv = format_document(d, ".csv");
-  ASSERT_TRUE(csv);
-  EXPECT_THAT(csv->notes.at(0), HasSubstr("numbered"));
-  const auto read = read_document(file("twins.csv", csv->content));
-  ASSERT_TRUE(read) << read.error().message;
-  ASSERT_EQ(read->paths.size(), 5U);
-  EXPECT_EQ(read->paths[0].label.name, "twin");
-  EXPECT_EQ(read->paths[1].label.name, "twin#2");
-  EXPECT_EQ(read->paths[3].label.name, "curve#2");
-}
-
-// What a format has no place for is told, and nothing that it has.
-TEST_F(Files, LabelsThatAreLostAreTold) {
-  Document d = mixed();
-  d.surfaces.clear();
-  d.space_curves.clear();
-  const auto told = [&](const char* extension) {
-    const auto written = format_document(d, extension);
-    EXPECT_TRUE(written) << extension;
-    const std::string head = "the format has no place for: ";
-    for (const std::string& note : written->notes)
-      if (note.starts_with(head)) return note.substr(head.size());
-    return std::string();
-  };
-  EXPECT_EQ(told(".json"), "");
-  EXPECT_EQ(told(".svg"), "");
-  EXPECT_EQ(told(".dxf"), "widths of strokes");
-  EXPECT_EQ(told(".csv"), "layers, colours, widths of strokes");
-  EXPECT_EQ(told(".glif"), "names, layers, colours, widths of strokes");
-  d.paths.resize(1);
-  EXPECT_EQ(told(".csv"), "names, layers, colours, widths of strokes");
-  d.paths[0].stroke_width = 0;
-  EXPECT_EQ(told(".dxf"), "");
-  d.paths[0].label = {};
-  EXPECT_EQ(told(".glif"), "");
-}
-
 TEST_F(Files, LinesOfAMeshAreNumberedInTheirOrder) {
   const auto read = read_document(
       file("l.obj", "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 1 2 3\nl 1 2\nl 2 3 4\nl 4 1\nf 1 2 3\n"));
