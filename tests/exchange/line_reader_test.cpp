@@ -113,6 +113,17 @@ TEST(ByteLines, AreTheSameInMemory) {
   EXPECT_EQ(first.position(), 4U);
 }
 
+// Documents of FreeCAD and of spreadsheets are zip archives: the advice says what to do.
+TEST(LineReader, ArchivesAreNamed) {
+  std::istringstream in("PK\3\4\x14");
+  LineReader reader(in, "a.FCStd", 100);
+  bool end = false;
+  const auto line = reader.next(end);
+  ASSERT_FALSE(line);
+  EXPECT_EQ(line.error().message, "this is a zip archive");
+  EXPECT_NE(line.error().hint.find("STEP"), std::string::npos);
+}
+
 TEST(ByteLines, WordsArePartedByBlanks) {
   std::string_view line = " \tone  two\t";
   EXPECT_EQ(detail::take_word(line), "one");

@@ -67,6 +67,9 @@ core::Result<LineReader::Taken> LineReader::take() {
     return Taken::end_of_text;
   }
   if (control != stop) {
+    if (std::string_view(from, to).starts_with("PK\3\4"))
+      return failure("this is a zip archive",
+                     "unpack it; of a FreeCAD document export STEP, of a spreadsheet CSV");
     return failure("this is not text (binary data found)",
                    "give a text file with one point per line");
   }
