@@ -10,7 +10,7 @@ namespace keyline::sketch {
 
 /// One end of an edge: where the line is itself again, and which way it leaves.
 struct Branch {
-  int edge = 0;
+  int edge = -1;                  ///< -1: none
   bool at_end = false;            ///< the edge's `to` rather than its `from`
   std::size_t anchor = 0;         ///< index of the first point clear of the junction
   core::Point2 place;             ///< that point

@@ -51,7 +51,7 @@ class Bridges {
   Bridges(const StrokeGraph& graph, double gap, double turn, std::vector<Branch>& branches)
       : graph_(graph), most_(gap), turn_(turn), branches_(branches), over_(branches.size(), 0) {
     for (std::size_t i = 0; i < branches.size(); ++i)
-      if (branches[i].free && branches[i].mate < 0) ends_.push_back(static_cast<int>(i));
+      if (branches[i].edge >= 0 && branches[i].mate < 0) ends_.push_back(static_cast<int>(i));
     std::sort(ends_.begin(), ends_.end(),
               [&](int a, int b) { return end_point(a).x < end_point(b).x; });
     for (const int end : ends_) largest_ = std::max(largest_, end_radius(end));
@@ -63,13 +63,15 @@ class Bridges {
   }
 
   /// Nearest and straightest pairs first. What lies under other ink is not seen, so it is no gap:
-  /// a line that stops short of a broad or darker one goes on behind it.
+  /// a line that stops short of a broad or darker one goes on behind it. One that touches another
+  /// line on this side and comes out of it after a gap has to go on as straight as dashes do.
   void bridge_short() {
     std::vector<Pair> pairs;
     visit_pairs(most_ + 2 * broadest_, [&](int a, int b, double gap) {
       if (gap > most_ + 2 * broadest_ || !long_enough(a, b, gap)) return;
+      if (!at(a).free && !at(b).free) return;
       const double turn = bend_between(at(a), at(b));
-      if (turn >= kStraightest * turn_) return;
+      if (turn >= (at(a).free && at(b).free ? kStraightest * turn_ : kRowTurn)) return;
       const double paper = gap > most_ ? gap - ink_between(a, b) : gap;
       if (paper <= most_) pairs.push_back({gap / most_ + turn, gap, a, b});
     });
@@ -81,7 +83,7 @@ class Bridges {
   /// Dashes: ends each of which is the other's nearest ahead, over gaps as long as the next ones.
   /// What shows a row is paper: over other ink it goes on only where it does so on both sides.
   void bridge_rows() {
-    std::erase_if(ends_, [&](int end) { return at(end).mate >= 0; });
+    std::erase_if(ends_, [&](int end) { return at(end).mate >= 0 || !at(end).free; });
     if (ends_.empty()) return;
     find_nearest();
     find_paper();
@@ -244,7 +246,7 @@ class Bridges {
   double turn_;
   std::vector<Branch>& branches_;
   std::vector<double> over_;   ///< the gap that was bridged, by branch
-  std::vector<int> ends_;      ///< free ones, from left to right
+  std::vector<int> ends_;      ///< those without a mate, from left to right
   double largest_ = 0;         ///< radius of an end
   double broadest_ = 0;        ///< radius of any ink
   std::vector<Pair> nearest_;  ///< by branch

@@ -1,5 +1,6 @@
 #include "keyline/sketch/bridge_gaps.h"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -51,6 +52,22 @@ TEST(BridgeGaps, OtherInkIsNoGap) {
     const auto result = trace(page, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_EQ(result->strokes.size(), strokes) << paper << " pixels of paper on either side";
+  }
+}
+
+// A line that touches another on one side and comes out of it after a gap on the other, as a row of
+// dashes may, is one; where it would have to turn it ends there.
+TEST(BridgeGaps, ATouchingEndGoesOnStraightBehindTheLine) {
+  for (const auto& [turn, strokes] : {std::pair{0.0, 2U}, {0.6, 3U}}) {
+    Image page = blank_page(200, 120);
+    draw_line(page, {100, 8}, {100, 112}, 12);
+    draw_line(page, {10, 60}, {100, 60}, 3);
+    draw_line(page, {113.5, 60}, {113.5 + 75 * std::cos(turn), 60 + 75 * std::sin(turn)}, 3);
+    TraceOptions options;
+    options.gap = 12;
+    const auto result = trace(page, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), strokes) << "turned by " << turn;
   }
 }
 
