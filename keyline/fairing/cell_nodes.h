@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "keyline/fairing/dense_curve.h"
+#include "keyline/numeric/quadrature.h"
 
 /// What a cell turns up to places in it, where its curvature is a parabola: for sums over the cell.
 namespace keyline::fairing::detail {
 
-// Gauss and Legendre's four points on [0, 1].
-inline constexpr std::array<double, 4> kNode = {0.06943184420297371, 0.33000947820757187,
-                                                0.66999052179242813, 0.93056815579702629};
-inline constexpr std::array<double, 4> kWeight = {0.17392742256872693, 0.32607257743127307,
-                                                  0.32607257743127307, 0.17392742256872693};
+inline constexpr std::array<double, 4> kNode = numeric::gauss_legendre<4>.nodes;
+inline constexpr std::array<double, 4> kWeight = numeric::gauss_legendre<4>.weights;
 
 inline constexpr double kSmallTurn = 0.3;  // whose series below hold to 5e-14
 

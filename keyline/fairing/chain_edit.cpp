@@ -5,21 +5,15 @@
 
 #include "keyline/lac/segment/segment.h"
 #include "keyline/lac/segment/sensitivity.h"
+#include "keyline/numeric/quadrature.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
 /// Mean curvature of a piece, to the few digits a starting guess needs.
 double mean_curvature(double k0, double k1, double alpha) {
-  // Gauss and Legendre's four points on [0, 1].
-  constexpr double node[4] = {0.0694318442029737, 0.330009478207572, 0.669990521792428,
-                              0.930568155797026};
-  constexpr double weight[4] = {0.173927422568727, 0.326072577431273, 0.326072577431273,
-                                0.173927422568727};
   const lac::PieceCurvature bend(k0, k1, alpha);
-  double sum = 0;
-  for (int i = 0; i < 4; ++i) sum += weight[i] * bend.curvature(node[i]);
-  return sum;
+  return numeric::integrate_gauss<4>([&](double at) { return bend.curvature(at); }, 0, 1);
 }
 
 /// Slope with which a piece from k0 to k1 turns by `mean` times its length; -1 where none does.

@@ -255,8 +255,16 @@ class Job {
     if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
     note_limits();
     detail::assemble(result_, solved_, kept_before_, kept_after_);
+    if (runs_.size() == 1) name_no_run();
     result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
+  }
+
+  /// What is noted of the only run is noted of the curve.
+  void name_no_run() {
+    constexpr std::string_view kOnly = "run 0: ";
+    for (std::string& note : result_.notes)
+      if (note.starts_with(kOnly)) note.erase(0, kOnly.size());
   }
 
   /// The fastest rate; undrawable where a limit on it is not kept within the tolerance.

@@ -44,11 +44,11 @@ Fine fine_polygon(const std::vector<Point2>& points, bool closed) {
                                    : detail::between_points(points, closed, i, 1.0 * k / parts));
   fine.vertex.push_back(closed ? points.front() : points.back());
   fine.at.push_back(0);
-  for (std::size_t i = 1; i < fine.vertex.size(); ++i)
-    fine.at.push_back(fine.at.back() + core::distance(fine.vertex[i - 1], fine.vertex[i]));
+  for (std::size_t i = 1; i < fine.vertex.size(); ++i) {
+    fine.edge.push_back(core::distance(fine.vertex[i - 1], fine.vertex[i]));
+    fine.at.push_back(fine.at.back() + fine.edge.back());
+  }
   for (double& at : fine.at) at /= std::max(fine.at.back(), 1e-300);
-  for (std::size_t i = 1; i < fine.vertex.size(); ++i)
-    fine.edge.push_back(core::norm(fine.vertex[i] - fine.vertex[i - 1]));
   for (const Point2& p : fine.vertex)
     fine.rounding = std::max({fine.rounding, 1e-12 * std::abs(p.x), 1e-12 * std::abs(p.y)});
   return fine;

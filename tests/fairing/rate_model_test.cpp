@@ -13,7 +13,8 @@
 
 #include "keyline/fairing/piece_energy.h"
 #include "keyline/fairing/rate_descent.h"
-#include "keyline/lac/chain/chain.h"
+
+#include "rate_given.h"
 
 /// Joints whose rates are to be one, and the limits of the solve that makes them so.
 namespace keyline::fairing::detail {
@@ -98,42 +99,10 @@ TEST(LogRates, AreThoseOfThePiece) {
   }
 }
 
-/// Three pieces laid out end to end, points beside them, and a problem about them.
-struct Given {
-  FitChain chain;
-  std::vector<FitPoint> points;
-  RateProblem problem;
-};
+/// Three pieces laid out end to end, with points beside them.
 Given laid_out() {
-  Given g;
-  const lac::Chain truth{
-      {{0, 0}, 0.2}, {{-0.7, 0.4, 0.5, 1}, {0.4, 0.3, 1, 3}, {-1.5, 0.3, 3, 5}}, false};
-  const auto segments = lac::segments(truth);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const lac::Segment& s = segments[i];
-    g.chain.joints.push_back({s.start.position, s.start.direction, s.curvature_start});
-    g.chain.pieces.push_back({.length = s.length, .alpha = s.alpha});
-    for (int k = 0; k < 6; ++k) {
-      const double t = i == 0 && k == 0 ? 0 : i == 2 && k == 5 ? 1 : (k + 0.5) / 6;
-      const core::Pose2 pose = lac::pose_at(s, t);
-      const bool tip = t == 0 || t == 1;  // there the turn of the tangent is left out
-      const double off = tip ? 0 : 0.004 * ((k + int(i)) % 3 - 1) + 0.001;
-      g.points.push_back(
-          {.position = pose.position +
-                       off * core::Vector2{-std::sin(pose.direction), std::cos(pose.direction)}});
-      g.chain.feet.push_back({static_cast<int>(i), t});
-    }
-  }
-  const core::Pose2 end = lac::end_pose(truth);
-  g.chain.joints.push_back({end.position, end.direction, 5});
-  g.chain.first_at_start = g.chain.last_at_end = true;
-  g.problem.joints = rate_joints(g.chain);
-  g.problem.slopes.assign(3, {-3, 3});
-  g.problem.growth.assign(3, 1);
-  g.problem.weights = {
-      .tolerance = 0.01, .energy = 20, .band = 3, .power = 4, .jump = 0.5, .even = 0.1};
-  g.problem.end = g.chain.joints.back();
-  return g;
+  return of_pieces({{-0.7, 0.4, 0.5, 1}, {0.4, 0.3, 1, 3}, {-1.5, 0.3, 3, 5}}, false,
+                   [](int i, int k) { return 0.004 * ((k + i) % 3 - 1) + 0.001; });
 }
 
 // The rows are what the values change by with each unknown, those of the equations what is missed.
@@ -148,27 +117,14 @@ TEST(RateModel, RowsAreDifferences) {
     model.linearise();
     EXPECT_NEAR(model.gaps, 0.3 * std::abs(model.jump[1]), 1e-6);
     ASSERT_EQ(model.equation.rows(), 1 + (hold == Hold::free ? 0 : hold == Hold::position ? 2 : 3));
-    constexpr double h = 1e-5;
+    expect_differences(model, g);
+    // Weights of jumps go with the jumps themselves: those rows are told apart.
+    const double by = std::sqrt(0.5 * 0.5 / std::hypot(model.jump[0], 0.1));
+    const auto jumps = static_cast<Eigen::Index>(g.points.size()) + 3;
     for (int k = 0; k < model.unknowns.count(); ++k) {
-      Eigen::VectorXd step = Eigen::VectorXd::Zero(model.unknowns.count());
-      step(k) = h;
-      RateModel up(model.moved(step, 1), g.problem), down(model.moved(step, -1), g.problem);
-      up.linearise();
-      down.linearise();
-      // Weights of jumps go with the jumps themselves: those rows are told apart.
-      for (Eigen::Index r = 0; r < model.value.size(); ++r) {
-        const Eigen::Index jumps = static_cast<Eigen::Index>(g.points.size()) + 3;
-        if (r == jumps || r == jumps + 1) continue;
-        EXPECT_NEAR(model.rows(r, k), (up.value(r) - down.value(r)) / (2 * h),
-                    1e-3 * (1 + std::abs(model.rows(r, k))))
-            << r << ' ' << k;
-      }
-      for (Eigen::Index r = 0; r < model.miss.size(); ++r)
-        EXPECT_NEAR(model.equation(r, k), (up.miss(r) - down.miss(r)) / (2 * h), 1e-4)
-            << r << ' ' << k;
-      const double by = std::sqrt(0.5 * 0.5 / std::hypot(model.jump[0], 0.1));
-      EXPECT_NEAR(model.rows(static_cast<Eigen::Index>(g.points.size()) + 3, k),
-                  by * (up.jump[0] - down.jump[0]) / (2 * h), 1e-4);
+      const Beside beside(model, g, k);
+      EXPECT_NEAR(model.rows(jumps, k),
+                  by * Beside::difference(beside.up.jump[0], beside.down.jump[0]), 1e-4);
     }
   }
 }

@@ -7,77 +7,12 @@
 
 #include "keyline/fairing/piece_energy.h"
 #include "keyline/fairing/rate_descent.h"
-#include "keyline/fairing/rate_model.h"
-#include "keyline/lac/chain/chain.h"
+
+#include "rate_given.h"
 
 /// The linear model of rates on closed chains, beside lines, and what a point costs in it.
 namespace keyline::fairing::detail {
 namespace {
-
-/// A chain, points on it, and a problem about them.
-struct Given {
-  FitChain chain;
-  std::vector<FitPoint> points;
-  RateProblem problem;
-};
-
-/// Points on a chain laid out from these pieces, six a piece.
-Given of_pieces(const std::vector<lac::Piece>& pieces, bool closed = false) {
-  Given g;
-  const lac::Chain truth{{{0, 0}, 0.2}, pieces, false};
-  const auto segments = lac::segments(truth);
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const lac::Segment& s = segments[i];
-    g.chain.joints.push_back({s.start.position, s.start.direction, s.curvature_start});
-    g.chain.pieces.push_back({.length = s.length, .alpha = s.alpha});
-    if (s.curvature_start == 0 && s.curvature_end == 0)
-      g.chain.pieces.back().kind = PieceKind::line;
-    for (int k = 0; k < 6; ++k) {
-      const bool first = i == 0 && k == 0, last = i + 1 == segments.size() && k == 5;
-      const double t = closed || !(first || last) ? (k + 0.5) / 6 : first ? 0 : 1;
-      g.points.push_back({.position = lac::evaluate(s, t)});
-      g.chain.feet.push_back({static_cast<int>(i), t});
-    }
-    g.problem.growth.push_back(std::abs(s.curvature_end) > std::abs(s.curvature_start) ? 1 : -1);
-  }
-  const core::Pose2 end = lac::end_pose(truth);
-  g.chain.joints.push_back({end.position, end.direction, pieces.back().curvature_end});
-  g.chain.closed = closed;
-  g.chain.first_at_start = g.chain.last_at_end = !closed;
-  g.problem.joints = rate_joints(g.chain);
-  g.problem.slopes.assign(pieces.size(), {-3, 3});
-  g.problem.weights = {
-      .tolerance = 0.01, .energy = 20, .band = 3, .power = 4, .jump = 0.5, .even = 0.1};
-  g.problem.end = g.chain.joints.back();
-  return g;
-}
-
-/// All rows but those of the jumps, and the equations, against differences.
-void expect_differences(Given g) {
-  g.problem.points = &g.points;
-  RateModel model(g.chain, g.problem);
-  model.linearise();
-  const auto pieces = static_cast<Eigen::Index>(g.chain.pieces.size());
-  const auto jumps = static_cast<Eigen::Index>(g.points.size()) + pieces;
-  const auto behind = jumps + static_cast<Eigen::Index>(g.problem.joints.size());
-  constexpr double h = 1e-5;
-  for (int k = 0; k < model.unknowns.count(); ++k) {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(model.unknowns.count());
-    step(k) = h;
-    RateModel up(model.moved(step, 1), g.problem), down(model.moved(step, -1), g.problem);
-    up.linearise();
-    down.linearise();
-    for (Eigen::Index r = 0; r < model.value.size(); ++r) {
-      if (r >= jumps && r < behind) continue;
-      EXPECT_NEAR(model.rows(r, k), (up.value(r) - down.value(r)) / (2 * h),
-                  2e-3 * (1 + std::abs(model.rows(r, k))))
-          << r << ' ' << k;
-    }
-    for (Eigen::Index r = 0; r < model.miss.size(); ++r)
-      EXPECT_NEAR(model.equation(r, k), (up.miss(r) - down.miss(r)) / (2 * h), 1e-4)
-          << r << ' ' << k;
-  }
-}
 
 // Round a closed chain, whose first and last curvature are one unknown and whose seam is what its
 // end misses of its start.
@@ -88,12 +23,12 @@ TEST(RateModel, RowsOfClosedChainsAreDifferences) {
   g.problem.joints[0].tied = true;
   for (std::size_t j = 0; j < g.points.size(); ++j)
     g.points[j].position.y += 0.002 * (static_cast<double>(j % 3) - 1);
-  expect_differences(g);
   g.problem.points = &g.points;
   RateModel model(g.chain, g.problem);
   EXPECT_EQ(model.unknowns.joints, 3);
   EXPECT_EQ(model.unknowns.joint(3), model.unknowns.joint(0));
   model.linearise();
+  expect_differences(model, g);
   ASSERT_EQ(model.miss.size(), 4);
   const FitJoint& last = g.chain.joints.back();
   EXPECT_NEAR(model.miss(0), last.position.x, 1e-6);  // it begins at the origin…
@@ -103,12 +38,11 @@ TEST(RateModel, RowsOfClosedChainsAreDifferences) {
 
 // A line has neither slope nor variation, and its curvature stays.
 TEST(RateModel, RowsBesideALineAreDifferences) {
-  const Given g = of_pieces({{-1, 0.3, 0, 0}, {-1, 0.3, 0, 2}, {0.5, 0.4, 2, 4}});
-  expect_differences(g);
-  Given own = g;
-  own.problem.points = &own.points;
-  RateModel model(own.chain, own.problem);
+  Given g = of_pieces({{-1, 0.3, 0, 0}, {-1, 0.3, 0, 2}, {0.5, 0.4, 2, 4}});
+  g.problem.points = &g.points;
+  RateModel model(g.chain, g.problem);
   model.linearise();
+  expect_differences(model, g);
   EXPECT_EQ(model.limits.size(), 2U + 3);  // the line none; from 0 on no ratio
   EXPECT_EQ(model.rows.col(model.unknowns.slope(0)).norm(), 0);
   EXPECT_EQ(model.rows.col(model.unknowns.joint(0)).norm(), 0);
