@@ -39,20 +39,9 @@ Result<const operations::Outcome*> OptionFiles::outcome_of(const std::string& wo
   if (!thing.empty()) request["select"] = thing;
   auto outcome = operations::carry_out("document.read", request, {0, {}, true});
   if (!outcome) return std::unexpected(outcome.error());
-  if (auto done = agree(*outcome, word); !done) return std::unexpected(done.error());
+  const std::string& unit = outcome->result_as<ReadAnswer>()->unit;
+  if (auto same = unit_.take(unit, word); !same) return std::unexpected(same.error());
   return &read_.emplace(word, std::move(*outcome)).first->second;
-}
-
-/// Numbers of one request are in one unit.
-Result<void> OptionFiles::agree(const operations::Outcome& outcome, const std::string& word) {
-  const std::string& unit = outcome.result_as<ReadAnswer>()->unit;
-  if (unit.empty()) return {};
-  if (!unit_.empty() && unit != unit_)
-    return fail(ErrorCode::bad_input, fmt::format("is in {}, {} in {}", unit, unit_of_, unit_),
-                operations::unit_advice(unit, unit_), word);
-  unit_ = unit;
-  unit_of_ = word;
-  return {};
 }
 
 Result<std::vector<json>> OptionFiles::all(const std::string& word, Kind kind,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/error.h"
+#include "keyline/operations/common_unit.h"
 #include "keyline/operations/perform.h"
 
 /// Curves and surfaces that stand in options as the name of a file.
@@ -40,16 +41,14 @@ class OptionFiles {
   const std::map<std::string, operations::Outcome>& read() const { return read_; }
   const std::vector<std::string>& notes() const { return notes_; }
   /// Of all of them; empty where none tells one.
-  const std::string& unit() const { return unit_; }
+  const std::string& unit() const { return unit_.name(); }
 
  private:
   core::Result<const operations::Outcome*> outcome_of(const std::string& word);
-  core::Result<void> agree(const operations::Outcome& outcome, const std::string& word);
 
   std::map<std::string, operations::Outcome> read_;  ///< by word
   std::vector<std::string> notes_;
-  std::string unit_;
-  std::string unit_of_;  ///< the word that told it
+  operations::CommonUnit unit_;
 };
 
 }  // namespace keyline::app

@@ -97,6 +97,7 @@ void gather_curves(const json& result, std::vector<json>& curves) {
 struct Made {
   std::vector<json> shown;
   json document{{"curves", json::array()}, {"surfaces", json::array()}};
+  operations::CommonUnit unit;
   std::string text;
 };
 
@@ -223,20 +224,6 @@ Result<void> run_on_curves(Session& session, const Operation& operation,
   return {};
 }
 
-/// Files of one command that tell a unit tell the same.
-Result<void> agree(const json& unit, const std::string& file, Made& made) {
-  const std::string known = made.document.value("unit", "");
-  if (known.empty() || unit == "") {
-    if (known.empty()) made.document["unit"] = unit;
-    return {};
-  }
-  if (unit == known) return {};
-  return core::fail(
-      core::ErrorCode::bad_input,
-      fmt::format("is in {}, what was read before in {}", unit.get<std::string>(), known),
-      operations::unit_advice(unit.get<std::string>(), known), file);
-}
-
 /// Curves of one file, or what of it a name behind # takes.
 Result<json> read_one(Session& session, const std::string& file, Made& made) {
   json request = session.of(1);
@@ -252,7 +239,9 @@ Result<json> read_one(Session& session, const std::string& file, Made& made) {
   if ((*shown)["curves"].empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve in it",
                       "give a file that holds one", file);
-  if (auto same = agree((*shown)["unit"], file, made); !same) return std::unexpected(same.error());
+  if (auto same = made.unit.take((*shown)["unit"], file); !same)
+    return std::unexpected(same.error());
+  made.document["unit"] = made.unit.name();
   return std::move((*shown)["curves"]);
 }
 

@@ -7,6 +7,7 @@
 #include "keyline/classa/deviation.h"
 #include "keyline/core/text.h"
 #include "keyline/curve/part_bound.h"
+#include "keyline/operations/ends.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -25,9 +26,6 @@ double departure_of(const Bezier& given, const Bezier& edited) {
     return std::min(most, classa::deviation_bound(given, edited, kSharp * most));
 }
 
-/// Of the way along its control points: ends nearer than that meet.
-constexpr double kMeet = 1e-9;
-
 /// A curve of one matrix that ends where it starts is a point, or turns by more than the plane of
 /// alpha and s holds.
 template <class Bezier>
@@ -35,7 +33,7 @@ Result<void> check_open(const Bezier& c) {
   double way = 0;
   for (std::size_t i = 1; i < c.control.size(); ++i)
     way += core::distance(c.control[i - 1], c.control[i]);
-  if (core::distance(c.control.front(), c.control.back()) > kMeet * way) return {};
+  if (!meet(c.control.front(), c.control.back(), way, kOneHeldEnd)) return {};
   return core::fail(core::ErrorCode::undrawable,
                     "the curve ends where it starts: no Class A curve does",
                     "cut it, as with keyline split --at 0.5, and edit its parts", "curve");

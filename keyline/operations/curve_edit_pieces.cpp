@@ -8,6 +8,7 @@
 #include "keyline/classa/between_tangents.h"
 #include "keyline/classa/deviation.h"
 #include "keyline/operations/edit_piece.h"
+#include "keyline/operations/ends.h"
 #include "keyline/operations/registry.h"
 
 /// A path edited Bezier by Bezier, its joints held: the operation curve.edit_pieces.
@@ -21,7 +22,7 @@ using document::PlanarCurve;
 
 /// A curve alone does not say that it is closed: its ends do.
 bool is_closed(const Path& path, double size) {
-  return path.closed || core::distance(evaluate(path, 0), evaluate(path, 1)) <= kOneEnd * size;
+  return path.closed || meet(evaluate(path, 0), evaluate(path, 1), size, kOneHeldEnd);
 }
 
 /// Polynomial Beziers for what is one or can be cut into some; polylines as they stand. Adds how

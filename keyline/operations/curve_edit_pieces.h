@@ -18,9 +18,6 @@ constexpr int kHighestPieceDegree = 8;  ///< as of the approximation by one Bezi
 /// rounding still leaves their direction to 2e-9, far below what a joint shows.
 constexpr double kLeastEdge = 1e-4;
 
-/// Of the size, ends this near are one place.
-constexpr double kOneEnd = 1e-9;
-
 inline constexpr const char* kNoTarget =
     "no Class A curve of degree 3 to 8 between its tangents, with edges of 1e-4 of the chord or "
     "more";

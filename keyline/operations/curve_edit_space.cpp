@@ -6,6 +6,7 @@
 #include "keyline/classa/farin.h"
 #include "keyline/core/axis.h"
 #include "keyline/operations/edit_piece.h"
+#include "keyline/operations/ends.h"
 
 namespace keyline::operations {
 namespace {
@@ -137,7 +138,7 @@ JointCount joints_of(const std::vector<SpaceCurve>& pieces, bool closed, double 
 bool is_closed(const SpacePath& path, double size) {
   const core::Point3 start = evaluate(path.curves.front(), 0),
                      end = evaluate(path.curves.back(), 1);
-  return path.closed || core::distance(start, end) <= kOneEnd * size;
+  return path.closed || meet(start, end, size, kOneHeldEnd);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "keyline/analysis/continuity.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/document/planar_edit.h"
+#include "keyline/operations/ends.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 
@@ -92,8 +93,7 @@ struct TrimRequest {
 
 /// Whether the curve ends where it begins.
 bool comes_back(const document::Path& path, double length) {
-  constexpr double kShare = 1e-6;  // of the length, as where curves are faired
-  return core::distance(evaluate(path, 0), evaluate(path, 1)) <= kShare * length;
+  return meet(evaluate(path, 0), evaluate(path, 1), length);
 }
 
 Result<CurveOnly> run_trim(const TrimRequest& request, const Context&) {

@@ -14,6 +14,7 @@
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/points/lattice_reader.h"
 #include "keyline/exchange/points/points_reader.h"
+#include "keyline/operations/common_unit.h"
 
 namespace keyline::operations {
 
@@ -202,17 +203,15 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
 Result<ReadAnswer> join_files(const InputRequest& input) {
   std::vector<RawCurve> parts;
   ReadAnswer answer;
-  std::string& unit = answer.unit;
+  CommonUnit unit;
   for (const std::string& file : input.file) {
     auto raw = in_file(read_raw(input, file), file);
     if (!raw) return std::unexpected(raw.error());
-    if (!unit.empty() && !raw->unit.empty() && raw->unit != unit)
-      return fail(ErrorCode::bad_input, "is in " + raw->unit + ", a file before it in " + unit,
-                  "convert one of them", file);
-    if (unit.empty()) unit = raw->unit;
+    if (auto same = unit.take(raw->unit, file); !same) return std::unexpected(same.error());
     for (RawCurve& curve : raw->curves) parts.push_back(std::move(curve));
   }
-  take_unit(unit, input.unit, answer.skipped);
+  answer.unit = unit.name();
+  take_unit(answer.unit, input.unit, answer.skipped);
   auto line = acquire::acquire_joined(parts, acquire_options(input.acquiring));
   if (!line) return std::unexpected(line.error());
   if (!has_plane(*line))

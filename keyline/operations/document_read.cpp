@@ -215,12 +215,4 @@ Operation document_read_operation() {
        .reads_files = true});
 }
 
-std::string unit_advice(const std::string& unit, const std::string& others) {
-  const double from = document::millimetres(unit);
-  const double to = document::millimetres(others);
-  if (!(from > 0 && to > 0)) return "give files in one unit";
-  return "bring it to " + others + " first: keyline transform --scale " +
-         core::number_text(from / to, 10) + " --unit " + others;
-}
-
 }  // namespace keyline::operations

@@ -183,7 +183,4 @@ struct ReadAnswer {
 /// The things of a file: measured points as acquired lines, all else as curves and surfaces.
 core::Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress& progress);
 
-/// What to do about a file in one unit among others in another one.
-std::string unit_advice(const std::string& unit, const std::string& others);
-
 }  // namespace keyline::operations

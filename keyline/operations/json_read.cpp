@@ -50,9 +50,10 @@ Result<void> read(const Type& type, const Field& field, const json& j, const Pla
 Result<void> within(const Bounds& bounds, double value, bool whole, const Place& place) {
   if (contains(bounds, value)) return {};
   const bool sign = bounds == core::kPositive;
-  return wrong(place,
-               in_quotes(place.text()) + (sign ? " is not greater than zero" : " is out of range"),
-               bounds_in_words(bounds, whole));
+  return wrong(
+      place,
+      core::number_text(value, 10) + (sign ? " is not greater than zero" : " is out of range"),
+      bounds_in_words(bounds, whole));
 }
 
 Result<double> finite(const json& j, const Place& place) {

@@ -9,6 +9,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/operations/amount.h"
+#include "keyline/operations/ends.h"
 
 namespace keyline::operations {
 namespace {
@@ -136,7 +137,7 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path, double toleran
                 "curve");
   acquire::KeyLine line;
   line.length = length;
-  line.closed = path.closed && core::distance(evaluate(path, 0), evaluate(path, 1)) < 1e-6 * length;
+  line.closed = path.closed && meet(evaluate(path, 0), evaluate(path, 1), length);
   const int n = std::max<int>(kCurveSamples, 40 * static_cast<int>(path.curves.size()) + 1);
   if (!(tolerance > 0))
     tolerance = fairing::default_tolerance(0, length, static_cast<std::size_t>(n));

@@ -98,9 +98,8 @@ TEST(CurvesOfFiles, OfTwoUnitsAreRefused) {
   const std::string in_inches = s.write("in.json", document(kArc, "in"));
   const std::string in_none = s.write("none.json", document(kArc));
   expect_failure(run_keyline("compare " + in_mm + " " + in_inches), 2,
-                 in_inches +
-                     ": is in in, what was read before in mm; bring it to mm first: keyline "
-                     "transform --scale 25.4 --unit mm");
+                 in_inches + ": is in in, " + in_mm +
+                     " in mm; bring it to mm first: keyline transform --scale 25.4 --unit mm");
   // …which is true: what is brought so agrees
   const std::string brought = s.path("brought.json");
   const Outcome scaled =
@@ -153,7 +152,8 @@ TEST(Units, AreThoseOfATablesHeader) {
   const std::string one = s.write("one.csv", "x_mm,y_mm\n0,0\n1,0\n2,0\n");
   const std::string other = s.write("other.csv", "x_in,y_in\n2,0\n3,0\n4,0\n");
   expect_failure(run_keyline("fair " + one + " " + other), 2,
-                 other + ": is in in, a file before it in mm; convert one of them");
+                 other + ": is in in, " + one +
+                     " in mm; bring it to mm first: keyline transform --scale 25.4 --unit mm");
 }
 
 TEST(Fair, SaysOnTheTerminalWhatTheReportSays) {
