@@ -121,6 +121,10 @@ TEST(ReadPoints, AxesAreKnownByAWordOfTheirNames) {
   }
   // of two columns of one letter neither is meant
   EXPECT_EQ(only("x left,y left,x right,y right\n0,0,5,6\n1,2,5,6\n3,4,5,6\n").left_out.size(), 2U);
+  EXPECT_EQ(only("n,x pos,y pos,x coord,y coord\n7,0,0,5,6\n8,1,2,5,6\n9,3,4,5,6\n").points[0].x,
+            7);
+  // nor is one that has the letter twice
+  EXPECT_EQ(only("n,x/x,y/y\n7,0,0\n8,1,2\n9,3,4\n").points[0].x, 7);
   EXPECT_EQ(only("east,north,normal_x,normal_y\n0,0,0,1\n1,2,0,1\n3,4,0,1\n").points[1].x, 1);
   EXPECT_EQ(only("x_err,x,y\n9,0,0\n9,1,2\n9,3,4\n").points[1], (Point3{1, 2, 0}));
 }
@@ -133,6 +137,9 @@ TEST(ReadPoints, RemarksBehindRowsAreTold) {
     EXPECT_EQ(curve.left_out, std::vector<std::string>{"remarks behind 2 rows"});
   }
   EXPECT_EQ(only("Title # 1\n0 0 ! nose\n1 2\n3 4\n").id, "Title # 1");
+  // behind a comma it is what stands in a column
+  for (const std::string& left : only("x,y,of\n0,0, #1\n1,2, #1\n3,4, #2\n").left_out)
+    EXPECT_FALSE(left.starts_with("remarks")) << left;
   const auto named = parse("x,y,id\n0,0, #1\n1,2, #1\n3,4, #2\n");  // names of curves
   ASSERT_TRUE(named);
   EXPECT_EQ(named->size(), 2U);

@@ -44,6 +44,9 @@ TEST(WithLines, EndsOfAnOpenCurveAreNotShortened) {
   const DenseCurve last = with_lines(ten(), {{5, 10}}, 0.2);
   EXPECT_EQ(last.cut, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 10}));
   EXPECT_EQ(last.value.back(), 0);
+  // A line that ends one node before the curve does is shortened: of 0.7 by 0.14 either way.
+  EXPECT_EQ(with_lines(ten(), {{2, 9}}, 0.2).cut, (std::vector<int>{0, 1, 2, 3, 4, 7, 8, 9, 10}));
+  EXPECT_EQ(with_lines(ten(), {{1, 8}}, 0.2).cut, (std::vector<int>{0, 1, 2, 3, 6, 7, 8, 9, 10}));
   DenseCurve closed = ten();
   closed.closed = true;
   const DenseCurve round = with_lines(closed, {{0, 5}}, 0.2);
