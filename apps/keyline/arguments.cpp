@@ -108,6 +108,11 @@ Result<const Arguments::Known*> Arguments::known_as(const std::string& option) c
   return fail(ErrorCode::bad_input, "there is no such option", nearest(option), option);
 }
 
+bool Arguments::has(const std::string& option) const {
+  return std::ranges::any_of(
+      fields_, [&](const Known& known) { return option_name(known.field.name) == option; });
+}
+
 /// Lists of numbers, points and the like take words as long as they are such; other lists, where
 /// files stand among the options, one word. Flags take a word only where it says yes or no.
 bool Arguments::takes(const Field& field, std::size_t have, const std::string& word) const {

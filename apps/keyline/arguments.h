@@ -45,6 +45,9 @@ class Arguments {
   const nlohmann::json& of(std::size_t record) const { return given_[record]; }
   std::vector<std::string> files;
 
+  /// Whether there is an option of that name, "--alpha".
+  bool has(const std::string& option) const;
+
   /// Files that options name.
   const OptionFiles& option_files() const { return option_files_; }
 

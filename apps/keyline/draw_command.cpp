@@ -243,7 +243,7 @@ int run_draw(const Words& words) {
   const auto view = session.record<presentation::HandleView>(kView);
   if (!view) return report_failure(view.error());
   const auto pages = presentation::handle_pages(*outcome, *view, session.report_options());
-  if (!pages) return report_failure(as_options(pages.error()));
+  if (!pages) return report_failure(session.told(pages.error()));
   const json curves = json::array({{{"curve", (*result)["curve"]}}});
   auto written = session.write(*pages, json{{"curves", curves}});
   if (!written) return report_failure(written.error());

@@ -111,9 +111,9 @@ struct EditedCurves {
 bool pieces_may_do(const json& request, const core::Failure& why) {
   if (request.contains("fit_tolerance") || request.contains("target")) return false;
   // A spline of several pieces in space.
-  if (why.code == core::ErrorCode::unsupported) return why.path == option_name("curve");
+  if (why.code == core::ErrorCode::unsupported) return why.path == "curve";
   return why.path == option_name("fit_tolerance") ||
-         (why.path == option_name("curve") && request["curve"]["type"] != "bezier");
+         (why.path == "curve" && request["curve"]["type"] != "bezier");
 }
 
 /// As one Bezier, or piece by piece.

@@ -145,8 +145,8 @@ using Answers = std::vector<std::optional<Result<operations::Outcome>>>;
 /// of the option that a request gives it with.
 core::Failure of_file(core::Failure failure, const std::string& file, const json& thing,
                       bool many) {
-  const bool of_curve = failure.path.empty() || failure.path.starts_with("--points") ||
-                        failure.path.starts_with("--curve");
+  const bool of_curve = failure.path.empty() || failure.path.starts_with("points") ||
+                        failure.path.starts_with("curve");
   if (!of_curve) return failure;
   failure.path = many ? file + ": " + thing["name"].get<std::string>() : file;
   return failure;

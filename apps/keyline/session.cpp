@@ -152,9 +152,14 @@ Result<operations::Outcome> Session::perform(const std::string& operation, json 
     if (usage_.forms) uses_.add(*usage_.forms, request, {});
     return outcome;
   }
-  const std::string& place = outcome.error().path;  // a file "points" is no option
-  if (std::ranges::find(files(), place) != files().end()) return outcome;
-  return std::unexpected(as_options(outcome.error()));
+  return std::unexpected(told(outcome.error()));
+}
+
+core::Failure Session::told(core::Failure failure) const {
+  // A file "points" is no option.
+  if (std::ranges::find(files(), failure.path) != files().end()) return failure;
+  return as_options(std::move(failure),
+                    [this](const std::string& option) { return arguments_.has(option); });
 }
 
 Result<json> Session::write(const presentation::Pages& pages, const presentation::Output& output,
@@ -163,7 +168,7 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
   if (ending == Ending::kept) progress.cancellation = {};
   const auto written = presentation::write_files(door_.output, pages, output, progress);
   end_progress();
-  if (!written) return std::unexpected(as_options(written.error()));
+  if (!written) return std::unexpected(told(written.error()));
   for (const std::string& name : written->unused)
     uses_.add(core::type_of<operations::FormatOptions>(), {{name, true}}, written->unused);
   for (const operations::Written& one : written->written) {

@@ -99,13 +99,17 @@ class Session {
   core::Result<operations::Outcome> perform(const std::string& operation, nlohmann::json request,
                                             const core::Progress& progress);
 
+  /// A failure of the library as the command line tells it: its field as the option of that name,
+  /// where there is one. Fields that files fill stay what they are.
+  core::Failure told(core::Failure failure) const;
+
   /// The i-th record as it was given; failures name options.
   template <class Record>
   core::Result<Record> record(std::size_t i) {
     Record record;
     const operations::Part part{&core::type_of<Record>(), &record};
     if (auto read = operations::read_json(of(i), {&part, 1}, {}, usage_.command); !read)
-      return std::unexpected(as_options(read.error()));
+      return std::unexpected(told(read.error()));
     return record;
   }
 

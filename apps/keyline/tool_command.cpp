@@ -258,7 +258,7 @@ Result<std::vector<json>> read_all(Session& session, Made& made) {
 
 /// A failure of the i-th curve along u or v names its file and counts from 1.
 core::Failure of_files(const Session& session, core::Failure failure) {
-  const std::array fields{option_name("along_u"), option_name("along_v")};
+  const std::array fields{std::string("along_u"), std::string("along_v")};
   for (const std::size_t way : {0U, 1U}) {
     if (!failure.path.starts_with(fields[way])) continue;
     const std::size_t open = failure.path.find('[');

@@ -313,8 +313,10 @@ bool is_number_like(const Type& item, const std::string& word) {
   }
 }
 
-core::Failure as_options(core::Failure failure) {
+core::Failure as_options(core::Failure failure,
+                         const std::function<bool(const std::string&)>& is_option) {
   const std::size_t end = failure.path.find_first_of(".[:/ ");
+  if (!is_option(option_name(failure.path.substr(0, end)))) return failure;
   if (end == std::string::npos && !failure.path.empty() && !failure.path.starts_with("--"))
     failure.path = option_name(failure.path);
   else if (end != std::string::npos && failure.path[end] == '[')

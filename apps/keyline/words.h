@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ std::string help_line(const OptionText& option);
 /// Whether a word can be an item of a list of numbers, points and the like.
 bool is_number_like(const core::Type& item, const std::string& word);
 
-/// A failure of the library, its field as the option that was typed.
-core::Failure as_options(core::Failure failure);
+/// A failure of the library, its field as the option that was typed, where there is such an option.
+core::Failure as_options(core::Failure failure,
+                         const std::function<bool(const std::string&)>& is_option);
 
 }  // namespace keyline::app

@@ -58,6 +58,16 @@ TEST(Edit, Failures) {
 
 // A drawing: a closed outline, a path with a corner and a circle, of which one Bezier curve is
 // none. Every one comes back, on its page, with as many curves; the circle stays.
+TEST(Edit, FailuresNameOnlyOptionsThereAre) {
+  const Scratch s;
+  const std::string rational = s.write("rational.json", R"({"type":"bezier-surface",
+      "points":[[[0,0,0],[1,0,1],[2,0,0]],[[0,2,0],[1,2,1],[2,2,0]]],"weights":[[1,2,1],[1,2,1]]})");
+  const Outcome weights = run_keyline("edit --quiet " + rational);
+  expect_failure(weights, 2, "a rational patch has no control matrices");
+  EXPECT_EQ(weights.err.find("--"), std::string::npos) << weights.err;
+  expect_failure(run_keyline("edit --quiet --amount 2 " + rational), 2, "--amount");
+}
+
 TEST(Edit, DrawingsAreEditedPieceByPiece) {
   const Scratch s;
   const std::string drawing = s.write(

@@ -4,7 +4,7 @@ Commands are the lines of blocks marked `sh` that start with `keyline` or `./dev
 examples; programs are the blocks marked `python` of pages about Python. Each page's run one after the other in a
 folder of its own beside the examples; each must end with status 0 and write the files it names with -o.
 With KEYLINE_TIMES set, each command's time is told. What the README counts under its picture is what `fair` counts.
-Options that README and guide name in their text (`--tolerance 0.1`) are options of some command.
+Options that README and guide name in their text (`--tolerance 0.1`), or messages, are options of some command.
 """
 
 import os
@@ -80,16 +80,26 @@ def miscounted():
     return [] if numbers == [*map(int, counted.groups())] else [f"README.md counts {numbers}, `fair` {counted.groups()}"]
 
 
+def named_options():
+    """Where an option is named, and which: in inline code of pages, in the strings of sources."""
+    for page in [root / "README.md", root / "docs/limits.md", *sorted((root / "docs/guide").glob("*.md"))]:
+        yield from ((page, option) for option in re.findall(r"`(--[a-z][a-z-]*)", page.read_text()))
+    for folder in ("keyline", "apps"):
+        for source in sorted((root / folder).rglob("*.cpp")):
+            for literal in re.findall(r'"((?:[^"\\\n]|\\.)*)"', source.read_text()):
+                yield from ((source, option) for option in re.findall(r"(?<![\w<!-])--[a-z][a-z-]*", literal))
+
+
 def unknown_options():
-    """Options in inline code that no command has, nor has one that begins so."""
+    """Those that no command has, nor has one that begins so."""
     completion = subprocess.run([keyline, "completion", "bash"], capture_output=True, text=True).stdout
-    known = set(re.findall(r"--[a-z][a-z-]*", completion))
+    known = set(re.findall(r"--[a-z][a-z-]*", completion)) | {"--all"}  # of `keyline --help`
     if len(known) < 100:
         yield "keyline completion bash lists hardly any option"
-    for page in [root / "README.md", root / "docs/limits.md", *sorted((root / "docs/guide").glob("*.md"))]:
-        for option in re.findall(r"`(--[a-z][a-z-]*)", page.read_text()):
-            if not any(name.startswith(option.replace("--no-", "--")) for name in known):
-                yield f"{page.relative_to(root)} names {option}, which no command has"
+    for place, option in named_options():
+        meant = (option, option.replace("--no-", "--"))
+        if not any(name.startswith(meant) for name in known):
+            yield f"{place.relative_to(root)} names {option}, which no command has"
 
 
 with tempfile.TemporaryDirectory() as programs:
