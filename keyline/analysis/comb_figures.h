@@ -18,9 +18,13 @@ struct CombFigures {
   static constexpr auto describe() {
     return core::fields(
         core::field<&CombFigures::waves>("extrema of curvature that rise above 2 % of its range"),
-        core::field<&CombFigures::energy>("L^3 times the integral of (d curvature / ds)^2"),
+        core::field<&CombFigures::energy>(
+            "L^3 times the integral of (d curvature / ds)^2; null at a cusp, where it has no bound")
+            .null_if_empty(),
         core::field<&CombFigures::jolt>(
-            "largest change of curvature within 0.5 % of the length, as a share of its range"));
+            "largest change of curvature within 0.5 % of the length, as a share of its range; null "
+            "at a cusp")
+            .null_if_empty());
   }
 };
 

@@ -39,7 +39,8 @@ class Splitter {
           !is_corner(curve_, samples_[i].t, options_.corner))
         continue;
       const double t = samples_[i + 1].t;
-      result_.corners.push_back({Kind::corner, t, samples_[i].s, samples_[i].curvature, {t, t}});
+      const double before = curve::curvature(curve_.jet_at(std::nextafter(t, 0.0)));
+      result_.corners.push_back({Kind::corner, t, samples_[i].s, before, {t, t}});
       cuts_.push_back(t);
       split_run(from, i);
       from = i + 1;
@@ -63,15 +64,24 @@ class Splitter {
       s += std::isfinite(step) ? step : 0;
       const bool at_break = next < curve_.breaks().size() && ends[i] >= curve_.breaks()[next];
       const double before = at_break ? std::nextafter(ends[i], 0.0) : ends[i];
-      samples_.push_back({ends[i], s, curvature_at(before), stretch});
+      samples_.push_back({ends[i], s, curvature_at(before, -1), stretch});
       if (!at_break) continue;
       ++next;
       ++stretch;
       if (i + 1 < ends.size()) samples_.push_back({ends[i], s, curvature_at(ends[i]), stretch});
     }
     length_ = s;
-    for (const Sample& sample : samples_) largest_ = std::max(largest_, std::abs(sample.curvature));
-    rounding_ = std::max(options_.rounding * largest_, length_ > 0 ? 1e-9 / length_ : 0);
+    rounding_ = {options_.rounding,
+                 length_ > 0 ? std::max(options_.rounding * mean_bend(), 1e-9 / length_) : 0};
+  }
+
+  /// Mean of |curvature| along the curve, of two neighbours the lesser: a cusp is a short way.
+  double mean_bend() const {
+    double sum = 0;
+    for (std::size_t i = 1; i < samples_.size(); ++i)
+      sum += (samples_[i].s - samples_[i - 1].s) *
+             std::min(std::abs(samples_[i - 1].curvature), std::abs(samples_[i].curvature));
+    return sum / length_;
   }
 
   /// A sample where curvature turns between two others, as its rate at both says: a turn in the
@@ -86,7 +96,7 @@ class Splitter {
         const double t = zero_of(rate, a.t, last, a.t);
         const double kappa = curvature_at(t);
         const auto [low, high] = std::minmax(a.curvature, b.curvature);
-        if (kappa < low - rounding_ || kappa > high + rounding_)
+        if (kappa < low - rounding_.of(low, kappa) || kappa > high + rounding_.of(high, kappa))
           all.push_back({t, arc_length_at(t, i - 1), kappa, a.stretch});
       }
       all.push_back(b);
@@ -94,11 +104,12 @@ class Splitter {
     samples_ = std::move(all);
   }
 
-  /// Curvature; at a cusp, where it is infinite, that of a place close by.
-  double curvature_at(double t) const {
+  /// Curvature; at a cusp, where it is infinite, that of a place close by on the side asked for.
+  double curvature_at(double t, double sense = 1) const {
+    constexpr double kBeside = 1e-7;
     const double kappa = curve::curvature(curve_.jet_at(t));
     if (std::isfinite(kappa)) return kappa;
-    const double beside = curve::curvature(curve_.jet_at(t < 0.5 ? t + 1e-7 : t - 1e-7));
+    const double beside = curve::curvature(curve_.jet_at(t + sense * kBeside));
     return std::isfinite(beside) ? beside : 0;
   }
 
@@ -112,9 +123,10 @@ class Splitter {
         low = std::min(low, samples_[last].curvature);
         high = std::max(high, samples_[last].curvature);
       }
-      if (high - low <= rounding_ && last > first) {
+      if (high - low <= rounding_.of(low, high) && last > first) {
+        const double before = first > 0 ? samples_[first - 1].curvature : low;
         const bool same = !flats_.empty() && flats_.back().last + 1 == first &&
-                          std::abs(samples_[first - 1].curvature - low) <= 2 * rounding_;
+                          std::abs(before - low) <= 2 * rounding_.of(before, low);
         if (same) {
           flats_.back().last = last;
         } else {
@@ -174,7 +186,11 @@ class Splitter {
     } else if (!flat) {  // the turn may lie just beside the breakpoint, inside the stretch
       t = refine_beside(kind, i);
     }
-    const double kappa = inside ? curvature_at(t) : here.curvature;
+    double kappa = inside ? curvature_at(t) : here.curvature;
+    if (!inside && t == here.t) {  // at a breakpoint, from the stretch's side; a cusp's is infinite
+      const bool last = i > 0 && samples_[i - 1].stretch == here.stretch;
+      kappa = curve::curvature(curve_.jet_at(last ? std::nextafter(t, 0.0) : t));
+    }
     add({kind, t, arc_length_at(t, i), kappa, {t, t}}, flat);
   }
 
@@ -210,7 +226,7 @@ class Splitter {
 
   int sign_of(std::size_t i) const {
     const double kappa = samples_[i].curvature;
-    return std::abs(kappa) <= rounding_ ? 0 : kappa > 0 ? 1 : -1;
+    return std::abs(kappa) <= rounding_.least ? 0 : kappa > 0 ? 1 : -1;
   }
 
   /// The middle one of the sign changes between two turning points, if there is one in sum: the
@@ -268,8 +284,8 @@ class Splitter {
       const double b = ends[i];
       result_.pieces.push_back({{a, b},
                                 {length_at(a), length_at(b)},
-                                curvature_at(a),
-                                curvature_at(std::nextafter(b, 0.0))});
+                                curve::curvature(curve_.jet_at(a)),
+                                curve::curvature(curve_.jet_at(std::nextafter(b, 0.0)))});
     }
     for (auto* events : {&result_.extrema, &result_.inflections})
       std::ranges::sort(*events, {}, &CurvatureEvent::t);
@@ -290,8 +306,7 @@ class Splitter {
   std::vector<double> cuts_;
   Split result_;
   double length_ = 0;
-  double largest_ = 0;
-  double rounding_ = 0;
+  detail::Rounding rounding_;
 };
 
 }  // namespace

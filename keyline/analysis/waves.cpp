@@ -19,7 +19,8 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 /// The turning points as a linked list, with the smallest wave always at hand.
 class Waves {
  public:
-  Waves(const std::vector<Sample>& samples, double rounding, std::vector<std::size_t> turns)
+  Waves(const std::vector<Sample>& samples, const Rounding& rounding,
+        std::vector<std::size_t> turns)
       : samples_(samples), rounding_(rounding), turns_(std::move(turns)) {
     const std::size_t n = turns_.size();
     before_.resize(n);
@@ -36,7 +37,7 @@ class Waves {
     while (count_ > 1 && queue_.begin()->first <= noise) {
       const std::size_t left = queue_.begin()->second;
       const MergedWave wave = measure(left);
-      if (wave.swing > rounding_) merged.push_back(wave);
+      if (wave.swing > rounding_at(left)) merged.push_back(wave);
       remove(left);
     }
   }
@@ -49,6 +50,10 @@ class Waves {
 
  private:
   double value(std::size_t node) const { return samples_[turns_[node]].curvature; }
+
+  double rounding_at(std::size_t left) const {
+    return rounding_.of(value(left), value(after_[left]));
+  }
 
   /// Sample nearest `start` towards `stop` where curvature has crossed the level.
   std::size_t crossing(std::size_t start, std::size_t stop, double level, bool above) const {
@@ -82,7 +87,7 @@ class Waves {
     forget(node);
     if (after_[node] == kNone) return;
     const MergedWave wave = measure(node);
-    rank_[node] = wave.swing <= rounding_ ? 0 : wave.displacement;
+    rank_[node] = wave.swing <= rounding_at(node) ? 0 : wave.displacement;
     queue_.insert({rank_[node], node});
     ++count_;
   }
@@ -130,7 +135,7 @@ class Waves {
   }
 
   const std::vector<Sample>& samples_;
-  double rounding_;
+  Rounding rounding_;
   std::vector<std::size_t> turns_;
   std::vector<std::size_t> before_, after_;
   std::vector<double> rank_;  // the key in the queue, -1 where not in it
@@ -155,7 +160,7 @@ std::vector<std::size_t> all_turns(const std::vector<Sample>& samples, std::size
 }  // namespace
 
 std::vector<std::size_t> significant_turns(const std::vector<Sample>& samples, std::size_t from,
-                                           std::size_t to, double noise, double rounding,
+                                           std::size_t to, double noise, const Rounding& rounding,
                                            std::vector<MergedWave>& merged) {
   Waves waves(samples, rounding, all_turns(samples, from, to));
   waves.merge(noise, merged);
@@ -164,7 +169,7 @@ std::vector<std::size_t> significant_turns(const std::vector<Sample>& samples, s
 
 std::vector<std::size_t> significant_crossings(const std::vector<Sample>& samples, std::size_t from,
                                                std::size_t to, std::vector<std::size_t> crossings,
-                                               double noise, double rounding,
+                                               double noise, const Rounding& rounding,
                                                std::vector<MergedWave>& merged) {
   const auto lobe = [&](std::size_t k) {  // before crossing k
     const std::size_t first = k == 0 ? from : crossings[k - 1] + 1;
@@ -188,8 +193,8 @@ std::vector<std::size_t> significant_crossings(const std::vector<Sample>& sample
         least = wave;
       }
     }
-    if (least.displacement > noise && least.swing > rounding) break;
-    if (least.swing > rounding) merged.push_back(least);
+    if (least.displacement > noise && least.swing > rounding.least) break;
+    if (least.swing > rounding.least) merged.push_back(least);
     const auto at = crossings.begin() + static_cast<std::ptrdiff_t>(smallest);
     if (smallest == 0) {
       crossings.erase(at);

@@ -1,35 +1,45 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "keyline/curve/stops.h"
 #include "keyline/document/planar_curve.h"
 
-/// Paths whose curvature is infinite somewhere.
-namespace keyline::operations {
+/// Paths whose curvature cannot be told from their derivatives somewhere.
+namespace keyline::document {
 
-/// A cusp of a log-aesthetic piece.
-struct Cusp {
-  double t = 0;     ///< of the path's parameter
-  double sign = 1;  ///< of the curvature
-};
-std::vector<Cusp> cusps_of(const document::Path& path);
+/// Where the path's curves stop, and the cusps of its chains, in order; t is the path's.
+/// Precondition: the path is valid.
+std::vector<curve::Stop> stops_of(const Path& path);
 
-/// A path whose jets tell its cusps: their second derivative is infinite there, where that of the
-/// path's own jets, which hold finite numbers, is 0. Refers to the path. Models curve::PlanarCurve.
+/// Whether curvature is infinite somewhere: of either sign, of that one.
+bool has_cusp(const std::vector<curve::Stop>& stops);
+bool has_cusp(const std::vector<curve::Stop>& stops, int sign);
+
+/// A path whose jets have the curvature that its points come near to: where it stops, or has a
+/// cusp, they go at speed 1, with a second derivative that may be infinite, and a third that is
+/// unless curvature stays the same. Each of those places is a breakpoint. Refers to the path.
+/// Models curve::PlanarCurve.
 class CuspedPath {
  public:
-  explicit CuspedPath(const document::Path& path) : placed_(path), cusps_(cusps_of(path)) {}
+  explicit CuspedPath(const Path& path);
 
-  const document::PlacedPath& placed() const { return placed_; }
-  const std::vector<Cusp>& cusps() const { return cusps_; }
+  const PlacedPath& placed() const { return placed_; }
+  const std::vector<curve::Stop>& stops() const { return stops_; }
+  const std::vector<double>& breakpoints() const { return breaks_; }
+  /// Sign of the curvature's rate before and after that stop.
+  const std::array<double, 2>& rates(std::size_t stop) const { return rates_[stop]; }
 
  private:
-  document::PlacedPath placed_;
-  std::vector<Cusp> cusps_;
+  PlacedPath placed_;
+  std::vector<curve::Stop> stops_;
+  std::vector<std::array<double, 2>> rates_;
+  std::vector<double> breaks_;
 };
 
 inline core::Point2 evaluate(const CuspedPath& c, double t) { return evaluate(c.placed(), t); }
 curve::Jet2 jet(const CuspedPath& c, double t);
-inline std::vector<double> breakpoints(const CuspedPath& c) { return breakpoints(c.placed()); }
+inline std::vector<double> breakpoints(const CuspedPath& c) { return c.breakpoints(); }
 
-}  // namespace keyline::operations
+}  // namespace keyline::document

@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/curve/view.h"
+#include "keyline/document/cusped.h"
 #include "keyline/document/path_gap.h"
 
 namespace keyline::document {
@@ -111,8 +112,25 @@ curve::Jet2 jet(const OffsetView& c, double t) {
 Point2 evaluate(const OffsetView& c, double t) { return jet(c, t).point; }
 std::vector<double> breakpoints(const OffsetView& c) { return document::breakpoints(*c.base); }
 
+/// No distance is below the radius of curvature at a cusp on that side.
+Result<void> cusp_within(const PlacedCurve& c, double distance) {
+  const std::vector<curve::Stop> stops = stops_of(Path{{c.curve()}, false});
+  const int side = distance > 0 ? 1 : -1;
+  const auto cusp =
+      std::ranges::find_if(stops, [&](const curve::Stop& stop) { return has_cusp({stop}, side); });
+  if (distance == 0 || cusp == stops.end()) return {};
+  const Point2 p = evaluate(c, cusp->t);
+  return fail(ErrorCode::undrawable,
+              "the curve has a cusp at (" + core::number_text(p.x, 6) + ", " +
+                  core::number_text(p.y, 6) +
+                  "), where the radius of curvature is 0, so that its offset turns back",
+              has_cusp(stops, -side) ? "cut the curve before its cusps" : "take the other side",
+              "distance");
+}
+
 /// The radius of curvature that the distance reaches, if any.
 Result<void> room_for(const PlacedCurve& c, double distance) {
+  if (auto clear = cusp_within(c, distance); !clear) return clear;
   const std::vector<double> breaks = breakpoints(c);
   double tightest = 0;
   double at = 0;

@@ -8,6 +8,7 @@
 #include "keyline/analysis/analyze.h"
 #include "keyline/analysis/self_affinity.h"
 #include "keyline/classa/free_form.h"
+#include "keyline/document/cusped.h"
 #include "keyline/exchange/cad/planar_form.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/library/thumbnail.h"
@@ -61,8 +62,8 @@ PieceEntry piece_entry(const analysis::CurveView& curve, const analysis::ArcLeng
 }
 
 void measure_rhythm(Entry& entry, const document::Path& path, int threads) {
-  const analysis::CurveView view =
-      path.curves.size() == 1 ? analysis::CurveView(path.curves[0]) : analysis::CurveView(path);
+  const document::CuspedPath cusped(path);
+  const analysis::CurveView view(cusped);
   analysis::AnalyzeOptions options;
   options.threads = threads;
   const auto found = analysis::analyze(view, options);
@@ -77,7 +78,9 @@ void measure_rhythm(Entry& entry, const document::Path& path, int threads) {
     return;
   }
   entry.volume = found->volume;
-  entry.curvature = {{found->curvature_min, found->curvature_max}};
+  entry.curvature.emplace();
+  if (!document::has_cusp(cusped.stops(), -1)) (*entry.curvature)[0] = found->curvature_min;
+  if (!document::has_cusp(cusped.stops(), 1)) (*entry.curvature)[1] = found->curvature_max;
   const analysis::ArcLengthTable table(view);
   for (const auto& piece : found->pieces)
     entry.pieces.push_back(piece_entry(view, table, piece, found->length));

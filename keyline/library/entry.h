@@ -50,7 +50,7 @@ struct Measures {
   double size = 0;
   std::optional<double> length;
   std::optional<double> volume;
-  std::optional<std::array<double, 2>> curvature;
+  std::optional<std::array<std::optional<double>, 2>> curvature;
   std::vector<PieceEntry> pieces;
   std::optional<int> cav_type;
   std::optional<double> cav;  ///< [Oya] Tab. 2 by the letter
@@ -63,7 +63,8 @@ struct Measures {
         core::field<&M::size>("diagonal of the box around it").in("length"),
         core::field<&M::length>("of a curve").in("length"),
         core::field<&M::volume>("area over its chord").in("length^2"),
-        core::field<&M::curvature>("least and largest").in("1/length"),
+        core::field<&M::curvature>("least and largest; null where it has no bound, at a cusp")
+            .in("1/length"),
         core::field<&M::pieces>("of monotone curvature, in order"),
         core::field<&M::cav_type>("1 … 5").within(core::from_to(1, 5)),
         core::field<&M::cav>("curve aesthetic value"),

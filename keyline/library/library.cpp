@@ -105,8 +105,8 @@ Result<void> insert_curve(Writer& writer, const Entry& e, std::int64_t digest) {
       .bind(7, e.size)
       .bind(8, e.length)
       .bind(9, e.volume)
-      .bind(10, e.curvature ? std::optional((*e.curvature)[0]) : std::nullopt)
-      .bind(11, e.curvature ? std::optional((*e.curvature)[1]) : std::nullopt)
+      .bind(10, e.curvature ? (*e.curvature)[0] : std::nullopt)
+      .bind(11, e.curvature ? (*e.curvature)[1] : std::nullopt)
       .bind(12, rhythm)
       .bind(13, type)
       .bind(14, e.cav)
@@ -192,7 +192,7 @@ Result<Entry> read_curve(Database& database, std::int64_t id) {
   e.volume = row->number_if_any(4);
   const auto least = row->number_if_any(5);
   const auto most = row->number_if_any(6);
-  if (least && most) e.curvature = {{*least, *most}};
+  if (least || most) e.curvature = {{least, most}};
   if (const auto type = row->number_if_any(7)) e.cav_type = static_cast<int>(*type);
   e.cav = row->number_if_any(8);
   e.nearest_cav = row->number_if_any(9);

@@ -4,6 +4,7 @@
 
 #include "keyline/operations/curve_analyze.h"
 #include "keyline/operations/made_curve.h"
+#include "keyline/operations/subject.h"
 
 namespace keyline::operations {
 
@@ -94,6 +95,7 @@ Result<ClassASubject> class_a_subject(const ClassARequest& request) {
   if (!request.curve) return matrix_subject(request);
   const auto path = planar_path(*request.curve);
   if (!path) return space_subject(*request.curve);
+  if (auto extent = check_extent(*path); !extent) return std::unexpected(extent.error());
   auto bezier = class_a_bezier(*path, request.fit_tolerance);
   if (!bezier) return std::unexpected(std::move(bezier.error()));
   return ClassASubject{std::move(*bezier), 1, *path, {}, {}};

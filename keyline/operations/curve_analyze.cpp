@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "keyline/curve/monotone.h"
+#include "keyline/document/cusped.h"
 #include "keyline/fairing/points_splines.h"
-#include "keyline/operations/cusped.h"
 #include "keyline/operations/diagram_shown.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/sampled_comb.h"
@@ -67,11 +67,16 @@ std::function<MonotoneAnswer()> certificate_of(const document::Path& path) {
   return {};
 }
 
+/// Numbers of the public form are finite.
+std::optional<double> finite(double x) {
+  return std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
 std::vector<Event> events_of(const std::vector<analysis::CurvatureEvent>& found) {
   using Kind = analysis::CurvatureEvent::Kind;
   std::vector<Event> events;
   for (const analysis::CurvatureEvent& e : found) {
-    events.push_back({e.t, e.arc_length, e.curvature, {}});
+    events.push_back({e.t, e.arc_length, finite(e.curvature), {}});
     if (e.kind == Kind::maximum) events.back().kind = EventKind::maximum;
     if (e.kind == Kind::minimum) events.back().kind = EventKind::minimum;
   }
@@ -92,7 +97,7 @@ LcgGraph graph_of(const analysis::Lcg& lcg) {
 AnalyzedPiece piece_shown(const analysis::PieceAnalysis& piece) {
   return {piece.extent.t,
           piece.extent.arc_length,
-          {piece.extent.curvature_start, piece.extent.curvature_end},
+          {finite(piece.extent.curvature_start), finite(piece.extent.curvature_end)},
           piece.length,
           piece.volume,
           piece.rhythm,
@@ -125,6 +130,7 @@ Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context)
   if (!line) return std::unexpected(std::move(line.error()));
   const bool polygon = subject.curve && *line && !are_points_of_a_curve((**line).points);
   if (!*line || polygon) {
+    if (auto extent = check_extent(*subject.curve); !extent) return std::unexpected(extent.error());
     auto found = analyze_path(*subject.curve, subject.acquiring.noise.value_or(0),
                               request.plot_samples, context.progress);
     if (!found) return std::unexpected(found.error());
@@ -168,8 +174,8 @@ AnalyzeAnswer analyze_answer(analysis::CurveAnalysis analysis) {
   AnalyzeAnswer answer;
   answer.length = analysis.length;
   answer.volume = analysis.volume;
-  if (std::isfinite(analysis.curvature_min)) answer.curvature.min = analysis.curvature_min;
-  if (std::isfinite(analysis.curvature_max)) answer.curvature.max = analysis.curvature_max;
+  answer.curvature.min = finite(analysis.curvature_min);
+  answer.curvature.max = finite(analysis.curvature_max);
   for (const auto& p : analysis.plot) answer.curvature.plot.push_back({p.arc_length, p.curvature});
   answer.inflections = events_of(analysis.split.inflections);
   answer.extrema = events_of(analysis.split.extrema);
@@ -200,12 +206,12 @@ core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, d
   options.plot_samples = plot_samples;
   options.progress = progress;
   options.certify = certificate_of(path);
-  const CuspedPath cusped(path);
+  const document::CuspedPath cusped(path);
   auto found = analysis::analyze(analysis::CurveView(cusped), options);
   if (!found) return found;
-  for (const Cusp& cusp : cusped.cusps())
-    (cusp.sign > 0 ? found->curvature_max : found->curvature_min) =
-        cusp.sign * std::numeric_limits<double>::infinity();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (document::has_cusp(cusped.stops(), 1)) found->curvature_max = kInfinity;
+  if (document::has_cusp(cusped.stops(), -1)) found->curvature_min = -kInfinity;
   return found;
 }
 

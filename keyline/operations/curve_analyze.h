@@ -34,13 +34,14 @@ constexpr auto choices(const EventKind*) {
 struct Event {
   double t = 0;
   double arc_length = 0;
-  double curvature = 0;
+  std::optional<double> curvature;
   std::optional<EventKind> kind;
   static constexpr auto describe() {
-    return core::fields(core::field<&Event::t>("parameter"),
-                        core::field<&Event::arc_length>("from the start").in("length"),
-                        core::field<&Event::curvature>("there").in("1/length"),
-                        core::field<&Event::kind>("of an extremum"));
+    return core::fields(
+        core::field<&Event::t>("parameter"),
+        core::field<&Event::arc_length>("from the start").in("length"),
+        core::field<&Event::curvature>("there; null at a cusp").in("1/length").null_if_empty(),
+        core::field<&Event::kind>("of an extremum"));
   }
 };
 
@@ -94,7 +95,7 @@ struct LddcGraph {
 struct AnalyzedPiece {
   core::Interval interval;
   core::Interval arc_length;
-  std::array<double, 2> curvature{};
+  std::array<std::optional<double>, 2> curvature{};
   double length = 0;
   double volume = 0;
   analysis::Rhythm rhythm = analysis::Rhythm::straight;
@@ -105,17 +106,18 @@ struct AnalyzedPiece {
   std::vector<Reading> interpretations;
   static constexpr auto describe() {
     using Piece = AnalyzedPiece;
-    return core::fields(core::field<&Piece::interval>("of the parameter"),
-                        core::field<&Piece::arc_length>("from the start").in("length"),
-                        core::field<&Piece::curvature>("at both ends").in("1/length"),
-                        core::field<&Piece::length>("of the piece").in("length"),
-                        core::field<&Piece::volume>("area over its chord").in("length^2"),
-                        core::field<&Piece::rhythm>("what it reads as"),
-                        core::field<&Piece::slopes>("along growing radius"),
-                        core::field<&Piece::impression>("what it says, in [Fairing]'s words"),
-                        core::field<&Piece::lcg>("logarithmic curvature graph"),
-                        core::field<&Piece::lddc>("logarithmic distribution diagram of curvature"),
-                        core::field<&Piece::interpretations>("ways to read it, best first"));
+    return core::fields(
+        core::field<&Piece::interval>("of the parameter"),
+        core::field<&Piece::arc_length>("from the start").in("length"),
+        core::field<&Piece::curvature>("at both ends; null at a cusp").in("1/length"),
+        core::field<&Piece::length>("of the piece").in("length"),
+        core::field<&Piece::volume>("area over its chord").in("length^2"),
+        core::field<&Piece::rhythm>("what it reads as"),
+        core::field<&Piece::slopes>("along growing radius"),
+        core::field<&Piece::impression>("what it says, in [Fairing]'s words"),
+        core::field<&Piece::lcg>("logarithmic curvature graph"),
+        core::field<&Piece::lddc>("logarithmic distribution diagram of curvature"),
+        core::field<&Piece::interpretations>("ways to read it, best first"));
   }
 };
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
 #include "keyline/document/closest_point.h"
+#include "keyline/document/cusped.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/values.h"
 
@@ -42,14 +44,19 @@ struct CompareDeviation {
 
 struct Comb {
   double length = 0;
-  double curvature_min = 0;
+  double curvature_min = 0;  ///< infinite at a cusp, as curvature_max
   double curvature_max = 0;
   std::vector<std::array<double, 2>> plot;
   static constexpr auto describe() {
-    return core::fields(core::field<&Comb::length>("of the curve").in("length"),
-                        core::field<&Comb::curvature_min>("least, signed").in("1/length"),
-                        core::field<&Comb::curvature_max>("largest, signed").in("1/length"),
-                        core::field<&Comb::plot>("[arc length, curvature]"));
+    return core::fields(
+        core::field<&Comb::length>("of the curve").in("length"),
+        core::field<&Comb::curvature_min>("least, signed; null where it has no bound")
+            .in("1/length")
+            .null_if_empty(),
+        core::field<&Comb::curvature_max>("largest, signed; null where it has no bound")
+            .in("1/length")
+            .null_if_empty(),
+        core::field<&Comb::plot>("[arc length, curvature]"));
   }
 };
 
@@ -88,7 +95,8 @@ CompareDeviation deviation_of(const document::Path& judged, const document::Path
 }
 
 Comb comb_of(const document::Path& path, int n) {
-  const analysis::CurveView view = analysis::view(path);
+  const document::CuspedPath cusped(path);
+  const analysis::CurveView view(cusped);
   const analysis::ArcLengthTable table(view);
   Comb comb;
   comb.length = table.length();
@@ -102,6 +110,9 @@ Comb comb_of(const document::Path& path, int n) {
       comb.plot.begin(), comb.plot.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
   comb.curvature_min = (*least)[1];
   comb.curvature_max = (*most)[1];
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (document::has_cusp(cusped.stops(), 1)) comb.curvature_max = kInfinity;
+  if (document::has_cusp(cusped.stops(), -1)) comb.curvature_min = -kInfinity;
   return comb;
 }
 

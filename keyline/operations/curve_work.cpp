@@ -6,6 +6,7 @@
 #include "keyline/operations/ends.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/subject.h"
 
 /// Work on curves as they stand in files: reverse, mirror, trim, split, offset, join.
 namespace keyline::operations {
@@ -204,6 +205,7 @@ struct OffsetResult {
 
 Result<OffsetResult> run_offset(const OffsetRequest& request, const Context&) {
   constexpr double kUsual = 1e-5;  // of the length
+  if (auto extent = check_extent(request.curve); !extent) return std::unexpected(extent.error());
   const double length = Places(request.curve).length();
   auto made = document::offset(request.curve, request.distance,
                                request.tolerance.value_or(kUsual * length));

@@ -4,6 +4,7 @@
 #include "keyline/fit/curvature_target.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
+#include "keyline/operations/subject.h"
 
 namespace keyline::operations {
 namespace {
@@ -130,6 +131,7 @@ fit::RhythmTarget target_of(const CurvatureRequest& request, const curve::Piecew
 }
 
 Result<CurvatureAnswer> run(const CurvatureRequest& request, const Context&) {
+  if (auto extent = check_extent(request.curve); !extent) return std::unexpected(extent.error());
   const auto chain = chain_of(request.curve);
   if (!chain) return std::unexpected(chain.error());
   fit::CurvatureDriveOptions options;

@@ -112,6 +112,9 @@ Result<SplineFitAnswer> run(const SplineFitRequest& request, const Context& cont
   options.threads = context.threads;
   options.progress = context.progress;
   if (graph) {
+    if (request.x->size() != request.y->size())
+      return core::fail(core::ErrorCode::bad_input, "as many y as x are needed",
+                        "give one y for each x", "y");
     auto fit =
         fit::fit_function(*request.x, *request.y, request.weights, options, request.settings);
     if (!fit) return std::unexpected(fit.error());

@@ -58,6 +58,11 @@ class Writer {
   std::string where;
 
  private:
+  static bool is_endless(const Field& field, const void* member) {
+    return field.or_null && field.type().kind == Kind::number &&
+           std::isinf(*static_cast<const double*>(member));
+  }
+
   json number(double value) {
     if (!std::isfinite(value)) sound = false;
     return value;
@@ -83,7 +88,7 @@ class Writer {
     core::visit_fields(type, value, [&](const Field& field, const void* member) {
       const Type& its = field.type();
       if (!sound || (its.kind == Kind::optional && !its.held(member) && !field.or_null)) return;
-      object[std::string(field.name)] = write(its, member);
+      object[std::string(field.name)] = is_endless(field, member) ? json() : write(its, member);
       if (!sound)
         where = std::string(field.name) + (where.empty() || where[0] == '[' ? "" : ".") + where;
     });

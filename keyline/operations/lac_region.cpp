@@ -27,6 +27,7 @@ struct RegionRequest {
         core::field<&RegionRequest::alpha>(
             "the slope, or two for a compound rhythm, the first for the end of smaller radius")
             .count(1, 2)
+            .within(core::from_to(-1e100, 1e100))
             .or_bare_item()
             .needed(),
         core::field<&RegionRequest::ratio>(

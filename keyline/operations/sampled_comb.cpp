@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "keyline/analysis/lddc.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/analysis/split.h"
 #include "keyline/core/angle.h"
+#include "keyline/document/cusped.h"
 #include "keyline/lac/chain/chain_sampler.h"
 
 namespace keyline::operations {
@@ -17,7 +19,8 @@ using core::Result;
 
 constexpr int kLeastOfPiece = 24;  // samples, so that a short piece still shows how it turns
 constexpr int kDense = 2001;       // samples of the diagram and the measures
-constexpr double kFlat = 1e-9;     // curvature or its rate below this share of its largest: none
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFlat = 1e-9;  // curvature or its rate below this share of its largest: none
 
 /// Everything there is to say of places in order along the curve.
 struct Places {
@@ -69,7 +72,9 @@ void add_polyline(Places& places, const curve::Polyline2& line, double from) {
 
 /// Of one smooth curve; values at its end are those from inside.
 void add_smooth(Places& places, const document::PlanarCurve& c, double from, double per_length) {
-  const analysis::CurveView view = analysis::view(c);
+  const document::Path path{{c}, false};
+  const document::CuspedPath cusped(path);
+  const analysis::CurveView view(cusped);
   const analysis::ArcLengthTable table(view);
   places.joint();
   const int n = std::max(kLeastOfPiece, static_cast<int>(table.length() * per_length)) + 1;
@@ -179,7 +184,8 @@ std::vector<CombEvent> events_of(const document::Path& path) {
     if (const auto* chain = std::get_if<lac::Chain>(&path.curves[0].value))
       return events_of(*chain);
   using EventKind = analysis::CurvatureEvent::Kind;
-  const analysis::CurveView view(path);
+  const document::CuspedPath cusped(path);
+  const analysis::CurveView view(cusped);
   const analysis::Split split = analysis::split_monotone(view);
   std::vector<CombEvent> events;
   const auto add = [&](const std::vector<analysis::CurvatureEvent>& found) {
@@ -188,8 +194,8 @@ std::vector<CombEvent> events_of(const document::Path& path) {
                                  : e.kind == EventKind::minimum    ? CombEventKind::minimum
                                  : e.kind == EventKind::inflection ? CombEventKind::inflection
                                                                    : CombEventKind::corner;
-      if (std::isfinite(e.curvature))
-        events.push_back({kind, e.arc_length, e.curvature, view.point(e.t)});
+      events.push_back({kind, e.arc_length, {}, view.point(e.t)});
+      if (std::isfinite(e.curvature)) events.back().curvature = e.curvature;
     }
   };
   add(split.extrema);
@@ -215,6 +221,25 @@ void add_diagram(CombGraphs& graphs, const Places& shown, const analysis::Curvat
   }
 }
 
+analysis::CombFigures figures_of(const document::Path& path,
+                                 const analysis::CurvatureProfile& dense) {
+  analysis::CombFigures figures = analysis::comb_figures({dense.arc_length, dense.curvature});
+  if (document::has_cusp(document::stops_of(path))) figures.energy = figures.jolt = kInfinity;
+  return figures;
+}
+
+/// Where a curve stops, curvature goes at least as the root of the arc length goes to 0; at a cusp
+/// of a chain as its (-1 / alpha)-th power.
+bool bends_without_bound(const document::Path& path) {
+  return std::ranges::any_of(path.curves, [](const document::PlanarCurve& c) {
+    const auto* chain = std::get_if<lac::Chain>(&c.value);
+    if (!chain) return document::has_cusp(document::stops_of({{c}, false}));
+    return std::ranges::any_of(chain->pieces, [](const lac::Piece& p) {
+      return p.alpha <= 2 && (std::isinf(p.curvature_start) || std::isinf(p.curvature_end));
+    });
+  });
+}
+
 CombGraphs graphs_of(const document::Path& path, const Places& shown, double length) {
   CombGraphs graphs;
   const double least_curvature = kFlat * largest(shown.curvature);
@@ -232,8 +257,10 @@ CombGraphs graphs_of(const document::Path& path, const Places& shown, double len
   const analysis::CurvatureProfile dense = dense_profile(path, length);
   add_diagram(graphs, shown, dense, length);
   graphs.events = events_of(path);
-  graphs.bending = length * integral_of_squares(dense.arc_length, dense.curvature);
-  graphs.figures = analysis::comb_figures({dense.arc_length, dense.curvature});
+  graphs.bending = bends_without_bound(path)
+                       ? kInfinity
+                       : length * integral_of_squares(dense.arc_length, dense.curvature);
+  graphs.figures = figures_of(path, dense);
   return graphs;
 }
 
@@ -248,8 +275,7 @@ double length_of(const document::Path& path) {
 analysis::CombFigures comb_figures_of(const document::Path& path) {
   const double length = length_of(path);
   if (!(length > 0 && std::isfinite(length))) return {};
-  const analysis::CurvatureProfile dense = dense_profile(path, length);
-  return analysis::comb_figures({dense.arc_length, dense.curvature});
+  return figures_of(path, dense_profile(path, length));
 }
 
 Result<SampledComb> sampled_comb(const document::Path& path, const CombForm& form) {

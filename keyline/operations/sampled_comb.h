@@ -35,13 +35,14 @@ constexpr auto choices(const CombEventKind*) {
 struct CombEvent {
   CombEventKind kind = CombEventKind::maximum;
   double arc_length = 0;
-  double curvature = 0;
+  std::optional<double> curvature;
   core::Point2 point;
   static constexpr auto describe() {
-    return core::fields(core::field<&CombEvent::kind>("of curvature, or a corner"),
-                        core::field<&CombEvent::arc_length>("from the start").in("length"),
-                        core::field<&CombEvent::curvature>("there").in("1/length"),
-                        core::field<&CombEvent::point>("where it is"));
+    return core::fields(
+        core::field<&CombEvent::kind>("of curvature, or a corner"),
+        core::field<&CombEvent::arc_length>("from the start").in("length"),
+        core::field<&CombEvent::curvature>("there; null at a cusp").in("1/length").null_if_empty(),
+        core::field<&CombEvent::point>("where it is"));
   }
 };
 
@@ -68,7 +69,9 @@ struct CombGraphs {
             .null_if_empty(),
         core::field<&Graphs::events>("extrema, inflections and corners, in order"),
         core::flattened<&Graphs::figures>(),
-        core::field<&Graphs::bending>("length times the integral of the squared curvature"));
+        core::field<&Graphs::bending>(
+            "length times the integral of the squared curvature; null where it has no bound")
+            .null_if_empty());
   }
 };
 
@@ -87,7 +90,10 @@ struct SampledComb {
         core::field<&Sampled::points>("along the curve; where pieces meet there are two"),
         core::field<&Sampled::normals>("unit vectors to the left of travel"),
         core::field<&Sampled::arc_length>("from the start").in("length"),
-        core::field<&Sampled::curvature>("signed, positive turning left").in("1/length"),
+        core::field<&Sampled::curvature>(
+            "signed, positive turning left; at a cusp, where it is infinite, that of the nearest "
+            "sample")
+            .in("1/length"),
         core::field<&Sampled::joints>("samples at which a piece begins"),
         core::field<&Sampled::graphs>("where asked for"));
   }
@@ -98,7 +104,8 @@ struct SampledComb {
 /// Fails: bad_input for a curve without length or whose numbers are not finite.
 core::Result<SampledComb> sampled_comb(const document::Path& path, const CombForm& form);
 
-/// The whole comb in figures, of 0 where the curve has no length.
+/// The whole comb in figures, of 0 where the curve has no length; energy and jolt infinite where
+/// curvature is.
 analysis::CombFigures comb_figures_of(const document::Path& path);
 
 }  // namespace keyline::operations

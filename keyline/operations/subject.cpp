@@ -49,10 +49,28 @@ Result<acquire::KeyLine> acquired(const std::vector<core::Point2>& points, const
     options.ordered = true;
     if (subject.curve->closed && !options.closed) options.closed = true;
   }
-  return acquire::acquire_key_line(raw, options);
+  auto line = acquire::acquire_key_line(raw, options);
+  if (!line && line.error().path.empty()) line.error().path = subject.curve ? "curve" : "points";
+  return line;
 }
 
 }  // namespace
+
+Result<void> check_extent(const document::Path& path) {
+  const core::Point2 start = evaluate(path, 0);
+  const auto stays = [start](const std::vector<core::Point2>& points) {
+    return std::ranges::all_of(points, [start](core::Point2 p) { return p == start; });
+  };
+  const bool still = std::ranges::all_of(path.curves, [&](const document::PlanarCurve& c) {
+    if (const auto* line = std::get_if<curve::Polyline2>(&c.value)) return stays(line->points);
+    if (const auto* bezier = std::get_if<curve::Bezier2>(&c.value)) return stays(bezier->control);
+    if (const auto* spline = std::get_if<curve::BSpline2>(&c.value)) return stays(spline->control);
+    return false;  // pieces have a length
+  });
+  if (!still) return {};
+  return fail(ErrorCode::bad_input, "the curve has no length", "give it two different points",
+              "curve");
+}
 
 acquire::AcquireOptions acquire_options(const Acquiring& told) {
   acquire::AcquireOptions options;

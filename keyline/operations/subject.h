@@ -27,7 +27,7 @@ struct Acquiring {
         core::field<&Acquiring::noise>(
             "of measured points: standard deviation of the positions; estimated unless given")
             .in("length")
-            .within(core::at_least(0)),
+            .within(core::from_to(0, 1e100)),
         core::field<&Acquiring::detail>(
             "of measured points: waves shorter than this are taken for noise; found where texture "
             "shows unless given")
@@ -36,6 +36,9 @@ struct Acquiring {
         core::field<&Acquiring::keep_strays>("never drop a measured point as stray"));
   }
 };
+
+/// bad_input for a curve that is one point, with "curve" as path.
+core::Result<void> check_extent(const document::Path& path);
 
 acquire::AcquireOptions acquire_options(const Acquiring& told);
 

@@ -3,13 +3,16 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "keyline/core/angle.h"
+#include "keyline/operations/perform.h"
 
 namespace keyline::operations {
 namespace {
 
 using core::Point2;
+using nlohmann::json;
 
 /// A quarter of a circle from the direction, as a cubic (its radius off by 2.7e-4), and where it
 /// ends.
@@ -75,6 +78,34 @@ TEST(MeasuredLine, RefusesWhatWouldTakeHours) {
   EXPECT_EQ(refused.error().message, "a curve of 10001 spans; at most 10000 at a time");
   path.curves.pop_back();
   EXPECT_TRUE(measured_line(subject));
+}
+
+TEST(Refusals, ACurveThatIsOnePointIsNamed) {
+  const json point = {{"type", "bezier"}, {"points", {{1, 1}, {1, 1}, {1, 1}, {1, 1}}}};
+  for (const json& request :
+       {json{{"op", "curve.analyze"}}, json{{"op", "curve.cav"}}, json{{"op", "curve.edit"}},
+        json{{"op", "curve.plane"}}, json{{"op", "curve.offset"}, {"distance", 1}},
+        json{{"op", "fit.curvature"}, {"target", "smooth"}}}) {
+    json asked = request;
+    asked["curve"] = point;
+    const auto r = perform(request["op"], asked, {});
+    ASSERT_FALSE(r) << request;
+    EXPECT_EQ(r.error().message, "the curve has no length") << request;
+    EXPECT_EQ(r.error().path, "curve") << request;
+  }
+}
+
+TEST(Refusals, NameTheFieldAtFault) {
+  const auto path = [](const char* op, const json& request) {
+    const auto r = perform(op, request, {});
+    return r ? "answered" : r.error().path;
+  };
+  const json zeros = {0, 0};
+  EXPECT_EQ(path("lac.hermite",
+                 {{"start", zeros}, {"end", zeros}, {"directions", {0, 1}}, {"alpha", -1}}),
+            "end");
+  EXPECT_EQ(path("fit.spline", {{"x", {0, 1, 2, 3, 4, 5}}, {"y", {0, 1}}}), "y");
+  EXPECT_EQ(path("lac.region", {{"theta", 1}, {"alpha", 1e300}}), "alpha");
 }
 
 }  // namespace

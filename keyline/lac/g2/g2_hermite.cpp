@@ -302,7 +302,8 @@ core::Result<void> checked(const CurvatureElement& start, const CurvatureElement
     }
   }
   if (!(norm(end.pose.position - start.pose.position) > 0)) {
-    return core::fail(ErrorCode::bad_input, "start and end point coincide", "move one of them");
+    return core::fail(ErrorCode::bad_input, "start and end point coincide", "move one of them",
+                      "end");
   }
   return {};
 }

@@ -202,7 +202,8 @@ core::Result<SegmentSolution> solve_g1_directions(const Pose2& start, const Pose
   const Vector2 chord = end.position - start.position;
   const double length = norm(chord);
   if (!(length > 0)) {
-    return core::fail(ErrorCode::bad_input, "start and end point coincide", "move one of them");
+    return core::fail(ErrorCode::bad_input, "start and end point coincide", "move one of them",
+                      "end");
   }
   const double axis = core::direction_of(chord);
   auto solution = solve_unit(core::wrap_angle(start.direction - axis),

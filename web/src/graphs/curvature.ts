@@ -75,6 +75,7 @@ export class CurvaturePlot extends Plot {
     }
     this.line(comb.arc_length, comb.curvature, colors.comb, 1.75);
     for (const event of comb.graphs?.events ?? []) {
+      if (event.curvature === null) continue;
       const extreme = event.kind === "maximum" || event.kind === "minimum";
       this.dot(event.arc_length as number, event.curvature as number,
         extreme ? colors.maximum : colors.inflection, colors.ground, 3.5);

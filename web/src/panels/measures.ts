@@ -3,7 +3,7 @@ import type { Entity } from "../model/document.ts";
 import type { Shown } from "../model/live.ts";
 import { fact, section } from "../ui/controls.ts";
 import { h } from "../ui/dom.ts";
-import { measure } from "../view/ticks.ts";
+import { endless, measure } from "../view/ticks.ts";
 
 interface Piece {
   alpha: number;
@@ -58,7 +58,7 @@ export function measuresPanel(e: Entity, shown: Shown, before: Shown | undefined
       pair("Extrema", (s) => String(s.comb.graphs?.events?.filter((x) => x.kind === "maximum" || x.kind === "minimum").length ?? 0)),
       pair("Inflections", (s) => String(s.comb.graphs?.events?.filter((x) => x.kind === "inflection").length ?? 0)),
       pair("Waves", (s) => String(s.comb.graphs?.waves ?? 0)),
-      pair("Energy", (s) => measure(s.comb.graphs?.energy ?? 0, 3)),
-      pair("Bending", (s) => measure(s.comb.graphs?.bending ?? 0, 3)),
-      pair("Jolt", (s) => measure(s.comb.graphs?.jolt ?? 0, 3))));
+      pair("Energy", (s) => measure(endless(s.comb.graphs?.energy), 3)),
+      pair("Bending", (s) => measure(endless(s.comb.graphs?.bending), 3)),
+      pair("Jolt", (s) => measure(endless(s.comb.graphs?.jolt), 3))));
 }

@@ -2,7 +2,7 @@
 import type { CombFigures, FairFigures } from "../../generated/operations.ts";
 import type { FairTold } from "../model/document.ts";
 import { h } from "../ui/dom.ts";
-import { measure } from "../view/ticks.ts";
+import { endless, measure } from "../view/ticks.ts";
 
 function figures(f: FairFigures): HTMLElement {
   const { answer, spline, smoothing_spline: smoothing } = f;
@@ -14,8 +14,8 @@ function figures(f: FairFigures): HTMLElement {
     h("thead", {}, h("tr", {}, h("td"), ...shown.map(([name]) => h("th", { scope: "col" }, name)))),
     h("tbody", {},
       row("Waves", (c) => String(c.waves ?? 0)),
-      row("Energy", (c) => measure(c.energy ?? 0, 3)),
-      row("Jolt", (c) => measure(c.jolt ?? 0, 3))));
+      row("Energy", (c) => measure(endless(c.energy), 3)),
+      row("Jolt", (c) => measure(endless(c.jolt), 3))));
 }
 
 export function verdict(told: FairTold): (HTMLElement | null)[] {

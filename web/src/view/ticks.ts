@@ -24,6 +24,9 @@ export function label(value: number, step: number): string {
   return value.toFixed(digits).replace("-", "\u2212");
 }
 
+/** A figure of the interface, where null stands for one that has no bound. */
+export const endless = (value: number | null | undefined): number => (value === null ? Infinity : value ?? 0);
+
 /** A measured number as a person reads it: four digits that count. */
 export function measure(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "\u221e";
