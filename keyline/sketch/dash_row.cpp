@@ -120,6 +120,8 @@ std::vector<bool> dashes_in_rows(const InkPieces& pieces, int width) {
     for (const std::size_t k : {i, next[i][0].dash, next[i][1].dash})
       in_row[dashes[k].piece] = true;
   }
+  const auto drawn = static_cast<std::size_t>(std::ranges::count(in_row, true));
+  if (2 * drawn <= dashes.size()) return std::vector<bool>(pieces.size());  // rows by chance
   return in_row;
 }
 

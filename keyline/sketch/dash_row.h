@@ -33,7 +33,8 @@ struct InkPieces {
 
 /// Which pieces of a picture with rows of `width` pixels are dashes: at least four times as long as
 /// broad (drawings have six, [ISO 128-20], half as much again as gaps of a row may differ), and one
-/// of three that follow each other in a row, with even gaps.
+/// of three that follow each other in a row, with even gaps. None is where no more than half of
+/// what is that long lies in rows: of much dirt some does by chance.
 std::vector<bool> dashes_in_rows(const InkPieces& pieces, int width);
 
 }  // namespace keyline::sketch

@@ -132,6 +132,9 @@ TEST(Morphology, DashesInARowAreNoDirt) {
   EXPECT_EQ(kept({{5, 5}, {15, 5}, {25, 5}, {35, 5}}, 0, 1), 24);
   EXPECT_EQ(kept({{5, 5}, {15, 9}, {25, 13}}, 3, 1), 18);
   EXPECT_EQ(kept({{5, 5}, {15, 5}}, 0, 1), 0) << "two are no row";
+  EXPECT_EQ(kept({{5, 5}, {15, 5}, {25, 5}, {50, 9}, {61, 20}}, 0, 1), 18) << "and some dirt";
+  EXPECT_EQ(kept({{5, 5}, {15, 5}, {25, 5}, {50, 9}, {61, 20}, {20, 26}}, 0, 1), 0)
+      << "a row by chance in much dirt";
   EXPECT_EQ(kept({{5, 5}, {14, 5}, {35, 5}}, 0, 1), 0) << "uneven gaps";
   EXPECT_EQ(kept({{5, 5}, {15, 11}, {25, 5}}, 0, 1), 0) << "not in each other's direction";
   EXPECT_EQ(kept({{5, 5}, {15, 5}, {25, 5}}, 0, 3), 0) << "not slender";
