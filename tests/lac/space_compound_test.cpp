@@ -97,5 +97,20 @@ TEST(SolveCompoundSpace, IsFoundWhereNoCurveOfOneSlopeIs) {
   EXPECT_LT(norm(there.tangent - end.tangent), 1e-11);
 }
 
+// A curve of these slopes integrated by another program (eighth order, to 1e-11): no way from a
+// curve of one slope leads there.
+TEST(SolveCompoundSpace, IsLookedForAllOverTheFamily) {
+  const core::Point3 end{0.845994147439427, 0.36063432214006913, 5.0312732051032764e-05};
+  const core::Vector3 tangent{0.054025525705283975, 0.9985395119143586, 0.0002927768894877365};
+  const auto solved = solve_compound_space({{}, end, {1, 0, 0}, tangent},
+                                           {.alpha = {-0.41582527928236246, 0.0},
+                                            .beta = {2.6759229450637836, -1.2887893537678954},
+                                            .omega = -11253827953.617676,
+                                            .length_share = 0.2824846050892298});
+  ASSERT_TRUE(solved) << solved.error().hint;
+  EXPECT_LT(distance(frame_at(solved->chain, 1).position, end), 1e-10);
+  EXPECT_NEAR(arc_length(solved->chain), 1, 1e-6);  // of the curve meant
+}
+
 }  // namespace
 }  // namespace keyline::lac

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
+#include <vector>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
@@ -11,6 +13,7 @@
 #include "keyline/lac/space/compound_plane.h"
 #include "keyline/lac/space/space_plane.h"
 #include "keyline/lac/space/space_steer.h"
+#include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
 namespace {
@@ -89,7 +92,8 @@ std::optional<Shot> shot_of(const SpaceRhythm& r, const SpaceUnknowns& x,
   return shot;
 }
 
-/// Newton's step by differences.
+/// Newton's step by differences, that of a small torsion small beside it: with slopes above 0 the
+/// law of torsion changes with its size.
 std::optional<Miss> step_of(const SpaceRhythm& r, const SpaceUnknowns& x, const Shot& at,
                             const Setting& setting) {
   constexpr double kSize = 1e-6;
@@ -97,11 +101,11 @@ std::optional<Miss> step_of(const SpaceRhythm& r, const SpaceUnknowns& x, const 
   for (std::size_t i = 0; i < 3; ++i) {
     SpaceUnknowns near = x;
     double& unknown = i == 0 ? near.bend : i == 1 ? near.twist : near.length;
-    unknown += kSize;
+    const double by = i == 1 && x.twist != 0 ? std::min(kSize, 1e-3 * std::abs(x.twist)) : kSize;
+    unknown += by;
     const auto shot = shot_of(r, near, setting.wanted);
     if (!shot) return std::nullopt;
-    for (std::size_t row = 0; row < 3; ++row)
-      slope[row][i] = (shot->miss[row] - at.miss[row]) / kSize;
+    for (std::size_t row = 0; row < 3; ++row) slope[row][i] = (shot->miss[row] - at.miss[row]) / by;
   }
   Miss step = at.miss;
   if (!detail::solve_small(slope, step)) return std::nullopt;
@@ -206,6 +210,61 @@ Result<void> check(const SpaceRhythm& r) {
   return {};
 }
 
+/// Torsion at the start whose first piece ends with it times e^-3 … e^3, as the law with this rate
+/// has it; where the rate tells nothing of its size, 1e-5 to a turn and a half over the length.
+double random_torsion(const SpaceRhythm& r, double length, std::mt19937_64& random) {
+  using detail::space::between;
+  const double by_ratio = between(random, 0, 1);
+  const double grows = between(random, -3, 3);  // logarithm of the ratio
+  const double size = std::exp(between(random, std::log(1e-5), std::log(kMostTurning))) / length;
+  const double share = std::abs(numeric::expm1_over(-r.beta[0] * grows) * grows);
+  const double rate = std::abs(r.omega) * r.length_share * length;
+  const double felt = std::pow(rate / share, -1 / r.beta[0]);
+  if (by_ratio > 0.3 && std::isfinite(felt) && felt > 0) return grows * r.omega < 0 ? felt : -felt;
+  return std::copysign(size, grows);
+}
+
+/// A place anywhere in the family of both slopes: ratio of the curvatures of the first piece
+/// e^-3 … e^3, turning about its start's curvature 0.05 to 9, even in their logarithms.
+SpaceUnknowns random_place(const SpaceRhythm& r, std::mt19937_64& random) {
+  using detail::space::between;
+  const double size = std::exp(between(random, -3, 3));
+  const double ratio = r.alpha[0] < 0 && between(random, 0, 1) < 0.3 ? -size : size;
+  const double turning = std::exp(between(random, std::log(0.05), std::log(9.0)));
+  const double length = turning / std::sqrt(size);
+  return {detail::space::bend_for(r.alpha[0], ratio) / r.length_share,
+          random_torsion(r, length, random) * length, length};
+}
+
+/// Newton's method from the best of many places; of the curves found the one that turns least.
+std::optional<Reached> search_both(const Setting& setting, const SpaceRhythm& r) {
+  constexpr int kRounds = 2, kPlaces = 1000;
+  constexpr std::size_t kSettled = 30;
+  std::mt19937_64 random(20260101);  // one seed: one answer
+  std::optional<Reached> best;
+  double least = HUGE_VAL;
+  int iterations = 0;
+  for (int round = 0; round < kRounds && !best; ++round) {
+    std::vector<std::pair<double, SpaceUnknowns>> starts;
+    for (int i = 0; i < kPlaces; ++i) {
+      const SpaceUnknowns x = random_place(r, random);
+      const auto shot = shot_of(r, x, setting.wanted);
+      if (shot && size_of(shot->miss) < 3) starts.emplace_back(size_of(shot->miss), x);
+    }
+    std::ranges::sort(starts, {}, [](const auto& start) { return start.first; });
+    starts.resize(std::min(starts.size(), kSettled));
+    for (auto& [miss, x] : starts) {
+      if (!settle(r, setting, kExact, x, iterations)) continue;
+      const double turning = turning_of(*chain_of(r, x));
+      if (!(turning < least)) continue;
+      least = turning;
+      best = Reached{x, 1, 0};
+    }
+  }
+  if (best) best->iterations = iterations;
+  return best;
+}
+
 std::unexpected<core::Failure> none_in_plane(const PlaneSearch& search) {
   const core::Interval& starts = search.without_inflection;
   const bool one_signed = starts.low <= starts.high;
@@ -268,6 +327,8 @@ Result<SpaceSolution> solve_compound_space(const SpaceHermite& data, const Space
     if (best) break;
   }
   if (best) return *std::move(best);
+  if (const auto reached = search_both(*setting, r))
+    return solution_of(*shot_of(r, reached->x, setting->wanted), *reached, *setting);
   return core::fail(ErrorCode::not_converged,
                     "no compound space curve of these slopes was found for the tangents",
                     "one was followed " + core::number_text(100 * furthest, 3) +

@@ -220,24 +220,22 @@ bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enoug
 
 // ---- The whole family --------------------------------------------------------------------------
 
-namespace {
-
-/// bend for a ratio of the end's curvature to the start's, negative for an inflection inside
-/// (slopes below 0).
 double bend_for(double alpha, double ratio) {
   const double l = std::log(std::abs(ratio));
   if (ratio > 0) return -l * numeric::expm1_over(-alpha * l);
   return (-std::exp(-alpha * l) - 1) / alpha;
 }
 
+double between(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+namespace {
+
 struct Start {
   SpaceUnknowns x;
   double miss = 0;
 };
-
-double between(std::mt19937_64& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 /// Torsion up to a full turn and a half either way. Where torsion that feels the rate is small it
 /// is drawn from far below that to far above.

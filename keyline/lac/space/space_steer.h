@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "keyline/core/axis.h"
@@ -75,6 +76,11 @@ SpaceUnknowns moved_within(const SpaceStandardForm& form, const SpaceUnknowns& x
 /// Newton's method on quick shots, with steps shortened until the miss falls.
 bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enough, SpaceUnknowns& x,
            int& iterations);
+
+/// bend for a ratio of the end's curvature to the start's, negative for an inflection inside
+/// (slopes below 0).
+double bend_for(double alpha, double ratio);
+double between(std::mt19937_64& random, double low, double high);
 
 /// Curves that meet the data found from places all over the family (slopes and omega of `form`),
 /// the one that turns and twists least first; empty where none was. 20 to 500 ms.
