@@ -11,14 +11,22 @@ namespace {
 constexpr std::size_t kLeaf = 8;  // points that are looked through one by one
 
 double coordinate(core::Point2 p, int axis) { return axis == 0 ? p.x : p.y; }
+double coordinate(core::Point3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-double squared(core::Vector2 v) { return core::dot(v, v); }
+constexpr int next_axis(core::Point2, int axis) { return 1 - axis; }
+constexpr int next_axis(core::Point3, int axis) { return (axis + 1) % 3; }
+
+template <class Vector>
+double squared(Vector v) {
+  return core::dot(v, v);
+}
 
 }  // namespace
 
 /// Either the `count` nearest (a heap, farthest first) or all within a radius.
-struct KdTree::Search {
-  core::Point2 centre;
+template <class Point>
+struct KdTreeOf<Point>::Search {
+  Point centre;
   std::size_t count = 0;  // 0: all within the radius
   std::size_t except = std::numeric_limits<std::size_t>::max();
   double limit = std::numeric_limits<double>::infinity();  // squared
@@ -37,12 +45,14 @@ struct KdTree::Search {
   }
 };
 
-KdTree::KdTree(std::span<const core::Point2> points) : points_(points), order_(points.size()) {
+template <class Point>
+KdTreeOf<Point>::KdTreeOf(std::span<const Point> points) : points_(points), order_(points.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   build(0, order_.size(), 0);
 }
 
-void KdTree::build(std::size_t from, std::size_t to, int axis) {
+template <class Point>
+void KdTreeOf<Point>::build(std::size_t from, std::size_t to, int axis) {
   if (to - from <= kLeaf) return;
   const std::size_t middle = from + (to - from) / 2;
   const auto at = [&](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
@@ -51,11 +61,12 @@ void KdTree::build(std::size_t from, std::size_t to, int axis) {
     const double cb = coordinate(points_[b], axis);
     return ca < cb || (ca == cb && a < b);
   });
-  build(from, middle, 1 - axis);
-  build(middle + 1, to, 1 - axis);
+  build(from, middle, next_axis(Point{}, axis));
+  build(middle + 1, to, next_axis(Point{}, axis));
 }
 
-void KdTree::visit(std::size_t from, std::size_t to, int axis, Search& search) const {
+template <class Point>
+void KdTreeOf<Point>::visit(std::size_t from, std::size_t to, int axis, Search& search) const {
   if (to - from <= kLeaf) {
     for (std::size_t k = from; k < to; ++k) {
       search.offer(squared(points_[order_[k]] - search.centre), order_[k]);
@@ -63,16 +74,18 @@ void KdTree::visit(std::size_t from, std::size_t to, int axis, Search& search) c
     return;
   }
   const std::size_t middle = from + (to - from) / 2;
-  const core::Point2 split = points_[order_[middle]];
+  const Point split = points_[order_[middle]];
   search.offer(squared(split - search.centre), order_[middle]);
   const double d = coordinate(search.centre, axis) - coordinate(split, axis);
   const bool low = d < 0;
-  visit(low ? from : middle + 1, low ? middle : to, 1 - axis, search);
-  if (d * d <= search.limit) visit(low ? middle + 1 : from, low ? to : middle, 1 - axis, search);
+  visit(low ? from : middle + 1, low ? middle : to, next_axis(Point{}, axis), search);
+  if (d * d <= search.limit)
+    visit(low ? middle + 1 : from, low ? to : middle, next_axis(Point{}, axis), search);
 }
 
-std::vector<std::size_t> KdTree::nearest(core::Point2 p, std::size_t count,
-                                         std::size_t except) const {
+template <class Point>
+std::vector<std::size_t> KdTreeOf<Point>::nearest(Point p, std::size_t count,
+                                                  std::size_t except) const {
   std::vector<std::size_t> indices;
   if (count == 0) return indices;
   Search search{p, count, except, std::numeric_limits<double>::infinity(), {}};
@@ -84,7 +97,8 @@ std::vector<std::size_t> KdTree::nearest(core::Point2 p, std::size_t count,
   return indices;
 }
 
-std::vector<std::size_t> KdTree::within(core::Point2 p, double radius) const {
+template <class Point>
+std::vector<std::size_t> KdTreeOf<Point>::within(Point p, double radius) const {
   Search search;
   search.centre = p;
   search.limit = radius * radius;
@@ -93,5 +107,8 @@ std::vector<std::size_t> KdTree::within(core::Point2 p, double radius) const {
   for (const auto& [d, index] : search.found) indices.push_back(index);
   return indices;
 }
+
+template class KdTreeOf<core::Point2>;
+template class KdTreeOf<core::Point3>;
 
 }  // namespace keyline::acquire::detail

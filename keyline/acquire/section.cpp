@@ -42,21 +42,42 @@ core::Result<RawCurve> too_few(std::size_t found, std::vector<double> distances,
 
 constexpr std::size_t kMostSlid = 50000;  // more points are averaged across the band later
 
-/// Feet moved along the surface where it slopes across the plane; tells how many.
-void slide(RawCurve& section, const Plane& plane, const std::vector<double>& away) {
-  if (section.points.size() > kMostSlid) return;
-  std::vector<core::Point2> feet;
-  for (const core::Point3& p : section.points) feet.push_back(to_plane(plane, p));
-  const auto moved = detail::slide_to_section(feet, away);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < feet.size(); ++i) {
-    if (moved[i] == feet[i]) continue;
-    section.points[i] = from_plane(plane, moved[i]);
-    ++count;
+/// Takes over place i of each list of a section for its place k.
+void move_place(RawCurve& section, std::size_t i, std::size_t k) {
+  section.points[k] = section.points[i];
+  if (!section.weights.empty()) section.weights[k] = section.weights[i];
+  if (!section.source_lines.empty()) section.source_lines[k] = section.source_lines[i];
+}
+
+void cut_places(RawCurve& section, std::size_t count) {
+  section.points.resize(count);
+  if (!section.weights.empty()) section.weights.resize(count);
+  if (!section.source_lines.empty()) section.source_lines.resize(count);
+}
+
+/// Points near the plane moved into it, along the surface where it slopes across; tells how many,
+/// and how many were left out whose surface does not meet the plane near them.
+template <class Straight>
+void slide(RawCurve& section, const Plane& plane, double band, const Straight& straight) {
+  using Way = detail::Foot::Way;
+  const std::size_t all = section.points.size();
+  std::vector<detail::Foot> feet(all);
+  if (all <= kMostSlid) feet = detail::feet_on_plane(section.points, plane, band);
+  std::size_t along = 0, kept = 0;
+  for (std::size_t i = 0; i < all; ++i) {
+    if (feet[i].way == Way::off) continue;
+    const bool moved = feet[i].way == Way::along;
+    section.points[i] = straight(moved ? feet[i].place : section.points[i]);
+    along += moved ? 1 : 0;
+    move_place(section, i, kept++);
   }
-  if (count > 0)
-    section.notes.push_back(std::to_string(count) +
+  cut_places(section, kept);
+  if (along > 0)
+    section.notes.push_back(std::to_string(along) +
                             " of them along the slope of the surface there");
+  if (kept < all)
+    section.notes.push_back(std::to_string(all - kept) +
+                            " of them left out: their surface does not meet the plane nearby");
 }
 
 /// Indices of the cloud's points within the band; `distances` are those of all its points.
@@ -73,9 +94,8 @@ std::vector<std::size_t> within_band(const RawCurve& cloud, double band, const P
 }
 
 /// Drops points at the same place as an earlier one and tells how many; weights are added up.
-void merge_repeated(RawCurve& section, std::vector<double>& away,
-                    const std::vector<core::Point3>& places) {
-  const std::vector<std::size_t> first = detail::first_at_place(places);
+void merge_repeated(RawCurve& section) {
+  const std::vector<std::size_t> first = detail::first_at_place(section.points);
   std::vector<std::size_t> at(first.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -84,35 +104,26 @@ void merge_repeated(RawCurve& section, std::vector<double>& away,
       continue;
     }
     at[i] = kept;
-    section.points[kept] = section.points[i];
-    away[kept] = away[i];
-    if (!section.weights.empty()) section.weights[kept] = section.weights[i];
-    if (!section.source_lines.empty()) section.source_lines[kept] = section.source_lines[i];
-    ++kept;
+    move_place(section, i, kept++);
   }
   if (kept == first.size()) return;
-  section.points.resize(kept);
-  away.resize(kept);
-  if (!section.weights.empty()) section.weights.resize(kept);
-  if (!section.source_lines.empty()) section.source_lines.resize(kept);
+  cut_places(section, kept);
   section.notes.push_back(std::to_string(first.size() - kept) +
                           " of them at the same place as another merged");
 }
 
-template <class Foot>
-core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plane, Foot foot) {
+template <class Straight>
+core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plane,
+                           Straight straight) {
   if (auto good = check(cloud, band); !good) return std::unexpected(good.error());
   RawCurve section;
   section.id = cloud.id;
   section.has_z = true;
   section.scattered = true;
   section.notes = cloud.notes;
-  std::vector<double> distances, away;
-  std::vector<core::Point3> places;
+  std::vector<double> distances;
   for (const std::size_t i : within_band(cloud, band, plane, distances)) {
-    places.push_back(cloud.points[i]);
-    away.push_back(distance_from_plane(plane, cloud.points[i]));
-    section.points.push_back(foot(cloud.points[i]));
+    section.points.push_back(cloud.points[i]);
     if (!cloud.weights.empty()) section.weights.push_back(cloud.weights[i]);
     if (!cloud.source_lines.empty()) section.source_lines.push_back(cloud.source_lines[i]);
   }
@@ -120,8 +131,13 @@ core::Result<RawCurve> cut(const RawCurve& cloud, double band, const Plane& plan
   section.notes.push_back("section: " + std::to_string(section.points.size()) + " of " +
                           std::to_string(cloud.points.size()) + " points lie within " +
                           core::number_text(band, 4) + " of the plane and were moved onto it");
-  merge_repeated(section, away, places);
-  slide(section, plane, away);
+  merge_repeated(section);
+  slide(section, plane, band, straight);
+  if (section.points.size() < 3)
+    return core::fail(core::ErrorCode::bad_input,
+                      "the surface of the points within " + core::number_text(band, 4) +
+                          " of the plane does not meet it",
+                      "move the plane", "section");
   return section;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,13 +29,21 @@ constexpr std::size_t kMostPoints = 50000;  // nor one of more
 constexpr std::size_t kLeastPart = 8;       // points of a curve worth telling
 constexpr double kWide = 0.4;               // width over length of a neighbourhood that is no line
 constexpr double kStray = 2;                // what is wider than so many scatters is no line
-constexpr std::size_t kMostNear = 72;       // neighbours among which a line is looked for
+constexpr std::size_t kFewNear = 9;         // neighbours among which a line is looked for at first…
+constexpr std::size_t kMostNear = 72;       // …and at last
+constexpr int kPasses = 4;                  // a hundredth is left of what points stray
 constexpr double kThick = 0.85;             // share of such points in a thick band
 constexpr double kGap = 14;                 // gap between parts, in usual steps…
 constexpr double kGapOfExtent = 0.08;       // …and in the section's size
+constexpr double kAcross = 0.5;             // along over length of a step that leads aside
+constexpr double kBefore = 0.9;             // of it: how far on a line is looked for
+constexpr double kPast =
+    3;  // a line runs past where it has no more than so many times fewer points
 constexpr double kAside = 4;  // what is no part of a line lies so many steps and scatters off it
 constexpr std::array<std::size_t, 2> kWindows{9, 15};  // consecutive points looked at for zigzag
-constexpr double kZigzag = 1.9;      // their way over its chord: half a circle has 1.57
+constexpr double kZigzag = 1.9;  // their way over its chord: half a circle has 1.57
+constexpr double kZigzagStray =
+    3;  // and their width over the scatter: nine of them show up to twice it…
 constexpr double kZigzagWide = 0.3;  // and their width over their length: a hairpin is thin
 
 std::vector<core::Point2> picked(const std::vector<core::Point2>& points, const Indices& which) {
@@ -43,8 +52,10 @@ std::vector<core::Point2> picked(const std::vector<core::Point2>& points, const 
   return some;
 }
 
-/// Standard deviations of some points along and across their scatter.
+/// Scatter of some points: its middle, direction, and standard deviations along and across.
 struct Spread {
+  core::Point2 middle;
+  core::Vector2 direction;
   double along = 0;
   double across = 0;
 };
@@ -56,7 +67,8 @@ Spread spread_of(const std::vector<core::Point2>& points, std::span<const std::s
   core::SecondMoments moments;
   for (const std::size_t i : near) moments.add(points[i] - points[near[0]] - mean);
   const auto count = static_cast<double>(near.size());
-  return {std::sqrt(moments.along() / count), std::sqrt(moments.across() / count)};
+  return {points[near[0]] + mean, moments.direction(), std::sqrt(moments.along() / count),
+          std::sqrt(moments.across() / count)};
 }
 
 /// Width over length of the points' scatter; 1 for a round one.
@@ -78,19 +90,48 @@ std::vector<bool> agreed(const detail::KdTree& tree, const std::vector<core::Poi
   return most;
 }
 
-/// How far points stray from their lines: across the fewest neighbours that lie along a line, in
-/// the middle of all points that have such neighbours.
+/// The fewest neighbours of a point that lie along a line, as their scatter; empty where none of so
+/// many do.
+struct Line {
+  Spread spread;
+  std::size_t count = 0;
+};
+
+std::optional<Line> line_at(const std::vector<core::Point2>& points, const detail::KdTree& tree,
+                            core::Point2 p) {
+  for (std::size_t count = kFewNear; count <= kMostNear; count *= 2) {
+    const Spread spread = spread_of(points, tree.nearest(p, count, points.size()));
+    if (spread.across <= kWide * spread.along) return Line{spread, count};
+  }
+  return std::nullopt;
+}
+
+/// How far points stray from their lines: in the middle of all points that have one.
 double scatter_of(const std::vector<core::Point2>& points, const detail::KdTree& tree) {
   std::vector<double> scatter;
-  for (const core::Point2 p : points) {
-    for (std::size_t count = 9; count <= kMostNear; count *= 2) {
-      const Spread spread = spread_of(points, tree.nearest(p, count, points.size()));
-      if (spread.across > kWide * spread.along) continue;
-      scatter.push_back(spread.across);
-      break;
-    }
-  }
+  for (const core::Point2 p : points)
+    if (const auto line = line_at(points, tree, p)) scatter.push_back(line->spread.across);
   return scatter.empty() ? 0 : core::quantile(scatter);
+}
+
+/// Points that stray more than they step moved to the middle of their line, again until their
+/// nearest lie along it: only so is it told which of them follow one another. Not where they stray
+/// more than elsewhere, which is no line.
+std::vector<core::Point2> centred(std::vector<core::Point2> points, double scatter) {
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const detail::KdTree tree(points);
+    std::vector<core::Point2> moved = points;
+    for (core::Point2& p : moved) {
+      const auto line = line_at(points, tree, p);
+      if (!line || line->count == kFewNear) continue;
+      const Spread& s = line->spread;
+      if (s.across > kZigzagStray * scatter) continue;
+      p = s.middle + core::dot(p - s.middle, s.direction) * s.direction;
+    }
+    if (moved == points) break;
+    points = std::move(moved);
+  }
+  return points;
 }
 
 /// How wide the points lie about each of them.
@@ -117,14 +158,47 @@ Widths widths_of(const std::vector<core::Point2>& points) {
   return widths;
 }
 
-/// Groups of points linked by steps of at most `gap`, in the order of their first point.
+/// Whether a step between two points leads aside from a line that runs on past the first of them,
+/// both ways.
+bool leads_aside(const std::vector<core::Point2>& points, const detail::KdTree& tree,
+                 std::size_t from, std::size_t to) {
+  const auto line = line_at(points, tree, points[from]);
+  if (!line) return false;
+  const core::Vector2 along = line->spread.direction;
+  const core::Vector2 step = points[to] - points[from];
+  const double length = core::norm(step);
+  if (std::abs(core::dot(along, step)) > kAcross * length) return false;
+  std::size_t ahead = 0, behind = 0;
+  for (const std::size_t k : tree.within(points[from], kBefore * length)) {
+    const double x = core::dot(along, points[k] - points[from]);
+    ahead += x > 0 ? 1 : 0;
+    behind += x < 0 ? 1 : 0;
+  }
+  return kPast * static_cast<double>(std::min(ahead, behind)) >=
+         static_cast<double>(std::max({ahead, behind, std::size_t{1}}));
+}
+
+/// What links points into one line.
+struct Links {
+  double gap = 0;   ///< steps of at most this…
+  double step = 0;  ///< …above this not between lines that run on beside each other
+};
+
+/// Groups of points linked by such steps, in the order of their first point. A line goes on over a
+/// gap at its end; what lies as near beside it is another line.
 std::vector<Indices> groups_of(const std::vector<core::Point2>& points, const Indices& which,
-                               double gap) {
+                               const Links& links) {
   const auto some = picked(points, which);
   if (some.size() < 2) return {which};
   core::DisjointSets sets(some.size());
-  for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
-    if (edge.length <= gap) sets.join(edge.a, edge.b);
+  const detail::KdTree nearby(some);
+  const auto beside = [&](std::size_t a, std::size_t b) {
+    return leads_aside(some, nearby, a, b) && leads_aside(some, nearby, b, a);
+  };
+  for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true)) {
+    if (edge.length > links.gap) continue;
+    if (edge.length <= links.step || !beside(edge.a, edge.b)) sets.join(edge.a, edge.b);
+  }
   std::vector<Indices> groups;
   std::vector<std::size_t> group_of(some.size(), some.size());
   for (std::size_t k = 0; k < some.size(); ++k) {
@@ -173,7 +247,7 @@ bool is_zigzag(const std::vector<core::Point2>& line, const Indices& window, dou
   const double way = core::polygon_length(picked(line, window), false);
   const double chord = core::distance(line[window.front()], line[window.back()]);
   return way >= kZigzag * chord && roundness(line, window) >= kZigzagWide &&
-         spread_of(line, window).across > kStray * scatter;
+         spread_of(line, window).across > kZigzagStray * scatter;
 }
 
 /// Which points of an ordered curve belong to a zigzag.
@@ -211,14 +285,15 @@ class Sorter {
     Indices all(points_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const Widths widths = widths_of(points_);
-    scatter_ = widths.scatter;
     // Where nearly all points lie wide the section is a thick band: its middle is found later.
     thick_ = std::count(widths.wide.begin(), widths.wide.end(), true) >
              static_cast<long>(kThick * static_cast<double>(points_.size()));
     Indices lines;
     for (const std::size_t i : all) (widths.area[i] && !thick_ ? left_ : lines).push_back(i);
     std::vector<double> steps;
-    const auto some = picked(points_, lines);
+    const auto some = centred(picked(points_, lines), widths.scatter);
+    for (std::size_t k = 0; k < lines.size(); ++k) points_[lines[k]] = some[k];
+    scatter_ = widths.scatter;
     for (const auto& edge : detail::spanning_tree(some, detail::neighbour_lists(some), true))
       steps.push_back(edge.length);
     const double usual = core::quantile(steps);
@@ -234,7 +309,7 @@ class Sorter {
 
  private:
   void sort(const Indices& which) {
-    for (const Indices& group : groups_of(points_, which, gap_)) {
+    for (const Indices& group : groups_of(points_, which, {gap_, aside_})) {
       if (group.size() < kLeastPart) {
         leave(group);
       } else if (thick_) {

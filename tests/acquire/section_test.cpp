@@ -81,6 +81,53 @@ TEST(Section, LinesThatStrayAsMuchAsTheyStepStayWhole) {
   EXPECT_EQ(curves[0].points.size() + curves[1].points.size(), 4000U);
 }
 
+/// Random points of a torus about the z axis whose tube of radius 30 runs at 100, which stray.
+RawCurve torus(std::uint64_t seed, int count, double noise) {
+  Random random(seed);
+  RawCurve cloud = empty_cloud();
+  while (static_cast<int>(cloud.points.size()) < count) {
+    const double around = random.uniform(0, 2 * core::kPi);
+    const double tube = random.uniform(0, 2 * core::kPi);
+    if (random.uniform(0, 130) > 100 + 30 * std::cos(tube)) continue;
+    const double r = 100 + (30 + noise * random.normal()) * std::cos(tube);
+    cloud.points.push_back({r * std::cos(around), r * std::sin(around),
+                            (30 + noise * random.normal()) * std::sin(tube)});
+  }
+  return cloud;
+}
+
+// Near its top a torus slopes across the plane so flatly that straight feet fill the ring between
+// its two circles; along the surface they come to lie on them.
+TEST(Section, FlatSlopesAreFollowedToTheirSection) {
+  for (const double height : {25.0, 28.0}) {
+    const double half = std::sqrt(900 - height * height);
+    const Plane plane = plane_of({0, 0, 1}, height);
+    const RawCurve cut = section_plane(torus(1, 12000, 0), plane, 1.7).value();
+    double most = 0;
+    for (const Point3& p : cut.points)
+      most = std::max(most, std::abs(std::abs(std::hypot(p.x, p.y) - 100) - half));
+    EXPECT_LE(most, 0.6) << height;
+    EXPECT_GE(cut.points.size(), 300U) << height;
+    EXPECT_EQ(section_curves(cut, plane).size(), 2U) << height;
+  }
+}
+
+// Two circles a tenth of their size apart are two curves, however wide a gap is bridged elsewhere;
+// so they are where points stray more than they step.
+TEST(Section, LinesBesideEachOtherAreNotLinked) {
+  for (const double noise : {0.0, 0.05}) {
+    const Plane plane = plane_of({0, 0, 1}, 28);
+    const RawCurve cut = section_plane(torus(2, 40000, noise), plane, 1.7).value();
+    const auto curves = section_curves(cut, plane);
+    ASSERT_EQ(curves.size(), 2U) << noise;
+    EXPECT_GE(curves[0].points.size() + curves[1].points.size(), 0.98 * cut.points.size());
+    for (const RawCurve& curve : curves) {
+      const bool outer = std::hypot(curve.points[0].x, curve.points[0].y) > 100;
+      for (const Point3& p : curve.points) EXPECT_EQ(std::hypot(p.x, p.y) > 100, outer);
+    }
+  }
+}
+
 TEST(Symmetry, WithoutAPlaneTheBoxAndPlanesAreOffered) {
   // Two turns of a coil: half a turn about a line across matches, no mirror does.
   std::vector<Point3> coil;
