@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
@@ -25,13 +27,19 @@ namespace {
 constexpr int kTightenings = 5;
 constexpr double kRateShare = 0.999;  // of a limit on rates: the rest is for what closes the chain
 constexpr double kFar = 1.3;          // of the tolerance: farther off is no matter of rounding
+constexpr double kHeights = 16;       // turn times length over an arc's height over a line, twice
 constexpr double kPassed = 1e3;       // a point to be passed is off by so much less than others may
 
-/// Points on a line or an arc need no search, unless more is asked of the run than to pass them.
-bool solve_at_sight(RunResult& result, const Run& run, const RunOptions& options) {
+/// Whether nothing is asked of a run but to pass its points.
+bool is_plain(const Run& run, const RunOptions& options) {
   const bool held = run.clamp_start != Clamp::none || run.clamp_end != Clamp::none ||
                     run.tie_start || run.tie_end || run.axis;
-  if (run.closed || held || options.pieces > 0) return false;
+  return !run.closed && !held && options.pieces == 0;
+}
+
+/// Points on a line or an arc need no search.
+bool solve_at_sight(RunResult& result, const Run& run, const RunOptions& options) {
+  if (!is_plain(run, options)) return false;
   auto found = straight_chain(result.points);
   if (!found && run.inside.empty()) found = arc_chain(result.points);
   if (!found) return false;
@@ -42,6 +50,34 @@ bool solve_at_sight(RunResult& result, const Run& run, const RunOptions& options
   return true;
 }
 
+/// An arc as near to the points as the calmest curve may be, which has no variation at all. Not
+/// where a line might do: those are told from arcs by their points' errors.
+std::optional<FitChain> calm_arc(const RunResult& result, const Run& run, const RunOptions& options,
+                                 double tolerance, const Residuals& residuals) {
+  if (!is_plain(run, options) || !run.inside.empty() || !run.must_pass.empty()) return std::nullopt;
+  auto arc = arc_chain(result.points, tolerance);
+  if (!arc) return std::nullopt;
+  const FitPiece& piece = arc->pieces[0];
+  const double turn = std::abs(arc->joints[0].curvature) * piece.length;
+  if (turn * piece.length < kHeights * tolerance) return std::nullopt;
+  double sum = 0, weights = 0;
+  const std::vector<double> off = offsets(*arc, result.points);
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    sum += result.points[i].weight * off[i] * off[i];
+    weights += result.points[i].weight;
+  }
+  if (sum > weights * std::pow(residuals.most(0), 2)) return std::nullopt;
+  return arc;
+}
+
+void take_arc(RunResult& result, FitChain arc, std::vector<FitPoint> points) {
+  result.fit = std::move(arc);
+  result.points = std::move(points);
+  result.dense = {};
+  result.within_tolerance = true;
+  result.start_pieces = result.straightened = 1;
+}
+
 /// The curve of least variation in the tolerance, in log-aesthetic pieces.
 void solve_least_variation(RunResult& result, const Run& run, const RunFrame& frame,
                            const curve::BSpline2& spline, const RunOptions& options) {
@@ -49,6 +85,8 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   take_calm_points(result, run, frame, tolerance);
   const Residuals residuals = allowed_residuals(result.points, run.closed, run.points.size(),
                                                 result.accept.noise, tolerance, options.smoothness);
+  auto arc = calm_arc(result, run, options, tolerance, residuals);
+  std::vector<FitPoint> measured = result.points;
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
   for (FitPoint& p : result.points)
     if (p.must_pass) p.share = kPassed;
@@ -68,6 +106,9 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.threads = options.threads;
   calm.members = members_of(result, run, frame);
   CalmRun found = solve_calm(result.points, run.closed, calm);
+  // Between sparse points the solver may end at bends that no point asks for.
+  if (arc && found.curve.alpha.size() > 1)
+    return take_arc(result, std::move(*arc), std::move(measured));
   result.fit = closed_chain(found.curve, result.points, tolerance);
   result.start_pieces = static_cast<int>(result.fit.pieces.size());
   result.dense = std::move(found.curve);
@@ -98,7 +139,8 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
     }
     RunResult shortest = result;
     solve_least_variation(result, run, frame, spline, options);
-    const bool stays = !wanders(result.dense, result.points, result.accept.tolerance);
+    const bool stays = result.dense.joints.empty() ||
+                       !wanders(result.dense, result.points, result.accept.tolerance);
     if ((result.within_tolerance && stays) || options.progress.stop_requested()) return;
     if (options.max_rate) return;  // a limit comes before the tolerance
     solve_shortest(shortest, run, frame, spline, options);

@@ -106,5 +106,22 @@ TEST(FairRun, LinesAndArcsAreSeenAtOnce) {
   EXPECT_NEAR(core::distance(lac::end_pose(other.chain).position, *tied.tie_end), 0, 1e-9);
 }
 
+// Five rounded points of an arc, more than a radian apart: one arc, not six pieces that swing.
+TEST(FairRun, FewPointsOfAnArcGiveIt) {
+  acquire::KeyLine line;
+  for (int i = 0; i < 5; ++i) {
+    const double t = 4.5 * i / 4;
+    line.points.push_back(
+        {std::round(5e5 * std::cos(t)) / 1e4, std::round(5e5 * std::sin(t)) / 1e4});
+  }
+  RunOptions options;
+  options.tolerance = 0.02;
+  const RunResult solved = fair_run(run_between(line, 0, 4), {}, options);
+  EXPECT_TRUE(solved.within_tolerance);
+  ASSERT_EQ(solved.chain.pieces.size(), 1U);
+  EXPECT_NEAR(solved.chain.pieces[0].curvature_start, 0.02, 1e-7);
+  EXPECT_NEAR(solved.chain.pieces[0].length, 225, 1e-3);
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail

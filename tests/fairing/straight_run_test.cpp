@@ -94,6 +94,35 @@ TEST(ArcRun, IsTheArcThroughItsPoints) {
     }
 }
 
+// Farther from each other than half a turn: the way round is told by the points' order.
+TEST(ArcRun, ThreePointsAlwaysLieOnOne) {
+  const auto points = on_circle(0.2, 0.3, 5, 3);
+  std::vector<FitPoint> uneven = points;
+  uneven[1].position = on_circle(0.2, 0.3, 4.4, 2)[1].position;
+  const auto chain = arc_chain(uneven);
+  ASSERT_TRUE(chain);
+  EXPECT_NEAR(chain->pieces[0].length, 1, 1e-11);
+  EXPECT_NEAR(chain->feet[1].fraction, 0.88, 1e-11);
+}
+
+// Of points beside it the arc of least squares: six errors that cancel in its three unknowns.
+TEST(ArcRun, IsThatOfLeastSquaresWithinATolerance) {
+  const double turn = 0.02, off = 1e-4;
+  auto points = on_circle(1 / turn, 0.4, turn, 41);
+  for (int i = 0; i < 41; ++i) {
+    const double t = 0.4 + turn * i / 40, x = i / 20.0 - 1;
+    const double by = off * (5 * x * x * x - 3 * x) / 2;  // no constant, line or parabola in it…
+    points[static_cast<std::size_t>(i)].position.x += by * std::cos(t);
+    points[static_cast<std::size_t>(i)].position.y += by * std::sin(t);
+  }
+  EXPECT_FALSE(arc_chain(points));
+  EXPECT_FALSE(arc_chain(points, 0.9 * off));
+  const auto chain = arc_chain(points, 1.1 * off);
+  ASSERT_TRUE(chain);
+  EXPECT_NEAR(chain->joints[0].curvature, turn, 0.01 * turn);  // …but for the sums being of 41
+  EXPECT_NEAR(chain->pieces[0].length, 1, 1e-4);
+}
+
 TEST(ArcRun, IsNoneWherePointsAreOffOrTurnBack) {
   EXPECT_FALSE(arc_chain(points_on_a_line()));
   EXPECT_FALSE(arc_chain({}));
