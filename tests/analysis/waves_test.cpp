@@ -37,9 +37,9 @@ TEST(SignificantTurns, AWholeWaveIsOffByItsHeightAndLength) {
   });
   std::vector<MergedWave> merged;
   const std::size_t last = samples.size() - 1;
-  EXPECT_EQ(significant_turns(samples, 0, last, 0.99 * kOff, 0, merged).size(), 4U);
+  EXPECT_EQ(significant_turns(samples, 0, last, 0.99 * kOff, {}, merged).size(), 4U);
   EXPECT_TRUE(merged.empty());
-  EXPECT_EQ(significant_turns(samples, 0, last, 1.01 * kOff, 0, merged).size(), 2U);
+  EXPECT_EQ(significant_turns(samples, 0, last, 1.01 * kOff, {}, merged).size(), 2U);
   ASSERT_EQ(merged.size(), 1U);
   EXPECT_NEAR(merged[0].swing, 0.02, 1e-6);
   EXPECT_NEAR(merged[0].wavelength, 0.4, 1e-3);
@@ -57,8 +57,8 @@ TEST(SignificantTurns, AtAnEndThreeQuartersOfAWaveShow) {
     });
     std::vector<MergedWave> merged;
     const std::size_t last = samples.size() - 1;
-    EXPECT_EQ(significant_turns(samples, 0, last, 0.99 * kOff, 0, merged).size(), 3U);
-    EXPECT_EQ(significant_turns(samples, 0, last, 1.01 * kOff, 0, merged).size(), 2U);
+    EXPECT_EQ(significant_turns(samples, 0, last, 0.99 * kOff, {}, merged).size(), 3U);
+    EXPECT_EQ(significant_turns(samples, 0, last, 1.01 * kOff, {}, merged).size(), 2U);
     ASSERT_EQ(merged.size(), 1U);
     EXPECT_NEAR(merged[0].wavelength, 0.4, 1e-3);
     EXPECT_NEAR(merged[0].displacement, kOff, 0.01 * kOff);
@@ -73,8 +73,8 @@ TEST(SignificantCrossings, ALobeIsHalfAWave) {
   const std::vector<std::size_t> crossings{9999, 11999};
   std::vector<MergedWave> merged;
   const auto left = [&](double noise, double rounding) {
-    return significant_crossings(samples, 0, samples.size() - 1, crossings, noise, rounding,
-                                 merged);
+    return significant_crossings(samples, 0, samples.size() - 1, crossings, noise,
+                                 Rounding{.least = rounding}, merged);
   };
   EXPECT_EQ(left(0.99 * kOff, 0), crossings);
   EXPECT_TRUE(merged.empty());
@@ -95,7 +95,7 @@ TEST(SignificantCrossings, ALobeAtAnEndTakesOneCrossing) {
   });
   std::vector<MergedWave> merged;
   const auto left = [&](double noise) {
-    return significant_crossings(samples, 0, samples.size() - 1, {1999, 11999}, noise, 0, merged);
+    return significant_crossings(samples, 0, samples.size() - 1, {1999, 11999}, noise, {}, merged);
   };
   EXPECT_EQ(left(1.5 * kOff), (std::vector<std::size_t>{11999}));
   EXPECT_TRUE(left(2.1 * kOff).empty());
