@@ -46,7 +46,7 @@ TEST(Edit, HalfWayAndByHand) {
 }
 
 TEST(Edit, Failures) {
-  expect_failure(run_keyline("edit " + kCubic + " --alpha-max 1.6"), 2, "alpha_max");
+  expect_failure(run_keyline("edit " + kCubic + " --alpha-max 1.6"), 2, "--alpha-max: 1.6 is");
   expect_failure(run_keyline("edit " + kCubic + " --hold nothing"), 2, "hold");
   expect_failure(run_keyline("edit " + kCubic + " --amount 2"), 2, "amount");
   expect_failure(run_keyline("edit nowhere.json"), 3, "nowhere.json");

@@ -67,7 +67,7 @@ TEST(LatticeReader, SaysWhatIsNoLattice) {
     return found ? std::string("read") : found.error().message;
   };
   EXPECT_EQ(why("2 2\n0 0 1\n0 1 2\n1 0 3\n"), "2 x 2 points announced, 3 found");
-  EXPECT_EQ(why("0 0 1\n0 1 2\n\n1 0 3\n"), "row 1 has 1 points, the first row 2");
+  EXPECT_EQ(why("0 0 1\n0 1 2\n\n1 0 3\n"), "row 1 has 1 point, the first row 2");
   EXPECT_EQ(why("0 0 1\n0 1 2\n"), "this is no lattice of rows and columns");
   EXPECT_EQ(why("0 0 1\n\n0 1 2\n"), "this is no lattice of rows and columns");
   EXPECT_EQ(why("0 0 1\n0 1\n"), "three numbers (x y z) are needed here");

@@ -144,7 +144,7 @@ TEST_F(PointFiles, HaveTheUnitOfTheirHeader) {
   EXPECT_EQ(read({inches}, true)->unit, "in");
   const auto both = read({inches, table("x [mm],y [mm],z [mm]", tilted())}, false);
   ASSERT_FALSE(both);
-  EXPECT_THAT(both.error().message, HasSubstr("is in mm, a file before it in in"));
+  EXPECT_THAT(both.error().message, HasSubstr("is in mm, " + inches + " in in"));
   const auto document = exchange::read_document(inches);
   ASSERT_TRUE(document);
   EXPECT_EQ(document->unit, "in");

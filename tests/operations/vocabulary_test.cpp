@@ -71,7 +71,9 @@ TEST(Vocabulary, NumbersBeyondTheirBoundsAreRefusedByName) {
           const Type* type = &field.type();
           if (type->kind == Type::Kind::optional) type = &type->item();
           if (type->kind != Type::Kind::number && type->kind != Type::Kind::integer) return;
-          for (const double beyond : {field.bounds.low - 1, field.bounds.high + 1}) {
+          const double low = std::nextafter(field.bounds.low - 1, -HUGE_VAL);
+          const double high = std::nextafter(field.bounds.high + 1, HUGE_VAL);
+          for (const double beyond : {low, high}) {
             if (!std::isfinite(beyond)) continue;
             json request = example_of(operation);
             request[std::string(field.name)] =
