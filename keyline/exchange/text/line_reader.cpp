@@ -67,7 +67,7 @@ core::Result<LineReader::Taken> LineReader::take() {
     return Taken::end_of_text;
   }
   if (control != stop) {
-    if (std::string_view(from, to).starts_with("PK\3\4"))
+    if (std::string_view(from, static_cast<std::size_t>(to - from)).starts_with("PK\3\4"))
       return failure("this is a zip archive",
                      "unpack it; of a FreeCAD document export STEP, of a spreadsheet CSV");
     return failure("this is not text (binary data found)",
