@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 
@@ -48,6 +49,9 @@ json class_a_of(Session& session, const json& curve, const core::Progress& progr
   return *text;
 }
 
+/// A figure of a comb, infinite where it has no bound, as at a cusp.
+double figure_of(const json& value) { return value.is_number() ? value.get<double>() : HUGE_VAL; }
+
 std::string class_a_text(const json& value) {
   if (value.contains("reason"))
     return fmt::format("class A: none; {}\n", value["reason"].get<std::string>());
@@ -78,7 +82,7 @@ std::string text_of(const std::string& name, const json& result) {
                   result["monotone"].get<std::string>());
   text += fmt::format("comb: {}, variation {:.3g}, jolt {:.2g}\n",
                       core::counted(result["comb"]["waves"].get<std::size_t>(), "wave"),
-                      result["comb"]["energy"].get<double>(), result["comb"]["jolt"].get<double>());
+                      figure_of(result["comb"]["energy"]), figure_of(result["comb"]["jolt"]));
   text += fmt::format("{:>5} {:>11} {:>11} {:>14} {:>11} {:>11}  {}\n", "piece", "from", "length",
                       "rhythm", "slope", "volume", "impression");
   int index = 0;
@@ -108,7 +112,7 @@ std::string overview_of(const Analysed& all) {
   std::vector<std::size_t> order(all.shown.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) {
-    return all.shown[i]["comb"]["energy"].get<double>();
+    return figure_of(all.shown[i]["comb"]["energy"]);
   });
   std::string text = fmt::format(
       "all {} curves, the least calm first\n{:>10} {:>6} {:>8} {:>8} {:>11} {:>9} {:>8}  {}\n",
@@ -117,13 +121,12 @@ std::string overview_of(const Analysed& all) {
   for (const std::size_t i : order) {
     const json& one = all.shown[i];
     const json& value = one["class_a"];
-    text +=
-        fmt::format("{:>10.3g} {:>6} {:>8.2g} {:>8} {:>11} {:>9} {:>8}  {}\n",
-                    one["comb"]["energy"].get<double>(), one["comb"]["waves"].get<int>(),
-                    one["comb"]["jolt"].get<double>(), one["extrema"].size(),
-                    one["inflections"].size(), one["monotone"].get<std::string>(),
-                    value.contains("cav") ? fmt::format("{:.3g}", value["cav"].get<double>()) : "-",
-                    all.pages[i].analysis.name);
+    text += fmt::format(
+        "{:>10.3g} {:>6} {:>8.2g} {:>8} {:>11} {:>9} {:>8}  {}\n", figure_of(one["comb"]["energy"]),
+        one["comb"]["waves"].get<int>(), figure_of(one["comb"]["jolt"]), one["extrema"].size(),
+        one["inflections"].size(), one["monotone"].get<std::string>(),
+        value.contains("cav") ? fmt::format("{:.3g}", value["cav"].get<double>()) : "-",
+        all.pages[i].analysis.name);
   }
   return text;
 }

@@ -30,6 +30,21 @@ std::string document(const std::string& curves, const std::string& unit = "") {
   return R"({"unit":")" + unit + R"(","curves":[)" + curves + "]}";
 }
 
+// x' = 3 (1 - 2t)^2, y' = 3 (1 - 2t), both zero at t = 1/2.
+TEST(CurvesOfFiles, WithACuspAreTheLeastCalm) {
+  const Scratch s;
+  const std::string cusp =
+      R"({"name":"cusp","curve":{"type":"bezier","points":[[0,0],[1,1],[0,1],[1,0]]}})";
+  const Outcome alone = run_keyline("analyze " + s.write("cusp.json", document(cusp)));
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  EXPECT_THAT(alone.out, HasSubstr("to infinity"));
+  EXPECT_THAT(alone.out, HasSubstr("variation inf, jolt inf"));
+  const Outcome both =
+      run_keyline("analyze " + s.write("both.json", document(kClothoid + "," + cusp)));
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out, ContainsRegex("least calm first\n *variation .*\n *inf .* cusp\n"));
+}
+
 TEST(CurvesOfFiles, AreToldTheLeastCalmFirst) {
   const Scratch s;
   const std::string file = s.write("all.json", document(kArc + "," + kLine + "," + kClothoid));
