@@ -6,6 +6,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/point.h"
+#include "keyline/core/second_moments.h"
 
 namespace keyline::sketch {
 namespace {
@@ -32,17 +33,9 @@ Dash dash_of(std::span<const std::size_t> piece, std::size_t number, std::size_t
   Vector2 sum{};
   for (const std::size_t i : piece) sum = sum + (place(i) - Point2{});
   const Point2 mean = Point2{} + sum / count;
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  for (const std::size_t i : piece) {
-    const Vector2 d = place(i) - mean;
-    xx += d.x * d.x;
-    xy += d.x * d.y;
-    yy += d.y * d.y;
-  }
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
-  Dash dash{.piece = number, .along = {std::cos(angle), std::sin(angle)}};
+  core::SecondMoments moments;
+  for (const std::size_t i : piece) moments.add(place(i) - mean);
+  Dash dash{.piece = number, .along = moments.direction()};
   double low = 0;
   double high = 0;
   for (const std::size_t i : piece) {
