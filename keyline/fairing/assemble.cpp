@@ -164,29 +164,29 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
   }
 }
 
-void note_run(FairResult& result, const RunResult& run, std::size_t index) {
-  const std::string where = fmt::format("run {}", index);
+void note_of_run(FairResult& result, std::size_t k, std::size_t runs, const std::string& text) {
+  result.notes.push_back(runs > 1 ? fmt::format("run {}: {}", k, text) : text);
+}
+
+void note_run(FairResult& result, const RunResult& run, std::size_t k, std::size_t runs) {
+  const auto note = [&](const std::string& text) { note_of_run(result, k, runs, text); };
   const std::string pieces = core::counted(run.chain.pieces.size(), "piece");
-  const std::string how = run.dense.joints.empty() ? fmt::format("merged from {}", run.start_pieces)
-                                                   : "read off the graph of curvature";
-  result.notes.push_back(fmt::format("{}: {}, {}", where, pieces, how));
+  note(pieces + ", " +
+       (run.dense.joints.empty() ? fmt::format("merged from {}", run.start_pieces)
+                                 : "read off the graph of curvature"));
   if (run.exact)
-    result.notes.push_back(where +
-                           ": the points are reproduced to rounding, so the chain that "
-                           "does so is given rather than a shorter one");
+    note(
+        "the points are reproduced to rounding, so the chain that does so is given rather than a "
+        "shorter one");
   if (run.calm_missed)
-    result.notes.push_back(
-        where +
-        ": the calmest chain did not come out within the tolerance, or wandered off "
-        "between points, so the shortest one is given");
+    note(
+        "the calmest chain did not come out within the tolerance, or wandered off between points, "
+        "so the shortest one is given");
   if (run.waves.untried)
-    result.notes.push_back(where +
-                           ": more waves of curvature than can be tried one by one; some stay that "
-                           "might have gone");
+    note("more waves of curvature than can be tried one by one; some stay that might have gone");
   if (run.straightened > 0)
-    result.notes.push_back(where + ": " +
-                           core::counted(run.straightened, "piece is an exact line or arc",
-                                         "pieces are exact lines or arcs"));
+    note(core::counted(run.straightened, "piece is an exact line or arc",
+                       "pieces are exact lines or arcs"));
 }
 
 }  // namespace keyline::fairing::detail

@@ -33,7 +33,10 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
               const std::optional<curve::BSpline2>& before,
               const std::optional<curve::BSpline2>& after);
 
-/// How a run's chain was found.
-void note_run(FairResult& result, const RunResult& run, std::size_t index);
+/// Notes something of the k-th of so many runs; a lone one is the curve and is not named.
+void note_of_run(FairResult& result, std::size_t k, std::size_t runs, const std::string& text);
+
+/// How the chain of the k-th of so many runs was found.
+void note_run(FairResult& result, const RunResult& run, std::size_t k, std::size_t runs);
 
 }  // namespace keyline::fairing::detail

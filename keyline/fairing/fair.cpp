@@ -127,24 +127,27 @@ class Job {
       result_.spline_bic += one.bic;
       split(one.spline, k);
       solved_.push_back(std::move(one.chain));
-      detail::note_run(result_, solved_.back(), k);
+      detail::note_run(result_, solved_.back(), k, runs_.size());
       note_pieces(k);
       if (options_.waves && solved_.back().waves.turns > *options_.waves)
-        result_.notes.push_back(fmt::format("run {}: {} wanted, {} stay: fewer leave the tolerance",
-                                            k, core::counted(std::size_t(*options_.waves), "wave"),
-                                            solved_.back().waves.turns));
+        note_of_run(k, fmt::format("{} wanted, {} stay: fewer leave the tolerance",
+                                   core::counted(std::size_t(*options_.waves), "wave"),
+                                   solved_.back().waves.turns));
       result_.splines.push_back(std::move(one.spline));
     }
     return {};
+  }
+
+  void note_of_run(std::size_t k, const std::string& text) {
+    detail::note_of_run(result_, k, runs_.size(), text);
   }
 
   void note_pieces(std::size_t k) {
     const int wanted = run_options(k).pieces;
     const std::size_t found = solved_.back().chain.pieces.size();
     if (wanted > 0 && found != static_cast<std::size_t>(wanted))
-      result_.notes.push_back(fmt::format("run {}: {} wanted, {} found", k,
-                                          core::counted(static_cast<std::size_t>(wanted), "piece"),
-                                          found));
+      note_of_run(k, fmt::format("{} wanted, {} found",
+                                 core::counted(static_cast<std::size_t>(wanted), "piece"), found));
   }
 
   void split(const curve::BSpline2& spline, std::size_t k) {
@@ -152,9 +155,10 @@ class Job {
     options.noise = std::max(line_.noise, 0.1 * result_.tolerance);
     const analysis::Split found = analysis::split_monotone(spline, options);
     if (!found.merged.empty())
-      result_.notes.push_back(fmt::format(
-          "run {}: {} in the spline's curvature, of less than {:.3g} sideways, taken for noise", k,
-          core::counted(found.merged.size(), "wave"), found.threshold));
+      note_of_run(
+          k,
+          fmt::format("{} in the spline's curvature, of less than {:.3g} sideways, taken for noise",
+                      core::counted(found.merged.size(), "wave"), found.threshold));
     for (const auto& piece : found.pieces) {
       result_.monotone.push_back(piece);
       result_.monotone_spline.push_back(static_cast<int>(k));
@@ -255,16 +259,8 @@ class Job {
     if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
     note_limits();
     detail::assemble(result_, solved_, kept_before_, kept_after_);
-    if (runs_.size() == 1) name_no_run();
     result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
-  }
-
-  /// What is noted of the only run is noted of the curve.
-  void name_no_run() {
-    constexpr std::string_view kOnly = "run 0: ";
-    for (std::string& note : result_.notes)
-      if (note.starts_with(kOnly)) note.erase(0, kOnly.size());
   }
 
   /// The fastest rate; undrawable where a limit on it is not kept within the tolerance.

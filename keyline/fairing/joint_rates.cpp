@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "keyline/core/text.h"
+#include "keyline/fairing/assemble.h"
 #include "keyline/fairing/rate_joints.h"
 #include "keyline/fairing/run_again.h"
 #include "keyline/fairing/settle.h"
@@ -108,7 +109,8 @@ const char* words_of(RateLoss loss) {
 }
 
 /// Which joints stay G2, as shares of the run's length, and why.
-void note_stay(FairResult& result, const RunResult& run, std::size_t k, const RateReport& report) {
+void note_stay(FairResult& result, const RunResult& run, std::size_t k, std::size_t runs,
+               const RateReport& report) {
   std::vector<double> at{0};
   for (const FitPiece& piece : run.fit.pieces) at.push_back(at.back() + piece.length);
   constexpr std::array kLosses{RateLoss::slopes, RateLoss::tolerance, RateLoss::variation,
@@ -121,8 +123,9 @@ void note_stay(FairResult& result, const RunResult& run, std::size_t k, const Ra
     }
     if (places.empty()) continue;
     std::ranges::sort(places);
-    result.notes.push_back(fmt::format("run {}: G2 stays at {:.1f} % of its length: {}", k,
-                                       fmt::join(places, ", "), words_of(loss)));
+    note_of_run(result, k, runs,
+                fmt::format("G2 stays at {:.1f} % of its length: {}", fmt::join(places, ", "),
+                            words_of(loss)));
   }
 }
 
@@ -135,12 +138,12 @@ void make_rates_one(FairResult& result, std::vector<RunResult>& solved,
     if (own.joints == JointOrder::g2) continue;
     const RateReport report = make_one(solved[k], runs[k], own);
     const std::string pieces = core::counted(solved[k].chain.pieces.size(), "piece");
-    result.notes.push_back(fmt::format(
-        "run {}: {}", k,
-        report.within ? pieces + " for G3 joints"
-                      : "no chain with more G3 joints was found within the tolerance, with no "
-                        "more waves and less than twice the variation: they stay as they are"));
-    if (report.within) note_stay(result, solved[k], k, report);
+    note_of_run(result, k, runs.size(),
+                report.within
+                    ? pieces + " for G3 joints"
+                    : "no chain with more G3 joints was found within the tolerance, with no "
+                      "more waves and less than twice the variation: they stay as they are");
+    if (report.within) note_stay(result, solved[k], k, runs.size(), report);
   }
   if (!runs.empty() && options(0).joints == JointOrder::g3) note_joints(result, solved);
 }

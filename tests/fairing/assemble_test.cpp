@@ -150,11 +150,14 @@ TEST(NoteRun, TellsWhatBecameOfIt) {
   run.start_pieces = 9;
   const auto notes = [&] {
     FairResult result;
-    note_run(result, run, 3);
+    note_run(result, run, 3, 4);
     return result.notes;
   };
   ASSERT_EQ(notes().size(), 1U);
   EXPECT_EQ(notes()[0], "run 3: 2 pieces, merged from 9");
+  FairResult lone;
+  note_run(lone, run, 0, 1);
+  EXPECT_EQ(lone.notes[0], "2 pieces, merged from 9");
   run.dense.joints.resize(2);
   EXPECT_EQ(notes()[0], "run 3: 2 pieces, read off the graph of curvature");
   const auto last_has = [&](const char* text) {
