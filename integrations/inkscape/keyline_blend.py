@@ -2,7 +2,6 @@
 """Keyline > Blend: a log-aesthetic curve from the end of one path into the start of the next."""
 
 import keyline_paths as kp
-from keyline_paths import keyline
 
 
 class Blend(kp.Extension):
@@ -11,10 +10,16 @@ class Blend(kp.Extension):
         pars.add_argument("--alpha", type=float, default=-1)
         pars.add_argument("--tolerance", type=float, default=0)
 
-    def work(self):
-        shapes = self.paths(2)[:2]
-        curves = [next(kp.curves_of(shape)) for shape in shapes]
-        answer = keyline.perform(
+    def effect(self):
+        shapes = self.paths()
+        if len(shapes) != 2:
+            raise kp.inkex.AbortExtension(f"Select two paths: the selection holds {len(shapes)}.")
+        curves = [list(kp.curves_of(shapes[0]))[-1], next(kp.curves_of(shapes[1]))]
+        for shape, curve in zip(shapes, curves):
+            if curve["closed"]:
+                raise kp.inkex.AbortExtension(f"{shape.get_id()} is closed: it has no end to join.")
+        answer = self.perform(
+            shapes[0],
             "lac.blend",
             {
                 "curves": curves,

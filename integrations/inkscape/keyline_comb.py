@@ -2,7 +2,9 @@
 """Keyline > Curvature comb: lines across a path, as long as its curvature is large."""
 
 import keyline_paths as kp
-from keyline_paths import keyline
+
+
+PLAIN = {"stroke": "#d40055", "stroke-dasharray": "none", "marker-start": "none", "marker-mid": "none", "marker-end": "none"}
 
 
 class Comb(kp.Extension):
@@ -10,17 +12,18 @@ class Comb(kp.Extension):
         pars.add_argument("--height", type=float, default=0.2)
         pars.add_argument("--teeth", type=int, default=120)
 
-    def work(self):
-        for shape in self.paths(1):
-            for curve in kp.curves_of(shape):
-                self.draw(shape, keyline.perform("curve.show", {"curve": curve, "comb": {}})["comb"])
+    def effect(self):
+        """The tallest tooth is `height` of the longest curve's length; all stand on one scale, on the outer side."""
+        shapes = [(shape, curve) for shape in self.paths() for curve in kp.curves_of(shape)]
+        combs = [self.perform(shape, "curve.show", {"curve": curve, "comb": {}})["comb"] for shape, curve in shapes]
+        largest = max(abs(k) for comb in combs for k in comb["curvature"])
+        longest = max(comb["arc_length"][-1] for comb in combs)
+        if largest * longest < 1e-9:
+            raise kp.inkex.AbortExtension("All is straight: the comb is flat.")
+        for (shape, _), comb in zip(shapes, combs):
+            self.draw(shape, comb, self.options.height * longest / largest)
 
-    def draw(self, shape, comb):
-        """The tallest tooth is `height` of the path's length; they stand on its outer side."""
-        largest = max(abs(k) for k in comb["curvature"])
-        if largest == 0:
-            raise kp.inkex.AbortExtension("The path is straight: its comb is flat.")
-        scale = self.options.height * comb["arc_length"][-1] / largest
+    def draw(self, shape, comb, scale):
         step = max(1, len(comb["points"]) // self.options.teeth)
         teeth, tips = kp.Path(), kp.Path()
         for i, (point, normal, k) in enumerate(zip(comb["points"], comb["normals"], comb["curvature"])):
@@ -32,7 +35,7 @@ class Comb(kp.Extension):
         width = shape.specified_style().get("stroke-width", 1)
         thin = str(self.svg.unittouu(str(width)) / 3)
         for data in (teeth, tips):
-            kp.put(shape, data, **{"stroke": "#d40055", "stroke-width": thin})
+            kp.put(shape, data, **PLAIN, **{"stroke-width": thin})
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 """Keyline > Fair path: each selected path becomes the calmest curve within the tolerance."""
 
 import keyline_paths as kp
-from keyline_paths import keyline
 
 
 class Fair(kp.Extension):
@@ -11,18 +10,20 @@ class Fair(kp.Extension):
         pars.add_argument("--keep_corners", type=kp.inkex.Boolean, default=True)
         pars.add_argument("--keep_original", type=kp.inkex.Boolean, default=False)
 
-    def work(self):
-        for shape in self.paths(1):
+    def effect(self):
+        for shape in self.paths():
             data = kp.Path()
             for curve in kp.curves_of(shape):
-                answer = self.fair(curve)
+                answer = self.fair(shape, curve)
                 data += kp.as_path(answer["bezier"])
+                if kp.points_of(curve):  # some may have been taken for strays
+                    self.msg(f"{shape.get_id()}: {'; '.join(answer['report'])}.")
                 if not answer["within_tolerance"]:
                     name, worst = shape.get_id(), answer["deviation"]["max"]
                     self.msg(f"{name}: up to {worst:.3g} off; {answer['tolerance']:.3g} could not be met.")
             (kp.put if self.options.keep_original else kp.replace)(shape, data)
 
-    def fair(self, curve):
+    def fair(self, shape, curve):
         points = kp.points_of(curve)  # straight lines are points that were measured or traced
         request = {
             "curve": {"type": "polyline", "points": points} if points else curve,
@@ -34,7 +35,7 @@ class Fair(kp.Extension):
             request["closed"] = curve["closed"]
         if self.options.tolerance > 0:
             request["tolerance"] = self.options.tolerance
-        return keyline.perform("fair", request)
+        return self.perform(shape, "fair", request)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Paths of an SVG drawing as Keyline's curves and back: what the extensions share."""
 
+import math
 import sys
 
 import inkex
@@ -14,22 +15,44 @@ except ImportError as missing:
 class Extension(inkex.EffectExtension):
     """An extension that tells Keyline's failures as messages, not as tracebacks."""
 
-    def effect(self):
+    def perform(self, shape, operation, request):
+        """The operation's answer; its failure as a message that names the shape."""
         try:
-            self.work()
+            return keyline.perform(operation, request)
         except keyline.Error as error:
             hint = f"\n{error.hint}" if error.hint else ""
-            raise inkex.AbortExtension(f"{error.message}{hint}") from error
+            raise inkex.AbortExtension(f"{shape.get_id()}: {error.message}{hint}") from error
 
-    def paths(self, least):
-        chosen = list(self.svg.selection.filter(inkex.ShapeElement).values())
-        if len(chosen) < least:
-            raise inkex.AbortExtension(f"Select {least} path{'s' if least > 1 else ''}.")
+    def paths(self):
+        """What is selected, each path of a group alone; anything without a path is refused by name."""
+        chosen = [path for shape in self.svg.selection for path in paths_in(shape)]
+        if not chosen:
+            raise inkex.AbortExtension("Select a path.")
         return chosen
 
     def tolerance_of(self, curves):
         """What was asked for, in the drawing's unit; 0.01 % of the size where it is 0."""
         return self.options.tolerance or 1e-4 * size_of(curves)
+
+
+NOTHING = 1e-9  # of a path's size: what arcs leave between their end and the start
+OWN_PATH = (PathElement, inkex.Rectangle, inkex.Circle, inkex.Ellipse, inkex.Line, inkex.Polyline, inkex.Polygon)
+ADVICE = {"text": "Path > Object to Path", "use": "Edit > Clone > Unlink Clone", "image": "Path > Trace Bitmap"}
+
+
+def paths_in(shape):
+    """The shape, or the paths of a group."""
+    if isinstance(shape, (inkex.Group, inkex.Anchor)):
+        return [path for part in shape if isinstance(part, inkex.ShapeElement) for path in paths_in(part)]
+    if not isinstance(shape, OWN_PATH):
+        advice = ADVICE.get(shape.TAG, "select paths only")
+        raise inkex.AbortExtension(f"{shape.get_id()} is no path but of the kind {shape.TAG}: {advice}.")
+    if not list(curves_of(shape)):
+        raise inkex.AbortExtension(f"{shape.get_id()} is a path without length: delete it.")
+    way = shape.composed_transform()
+    if way.a * way.d == way.b * way.c:
+        raise inkex.AbortExtension(f"{shape.get_id()} is pressed flat by its transform: take that away.")
+    return [shape]
 
 
 def size_of(curves):
@@ -44,13 +67,15 @@ def members(curve):
 
 def curves_of(shape):
     """One path value for each subpath of a shape, in the drawing's own coordinates."""
-    path = shape.path.transform(shape.composed_transform())
-    for subpath in CubicSuperPath(path):
-        closed = len(subpath) > 2 and list(subpath[0][1]) == list(subpath[-1][1])
+    for subpath in CubicSuperPath(shape.path.transform(shape.composed_transform())):
+        places = [p for node in subpath for p in node]
+        least = NOTHING * max(max(p[i] for p in places) - min(p[i] for p in places) for i in (0, 1))
+        closed = len(subpath) > 2 and math.dist(subpath[0][1], subpath[-1][1]) <= least
+        corners = ([a[1], a[2], b[0], b[1]] for a, b in zip(subpath, subpath[1:]))
         beziers = [
-            {"type": "bezier", "points": [list(a[1]), list(a[2]), list(b[0]), list(b[1])]}
-            for a, b in zip(subpath, subpath[1:])
-            if a[1] != b[1] or a[2] != a[1] or b[0] != b[1]
+            {"type": "bezier", "points": [list(p) for p in points]}
+            for points in corners
+            if max(math.dist(points[0], p) for p in points) > least
         ]
         if beziers:
             yield {"type": "path", "curves": beziers, "closed": closed}

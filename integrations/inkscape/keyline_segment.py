@@ -2,7 +2,6 @@
 """Keyline > Log-aesthetic from three nodes: the first three nodes of a path are handles."""
 
 import keyline_paths as kp
-from keyline_paths import keyline
 
 
 class Segment(kp.Extension):
@@ -10,14 +9,15 @@ class Segment(kp.Extension):
         pars.add_argument("--alpha", type=float, default=-1)
         pars.add_argument("--tolerance", type=float, default=0)
 
-    def work(self):
-        for shape in self.paths(1):
+    def effect(self):
+        for shape in self.paths():
             nodes = [n[1] for sub in kp.CubicSuperPath(shape.path.transform(shape.composed_transform())) for n in sub]
             if len(nodes) < 3:
                 raise kp.inkex.AbortExtension("The path needs three nodes: an end, a handle, the other end.")
             handles = [list(node) for node in nodes[:3]]
             tolerance = self.tolerance_of([{"type": "polyline", "points": handles}])
-            answer = keyline.perform(
+            answer = self.perform(
+                shape,
                 "lac.segment",
                 {
                     "points": handles,

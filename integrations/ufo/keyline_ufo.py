@@ -7,7 +7,7 @@ keyline_ufo.py fair FONT.ufo [GLYPH…] -o FAIRED.ufo [--tolerance UNITS]
     makes each run between corners the calmest curve within the tolerance, curvature running through every node.
     Corners, straight lines and extrema stay where they are; extrema get nodes with handles along the axis.
 
-Needs python3-ufolib2 and python3-keyline. Glyphs without outlines and components are left alone.
+Needs python3-ufolib2 and python3-keyline. Open contours and components are left alone.
 """
 
 import argparse
@@ -20,6 +20,7 @@ import keyline
 import ufoLib2
 from fontTools.misc.bezierTools import splitCubicAtT
 from fontTools.pens.recordingPen import RecordingPen
+from fontTools.ufoLib import UFOReader
 from fontTools.ufoLib.errors import UFOLibError
 from fontTools.ufoLib.glifLib import readGlyphFromString
 
@@ -28,25 +29,29 @@ JUMP = 0.1  # of curvature, as a share of the larger
 
 
 
-def cubics_of(glyph):
-    """Each contour as cubics; of a straight line the handles lie on its ends."""
+def outlines_of(glyph):
+    """Each closed contour with its number, as cubics."""
+    closed = [(number, cubics_of(contour)) for number, contour in enumerate(glyph.contours) if not contour.open]
+    return [(number, outline) for number, outline in closed if outline]
+
+
+def cubics_of(contour):
+    """Of a straight line the handles lie on its ends."""
     pen = RecordingPen()
-    glyph.draw(pen)
-    contour = []
+    contour.draw(pen)
+    made, start = [], None
     for verb, points in pen.value:
-        if verb == "moveTo":
-            contour, start = [], points[0]
-            at = start
-        elif verb == "lineTo":
-            at = _line(contour, at, points[0])
+        if start is None:  # TrueType: without a point on the curve it begins midway between two off it
+            start = at = points[0] if verb == "moveTo" else _middle(points[-2], points[0])
+        if verb == "lineTo":
+            at = _line(made, at, points[0])
         elif verb == "curveTo":
-            contour.append([at, *points])
+            made.append([at, *points])
             at = points[-1]
         elif verb == "qCurveTo":
-            at = _quadratics(contour, at, points)
-        elif verb == "closePath":
-            _line(contour, at, start)
-            yield contour
+            at = _quadratics(made, at, [start if p is None else p for p in points])
+    _line(made, at, start)
+    return made
 
 
 def _line(contour, a, b):
@@ -55,12 +60,14 @@ def _line(contour, a, b):
     return b
 
 
+def _middle(p, q):
+    return ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2)
+
+
 def _quadratics(contour, at, points):
     """TrueType's run of off-curve points, raised to cubics."""
-    if points[-1] is None:
-        sys.exit("an outline without a point on it is not read: add one")
     offs = points[:-1]
-    ends = [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) for p, q in zip(offs, offs[1:])] + [points[-1]]
+    ends = [_middle(p, q) for p, q in zip(offs, offs[1:])] + [points[-1]]
     for off, end in zip(offs, ends):
         handles = [tuple(e + 2 / 3 * (o - e) for e, o in zip(edge, off)) for edge in (at, end)]
         contour.append([at, *handles, end])
@@ -216,22 +223,23 @@ def faired(run, tolerance, closed):
 
 
 def fair_contour(contour, tolerance):
-    """The contour's cubics faired, and how many runs are left as they were."""
+    """The contour's cubics faired (itself where no run is), and how many runs are left as they were."""
     runs, closed = runs_of(contour)
     made = [None if is_line(run[0]) else faired(run, tolerance, closed) for run in runs]
     left = sum(new is None and not is_line(run[0]) for new, run in zip(made, runs))
-    return [cubic for new, run in zip(made, runs) for cubic in new or run], left
+    return [cubic for new, run in zip(made, runs) for cubic in new or run] if any(made) else contour, left
 
 
-def write(glyph, contours):
-    glyph.clearContours()
+def drawn(cubics):
+    """The cubics as a contour of a glyph."""
+    glyph = ufoLib2.objects.Glyph("a")
     pen = glyph.getPen()
-    for contour in contours:
-        pen.moveTo(rounded(contour[0][0]))
-        for cubic in contour:
-            places = [rounded(p) for p in cubic]
-            pen.lineTo(places[3]) if is_line(cubic) else pen.curveTo(*places[1:])
-        pen.closePath()
+    pen.moveTo(rounded(cubics[0][0]))
+    for cubic in cubics:
+        places = [rounded(p) for p in cubic]
+        pen.lineTo(places[3]) if is_line(cubic) else pen.curveTo(*places[1:])
+    pen.closePath()
+    return glyph.contours[0]
 
 
 def rounded(point):
@@ -240,16 +248,20 @@ def rounded(point):
 
 
 def fair(font, names, tolerance):
-    """Fairs the glyphs in place; a line of what was done for each."""
+    """Fairs the glyphs in place, and leaves contours as they are of which nothing is faired; a line for each."""
     for name in names:
-        contours = list(cubics_of(font[name]))
-        made = [fair_contour(contour, tolerance) for contour in contours]
-        left = sum(count for _, count in made)
-        nodes = [sum(map(len, contours)), sum(len(contour) for contour, _ in made)]
-        if contours:
-            write(font[name], [contour for contour, _ in made])
-            untouched = f", {left} runs left as they were" if left else ""
-            print(f"{name}: {nodes[0]} nodes, {nodes[1]} after{untouched}")
+        contours = font[name].contours
+        nodes, after, left = 0, 0, 0
+        for number, outline in outlines_of(font[name]):
+            made, unfaired = fair_contour(outline, tolerance)
+            if made is not outline:
+                contours[number] = drawn(made)
+            nodes, after, left = nodes + len(outline), after + len(made), left + unfaired
+        told = [f"{nodes} nodes, {after} after"] if nodes else ["no closed outline of its own"]
+        told += [f"{left} runs left as they were"] if left else []
+        opened = sum(contour.open for contour in contours)
+        told += [f"{opened} open contours left as they were"] if opened else []
+        print(f"{name}: {', '.join(told)}")
 
 
 # ---- curvature --------------------------------------------------------------------------------
@@ -266,7 +278,7 @@ def joints(contour):
 
 def tell(font, names):
     for name in names:
-        for number, contour in enumerate(cubics_of(font[name])):
+        for number, contour in outlines_of(font[name]):
             for (x, y), kink, before, after in joints(contour):
                 jump = abs(after - before) / max(abs(before), abs(after), 1e-12)
                 if abs(kink) > 0.1 or jump > JUMP:
@@ -276,9 +288,9 @@ def tell(font, names):
 
 def combs(font, names):
     """A drawing of the outlines with their combs, a glyph after the other; teeth at most a quarter of the em."""
-    shown = [(name, contour, comb_of(contour)) for name in names for contour in cubics_of(font[name])]
-    largest = max((abs(k) for _, _, comb in shown for k in comb["curvature"]), default=1)
-    scale = font.info.unitsPerEm / 4 / largest
+    shown = [(name, contour, comb_of(contour)) for name in names for _, contour in outlines_of(font[name])]
+    largest = max((abs(k) for _, _, comb in shown for k in comb["curvature"]), default=0)
+    scale = font.info.unitsPerEm / 4 / (largest or 1)
     lines, offset, last = [], 0, None
     for name, contour, comb in shown:
         if last not in (None, name):
@@ -307,6 +319,15 @@ def comb_of(contour):
     return keyline.perform("curve.show", {"curve": path, "comb": {"samples": 60 * len(contour)}})["comb"]
 
 
+def written_over(output):
+    """Ends where saving would replace a file or folder that is no font."""
+    try:
+        if Path(output).exists():
+            UFOReader(output).close()
+    except UFOLibError:
+        sys.exit(f"{output} is there and is no UFO: name another")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("work", choices=("curvature", "fair"))
@@ -319,7 +340,7 @@ def main():
     unknown = [name for name in asked.glyphs if name not in font]
     if unknown:
         sys.exit(f"{asked.font} has no glyph {', '.join(unknown)}")
-    names = asked.glyphs or sorted(font.keys())
+    names = asked.glyphs or sorted(glyph.name for glyph in font if glyph.contours)
     if asked.work == "curvature":
         tell(font, names)
         if asked.output:
@@ -328,6 +349,7 @@ def main():
     elif not asked.output:
         sys.exit("fair needs -o FAIRED.ufo")
     else:
+        written_over(asked.output)
         fair(font, names, asked.tolerance)
         font.save(asked.output, overwrite=True)
 
@@ -337,5 +359,5 @@ if __name__ == "__main__":
         main()
     except keyline.Error as error:
         sys.exit(f"{error.message}\n{error.hint}" if error.hint else error.message)
-    except UFOLibError as error:
+    except (OSError, UFOLibError) as error:
         sys.exit(str(error))

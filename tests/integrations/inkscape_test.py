@@ -38,8 +38,15 @@ DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" width="300mm" height="200mm
 <path id="lines" d="{lines}"/>
 <path id="ring" d="{ring} Z"/>
 <path id="quarter" d="M 200 100 A 50 50 0 0 1 250 150"/>
+<path id="half" style="stroke-dasharray:2 1" d="M 0 150 A 25 25 0 0 1 25 175"/>
+<path id="parts" d="M 0 0 C 5 5 10 5 15 0 M 10 30 C 30 40 50 40 80 20"/>
+<text id="words" x="10" y="100">words</text>
+<use id="clone" href="#bent"/>
+<ellipse id="turned" cx="70" cy="30" rx="18" ry="9" transform="rotate(26 70 30)"/>
+<path id="dot" d="M 3 3"/>
+<path id="flat" transform="scale(1 0)" d="M 0 0 C 1 1 2 1 3 0"/>
+<g id="both" style="stroke-width:3"><path id="left" d="M 0 0 C 9 9 20 9 30 0"/><path id="right" d="M 50 0 C 60 9 70 9 80 0"/></g>
 </g></svg>""".format(wavy=smooth(BENT), lines=straight(BENT), ring=straight(RING))
-KNOWN = {"bent", "first", "second", "wavy", "lines", "ring", "quarter"}
 
 if not (EXTENSIONS / "inkex").is_dir():
     print("skipped: Inkscape's extensions (inkex) are not installed")
@@ -50,16 +57,28 @@ import inkex  # noqa: E402
 PACKAGE = Path(os.environ["PYTHONPATH"]).resolve()
 ENVIRONMENT = os.environ | {"PYTHONPATH": f"{PACKAGE}:{EXTENSIONS}", "PYTHONWARNINGS": "ignore"}
 
+KNOWN = {e.get("id") for e in inkex.load_svg(DRAWING).getroot().iter()} - {None}
 SCALE, SHIFT = 1.5, 10  # of the group above
 
 
-def run(name, work, *arguments):
+def called(name, work, *arguments):
     drawing, made = work / "drawing.svg", work / f"{name}.svg"
     drawing.write_text(DRAWING)
     command = [sys.executable, "-B", FOLDER / f"keyline_{name}.py", *arguments, f"--output={made}", drawing]
-    done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True)
+    return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True), made
+
+
+def run(name, work, *arguments):
+    done, made = called(name, work, *arguments)
     assert done.returncode == 0, f"{name}: {done.stderr}"
     return inkex.load_svg(str(made)).getroot()
+
+
+def refused(name, work, *arguments):
+    """What is said where nothing is written."""
+    done, made = called(name, work, *arguments)
+    assert not made.exists() and "Traceback" not in done.stderr, done.stderr
+    return done.stderr
 
 
 def nodes(element):
@@ -143,6 +162,48 @@ def test_comb(work):
         assert abs(math.dist(foot, tip) - length) < 0.05, (foot, tip)
         assert abs(math.dist(tip, (200, 150)) - 50 - length) < 0.1
     assert 20 <= len(numbers) // 2 <= 45 and len(tips.path) >= 20
+
+
+def test_combs_stand_on_one_scale(work):
+    """Of circles of radius 50 and 25: teeth of one length and of twice that, none of them dashed."""
+    made = new_of(run("comb", work, "--id=quarter", "--id=half", "--height=0.1", "--teeth=20"))
+    lengths = []
+    for teeth in made[::2]:
+        (x0, y0), (x1, y1) = [(c.x, c.y) for c in teeth.path][:2]
+        lengths.append(math.dist((x0, y0), (x1, y1)))
+    assert abs(lengths[1] / lengths[0] - 2) < 1e-3, lengths
+    assert all(e.style["stroke-dasharray"] == "none" for e in made)
+
+
+def test_straight_lines_have_no_comb(work):
+    assert "straight" in refused("comb", work, "--id=bent")
+
+
+def test_paths_of_a_group_stay_in_it(work):
+    group = run("fair", work, "--id=both").getElementById("both")
+    assert [e.get("id") for e in group] == ["left", "right"] and group.style["stroke-width"] == "3"
+
+
+def test_an_ellipse_whose_arc_closes_within_rounding(work):
+    """The four arcs end at 1e-14 beside the start: that is no edge."""
+    made = run("fair", work, "--id=turned").getElementById("turned").path
+    assert made[-1].letter == "Z" and len(made) > 4
+
+
+def test_blend_leaves_the_last_part_of_a_path(work):
+    (made,) = new_of(run("blend", work, "--id=parts", "--id=second"))
+    assert near(nodes(made)[0][0], (80, 20))
+
+
+def test_what_has_no_path_is_named(work):
+    """A text faired was an empty path, an image its frame: now both stay as they are."""
+    for name, words in (("words", "Object to Path"), ("clone", "Unlink"), ("dot", "without length"), ("flat", "flat")):
+        told = refused("fair", work, f"--id={name}")
+        assert name in told and words in told, told
+    assert "Select a path" in refused("fair", work)
+    assert "two paths: the selection holds 3" in refused("blend", work, "--id=bent", "--id=first", "--id=second")
+    assert "ring is closed" in refused("blend", work, "--id=ring", "--id=second")
+    assert "bent: " in refused("segment", work, "--id=bent", "--alpha=2000")
 
 
 def test_failures_are_messages(work):

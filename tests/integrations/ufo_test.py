@@ -39,6 +39,21 @@ def font(work):
     pen.curveTo((300, 400), (150, 500), (0, 500))
     pen.lineTo((0, 0))
     pen.closePath()
+    pen = made.newGlyph("bare").getPen()  # TrueType's, without a point on the curve
+    pen.qCurveTo((550, 0), (550, 500), (50, 500), (50, 0), None)
+    pen.closePath()
+    pen = made.newGlyph("stroke").getPen()
+    pen.moveTo((0, 0))
+    pen.curveTo((100, 200), (200, 200), (300, 0))
+    pen.endPath()
+    made["d"].draw(pen)
+    pen = made.newGlyph("l").getPen()
+    pen.moveTo((50, 0))
+    for place in ((150, 0), (150, 700), (50, 700)):
+        pen.lineTo(place)
+    pen.closePath()
+    made["l"].contours[0].points[2].name = "corner"
+    made.newGlyph("composed").getPen().addComponent("o", (1, 0, 0, 1, 0, 0))
     made.save(work / "trial.ufo")
 
 
@@ -107,9 +122,47 @@ def test_curvature(work):
     assert (work / "combs.svg").read_text().count("<path") == 2
 
 
+def test_open_contours_and_straight_ones_stay(work):
+    """A font loses no contour, no name of a point; what is left alone is said."""
+    told = run("fair", work / "trial.ufo", "stroke", "l", "composed", "-o", work / "left.ufo")
+    assert "stroke: 3 nodes" in told and "1 open contours left as they were" in told, told
+    assert "composed: no closed outline of its own" in told, told
+    before, after = (ufoLib2.Font.open(work / name) for name in ("trial.ufo", "left.ufo"))
+    assert after["stroke"].contours[0] == before["stroke"].contours[0] and len(after["stroke"].contours) == 2
+    assert after["l"].contours == before["l"].contours and after["composed"].components == before["composed"].components
+
+
+def test_an_outline_without_a_point_on_it(work):
+    """Four quadratics begin midway between the points off the curve: they touch the middles of the square's sides."""
+    run("fair", work / "trial.ufo", "bare", "-o", work / "bare.ufo")
+    fine = [at(c, i / 50) for c in cubics(ufoLib2.Font.open(work / "bare.ufo")["bare"]) for i in range(51)]
+    for place in ((300, 0), (550, 250), (300, 500), (50, 250)):
+        assert min(math.dist(place, p) for p in fine) < 2 + 6  # the tolerance, and half a step between points
+
+
+def test_straight_glyphs_have_no_comb(work):
+    run("curvature", work / "trial.ufo", "l", "-o", work / "l.svg")
+    assert (work / "l.svg").read_text().count("<path") == 2
+
+
+def refused(*arguments):
+    done = subprocess.run([sys.executable, "-B", SCRIPT, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 1 and "Traceback" not in done.stderr, done.stderr
+    return done.stderr
+
+
 def test_what_is_not_there_is_said(work):
-    done = subprocess.run([sys.executable, "-B", SCRIPT, "fair", work / "trial.ufo", "q", "-o", "x"], capture_output=True, text=True)
-    assert done.returncode == 1 and "has no glyph q" in done.stderr and "Traceback" not in done.stderr
+    assert "has no glyph q" in refused("fair", work / "trial.ufo", "q", "-o", "x")
+    assert "No such file" in refused("curvature", work / "trial.ufo", "l", "-o", work / "none" / "l.svg")
+
+
+def test_what_is_no_font_is_not_replaced(work):
+    (work / "letters").mkdir()
+    (work / "letters" / "dear.txt").write_text("Dear")
+    (work / "notes.txt").write_text("notes")
+    for place in ("letters", "notes.txt"):
+        assert "is no UFO" in refused("fair", work / "trial.ufo", "l", "-o", work / place)
+    assert (work / "letters" / "dear.txt").exists() and (work / "notes.txt").read_text() == "notes"
 
 
 with tempfile.TemporaryDirectory() as folder:
