@@ -200,6 +200,60 @@ def walk(value):
             yield from walk(item)
 
 
+def test_closed_wires_stay_closed(document):
+    """A slot of two lines and two half circles: without a gap or a corner where it began."""
+    ends = [Part.makeLine(V(0, 0, 0), V(20, 0, 0)), Part.makeLine(V(20, 10, 0), V(0, 10, 0))]
+    turns = [Part.makeCircle(5, V(20, 5, 0), V(0, 0, 1), -90, 90), Part.makeCircle(5, V(0, 5, 0), V(0, 0, 1), 90, 270)]
+    made = kind(document, "Fair", shape(document, Part.Wire([ends[0], turns[0], ends[1], turns[1]])))
+    assert made.Shape.isClosed()
+    first, last = made.Shape.OrderedEdges[0], made.Shape.OrderedEdges[-1]
+    assert first.tangentAt(first.FirstParameter).getAngle(last.tangentAt(last.LastParameter)) < 1e-3
+
+
+def test_in_a_part_that_lies_elsewhere(document):
+    """The sketch's own place is within the part: the curve lies where the part shows it, or with it in the part."""
+    part = document.addObject("App::Part", "Part")
+    part.Placement = FreeCAD.Placement(V(100, 0, 0), FreeCAD.Rotation(V(1, 0, 0), 90))
+    given = sketch(document, [(0, 0), (20, 0), (30, 15)])
+    part.addObject(given)
+    start = TILTED.multVec(V(0, 0, 0))
+    made = kind(document, "Curve", given)
+    assert made.Shape.distToShape(Part.Vertex(part.Placement.multVec(start)))[0] < 1e-6
+    part.addObject(made)
+    made.touch()
+    document.recompute()
+    assert made.Shape.distToShape(Part.Vertex(start))[0] < 1e-6
+
+
+def test_points(document):
+    """Of a parabola in a tilted plane, as a point cloud."""
+    import Points
+
+    cloud, places = document.addObject("Points::Feature", "Cloud"), Points.Points()
+    places.addPoints([TILTED.multVec(V(x, 0.01 * x * x, 0)) for x in range(31)])
+    cloud.Points = places
+    made = kind(document, "Fair", cloud, Tolerance=0.05)
+    assert made.Report and abs(made.Shape.Length - 31.71) < 0.1  # 15 sqrt(1.36) + 25 asinh(0.6)
+    for x in (0, 15, 30):
+        assert made.Shape.distToShape(Part.Vertex(TILTED.multVec(V(x, 0.01 * x * x, 0))))[0] < 0.06
+
+
+def test_the_selected_face_and_edge(document):
+    box = shape(document, Part.makeBox(10, 20, 30))
+    names = [f"Face{i + 1}" for i, face in enumerate(box.Shape.Faces) if abs(face.CenterOfMass.z - 30) < 1e-9]
+    made = kind(document, "Zebra", (box, names), Grid=11)
+    assert made.Mesh.CountFacets and all(abs(point.z - 30) < 0.1 for point in made.Mesh.Points)
+    rounded = shape(document, Part.makeCylinder(10, 20))
+    arcs = [f"Edge{i + 1}" for i, edge in enumerate(rounded.Shape.Edges) if isinstance(edge.Curve, Part.Circle)]
+    assert abs(kind(document, "Comb", (rounded, arcs[:1])).LargestCurvature - 0.1) < 1e-6
+
+
+def test_zebra_ends_where_the_face_is_trimmed(document):
+    disk = shape(document, Part.Face(Part.Wire(Part.makeCircle(10))))
+    made = kind(document, "Zebra", disk, Grid=41)
+    assert made.Mesh.CountFacets and all(math.hypot(point.x, point.y) < 10.01 for point in made.Mesh.Points)
+
+
 def test_saved_and_opened(document):
     given = sketch(document, [(0, 0), (20, 0), (30, 15)])
     kind(document, "Curve", given)
@@ -216,9 +270,21 @@ def test_saved_and_opened(document):
 
 
 def test_what_cannot_be_is_said(document):
-    made = keyline_objects.make("Curve", sketch(document, [(0, 0), (20, 0)]), document=document)
-    document.recompute()
-    assert "Invalid" in made.State
+    """In words a designer knows: not those of Python's lists."""
+    apart = Part.Compound([Part.makeLine(V(0, 0, 0), V(9, 0, 0)), Part.makeLine(V(0, 9, 0), V(9, 9, 0))])
+    box = shape(document, Part.makeBox(1, 2, 3))
+    circle = shape(document, Part.Wire(Part.makeCircle(10)))
+    for name, sources, words in (
+        ("Curve", [sketch(document, [(0, 0), (20, 0)])], "two straight lines"),
+        ("Fair", [], "no source"),
+        ("Fair", [shape(document, apart)], "2 wires"),
+        ("Value", [shape(document, Part.makePolygon([V(0, 0, 0), V(9, 0, 0), V(9, 9, 0)]))], "2 edges"),
+        ("Zebra", [box], "6 faces"),
+        ("Blend", [circle, circle], "closed wire"),
+    ):
+        made = keyline_objects.make(name, *sources, document=document)
+        document.recompute()
+        assert "Invalid" in made.State and words in made.getStatusString(), (name, made.getStatusString())
 
 
 failed = []

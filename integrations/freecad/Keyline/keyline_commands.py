@@ -23,13 +23,17 @@ class Make:
     def GetResources(self):
         return {"MenuText": self.entry, "ToolTip": self.selection}
 
+    def chosen(self):
+        """Each object with the names of its faces and edges that are selected."""
+        return [(s.Object, list(s.SubElementNames)) for s in FreeCADGui.Selection.getSelectionEx()]
+
     def IsActive(self):
-        return len(FreeCADGui.Selection.getSelection()) >= self.count
+        return len(self.chosen()) >= self.count
 
     def Activated(self):
         document = FreeCAD.ActiveDocument
         document.openTransaction(f"Keyline: {self.entry}")
-        keyline_objects.make(self.kind, *FreeCADGui.Selection.getSelection()[: self.count])
+        keyline_objects.make(self.kind, *self.chosen()[: self.count])
         document.commitTransaction()
         document.recompute()
 

@@ -39,7 +39,7 @@ class Computed:
     __getstate__, __setstate__ = dumps, loads
 
 
-SOURCE = ("App::PropertyLink", "Source", "what it is made from", None)
+SOURCE = ("App::PropertyLinkSub", "Source", "what it is made from", None)
 SLOPE = ("App::PropertyFloat", "Slope", "of the logarithmic curvature graph: -1 clothoid, 1 logarithmic spiral", -1.0)
 FIT = ("App::PropertyLength", "FitTolerance", "how far the B-spline may lie off the exact curve", 0.001)
 DEVIATION = ("App::PropertyLength", "Deviation", "how far it lies off at most", 0.0)
@@ -55,11 +55,12 @@ class Curve(Computed):
     properties = (SOURCE, SLOPE, FIT)
 
     def execute(self, made):
-        plane = ks.plane_of(made.Source)
-        points = ks.points_of(made.Source, plane)
+        given = ks.Given(made.Source, made)
+        plane = ks.plane_of(given)
+        points = ks.points_of(given, plane)
         if points is None or len(points) < 3:
             raise ValueError("the sketch needs two straight lines or more, end to end")
-        closed = math.dist(points[0], points[-1]) < 1e-7 and len(points) > 3
+        closed = ks.closes(points[0], points[-1]) and len(points) > 3
         request = {"points": points[:-1] if closed else points, "alpha": made.Slope, "nurbs": nurbs(made)}
         if len(points) > 3:
             request["closed"] = closed
@@ -78,13 +79,17 @@ class Fair(Computed):
         DEVIATION,
         ("App::PropertyInteger", "Waves", "of curvature", 0),
         ("App::PropertyBool", "WithinTolerance", "whether it is met", False),
+        ("App::PropertyStringList", "Report", "what was dropped, merged or guessed", []),
     )
 
     def execute(self, made):
-        plane = ks.plane_of(made.Source)
-        points = ks.points_of(made.Source, plane)
+        given = ks.Given(made.Source, made)
+        plane = ks.plane_of(given)
+        points = ks.points_of(given, plane)
         request = {"keep_corners": made.KeepCorners, "nurbs": nurbs(made)}
-        request |= {"points": points} if points else {"curve": ks.curve_of(made.Source, plane)}
+        request |= {"points": points} if points else {"curve": ks.curve_of(given, plane)}
+        if points and given.points is None:
+            request["closed"] = ks.closes(points[0], points[-1])
         if made.Tolerance.Value > 0:
             request["tolerance"] = made.Tolerance.Value
         answer = ks.perform("fair", request)
@@ -92,22 +97,26 @@ class Fair(Computed):
         made.Deviation = answer["deviation"]["max"]
         made.Waves = answer["fairness"]["answer"]["waves"]
         made.WithinTolerance = answer["within_tolerance"]
+        made.Report = answer["report"]
 
 
 class Blend(Computed):
     """From the end of one wire to the start of another."""
 
     properties = (
-        ("App::PropertyLink", "First", "the wire to leave at its end", None),
-        ("App::PropertyLink", "Second", "the wire to join at its start", None),
+        ("App::PropertyLinkSub", "First", "the wire to leave at its end", None),
+        ("App::PropertyLinkSub", "Second", "the wire to join at its start", None),
         ("App::PropertyEnumeration", "Order", "direction, curvature, its rate", ["G1", "G2", "G3"]),
         SLOPE,
         FIT,
     )
 
     def execute(self, made):
-        plane = ks.plane_of(made.First, made.Second)
-        curves = [ks.curve_of(source, plane) for source in (made.First, made.Second)]
+        both = [ks.Given(link, made) for link in (made.First, made.Second)]
+        plane = ks.plane_of(*both)
+        curves = [ks.curve_of(given, plane) for given in both]
+        if any(curve["closed"] for curve in curves):
+            raise ValueError("a closed wire has no end to join")
         request = {"curves": curves, "order": made.Order, "alpha": made.Slope, "nurbs": nurbs(made)}
         made.Shape = ks.wire_of(ks.perform("lac.blend", request)["nurbs"], plane)
 
@@ -123,8 +132,9 @@ class Comb(Computed):
     )
 
     def execute(self, made):
-        plane = ks.plane_of(made.Source)
-        request = {"curve": ks.curve_of(made.Source, plane), "comb": {"samples": max(2, made.Teeth)}}
+        given = ks.Given(made.Source, made)
+        plane = ks.plane_of(given)
+        request = {"curve": ks.curve_of(given, plane), "comb": {"samples": max(2, made.Teeth)}}
         comb = ks.perform("curve.show", request)["comb"]
         made.LargestCurvature = max(abs(k) for k in comb["curvature"])
         if made.LargestCurvature * comb["arc_length"][-1] < 1e-9:
@@ -149,8 +159,9 @@ class Zebra(Computed):
     )
 
     def execute(self, made):
+        face = ks.face_of(ks.Given(made.Source, made))
         request = {
-            "surface": ks.surface_of(made.Source),
+            "surface": ks.surface_of(face),
             "kind": "zebra",
             "grid": made.Grid,
             "stripe_count": made.Stripes,
@@ -160,9 +171,21 @@ class Zebra(Computed):
         if made.View.Length > 0:
             request["view"] = list(made.View)
         field = ks.perform("surface.interrogate", request)
-        lift = 0.001 * made.Source.Shape.BoundBox.DiagonalLength  # else the face would cover its chords
+        leave_trimmed_away(field["values"], face)
+        lift = 0.001 * face.BoundBox.DiagonalLength  # else the face would cover its chords
         sides = [[t for cell in cells_of(field, side) for t in dark_part(cell)] for side in (lift, -lift)]
         made.Mesh = Mesh.Mesh(sides[0] + [t[::-1] for t in sides[1]])  # seen from their own side
+
+
+def leave_trimmed_away(values, face):
+    """No values at points of the surface that the face does not reach."""
+    low_u, high_u, low_v, high_v = face.Surface.bounds()
+    for i, row in enumerate(values):
+        for j in range(len(row)):
+            u = low_u + (high_u - low_u) * i / (len(values) - 1)
+            v = low_v + (high_v - low_v) * j / (len(row) - 1)
+            if not face.isPartOfDomain(u, v):
+                row[j] = None
 
 
 def cells_of(field, lift):
@@ -203,12 +226,15 @@ class Value(Computed):
     )
 
     def execute(self, made):
-        if made.Source.Shape.Faces:
-            answer = ks.perform("surface.sav", {"surface": ks.surface_of(made.Source)})
+        given = ks.Given(made.Source, made)
+        if given.points is None and given.shape.Faces:
+            answer = ks.perform("surface.sav", {"surface": ks.surface_of(ks.face_of(given))})
             made.AestheticValue, made.Worst = answer["sav"], answer["worst"]
             return
-        plane = ks.plane_of(made.Source)
-        (curve,) = ks.curve_of(made.Source, plane)["curves"]
+        curves = ks.curve_of(given, ks.plane_of(given))["curves"]
+        if len(curves) != 1:
+            raise ValueError(f"{given.label} has {len(curves)} edges: select one")
+        (curve,) = curves
         if len(curve["points"]) == curve["degree"] + 1 and "weights" not in curve:
             curve = {"type": "bezier", "points": curve["points"]}
         answer = ks.perform("curve.cav", {"curve": curve})
@@ -227,7 +253,8 @@ KINDS = {
 
 
 def make(kind, *sources, document=None):
-    """A new object of one of the KINDS in a document, made from the sources (two of a Blend)."""
+    """A new object of one of the KINDS in a document, made from the sources (two of a Blend): objects, or (object,
+    names of its faces or edges)."""
     type_name, proxy = KINDS[kind]
     made = (document or FreeCAD.ActiveDocument).addObject(type_name, kind)
     proxy(made)

@@ -1,6 +1,9 @@
 """Shapes of FreeCAD as Keyline's values and back."""
 
+import math
+
 import FreeCAD
+import numpy
 import Part
 
 try:
@@ -19,21 +22,67 @@ def perform(operation, request):
         raise RuntimeError(f"{error.message}; {error.hint}" if error.hint else error.message) from error
 
 
-def plane_of(*sources):
-    """The plane that holds all sources, as a placement: one sketch's own, else the one through the shapes."""
-    if len(sources) == 1 and sources[0].isDerivedFrom("Sketcher::SketchObject"):
-        return sources[0].getGlobalPlacement()
-    shape = Part.Compound([source.Shape for source in sources])
+class Given:
+    """What a link means, as it lies in the container of the object made of it: a shape, or measured points."""
+
+    def __init__(self, link, made):
+        self.source, parts = link if isinstance(link, tuple) else (link, [])  # of older documents the object alone
+        if self.source is None:
+            raise ValueError("there is no source: set it among the properties")
+        self.label = self.source.Label
+        into = _container(made).inverse().multiply(_container(self.source))
+        self.points = None
+        if hasattr(self.source, "Points") and hasattr(self.source.Points, "Points"):
+            own = into.multiply(self.source.Placement)
+            self.points = [own.multVec(Vector(*p)) for p in self.source.Points.Points]
+        elif hasattr(self.source, "Shape"):
+            shape = self.source.Shape
+            if any(parts):
+                shape = Part.Compound([shape.getElement(part) for part in parts if part])
+            self.shape = shape.copy()
+            self.shape.Placement = into.multiply(self.shape.Placement)
+        else:
+            raise ValueError(f"{self.label} has no shape")
+        sketch = self.source.isDerivedFrom("Sketcher::SketchObject")
+        self.plane = into.multiply(self.source.Placement) if sketch else None
+
+
+def _container(thing):
+    """Where the part or body that holds a thing lies."""
+    return thing.getGlobalPlacement().multiply(thing.Placement.inverse()) if hasattr(thing, "Placement") else FreeCAD.Placement()
+
+
+def plane_of(*given):
+    """The plane that holds all that is given, as a placement: one sketch's own, else the one through the shapes."""
+    if len(given) == 1 and given[0].plane:
+        return given[0].plane
+    if given[0].points:
+        return _plane_through(given[0])
+    shape = Part.Compound([one.shape for one in given])
     plane = shape.findPlane()
     if plane is not None:
         return FreeCAD.Placement(plane.Position, FreeCAD.Rotation(Vector(0, 0, 1), plane.Axis))
     points = [vertex.Point for vertex in shape.Vertexes]
+    if len(points) < 2:
+        raise ValueError(f"{given[0].label} has no edges")
     way = points[-1] - points[0]
     straight = all((p - points[0]).cross(way).Length <= 1e-9 * way.Length**2 for p in points)
     if not straight or any(not _is_straight(edge) for edge in shape.Edges):
         raise ValueError("the curves do not lie in one plane")
     normal = way.cross(Vector(0, 0, 1)) if way.cross(Vector(0, 0, 1)).Length > 1e-9 else Vector(1, 0, 0)
     return FreeCAD.Placement(points[0], FreeCAD.Rotation(way, normal.cross(way), normal, "XZY"))
+
+
+def _plane_through(given):
+    """The plane of least squares through measured points; how far they lie off it is told."""
+    points = numpy.array([tuple(p) for p in given.points])
+    middle = points.mean(axis=0)
+    axes = numpy.linalg.svd(points - middle, full_matrices=False)[2]
+    off = abs((points - middle) @ axes[2]).max()
+    if off > 1e-7:
+        FreeCAD.Console.PrintWarning(f"{given.label}: up to {off:.3g} off the plane through its points\n")
+    turned = FreeCAD.Rotation(Vector(*axes[0]), Vector(*axes[1]), Vector(*axes[2]), "XYZ")
+    return FreeCAD.Placement(Vector(*middle), turned)
 
 
 def _is_straight(edge):
@@ -46,9 +95,12 @@ def within(plane, point):
     return [local.x, local.y]
 
 
-def edges_of(source):
-    """The source's first wire from its start to its end: (edge, turned round) in order."""
-    wire = Part.Wire(Part.sortEdges(source.Shape.Edges)[0])
+def edges_of(given):
+    """The wire from its start to its end: (edge, turned round) in order."""
+    wires = Part.sortEdges(given.shape.Edges) if given.points is None else []
+    if len(wires) != 1:
+        raise ValueError(f"{given.label} holds {len(wires)} wires: one is wanted, or select its edges")
+    wire = Part.Wire(wires[0])
     edges = wire.OrderedEdges
     ends = [(e.valueAt(e.FirstParameter), e.valueAt(e.LastParameter)) for e in edges]
     if len(edges) == 1:
@@ -64,21 +116,21 @@ def edges_of(source):
     return ordered
 
 
-def points_of(source, plane):
+def points_of(given, plane):
     """The corners of a wire that is nothing but straight lines, or measured points; None of another."""
-    if hasattr(source, "Points") and hasattr(source.Points, "Points"):
-        return [within(plane, p) for p in source.Points.Points]
-    edges = edges_of(source)
+    if given.points:
+        return [within(plane, p) for p in given.points]
+    edges = edges_of(given)
     if not all(_is_straight(edge) for edge, _ in edges):
         return None
     ends = [[e.valueAt(e.FirstParameter), e.valueAt(e.LastParameter)][:: -1 if t else 1] for e, t in edges]
     return [within(plane, start) for start, _ in ends] + [within(plane, ends[-1][1])]
 
 
-def curve_of(source, plane):
-    """The source's first wire as a path of B-splines in the plane."""
+def curve_of(given, plane):
+    """The wire as a path of B-splines in the plane."""
     curves = []
-    for edge, turned in edges_of(source):
+    for edge, turned in edges_of(given):
         spline = edge.Curve.toBSpline(edge.FirstParameter, edge.LastParameter)
         if turned:
             spline.reverse()
@@ -91,16 +143,29 @@ def curve_of(source, plane):
         if spline.isRational():
             value["weights"] = spline.getWeights()
         curves.append(value)
-    return {"type": "path", "curves": curves}
+    return {"type": "path", "curves": curves, "closed": closes(curves[0]["points"][0], curves[-1]["points"][-1])}
 
 
-def surface_of(source):
-    """The source's first face as a B-spline surface."""
-    surface = source.Shape.Faces[0].toNurbs().Faces[0].Surface
+def closes(first, last):
+    """Whether a wire that begins and ends there is closed."""
+    return math.dist(first, last) < 1e-7
+
+
+def face_of(given):
+    """Its one face."""
+    faces = given.shape.Faces if given.points is None else []
+    if len(faces) != 1:
+        raise ValueError(f"{given.label} holds {len(faces)} faces: select one")
+    return faces[0].toNurbs().Faces[0]
+
+
+def surface_of(face):
+    """The surface of a face, as a B-spline."""
+    surface = face.Surface
     if not isinstance(surface, Part.BSplineSurface):
         surface = surface.toBSpline()
     if surface.isURational() or surface.isVRational():
-        raise ValueError("the face is a rational surface: values of polynomial ones are defined")
+        raise ValueError("the face is rational, as cylinders and spheres are: only polynomial ones are read")
     return {
         "type": "bspline-surface",
         "degree": [surface.UDegree, surface.VDegree],
