@@ -180,6 +180,25 @@ TEST(Spline, SpansThatMustInflectGiveWay) {
   EXPECT_LT(misses(*m, points), 1e-12);
 }
 
+// Curvature starts to the left and ends to the right: no slope from 0 on has that.
+TEST(Spline, OneSpanThatMustInflectGivesWay) {
+  const std::vector<Point2> points{{0, 0}, {1, 0}};
+  for (const double alpha : {0.0, 1.0, 2.0}) {
+    SplineOptions options = with_slope(alpha);
+    options.start = {-0.4, 1.5};
+    options.end = {-0.3, -0.8};
+    const auto s = solve_spline(points, options);
+    ASSERT_TRUE(s) << s.error().message;
+    EXPECT_EQ(s->overridden, std::vector<std::size_t>{0});
+    EXPECT_TRUE(validate(s->chain));
+    EXPECT_LT(misses(*s, points), 1e-12);
+    EXPECT_NEAR(end_pose(s->chain).direction, -0.3, 1e-12);
+    EXPECT_EQ(s->chain.pieces.front().curvature_start, 1.5);
+    EXPECT_EQ(s->chain.pieces.back().curvature_end, -0.8);
+    for (const Piece& p : s->chain.pieces) EXPECT_EQ(p.alpha, -1);
+  }
+}
+
 // Slope 2 does not reach all the way through these points: the one span gives way whose curvatures
 // in the clothoid spline are most unlike each other.
 TEST(Spline, TheSpanNearestToVanishingGivesWay) {

@@ -7,7 +7,6 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
-#include "keyline/lac/g2/g2_hermite.h"
 #include "keyline/lac/g2/spline_local.h"
 #include "keyline/lac/g2/spline_newton.h"
 #include "keyline/lac/segment/piece_shape.h"
@@ -325,13 +324,15 @@ SplineSolution assembled(std::span<const Point2> points, const Prepared& prepare
 /// One span with both conditions at both ends.
 core::Result<SplineSolution> single_span(std::span<const Point2> points,
                                          const SplineOptions& options, double alpha) {
-  const auto g2 = solve_g2({{points[0], *options.start.direction}, *options.start.curvature},
-                           {{points[1], *options.end.direction}, *options.end.curvature}, alpha);
-  if (!g2) return std::unexpected(g2.error());
+  auto span =
+      detail::solve_span({{points[0], *options.start.direction}, *options.start.curvature},
+                         {{points[1], *options.end.direction}, *options.end.curvature}, alpha);
+  if (!span) return std::unexpected(span.error());
   SplineSolution solution;
-  solution.chain = g2->chain;
-  solution.span.assign(g2->chain.pieces.size(), 0);
-  solution.deviation = distance(end_pose(g2->chain).position, points[1]);
+  solution.chain = std::move(span->chain);
+  solution.span.assign(solution.chain.pieces.size(), 0);
+  if (span->overridden) solution.overridden = {0};
+  solution.deviation = detail::deviation_of(points, solution);
   return solution;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/g2/g2_hermite.h"
 #include "keyline/lac/hermite/hermite.h"
 
 namespace keyline::lac::detail {
@@ -85,16 +85,13 @@ core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
     const std::size_t j = (i + 1) % points.size();
     const CurvatureElement start{{points[i], direction[i]}, curvature[i]};
     const CurvatureElement end{{points[j], direction[j]}, curvature[j]};
-    auto part = solve_g2(start, end, wanted[i]);
-    if (!part && wanted[i] != -1) {
-      part = solve_g2(start, end, -1);
-      solution.overridden.push_back(i);
-    }
+    const auto part = solve_span(start, end, wanted[i]);
     if (!part) {
       return core::fail(core::ErrorCode::not_converged,
                         "no curve without loops was found in span " + std::to_string(i),
                         "add a point there", "points[" + std::to_string(i) + "]");
     }
+    if (part->overridden) solution.overridden.push_back(i);
     for (const Piece& piece : part->chain.pieces) {
       solution.chain.pieces.push_back(piece);
       solution.span.push_back(i);
@@ -104,6 +101,15 @@ core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
 }
 
 }  // namespace
+
+core::Result<SpanCurve> solve_span(const CurvatureElement& start, const CurvatureElement& end,
+                                   double wanted) {
+  auto found = solve_g2(start, end, wanted);
+  const bool give_way = !found && wanted != -1 && found.error().code != core::ErrorCode::bad_input;
+  if (give_way) found = solve_g2(start, end, -1);
+  if (!found) return std::unexpected(found.error());
+  return SpanCurve{std::move(found->chain), give_way};
+}
 
 double deviation_of(std::span<const Point2> points, const SplineSolution& solution) {
   double largest = 0;

@@ -3,13 +3,23 @@
 #include <span>
 #include <vector>
 
+#include "keyline/lac/g2/g2_hermite.h"
 #include "keyline/lac/g2/spline.h"
 
 /// Internals of the G2 spline: the way out where one piece per span would be wild.
 namespace keyline::lac::detail {
 
+/// One span between directions and curvatures.
+struct SpanCurve {
+  Chain chain;
+  bool overridden = false;  ///< of slope -1, since there is none of the slope wanted
+};
+/// By solve_g2. Fails as that does for slope -1, bad_input as for the slope wanted.
+core::Result<SpanCurve> solve_span(const CurvatureElement& start, const CurvatureElement& end,
+                                   double wanted);
+
 /// Tangents from the turns at the points, curvatures from the G1 segments between them, then every
-/// span for itself by solve_g2. Input checked by the caller; wanted: a slope per span.
+/// span for itself by solve_span. Input checked by the caller; wanted: a slope per span.
 core::Result<SplineSolution> solve_spline_span_by_span(std::span<const core::Point2> points,
                                                        const SplineOptions& options,
                                                        const std::vector<double>& wanted);
