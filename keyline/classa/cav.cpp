@@ -77,6 +77,15 @@ void place(CurveValue& value, const CavOptions& o) {
   }
 }
 
+/// The minimum to measure from; what is wrong with tangent or chord is wrong with the points.
+core::Result<EnergyMinimum> minimum_of(const EnergyConditions& conditions, const CavOptions& o) {
+  if (o.minimum) return *o.minimum;
+  auto minimum = minimum_energy(conditions);
+  if (!minimum && (minimum.error().path == "tangent" || minimum.error().path == "chord"))
+    minimum.error().path = "points";
+  return minimum;
+}
+
 CurveReading read(std::vector<Point2> control, const CavOptions& o) {
   CurveReading r;
   r.control = std::move(control);
@@ -98,8 +107,7 @@ core::Result<CurveValue> value_of(const curve::Bezier2& given, const CavOptions&
   value.left = r.matrix.left;
   if (value.type == 3)
     value.matrix = ControlMatrix{std::abs(r.matrix.matrix.alpha), r.matrix.matrix.s};
-  core::Result<EnergyMinimum> minimum =
-      o.minimum ? core::Result<EnergyMinimum>(*o.minimum) : minimum_energy(r.conditions);
+  auto minimum = minimum_of(r.conditions, o);
   if (minimum) {
     value.minimum = *minimum;
   } else if (value.type == 3 || minimum.error().code == ErrorCode::bad_input) {
@@ -117,7 +125,7 @@ core::Result<CurveValue> value_of(const curve::Bezier2& given, const CavOptions&
 
 /// Type 5: a curve in no plane has no place in this one; its minimum lies in the plane of its start
 /// tangent and its chord.
-CurveValue value_in_space(const curve::Bezier3& given, const CavOptions& o) {
+core::Result<CurveValue> value_in_space(const curve::Bezier3& given, const CavOptions& o) {
   const detail::SpaceReading r = detail::read_in_space(given.control, o);
   const Diagonals d = diagonals(o.alpha_max);
   CurveValue value;
@@ -126,10 +134,11 @@ CurveValue value_in_space(const curve::Bezier3& given, const CavOptions& o) {
   value.energy = strain_energy(given);
   value.monotone = certify_monotone_curvature(given);
   value.reversed = r.reversed;
-  core::Result<EnergyMinimum> minimum =
-      o.minimum ? core::Result<EnergyMinimum>(*o.minimum) : minimum_energy(r.conditions);
+  auto minimum = minimum_of(r.conditions, o);
   if (minimum)
     value.minimum = *minimum;
+  else if (minimum.error().code == ErrorCode::bad_input)
+    return std::unexpected(std::move(minimum.error()));
   else
     value.no_minimum = minimum.error().message;
   return value;

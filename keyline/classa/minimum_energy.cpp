@@ -82,10 +82,10 @@ core::Result<void> check(const EnergyConditions& c) {
   if (c.degree < 2 || c.degree > curve::kMaxBezierDegree)
     return fail(ErrorCode::bad_input, "the degree has to lie between 2 and 30", {}, "degree");
   if (!(c.alpha.low >= 0 && c.alpha.low <= c.alpha.high && c.alpha.high < kPi / 2))
-    return fail(ErrorCode::bad_input, "the range of alpha has to lie within [0, pi/2)",
-                "give alpha_max below 1.5707", "alpha_max");
+    return fail(ErrorCode::bad_input, "the range of alpha is empty or leaves [0, pi/2)",
+                "give [low, high] below 1.5707", "alpha_range");
   if (!(c.s.low > 0 && c.s.low <= c.s.high && std::isfinite(c.s.high)))
-    return fail(ErrorCode::bad_input, "the range of s is empty or not positive", {}, "s");
+    return fail(ErrorCode::bad_input, "the range of s is empty or not positive", {}, "s_range");
   if (!(chord > 0))
     return fail(ErrorCode::undrawable, "the curve ends where it starts: no Class A curve does",
                 "move the end away from the start", "chord");
@@ -112,7 +112,7 @@ core::Failure infeasible(const EnergyConditions& c, const Frame& f) {
               ", " + core::number_text(c.s.high, 6) +
               "] reaches the end, which lies at an angle of " + core::number_text(f.angle, 6) +
               " to the tangent",
-          "widen the ranges, raise the degree, or ask for the other branch", "alpha"};
+          "widen the ranges, raise the degree, or ask for the other branch", "alpha_range"};
 }
 
 EnergyMinimum straight(const EnergyConditions& c, const Frame& f, double offset) {

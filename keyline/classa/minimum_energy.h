@@ -51,7 +51,8 @@ struct EnergyMinimum {
 /// Accuracy: energy to 1e-12 relative, alpha and s to about 1e-7 (the minimum is flat).
 /// Errors: bad_input for a tangent or chord without direction, an end_tolerance < 0 or >= |chord|,
 /// alpha outside [0, pi/2) or empty, s empty or not positive, a degree outside 2 … 30; undrawable
-/// where no Class A curve meets the conditions, with what would have to give.
+/// where no Class A curve meets the conditions, with what would have to give. Paths: "tangent",
+/// "chord", "degree", "end_tolerance", "alpha_range", "s_range".
 core::Result<EnergyMinimum> minimum_energy(const EnergyConditions& conditions);
 
 }  // namespace keyline::classa

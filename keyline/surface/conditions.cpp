@@ -38,6 +38,16 @@ core::Result<void> check(const CurveCondition& c, double alpha_max, const std::s
   return {};
 }
 
+/// Closed curves have no minimum to end anywhere.
+core::Result<void> check_end(const CurveCondition& c, const NetworkCurve& curve,
+                             const std::string& where) {
+  const double chord = distance(curve.control.front(), curve.control.back());
+  if (!c.end_tolerance || *c.end_tolerance < chord || chord == 0) return {};
+  return fail(ErrorCode::bad_input,
+              curve.name + ": the end tolerance is not smaller than the chord",
+              "give less than " + number_text(chord, 6), where + ".end_tolerance");
+}
+
 /// What stands outside of its range and on which side; empty within.
 std::optional<std::string> outside(const char* name, double value,
                                    const std::optional<Interval>& range) {
@@ -72,6 +82,9 @@ core::Result<void> validate(std::span<const CurveCondition> conditions, const Ne
                     (name.empty() ? "every curve" : name) + " has two conditions",
                     "put both into one", where + ".curve");
     if (auto sound = check(conditions[i], alpha_max, where); !sound) return sound;
+    for (const NetworkCurve& curve : curves)
+      if (name.empty() || name == curve.name)
+        if (auto sound = check_end(conditions[i], curve, where); !sound) return sound;
   }
   return {};
 }

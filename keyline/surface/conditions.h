@@ -48,7 +48,8 @@ struct CurveCondition {
 };
 
 /// bad_input for a curve that the net does not have or that is named twice, ranges that are empty,
-/// alpha outside [0, alpha_max], s or end_tolerance out of [0.01, 100] or negative. Paths such as
+/// alpha outside [0, alpha_max], s out of [0.01, 100], end_tolerance negative or not smaller than
+/// the chord of one of its curves. Paths such as
 /// "conditions[1].s".
 core::Result<void> validate(std::span<const CurveCondition> conditions, const Net& net,
                             double alpha_max);

@@ -75,7 +75,10 @@ Result<SurfaceValue> sav(const BezierSurface& s, const CavOptionsOf& options) {
     auto value = value_of(curve.control, options(curve));
     if (!value) {
       core::Failure failure = value.error();
-      failure.path = failure.path.empty() ? curve.name : curve.name + "." + failure.path;
+      const bool of_option = !failure.path.empty() && !failure.path.starts_with("points") &&
+                             !failure.path.starts_with("weights");
+      if (!of_option) failure.path = "surface";
+      failure.message = curve.name + ": " + failure.message;
       return std::unexpected(std::move(failure));
     }
     result.sav += value->cav;
@@ -107,8 +110,8 @@ Result<std::vector<PatchValue>> sav_by_patch(const Surface& s, const CavOptions&
     if (!*found[i]) {
       core::Failure failure = found[i]->error();
       if (found.size() > 1)
-        failure.path =
-            "patch [" + std::to_string(row) + "][" + std::to_string(column) + "]: " + failure.path;
+        failure.message = "patch [" + std::to_string(row) + "][" + std::to_string(column) +
+                          "]: " + failure.message;
       return std::unexpected(std::move(failure));
     }
     values.push_back({row, column, std::move(**found[i])});

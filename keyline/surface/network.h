@@ -42,7 +42,8 @@ struct SurfaceValue {
 
 /// Curves without a length and closed ones have no control matrix: type 5.
 /// Errors: bad_input for alpha_max outside (0, pi/2) and as classa::cav; unsupported for a rational
-/// patch; undrawable as classa::cav, with the curve's name as path.
+/// patch; undrawable as classa::cav. What one curve fails by has its name before the message and
+/// the option as path, or "surface".
 core::Result<SurfaceValue> sav(const BezierSurface& s, const classa::CavOptions& options = {});
 
 /// The same with options of each curve's own.
@@ -57,7 +58,7 @@ struct PatchValue {
 };
 
 /// Patches are shared among threads (<= 0: all of the machine's); the result does not depend on how
-/// many. Errors: as sav, with "patch [i][j]: " before the path, and cancelled.
+/// many. Errors: as sav, with "patch [i][j]: " before the message, and cancelled.
 core::Result<std::vector<PatchValue>> sav_by_patch(const Surface& s,
                                                    const classa::CavOptions& options = {},
                                                    int threads = 1,

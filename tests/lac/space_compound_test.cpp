@@ -112,5 +112,15 @@ TEST(SolveCompoundSpace, IsLookedForAllOverTheFamily) {
   EXPECT_NEAR(arc_length(solved->chain), 1, 1e-6);  // of the curve meant
 }
 
+TEST(SolveCompoundSpace, MistakesAreNamed) {
+  const auto path = [](SpaceRhythm rhythm) {
+    return solve_compound_space(kData, rhythm).error().path;
+  };
+  EXPECT_EQ(path({.alpha = {-1, 101}}), "alpha[1]");
+  EXPECT_EQ(path({.beta = {-200, 0}}), "beta[0]");
+  EXPECT_EQ(path({.alpha = {101, 101}}), "alpha");
+  EXPECT_EQ(path({.length_share = 1}), "ratio");
+}
+
 }  // namespace
 }  // namespace keyline::lac

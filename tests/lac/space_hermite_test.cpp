@@ -262,7 +262,7 @@ TEST(SolveG1Space, BadInputIsNormalInput) {
   EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "end");
   bad = good;
   bad.end_tangent = {0, 0, 0};
-  EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "tangents");
+  EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "tangents[1]");
 }
 
 }  // namespace

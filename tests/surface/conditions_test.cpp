@@ -176,6 +176,7 @@ TEST(Conditions, MistakesAreNamed) {
   EXPECT_EQ(path({.alpha = Interval{0, 1.5}}), "conditions[0].alpha");
   EXPECT_EQ(path({.s = Interval{0, 1}}), "conditions[0].s");
   EXPECT_EQ(path({.end_tolerance = -1}), "conditions[0].end_tolerance");
+  EXPECT_EQ(path({.curve = "A2", .end_tolerance = 1e6}), "conditions[0].end_tolerance");
   EditOptions twice;
   twice.conditions = {{.curve = "A1"}, {.curve = "A1"}};
   EXPECT_EQ(edit(crowned_patch(), twice).error().path, "conditions[1].curve");

@@ -184,6 +184,12 @@ TEST(SurfaceValue, DegenerateNetsScoreOrSayWhatIsWrong) {
   CavOptions wide;
   wide.alpha_max = 1.6;
   EXPECT_EQ(sav(collapsed, wide).error().path, "alpha_max");
+  CavOptions far;
+  far.end_tolerance = 1000;
+  const auto failed = sav(one_matrix_patch(0.6, 1.1, 0.3, 1.3), far);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().path, "end_tolerance");
+  EXPECT_TRUE(failed.error().message.starts_with("A1: ")) << failed.error().message;
 }
 
 TEST(SurfaceValue, EveryPatchOfASplineHasItsOwn) {

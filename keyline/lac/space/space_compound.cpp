@@ -201,12 +201,13 @@ Result<void> check(const SpaceRhythm& r) {
   if (!(r.length_share > 0 && r.length_share < 1))
     return core::fail(ErrorCode::bad_input, "the share of the length must lie between 0 and 1",
                       "give more than 0 and less than 1", "ratio");
-  for (const double slope : {r.alpha[0], r.alpha[1], r.beta[0], r.beta[1]})
-    if (!(std::abs(slope) <= 100))
-      return core::fail(ErrorCode::bad_input,
-                        "a slope of a compound rhythm in space lies "
-                        "outside -100 to 100",
-                        "give slopes nearer to 0");
+  for (const auto& [slopes, name] : {std::pair{r.alpha, std::string("alpha")}, {r.beta, "beta"}})
+    for (const std::size_t i : {0, 1})
+      if (!(std::abs(slopes[i]) <= 100))
+        return core::fail(ErrorCode::bad_input,
+                          "a slope of a compound rhythm in space lies outside -100 to 100",
+                          "give slopes nearer to 0",
+                          slopes[0] == slopes[1] ? name : name + "[" + std::to_string(i) + "]");
   return {};
 }
 

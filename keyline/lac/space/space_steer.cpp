@@ -26,10 +26,11 @@ Result<void> check(const SpaceHermite& data, double alpha, double beta, double o
     return core::fail(ErrorCode::bad_input, "an end is not finite");
   if (!(norm(data.end - data.start) > 0))
     return core::fail(ErrorCode::bad_input, "start and end coincide", "move one of them", "end");
-  for (const Vector3 v : {data.start_tangent, data.end_tangent})
+  for (const auto& [v, name] :
+       {std::pair{data.start_tangent, "tangents[0]"}, {data.end_tangent, "tangents[1]"}})
     if (!is_finite(v) || !(norm(v) > 0))
       return core::fail(ErrorCode::bad_input, "a tangent has no direction",
-                        "give a vector that is not zero", "tangents");
+                        "give a vector that is not zero", name);
   return {};
 }
 
