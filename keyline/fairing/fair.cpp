@@ -187,8 +187,11 @@ class Job {
   void tell_symmetry(const Mirror& mirror) {
     result_.symmetry = {mirror.line.position, mirror.line.direction, mirror.rms, false};
     result_.notes.push_back(
-        fmt::format("the points are symmetric about the line through {}, within {:.3g}",
-                    detail::told(mirror.line), mirror.rms));
+        fmt::format("the points are symmetric about the line through {}, within {:.3g}{}",
+                    detail::told(mirror.line), mirror.rms,
+                    options_.symmetric.mode == SymmetricMode::off
+                        ? "; symmetric: auto makes the answer symmetric too"
+                        : ""));
   }
 
   /// The symmetric answer in place of the plain one, where it keeps the tolerance or the line was

@@ -210,7 +210,8 @@ Mirror mirror_in(const core::Pose2& line, const acquire::KeyLine& points) {
 
 std::string told(const core::Pose2& line) {
   const double exact = std::remainder(line.direction * 180 / core::kPi, 180.0);
-  const double degrees = std::round(exact * 100) / 100 + 0.0;  // + 0.0: never "-0.00"
+  double degrees = std::round(exact * 100) / 100 + 0.0;  // + 0.0: never "-0.00"
+  if (degrees == -90) degrees = 90;
   return fmt::format("({:.6g}, {:.6g}) at {:.2f} degrees", line.position.x, line.position.y,
                      degrees);
 }

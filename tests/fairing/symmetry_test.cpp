@@ -122,6 +122,8 @@ TEST(Symmetry, TellsItsLineWithoutAMinusBeforeZero) {
   EXPECT_EQ(detail::told({{1, 2}, -1e-6}), "(1, 2) at 0.00 degrees");
   EXPECT_EQ(detail::told({{1, 2}, core::kPi - 1e-6}), "(1, 2) at 0.00 degrees");
   EXPECT_EQ(detail::told({{1, 2}, -0.25 * core::kPi}), "(1, 2) at -45.00 degrees");
+  for (const double upright : {-0.5, 0.5, 1.5})
+    EXPECT_EQ(detail::told({{1, 2}, upright * core::kPi}), "(1, 2) at 90.00 degrees");
 }
 
 TEST(Symmetry, IsOnlyToldWhereItIsNotAskedFor) {
@@ -129,6 +131,7 @@ TEST(Symmetry, IsOnlyToldWhereItIsNotAskedFor) {
   ASSERT_TRUE(result.symmetry.has_value());
   EXPECT_FALSE(result.symmetry->exact);
   EXPECT_THAT(result.notes, ::testing::Contains(HasSubstr("symmetric about the line")));
+  EXPECT_THAT(result.notes, ::testing::Contains(HasSubstr("symmetric: auto")));
   EXPECT_GT(asymmetry(result, axis_of(result)), 1e-5 * result.length);
 }
 
