@@ -145,6 +145,9 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
   const auto calm = [](const RunResult& run) { return !run.dense.joints.empty(); };
   result.calm_missed =
       std::ranges::none_of(solved, calm) && std::ranges::any_of(solved, &RunResult::calm_missed);
+  result.all_single = !before && !after && std::ranges::all_of(solved, [](const RunResult& run) {
+    return run.exact && run.chain.pieces.size() == 1;
+  });
   if (before)
     for (FairPiece& piece : result.pieces) ++piece.curve;
   std::vector<analysis::CurveView> views;

@@ -8,8 +8,6 @@
 namespace keyline::fairing::detail {
 namespace {
 
-// Points of a chain whose shortest piece is a fiftieth of it: as many on that as a stretch has.
-constexpr std::size_t kTelling = 50 * kStretchPoints;
 constexpr double kExactness = 2e-7;  // of the length
 constexpr double kRate = 5;     // power of the pieces' length with which approximation gets near
 constexpr double kBetter = 10;  // times nearer than that is no approximation
@@ -73,7 +71,7 @@ std::vector<Foot> feet_of_all(const FitChain& chain, const std::vector<std::size
 }  // namespace
 
 std::vector<std::size_t> telling_points(const std::vector<FitPoint>& points) {
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kTelling);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kTellingPoints);
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (i % step == 0 || i + 1 == points.size() || points[i].must_pass) taken.push_back(i);

@@ -9,6 +9,8 @@ namespace keyline::fairing::detail {
 inline constexpr std::size_t kMostExactPieces = 8;  ///< longer chains are not drawn exactly
 /// Points that tell a piece: two more than it has freedoms beside its ends'.
 inline constexpr std::size_t kStretchPoints = 8;
+/// Points of a chain whose shortest piece is a fiftieth of it: as many on that as a stretch has.
+inline constexpr std::size_t kTellingPoints = 50 * kStretchPoints;
 
 /// Largest distance, part of the length, of a point that counts as reproduced to rounding: 2e-7, or
 /// six times the noise.

@@ -235,6 +235,7 @@ struct FairResult {
   bool smoothness_counts = true;
   /// No calmest chain came out for any run: shortest ones stand in, whatever the smoothness.
   bool calm_missed = false;
+  bool all_single = false;  ///< every run is one piece that reproduces its points to rounding
   FairFigures fairness;
   double rate = 0;  ///< fastest that curvature changes in the faired curves, see FairOptions
   std::optional<FoundSymmetry> symmetry;

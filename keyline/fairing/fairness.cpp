@@ -75,7 +75,8 @@ FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result,
   for (const FairCurve& member : result.curves)
     add(figures.answer,
         std::visit([](const auto& c) { return analysis::comb_figures(graph_of(c)); }, member));
-  figures.fair = figures.answer.energy == 0 || as_fair(figures.answer, figures.rival());
+  figures.fair =
+      result.all_single || figures.answer.energy == 0 || as_fair(figures.answer, figures.rival());
   return figures;
 }
 

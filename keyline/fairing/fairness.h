@@ -27,7 +27,7 @@ struct FairFigures {
                                                     "tolerance; not where corners part the answer"),
         core::field<&FairFigures::fair>(
             "no more waves than that spline (or the one through the points), energy and jolt at "
-            "most half as much again"));
+            "most half as much again; or single pieces that reproduce the points to rounding"));
   }
   /// What the answer is held against.
   const analysis::CombFigures& rival() const {

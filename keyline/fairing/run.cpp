@@ -19,6 +19,7 @@
 #include "keyline/fairing/settle.h"
 #include "keyline/fairing/shortest_run.h"
 #include "keyline/fairing/straight_run.h"
+#include "keyline/fairing/stretches.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -37,16 +38,37 @@ bool is_plain(const Run& run, const RunOptions& options) {
   return !run.closed && !held && options.pieces == 0;
 }
 
-/// Points on a line or an arc need no search.
+/// Whether the slopes of bent pieces are in the range asked for.
+bool within_slopes(const FitChain& chain, const RunOptions& options) {
+  return std::ranges::all_of(chain.pieces, [&](const FitPiece& piece) {
+    return piece.kind != PieceKind::curve ||
+           (options.slopes.low <= piece.alpha && piece.alpha <= options.slopes.high);
+  });
+}
+
+/// A single piece that reproduces the points, which may be so few that an estimate of their noise
+/// is one of their spacing.
+std::optional<FitChain> piece_at_sight(const std::vector<FitPoint>& points,
+                                       const RunOptions& options) {
+  if (points.size() < kStretchPoints || points.size() > kTellingPoints) return std::nullopt;
+  if (options.max_rate) return std::nullopt;
+  auto found = one_exact_piece(points, false, exactness({}));
+  return found && within_slopes(*found, options) ? std::move(found) : std::nullopt;
+}
+
+/// Points on a line, an arc or a single piece need no search.
 bool solve_at_sight(RunResult& result, const Run& run, const RunOptions& options) {
   if (!is_plain(run, options)) return false;
   auto found = straight_chain(result.points);
   if (!found && run.inside.empty()) found = arc_chain(result.points);
+  const bool straightened = found.has_value();
+  if (!found && run.inside.empty()) found = piece_at_sight(result.points, options);
   if (!found) return false;
   result.fit = std::move(*found);
   result.accept = {exactness(result.accept), 0};
   result.within_tolerance = result.exact = true;
-  result.start_pieces = result.straightened = 1;
+  result.start_pieces = 1;
+  result.straightened = straightened ? 1 : 0;
   return true;
 }
 
@@ -133,7 +155,7 @@ void solve_one_way(RunResult& result, const Run& run, const RunFrame& frame,
   if (options.criterion == Criterion::least_variation && options.pieces == 0) {
     RunResult exact = result;
     if (!options.max_rate && solve_exact(exact, run, frame, spline, options) &&
-        stays_inside(exact, run)) {
+        stays_inside(exact, run) && within_slopes(exact.fit, options)) {
       result = std::move(exact);
       return;
     }

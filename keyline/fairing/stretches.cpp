@@ -5,7 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/fairing/exact_chain.h"
-#include "keyline/fairing/local_pose.h"
+#include "keyline/fairing/one_piece.h"
 #include "keyline/lac/segment/segment.h"
 
 namespace keyline::fairing::detail {
@@ -16,38 +16,10 @@ constexpr std::size_t kStretches = 3 * kMostExactPieces;
 // Stretches this long in the whole: of places on a chain of the most pieces, a third begins one
 // that holds no joint.
 constexpr double kStretchShare = 2.0 / (3 * kMostExactPieces);
-constexpr double kWhole = 0.25;        // of the stretches: what is left of that third by the grid
-constexpr double kStretchReach = 0.3;  // of the points, for the poses that a piece starts from…
-constexpr double kWholeReach = 0.02;   // …and of all points, which turn by more
-constexpr double kStep = 0.05;         // of the larger curvature: less may be the fit's error…
-constexpr double kFitError = 64;       // …which is so many times what bends a stretch by rounding
+constexpr double kWhole = 0.25;   // of the stretches: what is left of that third by the grid
+constexpr double kStep = 0.05;    // of the larger curvature: less may be the fit's error…
+constexpr double kFitError = 64;  // …which is so many times what bends a stretch by rounding
 constexpr double kRateShare = 4;  // of what curvature changes by on the way between two stretches
-
-struct Piece {
-  FitChain chain;
-  double off = 0;   ///< largest offset
-  double size = 1;  ///< length of the points, of which both are shares
-};
-
-/// The single piece nearest to the points, moved to lie along a length of 1.
-Piece one_piece(std::vector<FitPoint> points, double exact, double reach) {
-  const double by = 1 / make_track(points, false).total;
-  for (FitPoint& p : points) p.position = {by * p.position.x, by * p.position.y};
-  const Track track = make_track(points, false);
-  FitChain chain;
-  chain.first_at_start = chain.last_at_end = true;
-  chain.joints = {local_pose(track, 0, reach), local_pose(track, 1, reach)};
-  chain.pieces = {{.length = 1}};
-  for (std::size_t j = 0; j < points.size(); ++j) chain.feet.push_back({0, track.at(long(j))});
-  ChainFitOptions fit;
-  fit.fine = true;
-  fit.iterations = 60;
-  fit.gradient_tolerance = 1e-6;
-  fit.slope_prior = 0;
-  fit.scale = by * exact;
-  const double off = fit_chain(chain, points, fit).max_offset;
-  return {std::move(chain), off / by, 1 / by};
-}
 
 /// Curvature and its rate at an end of a stretch.
 struct End {
@@ -82,11 +54,11 @@ class Stretches {
   }
 
  private:
-  Piece piece_from(std::size_t first) const {
+  OnePiece piece_from(std::size_t first) const {
     std::vector<FitPoint> stretch;
     for (std::size_t i = 0; i < kStretchPoints; ++i)
       stretch.push_back(points_[(first + i * step_) % points_.size()]);
-    return one_piece(std::move(stretch), exact_, kStretchReach);
+    return fit_one_piece(stretch);
   }
   bool followed(std::size_t first) const { return piece_from(first).off <= exact_; }
 
@@ -101,15 +73,11 @@ class Stretches {
   }
 
   End end_of(std::size_t first, bool start) const {
-    const Piece found = piece_from(first);
-    const FitChain& chain = found.chain;
-    const lac::Piece piece{chain.pieces[0].alpha, chain.pieces[0].length, chain.joints[0].curvature,
-                           chain.joints[1].curvature};
+    const lac::Piece piece = lac::piece_of(piece_from(first).segment);
     const double curvature = start ? piece.curvature_start : piece.curvature_end;
     const bool arc = piece.curvature_start == piece.curvature_end;
     const double rate = arc ? 0 : std::abs(lac::curvature_rate(piece, start ? 0 : 1));
-    return {start ? first : first + span_, curvature / found.size,
-            rate / (found.size * found.size)};
+    return {start ? first : first + span_, curvature, rate};
   }
 
   bool steps_between(std::size_t first, std::size_t second) const {
@@ -159,19 +127,28 @@ void close(FitChain& chain) {
   chain.feet.pop_back();
 }
 
+/// The chain of the one piece.
+FitChain chain_of(const OnePiece& one) {
+  const lac::Segment& segment = one.segment;
+  const core::Pose2 end = lac::end_pose(segment);
+  FitChain chain;
+  chain.first_at_start = chain.last_at_end = true;
+  chain.joints = {{segment.start.position, segment.start.direction, segment.curvature_start},
+                  {end.position, end.direction, segment.curvature_end}};
+  chain.pieces = {{.length = segment.length, .alpha = segment.alpha}};
+  for (const double foot : one.feet) chain.feet.push_back({0, foot});
+  return chain;
+}
+
 }  // namespace
 
 std::optional<FitChain> one_exact_piece(std::vector<FitPoint> points, bool closed, double exact) {
   if (closed) points.push_back(points.front());
-  Piece found = one_piece(std::move(points), exact, kWholeReach);
+  const OnePiece found = fit_one_piece(points);
   if (!(found.off <= exact)) return std::nullopt;
-  for (FitJoint& joint : found.chain.joints) {
-    joint.position = {found.size * joint.position.x, found.size * joint.position.y};
-    joint.curvature /= found.size;
-  }
-  found.chain.pieces[0].length *= found.size;
-  if (closed) close(found.chain);
-  return std::move(found.chain);
+  FitChain chain = chain_of(found);
+  if (closed) close(chain);
+  return chain;
 }
 
 }  // namespace keyline::fairing::detail
