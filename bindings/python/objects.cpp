@@ -32,6 +32,9 @@ json array_json(const double* data, const py::ssize_t* shape, py::ssize_t dimens
 
 /// Arrays of numbers in one go; whole numbers stay whole.
 json from_array(const py::array& array, const std::string& where) {
+  if (py::hasattr(array, "mask") && py::bool_(array.attr("mask").attr("any")()))
+    raise({core::ErrorCode::bad_input, "some of the values are masked",
+           "give compressed() or filled() ones", where});
   const char kind = array.dtype().kind();
   if (array.ndim() == 0 || kind != 'f') return to_json(array.attr("tolist")(), where);
   const Doubles doubles = Doubles::ensure(array);
@@ -56,14 +59,43 @@ json from_sequence(const py::handle& object, const std::string& where) {
   return list;
 }
 
+/// Whole numbers beyond 64 bits are doubles, as in JSON.
+json from_whole(const py::handle& number) {
+  int beyond = 0;
+  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &beyond);
+  if (beyond == 0) return value;
+  return py::cast<double>(py::float_(py::reinterpret_borrow<py::object>(number)));
+}
+
+json from_text(const py::handle& text, const std::string& where) {
+  Py_ssize_t size = 0;
+  const char* utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (utf8) return std::string(utf8, static_cast<std::size_t>(size));
+  PyErr_Clear();
+  raise({core::ErrorCode::bad_input, "the text cannot be written as UTF-8",
+         "give a file another name, or what it holds", where});
+}
+
+/// One level of a request within another: Python's own limit stops a list that holds itself.
+class Level {
+ public:
+  Level() {
+    if (Py_EnterRecursiveCall(" in a request") != 0) throw py::error_already_set();
+  }
+  ~Level() { Py_LeaveRecursiveCall(); }
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+};
+
 }  // namespace
 
 json to_json(const py::handle& object, const std::string& where) {
+  const Level level;
   if (object.is_none()) return nullptr;
   if (py::isinstance<py::bool_>(object)) return py::cast<bool>(object);
-  if (py::isinstance<py::int_>(object)) return py::cast<std::int64_t>(object);
+  if (py::isinstance<py::int_>(object)) return from_whole(object);
   if (py::isinstance<py::float_>(object)) return py::cast<double>(object);
-  if (py::isinstance<py::str>(object)) return py::cast<std::string>(object);
+  if (py::isinstance<py::str>(object)) return from_text(object, where);
   if (py::isinstance<operations::HeldCurve>(object))
     return py::cast<const operations::HeldCurve&>(object).to_json();
   if (py::isinstance<operations::HeldSurface>(object))
@@ -76,7 +108,7 @@ json to_json(const py::handle& object, const std::string& where) {
   if (py::isinstance<py::array>(object))
     return from_array(py::reinterpret_borrow<py::array>(object), where);
   if (py::hasattr(object, "__fspath__"))
-    return py::cast<std::string>(py::str(object.attr("__fspath__")()));
+    return from_text(py::str(object.attr("__fspath__")()), where);
   if (py::hasattr(object, "item")) return to_json(object.attr("item")(), where);  // numpy scalars
   if (py::isinstance<py::sequence>(object)) return from_sequence(object, where);
   throw py::type_error("keyline: " + where + ": a " +

@@ -216,7 +216,11 @@ Result<json> HeldCurve::bezier(double tolerance, int degree) const {
   MadeCurve made;
   std::visit([&](const auto& curve) { made.curve = curve; }, body_->curve);
   Forms forms;
-  forms.bezier = Form{degree, tolerance};
+  Form& form = forms.bezier.emplace();
+  const Part asked{&core::type_of<Form>(), &form};
+  if (auto read = read_json({{"degree", degree}, {"tolerance", tolerance}}, {&asked, 1}, {}, "");
+      !read)
+    return std::unexpected(read.error());
   if (auto done = add_forms(core::type_of<MadeCurve>(), &made, forms); !done)
     return std::unexpected(done.error());
   return write_json(core::type_of<BoundedCurve>(), &*made.bezier);

@@ -37,6 +37,7 @@ class HeldCurve {
 
   /// The curve as Béziers of the degree within the tolerance, with "deviation", the bound they
   /// meet: the form "bezier" of every result that holds a curve.
+  /// Fails: bad_input where such a form cannot be asked for (a tolerance of 0, a degree of 1).
   core::Result<nlohmann::json> bezier(double tolerance, int degree) const;
 
  private:

@@ -1,5 +1,6 @@
 """The package as its users meet it."""
 
+import copy
 import math
 import os
 import pathlib
@@ -7,6 +8,7 @@ import pickle
 import signal
 import threading
 import time
+import types
 
 import numpy as np
 import pytest
@@ -141,6 +143,44 @@ def test_failures_are_exceptions_with_places():
         keyline.perform("no.such", {})
 
 
+def test_what_is_no_request_is_told_in_its_own_words():
+    """Each once ended Python, or spoke of C++ types, or took a masked value for a measured one."""
+    handles = [[0, 0], [2, 0], [3, 1.5]]
+    ring: list = []
+    ring.append(ring)
+    with pytest.raises(RecursionError):
+        keyline.lac.segment(ring, -1)
+    masked = np.ma.array(handles, mask=[[0, 0], [0, 1], [0, 0]])
+    for call in (lambda: keyline.lac.segment(masked, -1), lambda: keyline.lac.segments(masked[None], -1)):
+        with pytest.raises(keyline.BadInput, match="masked"):
+            call()
+    assert keyline.lac.segment([[0, 0], [10**30, 0], [15 * 10**29, 10**30]], -1).length > 1e30
+    with pytest.raises(keyline.BadInput, match="UTF-8"):
+        keyline.read(os.fsdecode(b"\xe9.csv"))
+    with pytest.raises(TypeError, match=r"keyline.lac.segment\(\): .*alhpa.*did you mean 'alpha'\?"):
+        keyline.lac.segment(handles, alhpa=-1)
+    with pytest.raises(TypeError, match="complex"):
+        spiral().point(1j)
+    given = types.MappingProxyType({"points": handles, "alpha": -1})
+    assert keyline.perform("lac.segment", given)["lambda"] > 0
+
+
+def test_beziers_that_cannot_be_are_told():
+    for tolerance, degree in ((0, 3), (-1, 3), (math.nan, 3), (1e-3, 1), (1e-3, 99)):
+        with pytest.raises(keyline.BadInput, match="tolerance|degree"):
+            spiral().to_bezier(tolerance, degree)
+
+
+def test_copies_know_the_rest_too():
+    """A worker of a pool hands back what the result said, not the bare curve."""
+    curve = keyline.lac.segment([[0, 0], [2, 0], [3, 1.5]], -1)
+    for again in (copy.copy(curve), copy.deepcopy(curve), pickle.loads(pickle.dumps(curve))):
+        assert again == curve and again.lambda_ == curve.lambda_
+    cubics = curve.to_bezier(1e-4)
+    assert pickle.loads(pickle.dumps(cubics)).deviation == cubics.deviation
+    assert "lambda_" in dir(curve)
+
+
 def test_fair_from_points_with_progress():
     told = []
     faired = keyline.fair(noisy_points(), progress=lambda share, doing: told.append((share, doing)))
@@ -199,6 +239,21 @@ def test_an_image_as_an_array_and_as_a_file(tmp_path):
     file.write_bytes(png_of(pixels))
     assert len(keyline.sketch(file).strokes) == 1
     assert len(keyline.sketch(np.stack([pixels] * 3, axis=2) / 255).strokes) == 1
+
+
+def test_pixels_of_every_kind_are_one_picture():
+    """16 bits once wrapped round to 8, floats up to 255 were all white, transparent paper was black."""
+    from keyline._image import png_of
+
+    gray = np.array([[0, 51, 255], [102, 204, 153]])
+    picture = png_of(gray)
+    for same in (gray.astype(np.uint8), gray / 255, (gray * 257).astype(np.uint16)):
+        assert png_of(same) == picture, same.dtype
+    clear = np.zeros((2, 3, 4), np.uint8)
+    assert png_of(clear) == png_of(np.full((2, 3, 3), 255))
+    for wrong in (gray + 1, gray.astype(float), np.full((2, 3), np.nan), np.zeros((0, 0)), gray.astype(complex)):
+        with pytest.raises(ValueError, match="pixels|image"):
+            png_of(wrong)
 
 
 def test_surfaces_answer_too():

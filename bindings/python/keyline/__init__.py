@@ -90,3 +90,7 @@ __all__ = [
     *sorted(n for n, v in globals().items() if isinstance(v, _operations.Namespace)),
     *sorted(n for n, v in globals().items() if hasattr(v, "__signature__") and v.__module__ == "keyline"),
 ]  # fmt: skip
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -11,18 +11,26 @@ from typing import Any
 import numpy as np
 
 
+def _gray_levels(array: Any) -> Any:
+    """Pixels as levels from 0 to 255, whatever numbers they are given in."""
+    kind = array.dtype.kind
+    if kind not in "biuf" or array.size == 0:
+        raise ValueError("an image is an array of numbers, at least one")
+    most = {"b": 1, "f": 1}.get(kind, 65535 if array.dtype == np.uint16 else 255)
+    if not (array.min() >= 0 and array.max() <= most):
+        raise ValueError(f"pixels of kind {array.dtype} lie from 0 to {most}")
+    return array.astype(float) * (255 / most)
+
+
 def png_of(pixels: Any) -> bytes:
-    """A PNG of an array of gray values or of red, green, blue (0 … 255, or 0 … 1 as floats)."""
-    array = np.asarray(pixels)
-    if array.dtype.kind == "f":
-        array = np.round(255 * np.clip(array, 0, 1))
-    if array.dtype.kind == "b":
-        array = 255 * array.astype(np.uint8)
-    array = np.ascontiguousarray(array.astype(np.uint8))
-    if array.ndim == 3 and array.shape[2] == 4:
-        array = np.ascontiguousarray(array[:, :, :3])
-    if array.ndim not in (2, 3) or (array.ndim == 3 and array.shape[2] != 3):
+    """A PNG of an array of gray values or of red, green, blue, also with opacity, over white (0 … 255; 0 … 1 as
+    floats; 0 … 65535 as 16 bit numbers)."""
+    levels = _gray_levels(np.asarray(pixels))
+    if levels.ndim not in (2, 3) or (levels.ndim == 3 and levels.shape[2] not in (3, 4)):
         raise ValueError("an image has the shape (rows, columns) or (rows, columns, 3)")
+    if levels.ndim == 3 and levels.shape[2] == 4:
+        levels = 255 - (255 - levels[:, :, :3]) * (levels[:, :, 3:] / 255)
+    array = np.ascontiguousarray(np.round(levels).astype(np.uint8))
     rows, columns = array.shape[:2]
     lines = b"".join(b"\0" + row.tobytes() for row in array)
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
 import inspect
 import keyword
-from typing import Any, Callable
+from typing import Any, Callable, Mapping
 
 import numpy as np
 
@@ -44,14 +45,14 @@ def declarations() -> list[Declaration]:
     return [Declaration(d) for d in _keyline.declared()]
 
 
-def perform(name: str, fields: dict[str, Any], threads: int = 0, progress: Any = None) -> Any:
+def perform(name: str, fields: Mapping[str, Any], threads: int = 0, progress: Any = None) -> Any:
     """An operation by name, on fields of the public interface: what JSON would give.
 
     >>> import keyline
     >>> keyline.perform("lac.region", {"theta": 1.0, "alpha": -1.0})["psi"][0] > 0
     True
     """
-    return _keyline.perform(name, fields, threads, progress)
+    return _keyline.perform(name, dict(fields), threads, progress)
 
 
 def shaped(value: Any, schema: dict[str, Any], defs: dict[str, Any]) -> Any:
@@ -158,13 +159,25 @@ def documentation_of(declaration: Declaration) -> str:
     return "\n".join(lines)
 
 
+def _unknown(named: dict[str, Any], signature: inspect.Signature) -> str:
+    """"there is no field …; did you mean …?" of the first name that is none of the function's, or nothing."""
+    for name in named:
+        if name not in signature.parameters:
+            near = difflib.get_close_matches(name, signature.parameters, 1)
+            return f"there is no field {name!r}" + (f"; did you mean {near[0]!r}?" if near else "")
+    return ""
+
+
 def function_of(declaration: Declaration) -> Callable[..., Any]:
     """The operation as a function."""
     signature = signature_of(declaration)
     fields = {python_name(name): name for name in declaration.fields}
 
     def operation(*given: Any, **named: Any) -> Any:
-        bound = signature.bind(*given, **named).arguments
+        try:
+            bound = signature.bind(*given, **named).arguments
+        except TypeError as wrong:
+            raise TypeError(f"keyline.{declaration.name}(): {_unknown(named, signature) or wrong}") from None
         progress = bound.pop("progress", None)
         request = {fields[k]: v for k, v in bound.items() if v is not None}
         subject = declaration.subject

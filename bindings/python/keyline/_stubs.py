@@ -30,7 +30,7 @@ CurveLike = Union[Curve, Mapping[str, Any]]
 SurfaceLike = Union[Surface, Mapping[str, Any]]
 Progress = Callable[[float, str], object]
 
-def perform(name: str, fields: dict[str, Any], threads: int = ..., progress: Progress | None = ...) -> Any: ...
+def perform(name: str, fields: Mapping[str, Any], threads: int = ..., progress: Progress | None = ...) -> Any: ...
 '''
 
 

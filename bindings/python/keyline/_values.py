@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import html
+import operator
 from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
 from . import _keyline
+from ._errors import BadInput
 
 
 class Record:
@@ -56,8 +58,14 @@ class _Held:
             return result[name]
         raise AttributeError(f"a {type(self).__name__} has no {name!r}")
 
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *(self.result or ())]
+
     def __reduce__(self) -> Any:
-        return type(self), (self.value,)
+        return type(self), (self.value,), (self.result, self.deviation)
+
+    def __setstate__(self, state: tuple[Record | None, float | None]) -> None:
+        self.result, self.deviation = state
 
     def __eq__(self, other: object) -> bool:
         return type(self) is type(other) and self.value == other.value  # type: ignore[attr-defined]
@@ -70,8 +78,19 @@ class _Held:
         return self._handle.value()  # type: ignore[no-any-return]
 
 
+def _numbers(given: Any) -> Any:
+    """An array of real numbers, none of them masked."""
+    if np.ma.is_masked(given):
+        raise BadInput("some of the values are masked", "", "give compressed() or filled() ones")
+    numbers = np.asarray(given)
+    if numbers.dtype.kind not in "fiubO" and numbers.size:
+        raise TypeError(f"keyline: real numbers are wanted, not {numbers.dtype}")
+    return numbers.astype(float, copy=False)
+
+
 class Curve(_Held):
-    """Any curve, in the plane or in space; places on it are arc lengths from its start.
+    """Any curve, in the plane or in space; places on it are arc lengths from its start, those beyond an end
+    count as the end.
 
     >>> import keyline
     >>> curve = keyline.Curve({"type": "bezier", "points": [[0, 0], [1, 0], [2, 1]]})
@@ -101,27 +120,27 @@ class Curve(_Held):
 
     def point(self, s: Any) -> Any:
         """Points at arc lengths s, one row each."""
-        return self._handle.point(s)
+        return self._handle.point(_numbers(s))
 
     def tangent(self, s: Any) -> Any:
         """Unit tangents at arc lengths s."""
-        return self._handle.tangent(s)
+        return self._handle.tangent(_numbers(s))
 
     def curvature(self, s: Any) -> Any:
         """Curvature at arc lengths s; in the plane signed, positive turning left."""
-        return self._handle.curvature(s)
+        return self._handle.curvature(_numbers(s))
 
     def curvature_rate(self, s: Any) -> Any:
         """Change of curvature by arc length (planar curves)."""
-        return self._handle.curvature_rate(s)
+        return self._handle.curvature_rate(_numbers(s))
 
     def tangent_angle(self, s: Any) -> Any:
         """Direction of travel in radians (planar curves)."""
-        return self._handle.tangent_angle(s)
+        return self._handle.tangent_angle(_numbers(s))
 
     def torsion(self, s: Any) -> Any:
         """Torsion at arc lengths s (curves in space)."""
-        return self._handle.torsion(s)
+        return self._handle.torsion(_numbers(s))
 
     def sample(self, n: int = 101) -> Any:
         """n points evenly spaced in arc length, both ends among them.
@@ -211,11 +230,11 @@ class Surface(_Held):
 
     def point(self, u: Any, v: Any) -> Any:
         """Points at pairs of parameters."""
-        return self._handle.point(u, v)
+        return self._handle.point(_numbers(u), _numbers(v))
 
     def normal(self, u: Any, v: Any) -> Any:
         """Unit normals at pairs of parameters."""
-        return self._handle.normal(u, v)
+        return self._handle.normal(_numbers(u), _numbers(v))
 
     def plot(self, ax: Any = None, n: int = 25, **style: Any) -> Any:
         """Draws the patch as a net of n by n points with matplotlib and gives back the axes."""
@@ -242,7 +261,11 @@ class Segments:
     def __len__(self) -> int:
         return len(self.length)  # type: ignore[attr-defined]
 
+    def __repr__(self) -> str:
+        return f"<keyline.Segments {len(self)}, {np.count_nonzero(self.drawn)} drawn>"  # type: ignore[attr-defined]
+
     def __getitem__(self, i: int) -> Curve:
+        i = operator.index(i)
         if not self.drawn[i]:  # type: ignore[attr-defined]
             raise ValueError(f"segment {i} cannot be drawn; keyline.lac.segment tells why")
         alpha = float(self.alpha[i if self.alpha.size > 1 else 0])
@@ -267,5 +290,5 @@ def segments(points: Any, alpha: Any = -1.0, threads: int = 0) -> Segments:
     >>> many.drawn.tolist()
     [True, True, True, True]
     """
-    slopes = np.atleast_1d(np.asarray(alpha, dtype=float))
-    return Segments(_keyline.segments(points, slopes, threads), slopes)
+    slopes = np.atleast_1d(_numbers(alpha))
+    return Segments(_keyline.segments(_numbers(points), slopes, threads), slopes)
