@@ -84,13 +84,15 @@ int run_completion(const Words& words) {
   return print(completion(words.size() == 1 ? words.front() : ""));
 }
 
-/// keyline man [COMMAND], keyline man --all FOLDER
+/// keyline man [COMMAND], keyline man ROOM OPERATION, keyline man --all FOLDER
 int run_man(const Words& words) {
   if (asks_for_help(words)) return print(std::string(kManHelp));
   if (words.size() == 2 && words.front() == "--all") {
     const auto written = write_manual_pages(words.back());
     return written ? kDone : report_failure(written.error());
   }
+  if (words.size() == 2 && operations::find_operation(words[0] + "." + words[1]))
+    return print(manual_page(words[0] + "." + words[1]));
   if (words.size() > 1)
     return report_failure({core::ErrorCode::bad_input, "one command at a time",
                            "keyline man COMMAND, or keyline man --all FOLDER", words[1]});
@@ -108,8 +110,7 @@ std::string help_of_room(const std::string& room) {
 
 /// The command or room that was probably meant: "; did you mean …?" or nothing.
 std::string guess(const std::string& given) {
-  std::vector<std::string> names{"man", "completion", "help", "library"};
-  for (const Manual& manual : manuals()) names.push_back(manual.command);
+  const std::vector<std::string> names = first_words(manuals());
   const std::vector<std::string_view> words(names.begin(), names.end());
   const std::string_view meant = core::nearest_word(given, words);
   return meant.empty() ? "" : fmt::format("did you mean {}? ", meant);

@@ -24,6 +24,10 @@ std::vector<std::string> option_names(const Manual& manual);
 /// Every command, tool and operation, in the order of the help.
 std::vector<Manual> manuals();
 
+/// Every word that may stand first: commands, tools, operations, then their rooms ("library") and
+/// "help", "man", "completion".
+std::vector<std::string> first_words(const std::vector<Manual>& manuals);
+
 /// A script for "bash", "zsh" or "fish". Fails: bad_input.
 core::Result<std::string> completion(const std::string& shell);
 

@@ -52,6 +52,29 @@ TEST(Manual, BashCompletesOptionsAndTheirWords) {
   EXPECT_EQ(completed("keyline library f", 2), "find\n");
   EXPECT_EQ(completed("keyline man compa", 2), "compare\n");
   EXPECT_EQ(completed("keyline fair exam", 2), "\n");  // a file: the shell's own part
+  EXPECT_EQ(completed("keyline library find --rhy", 3), "--rhythm\n");
+  EXPECT_EQ(completed("keyline perform library.find --rhy", 3), "--rhythm\n");
+  EXPECT_EQ(completed("keyline lac blend --order \"\"", 4), "G1 G2 G3\n");
+  EXPECT_EQ(completed("keyline sketch tra", 2), "\n");  // its room has no second word
+}
+
+/// What fish offers at the end of the line; a line of two fields, the second what it means,
+/// dropped.
+TEST(Manual, FishCompletesSecondWordsAndTheirOptions) {
+  if (run_command("command -v fish").status != 0) GTEST_SKIP() << "fish is not installed";
+  const Scratch s;
+  const std::string script = s.write("script", run_keyline("completion fish").out);
+  const auto completed = [&](const std::string& line) {
+    return run_command("cd " + s.path("") + "; HOME=" + s.path("") + " fish -N -c 'source " +
+                       script + "; complete -C \"" + line + "\"' | cut -f 1")
+        .out;
+  };
+  EXPECT_EQ(completed("keyline fai"), "fair\n");
+  EXPECT_EQ(completed("keyline library fi"), "find\n");
+  EXPECT_EQ(completed("keyline library find --rhy"), "--rhythm\n");
+  EXPECT_EQ(completed("keyline library find --library fi"), "");
+  EXPECT_EQ(completed("keyline perform lac.blend --order "), "G1\nG2\nG3\n");
+  EXPECT_EQ(completed("keyline sketch tra"), "");
 }
 
 TEST(Manual, PagesTellEveryOptionAsTheHelpDoes) {
@@ -74,7 +97,9 @@ TEST(Manual, PagesTellEveryOptionAsTheHelpDoes) {
   const std::string all = slurp(s.path("man/keyline.1"));
   for (const char* command : {"fair", "blend", "studio", "lac.quasi"})
     EXPECT_THAT(all, HasSubstr(std::string("keyline\\-") + command)) << command;
+  EXPECT_EQ(run_keyline("man library find").out, run_keyline("man library.find").out);
   expect_failure(run_keyline("man nonsense"), 2, "there is no command");
+  expect_failure(run_keyline("man fair draw"), 2, "one command at a time");
 }
 
 TEST(Manual, ARoomListsItsOperations) {
@@ -92,6 +117,8 @@ TEST(Manual, HelpIsThereWhereverOneAsks) {
   EXPECT_THAT(run_keyline("man --help").out, HasSubstr("keyline man --all FOLDER"));
   EXPECT_THAT(run_keyline("completion --help").out, HasSubstr("source <(keyline completion bash)"));
   expect_failure(run_keyline("fairr x.csv"), 2, "did you mean fair? keyline --help lists them");
+  expect_failure(run_keyline("surfaces"), 2, "did you mean surface? keyline --help lists them");
+  expect_failure(run_keyline("preform"), 2, "did you mean perform? keyline --help lists them");
   expect_failure(run_keyline("perform"), 2, "an operation is missing behind it");
   expect_failure(run_keyline("library --bogus"), 2, "a command is missing behind it");
 }
