@@ -144,15 +144,28 @@ bool is_corner(const Kink& kink, double tolerance, double range) {
   return square > 8 * tolerance * unseen;
 }
 
+constexpr double kOnePlace = 1e-9;  // of the length: points this near are one
+
+/// The path without members that stay in one place, as an arc leaves one where it should close:
+/// their direction is that of a rounding, and no corner.
+document::Path without_specks(document::Path path, double length) {
+  std::erase_if(path.curves, [&](const document::PlanarCurve& member) {
+    const document::Path alone{{member}};
+    return analysis::ArcLengthTable(analysis::view(alone)).length() < kOnePlace * length;
+  });
+  return path;
+}
+
 }  // namespace
 
-Result<acquire::KeyLine> sampled_line(const document::Path& path, double tolerance) {
-  const analysis::CurveView view = analysis::view(path);
-  const analysis::ArcLengthTable table(view);
-  const double length = table.length();
+Result<acquire::KeyLine> sampled_line(const document::Path& given, double tolerance) {
+  const double length = analysis::ArcLengthTable(analysis::view(given)).length();
   if (!(length > 0) || !std::isfinite(length))
     return fail(ErrorCode::bad_input, "the curve has no length", "give a curve with extent",
                 "curve");
+  const document::Path path = without_specks(given, length);
+  const analysis::CurveView view = analysis::view(path);
+  const analysis::ArcLengthTable table(view);
   acquire::KeyLine line;
   line.length = length;
   line.closed = path.closed && meet(evaluate(path, 0), evaluate(path, 1), length);
@@ -170,7 +183,8 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path, double toleran
   std::sort(at.begin(), at.end());
   for (const double s : at) {
     const core::Point2 p = evaluate(view, table.parameter_at(s));
-    if (!line.points.empty() && core::distance(line.points.back(), p) < 1e-9 * length) continue;
+    if (!line.points.empty() && core::distance(line.points.back(), p) < kOnePlace * length)
+      continue;
     line.points.push_back(p);
     const bool corner = std::any_of(corners.begin(), corners.end(),
                                     [&](double c) { return std::abs(c - s) < 1e-9 * length; });

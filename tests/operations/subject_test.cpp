@@ -64,6 +64,24 @@ TEST(SampledLine, HasACornerBetweenLines) {
   EXPECT_EQ(line->corners.size(), 1U);
 }
 
+// Four quarters that close within rounding, and the line from there to the start that some programs
+// add: it points anywhere, and was taken for two corners with a run of one point between.
+TEST(SampledLine, HasNoCornerWhereACircleClosesWithinRounding) {
+  document::Path path;
+  core::Point2 at{0, 0};
+  for (int i = 0; i < 4; ++i) {
+    path.curves.push_back({quarter(at, i * core::kPi / 2, 40)});
+    at = std::get<curve::Bezier2>(path.curves.back().value).control[3];
+  }
+  const core::Point2 beside{at.x - 3e-14, at.y + 2e-14};
+  path.curves.push_back({curve::Bezier2{{at, beside}, {}}});
+  path.closed = true;
+  const auto line = sampled_line(path, 0.01);
+  ASSERT_TRUE(line);
+  EXPECT_TRUE(line->closed);
+  EXPECT_EQ(line->corners.size(), 0U);
+}
+
 // Through every door, not of files alone: 20,000 cubics took more than three minutes in a batch.
 TEST(MeasuredLine, RefusesWhatWouldTakeHours) {
   Subject subject;
