@@ -71,11 +71,8 @@ def car_in_pencil(width, height, noise):
     return ink
 
 
-def sketch():
-    """The car on shaded paper."""
-    width, height = 640, 320
-    noise = Noise("sketch.png")
-    ink = car_in_pencil(width, height, noise)
+def on_shaded_paper(ink, width, height, noise):
+    """Rows of grey, the paper darker towards the lower right."""
     rows = []
     for y in range(height):
         row = []
@@ -83,7 +80,30 @@ def sketch():
             paper = 236 - 40 * (x / width) ** 2 - 18 * (y / height) + noise.normal(1.5)
             row.append(max(0, min(255, round(paper * (1 - ink[y * width + x])))))
         rows.append(row)
-    return {"sketch.png": grey_png(width, height, rows)}
+    return rows
+
+
+def sketch():
+    """The car on shaded paper."""
+    width, height = 640, 320
+    noise = Noise("sketch.png")
+    ink = car_in_pencil(width, height, noise)
+    return {"sketch.png": grey_png(width, height, on_shaded_paper(ink, width, height, noise))}
+
+
+def passes():
+    """A shoulder line looked for in four passes, an arch in three, and a sill drawn once."""
+    width, height = 480, 240
+    noise = Noise("passes.png")
+    ink = [0.0] * (width * height)
+    shoulder = [(40, 120), (150, 70), (300, 60), (440, 110)]
+    arch = [(90, 200), (100, 110), (200, 110), (210, 200)]
+    for line, shifts in ((shoulder, (-6, -2, 2, 6)), (arch, (-4, 1, 5))):
+        for shift in shifts:
+            handles = [(x + noise.normal(2), y + shift + noise.normal(1)) for x, y in line]
+            pencil(ink, width, bezier(handles), noise, 2.2, 0.7)
+    pencil(ink, width, bezier([(230, 200), (300, 204), (370, 203), (440, 196)]), noise, 2.2, 0.7)
+    return {"passes.png": grey_png(width, height, on_shaded_paper(ink, width, height, noise))}
 
 
 def unit(v, sign=1):

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from chains import Chain, Noise, Piece
-from drawings import photo, sketch
+from drawings import passes, photo, sketch
 
 
 def measured(chain, noise, stations, sigma):
@@ -281,7 +281,7 @@ def hood():
 
 
 MAKERS = (bonnet_scan, parts_of_the_car, car_lattice, car_cloud, hull_waterline, airfoil, bottle,
-          unordered, outlines, clothoid, cubic, panels, skin, hood, sketch, photo)
+          unordered, outlines, clothoid, cubic, panels, skin, hood, sketch, photo, passes)
 
 
 def main():

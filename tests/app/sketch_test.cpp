@@ -211,6 +211,15 @@ TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
   }
 }
 
+/// The guide's example: four passes of a shoulder, three of an arch, a sill, as its generator says.
+TEST(Sketch, MakesOneLineOfThePassesOfTheExample) {
+  const std::string picture = "sketch --json --quiet " + example("passes.png");
+  EXPECT_GE(nlohmann::json::parse(run_keyline(picture).out)["strokes"].size(), 8U);
+  const auto lines = nlohmann::json::parse(run_keyline(picture + " --consolidate").out);
+  EXPECT_EQ(lines["strokes"].size(), 3U);
+  EXPECT_GT(lines["explained"], 0.97);
+}
+
 TEST(Sketch, FollowsACurvatureDrawnAsPoints) {
   const Scratch s;
   std::string stroke = "#200 200\n@2\n{\n#1 1\n";  // a spiral, its curvature growing evenly
