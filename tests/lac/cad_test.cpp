@@ -73,6 +73,17 @@ TEST(Cad, CubicsAreFewAndWithinTheTolerance) {
   }
 }
 
+// At these tolerances a cubic ends just short of the inflection: what is left is straight to 1e-8.
+TEST(Cad, WhatIsLeftBeforeAnInflectionIsOneCubic) {
+  const Segment s{{}, -1, 1, -1.6279995131375222, 1.302751163377154};
+  for (const double tolerance : {2.67e-5, 2.6974134431317047e-5, 2.72e-5}) {
+    const auto b = to_beziers(s, {3, tolerance});
+    ASSERT_TRUE(b);
+    EXPECT_LE(b->pieces.size(), 3u);
+    EXPECT_LE(sampled_deviation(s, *b), tolerance);
+  }
+}
+
 TEST(Cad, QuinticsNeedFewerPieces) {
   for (const CadCase& c : kCases) {
     SCOPED_TRACE(c.name);

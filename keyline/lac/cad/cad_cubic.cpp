@@ -117,6 +117,7 @@ class HandleSolve {
       const double v = v0 + t_[i] * width_;
       const Vector2 d = table.velocity(v);
       inner_[i] = {table.point(v), d / norm(d)};
+      unknown_ += table.remainder(v);
     }
   }
 
@@ -142,6 +143,8 @@ class HandleSolve {
 
   /// Difference of the normal distances at the inner places where their sum is 0.
   double odd(double d) {
+    // Below it the table does not tell p to a quarter, nor does p matter.
+    const double straight = std::max(1e-14 * width_, 4 * unknown_);
     double difference = 0;
     for (int round = 0; round < 6; ++round) {
       const Cubic c = cubic(d);
@@ -160,7 +163,7 @@ class HandleSolve {
         pace += 1.5 * width_ * s * t *
                 (s * dot(start_.tangent, across) - t * dot(end_.tangent, across));
       }
-      if (!(std::abs(pace) > 1e-14 * width_)) break;         // straight
+      if (!(std::abs(pace) > straight)) break;
       if (std::abs(sum) < negligible_ && round == 0) break;  // nearly so
       const double change = std::clamp(sum / pace, -0.3, 0.3);
       p_ -= change;
@@ -242,6 +245,7 @@ class HandleSolve {
   std::array<Frame, 2> inner_;
   double p_ = 2.0 / 3;
   double negligible_ = 0;
+  double unknown_ = 0;  ///< bound of the error of the inner places together
   bool met_ = false;
 };
 

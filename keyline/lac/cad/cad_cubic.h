@@ -27,6 +27,8 @@ class SeriesTable {
   core::Vector2 point(double v) const;
   /// Not normalised; about of length 1.
   core::Vector2 velocity(double v) const;
+  /// Bound of the distance of point(v) from the curve.
+  double remainder(double v) const { return at(v).remainder; }
 
  private:
   const Stretch& at(double v) const;
