@@ -166,6 +166,20 @@ TEST(Spline, OfSeveralEitherEndNamesOne) {
   }
 }
 
+// Chords and turns are the same from either end; only the end condition tells them apart.
+TEST(Spline, OfSeveralTheConditionNamesOne) {
+  std::vector<Point2> points{{0, 0}, {1, 0.2}, {2, 0}, {3, 0.2}, {4, 0}};
+  SplineOptions options = with_slope(-1.5e-7);
+  options.start.direction = -0.8962114658662337;
+  const auto there = solve_spline(points, options);
+  std::reverse(points.begin(), points.end());
+  options.end.direction = *options.start.direction + core::kPi;
+  options.start.direction.reset();
+  const auto back = solve_spline(points, options);
+  ASSERT_TRUE(there && back);
+  EXPECT_NEAR(arc_length(there->chain), arc_length(back->chain), 1e-9);
+}
+
 TEST(Spline, SpansThatMustInflectGiveWay) {
   const std::vector<Point2> points{{0, 0}, {1, 0.5}, {2, 0.5}, {3, 0}, {4, 0}, {5, 0.8}};
   const auto s = solve_spline(points, with_slope(1));

@@ -44,22 +44,34 @@ SplineSolution turned_round(const SplineSolution& solution, std::size_t spans) {
   return turned;
 }
 
-/// Told by the first chord, then slope, that differs from its counterpart by more than rounding.
+/// What tells the ends apart, neither turned nor mirrored: chords, turns at the points, slopes, and
+/// what is wanted at the start. Angles count from 1, so that rounding of none tells nothing.
+std::vector<double> marks(std::span<const Point2> points, const SplineOptions& options,
+                          std::size_t spans) {
+  const auto chord = [&](std::size_t i) { return points[(i + 1) % points.size()] - points[i]; };
+  std::vector<double> all;
+  for (std::size_t i = 0; i < spans; ++i) all.push_back(norm(chord(i)));
+  for (std::size_t i = 1; i < spans; ++i)
+    all.push_back(1 + std::abs(core::angle_between(chord(i - 1), chord(i))));
+  if (options.alpha.size() == spans)
+    all.insert(all.end(), options.alpha.begin(), options.alpha.end());
+  const auto& [direction, curvature] = options.start;
+  const double first = core::direction_of(chord(0));
+  all.push_back(direction ? 1 + std::abs(core::wrap_angle(*direction - first)) : 0);
+  all.push_back(curvature ? std::abs(*curvature) : -1);
+  return all;
+}
+
+/// Told by the first mark that differs from the other end's by more than rounding.
 bool sets_out_from_the_end(std::span<const Point2> points, const SplineOptions& options,
                            std::size_t spans) {
   constexpr double kRounding = 1e-9;
-  const auto chord = [&](std::size_t i) {
-    return distance(points[i], points[(i + 1) % points.size()]);
-  };
-  for (std::size_t i = 0; i < spans / 2; ++i) {
-    const double here = chord(i), there = chord(spans - 1 - i);
-    if (std::abs(here - there) > kRounding * (here + there)) return there > here;
-  }
-  if (options.alpha.size() != spans) return false;
-  for (std::size_t i = 0; i < spans / 2; ++i) {
-    const double here = options.alpha[i], there = options.alpha[spans - 1 - i];
-    if (here != there) return there > here;
-  }
+  if (spans == 0) return false;
+  const auto here = marks(points, options, spans);
+  const auto there = marks(turned_round(points, options.closed), turned_round(options), spans);
+  for (std::size_t i = 0; i < here.size(); ++i)
+    if (std::abs(here[i] - there[i]) > kRounding * (std::abs(here[i]) + std::abs(there[i])))
+      return there[i] > here[i];
   return false;
 }
 
