@@ -1,5 +1,6 @@
 """The audit of many files: the same table whatever runs it, whoever is killed meanwhile."""
 
+import importlib.util
 import os
 import random
 import signal
@@ -48,6 +49,36 @@ def test_the_table_tells_everything(files, table):
     assert sum("broken.json" in line for line in lines) == 1
     clothoid = next(line for line in lines if "/04.json" in line)  # alpha = -1
     assert ",minus," in clothoid
+
+
+def test_the_table_can_be_read_by_others(files, table):
+    """It had the rights of a temporary file."""
+    assert (files.parent / "serial.csv").stat().st_mode & 0o777 == 0o666 & ~_umask()
+
+
+def audit_on_dask():
+    return importlib.util.find_spec("distributed") is not None
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def test_what_cannot_be_written_is_told_before_the_work(files, capsys, monkeypatch):
+    monkeypatch.setattr(audit, "measure", lambda *_: pytest.fail("measured"))
+    for name in ("none/a.csv", "none/a.kl"):
+        assert audit.main(["--serial", "-o", str(files.parent / name), f"{files}/00.json"]) == 3
+        assert "cannot be written" in capsys.readouterr().err
+    with pytest.raises(SystemExit, match="2"):
+        audit.main(["--workers", "0", f"{files}/00.json"])
+    if audit_on_dask():
+        with pytest.raises(SystemExit, match="scheduler cannot be reached: missing port"):
+            audit.main(["--scheduler", "nowhere", f"{files}/00.json"])
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(SystemExit, match="pyarrow"):
+        audit.main(["--serial", "-o", str(files.parent / "a.parquet"), f"{files}/00.json"])
 
 
 def test_on_dask_with_workers_killed_all_the_time(files, table, monkeypatch):

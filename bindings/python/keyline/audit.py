@@ -21,7 +21,6 @@ import glob
 import hashlib
 import os
 import sys
-import tempfile
 import time
 from typing import Any, Iterable, Iterator
 
@@ -97,6 +96,8 @@ class Table:
     def __init__(self, target: str | None) -> None:
         self.rows: list[dict[str, str]] = []
         self.target = target
+        if target and target.endswith(".parquet"):
+            _pyarrow()
 
     def add(self, path: str, measured: dict[str, Any]) -> None:
         """The rows of one file."""
@@ -105,28 +106,30 @@ class Table:
     def finish(self) -> None:
         """Written in the order of files and numbers, whatever order they came in."""
         self.rows.sort(key=lambda row: (row["file"], int(row.get("number") or 0)))
-        if self.target and self.target.endswith(".parquet"):
-            return self._parquet()
         if not self.target:
             return self._csv(sys.stdout)
-        folder = os.path.dirname(os.path.abspath(self.target))
-        with tempfile.NamedTemporaryFile("w", dir=folder, newline="", encoding="utf-8", delete=False) as file:
-            self._csv(file)
-        os.replace(file.name, self.target)
+        part = self.target + ".part"
+        if self.target.endswith(".parquet"):
+            columns = {name: [row.get(name, "") for row in self.rows] for name in COLUMNS}
+            pyarrow = _pyarrow()
+            pyarrow.parquet.write_table(pyarrow.table(columns), part)
+        else:
+            with open(part, "w", newline="", encoding="utf-8") as file:
+                self._csv(file)
+        os.replace(part, self.target)
 
     def _csv(self, file: Any) -> None:
         writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(self.rows)
 
-    def _parquet(self) -> None:
-        try:
-            import pyarrow
-            import pyarrow.parquet
-        except ImportError:
-            raise SystemExit("keyline.audit: Parquet needs pyarrow, which is not installed; write .csv") from None
-        columns = {name: [row.get(name, "") for row in self.rows] for name in COLUMNS}
-        pyarrow.parquet.write_table(pyarrow.table(columns), self.target)
+
+def _pyarrow() -> Any:
+    try:
+        import pyarrow.parquet
+    except ImportError:
+        raise SystemExit("keyline.audit: Parquet needs pyarrow, which is not installed; write .csv") from None
+    return pyarrow
 
 
 class Shelf:
@@ -165,7 +168,11 @@ def distributed(paths: list[str], scheduler: str | None, workers: int) -> Iterat
     cluster = None
     if scheduler is None:
         cluster = LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
-    with Client(scheduler or cluster) as client:
+    try:
+        client = Client(scheduler or cluster)
+    except (OSError, ValueError) as error:
+        raise SystemExit(f"keyline.audit: the scheduler cannot be reached: {error}") from None
+    with client:
         same: dict[str, list[str]] = {}
         for path in paths:
             same.setdefault(content_key(path), []).append(path)
@@ -202,6 +209,12 @@ def files_of(patterns: list[str]) -> list[str]:
     return sorted(found)
 
 
+def _at_least_one(text: str) -> int:
+    if int(text) < 1:
+        raise ValueError(text)
+    return int(text)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """The command."""
     parser = argparse.ArgumentParser(prog="python -m keyline.audit", description=__doc__,
@@ -209,13 +222,17 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("pattern", nargs="+", metavar="GLOB")
     parser.add_argument("-o", "--output", metavar="FILE")
     parser.add_argument("--scheduler", metavar="ADDRESS")
-    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("--workers", type=_at_least_one, default=os.cpu_count() or 1, metavar="N")
     parser.add_argument("--serial", action="store_true")
     told = parser.parse_args(arguments)
     paths = files_of(told.pattern)
     if not paths:
         print("keyline.audit: no file is meant by " + " ".join(told.pattern), file=sys.stderr)
         return 2
+    if told.output and not os.access(os.path.dirname(os.path.abspath(told.output)), os.W_OK):
+        # before the archive is measured, which takes hours
+        print(f"keyline.audit: {told.output} cannot be written: no such folder, or not to write to", file=sys.stderr)
+        return 3
     table = told.output is None or told.output.endswith((".csv", ".parquet"))
     sink: Table | Shelf = Table(told.output) if table else Shelf(told.output)
     run = serial(paths) if told.serial else distributed(paths, told.scheduler, told.workers)
