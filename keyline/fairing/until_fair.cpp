@@ -71,15 +71,32 @@ void tell(FairResult& result) {
         fmt::format("smoothness {}: no answer up to a smoothness of 1 is fair", result.smoothness));
 }
 
+/// The pieces that are to be read otherwise are those of the answer without that wish.
+core::Result<FairResult> read_otherwise(const acquire::KeyLine& line, const FairOptions& options,
+                                        const Solve& solve) {
+  FairOptions plain = options;
+  plain.interpretations.clear();
+  plain.progress = core::part_of(options.progress, 0, 0.7);
+  const auto seen = until_fair(line, plain, solve);
+  if (!seen || seen->cancelled) return seen;
+  FairOptions asked = options;
+  asked.smoothness = seen->smoothness;
+  asked.progress = core::part_of(options.progress, 0.7, 1);
+  auto found = judged(line, solve(asked, &*seen), &*seen, options.threads);
+  if (found && found->smoothness > kNearAsNoise)
+    found->notes.push_back(
+        fmt::format("smoothness {}, as without the interpretation asked for", found->smoothness));
+  return found;
+}
+
 }  // namespace
 
-core::Result<FairResult> until_fair(
-    const acquire::KeyLine& line, const FairOptions& options,
-    const std::function<core::Result<FairResult>(const FairOptions&, const FairResult* before)>&
-        solve) {
+core::Result<FairResult> until_fair(const acquire::KeyLine& line, const FairOptions& options,
+                                    const Solve& solve) {
   const bool calmest = options.criterion == Criterion::least_variation && options.pieces == 0;
   if (options.smoothness || !calmest)
     return judged(line, solve(options, nullptr), nullptr, options.threads);
+  if (!options.interpretations.empty()) return read_otherwise(line, options, solve);
   const bool told = acquire::noise_stays(line.points, line.closed, line.noise);
   std::optional<FairResult> best;
   std::optional<core::Result<FairResult>> ahead;  // the last one, solved for before its turn

@@ -62,6 +62,22 @@ TEST(UntilFair, TakesTheSmoothnessAskedForFairOrNot) {
   EXPECT_TRUE(found.notes.empty());
 }
 
+// Piece 2 of the answer that was shown is not that of an answer nearer to the points.
+TEST(UntilFair, ReadsOtherwiseThePiecesOfTheAnswerWithoutThatWish) {
+  Solver solver{0.625, 1, {}};
+  std::vector<double> with_wish;
+  FairOptions options;
+  options.interpretations.emplace_back().piece = 2;
+  const auto watched = [&](const FairOptions& asked, const FairResult* before) {
+    if (!asked.interpretations.empty()) with_wish.push_back(asked.smoothness.value_or(-1));
+    return solver(asked, before);
+  };
+  const auto found = until_fair(three_points(), options, watched).value();
+  EXPECT_EQ(solver.asked, (Asked{0.5, 0.5625, 0.625, 0.625}));
+  EXPECT_EQ(with_wish, Asked{0.625});
+  EXPECT_EQ(found.smoothness, 0.625);
+}
+
 TEST(UntilFair, SolvesOnceWhereSmoothnessCountsForNothing) {
   FairOptions short_one;
   short_one.criterion = Criterion::fewest_pieces;
