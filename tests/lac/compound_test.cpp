@@ -190,6 +190,18 @@ TEST(SolveCompound, MovesScalesReversesAndMirrors) {
   EXPECT_NEAR(distance(back->joint, unit->joint), 0, 1e-14);
 }
 
+TEST(SolveCompound, OfTheSteepestSlopesIsTheCircle) {
+  for (const CompoundRhythm& r :
+       {CompoundRhythm{1, -1e30, 1e-3}, {-1e30, -1e99, 0.3}, {1e30, -2, 0.999}})
+    for (double theta = 0.1; theta < 3.1; theta += 0.1) {
+      const core::Interval region = drawable_region(r, theta);
+      EXPECT_LE(region.low, theta / 2);
+      EXPECT_GE(region.high, theta / 2);
+      const auto none = solve_compound(HandleAngles{theta, 0.01 * theta}, r);
+      if (!none) EXPECT_EQ(none.error().code, core::ErrorCode::undrawable);
+    }
+}
+
 TEST(SolveCompound, BadInputAndUndrawable) {
   const auto code = [](const HandleAngles& angles, const CompoundRhythm& rhythm) {
     const auto solution = solve_compound(angles, rhythm);

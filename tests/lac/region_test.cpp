@@ -54,6 +54,17 @@ TEST(DrawableRegion, WantsATurningBelowHalf) {
 }
 
 // A millionth of the region's width inside, on the side of the angle asked for.
+// The steepest slopes have the circle alone.
+TEST(DrawableRegion, OfTheSteepestSlopesIsTheCircle) {
+  for (const double alpha : {-1e99, -1e30, -1e16, 1e16, 1e30, 1e99})
+    for (double theta = 0.1; theta < 3.1; theta += 0.1) {
+      const core::Interval r = drawable_region(alpha, theta);
+      EXPECT_LE(r.low, theta / 2);
+      EXPECT_GE(r.high, theta / 2);
+      EXPECT_NEAR(nearest_drawable(alpha, theta, 0.3 * theta).chord_angle, theta / 2, 1e-14);
+    }
+}
+
 TEST(NearestDrawable, IsALittleInside) {
   for (const double alpha : {-2.0, 3.0})
     for (const double theta : {0.7, 2.0}) {

@@ -145,7 +145,8 @@ double limit_chord_angle(double alpha, double theta) {
   const Vector2 chord = chord_value(decays_of(alpha), theta, kInfinity).chord;
   const double angle = core::direction_of(chord);
   const double from_heavy = angle < 0 ? angle + 2 * core::kPi : angle;
-  return alpha < 0 ? from_heavy : theta - from_heavy;
+  const double limit = alpha < 0 ? from_heavy : theta - from_heavy;
+  return std::max(limit, theta / 2);  // slopes near 1e16: nothing but the circle's, and rounding
 }
 
 }  // namespace keyline::lac::detail

@@ -48,7 +48,7 @@ struct ChordSolution {
 /// inside a bracket.
 ChordSolution solve_chord_angle(double alpha, double theta, double psi);
 
-/// Supremum of psi over all q.
+/// Supremum of psi over all q: theta/2, the circle's, or more.
 double limit_chord_angle(double alpha, double theta);
 
 }  // namespace keyline::lac::detail

@@ -217,7 +217,7 @@ double CompoundFamily::limit_chord_angle() const {
   if (limit_drawn()) {
     const Vector2 c = chord(kInfinity).chord;
     const double angle = core::direction_of(c);
-    return angle < 0 ? angle + 2 * core::kPi : angle;
+    return std::max(angle < 0 ? angle + 2 * core::kPi : angle, theta_ / 2);
   }
   if (flat_.alpha <= 1) return theta_;
   return sharp_.theta + detail::limit_chord_angle(flat_.alpha, flat_.theta);
