@@ -225,6 +225,15 @@ def test_in_a_part_that_lies_elsewhere(document):
     assert made.Shape.distToShape(Part.Vertex(start))[0] < 1e-6
 
 
+def test_a_link_counts_where_it_lies(document):
+    link = document.addObject("App::Link", "Link")
+    link.LinkedObject = shape(document, Part.makeCircle(10, V(0, 0, 0), V(0, 0, 1), 0, 90))
+    link.Placement = FreeCAD.Placement(V(50, 0, 0), FreeCAD.Rotation())
+    document.recompute()
+    made = kind(document, "Comb", link, Scale=50.0)
+    assert abs(made.Shape.BoundBox.XMax - 65) < 1e-3 and made.Shape.BoundBox.XMin > 49.9
+
+
 def test_points(document):
     """Of a parabola in a tilted plane, as a point cloud."""
     import Points

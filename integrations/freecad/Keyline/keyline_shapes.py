@@ -48,8 +48,10 @@ class Given:
 
 
 def _container(thing):
-    """Where the part or body that holds a thing lies."""
-    return thing.getGlobalPlacement().multiply(thing.Placement.inverse()) if hasattr(thing, "Placement") else FreeCAD.Placement()
+    """Where the part or body that holds a thing lies; a link cannot tell, and counts as held by none."""
+    if not hasattr(thing, "getGlobalPlacement"):
+        return FreeCAD.Placement()
+    return thing.getGlobalPlacement().multiply(thing.Placement.inverse())
 
 
 def plane_of(*given):
