@@ -102,10 +102,15 @@ def as_path(form):
     return data
 
 
+def written(data):
+    """The data as text; inkex itself keeps six digits, with which directions and curvatures differ at joints."""
+    return " ".join(" ".join([command.letter, *(f"{v:.12g}" for v in command.args)]) for command in data)
+
+
 def put(shape, data, **style):
     """A new path over a shape, in its layer and style."""
     made = PathElement()
-    made.path = data.transform(-shape.getparent().composed_transform())
+    made.set("d", written(data.transform(-shape.getparent().composed_transform())))
     made.style = shape.specified_style() | style
     made.style["fill"] = "none"
     shape.getparent().append(made)
@@ -118,7 +123,7 @@ def replace(shape, data):
     if not isinstance(shape, PathElement):
         target = shape.to_path_element()
         shape.replace_with(target)
-    target.path = data.transform(-target.composed_transform())
+    target.set("d", written(data.transform(-target.composed_transform())))
     for name in ("sodipodi:nodetypes", "inkscape:original-d", "inkscape:path-effect"):
         target.pop(name)
     return target

@@ -40,6 +40,7 @@ DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" width="300mm" height="200mm
 <path id="quarter" d="M 200 100 A 50 50 0 0 1 250 150"/>
 <path id="half" style="stroke-dasharray:2 1" d="M 0 150 A 25 25 0 0 1 25 175"/>
 <path id="parts" d="M 0 0 C 5 5 10 5 15 0 M 10 30 C 30 40 50 40 80 20"/>
+<path id="far" d="M 20000.1234 60 L 20080.4321 60 L 20110 100"/>
 <text id="words" x="10" y="100">words</text>
 <use id="clone" href="#bent"/>
 <ellipse id="turned" cx="70" cy="30" rx="18" ry="9" transform="rotate(26 70 30)"/>
@@ -114,6 +115,16 @@ def test_segment(work):
     assert near(cubics[0][0], (20, 60)) and near(cubics[-1][3], (110, 100))
     assert along(cubics[0][0], cubics[0][1], (20, 60), (80, 60))
     assert along(cubics[-1][2], cubics[-1][3], (80, 60), (110, 100))
+
+
+def test_places_far_away_keep_their_digits(work):
+    """Six of them were written: joints of cubics 0.05 off at 20,000, their directions by as many radians."""
+    (made,) = new_of(run("segment", work, "--id=far", "--tolerance=0.001"))
+    cubics = nodes(made)
+    assert near(cubics[0][0], (20000.1234, 60), 1e-6) and len(cubics) > 1
+    for a, b in zip(cubics, cubics[1:]):
+        cross = (a[3][0] - a[2][0]) * (b[1][1] - b[0][1]) - (a[3][1] - a[2][1]) * (b[1][0] - b[0][0])
+        assert abs(cross) < 1e-6 * math.dist(a[2], a[3]) * math.dist(b[0], b[1])
 
 
 def test_blend(work):
