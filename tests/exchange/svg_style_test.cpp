@@ -143,7 +143,8 @@ TEST(SvgStyles, AreToldWhereTheyAreLetPass) {
   const auto read = read_svg(
       "<svg xmlns='http://www.w3.org/2000/svg'><style>g > path{stroke:red} path{fill:none}</style>"
       "<g id='a' clip-path='url(#c)'><path stroke='lab(1 2 3)' d='M0 0L1 1'/>"
-      "<path stroke='lab(1 2 3)' d='M0 0L1 2'/></g><path clip-path='none' d='M0 0L1 2'/></svg>");
+      "<path stroke='lab(1 2 3)' d='M0 0L1 2'/></g><path clip-path='none' stroke='red' d='M0 0L1 "
+      "2'/></svg>");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->curves.size(), 3U);
   ASSERT_EQ(read->skipped.size(), 3U);

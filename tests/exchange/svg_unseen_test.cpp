@@ -62,6 +62,35 @@ TEST(SvgUnseen, VisibilityIsOverridden) {
   EXPECT_TRUE(seen("<g opacity='0,5'>" + kPath + "</g>").skipped.empty());  // no number: ignored
 }
 
+// SVG 2, 13: what is neither filled nor stroked leaves the page blank. A gradient paints, and so
+// does a fill that nobody gives.
+TEST(SvgUnseen, ShapesWithoutPaintAreReadAndCounted) {
+  for (const char* how : {"fill='none'", "style='fill:none'", "fill='none' stroke='none'",
+                          "fill='transparent'", "style='fill:none;stroke:none'"}) {
+    const Seen one = seen("<g " + std::string(how) + ">\n" + kPath + kPath + "</g>" + kPath);
+    EXPECT_EQ(one.curves, 3U) << how;
+    EXPECT_EQ(one.skipped, (std::vector<std::string>{
+                               "3: 2 shapes that neither stroke nor fill paints, read like the "
+                               "others"}))
+        << how;
+  }
+  for (const char* how : {"fill='none' stroke='red'", "stroke='none'", "fill='currentColor'",
+                          "fill='none' style='fill:blue'"})
+    EXPECT_TRUE(seen("<g " + std::string(how) + ">" + kPath + "</g>").skipped.empty()) << how;
+  EXPECT_EQ(seen("<g fill='none' display='none'>" + kPath + "</g>").skipped, hidden(2, "1 shape"));
+}
+
+// SVG 2, 5.8: a switch shows the first child whose conditions hold, and nothing of the others.
+TEST(SvgUnseen, AlternativesOfASwitchAreTold) {
+  const Seen all = seen("<switch>\n<g systemLanguage='de'>" + kPath + "</g>" + kPath + "\n<g>" +
+                        kPath + kPath + "</g><text>a</text></switch>");
+  EXPECT_EQ(all.curves, 1U);
+  EXPECT_EQ(all.skipped,
+            std::vector<std::string>{"3: 3 shapes of alternatives that a switch does not show"});
+  EXPECT_TRUE(seen("<switch><foreignObject requiredExtensions='x'/><g>" + kPath + "</g></switch>")
+                  .skipped.empty());
+}
+
 // Shapes of definitions are not read unless something brings them in: told, in one line.
 TEST(SvgUnseen, DefinitionsThatNothingShowsAreTold) {
   const Seen all = seen(

@@ -182,17 +182,16 @@ class SvgReader {
     place.in_layer = layer;
   }
 
-  /// The first child the conditions of which hold; of those in languages, the one for all or
-  /// English.
+  /// The first child that may be shown.
   void read_switch(const pugi::xml_node& node, const Place& place) {
+    bool shown = false;
     for (const pugi::xml_node& child : node.children()) {
-      const std::string_view language = child.attribute("systemLanguage").value();
-      const bool spoken =
-          !child.attribute("systemLanguage") || language.find("en") != language.npos;
-      const bool plain = *child.attribute("requiredExtensions").value() == '\0';
-      if (child.type() != pugi::node_element || !spoken || !plain) continue;
+      if (child.type() != pugi::node_element) continue;
+      const bool other = shown || !detail::may_switch_to(child);
+      if (other) unseen_.take_alternative(child);
+      if (other) continue;
+      shown = true;
       read_element(child, place);
-      return;
     }
   }
 
@@ -222,7 +221,10 @@ class SvgReader {
   }
 
   void read_shape(const pugi::xml_node& node, const Place& place) {
-    if (!place.paint.seen()) unseen_.take_hidden(node);
+    if (!place.paint.seen())
+      unseen_.take_hidden(node);
+    else if (!place.paint.painted())
+      unseen_.take_unpainted(node);
     if (place.use_depth > 0) unseen_.take_used(node);
     check_lengths(node, {"rx", "ry"});
     SvgPathData data = detail::svg_shape(node, place.viewport);
@@ -386,7 +388,8 @@ core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& 
                       "line " + std::to_string(detail::line_of(bytes, parsed.offset)));
   const pugi::xml_node root = document.document_element();
   if (local_name(root) != "svg")
-    return core::fail(ErrorCode::bad_input, "the file holds XML but no SVG", {}, "line 1");
+    return core::fail(ErrorCode::bad_input, "the file holds XML but no SVG",
+                      "export the drawing as SVG, or a part as STEP", "line 1");
   auto contents = SvgReader(bytes, limits).read(root);
   if (contents)
     for (std::string& note : text->notes) contents->skipped.push_back({1, std::move(note)});

@@ -36,8 +36,15 @@ std::string paint_of(SvgPaint& paint, std::string_view value) {
 void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
   value = trimmed(value.substr(0, value.find('!')));
   if (value.empty() || value == "inherit") return;
-  if (name == "stroke") paint.stroke = paint_of(paint, value);
-  if (name == "fill") paint.fill = paint_of(paint, value);
+  const bool paints = value != "none" && value != "transparent";
+  if (name == "stroke") {
+    paint.stroke = paint_of(paint, value);
+    paint.stroked = paints;
+  }
+  if (name == "fill") {
+    paint.fill = paint_of(paint, value);
+    paint.filled = paints;
+  }
   if (name != "stroke-width") return;
   if (const auto width = parse_svg_length(value); width && width->value >= 0)
     paint.width = in_px(*width);

@@ -16,10 +16,13 @@ struct SvgPaint {
   double width = 1;                 ///< of the stroke, in px of its user space
   std::string current = "#000000";  ///< what currentColor means
   std::string unknown = {};  ///< of this element alone: what it gives as a colour and is none
+  bool stroked = false;      ///< whether something is painted along its outline
+  bool filled = true;        ///< or within it
   bool cut_out = false;      ///< it or what is around it, by display or opacity: for all within
   bool visible = true;       ///< which what is within may say anew
 
   bool seen() const { return visible && !cut_out; }
+  bool painted() const { return stroked || filled; }
 
   /// The colour of an outline: of its stroke, else of what fills it.
   const std::string& color() const { return stroke.empty() ? fill : stroke; }

@@ -46,6 +46,13 @@ Result<std::string> uncompressed(std::string_view bytes, std::size_t largest) {
   return text;
 }
 
+/// Whether a text starts as XML does, behind a byte order mark or in UTF-16, too.
+bool may_be_xml(std::string_view text) {
+  const std::size_t at =
+      text.find_first_not_of(std::string_view(" \t\r\n\0\xef\xbb\xbf\xfe\xff", 10));
+  return at != text.npos && text[at] == '<';
+}
+
 /// The encoding an XML declaration states, in lower case.
 std::string declared_encoding(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 300));
@@ -173,6 +180,9 @@ Result<SvgText> svg_text(std::string_view bytes, std::size_t largest) {
     auto plain = uncompressed(bytes, largest);
     if (!plain) return std::unexpected(plain.error());
     text.own = std::move(*plain);
+    if (!may_be_xml(text.own))
+      return fail(ErrorCode::bad_input, "the compressed file holds no SVG",
+                  "unpack it first (gunzip)");
   }
   if (auto done = to_utf8(text, bytes); !done) return std::unexpected(done.error());
   expand_entities(text, bytes);

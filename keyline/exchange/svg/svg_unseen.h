@@ -28,21 +28,38 @@ void walk_svg(const pugi::xml_node& root, Enter enter, Leave leave) {
   }
 }
 
-/// Counts what a viewer does not show: shapes that are read though their style hides them, and
-/// those of definitions that nothing shows, which are not.
+/// Counts what a viewer does not show: shapes that are read though their style hides them or paints
+/// nothing of them, and those of definitions that nothing shows and of a switch's other
+/// alternatives, which are not.
 class SvgUnseen {
  public:
-  void take_hidden(const pugi::xml_node& shape);
+  void take_hidden(const pugi::xml_node& shape) { hidden_.take(shape); }
+  void take_unpainted(const pugi::xml_node& shape) { unpainted_.take(shape); }
+  /// A child of a switch that is not the one shown.
+  void take_alternative(const pugi::xml_node& child);
   /// A shape that <use> has brought in.
   void take_used(const pugi::xml_node& shape) { used_.insert(shape.internal_object()); }
-  /// A line for each of both, with the first such shape.
+  /// A line for each kind, with the first such shape.
   std::vector<std::pair<pugi::xml_node, std::string>> told(const pugi::xml_node& root) const;
 
  private:
-  std::size_t hidden_ = 0;
-  pugi::xml_node first_hidden_;
+  struct Shapes {
+    std::size_t count = 0;
+    pugi::xml_node first;
+
+    void take(const pugi::xml_node& shape) {
+      if (count++ == 0) first = shape;
+    }
+  };
+
+  Shapes hidden_;
+  Shapes unpainted_;
+  Shapes alternatives_;
   std::unordered_set<const void*> used_;
 };
+
+/// Whether the conditions of a switch's child hold: no extensions; of languages, all or English.
+bool may_switch_to(const pugi::xml_node& child);
 
 /// Whether what is within an element of that name is drawn only where others refer to it.
 bool is_svg_definition(std::string_view name);
