@@ -113,15 +113,28 @@ TEST(ByteLines, AreTheSameInMemory) {
   EXPECT_EQ(first.position(), 4U);
 }
 
-// Documents of FreeCAD and of spreadsheets are zip archives: the advice says what to do.
-TEST(LineReader, ArchivesAreNamed) {
-  std::istringstream in("PK\3\4\x14");
-  LineReader reader(in, "a.FCStd", 100);
-  bool end = false;
-  const auto line = reader.next(end);
-  ASSERT_FALSE(line);
-  EXPECT_EQ(line.error().message, "this is a zip archive");
-  EXPECT_NE(line.error().hint.find("STEP"), std::string::npos);
+// Files of other programs are called what they are, though most are text with numbers in it.
+TEST(LineReader, ForeignFormatsAreNamed) {
+  const auto failure = [](const std::string& text) {
+    std::istringstream in(text);
+    LineReader reader(in, "a", 100);
+    bool end = false;
+    const auto line = reader.next(end);
+    return line ? std::string() : line.error().message + "; " + line.error().hint;
+  };
+  const std::string mesh = "this is a mesh in OFF; export it as .ply, .obj or .stl";
+  for (const char* word : {"OFF", "COFF", "STOFF", "4nOFF"})
+    EXPECT_EQ(failure(std::string(word) + "\n3 1 0\n0 0 0\n"), mesh) << word;
+  for (const char* title : {"CUTOFF\n", "OFF", "OFF-ROAD\n", "PK\n", "% PDF\n", "AC1027\n"})
+    EXPECT_EQ(failure(title), "") << title;
+  EXPECT_EQ(failure("PK\3\4\x14"),
+            "this is a zip archive; unpack it; of a FreeCAD document export STEP, of a "
+            "spreadsheet CSV");
+  EXPECT_EQ(failure("%PDF-1.4\n%\xe2\xe3\n1 0 obj\n"),
+            "this is a PDF file; convert it to SVG, as Inkscape does");
+  EXPECT_EQ(failure("%!PS-Adobe-3.0 EPSF-3.0\n"),
+            "this is PostScript; convert it to SVG, as Inkscape does");
+  EXPECT_EQ(failure(std::string("AC1027\0\0", 8)), "this is a DWG file; save it as DXF");
 }
 
 TEST(ByteLines, WordsArePartedByBlanks) {

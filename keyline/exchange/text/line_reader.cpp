@@ -35,7 +35,9 @@ bool LineReader::fill() {
     if (!started_ && detail::starts_as_utf16(chunk)) utf16_.emplace(chunk[0] == '\xfe');
     buffer_ = utf16_ ? utf16_->next(chunk) : std::string(chunk);
     filled_ = buffer_.size();
-    if (!std::exchange(started_, true) && buffer_.starts_with("\xef\xbb\xbf")) position_ = 3;
+    if (std::exchange(started_, true)) continue;
+    foreign_ = detail::foreign_format(buffer_);
+    if (buffer_.starts_with("\xef\xbb\xbf")) position_ = 3;
   }
   return filled_ > 0;
 }
@@ -55,6 +57,7 @@ bool LineReader::ends_return() {
 }
 
 core::Result<LineReader::Taken> LineReader::take() {
+  if (foreign_) return failure(foreign_->what, foreign_->advice);
   const char* from = buffer_.data() + position_;
   const char* to = buffer_.data() + filled_;
   const char* stop = std::find_if(from, to, [](char c) { return c == '\n' || c == '\r'; });
@@ -67,9 +70,6 @@ core::Result<LineReader::Taken> LineReader::take() {
     return Taken::end_of_text;
   }
   if (control != stop) {
-    if (std::string_view(from, static_cast<std::size_t>(to - from)).starts_with("PK\3\4"))
-      return failure("this is a zip archive",
-                     "unpack it; of a FreeCAD document export STEP, of a spreadsheet CSV");
     return failure("this is not text (binary data found)",
                    "give a text file with one point per line");
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "keyline/core/error.h"
+#include "keyline/exchange/text/foreign_format.h"
 #include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
@@ -57,6 +58,7 @@ class LineReader {
   std::string line_;
   int number_ = 0;
   bool started_ = false;
+  const detail::ForeignFormat* foreign_ = nullptr;  ///< what the input is, where that is known
   bool after_return_ = false;
   bool end_mark_ = false;
   bool ended_early_ = false;
