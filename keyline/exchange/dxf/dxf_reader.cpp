@@ -140,7 +140,7 @@ class DxfReader {
     if (naming_section_ && tag.code == 2) {
       section_ = std::string(tag.text);
       naming_section_ = false;
-    } else if (section_ == "HEADER") {
+    } else if (section_ == "HEADER" || (section_.empty() && seen_section_)) {
       take_header(tag);
     } else if (polyline_) {
       auto& vertices = polyline_->vertices;
