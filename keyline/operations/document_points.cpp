@@ -189,7 +189,8 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const RawCurve& curve = raw[i];
     if (!(*wanted)[i]) continue;
-    const std::string place = raw.size() > 1 ? file + ": " + curve.id : file;
+    const std::string which = curve.id.empty() ? fmt::format("curve {}", i + 1) : curve.id;
+    const std::string place = raw.size() > 1 ? file + ": " + which : file;
     auto line = in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)), place);
     if (!line) return std::unexpected(line.error());
     line->id = curve.id;

@@ -34,6 +34,14 @@ std::pair<double, double> arc_of(const std::string& from, const std::string& to)
   return {arc.start * 180 / core::kPi, arc.turn * 180 / core::kPi};
 }
 
+// dxflib 2.0 ends the section before most of its variables.
+TEST(DxfGaps, TheUnitMayStandBehindItsSection) {
+  EXPECT_EQ(read("0 LINE 8 0 10 0 20 0 11 1 21 0",
+                 "0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 0 ENDSEC 9 $INSUNITS 70 4")
+                .unit,
+            "mm");
+}
+
 // An arc turns counterclockwise from one angle to the other, at most once around, however the
 // angles are counted.
 TEST(DxfArc, TurnsAtMostOnceAround) {

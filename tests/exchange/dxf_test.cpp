@@ -151,16 +151,6 @@ TEST(DxfReader, UnitsAndColours) {
   EXPECT_EQ(detail::aci_color(0), "");
 }
 
-// dxflib 2.0 ends the section before most of its variables.
-TEST(DxfReader, TheUnitMayStandBehindItsSection) {
-  EXPECT_EQ(
-      read(drawing("0 LINE 8 0 10 0 20 0 11 1 21 0",
-                   "0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 0 ENDSEC 9 $INSUNITS 70 4 0 SECTION "
-                   "2 TABLES 0 ENDSEC"))
-          .unit,
-      "mm");
-}
-
 // Groups 1000 behind 1001 hold what the application named there keeps; ours a name.
 TEST(DxfReader, NamesAreOursAlone) {
   const std::string line = "0 LINE 8 0 10 0 20 0 11 1 21 0 ";

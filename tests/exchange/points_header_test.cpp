@@ -35,6 +35,24 @@ RawCurve only(const std::string& text) {
   return curves && curves->size() == 1 ? curves->front() : RawCurve{};
 }
 
+// R's write.csv counts the rows in a column without a name, and has every name in quotes.
+TEST(PointsHeader, ANameMayBeEmptyInQuotes) {
+  for (const char* text :
+       {"\"\",\"x\",\"y\"\n\"1\",0,5\n\"2\",1,6\n\"3\",2,5\n", ",x,y\n1,0,5\n2,1,6\n3,2,5\n"}) {
+    const RawCurve curve = only(text);
+    EXPECT_EQ(curve.points, (std::vector<Point3>{{0, 5, 0}, {1, 6, 0}, {2, 5, 0}})) << text;
+  }
+  const auto words = parse("\"\",\"y\",\"kind\"\n\"1\",5,\"a\"\n\"2\",6,\"b\"\n");
+  ASSERT_FALSE(words);
+  EXPECT_EQ(words.error().path, "data.csv:2");  // not the header
+}
+
+// Columns kept in line by blanks behind the numbers: " ,750" is no number with a decimal comma.
+TEST(PointsHeader, CommasMayStandBehindBlanks) {
+  EXPECT_EQ(only("350  ,-90   ,750  \n-55  ,+90   ,156  \n0    ,180   ,0    \n").points,
+            (std::vector<Point3>{{350, -90, 750}, {-55, 90, 156}, {0, 180, 0}}));
+}
+
 TEST(HeaderUnit, StandsBehindTheNameInManyWays) {
   for (const auto& [cell, unit] : {std::pair{"x [mm]", "mm"},
                                    {"X(in)", "in"},

@@ -110,6 +110,23 @@ TEST(PointsColumns, ARowWithAMistakeNamesNoCurve) {
   EXPECT_EQ(names_of(curves_of("0.1 0.1\n0.2 0.2\n0.3 0.1\nt/c 0.25\n")), ":3 ");
 }
 
+// Numbers or names of stations, which no two rows share, are none of curves.
+TEST(PointsParts, NamesOfPointsMakeOneCurve) {
+  for (const char* text : {"name,x,y\nP1,0,0\nP2,1,1\nP3,2,0\n", "P1,0,0\nP2,1,1\nP3,2,0\n",
+                           "id;x;y\n7;0;0\n8;1;1\n9;2;0\n"}) {
+    const auto curves = curves_of(text);
+    EXPECT_EQ(names_of(curves), ":3 ") << text;
+    EXPECT_EQ(curves[0].left_out,
+              std::vector<std::string>{"column 1, which names the points (--id-column 1 takes it "
+                                       "for names of curves)"})
+        << text;
+  }
+  EXPECT_EQ(names_of(curves_of("P1,0,0\nP2,1,1\nP2,2,0\n")), "P1:1 P2:2 ");
+  PointsOptions asked;
+  asked.id_column = "1";
+  EXPECT_EQ(names_of(curves_of("P1,0,0\nP2,1,1\n", asked)), "P1:1 P2:1 ");
+}
+
 const std::string kArch = "0 0\n1 1\n2 0\n";
 
 // As gnuplot draws them: a blank line ends a line, two end a data set.
@@ -146,6 +163,17 @@ TEST(PointsBlocks, StayOneCurveThatGoesOn) {
   EXPECT_EQ(told(kArch + "\n5 5\n"),
             "line 4: a blank line among the rows, which are taken for one curve, as one stands by "
             "itself");
+}
+
+// Of gnuplot's world map, some islands are one point: no reason to draw lines across the sea.
+TEST(PointsBlocks, PartLinesAmongWhichSinglePointsStand) {
+  const auto curves = curves_of(kArch + "\n5 5\n\n0 5\n1 6\n2 5\n\n7 7\n\n8 9\n8 9\n");
+  EXPECT_EQ(names_of(curves), ":3 :3 ");
+  EXPECT_EQ(curves[0].left_out,
+            std::vector<std::string>{
+                "3 points that stand alone among blank lines that part the rows into curves"});
+  // what goes on over them is one
+  EXPECT_EQ(names_of(curves_of("0 0\n1 0\n\n2 0\n\n3 0\n4 0\n")), ":5 ");
 }
 
 // Between all rows, at the ends, or where names or Lednicer's counts say what is what.

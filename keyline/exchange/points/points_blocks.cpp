@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -38,13 +39,18 @@ std::vector<Block> blocks_of(const RawCurve& curve, const std::vector<BlankLines
 }
 
 /// Whether a curve goes on from the last point of one block to the first of the next: a step less
-/// than those before and behind it together, and not back.
+/// than those before and behind it together, and not back. A block of one point steps as the other.
 bool goes_on(std::span<const Point3> before, std::span<const Point3> behind) {
-  if (before.front() == before.back() || behind.front() == behind.back()) return false;
+  const auto returns = [](std::span<const Point3> b) {
+    return b.size() > 1 && b.front() == b.back();
+  };
+  if (returns(before) || returns(behind)) return false;
   const core::Vector3 step = behind.front() - before.back();
   if (norm(step) == 0) return true;
-  const core::Vector3 last = before.back() - before[before.size() - 2];
-  const core::Vector3 first = behind[1] - behind.front();
+  const bool two = behind.size() > 1;
+  const core::Vector3 next = two ? behind[1] - behind.front() : step;
+  const core::Vector3 last = before.size() > 1 ? before.back() - before[before.size() - 2] : next;
+  const core::Vector3 first = two ? next : last;
   return norm(step) < norm(last) + norm(first) && dot(step, last) > 0 && dot(step, first) > 0;
 }
 
@@ -77,24 +83,32 @@ RawCurve part_of(const RawCurve& whole, const Block& block) {
 void part_blocks(std::vector<RawCurve>& curves, const std::vector<BlankLines>& blanks,
                  std::vector<std::string>& left_out) {
   const std::vector<Block> blocks = blocks_of(curves.front(), blanks);
-  const auto single = [](const Block& b) { return b.size() < 2; };
-  if (blocks.size() < 2 || std::ranges::all_of(blocks, single)) return;
-  const bool lone = std::ranges::any_of(blocks, single);
-  if (lone || are_one(curves.front(), blocks)) {
+  std::vector<Block> lines;
+  std::ranges::copy_if(blocks, std::back_inserter(lines), [&](const Block& b) {
+    const auto points = std::span(curves.front().points).subspan(b.begin, b.size());
+    return std::ranges::any_of(points, [&](Point3 p) { return p != points.front(); });
+  });
+  if (blocks.size() < 2 || lines.empty()) return;
+  const bool lone = lines.size() < blocks.size();
+  if (lines.size() == 1 || are_one(curves.front(), blocks)) {
     left_out.push_back("line " + std::to_string(blocks[1].before.first) + ": " +
                        (blocks.size() > 2 ? "this and other blank lines" : "a blank line") +
                        " among the rows, which are taken for one curve" +
                        (lone ? ", as one stands by itself" : ""));
     return;
   }
+  if (lone)
+    left_out.push_back(core::counted(blocks.size() - lines.size(), "point that stands alone",
+                                     "points that stand alone") +
+                       " among blank lines that part the rows into curves");
   const RawCurve whole = std::exchange(curves, {}).front();
-  for (const Block& block : blocks) {
+  for (const Block& block : lines) {
     curves.push_back(part_of(whole, block));
     const std::string& name = whole.id;
     if (!name.empty())
       curves.back().id = curves.size() == 1 ? name : name + "#" + std::to_string(curves.size());
     curves.back().notes.push_back("blank lines part the rows into " +
-                                  core::counted(blocks.size(), "curve"));
+                                  core::counted(lines.size(), "curve"));
   }
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,8 +100,8 @@ core::Result<void> PointsTable::before_data(std::string_view line, int number,
     if (fields.size() >= 2 && (text_id_ || all_numbers(fields, 0))) {
       return start(fields, number, place);
     }
-    if (style_.separator != ' ' && fields.size() >= 2 && parse_number(fields[0], style_) &&
-        !fields[0].empty()) {
+    const auto first = fields.empty() ? std::nullopt : parse_number(fields[0], style_);
+    if (style_.separator != ' ' && fields.size() >= 2 && first && !std::isnan(*first)) {
       return core::fail(ErrorCode::bad_input,
                         "text where a number belongs: '" + shortened(line) + "'",
                         "give numbers only, or start the line with #", place);

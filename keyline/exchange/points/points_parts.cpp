@@ -13,6 +13,29 @@ namespace keyline::exchange::detail {
 
 using acquire::RawCurve;
 
+/// Names of which no row shares one with another are those of points, which make one curve: told.
+void PointsTable::join_named_points() {
+  const auto single = [](const RawCurve& curve) { return curve.points.size() == 1; };
+  const bool found = columns_.id != PointsColumns::kNone && options_.id_column.empty();
+  if (!found || columns_.two() || curves_.size() < 2 || !std::ranges::all_of(curves_, single))
+    return;
+  RawCurve all;
+  all.has_z = curves_.front().has_z;
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (const RawCurve& curve : curves_) {
+    append(all.points, curve.points);
+    append(all.weights, curve.weights);
+    append(all.source_lines, curve.source_lines);
+  }
+  curves_ = {std::move(all)};
+  const std::string column = std::to_string(columns_.id + 1);
+  left_out_.insert(left_out_.begin(), "column " + column +
+                                          ", which names the points (--id-column " + column +
+                                          " takes it for names of curves)");
+}
+
 /// The columns of two curves, unless others are asked for.
 void PointsTable::take_sides() {
   if (!sides_ || !options_.columns.empty()) return;

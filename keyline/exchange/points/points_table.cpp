@@ -372,6 +372,7 @@ core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
                       "give a text file with two or three numbers on each line", name);
   }
   drop_counter();
+  join_named_points();
   const bool sides = columns_.two();
   if (sides) {
     name_curves();

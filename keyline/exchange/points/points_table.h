@@ -80,6 +80,7 @@ class PointsTable {
   void drop_counter();
   void tell_columns();
   void take_sides();
+  void join_named_points();
   void part_curves();
   void part_sides();
   bool title_counts(double number) const;

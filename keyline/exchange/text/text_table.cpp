@@ -138,6 +138,7 @@ TableStyle guess_style(std::string_view line) {
     if (style.decimal_comma && line.find(',') == std::string_view::npos) continue;
     const std::size_t numbers = count_numbers(line, style);
     const bool clean = style.separator != ',' || line.find(", ") != std::string_view::npos ||
+                       line.find(" ,") != std::string_view::npos ||
                        count_numbers(line, {' ', true}) < 2;
     if (numbers > most && clean) {
       most = numbers;
