@@ -73,7 +73,8 @@ Result<Opened> open_section(const InputRequest& input, const std::string& file) 
     if (cut->ordered) {
       for (const core::Point3 p : curve.points) line.points.push_back({p.x, p.y});
     } else {
-      const auto acquired = acquire::acquire_key_line(curve, acquire_options(input.acquiring));
+      const auto acquired =
+          in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)), file);
       if (!acquired) return std::unexpected(acquired.error());
       line.points = acquired->points;
       closed = acquired->closed;

@@ -130,6 +130,22 @@ TEST(Section, IsAnAxisAndANumber) {
 }
 
 // Faces that name no vertex are left out, and told line by line, five of them.
+// Bytes of binary files that have lost their place make such numbers; products of them overflow.
+TEST(Section, RefusesCoordinatesThatAreTooLarge) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-large-" + std::to_string(::getpid()) + ".obj");
+  for (const char* faces : {"", "f 1 2 3\n"}) {
+    std::ofstream(file) << "v 0 0 0\nv 1 0 1\nv 0 1e120 2\nv 3 1 0\n" << faces;
+    for (const char* where : {"z=0.5", "auto"}) {
+      const auto cut = section_of_file(file, parse_section(where).value());
+      ASSERT_FALSE(cut) << faces << where;
+      EXPECT_EQ(cut.error().message, "a coordinate is larger than 1e100");
+      EXPECT_EQ(cut.error().path, file.string());
+    }
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(Section, TellsWhatOfAMeshCouldNotBeRead) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("keyline-faces-" + std::to_string(::getpid()) + ".obj");

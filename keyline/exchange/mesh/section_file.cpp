@@ -8,6 +8,7 @@
 #include "keyline/acquire/section.h"
 #include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
+#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/mesh/mesh.h"
@@ -63,7 +64,17 @@ Result<Plane> plane_for(const SectionRequest& request, const std::vector<Point3>
   return found->plane;
 }
 
+bool is_too_large(Point3 p) {
+  return core::is_too_large(p.x) || core::is_too_large(p.y) || core::is_too_large(p.z);
+}
+
+std::unexpected<core::Failure> too_large() {
+  return core::fail(ErrorCode::bad_input, "a coordinate is larger than 1e100",
+                    "check that the file is whole, or divide all coordinates by a common factor");
+}
+
 Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request) {
+  if (std::ranges::any_of(mesh.points, is_too_large)) return too_large();
   const auto plane = plane_for(request, mesh.points);
   if (!plane) return std::unexpected(plane.error());
   FileSection result;
@@ -109,12 +120,15 @@ Result<FileSection> cloud_section(const std::filesystem::path& file, const Secti
   Sample sample;
   std::optional<Point3> first;
   double size = 0;
+  bool large = false;
   const auto measured = stream_points(file, [&](Point3 p) {
     if (!first) first = p;
+    large = large || is_too_large(p);
     size = std::max(size, distance(p, *first));
     sample.take(p);
   });
   if (!measured) return std::unexpected(measured.error());
+  if (large) return too_large();
   const auto plane = plane_for(request, sample.points());
   if (!plane) return std::unexpected(plane.error());
   const double reach = band ? *band : size > 0 && std::isfinite(size) ? size / 150 : 1;
