@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "keyline/lac/segment/segment.h"
+
 namespace keyline::lac::detail {
 namespace {
 
@@ -34,6 +36,16 @@ Eigen::VectorXd coefficients_by_values(const Cubic& c) {
     }
   }
   return basis.fullPivLu().solve(values);
+}
+
+// Nielsen's spiral, whose curvature falls to a 272th: entire, so that a series of degree 12 serves
+// a tenth of it to 1e-12 and no stretch has to be a straight line.
+TEST(CadCubic, SeriesServeWhereCurvatureFallsFar) {
+  const Piece piece{0, 1, 7.710393604050716, 0.028326324476182968};
+  const SeriesTable table(unit_piece(piece), 3e-13);
+  EXPECT_LE(table.stretches().size(), 16u);
+  for (double v = 0; v <= 1; v += 0.01)
+    EXPECT_LT(norm(table.point(v) - exact_frame(unit_piece(piece), v).point), 1e-12);
 }
 
 // The coefficients found from six values of the numerator, whose signs are plain in nearly all of

@@ -21,7 +21,9 @@ SeriesTable::SeriesTable(const UnitPiece& unit, double allowed) { cut(unit, 0, 1
 void SeriesTable::cut(const UnitPiece& unit, double from, double to, double allowed, int depth) {
   const double middle = 0.5 * (from + to);
   TaylorSeries series = taylor_series(unit, SeriesVariable::arc_length, middle, kDegree);
-  double remainder = quick_remainder_bound(series, 0.5 * (to - from));
+  const double reach = 0.5 * (to - from);
+  double remainder = quick_remainder_bound(series, reach);
+  if (!(remainder <= allowed)) remainder = remainder_bound(series, reach);
   if (!(remainder <= allowed)) {
     const double width = to - from;
     const double bend = width > 0.01
