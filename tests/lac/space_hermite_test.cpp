@@ -260,6 +260,8 @@ TEST(SolveG1Space, BadInputIsNormalInput) {
   SpaceHermite bad = good;
   bad.end = bad.start;
   EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "end");
+  bad.end = {1.7e308, 0, 1};
+  EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "end");
   bad = good;
   bad.end_tangent = {0, 0, 0};
   EXPECT_EQ(solve_g1_space(bad, 1, 1, 1).error().path, "tangents[1]");

@@ -24,8 +24,11 @@ Result<void> check(const SpaceHermite& data, double alpha, double beta, double o
       return core::fail(ErrorCode::bad_input, std::string(name) + " is not finite", "", name);
   if (!is_finite(data.start) || !is_finite(data.end))
     return core::fail(ErrorCode::bad_input, "an end is not finite");
-  if (!(norm(data.end - data.start) > 0))
-    return core::fail(ErrorCode::bad_input, "start and end coincide", "move one of them", "end");
+  constexpr double kFarthest = 1e150;  // squares of it are numbers
+  const double chord = norm(data.end - data.start);
+  if (!(chord > 0 && chord < kFarthest))
+    return core::fail(ErrorCode::bad_input, "start and end coincide or lie too far apart",
+                      "move one of them", "end");
   for (const auto& [v, name] :
        {std::pair{data.start_tangent, "tangents[0]"}, {data.end_tangent, "tangents[1]"}})
     if (!is_finite(v) || !(norm(v) > 0))
