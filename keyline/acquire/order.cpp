@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "keyline/acquire/kd_tree.h"
 #include "keyline/acquire/places.h"
 #include "keyline/acquire/spanning_tree.h"
 #include "keyline/acquire/statistics.h"
@@ -23,7 +24,8 @@ double trimmed_sum(std::vector<double> lengths) {
   return std::accumulate(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(kept), 0.0);
 }
 
-std::vector<double> steps_of(std::span<const core::Point2> points) {
+template <class Point>
+std::vector<double> steps_of(std::span<const Point> points) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < points.size(); ++i) {
     steps.push_back(core::distance(points[i - 1], points[i]));
@@ -240,6 +242,17 @@ bool is_ordered(std::span<const core::Point2> points) {
     if (follows_tree(group_means(points, group))) return true;
   }
   return false;
+}
+
+bool is_ordered(std::span<const core::Point3> points) {
+  constexpr double kMost = 10;
+  if (points.size() < 6) return true;
+  const detail::KdTree3 tree(points);
+  std::vector<double> nearest;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    nearest.push_back(core::distance(points[i], points[tree.nearest(points[i], 1, i).front()]));
+  const double near = core::quantile(std::move(nearest));
+  return near == 0 || core::quantile(steps_of(points)) <= kMost * near;
 }
 
 Ordering order_points(std::span<const core::Point2> points) {

@@ -14,6 +14,11 @@ namespace keyline::acquire {
 /// groups while steps stay below a fiftieth of the extent.
 bool is_ordered(std::span<const core::Point2> points);
 
+/// In space: true unless the median step from point to point is more than ten times the median
+/// distance of a point from its nearest. Noise about a curve makes that of a thousand points within
+/// its own reach; of points strewn over a surface some hundred do.
+bool is_ordered(std::span<const core::Point3> points);
+
 /// Points put in order along the curve they lie on.
 struct Ordering {
   std::vector<std::size_t> order;    ///< indices of the points kept, along the curve

@@ -6,6 +6,7 @@
 
 #include "keyline/acquire/join.h"
 #include "keyline/acquire/lattice.h"
+#include "keyline/acquire/order.h"
 #include "keyline/acquire/section.h"
 #include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
@@ -171,6 +172,11 @@ Result<void> add_line(ReadAnswer& answer, KeyLine line, const RawCurve& raw, boo
     return {};
   }
   document::NamedSpaceCurve curve = in_space(line, raw);
+  if (!has_plane(line) &&
+      !acquire::is_ordered(std::get<curve::Polyline3>(curve.curve.value).points))
+    answer.notes.push_back(name +
+                           ": points joined in the order of the file, which follows no "
+                           "curve; of a cloud --section takes curves");
   answer.curves.push_back({line.id, {}, {}, 0, AnyCurve{curve.curve}, {}});
   answer.document.space_curves.push_back(std::move(curve));
   return {};

@@ -156,5 +156,16 @@ TEST_F(PointFiles, RepeatedPointsAreTold) {
   EXPECT_THAT(answer->skipped, testing::Contains(HasSubstr("1 point where a neighbour is")));
 }
 
+/// Along a helix there is nothing to tell; in leaps of 23 of its 60 points they follow no curve: a
+/// leap is 17 times as long as a step.
+TEST_F(PointFiles, OfNoOrderInSpaceAreTold) {
+  const std::vector<Point3> along = helix();
+  std::vector<Point3> strewn;
+  for (std::size_t i = 0; i < along.size(); ++i) strewn.push_back(along[i * 23 % 60]);
+  EXPECT_TRUE(read({table("x,y,z", along)}, false)->notes.empty());
+  EXPECT_THAT(read({table("x,y,z", strewn)}, false)->notes,
+              ElementsAre(HasSubstr("the order of the file, which follows no curve")));
+}
+
 }  // namespace
 }  // namespace keyline::operations

@@ -84,7 +84,7 @@ void part_blocks(std::vector<RawCurve>& curves, const std::vector<BlankLines>& b
                  std::vector<std::string>& left_out) {
   const std::vector<Block> blocks = blocks_of(curves.front(), blanks);
   std::vector<Block> lines;
-  std::ranges::copy_if(blocks, std::back_inserter(lines), [&](const Block& b) {
+  std::copy_if(blocks.begin(), blocks.end(), std::back_inserter(lines), [&](const Block& b) {
     const auto points = std::span(curves.front().points).subspan(b.begin, b.size());
     return std::ranges::any_of(points, [&](Point3 p) { return p != points.front(); });
   });
