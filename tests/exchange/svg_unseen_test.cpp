@@ -66,7 +66,9 @@ TEST(SvgUnseen, VisibilityIsOverridden) {
 // does a fill that nobody gives.
 TEST(SvgUnseen, ShapesWithoutPaintAreReadAndCounted) {
   for (const char* how : {"fill='none'", "style='fill:none'", "fill='none' stroke='none'",
-                          "fill='transparent'", "style='fill:none;stroke:none'"}) {
+                          "fill='transparent'", "style='fill:none;stroke:none'", "fill-opacity='0'",
+                          "fill='none' stroke='red' stroke-width='0'",
+                          "style='fill:none;stroke:red;stroke-opacity:0%'"}) {
     const Seen one = seen("<g " + std::string(how) + ">\n" + kPath + kPath + "</g>" + kPath);
     EXPECT_EQ(one.curves, 3U) << how;
     EXPECT_EQ(one.skipped, (std::vector<std::string>{
@@ -74,8 +76,10 @@ TEST(SvgUnseen, ShapesWithoutPaintAreReadAndCounted) {
                                "others"}))
         << how;
   }
-  for (const char* how : {"fill='none' stroke='red'", "stroke='none'", "fill='currentColor'",
-                          "fill='none' style='fill:blue'"})
+  for (const char* how :
+       {"fill='none' stroke='red'", "stroke='none'", "fill='currentColor'",
+        "fill='none' style='fill:blue'", "stroke-width='0'", "fill-opacity='0' stroke='red'",
+        "fill-opacity='.5'", "fill='none' stroke='red' stroke-opacity='1'"})
     EXPECT_TRUE(seen("<g " + std::string(how) + ">" + kPath + "</g>").skipped.empty()) << how;
   EXPECT_EQ(seen("<g fill='none' display='none'>" + kPath + "</g>").skipped, hidden(2, "1 shape"));
 }

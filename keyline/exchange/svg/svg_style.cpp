@@ -33,6 +33,14 @@ std::string paint_of(SvgPaint& paint, std::string_view value) {
   return found;
 }
 
+/// Whether an opacity lets anything be seen; one that is no number is ignored.
+bool shows(std::string_view opacity) {
+  const auto number = core::leading_number(opacity);
+  const bool whole =
+      number && (number->length == opacity.size() || opacity.substr(number->length) == "%");
+  return !whole || number->value > 0;
+}
+
 void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
   value = trimmed(value.substr(0, value.find('!')));
   if (value.empty() || value == "inherit") return;
@@ -45,6 +53,8 @@ void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
     paint.fill = paint_of(paint, value);
     paint.filled = paints;
   }
+  if (name == "stroke-opacity") paint.stroke_opaque = shows(value);
+  if (name == "fill-opacity") paint.fill_opaque = shows(value);
   if (name != "stroke-width") return;
   if (const auto width = parse_svg_length(value); width && width->value >= 0)
     paint.width = in_px(*width);
@@ -65,12 +75,7 @@ struct Sight {
   void take(SvgPaint& paint, std::string_view name, std::string_view value) {
     value = trimmed(value.substr(0, value.find('!')));
     if (name == "display") displayed = value != "none";
-    if (name == "opacity") {
-      const auto number = core::leading_number(value);
-      const bool whole =
-          number && (number->length == value.size() || value.substr(number->length) == "%");
-      opaque = !whole || number->value > 0;
-    }
+    if (name == "opacity") opaque = shows(value);
     if (name != "visibility") return;
     if (value == "visible") paint.visible = true;
     if (value == "hidden" || value == "collapse") paint.visible = false;
@@ -148,8 +153,8 @@ SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   paint.unknown.clear();
   const auto declared = declarations(node);
   const auto each = [&](auto take) {
-    for (const char* name :
-         {"color", "stroke", "fill", "stroke-width", "display", "visibility", "opacity"})
+    for (const char* name : {"color", "stroke", "fill", "stroke-width", "stroke-opacity",
+                             "fill-opacity", "display", "visibility", "opacity"})
       if (const pugi::xml_attribute own = node.attribute(name)) take(paint, name, own.value());
     for (const std::string_view some : declared)
       each_declaration(

@@ -18,11 +18,14 @@ struct SvgPaint {
   std::string unknown = {};  ///< of this element alone: what it gives as a colour and is none
   bool stroked = false;      ///< whether something is painted along its outline
   bool filled = true;        ///< or within it
-  bool cut_out = false;      ///< it or what is around it, by display or opacity: for all within
-  bool visible = true;       ///< which what is within may say anew
+  bool stroke_opaque = true, fill_opaque = true;  ///< not wholly transparent
+  bool cut_out = false;  ///< it or what is around it, by display or opacity: for all within
+  bool visible = true;   ///< which what is within may say anew
 
   bool seen() const { return visible && !cut_out; }
-  bool painted() const { return stroked || filled; }
+  bool painted() const {
+    return (stroked && stroke_opaque && width > 0) || (filled && fill_opaque);
+  }
 
   /// The colour of an outline: of its stroke, else of what fills it.
   const std::string& color() const { return stroke.empty() ? fill : stroke; }
