@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "keyline/fairing/chain_fit.h"
@@ -10,14 +9,14 @@
 namespace keyline::fairing::detail {
 
 struct OnePiece {
-  lac::Segment segment;
-  std::vector<double> feet;  ///< of the points, fractions of the length
-  double off = 0;            ///< largest distance of a point
+  FitChain chain;  ///< of the one piece, from the first point's foot to the last one's
+  double off = 0;  ///< largest distance of a point
+  lac::Segment segment() const;
 };
 
-/// The piece nearest to the points by least squares, from the first of them to the last: the point
-/// by point distance across it, at the ends the whole. Starts at the poses of the first and last
-/// points, a pose from those within a tenth of the length. Slopes to ±kSteepestSlope.
+/// The piece nearest to the points by least squares, from the first of them to the last: the
+/// distance across it of each point, at the ends the whole. Starts at the poses of the first and
+/// last points, a pose from those within a tenth of the length. Slopes to ±kSteepestSlope.
 /// Precondition: at least 3 points, no two neighbours alike.
 OnePiece fit_one_piece(const std::vector<FitPoint>& points);
 

@@ -73,7 +73,7 @@ class Stretches {
   }
 
   End end_of(std::size_t first, bool start) const {
-    const lac::Piece piece = lac::piece_of(piece_from(first).segment);
+    const lac::Piece piece = lac::piece_of(piece_from(first).segment());
     const double curvature = start ? piece.curvature_start : piece.curvature_end;
     const bool arc = piece.curvature_start == piece.curvature_end;
     const double rate = arc ? 0 : std::abs(lac::curvature_rate(piece, start ? 0 : 1));
@@ -127,28 +127,14 @@ void close(FitChain& chain) {
   chain.feet.pop_back();
 }
 
-/// The chain of the one piece.
-FitChain chain_of(const OnePiece& one) {
-  const lac::Segment& segment = one.segment;
-  const core::Pose2 end = lac::end_pose(segment);
-  FitChain chain;
-  chain.first_at_start = chain.last_at_end = true;
-  chain.joints = {{segment.start.position, segment.start.direction, segment.curvature_start},
-                  {end.position, end.direction, segment.curvature_end}};
-  chain.pieces = {{.length = segment.length, .alpha = segment.alpha}};
-  for (const double foot : one.feet) chain.feet.push_back({0, foot});
-  return chain;
-}
-
 }  // namespace
 
 std::optional<FitChain> one_exact_piece(std::vector<FitPoint> points, bool closed, double exact) {
   if (closed) points.push_back(points.front());
-  const OnePiece found = fit_one_piece(points);
+  OnePiece found = fit_one_piece(points);
   if (!(found.off <= exact)) return std::nullopt;
-  FitChain chain = chain_of(found);
-  if (closed) close(chain);
-  return chain;
+  if (closed) close(found.chain);
+  return std::move(found.chain);
 }
 
 }  // namespace keyline::fairing::detail

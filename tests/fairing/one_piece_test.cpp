@@ -30,8 +30,8 @@ TEST(OnePiece, OfEverySlopeIsFoundFromItsPoints) {
         const lac::Segment truth = drawn(alpha, -0.8, ratio);
         const detail::OnePiece found = detail::fit_one_piece(points_of(truth, count));
         EXPECT_LT(found.off, 1e-8) << count << " " << alpha << " " << ratio;
-        EXPECT_NEAR(found.segment.alpha, alpha, 1e-3) << count << " " << ratio;
-        EXPECT_NEAR(found.segment.length, 40, 1e-5);
+        EXPECT_NEAR(found.segment().alpha, alpha, 1e-3) << count << " " << ratio;
+        EXPECT_NEAR(found.segment().length, 40, 1e-5);
       }
 }
 
@@ -39,7 +39,7 @@ TEST(OnePiece, WithAnInflectionInsideIsFound) {
   const lac::Segment truth = drawn(-1.4, 1.2, -0.7);
   const detail::OnePiece found = detail::fit_one_piece(points_of(truth, 12));
   EXPECT_LT(found.off, 1e-6);
-  EXPECT_NEAR(found.segment.alpha, -1.4, 1e-3);
+  EXPECT_NEAR(found.segment().alpha, -1.4, 1e-3);
 }
 
 /// Of a parabola no piece comes as near as rounding; what is told is the largest distance.
@@ -50,7 +50,7 @@ TEST(OnePiece, TellsHowFarItIsFromOthers) {
   double most = 0;
   for (const FitPoint& p : points) {
     double nearest = HUGE_VAL;
-    for (const core::Point2 q : lac::sample(found.segment, 20001))
+    for (const core::Point2 q : lac::sample(found.segment(), 20001))
       nearest = std::min(nearest, core::distance(p.position, q));
     most = std::max(most, nearest);
   }
