@@ -11,10 +11,6 @@
 namespace keyline::acquire::detail {
 namespace {
 
-bool too_large(core::Point3 p) {
-  return core::is_too_large(p.x) || core::is_too_large(p.y) || core::is_too_large(p.z);
-}
-
 std::string place_of(const RawCurve& raw, std::size_t i) {
   return i < raw.source_lines.size() ? "line " + std::to_string(raw.source_lines[i])
                                      : "points[" + std::to_string(i) + "]";
@@ -34,7 +30,7 @@ core::Result<void> check_input(const RawCurve& raw) {
                       "give one weight for each point, or none", "weights");
   }
   for (std::size_t i = 0; i < raw.points.size(); ++i) {
-    if (too_large(raw.points[i])) {
+    if (core::is_too_large(raw.points[i])) {
       return core::fail(ErrorCode::bad_input, "a coordinate is larger than 1e100",
                         "check the unit, or divide all coordinates by a common factor",
                         place_of(raw, i));

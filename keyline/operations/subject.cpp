@@ -149,6 +149,7 @@ constexpr double kOnePlace = 1e-9;  // of the length: points this near are one
 /// The path without members that stay in one place, as an arc leaves one where it should close:
 /// their direction is that of a rounding, and no corner.
 document::Path without_specks(document::Path path, double length) {
+  if (path.curves.size() < 2) return path;
   std::erase_if(path.curves, [&](const document::PlanarCurve& member) {
     const document::Path alone{{member}};
     return analysis::ArcLengthTable(analysis::view(alone)).length() < kOnePlace * length;
@@ -158,14 +159,15 @@ document::Path without_specks(document::Path path, double length) {
 
 }  // namespace
 
-Result<acquire::KeyLine> sampled_line(const document::Path& given, double tolerance) {
-  const double length = analysis::ArcLengthTable(analysis::view(given)).length();
+Result<acquire::KeyLine> sampled_line(const document::Path& path, double tolerance) {
+  const analysis::CurveView view = analysis::view(path);
+  const analysis::ArcLengthTable table(view);
+  const double length = table.length();
   if (!(length > 0) || !std::isfinite(length))
     return fail(ErrorCode::bad_input, "the curve has no length", "give a curve with extent",
                 "curve");
-  const document::Path path = without_specks(given, length);
-  const analysis::CurveView view = analysis::view(path);
-  const analysis::ArcLengthTable table(view);
+  const document::Path sound = without_specks(path, length);
+  if (sound.curves.size() < path.curves.size()) return sampled_line(sound, tolerance);
   acquire::KeyLine line;
   line.length = length;
   line.closed = path.closed && meet(evaluate(path, 0), evaluate(path, 1), length);
@@ -187,7 +189,7 @@ Result<acquire::KeyLine> sampled_line(const document::Path& given, double tolera
       continue;
     line.points.push_back(p);
     const bool corner = std::any_of(corners.begin(), corners.end(),
-                                    [&](double c) { return std::abs(c - s) < 1e-9 * length; });
+                                    [&](double c) { return std::abs(c - s) < kOnePlace * length; });
     if (corner) line.corners.push_back(line.points.size() - 1);
   }
   if (line.closed) line.points.pop_back();

@@ -64,17 +64,14 @@ Result<Plane> plane_for(const SectionRequest& request, const std::vector<Point3>
   return found->plane;
 }
 
-bool is_too_large(Point3 p) {
-  return core::is_too_large(p.x) || core::is_too_large(p.y) || core::is_too_large(p.z);
-}
-
 std::unexpected<core::Failure> too_large() {
   return core::fail(ErrorCode::bad_input, "a coordinate is larger than 1e100",
                     "check that the file is whole, or divide all coordinates by a common factor");
 }
 
 Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request) {
-  if (std::ranges::any_of(mesh.points, is_too_large)) return too_large();
+  if (std::ranges::any_of(mesh.points, [](Point3 p) { return core::is_too_large(p); }))
+    return too_large();
   const auto plane = plane_for(request, mesh.points);
   if (!plane) return std::unexpected(plane.error());
   FileSection result;
@@ -123,7 +120,7 @@ Result<FileSection> cloud_section(const std::filesystem::path& file, const Secti
   bool large = false;
   const auto measured = stream_points(file, [&](Point3 p) {
     if (!first) first = p;
-    large = large || is_too_large(p);
+    large = large || core::is_too_large(p);
     size = std::max(size, distance(p, *first));
     sample.take(p);
   });

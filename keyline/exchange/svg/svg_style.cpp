@@ -17,10 +17,12 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(kSpace) - from + 1);
 }
 
+bool paints(std::string_view value) { return value != "none" && value != "transparent"; }
+
 /// The colour of a stroke or of what fills; empty, and told, where it is none that is known. Of a
 /// pattern or gradient what stands for it.
 std::string paint_of(SvgPaint& paint, std::string_view value) {
-  if (value == "none" || value == "transparent") return {};
+  if (!paints(value)) return {};
   if (value == "currentColor" || value == "currentcolor") return paint.current;
   std::string_view color = value;
   if (value.starts_with("url(")) {
@@ -44,14 +46,13 @@ bool shows(std::string_view opacity) {
 void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
   value = trimmed(value.substr(0, value.find('!')));
   if (value.empty() || value == "inherit") return;
-  const bool paints = value != "none" && value != "transparent";
   if (name == "stroke") {
     paint.stroke = paint_of(paint, value);
-    paint.stroked = paints;
+    paint.stroked = paints(value);
   }
   if (name == "fill") {
     paint.fill = paint_of(paint, value);
-    paint.filled = paints;
+    paint.filled = paints(value);
   }
   if (name == "stroke-opacity") paint.stroke_opaque = shows(value);
   if (name == "fill-opacity") paint.fill_opaque = shows(value);
