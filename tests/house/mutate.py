@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""mutate.py ROOT [ROOM…] [--sample N] [--seed N] [--only TEXT] [--jobs N] [--page FILE]: do the
-tests notice?
+"""mutate.py ROOT [ROOM…] [--sample N] [--seed N] [--only TEXT] [--within SECONDS] [--jobs N]
+[--page FILE]: do the tests notice?
 
 Puts one fault at a time into the sources of a room (an operator, a constant or a condition turned),
 builds the room's tests, runs them, the quickest first, until one fails, and names the faults they
@@ -8,7 +8,7 @@ let pass. Works in a copy of the tree for each room
 under build/mutate, so that nothing is left behind and rooms may run side by side.
 Deterministic: the same tree and seed give the same faults in the same order, N of them spread over
 the room by a hash of their place. --only tries those faults of the sample again whose file, line or
-change holds TEXT.
+change holds TEXT. --within asks the tests alone that take no longer than SECONDS each.
 
 A fault that does not compile counts for nothing. One that is explained in
 tests/house/mutants_explained.txt (file | line | change | why) is not tried: it counts as explained.
@@ -27,6 +27,7 @@ import subprocess
 import sys
 import tempfile
 
+HUGE = 1e300  # seconds
 MOST_MEMORY = 8 << 30  # address space of a test run; no sound one comes near
 ROOMS = ["numeric", "curve", "lac", "classa", "fit", "fairing", "exchange"]
 
@@ -159,9 +160,9 @@ class Copy:
 class Tests:
     """A room's tests in three parts, the quickest first, each with the time it takes when sound."""
 
-    def __init__(self, copy, room):
+    def __init__(self, copy, room, within):
         self.program = copy.build / "tests" / room / f"keyline_{room}_tests"
-        times = self.kept(copy.tree.parent / "times.json")
+        times = self.kept(copy.tree.parent / "times.json", within)
         whole = sum(times.values())
         self.parts = []
         names, spent, part = [], 0.0, 0.0
@@ -177,22 +178,25 @@ class Tests:
             part += times[name]
         self.parts.append((names, part))
 
-    def kept(self, file):
-        """Seconds each test takes, from the last run of the very same program where there was one."""
+    def kept(self, file, within):
+        """Seconds each test takes, from the last run of the very same program where there was one.
+        Tests that took longer than `within` when last run are left out."""
         program = hashlib.sha256(self.program.read_bytes()).hexdigest()
-        if file.exists():
-            last = json.loads(file.read_text())
-            if last["program"] == program:
-                return last["seconds"]
-        seconds = self.recorded()
-        file.write_text(json.dumps({"program": program, "seconds": seconds}))
-        return seconds
+        last = json.loads(file.read_text()) if file.exists() else {"program": "", "seconds": {}}
+        seconds, longer = last["seconds"], {}
+        if last["program"] != program or last.get("within", HUGE) < within:
+            longer = {name: s for name, s in seconds.items() if s > within}
+            seconds = {**self.recorded(longer), **longer}
+            file.write_text(json.dumps({"program": program, "within": within if longer else HUGE,
+                                        "seconds": seconds}))
+        return {name: s for name, s in seconds.items() if s <= within}
 
-    def recorded(self):
+    def recorded(self, without):
         """Seconds each test takes; ends the program where one fails without any fault."""
         with tempfile.TemporaryDirectory() as folder:
             told = pathlib.Path(folder) / "told.json"
-            run = subprocess.run([self.program, "--gtest_brief=1", f"--gtest_output=json:{told}"],
+            run = subprocess.run([self.program, "--gtest_brief=1", f"--gtest_output=json:{told}",
+                                  "--gtest_filter=*-" + ":".join(without)],
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             if run.returncode != 0:
                 sys.exit(f"mutate: {self.program.name} fails without any fault:\n{run.stdout}")
@@ -270,7 +274,7 @@ def run_room(room, options, report):
     target = f"keyline_{room}_tests"
     if not copy.make(target):
         sys.exit(f"mutate: {target} does not build\n{copy.said[-2000:]}")
-    tests = Tests(copy, room)
+    tests = Tests(copy, room, options.within)
     known = explanations(copy.root)
     sites = faults_of(root, room)
     result = {"room": room, "sites": len(sites), "stillborn": 0, "killed": 0, "explained": [],
@@ -316,6 +320,7 @@ def main():
     parser.add_argument("--sample", type=int, default=40, help="faults a room, 0: all")
     parser.add_argument("--seed", type=int, default=0, help="another sample")
     parser.add_argument("--only", default="", help="of the sample, what holds this text")
+    parser.add_argument("--within", type=float, default=HUGE, help="seconds a test may take")
     parser.add_argument("--jobs", type=int, default=1, help="compilers at once")
     parser.add_argument("--page", type=pathlib.Path, help="where the table goes too")
     options = parser.parse_intermixed_args()
