@@ -17,12 +17,11 @@ constexpr int kRounds = 30;  // Newton steps at most: it stops where one brings 
 
 bool is_arc(const lac::Piece& piece) { return piece.curvature_start == piece.curvature_end; }
 
-/// Which unknown each joint's curvature is: arcs and the seam make several joints one.
+/// Which unknown each joint's curvature is, counted: arcs and the seam make several joints one.
 /// -1: kept as it is.
 std::vector<int> curvature_unknowns(const lac::Chain& chain, const Target& target, int& count) {
   const std::size_t n = chain.pieces.size();
   std::vector<int> unknown(n + 1);
-  count = 0;
   unknown[0] = chain.closed || target.start_curvature_free ? count++ : -1;
   for (std::size_t i = 0; i < n; ++i)
     unknown[i + 1] = is_arc(chain.pieces[i]) ? unknown[i] : count++;

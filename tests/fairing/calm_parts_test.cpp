@@ -63,6 +63,10 @@ TEST(PieceEnergy, PassesAnInflection) {
     }
 }
 
+TEST(PieceEnergy, OfNoCurvatureIsNone) {
+  for (const double alpha : {-1.0, -0.5}) EXPECT_EQ(piece_energy(0, 0, alpha).root, 0);
+}
+
 TEST(PieceEnergy, RatesAreDifferences) {
   constexpr double h = 1e-6;
   for (const double alpha : {-2.5, -1.0, -0.5, 0.0, 1.3})

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -301,6 +302,21 @@ TEST(RefineCells, LeavesClothoidsAlone) {
   DenseCurve curve = of_piece(s, 3);
   refine_cells(curve);
   EXPECT_EQ(curve.at.size(), 4U);
+}
+
+// Of curvature that grows e-fold along a cell Simpson's rule tells the turn with one part and with
+// two: farther apart than 1e-8 the cell is parted once, and then they are 15.6 times as near.
+TEST(RefineCells, PartsWhereSumsAreFartherApartThanTheLimit) {
+  const double e = std::exp(0.25);
+  const double one = (1 + 4 * std::pow(e, 2) + std::pow(e, 4)) / 6;
+  const double two = (1 + 4 * e + 2 * std::pow(e, 2) + 4 * std::pow(e, 3) + std::pow(e, 4)) / 12;
+  for (const auto& [apart, nodes] :
+       {std::pair{0.95e-8, 2U}, {1.05e-8, 3U}, {15e-8, 3U}, {17e-8, 5U}}) {
+    const double from = apart / (one - two);
+    DenseCurve curve = of_piece({{{0, 0}, 0}, 0, 1, from, from * std::exp(1.0)}, 1);
+    refine_cells(curve);
+    EXPECT_EQ(curve.at.size(), nodes) << apart;
+  }
 }
 
 std::vector<FitPoint> circle(int n) {

@@ -142,5 +142,14 @@ TEST(Mirror, ManyPointsHaveTheirAxis) {
   EXPECT_LT(found->largest, 1e-4);
 }
 
+// A side that zigzags is longer by a factor of sqrt(1.09): shares of the length tell where images
+// belong to within twenty edges, and from there they are found.
+TEST(Mirror, SidesMayDifferInLength) {
+  std::vector<Point2> points;
+  for (int i = -1000; i <= 1000; ++i) points.push_back({double(i), i < 0 && i % 2 != 0 ? 0.3 : 0});
+  const Mirror found = measured_in({{0, 0}, core::kPi / 2}, points, false);
+  EXPECT_NEAR(found.largest, 0.3, 1e-9);
+}
+
 }  // namespace
 }  // namespace keyline::fairing

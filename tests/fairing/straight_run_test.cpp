@@ -1,5 +1,6 @@
 #include "keyline/fairing/straight_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -103,6 +104,19 @@ TEST(ArcRun, ThreePointsAlwaysLieOnOne) {
   ASSERT_TRUE(chain);
   EXPECT_NEAR(chain->pieces[0].length, 1, 1e-11);
   EXPECT_NEAR(chain->feet[1].fraction, 0.88, 1e-11);
+}
+
+// However near two of them are: here a millionth of the way to the first.
+TEST(ArcRun, PointsMayBeUneven) {
+  auto points = on_circle(10, 0.3, 0.1, 3);
+  points[1].position = on_circle(10, 0.3, 0.1 * (1 - 1e-6), 2)[1].position;
+  for (const bool reversed : {false, true}) {
+    if (reversed) std::ranges::reverse(points);
+    const auto chain = arc_chain(points);
+    ASSERT_TRUE(chain);
+    EXPECT_NEAR(chain->joints[0].curvature, reversed ? -0.1 : 0.1, 1e-8);
+    EXPECT_NEAR(chain->pieces[0].length, 1, 1e-9);
+  }
 }
 
 // Of points beside it the arc of least squares: six errors that cancel in its three unknowns.

@@ -124,5 +124,38 @@ TEST(Stretches, SmallStepsMayBeErrorsAndOvalsHaveSteps) {
   EXPECT_TRUE(detail::may_be_exact(circle, true, kExact));
 }
 
+/// Places along curvature that runs evenly from each (curvature, length) to the next, by Simpson's
+/// rule at small steps.
+std::vector<core::Point2> along_graph(const std::vector<std::pair<double, double>>& graph,
+                                      int count) {
+  double whole = 0;
+  for (std::size_t i = 0; i + 1 < graph.size(); ++i) whole += graph[i].second;
+  const auto turn_to = [&](double s) {
+    double turn = 0;
+    for (std::size_t i = 0; i + 1 < graph.size() && s > 0; s -= graph[i].second, ++i) {
+      const double part = std::min(s, graph[i].second);
+      const double rate = (graph[i + 1].first - graph[i].first) / graph[i].second;
+      turn += part * (graph[i].first + rate * part / 2);
+    }
+    return core::unit_vector(turn);
+  };
+  constexpr int kSteps = 4;
+  const double h = whole / (kSteps * (count - 1));
+  std::vector<core::Point2> places{{0, 0}};
+  for (int i = 0; i + 1 < count; ++i) {
+    core::Vector2 by{0, 0};
+    for (int k = kSteps * i; k < kSteps * (i + 1); ++k)
+      by = by + h / 6 * (turn_to(h * k) + 4 * turn_to(h * (k + 0.5)) + turn_to(h * (k + 1)));
+    places.push_back(places.back() + by);
+  }
+  return places;
+}
+
+// A piece between two others that is shorter than the stretches that are tried.
+TEST(Stretches, CurvatureMayChangeAlongAShortPiece) {
+  const auto places = along_graph({{1, 1}, {1, 0.05}, {2, 1}, {2, 0}}, 400);
+  EXPECT_TRUE(detail::may_be_exact(as_fit_points(places), false, kExact));
+}
+
 }  // namespace
 }  // namespace keyline::fairing
