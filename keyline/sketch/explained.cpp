@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "keyline/core/polygon.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/rows.h"
@@ -50,8 +51,7 @@ void take_out(Binary& ink, const Stroke& stroke) {
   const auto far = [](Point2 a, Point2 b) { return dot(b - a, b - a); };
   std::size_t at = 0;  // the point of the stroke beside the curve's
   for (const curve::Bezier2& piece : stroke.curve) {
-    const double chord = distance(piece.control.front(), piece.control.back());
-    const int n = 2 + static_cast<int>(chord);
+    const int n = 2 + static_cast<int>(core::polygon_length(piece.control));
     for (int i = 0; i < n; ++i) {
       const Point2 p = evaluate(piece, (i + 0.5) / n);
       while (at + 1 < stroke.points.size() &&

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/polygon.h"
 #include "keyline/exchange/image/image_reader.h"
 #include "keyline/exchange/points/scap_reader.h"
 #include "keyline/sketch/consolidate.h"
@@ -53,7 +54,7 @@ Coverage coverage_of(const sketch::TraceResult& trace, const sketch::Binary& ink
   for (const sketch::Stroke& stroke : trace.strokes) {
     std::size_t at = 0;  // the point of the stroke beside the curve's
     for (const curve::Bezier2& piece : stroke.curve) {
-      const int n = 2 + 2 * static_cast<int>(core::distance(piece.control[0], piece.control[5]));
+      const int n = 2 + 2 * static_cast<int>(core::polygon_length(piece.control));
       for (int i = 0; i < n; ++i) {
         const core::Point2 p = evaluate(piece, (i + 0.5) / n);
         const double y = ink.height - p.y;
