@@ -64,6 +64,15 @@ FaintLine faint_line(double width, int specks) {
           .broadest = kBroadest * width + kBroadestBlur};
 }
 
+void show_stage(const TraceOptions& options, const Tone& tone) {
+  if (!options.stage) return;
+  Stage stage{"log", {tone.level.width, tone.level.height}};
+  for (std::size_t i = 0; i < tone.level.data.size(); ++i)
+    stage.picture.data[i] =
+        static_cast<std::uint8_t>(std::min(255.0, 255 * tone.level.data[i] / Tone::kWhite));
+  options.stage(stage);
+}
+
 void show_stage(const TraceOptions& options, const char* name, const Binary& binary) {
   if (!options.stage) return;
   Stage stage{name, {binary.width, binary.height}};

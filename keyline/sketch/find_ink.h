@@ -28,4 +28,7 @@ FaintLine faint_line(double width, int specks);
 /// Gives a stage's picture to the caller, if the options ask for stages.
 void show_stage(const TraceOptions& options, const char* name, const Binary& binary);
 
+/// Shows the log picture as the stage "log".
+void show_stage(const TraceOptions& options, const Tone& tone);
+
 }  // namespace keyline::sketch

@@ -237,6 +237,23 @@ double Refiner::extension(Point2 end, Vector2 direction, double half_width) cons
   return reach - half_width;
 }
 
+std::optional<double> Refiner::ink_ahead(Point2 from, Vector2 out, double near,
+                                         double width) const {
+  double darkest = darkness(from);
+  double at = 0;
+  for (double s = kStep; s <= near; s += kStep)
+    if (const double here = darkness(from + s * out); here > darkest) darkest = here, at = s;
+  const double most = near + width + 3;
+  double last = darkest;
+  while (at < most) {
+    at += kStep;
+    const double here = darkness(from + at * out);
+    if (here < 0.5 * darkest) return at - kStep * (0.5 * darkest - here) / (last - here);
+    last = here;
+  }
+  return {};
+}
+
 double Refiner::rim_ahead(Point2 p, Vector2 direction) const {
   const double least = std::sqrt(1 - kAlongRim * kAlongRim);
   const auto ahead = [least](double at, double way, int size) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "keyline/core/point.h"
@@ -37,6 +38,12 @@ class Refiner {
   /// How far from p along `out` (unit) the ink's border lies, within two pixels either way; 0 where
   /// none is seen.
   double edge_offset(core::Point2 p, core::Vector2 out) const;
+
+  /// From a place to where the ink ends that way (unit): where darkness falls to half of the
+  /// greatest within `near`. Nothing where it goes on for more than a width and three pixels
+  /// beyond that.
+  std::optional<double> ink_ahead(core::Point2 from, core::Vector2 out, double near,
+                                  double width) const;
 
   /// At a place, bilinear: 0 paper, 1 black.
   double darkness(core::Point2 p) const;

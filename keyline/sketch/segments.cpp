@@ -5,14 +5,21 @@
 #include <optional>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/quantile.h"
 
 namespace keyline::sketch {
 namespace {
 
 using core::cross;
 using core::distance;
+using core::norm;
 using core::Point2;
 using core::Vector2;
+
+constexpr double kOnLine = 1;  ///< pixels about a line's points: its ink is there
+/// Of the way from a line to where a corner's arms meet: to a corner of sharp ink it is all, to one
+/// of soft ink half, and to a round end nothing.
+constexpr double kTowards = 1.0 / 3;
 
 /// Points by running index; closed ones come round again.
 struct Line {
@@ -115,6 +122,9 @@ SegmentRun make_run(const std::vector<Point2>& points, std::size_t first, std::s
   return run;
 }
 
+/// How far from the line the arms of a corner may meet.
+double corner_reach(const SegmentOptions& options) { return 2 + 0.6 * options.width; }
+
 /// Where the lines on both sides of a corner meet, found from the arms clear of its rounding; the
 /// point itself where they meet too far away.
 Point2 corner_place(const Line& line, long i, const Arms& a, double reach) {
@@ -127,6 +137,36 @@ Point2 corner_place(const Line& line, long i, const Arms& a, double reach) {
   const auto x = intersection(principal_axis(before, 0, before.size() - 1),
                               principal_axis(after, 0, after.size() - 1));
   return x && distance(*x, line.at(i)) <= reach ? *x : line.at(i);
+}
+
+/// Half the width of the ink along the arms of a corner, on its outer side.
+std::optional<double> outer_half_width(const Line& line, long i, const Arms& a, Vector2 out,
+                                       const SegmentOptions& options) {
+  std::vector<double> halves;
+  for (long k = a.gap; k <= a.arm; ++k)
+    for (const long at : {i - k, i + k}) {
+      const Vector2 along = line.at(at + 1) - line.at(at - 1);
+      if (!(norm(along) > 0)) continue;
+      Vector2 across = core::perpendicular_left(along / norm(along));
+      if (core::dot(across, out) < 0) across = -1 * across;
+      if (const auto half = options.ink(line.at(at), across, kOnLine)) halves.push_back(*half);
+    }
+  if (halves.empty()) return {};
+  return core::quantile(halves);
+}
+
+/// True where the arms of a corner meet on paper, and the middle of the ink goes little of the way
+/// there.
+bool is_round(const Line& line, long i, const Arms& a, const SegmentOptions& options) {
+  if (!options.ink) return false;
+  const Point2 from = line.at(i);
+  const Vector2 way = corner_place(line, i, a, corner_reach(options)) - from;
+  const double far = norm(way);
+  if (!(far > 0)) return false;
+  const auto end = options.ink(from, way / far, far);
+  if (!end || *end >= far) return false;
+  const auto half = outer_half_width(line, i, a, way / far, options);
+  return half && *end - *half < kTowards * far;
 }
 
 /// The point of the line nearest to where the arms of a corner meet.
@@ -169,7 +209,9 @@ std::vector<std::size_t> find_corners(const std::vector<Point2>& points, bool cl
       const double other = sharp[static_cast<std::size_t>(j)];
       top = other < here || (other == here && k > 0);
     }
-    if (top) corners.push_back(nearest_point(line, i, arms));
+    if (!top) continue;
+    const std::size_t at = nearest_point(line, i, arms);
+    if (!is_round(line, static_cast<long>(at), arms, options)) corners.push_back(at);
   }
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
@@ -196,8 +238,8 @@ std::vector<SegmentRun> fit_segments(const std::vector<Point2>& points, bool clo
     runs.push_back(make_run(points, cuts[k], cuts[k + 1], false, options.straightness));
   const Line line{points, closed};
   const auto meet = [&](SegmentRun& before, SegmentRun& after) {
-    const Point2 x = corner_place(line, static_cast<long>(after.first), arms_of(options),
-                                  2 + 0.6 * options.width);
+    const Point2 x =
+        corner_place(line, static_cast<long>(after.first), arms_of(options), corner_reach(options));
     before.vertices.back() = x;
     after.vertices.front() = x;
   };

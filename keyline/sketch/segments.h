@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "keyline/core/point.h"
@@ -12,6 +14,9 @@ struct SegmentOptions {
   double straightness = 0.75;  ///< largest distance of a group's points from its axis, pixels
   double corner_angle = 0.6;   ///< radians: a sharper turn in one place is a corner
   double width = 2;            ///< of the stroke: what a corner is rounded over
+  /// From a place beside or on a line to where its ink ends that way (unit), the ink within `near`;
+  /// nothing where it does not end, as where another line goes on. Empty: there is no ink to ask.
+  std::function<std::optional<double>(core::Point2 from, core::Vector2 out, double near)> ink = {};
 };
 
 /// The stretch between two corners (or ends), or a closed line without corners.

@@ -302,15 +302,19 @@ std::array<Point2, 2> extent(const Axis& axis, double half_length) {
 
 }  // namespace
 
-Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options) {
+Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options, const Refiner* picture) {
   Stroke stroke;
   stroke.points = fine.points;
   stroke.closed = fine.closed;
   stroke.width = fine.width;
   stroke.widths = fine.widths;
   stroke.members = fine.members;
-  const auto runs = fit_segments(fine.points, fine.closed,
-                                 {options.straightness, options.corner_angle, fine.width});
+  SegmentOptions segments{options.straightness, options.corner_angle, fine.width};
+  if (picture)
+    segments.ink = [&](Point2 from, core::Vector2 out, double near) {
+      return picture->ink_ahead(from, out, near, fine.width);
+    };
+  const auto runs = fit_segments(fine.points, fine.closed, segments);
   std::vector<DrivenRun> driven;
   for (const SegmentRun& run : runs) {
     const std::vector<curve::Bezier2> quadratic = quadratics(run.vertices, run.closed);

@@ -64,8 +64,10 @@ struct Stroke {
 /// The stroke in other units; curvature and widths by the mean of both scales.
 void scale(Stroke& stroke, double across, double down);
 
-/// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature.
+/// The curve of a refined stroke: line segments, quadratics, quintics, joints, curvature. With the
+/// picture it was read from, corners have to lie on its ink.
 /// Precondition: at least two points.
-Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options);
+Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options,
+                const Refiner* picture = nullptr);
 
 }  // namespace keyline::sketch

@@ -71,20 +71,11 @@ core::Result<TraceResult> nothing_found() {
                     "give --threshold, or a picture with more contrast");
 }
 
-void show(const TraceOptions& options, const Tone& tone) {
-  if (!options.stage) return;
-  Stage stage{"log", {tone.level.width, tone.level.height}};
-  for (std::size_t i = 0; i < tone.level.data.size(); ++i)
-    stage.picture.data[i] =
-        static_cast<std::uint8_t>(std::min(255.0, 255 * tone.level.data[i] / Tone::kWhite));
-  options.stage(stage);
-}
-
 /// True for what starts at a line and ends freely: short ones are where the pen went on a little.
 bool is_stub(const RawStroke& line) { return !line.closed && line.free_start != line.free_end; }
 
 /// Lines along the middle of the ink.
-std::vector<FineStroke> center_lines(const Ink& found, const Tone& tone,
+std::vector<FineStroke> center_lines(const Ink& found, const Refiner& refiner,
                                      const TraceOptions& options) {
   const Binary& ink = found.picture;
   const double width = found.width;
@@ -92,7 +83,6 @@ std::vector<FineStroke> center_lines(const Ink& found, const Tone& tone,
   show_stage(options, "lines", thinned);
   const StrokeGraph graph = build_graph(thinned, ink, found.grainy);
   options.progress.report(0.6, "following lines");
-  const Refiner refiner(tone);
   std::vector<FineStroke> strokes;
   std::vector<RawStroke> lines =
       join_strokes(graph, {.gap = options.gap.value_or(2.5 * width + 3), .rows = !options.gap});
@@ -183,7 +173,7 @@ TraceOptions curves_of(const Ink& ink, TraceOptions options) {
 
 /// Curves of all strokes, longest first.
 core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceOptions& options,
-                              TraceResult& result) {
+                              const Refiner* picture, TraceResult& result) {
   std::vector<std::optional<Stroke>> curves(lines.size());
   for (std::size_t first = 0; first < lines.size(); first += kAtOnce) {
     if (options.progress.stop_requested())
@@ -193,7 +183,7 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
         "fitting curves");
     numeric::parallel_for(std::min(kAtOnce, lines.size() - first), 0, [&](std::size_t k, int) {
       const FineStroke& line = lines[first + k];
-      if (line.points.size() >= 2) curves[first + k] = curve_of(line, options.curve);
+      if (line.points.size() >= 2) curves[first + k] = curve_of(line, options.curve, picture);
     });
   }
   for (std::optional<Stroke>& curve : curves)
@@ -325,7 +315,7 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   result.width = image.width();
   result.height = image.height();
   Tone tone = transform_intensity(std::move(image), options.tone);
-  show(options, tone);
+  show_stage(options, tone);
   tell_ground(tone, on_black, result);
   options.progress.report(0.2, "telling ink from paper");
   Ink found = find_ink(tone, options);
@@ -333,8 +323,9 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   const double width = found.width;
   if (options.stage) show_stage(options, "edges", laplacian_edges(ink));
   options.progress.report(0.4, "thinning");
+  const Refiner refiner(tone);
   std::vector<FineStroke> lines =
-      options.edge == Edge::outer ? outlines(ink, tone) : center_lines(found, tone, options);
+      options.edge == Edge::outer ? outlines(ink, tone) : center_lines(found, refiner, options);
   const ConsolidateOptions passes{
       .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
   Merged merged;
@@ -346,7 +337,10 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
     tell_passes(lines, passes, result);
   }
   if (found.grainy) result.notes.push_back("grainy lines: looked at through a blur");
-  if (auto done = add_curves(lines, curves_of(found, options), result); !done)
+  const bool is_clear = options.edge == Edge::center && !found.grainy;
+  if (auto done =
+          add_curves(lines, curves_of(found, options), is_clear ? &refiner : nullptr, result);
+      !done)
     return std::unexpected(done.error());
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
@@ -392,7 +386,8 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   TraceOptions scaled = options;
   scaled.curve.straightness *= width / unit;
   scaled.curve.tolerance *= width / unit;
-  if (auto done = add_curves(lines, scaled, result); !done) return std::unexpected(done.error());
+  if (auto done = add_curves(lines, scaled, nullptr, result); !done)
+    return std::unexpected(done.error());
   for (Stroke& stroke : result.strokes) scale(stroke, unit, unit);
   return result;
 }

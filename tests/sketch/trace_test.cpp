@@ -72,6 +72,56 @@ TEST(Trace, LinesAlongTheRimStayInThePicture) {
     }
 }
 
+/// White paper with a line of that width along points, round at corners and ends.
+Image drawn_along(const std::vector<Point2>& line, double width) {
+  Image page = blank_page(120, 50);
+  for (int y = 0; y < page.height(); ++y)
+    for (int x = 0; x < page.width(); ++x) {
+      double off = HUGE_VAL;
+      for (const Point2 p : line) off = std::min(off, core::distance({x + 0.5, y + 0.5}, p));
+      const double cover = std::clamp(0.5 + 0.5 * width - off, 0.0, 1.0);
+      page.luminance.at(x, y) = static_cast<std::uint16_t>(65535 * (1 - 0.9 * cover));
+    }
+  return page;
+}
+
+/// Largest distance of a curve from points close to each other.
+double largest_distance(const Stroke& stroke, double height, const std::vector<Point2>& line) {
+  double largest = 0;
+  for (const curve::Bezier2& piece : stroke.curve)
+    for (int k = 0; k <= 60; ++k) {
+      const Point2 p = evaluate(piece, k / 60.0);
+      double off = HUGE_VAL;
+      for (const Point2 q : line) off = std::min(off, core::distance({p.x, height - p.y}, q));
+      largest = std::max(largest, off);
+    }
+  return largest;
+}
+
+// The ends of a thin ellipse turn as sharply as corners, but the ink does not reach to where the
+// sides would meet; at the tips of a lens, two arcs that meet at a right angle, it does.
+TEST(Trace, RoundEndsHaveNoCornersAndTipsHave) {
+  std::vector<Point2> ellipse;  // of 2.4 pixels of radius at its ends
+  std::vector<Point2> lens;
+  for (int i = 0; i < 400; ++i) {
+    const double t = std::numbers::pi * i / 200;
+    ellipse.push_back({60.3 + 50 * std::cos(t), 25.2 + 11 * std::sin(t)});
+    const double side = i % 2 == 0 ? 1 : -1;
+    const double u = 0.25 * (t - std::numbers::pi);
+    lens.push_back({60.3 + 60 * std::sin(u),
+                    25.2 + 60 * side * (std::cos(u) - std::cos(0.25 * std::numbers::pi))});
+  }
+  const auto round = trace(drawn_along(ellipse, 2));
+  ASSERT_TRUE(round);
+  ASSERT_EQ(round->strokes.size(), 1U);
+  EXPECT_TRUE(round->strokes[0].corners.empty());
+  EXPECT_LT(largest_distance(round->strokes[0], 50, ellipse), 0.8);  // 2 and more with corners
+  const auto tipped = trace(drawn_along(lens, 2));
+  ASSERT_TRUE(tipped);
+  ASSERT_EQ(tipped->strokes.size(), 1U);
+  EXPECT_EQ(tipped->strokes[0].corners.size(), 2U);
+}
+
 // Along a hairline the grey swells and fades: its dark pixels are no pepper.
 TEST(Trace, HairlinesStayWhole) {
   for (const double angle : {0.1, 0.25, 0.4, 0.7}) {
