@@ -225,22 +225,27 @@ class Tests:
             return False
 
 
+def bare(line):
+    """A line of source without the comment behind it."""
+    return re.sub(r"\s*//.*", "", line)
+
+
 def explanations(root):
     file = root / "tests" / "house" / "mutants_explained.txt"
     known = {}
     for line in file.read_text().splitlines() if file.exists() else []:
         if line.strip() and not line.startswith("#"):
             parts = [part.strip() for part in line.split(" | ")]
-            known[tuple(parts[:3])] = parts[3]
+            known[parts[0], bare(parts[1]), parts[2]] = parts[3]
     return known
 
 
 def told(root, text, site):
-    """(file, line as it is, change) of a fault, for people and for explanations. Of several of a kind
-    in one line the second and those behind it are numbered."""
+    """(file, its line without a comment, change) of a fault, for people and for explanations. Of
+    several of a kind in one line the second and those behind it are numbered."""
     path, start, end, new = site
     begin = text.rfind("\n", 0, start) + 1
-    line = text[begin:text.find("\n", start)].strip()
+    line = bare(text[begin:text.find("\n", start)].strip())
     before = text[begin:start].count(text[start:end])
     change = f"{text[start:end].strip()} → {new.strip()}" + (f" ({before + 1})" if before else "")
     return (str(path.relative_to(root)), line.replace("|", "¦"),
@@ -277,6 +282,10 @@ def run_room(room, options, report):
     tests = Tests(copy, room, options.within)
     known = explanations(copy.root)
     sites = faults_of(root, room)
+    stale = set(known) - {told(root, site[0].read_text(), site) for site in sites}
+    for name in sorted(stale):
+        if name[0].startswith(f"keyline/{room}/"):
+            print(f"{room}: explained, but gone: {' | '.join(name)}", file=report, flush=True)
     result = {"room": room, "sites": len(sites), "stillborn": 0, "killed": 0, "explained": [],
               "survived": []}
     for site in chosen(sites, options.sample, options.seed, root):
