@@ -202,7 +202,7 @@ void Evaluation::add_prior(Model& m, int i) {
     stage.gradient(kLengthAt) += w * r;
     m.cost += r * r;
   }
-  if (piece.kind != PieceKind::curve || slope_held(piece) || options_.slope_prior == 0) return;
+  if (piece.kind != PieceKind::curve || slope_held(piece)) return;
   const double w = options_.slope_prior * options_.scale;
   const double r = w * (piece.alpha + 1);
   stage.hessian(kAlphaAt, kAlphaAt) += w * w;

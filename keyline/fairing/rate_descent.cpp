@@ -204,7 +204,7 @@ class Descent {
   }
 
   std::vector<double> strains(const Eigen::VectorXd& step) const {
-    std::vector<double> strain(problem_.joints.size(), 0);
+    std::vector<double> strain(problem_.joints.size());
     auto row = step.size();
     for (std::size_t k = strain.size(); k-- > 0;)
       if (problem_.joints[k].tied) strain[k] = std::abs(step(--row));

@@ -352,6 +352,20 @@ TEST(DenseCurveOf, StandsAtItsPointsAndEvenlyBetweenThem) {
   EXPECT_EQ(curve.value.size(), 121U);
 }
 
+// Limaçons with an inner loop turn twice, figures of eight not at all.
+TEST(DenseCurveOf, TurningIsOfWholeTurns) {
+  for (const int turns : {-2, -1, 0, 1, 2}) {
+    std::vector<FitPoint> points;
+    for (int i = 0; i < 200; ++i) {
+      const double t = 2 * kPi * i / 200, way = turns < 0 ? -t : t;
+      const double r = std::abs(turns) == 2 ? 1 + 2 * std::cos(t) : 3;
+      points.push_back({.position = {r * std::cos(way), r * std::sin(way)}});
+      if (turns == 0) points.back().position = {std::sin(t), std::sin(2 * t)};
+    }
+    EXPECT_NEAR(dense_curve(points, true, 240).turning, 2 * kPi * turns, 1e-12) << turns;
+  }
+}
+
 TEST(DenseCurveOf, BendsArePartedWhereGapsAreWide) {
   const DenseCurve coarse = dense_curve(circle(60), true, 1);
   EXPECT_EQ(coarse.at.size(), 121U);  // 0.105 of a turn each: two cells

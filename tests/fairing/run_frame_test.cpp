@@ -53,14 +53,15 @@ TEST(RunFrame, IsTheSameFromEitherEnd) {
   }
 }
 
-// The centroid (1, 1) of a kite: its farthest corner comes first, and it is run to the left.
+// The centroid (1, 1.25) of a kite: its farthest corner, 1.75 off, comes first, though another is
+// 1.25 off, and it is run to the left.
 TEST(RunFrame, ClosedRunsTurnLeftFromTheFarthestPoint) {
-  detail::Run run = open_run({{0, 1}, {1, 0}, {2, 1}, {1, 4}}, 1);
+  detail::Run run = open_run({{0, 1}, {1, 0}, {2, 1}, {1, 3}}, 1);
   run.closed = true;
   const RunFrame left = make_frame(run);
   EXPECT_FALSE(left.reversed);
   EXPECT_EQ(left.order, (std::vector<std::size_t>{3, 0, 1, 2}));
-  run.points = {{1, 4}, {2, 1}, {1, 0}, {0, 1}};
+  run.points = {{1, 3}, {2, 1}, {1, 0}, {0, 1}};
   const RunFrame right = make_frame(run);
   EXPECT_TRUE(right.reversed);
   EXPECT_EQ(right.order, (std::vector<std::size_t>{0, 3, 2, 1}));

@@ -43,7 +43,8 @@ TEST(FitOf, IsForTheRunsOwnPoints) {
   EXPECT_EQ(fit_of(run, all).order, 4);
 }
 
-// Chain and spline of every run in its place; the progress of all goes from 0 to 1 and never back.
+// Chain and spline of every run in its place, each sought once; the progress of all goes from 0 to
+// 1 and never back.
 TEST(SolveRuns, EveryRunHasItsSplineAndItsChain) {
   const std::vector<detail::Run> runs{arc(60, 0), arc(7, 1), arc(80, 2)};
   std::vector<double> told;
@@ -54,9 +55,14 @@ TEST(SolveRuns, EveryRunHasItsSplineAndItsChain) {
   RunOptions options;
   options.tolerance = 1e-3;
   options.threads = 1;
-  const auto solved =
-      solve_runs(runs, {}, fit, [&](std::size_t) { return options; }, progress).value();
+  int chains = 0;
+  const OptionsOf options_of = [&](std::size_t) {
+    ++chains;
+    return options;
+  };
+  const auto solved = solve_runs(runs, {}, fit, options_of, progress).value();
   ASSERT_EQ(solved.size(), 3U);
+  EXPECT_EQ(chains, 3);
   for (std::size_t k = 0; k < 3; ++k) {
     const double height = static_cast<double>(k);
     EXPECT_NEAR(evaluate(solved[k].spline, 0).y, height, 1e-6);

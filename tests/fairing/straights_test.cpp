@@ -141,5 +141,30 @@ TEST(StraightStretches, MayBeTwoStandardErrorsOff) {
   EXPECT_TRUE(straight_stretches(g.curve, g.points, 0.995 * least).empty());
 }
 
+// A line has two freedoms, so that five points leave three to tell it by and four too few.
+TEST(StraightStretches, AreOfFivePointsOrMore) {
+  const Given whole = bent_line(0, 6);
+  for (const std::size_t count : {5U, 4U}) {
+    Given g{whole.curve, {}};
+    g.curve.feet.clear();
+    std::size_t inside = 0;
+    for (std::size_t j = 0; j < whole.points.size(); ++j) {
+      const double t = place_along(whole.curve, whole.curve.feet[j]);
+      const bool apart = std::abs(t - 0.5) > 0.25;
+      const bool one = std::abs(t - 0.5) < 0.165 && j % 8 == 2 && inside < count;
+      if (!apart && !one) continue;
+      inside += one;
+      g.points.push_back(whole.points[j]);
+      g.curve.feet.push_back(whole.curve.feet[j]);
+    }
+    ASSERT_EQ(inside, count);
+    const auto found = straight_stretches(g.curve, g.points, 1e-4);
+    ASSERT_EQ(found.size(), count == 5 ? 1U : 0U);
+    if (found.empty()) continue;
+    EXPECT_EQ(found[0].first, 68);
+    EXPECT_EQ(found[0].last, 132);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
