@@ -16,7 +16,7 @@
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
 #include "keyline/exchange/dxf/dxf_units.h"
-#include "keyline/exchange/text/text_table.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange {
 namespace {

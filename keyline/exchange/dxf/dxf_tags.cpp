@@ -8,6 +8,7 @@
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 using core::Result;
 
 constexpr std::string_view kSentinel("AutoCAD Binary DXF\r\n\x1a\0", 22);
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t") - from + 1);
-}
 
 std::optional<int> code_of(std::string_view text) {
   const auto code = core::parse_whole<int>(trimmed(text));

@@ -12,6 +12,7 @@
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/font/glif.h"
 #include "keyline/exchange/svg/svg_transform.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/byte_lines.h"
 
 namespace keyline::exchange {
@@ -30,11 +31,6 @@ struct Node {
   Point2 at;
   Kind kind = Kind::handle;
 };
-
-std::size_t line_of(std::string_view bytes, std::ptrdiff_t offset) {
-  const auto head = bytes.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
-  return 1 + static_cast<std::size_t>(std::count(head.begin(), head.end(), '\n'));
-}
 
 /// What of contours is read otherwise than it stands, or not at all.
 struct Oddities {
@@ -160,7 +156,7 @@ class GlifReader {
       return core::fail(ErrorCode::bad_input,
                         std::string("the glyph is no XML: ") + parsed.description(),
                         "check that the file is complete",
-                        "line " + std::to_string(line_of(bytes, parsed.offset)));
+                        "line " + std::to_string(detail::line_of(bytes, parsed.offset)));
     const pugi::xml_node glyph = xml.child("glyph");
     if (!glyph)
       return core::fail(ErrorCode::bad_input, "the file holds XML but no glyph",
@@ -177,7 +173,7 @@ class GlifReader {
         const auto y = number(point, "y");
         if (!x || !y)
           return core::fail(ErrorCode::bad_input, "a point needs the numbers x and y", "mend it",
-                            "line " + std::to_string(line_of(bytes, point.offset_debug())));
+                            "line " + std::to_string(detail::line_of(bytes, point.offset_debug())));
         nodes.push_back({apply(map, {*x, *y}), kind_of(point.attribute("type").value(), odd_)});
       }
       add_contour(std::move(nodes));

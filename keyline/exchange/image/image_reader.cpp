@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string>
 
 #include "keyline/exchange/file/read_file.h"
+#include "keyline/exchange/file/standard_stream.h"
 #include "keyline/exchange/format/format.h"
 
 namespace keyline::exchange {
@@ -162,9 +162,7 @@ void apply_orientation(Image& image, int orientation) {
 bool has_image_name(const std::filesystem::path& path) {
   static constexpr std::array<std::string_view, 6> kNames = {".png", ".jpg",  ".jpeg",
                                                              ".tif", ".tiff", ".webp"};
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), ::tolower);
-  return std::find(kNames.begin(), kNames.end(), extension) != kNames.end();
+  return std::find(kNames.begin(), kNames.end(), extension_of(path)) != kNames.end();
 }
 
 Result<Image> read_image(std::string_view bytes) {

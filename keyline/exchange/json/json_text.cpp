@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/exchange/text/ascii.h"
+
 namespace keyline::exchange {
 namespace {
 
@@ -31,9 +33,8 @@ std::size_t too_deep(std::string_view text) {
   return text.size();
 }
 
-std::string line_of(std::string_view text, std::size_t byte) {
-  const auto upto = static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
-  return "line " + std::to_string(1 + std::count(text.begin(), text.begin() + upto, '\n'));
+std::string line_at(std::string_view text, std::size_t byte) {
+  return "line " + std::to_string(detail::line_of(text, static_cast<std::ptrdiff_t>(byte)));
 }
 
 /// A name a second time, and where it stands.
@@ -93,17 +94,17 @@ core::Result<json> parse_json(std::string_view text) {
   if (const std::size_t at = too_deep(text); at < text.size())
     return core::fail(ErrorCode::bad_input,
                       "values are nested deeper than " + std::to_string(kDeepestJson),
-                      "flatten them around byte " + std::to_string(at + 1), line_of(text, at));
+                      "flatten them around byte " + std::to_string(at + 1), line_at(text, at));
   try {
     json value = json::parse(text);
     if (const auto twice = Names(text).repeated())
       return core::fail(ErrorCode::bad_input,
                         "an object has two members of the name " + json(twice->name).dump(),
-                        "leave one of them", line_of(text, twice->at));
+                        "leave one of them", line_at(text, twice->at));
     return value;
   } catch (const json::parse_error& e) {
     return core::fail(ErrorCode::bad_input, "this is not JSON",
-                      "mend it around byte " + std::to_string(e.byte), line_of(text, e.byte));
+                      "mend it around byte " + std::to_string(e.byte), line_at(text, e.byte));
   } catch (const json::exception&) {
     return core::fail(ErrorCode::bad_input, "a number is too large for a double", "mend it");
   }

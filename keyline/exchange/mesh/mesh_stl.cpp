@@ -4,6 +4,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/byte_lines.h"
 #include "keyline/exchange/text/text_table.h"
 

@@ -10,6 +10,7 @@
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/mesh/ply_header.h"
 #include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
 

@@ -7,6 +7,7 @@
 
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -86,8 +87,7 @@ class StepValues {
   }
 
   std::size_t line_of(std::size_t place) const {
-    return 1 + static_cast<std::size_t>(std::count(
-                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
+    return detail::line_of(text_, static_cast<std::ptrdiff_t>(place));
   }
 
   std::string_view text_;

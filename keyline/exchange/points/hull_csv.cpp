@@ -11,6 +11,7 @@
 #include "keyline/document/document.h"
 #include "keyline/exchange/points/hull_table.h"
 #include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/byte_lines.h"
 #include "keyline/exchange/text/header_unit.h"
 #include "keyline/exchange/text/text_table.h"

@@ -10,6 +10,7 @@
 
 #include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
 

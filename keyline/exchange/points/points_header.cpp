@@ -8,6 +8,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/points/points_table.h"
+#include "keyline/exchange/text/ascii.h"
 
 /// What stands before the rows of a table: titles, a header with names and units, the first row.
 namespace keyline::exchange::detail {

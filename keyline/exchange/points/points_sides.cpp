@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/header_unit.h"
-#include "keyline/exchange/text/text_table.h"
 
 namespace keyline::exchange::detail {
 namespace {

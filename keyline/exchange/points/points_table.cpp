@@ -8,6 +8,7 @@
 
 #include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::detail {
 namespace {

@@ -8,6 +8,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/exchange/svg/svg_path.h"
 #include "keyline/exchange/svg/svg_style.h"
+#include "keyline/exchange/text/ascii.h"
 
 /// Colours of CSS Color 4 that are given in sRGB.
 namespace keyline::exchange::detail {
@@ -251,9 +252,7 @@ std::string hsl(SvgScanner scan) {
 }  // namespace
 
 std::string css_color(std::string_view text) {
-  std::string name(text);
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string name = lower_case(text);
   if (name.starts_with('#')) return hex(std::string_view(name).substr(1));
   const std::size_t open = name.find('(');
   if (open == name.npos) return named_color(name);

@@ -16,6 +16,7 @@
 #include "keyline/exchange/svg/svg_text.h"
 #include "keyline/exchange/svg/svg_transform.h"
 #include "keyline/exchange/svg/svg_unseen.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange {
 

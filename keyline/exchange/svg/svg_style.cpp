@@ -5,17 +5,12 @@
 
 #include "keyline/core/leading_number.h"
 #include "keyline/exchange/svg/svg_transform.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::detail {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\f";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(kSpace);
-  if (from == text.npos) return {};
-  return text.substr(from, text.find_last_not_of(kSpace) - from + 1);
-}
 
 bool paints(std::string_view value) { return value != "none" && value != "transparent"; }
 
@@ -27,7 +22,7 @@ std::string paint_of(SvgPaint& paint, std::string_view value) {
   std::string_view color = value;
   if (value.starts_with("url(")) {
     const std::size_t end = value.find(')');
-    color = end == value.npos ? std::string_view{} : trimmed(value.substr(end + 1));
+    color = end == value.npos ? std::string_view{} : trimmed(value.substr(end + 1), kSpace);
     if (color == "none") return {};
   }
   std::string found = css_color(color);
@@ -44,7 +39,7 @@ bool shows(std::string_view opacity) {
 }
 
 void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
-  value = trimmed(value.substr(0, value.find('!')));
+  value = trimmed(value.substr(0, value.find('!')), kSpace);
   if (value.empty() || value == "inherit") return;
   if (name == "stroke") {
     paint.stroke = paint_of(paint, value);
@@ -64,7 +59,7 @@ void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
 /// The colour that others call the current one.
 void take_current(SvgPaint& paint, std::string_view name, std::string_view value) {
   if (name != "color") return;
-  const std::string color = css_color(trimmed(value.substr(0, value.find('!'))));
+  const std::string color = css_color(trimmed(value.substr(0, value.find('!')), kSpace));
   if (!color.empty()) paint.current = color;
 }
 
@@ -74,7 +69,7 @@ struct Sight {
   bool opaque = true;
 
   void take(SvgPaint& paint, std::string_view name, std::string_view value) {
-    value = trimmed(value.substr(0, value.find('!')));
+    value = trimmed(value.substr(0, value.find('!')), kSpace);
     if (name == "display") displayed = value != "none";
     if (name == "opacity") opaque = shows(value);
     if (name != "visibility") return;
@@ -89,7 +84,8 @@ void each_declaration(std::string_view text, Each each) {
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find(';'));
     const std::size_t colon = one.find(':');
-    if (colon != one.npos) each(trimmed(one.substr(0, colon)), trimmed(one.substr(colon + 1)));
+    if (colon != one.npos)
+      each(trimmed(one.substr(0, colon), kSpace), trimmed(one.substr(colon + 1), kSpace));
     text.remove_prefix(std::min(text.size(), one.size() + 1));
   }
 }
@@ -121,7 +117,7 @@ void SvgStyles::add_sheet(std::string_view css) {
     const std::string_view body = rest.substr(open + 1, close - open - 1);
     while (!selectors.empty()) {
       const std::string_view one = selectors.substr(0, selectors.find(','));
-      const std::string_view name = trimmed(one);
+      const std::string_view name = trimmed(one, kSpace);
       const bool plain = name.find_first_of(" >+~:[@") == name.npos;
       passed_ += !plain;
       if (!name.empty() && plain) rules_[std::string(name)].append(";").append(body);
@@ -139,7 +135,7 @@ std::vector<std::string_view> SvgStyles::declarations(const pugi::xml_node& node
   if (!rules_.empty()) {
     add_rule(node.name());
     std::string_view classes = node.attribute("class").value();
-    while (!(classes = trimmed(classes)).empty()) {
+    while (!(classes = trimmed(classes, kSpace)).empty()) {
       const std::string_view one = classes.substr(0, classes.find_first_of(kSpace));
       add_rule("." + std::string(one));
       classes.remove_prefix(one.size());

@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include "keyline/core/utf8.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange::detail {
@@ -62,10 +63,7 @@ std::string declared_encoding(std::string_view bytes) {
   if (at == std::string_view::npos) return {};
   const std::size_t end = head.find(head[at], at + 1);
   if (end == std::string_view::npos) return {};
-  std::string name(head.substr(at + 1, end - at - 1));
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return name;
+  return lower_case(head.substr(at + 1, end - at - 1));
 }
 
 /// Encodings in which XML's own characters, numbers and commands stand as in ASCII.
@@ -187,12 +185,6 @@ Result<SvgText> svg_text(std::string_view bytes, std::size_t largest) {
   if (auto done = to_utf8(text, bytes); !done) return std::unexpected(done.error());
   expand_entities(text, bytes);
   return text;
-}
-
-int line_of(std::string_view bytes, std::ptrdiff_t offset) {
-  const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
-  const auto head = bytes.substr(0, end);
-  return 1 + static_cast<int>(std::count(head.begin(), head.end(), '\n'));
 }
 
 std::string compressed_svg(std::string_view text) {

@@ -24,9 +24,6 @@ struct SvgText {
 /// broken or too large; unsupported for other encodings.
 core::Result<SvgText> svg_text(std::string_view bytes, std::size_t largest);
 
-/// Number of the line in which that byte stands, from 1.
-int line_of(std::string_view bytes, std::ptrdiff_t offset);
-
 /// The text as an .svgz file: the same bytes for the same text.
 std::string compressed_svg(std::string_view text);
 

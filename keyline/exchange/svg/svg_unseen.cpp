@@ -6,7 +6,6 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/svg/svg_shapes.h"
-#include "keyline/exchange/svg/svg_text.h"
 
 namespace keyline::exchange::detail {
 

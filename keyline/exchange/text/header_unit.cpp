@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "keyline/document/document.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/text_table.h"
 
 namespace keyline::exchange::detail {

@@ -7,12 +7,11 @@
 
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/header_unit.h"
 
 namespace keyline::exchange::detail {
 namespace {
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\x1a'; }
 
 std::optional<double> missing_value(std::string_view field) {
   if (field.size() > 9) return std::nullopt;
@@ -60,12 +59,6 @@ std::size_t end_of_touching(std::string_view field) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 std::string unquoted(std::string_view field) {
   std::string text;
   for (std::size_t i = 1; i + 1 < field.size(); ++i) {
@@ -80,8 +73,7 @@ std::vector<std::string_view> split(std::string_view line, TableStyle style) {
   line = trimmed(line);
   if (style.separator == ' ') {
     while (!line.empty()) {
-      const auto stop = std::find_if(line.begin(), line.end(), is_space);
-      auto length = static_cast<std::size_t>(stop - line.begin());
+      std::size_t length = std::min(line.find_first_of(kBlanks), line.size());
       if (const std::size_t touching = end_of_touching(line.substr(0, length)); touching > 0)
         length = touching;
       fields.push_back(line.substr(0, length));
@@ -146,13 +138,6 @@ TableStyle guess_style(std::string_view line) {
     }
   }
   return best;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
 }
 
 std::string plain_name(std::string_view field) {

@@ -13,8 +13,6 @@ struct TableStyle {
   bool decimal_comma = false;
 };
 
-std::string_view trimmed(std::string_view text);
-
 /// What a field within quotes holds, doubled quotes made single.
 std::string unquoted(std::string_view field);
 
@@ -33,9 +31,6 @@ TableStyle guess_style(std::string_view line);
 /// Lower case, without quotes, comment marks, and a unit in brackets or after a slash or
 /// underscore.
 std::string plain_name(std::string_view field);
-
-/// With the letters A to Z small.
-std::string lower_case(std::string_view text);
 
 /// True for a line that is a comment.
 bool is_comment(std::string_view line);
