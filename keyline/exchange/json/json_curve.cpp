@@ -17,7 +17,6 @@ using core::Result;
 using detail::closed_of;
 using detail::in;
 using detail::member;
-using detail::numbers;
 using detail::type_of;
 using document::Path;
 using document::PlanarCurve;
@@ -51,17 +50,11 @@ Result<std::array<double, 2>> end_curvatures(const json& j, const std::string& w
   if (by_radius == j.contains("curvature"))
     return fail(ErrorCode::bad_input, "a piece has either \"curvature\" or \"radius\"",
                 "give one of the two", where);
-  const char* key = by_radius ? "radius" : "curvature";
-  auto pair = numbers(j[key], in(where, key));
-  if (!pair) return std::unexpected(pair.error());
-  if (pair->size() != 2)
-    return fail(ErrorCode::bad_input, "two numbers are wanted here", "give [start, end]",
-                in(where, key));
-  std::array<double, 2> k{(*pair)[0], (*pair)[1]};
-  if (!by_radius) return k;
-  const double sign = k[0] < 0 || k[1] < 0 ? -1 : 1;
-  for (double& x : k) x = x == 0 ? sign * kInfinity : 1 / x;
-  return k;
+  auto pair = detail::pair_member(j, by_radius ? "radius" : "curvature", where);
+  if (!pair || !by_radius) return pair;
+  const double sign = (*pair)[0] < 0 || (*pair)[1] < 0 ? -1 : 1;
+  for (double& x : *pair) x = x == 0 ? sign * kInfinity : 1 / x;
+  return pair;
 }
 
 Result<lac::Piece> read_piece(const json& j, const std::string& where) {
@@ -71,9 +64,7 @@ Result<lac::Piece> read_piece(const json& j, const std::string& where) {
   lac::Piece piece;
   for (const auto& [key, target] :
        {std::pair{"alpha", &piece.alpha}, std::pair{"length", &piece.length}}) {
-    const auto m = member(j, key, where);
-    if (!m) return std::unexpected(m.error());
-    const auto n = number_from_json(**m, in(where, key));
+    const auto n = detail::number_member(j, key, where);
     if (!n) return std::unexpected(n.error());
     *target = *n;
   }
@@ -90,24 +81,15 @@ Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
   if (!start) return std::unexpected(start.error());
   const auto position = point_from_json(**start, in(where, "start"));
   if (!position) return std::unexpected(position.error());
-  const auto direction = member(j, "direction", where);
+  const auto direction = detail::number_member(j, "direction", where);
   if (!direction) return std::unexpected(direction.error());
-  const auto angle = number_from_json(**direction, in(where, "direction"));
-  if (!angle) return std::unexpected(angle.error());
-  chain.start = {*position, *angle};
+  chain.start = {*position, *direction};
   const auto closed = closed_of(j, where);
   if (!closed) return std::unexpected(closed.error());
   chain.closed = *closed;
-  const auto pieces = member(j, "pieces", where);
+  auto pieces = detail::list_member(j, "pieces", "pieces", where, read_piece);
   if (!pieces) return std::unexpected(pieces.error());
-  if (!(*pieces)->is_array() || (*pieces)->empty())
-    return fail(ErrorCode::bad_input, "a list of pieces is wanted here", "give at least one",
-                in(where, "pieces"));
-  for (std::size_t i = 0; i < (*pieces)->size(); ++i) {
-    const auto piece = read_piece((**pieces)[i], in(in(where, "pieces"), i));
-    if (!piece) return std::unexpected(piece.error());
-    chain.pieces.push_back(*piece);
-  }
+  chain.pieces = std::move(*pieces);
   return PlanarCurve{std::move(chain)};
 }
 
@@ -150,18 +132,12 @@ Result<double> number_from_json(const json& j, const std::string& where) {
 }
 
 Result<Point2> point_from_json(const json& j, const std::string& where) {
-  if (!j.is_array() || j.size() < 2 || j.size() > 3)
-    return fail(ErrorCode::bad_input, "a point is wanted here", "give [x, y]", where);
-  double c[3] = {0, 0, 0};
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const auto n = number_from_json(j[i], in(where, i));
-    if (!n) return std::unexpected(n.error());
-    c[i] = *n;
-  }
-  if (c[2] != 0)
+  const auto c = detail::coordinates_of(j, where, "give [x, y]");
+  if (!c) return std::unexpected(c.error());
+  if ((*c)[2] != 0)
     return fail(ErrorCode::unsupported, "a point in space where a planar one is wanted",
                 "project the points on a plane first", where);
-  return Point2{c[0], c[1]};
+  return Point2{(*c)[0], (*c)[1]};
 }
 
 Result<PlanarCurve> curve_from_json(const json& j, const std::string& where) {
@@ -184,16 +160,9 @@ Result<Path> path_from_json(const json& j, const std::string& where) {
     path.curves.push_back(std::move(*only));
     return path;
   }
-  const auto curves = member(j, "curves", where);
+  auto curves = detail::list_member(j, "curves", "curves", where, curve_from_json);
   if (!curves) return std::unexpected(curves.error());
-  if (!(*curves)->is_array() || (*curves)->empty())
-    return fail(ErrorCode::bad_input, "a list of curves is wanted here", "give at least one",
-                in(where, "curves"));
-  for (std::size_t i = 0; i < (*curves)->size(); ++i) {
-    auto c = curve_from_json((**curves)[i], in(in(where, "curves"), i));
-    if (!c) return std::unexpected(c.error());
-    path.curves.push_back(std::move(*c));
-  }
+  path.curves = std::move(*curves);
   const auto closed = closed_of(j, where);
   if (!closed) return std::unexpected(closed.error());
   path.closed = *closed;

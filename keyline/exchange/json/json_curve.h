@@ -28,7 +28,7 @@ core::Result<document::PlanarCurve> curve_from_json(const nlohmann::json& j,
 /// A "path", or any other planar curve as a path of one.
 core::Result<document::Path> path_from_json(const nlohmann::json& j, const std::string& where);
 
-/// The number at j[key]: finite, else a failure naming the place.
+/// A finite number.
 core::Result<double> number_from_json(const nlohmann::json& j, const std::string& where);
 
 }  // namespace keyline::exchange

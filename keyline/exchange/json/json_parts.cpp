@@ -48,16 +48,40 @@ Result<std::vector<double>> weights_of(const json& j, const std::string& where) 
   return numbers(j["weights"], in(where, "weights"));
 }
 
-Result<int> degree_of(const json& j, const std::string& where) {
-  const auto degree = member(j, "degree", where);
-  if (!degree) return std::unexpected(degree.error());
-  if (!(*degree)->is_number_integer())
+Result<std::array<double, 2>> pair_member(const json& j, const char* key,
+                                          const std::string& where) {
+  const auto m = member(j, key, where);
+  if (!m) return std::unexpected(m.error());
+  const auto pair = numbers(**m, in(where, key));
+  if (!pair) return std::unexpected(pair.error());
+  if (pair->size() != 2)
+    return fail(ErrorCode::bad_input, "two numbers are wanted here", "give [start, end]",
+                in(where, key));
+  return std::array{(*pair)[0], (*pair)[1]};
+}
+
+Result<std::array<double, 3>> coordinates_of(const json& j, const std::string& where,
+                                             const char* hint) {
+  if (!j.is_array() || j.size() < 2 || j.size() > 3)
+    return fail(ErrorCode::bad_input, "a point is wanted here", hint, where);
+  std::array<double, 3> c{};
+  for (std::size_t i = 0; i < j.size(); ++i) {
+    const auto n = number_from_json(j[i], in(where, i));
+    if (!n) return std::unexpected(n.error());
+    c[i] = *n;
+  }
+  return c;
+}
+
+Result<int> degree_from_json(const json& j, const std::string& where) {
+  if (!j.is_number_integer())
     return fail(ErrorCode::bad_input, "the degree is not a whole number", "give for example 3",
-                in(where, "degree"));
-  const auto n = (*degree)->get<std::int64_t>();
-  if (n < 1 || n > 30)
-    return fail(ErrorCode::bad_input, "the degree is outside 1…30", "use a degree from 1 to 30",
-                in(where, "degree"));
+                where);
+  constexpr int kMost = curve::kMaxBezierDegree;
+  const auto n = j.get<std::int64_t>();
+  if (n < 1 || n > kMost)
+    return fail(ErrorCode::bad_input, "the degree is outside 1…" + std::to_string(kMost),
+                "use a degree from 1 to " + std::to_string(kMost), where);
   return static_cast<int>(n);
 }
 
@@ -69,9 +93,10 @@ Result<bool> closed_of(const json& j, const std::string& where) {
   return it->get<bool>();
 }
 
-Result<std::string> type_of(const json& j, const std::string& where) {
+Result<std::string> type_of(const json& j, const std::string& where, const char* what) {
   if (!j.is_object())
-    return fail(ErrorCode::bad_input, "a curve is wanted here", "give {\"type\":…}", where);
+    return fail(ErrorCode::bad_input, std::string(what) + " is wanted here", "give {\"type\":…}",
+                where);
   const auto type = member(j, "type", where);
   if (!type) return std::unexpected(type.error());
   if (!(*type)->is_string())

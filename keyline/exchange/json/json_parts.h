@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,10 +35,40 @@ core::Result<std::vector<double>> numbers(const nlohmann::json& j, const std::st
 core::Result<std::vector<double>> weights_of(const nlohmann::json& j, const std::string& where);
 /// "closed" of an object, false where it is absent.
 core::Result<bool> closed_of(const nlohmann::json& j, const std::string& where);
-/// "type" of an object.
-core::Result<std::string> type_of(const nlohmann::json& j, const std::string& where);
+/// "type" of an object; `what` is named in the failure of anything else.
+core::Result<std::string> type_of(const nlohmann::json& j, const std::string& where,
+                                  const char* what = "a curve");
+/// j[key], a pair of numbers.
+core::Result<std::array<double, 2>> pair_member(const nlohmann::json& j, const char* key,
+                                                const std::string& where);
+/// A point's coordinates, two or three; the third is 0 where it is left out. `hint` shows one.
+core::Result<std::array<double, 3>> coordinates_of(const nlohmann::json& j,
+                                                   const std::string& where, const char* hint);
 /// The failure of a value's validate() with the place of the value in front.
 std::unexpected<core::Failure> placed(core::Failure failure, const std::string& where);
+
+/// j[key], a list of one or more, each item read by read(item, where). `items` names them in the
+/// failure of anything else.
+template <class Read>
+auto list_member(const nlohmann::json& j, const char* key, const char* items,
+                 const std::string& where, const Read& read)
+    -> core::Result<std::vector<typename decltype(read(j, where))::value_type>> {
+  const auto list = member(j, key, where);
+  if (!list) return std::unexpected(list.error());
+  const std::string place = in(where, key);
+  if (!(*list)->is_array() || (*list)->empty())
+    return core::fail(core::ErrorCode::bad_input,
+                      std::string("a list of ") + items + " is wanted here", "give at least one",
+                      place);
+  std::vector<typename decltype(read(j, where))::value_type> all;
+  all.reserve((*list)->size());
+  for (std::size_t i = 0; i < (*list)->size(); ++i) {
+    auto item = read((**list)[i], in(place, i));
+    if (!item) return std::unexpected(std::move(item.error()));
+    all.push_back(std::move(*item));
+  }
+  return all;
+}
 
 template <class Point>
 nlohmann::json points_json(const std::vector<Point>& points) {
@@ -77,33 +108,29 @@ inline core::Result<core::Point3> coordinates(const nlohmann::json& j, const std
   return point3_from_json(j, where);
 }
 
-template <class Point>
-core::Result<std::vector<Point>> read_points(const nlohmann::json& j, const std::string& where,
-                                             std::size_t least) {
-  if (!j.is_array() || j.size() < least || j.size() > kMostPoints)
-    return core::fail(core::ErrorCode::bad_input,
-                      "a list of at least " + std::to_string(least) + " points is wanted here",
-                      "give [[x, y], …]", where);
-  std::vector<Point> points;
-  points.reserve(j.size());
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const auto p = coordinates(j[i], in(where, i), Point{});
-    if (!p) return std::unexpected(p.error());
-    if (j[i].size() != j[0].size())  // a decimal comma makes two numbers of one
-      return core::fail(core::ErrorCode::bad_input,
-                        core::counted(j[i].size(), "coordinate") + " where the first point has " +
-                            std::to_string(j[0].size()),
-                        "give every point the same", in(where, i));
-    points.push_back(*p);
-  }
-  return points;
-}
-
+/// "points" of a curve: two or more, all with as many coordinates as the first.
 template <class Point>
 core::Result<std::vector<Point>> points_member(const nlohmann::json& j, const std::string& where) {
   const auto m = member(j, "points", where);
   if (!m) return std::unexpected(m.error());
-  return read_points<Point>(**m, in(where, "points"), 2);
+  const nlohmann::json& list = **m;
+  const std::string place = in(where, "points");
+  if (!list.is_array() || list.size() < 2 || list.size() > kMostPoints)
+    return core::fail(core::ErrorCode::bad_input, "a list of at least 2 points is wanted here",
+                      "give [[x, y], …]", place);
+  std::vector<Point> points;
+  points.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto p = coordinates(list[i], in(place, i), Point{});
+    if (!p) return std::unexpected(p.error());
+    if (list[i].size() != list[0].size())  // a decimal comma makes two numbers of one
+      return core::fail(core::ErrorCode::bad_input,
+                        core::counted(list[i].size(), "coordinate") +
+                            " where the first point has " + std::to_string(list[0].size()),
+                        "give every point the same", in(place, i));
+    points.push_back(*p);
+  }
+  return points;
 }
 
 template <class Point>
@@ -123,8 +150,8 @@ core::Result<curve::Bezier<Point>> read_bezier(const nlohmann::json& j, const st
   return curve::Bezier<Point>{std::move(*points), std::move(*weights)};
 }
 
-/// "degree" of a spline, 1 to 30.
-core::Result<int> degree_of(const nlohmann::json& j, const std::string& where);
+/// A degree, 1 to curve::kMaxBezierDegree.
+core::Result<int> degree_from_json(const nlohmann::json& j, const std::string& where);
 
 template <class Point>
 core::Result<curve::BSpline<Point>> read_bspline(const nlohmann::json& j,
@@ -133,7 +160,9 @@ core::Result<curve::BSpline<Point>> read_bspline(const nlohmann::json& j,
   if (!points) return std::unexpected(points.error());
   auto weights = weights_of(j, where);
   if (!weights) return std::unexpected(weights.error());
-  const auto degree = degree_of(j, where);
+  const auto given = member(j, "degree", where);
+  if (!given) return std::unexpected(given.error());
+  const auto degree = degree_from_json(**given, in(where, "degree"));
   if (!degree) return std::unexpected(degree.error());
   const auto knots = member(j, "knots", where);
   if (!knots) return std::unexpected(knots.error());

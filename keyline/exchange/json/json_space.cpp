@@ -20,22 +20,6 @@ using nlohmann::json;
 
 json vector_json(core::Vector3 v) { return json::array({v.x, v.y, v.z}); }
 
-Result<std::array<double, 2>> pair_member(const json& j, const char* key,
-                                          const std::string& where) {
-  const auto m = member(j, key, where);
-  if (!m) return std::unexpected(m.error());
-  if (!(*m)->is_array() || (*m)->size() != 2)
-    return fail(ErrorCode::bad_input, "two numbers are wanted here", "give [start, end]",
-                in(where, key));
-  std::array<double, 2> pair{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto n = number_from_json((**m)[i], in(in(where, key), i));
-    if (!n) return std::unexpected(n.error());
-    pair[i] = *n;
-  }
-  return pair;
-}
-
 Result<lac::SpacePiece> read_piece(const json& j, const std::string& where) {
   if (!j.is_object())
     return fail(ErrorCode::bad_input, "a piece is wanted here",
@@ -47,9 +31,9 @@ Result<lac::SpacePiece> read_piece(const json& j, const std::string& where) {
     if (!n) return std::unexpected(n.error());
     *target = *n;
   }
-  const auto curvature = pair_member(j, "curvature", where);
+  const auto curvature = detail::pair_member(j, "curvature", where);
   if (!curvature) return std::unexpected(curvature.error());
-  const auto torsion = pair_member(j, "torsion", where);
+  const auto torsion = detail::pair_member(j, "torsion", where);
   if (!torsion) return std::unexpected(torsion.error());
   piece.curvature_start = (*curvature)[0];
   piece.curvature_end = (*curvature)[1];
@@ -77,21 +61,6 @@ Result<lac::SpaceFrame> read_frame(const json& j, const std::string& where) {
     *targets[i] = *v - Point3{};
   }
   return frame;
-}
-
-Result<std::vector<lac::SpacePiece>> read_pieces(const json& j, const std::string& where) {
-  const auto pieces = member(j, "pieces", where);
-  if (!pieces) return std::unexpected(pieces.error());
-  if (!(*pieces)->is_array() || (*pieces)->empty())
-    return fail(ErrorCode::bad_input, "a list of pieces is wanted here", "give at least one",
-                in(where, "pieces"));
-  std::vector<lac::SpacePiece> list;
-  for (std::size_t i = 0; i < (*pieces)->size(); ++i) {
-    const auto piece = read_piece((**pieces)[i], in(in(where, "pieces"), i));
-    if (!piece) return std::unexpected(piece.error());
-    list.push_back(*piece);
-  }
-  return list;
 }
 
 }  // namespace
@@ -126,15 +95,9 @@ json to_json(const document::SpaceCurve& c) {
 }
 
 Result<Point3> point3_from_json(const json& j, const std::string& where) {
-  if (!j.is_array() || j.size() < 2 || j.size() > 3)
-    return fail(ErrorCode::bad_input, "a point is wanted here", "give [x, y, z]", where);
-  double c[3] = {0, 0, 0};
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const auto n = number_from_json(j[i], in(where, i));
-    if (!n) return std::unexpected(n.error());
-    c[i] = *n;
-  }
-  return Point3{c[0], c[1], c[2]};
+  const auto c = detail::coordinates_of(j, where, "give [x, y, z]");
+  if (!c) return std::unexpected(c.error());
+  return Point3{(*c)[0], (*c)[1], (*c)[2]};
 }
 
 Result<lac::SpaceChain> space_chain_from_json(const json& j, const std::string& where) {
@@ -143,7 +106,7 @@ Result<lac::SpaceChain> space_chain_from_json(const json& j, const std::string& 
                 "give {\"type\":\"log-aesthetic-space\", …}", where);
   const auto frame = read_frame(j, where);
   if (!frame) return std::unexpected(frame.error());
-  auto pieces = read_pieces(j, where);
+  auto pieces = detail::list_member(j, "pieces", "pieces", where, read_piece);
   if (!pieces) return std::unexpected(pieces.error());
   lac::SpaceChain chain{*frame, std::move(*pieces)};
   if (auto sound = lac::validate(chain); !sound) return detail::placed(sound.error(), where);
@@ -169,19 +132,14 @@ bool is_space_path(const json& j) {
 
 Result<std::vector<document::SpaceCurve>> space_path_from_json(const json& j,
                                                                const std::string& where) {
-  std::vector<document::SpaceCurve> members;
-  const std::string list = detail::in(where, "curves");
   if (const auto closed = detail::closed_of(j, where); !closed)
     return std::unexpected(closed.error());
-  for (std::size_t i = 0; i < j["curves"].size(); ++i) {
-    auto c = space_curve_from_json(j["curves"][i], detail::in(list, i));
-    if (!c) return std::unexpected(c.error());
-    members.push_back(std::move(*c));
-  }
-  if (const auto gap = document::first_gap(members))
+  auto members = detail::list_member(j, "curves", "curves", where, space_curve_from_json);
+  if (!members) return members;
+  if (const auto gap = document::first_gap(*members))
     return core::fail(core::ErrorCode::bad_input, "this curve of a path " + in_words(*gap),
                       "close the gap with a line, or give two curves",
-                      detail::in(list, gap->member));
+                      in(in(where, "curves"), gap->member));
   return members;
 }
 

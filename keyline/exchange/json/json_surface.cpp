@@ -88,31 +88,14 @@ Result<Controls> read_controls(const json& j, const std::string& where) {
   return c;
 }
 
-Result<std::vector<double>> numbers(const json& j, const std::string& where) {
-  if (!j.is_array())
-    return fail(ErrorCode::bad_input, "a list of numbers is wanted here", "give [a, b, …]", where);
-  std::vector<double> list;
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const auto n = number_from_json(j[i], in(where, i));
-    if (!n) return std::unexpected(n.error());
-    list.push_back(*n);
-  }
-  return list;
-}
-
 Result<std::array<int, 2>> read_degrees(const json& j, const std::string& where) {
   if (!j.is_array() || j.size() != 2)
     return fail(ErrorCode::bad_input, "two degrees are wanted here", "give [p, q]", where);
   std::array<int, 2> degree{};
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!j[i].is_number_integer())
-      return fail(ErrorCode::bad_input, "the degree is not a whole number", "give for example 3",
-                  in(where, i));
-    const auto n = j[i].get<std::int64_t>();
-    if (n < 1 || n > curve::kMaxBezierDegree)
-      return fail(ErrorCode::bad_input, "the degree is outside 1…30", "use a degree from 1 to 30",
-                  in(where, i));
-    degree[i] = static_cast<int>(n);
+    const auto n = detail::degree_from_json(j[i], in(where, i));
+    if (!n) return std::unexpected(n.error());
+    degree[i] = *n;
   }
   return degree;
 }
@@ -129,7 +112,7 @@ Result<Surface> read_spline(const json& j, const std::string& where, Controls co
                 in(where, "knots"));
   BSplineSurface s{*degree, {}, std::move(controls.net), std::move(controls.weights)};
   for (std::size_t i = 0; i < 2; ++i) {
-    auto knots = numbers((**vectors)[i], in(in(where, "knots"), i));
+    auto knots = detail::numbers((**vectors)[i], in(in(where, "knots"), i));
     if (!knots) return std::unexpected(knots.error());
     s.knots[i] = std::move(*knots);
   }
@@ -174,20 +157,11 @@ bool is_surface_json(const json& j) {
 }
 
 Result<Surface> surface_from_json(const json& j, const std::string& where) {
-  if (!j.is_object())
-    return fail(ErrorCode::bad_input, "a surface is wanted here", "give {\"type\":…}", where);
-  const auto type = member(j, "type", where);
+  const auto type = detail::type_of(j, where, "a surface");
   if (!type) return std::unexpected(type.error());
-  if (!(*type)->is_string())
-    return fail(ErrorCode::bad_input, "the type is not a string", "give \"bezier-surface\"",
-                in(where, "type"));
-  auto s = read_by_type(j, (*type)->get<std::string>(), where);
+  auto s = read_by_type(j, *type, where);
   if (!s) return s;
-  if (auto sound = surface::validate(*s); !sound) {
-    core::Failure failure = sound.error();
-    failure.path = failure.path.empty() ? where : in(where, failure.path);
-    return std::unexpected(std::move(failure));
-  }
+  if (auto sound = surface::validate(*s); !sound) return detail::placed(sound.error(), where);
   return s;
 }
 
