@@ -17,9 +17,9 @@ struct PlanarForm {
 };
 
 /// How far exact curves may leave their plane by rounding, as a share of their size.
-constexpr double kExactly = 1e-9;
+inline constexpr double kExactly = 1e-9;
 /// Measured points that leave their best plane by more than this share of their size lie in none.
-constexpr double kMostOfMeasured = 0.1;
+inline constexpr double kMostOfMeasured = 0.1;
 
 /// Exact: control points go to the plane of acquire::fit_plane() (coordinate axes where it is
 /// parallel to them). Empty for curves that leave their plane by more than `most` of their size,

@@ -6,6 +6,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/document/arc.h"
+#include "keyline/exchange/cad/flat_points.h"
 #include "keyline/exchange/cad/spline_corners.h"
 
 namespace keyline::exchange::detail {
@@ -15,8 +16,6 @@ using core::Point2;
 using core::Point3;
 using core::Vector3;
 using curve::Bezier3;
-
-constexpr double kFlat = 1e-12;
 
 Point3 on(const EllipseArc& e, double t, double reach = 1) {
   return e.center + reach * (std::cos(t) * e.major + std::sin(t) * e.minor);
@@ -58,19 +57,9 @@ void for_each_point(const DxfShape& shape, Visit&& visit) {
 }
 
 bool is_flat(const DxfShape& shape) {
-  double size = 0;
-  double height = 0;
-  for_each_point(shape, [&](Point3 p) {
-    size = std::max({size, std::abs(p.x), std::abs(p.y)});
-    height = std::max(height, std::abs(p.z));
-  });
-  return height <= kFlat * size;
-}
-
-std::vector<Point2> flat(const std::vector<Point3>& points) {
-  std::vector<Point2> result;
-  for (const Point3 p : points) result.push_back({p.x, p.y});
-  return result;
+  std::vector<Point3> points;
+  for_each_point(shape, [&](Point3 p) { points.push_back(p); });
+  return are_flat(points);
 }
 
 /// The circle an ellipse in z = 0 is; empty where it is none.

@@ -22,10 +22,10 @@ using core::Point2;
 using core::Point3;
 using core::Result;
 using detail::DxfText;
+using detail::lifted;
 using document::Document;
 using document::Label;
 
-Point3 flat(Point2 p) { return {p.x, p.y, 0}; }
 double degrees(double radians) {
   const double d = radians * 180 / core::kPi;
   return d < 0 ? d + 360 : d;
@@ -92,15 +92,15 @@ class DxfWriter {
 
   void add_part(const Label& label, const CadLine& line) {
     start("LINE", label, "AcDbLine");
-    body_.point(10, flat(line.from));
-    body_.point(11, flat(line.to));
+    body_.point(10, lifted(line.from));
+    body_.point(11, lifted(line.to));
     end(label);
   }
 
   void add_part(const Label& label, const document::Arc& arc) {
     const bool whole = std::abs(arc.turn) >= 2 * core::kPi * (1 - 1e-12);
     start(whole ? "CIRCLE" : "ARC", label, "AcDbCircle");
-    body_.point(10, flat(arc.center));
+    body_.point(10, lifted(arc.center));
     body_.real(40, arc.radius);
     if (!whole) {
       const double to = core::wrap_angle(arc.start + arc.turn);
@@ -121,9 +121,7 @@ class DxfWriter {
   }
 
   void add_part(const Label& label, const curve::BSpline2& c) {
-    std::vector<Point3> control;
-    for (const Point2 p : c.control) control.push_back(flat(p));
-    spline(label, c.degree, c.knots, control, c.weights, true);
+    spline(label, c.degree, c.knots, lifted(c.control), c.weights, true);
   }
 
   void light_polyline(const Label& label, const BulgedPolyline& line) {

@@ -21,6 +21,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/document/arc.h"
+#include "keyline/exchange/cad/flat_points.h"
 #include "keyline/exchange/cad/spline_corners.h"
 
 namespace keyline::exchange::occt {
@@ -28,27 +29,13 @@ namespace {
 
 using core::Point3;
 using curve::BSpline3;
+using detail::are_flat;
+using detail::flat;
 using document::Label;
 
 constexpr double kTolerance = 1e-7;
 
 Point3 point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
-bool is_flat(const std::vector<Point3>& points) {
-  double size = 0;
-  double height = 0;
-  for (const Point3 p : points) {
-    size = std::max({size, std::abs(p.x), std::abs(p.y)});
-    height = std::max(height, std::abs(p.z));
-  }
-  return height <= 1e-12 * size;
-}
-
-std::vector<core::Point2> flat(const std::vector<Point3>& points) {
-  std::vector<core::Point2> result;
-  for (const Point3 p : points) result.push_back({p.x, p.y});
-  return result;
-}
 
 void add_path(document::Document& document, document::PlanarCurve c, bool closed,
               const Label& label) {
@@ -67,7 +54,7 @@ bool add_line(document::Document& document, const Handle(Geom_Curve) & c, double
               const Label& label) {
   if (Handle(Geom_Line)::DownCast(c).IsNull()) return false;
   const std::vector<Point3> ends{point(c->Value(first)), point(c->Value(last))};
-  if (is_flat(ends))
+  if (are_flat(ends))
     add_path(document, {curve::Bezier2{flat(ends), {}}}, false, label);
   else
     document.space_curves.push_back({label, {curve::Bezier3{ends, {}}}});
@@ -140,7 +127,7 @@ void add_curve(document::Document& document, const opencascade::handle<Geom_Curv
   const Handle(Geom_Curve) c = basis_of(whole);
   if (add_line(document, c, first, last, label) || add_arc(document, c, first, last, label)) return;
   BSpline3 made = spline_of(c, first, last);
-  if (!is_flat(made.control)) {
+  if (!are_flat(made.control)) {
     document.space_curves.push_back({label, {std::move(made)}});
     return;
   }

@@ -14,7 +14,7 @@ class Geom_Surface;
 namespace keyline::exchange::occt {
 
 /// Of a curve's size: ends no farther apart are one point, as what writes files rounds.
-constexpr double kMeeting = 1e-7;
+inline constexpr double kMeeting = 1e-7;
 
 /// A planar path (z = 0) or a space curve from the part of a curve between two parameters: lines,
 /// circular arcs in z = 0, else B-splines. Throws Standard_Failure for what OCCT cannot convert.

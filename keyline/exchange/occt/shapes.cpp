@@ -25,12 +25,14 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/document/arc.h"
+#include "keyline/exchange/cad/flat_points.h"
 
 namespace keyline::exchange::occt {
 namespace {
 
 using core::Point3;
 using curve::BSpline3;
+using detail::lifted;
 
 constexpr double kTolerance = 1e-7;
 
@@ -117,12 +119,6 @@ CurvePart arc_part(const document::Arc& arc) {
   const gp_Dir x(std::cos(arc.start), std::sin(arc.start), 0);
   const gp_Ax2 axes(point(Point3{arc.center.x, arc.center.y, 0}), gp_Dir(0, 0, side), x);
   return {new Geom_Circle(axes, arc.radius), 0, std::min(std::abs(arc.turn), 2 * core::kPi)};
-}
-
-std::vector<Point3> lifted(const std::vector<core::Point2>& points) {
-  std::vector<Point3> result;
-  for (const core::Point2 p : points) result.push_back({p.x, p.y, 0});
-  return result;
 }
 
 CurvePart curve_of(const document::SpaceCurve& c);
