@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "keyline/exchange/file/atomic_file.h"
+#include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/format/format.h"
 
 namespace keyline::exchange {
@@ -80,7 +81,6 @@ core::Failure InputFile::as_named(core::Failure failure) const {
 }
 
 Result<void> InputFile::copy(int from, const core::Progress& progress) {
-  constexpr std::size_t kHead = 1024;  // bytes that tell a format, as head_of()
   std::string chunk(std::size_t{1} << 16, '\0');
   std::string start;
   std::uintmax_t size = 0;

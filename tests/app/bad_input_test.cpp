@@ -116,7 +116,7 @@ TEST(BadInput, MissingFile) {
 
 TEST(BadInput, Directory) {
   const Scratch s;
-  expect_failure(run_keyline("fair --quiet " + s.path("")), 3, "this is a folder");
+  expect_failure(run_keyline("fair --quiet " + s.path("")), 3, "is a directory");
 }
 
 TEST(BadInput, UnwritableOutputLeavesNothingBehind) {

@@ -1,7 +1,6 @@
 #include "keyline/exchange/file/read_file.h"
 
 #include <cerrno>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -15,12 +14,6 @@ using core::ErrorCode;
 using core::fail;
 using core::Result;
 
-namespace {
-
-constexpr std::size_t kHead = 1024;  // bytes looked at to tell a format
-
-}  // namespace
-
 core::Failure in_file(core::Failure failure, const std::string& file) {
   if (failure.path.starts_with(file)) return failure;
   const bool line = failure.path.starts_with("line ");
@@ -31,7 +24,7 @@ core::Failure in_file(core::Failure failure, const std::string& file) {
   return failure;
 }
 
-Result<std::string> head_of(const fs::path& file) {
+Result<std::ifstream> open_file(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
     return fail(ErrorCode::io, "is a directory", "name a file", file.string());
@@ -41,15 +34,21 @@ Result<std::string> head_of(const fs::path& file) {
     return fail(ErrorCode::io,
                 "cannot be opened: " + std::generic_category().message(errno == 0 ? EIO : errno),
                 "check the name and the rights", file.string());
+  return in;
+}
+
+Result<std::string> head_of(const fs::path& file) {
+  auto in = open_file(file);
+  if (!in) return std::unexpected(in.error());
   std::string head(kHead, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
+  in->read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in->gcount()));
   return head;
 }
 
 Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
-  if (const auto head = head_of(file); !head) return std::unexpected(head.error());
-  std::ifstream in(file, std::ios::binary);
+  auto in = open_file(file);
+  if (!in) return std::unexpected(in.error());
   std::string content;
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
@@ -61,11 +60,11 @@ Result<std::string> read_file(const fs::path& file, std::uintmax_t largest) {
   if (!error && size > largest) return too_large();  // before anything is read, holes and all
   if (!error) content.reserve(size);
   std::string chunk(std::size_t{1} << 20, '\0');
-  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
-    content.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
+  while (in->read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in->gcount() > 0) {
+    content.append(chunk.data(), static_cast<std::size_t>(in->gcount()));
     if (content.size() > largest) return too_large();
   }
-  if (in.bad())
+  if (in->bad())
     return fail(ErrorCode::io, "reading failed", "check the device or the network", file.string());
   return detail::in_utf8(std::move(content));
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
 
 #include "keyline/core/coordinate.h"
@@ -159,13 +158,13 @@ Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, con
 
 Result<std::vector<std::string>> stream_points(const std::filesystem::path& file,
                                                const Take& take) {
-  if (const auto head = head_of(file); !head) return std::unexpected(head.error());
-  std::ifstream in(file, std::ios::binary);
+  auto in = open_file(file);
+  if (!in) return std::unexpected(in.error());
   const std::string name = file.string();
   const std::string extension = extension_of(file);
-  auto done = extension == ".ply"   ? stream_ply(in, file, take)
+  auto done = extension == ".ply"   ? stream_ply(*in, file, take)
               : extension == ".obj" ? stream_mesh(file, take)
-                                    : TextPoints(in, name, take).read();
+                                    : TextPoints(*in, name, take).read();
   if (!done) return std::unexpected(in_file(done.error(), name));
   return done;
 }

@@ -1,15 +1,13 @@
 #include "keyline/exchange/points/lattice_reader.h"
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
@@ -121,15 +119,9 @@ core::Result<acquire::Lattice> read_lattice(std::istream& in, const std::string&
 }
 
 core::Result<acquire::Lattice> read_lattice(const std::filesystem::path& path) {
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  std::error_code error;
-  if (!in || std::filesystem::is_directory(path, error)) {
-    const int reason = errno == 0 ? EISDIR : errno;
-    return core::fail(ErrorCode::io, "cannot be read: " + std::generic_category().message(reason),
-                      "check the name and the permissions", path.string());
-  }
-  return read_lattice(in, path.string());
+  auto in = open_file(path);
+  if (!in) return std::unexpected(in.error());
+  return read_lattice(*in, path.string());
 }
 
 }  // namespace keyline::exchange

@@ -1,9 +1,8 @@
 #include "keyline/exchange/points/points_reader.h"
 
-#include <cerrno>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
+#include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/points/points_table.h"
 #include "keyline/exchange/text/line_reader.h"
 
@@ -50,20 +49,9 @@ core::Result<std::vector<acquire::RawCurve>> read_points(const std::filesystem::
 
 core::Result<PointsFile> read_points_file(const std::filesystem::path& path,
                                           const PointsOptions& options) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return core::fail(core::ErrorCode::io, "this is a folder", "give a file", path.string());
-  }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    const int reason = errno;
-    return core::fail(
-        core::ErrorCode::io,
-        "cannot be read: " + std::generic_category().message(reason == 0 ? EIO : reason),
-        "check the name and the permissions", path.string());
-  }
-  return read(in, path.string(), options);
+  auto in = open_file(path);
+  if (!in) return std::unexpected(in.error());
+  return read(*in, path.string(), options);
 }
 
 }  // namespace keyline::exchange

@@ -51,7 +51,7 @@ struct PointsFile {
 /// - Missing entries (empty, nan, inf, null, NA) give non-finite coordinates, left to
 ///   acquire_key_line to count and drop.
 ///
-/// Returns: bad-input with path "file:line" for text where a number belongs, too few columns, an
+/// Fails: bad_input with path "file:line" for text where a number belongs, too few columns, an
 /// unknown column, columns of two units, values above 1e100, binary content, a line longer than
 /// longest_line, or no points at all; io where the file cannot be opened or read. Memory: that of
 /// the points.
