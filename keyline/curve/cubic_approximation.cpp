@@ -19,6 +19,7 @@ namespace {
 constexpr double kPanelShare = 0.02;   ///< of the tolerance, for the first step
 constexpr double kCornerAngle = 1e-7;  ///< radians
 constexpr double kGap = 1e-12;         ///< of the size, taken for rounding
+constexpr double kUnits = 16;          ///< of the last place of coordinates, taken for it too
 constexpr int kMaxDepth = 24;
 
 /// A short cubic that stands for the curve over [t0, t1].
@@ -145,17 +146,21 @@ void add_panels(const Bezier2& c, double low, double high, double allowed, Panel
 
 // ---- Joining ------------------------------------------------------------------------------
 
-double size_of(const std::vector<Panel>& panels) {
+/// The widest gap that is rounding: far from the origin for the curve's size that of coordinates.
+double rounding_gap(const std::vector<Panel>& panels) {
   double size = 0;
+  double farthest = 0;
   for (const Panel& p : panels)
-    for (const Point2& q : p.cubic.control)
+    for (const Point2& q : p.cubic.control) {
       size = std::max(size, distance(q, panels.front().cubic.control[0]));
-  return size;
+      farthest = std::max({farthest, std::abs(q.x), std::abs(q.y)});
+    }
+  return std::max(kGap * size, kUnits * std::numeric_limits<double>::epsilon() * farthest);
 }
 
 /// Drops panels without length, closes gaps that are rounding, marks corners and jumps.
 void join(std::vector<Panel>& panels) {
-  const double size = size_of(panels);
+  const double rounding = rounding_gap(panels);
   const Panel first = panels.front();
   std::erase_if(panels,
                 [](const Panel& p) { return !(core::polygon_length(p.cubic.control) > 0); });
@@ -164,7 +169,7 @@ void join(std::vector<Panel>& panels) {
   for (std::size_t i = 1; i < panels.size(); ++i) {
     Cubic& before = panels[i - 1].cubic;
     const Cubic& after = panels[i].cubic;
-    const bool touching = distance(before.control[3], after.control[0]) <= kGap * size;
+    const bool touching = distance(before.control[3], after.control[0]) <= rounding;
     if (touching) before.control[3] = after.control[0];
     const double turn =
         core::angle_between(detail::end_tangent(before), detail::start_tangent(after));

@@ -132,6 +132,18 @@ TEST(Cubics, PoseAndDirectionDoNotMatter) {
   }
 }
 
+/// Ends of neighbouring parts of a rational curve agree but for rounding of their coordinates.
+TEST(Cubics, RationalCurvesFarFromTheOriginTakeNoMore) {
+  const Bezier2 c{{{0, 0}, {1, 0}, {2, 1}, {2, 3}, {1, 4}}, {1, 1, 2, 1, 1}};
+  for (const double tolerance : {6e-3, 1e-3, 1e-5})
+    for (const double far : {1e3, 1e4, 65536.0}) {
+      const auto moved = transform(c, core::Similarity2{1, 0, {far, 0}});
+      EXPECT_EQ(approximate_by_cubics(moved, tolerance).pieces.size(),
+                approximate_by_cubics(c, tolerance).pieces.size())
+          << tolerance << ' ' << far;
+    }
+}
+
 TEST(Cubics, CuspsEnd) {
   const Bezier2 cusp{{{1, -1}, {-1.0 / 3, 1}, {-1.0 / 3, -1}, {1, 1}}, {}};
   EXPECT_EQ(approximate_by_cubics(cusp, 1e-6).pieces.size(), 1u);
