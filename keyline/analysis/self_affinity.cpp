@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "keyline/numeric/golden_section.h"
 
 namespace keyline::analysis {
 namespace {
@@ -87,22 +88,9 @@ class Overlay {
     int best = 1;
     for (int i = 2; i <= kSteps; ++i)
       if (remains(kMost * i / kSteps) < remains(kMost * best / kSteps)) best = i;
-    double low = kMost * (best - 1) / kSteps;
-    double high = kMost * std::min(best + 1, kSteps) / kSteps;
-    constexpr double kGolden = std::numbers::phi - 1;
-    double a = high - kGolden * (high - low);
-    double b = low + kGolden * (high - low);
-    double at_a = remains(a);
-    double at_b = remains(b);
-    while (high - low > 1e-9) {
-      const bool left = at_a < at_b;
-      (left ? high : low) = left ? b : a;
-      (left ? b : a) = left ? a : b;
-      (left ? at_b : at_a) = left ? at_a : at_b;
-      (left ? a : b) = left ? high - kGolden * (high - low) : low + kGolden * (high - low);
-      (left ? at_a : at_b) = remains(left ? a : b);
-    }
-    return (low + high) / 2;
+    return numeric::golden_section([this](double a) { return remains(a); },
+                                   kMost * (best - 1) / kSteps,
+                                   kMost * std::min(best + 1, kSteps) / kSteps, 1e-9);
   }
 
  private:

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <complex>
 #include <memory>
-#include <numbers>
+#include <utility>
 
 #include <nlopt.h>
 
 #include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
+#include "keyline/numeric/golden_section.h"
+#include "keyline/numeric/halving.h"
 
 namespace keyline::classa::detail {
 
@@ -134,14 +136,12 @@ Candidate feasible_near(const Frame& f, const ReachTable& table, const Candidate
   Rim reached = rim;
   double best = nearest_alpha(rim);
   if (!std::isfinite(best)) {
-    double inside = start.rim.direction;
-    double outside = rim.direction;
-    while (std::abs(outside - inside) > 1e-14) {
-      reached.direction = 0.5 * (inside + outside);
-      if (reached.direction == inside || reached.direction == outside) break;
-      (std::isfinite(nearest_alpha(reached)) ? inside : outside) = reached.direction;
-    }
-    reached.direction = inside;
+    constexpr int kHalvings = 50;  // to rounding
+    const auto is_reached = [&](double direction) {
+      return std::isfinite(nearest_alpha({direction, rim.winding}));
+    };
+    reached.direction =
+        numeric::last_that_holds(is_reached, start.rim.direction, rim.direction, kHalvings);
     best = nearest_alpha(reached);
   }
   return std::isfinite(best) ? candidate_at(f, reached, best) : start;
@@ -208,8 +208,8 @@ Candidate polish_inside(const Frame& f, const Candidate& start, bool& converged)
 /// Golden section over the rim, alpha kept at the end of its range.
 Candidate polish_at_edge(const Frame& f, const ReachTable& table, const Candidate& start) {
   if (f.slack == 0) return start;
-  constexpr double kShare = std::numbers::phi - 1;
   Candidate best = start;
+  // What is no curve is the worse the farther it is from the best so far.
   const auto probe = [&](double direction) {
     const Rim rim{direction, start.rim.winding};
     Candidate c{0, 0, rim, HUGE_VAL};
@@ -220,18 +220,9 @@ Candidate polish_at_edge(const Frame& f, const ReachTable& table, const Candidat
       }
     }
     if (c.energy < best.energy) best = c;
-    return c.energy;
+    return std::pair(c.energy, std::abs(direction - best.rim.direction));
   };
-  double low = start.rim.direction - 0.6;
-  double high = start.rim.direction + 0.6;
-  while (high - low > 1e-7) {
-    const double left = high - kShare * (high - low);
-    const double right = low + kShare * (high - low);
-    const double at_left = probe(left);
-    const double at_right = probe(right);
-    const bool keep_left = at_left < at_right || (at_left == at_right && left > best.rim.direction);
-    (keep_left ? high : low) = keep_left ? right : left;
-  }
+  numeric::golden_section(probe, start.rim.direction - 0.6, start.rim.direction + 0.6, 1e-7);
   return best;
 }
 

@@ -1,9 +1,11 @@
 #include "keyline/classa/reach.h"
 
-#include <numbers>
+#include <algorithm>
+#include <cmath>
 
 #include "keyline/classa/strain_energy.h"
 #include "keyline/core/angle.h"
+#include "keyline/numeric/golden_section.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::classa::detail {
@@ -14,18 +16,6 @@ using core::kPi;
 namespace {
 
 constexpr int kCells = 48;  // of alpha, to find where an end angle can be reached
-
-/// Where angle_of is largest between a and b, if it has one top there (golden section).
-template <class AngleOf>
-double top_between(const AngleOf& angle_of, double a, double b) {
-  constexpr double kShare = std::numbers::phi - 1;
-  while (b - a > 1e-9) {
-    const double left = b - kShare * (b - a);
-    const double right = a + kShare * (b - a);
-    (angle_of(left) < angle_of(right) ? a : b) = angle_of(left) < angle_of(right) ? left : right;
-  }
-  return 0.5 * (a + b);
-}
 
 /// Alpha between a and b at which `angle_of` passes the target.
 template <class AngleOf>
@@ -61,7 +51,8 @@ ReachTable tabulate(const Frame& f) {
     const auto top = std::max_element(
         nodes.begin(), nodes.end(), [&](double a, double b) { return angle_of(a) < angle_of(b); });
     if (top != nodes.begin() && top + 1 != nodes.end())
-      nodes.insert(top, top_between(angle_of, *(top - 1), *(top + 1)));
+      nodes.insert(top, numeric::golden_section([&](double a) { return -angle_of(a); }, *(top - 1),
+                                                *(top + 1), 1e-9));
     std::sort(nodes.begin(), nodes.end());
   }
   ReachTable table;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "keyline/curve/bernstein.h"
+#include "keyline/numeric/roots.h"
 
 namespace keyline::curve {
 
@@ -53,28 +54,18 @@ Box2 around(std::span<const Point2> points) {
   return box;
 }
 
-/// Parameter in (low, high), whose ends have velocities of different sign, where it vanishes.
-template <class Pick>
-double bisect_velocity(const PlanarView& c, double low, double high, Pick pick) {
-  const bool rising = pick(c.jet_at(low).first) > 0;
-  for (int step = 0; step < 60; ++step) {
-    const double middle = 0.5 * (low + high);
-    if (!(low < middle && middle < high)) break;
-    ((pick(c.jet_at(middle).first) > 0) == rising ? low : high) = middle;
-  }
-  return low;
-}
-
 template <class Pick>
 void add_extrema(const PlanarView& c, double low, double high, Pick pick, Box2& box) {
   constexpr int kParts = 32;
   double before = low;
-  double velocity = pick(c.jet_at(low).first);
+  const auto velocity_at = [&](double t) { return pick(c.jet_at(t).first); };
+  double velocity = velocity_at(low);
   for (int i = 1; i <= kParts; ++i) {
     const double t = i < kParts ? low + (high - low) * i / kParts : std::nextafter(high, low);
-    const double next = pick(c.jet_at(t).first);
+    const double next = velocity_at(t);
     if ((velocity > 0) != (next > 0))
-      box = united(box, c.point(bisect_velocity(c, before, t, pick)));
+      if (const auto still = numeric::bracketed_root(velocity_at, before, t, 0))
+        box = united(box, c.point(*still));
     before = t;
     velocity = next;
   }

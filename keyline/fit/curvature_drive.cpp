@@ -16,6 +16,7 @@
 #include "keyline/fit/chain_displacement.h"
 #include "keyline/fit/control_edges.h"
 #include "keyline/fit/drive_targets.h"
+#include "keyline/numeric/halving.h"
 #include "keyline/numeric/levenberg_marquardt.h"
 
 namespace keyline::fit {
@@ -204,20 +205,19 @@ Solution solve_freely(const Problem& problem, const std::vector<LocalTarget>& ta
 Solution solve(const Problem& problem, const std::vector<LocalTarget>& targets) {
   if (problem.max_deviation <= 0) return solve_freely(problem, targets);
   constexpr double kSpike = 1.2;
-  double low = -3;
-  double high = 2;
-  constexpr int kRounds = 5;
+  constexpr double kNearest = 2, kFreest = -3;  // logarithms of the weight
+  constexpr int kHalvings = 5;
   double bend = sharpest(problem.chain);
   for (const LocalTarget& t : targets) bend = std::max(bend, std::abs(t.curvature));
   Solution best{problem.chain, {}};
-  for (int round = 0; round < kRounds; ++round) {
-    const double middle = 0.5 * (low + high);
-    Solution found = solve_weighted(problem, targets, std::pow(10, middle));
+  const auto serves = [&](double log_weight) {
+    Solution found = solve_weighted(problem, targets, std::pow(10, log_weight));
     const bool good = found.stretch <= kMostStretch && found.moved <= problem.max_deviation &&
                       sharpest(found.chain) <= kSpike * bend;
     if (good) best = std::move(found);
-    (good ? high : low) = middle;
-  }
+    return good;
+  };
+  numeric::last_that_holds(serves, kNearest, kFreest, kHalvings);
   return best;
 }
 
@@ -232,26 +232,20 @@ bool stays_monotone(const PiecewiseBezier& before, const PiecewiseBezier& after)
 /// The longest part of the way to the target on which monotone pieces stay monotone.
 Solution keep_monotone(const Problem& problem, const std::vector<LocalTarget>& targets,
                        double& share) {
-  double low = 0;
-  double high = 1;
+  constexpr int kHalvings = 9;
   Solution best{problem.chain, {}};
-  for (int round = 0; round < 10; ++round) {
-    const double way = round == 0 ? 1 : 0.5 * (low + high);
+  const auto stays = [&](double way) {
     std::vector<LocalTarget> part = targets;
     for (LocalTarget& t : part) {
       const double now = curvature(jet(problem.chain.pieces[t.piece], t.u));
       t.curvature = now + way * (t.curvature - now);
     }
     Solution found = solve(problem, part);
-    if (stays_monotone(problem.chain, found.chain)) {
-      best = std::move(found);
-      low = way;
-      if (round == 0) break;
-    } else {
-      high = way;
-    }
-  }
-  share = low;
+    const bool monotone = stays_monotone(problem.chain, found.chain);
+    if (monotone) best = std::move(found);
+    return monotone;
+  };
+  share = stays(1) ? 1 : numeric::last_that_holds(stays, 0, 1, kHalvings);
   return best;
 }
 

@@ -7,6 +7,7 @@
 
 #include "keyline/curve/jet.h"
 #include "keyline/numeric/monotone_cubic.h"
+#include "keyline/numeric/roots.h"
 
 namespace keyline::fit::detail {
 namespace {
@@ -39,14 +40,8 @@ std::vector<double> inflections(const Bezier2& piece) {
     const double here = bend(t);
     if (std::abs(here) <= flat) continue;  // an inflection in an end is none inside
     if (last != 0 && (last < 0) != (here < 0)) {
-      double low = last_t;
-      double high = t;
-      for (int k = 0; k < 60; ++k) {
-        const double middle = 0.5 * (low + high);
-        ((bend(middle) < 0) == (last < 0) ? low : high) = middle;
-      }
-      const double root = 0.5 * (low + high);
-      if (root > 1e-6 && root < 1 - 1e-6) found.push_back(root);
+      const auto root = numeric::bracketed_root(bend, last_t, t, 0);
+      if (root && *root > 1e-6 && *root < 1 - 1e-6) found.push_back(*root);
     }
     last = here;
     last_t = t;

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "keyline/numeric/halving.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/numeric/solve.h"
 
@@ -14,7 +15,7 @@ namespace keyline::fit {
 namespace {
 
 constexpr int kMostSpans = 1000;
-constexpr int kBisections = 18;
+constexpr int kHalvings = 18;
 // Of the distances between points: chord length, and centripetal and even ones, which have more
 // knots where points are dense.
 constexpr std::array kPowers{1.0, 0.5, 0.0};
@@ -221,17 +222,13 @@ std::optional<curve::CurvatureGraph> smoothest(std::span<const core::Point2> poi
                                                double tolerance, double power) {
   Smoother smoother(points, closed, power);
   if (!smoother.sound()) return std::nullopt;
-  bool any = false;
-  double low = kSoftest;
-  double high = kStiffest;
-  for (int step = 0; step < kBisections; ++step) {
-    const double middle = 0.5 * (low + high);
-    const bool kept = smoother.within(std::pow(10, middle), tolerance);
+  const auto is_kept = [&](double log_penalty) {
+    const bool kept = smoother.within(std::pow(10, log_penalty), tolerance);
     if (kept) smoother.keep();
-    any |= kept;
-    (kept ? low : high) = middle;
-  }
-  if (!any) return std::nullopt;
+    return kept;
+  };
+  if (numeric::last_that_holds(is_kept, kSoftest, kStiffest, kHalvings) == kSoftest)
+    return std::nullopt;
   return smoother.graph_of_kept();
 }
 

@@ -13,6 +13,7 @@
 #include "keyline/analysis/comb_figures.h"
 #include "keyline/core/polygon.h"
 #include "keyline/fit/quintic_chain.h"
+#include "keyline/numeric/halving.h"
 #include "keyline/numeric/solve.h"
 
 namespace keyline::sketch {
@@ -99,18 +100,14 @@ double largest_move(const std::vector<Point2>& a, const std::vector<Point2>& b) 
 /// The smoothest points that lie within `most` of the given ones.
 std::vector<Point2> calmed(const std::vector<Point2>& points, Smoother& smoother, double most) {
   std::vector<Point2> best = points;
-  double low = std::log(kShortest);
-  double high = std::log(4 * static_cast<double>(points.size()) + kShortest);
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    std::vector<Point2> smooth = smoother.smooth(std::exp(middle));
-    if (largest_move(smooth, points) <= most) {
-      low = middle;
-      best = std::move(smooth);
-    } else {
-      high = middle;
-    }
-  }
+  const auto stays_near = [&](double log_wavelength) {
+    std::vector<Point2> smooth = smoother.smooth(std::exp(log_wavelength));
+    const bool near = largest_move(smooth, points) <= most;
+    if (near) best = std::move(smooth);
+    return near;
+  };
+  const double longest = 4 * static_cast<double>(points.size()) + kShortest;
+  numeric::last_that_holds(stays_near, std::log(kShortest), std::log(longest), kHalvings);
   return best;
 }
 

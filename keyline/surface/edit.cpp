@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/core/text.h"
+#include "keyline/numeric/halving.h"
 #include "keyline/surface/departure.h"
 #include "keyline/surface/edit_targets.h"
 #include "keyline/surface/reduce.h"
@@ -94,13 +95,10 @@ const Candidate* best_of(const std::vector<Candidate>& all, std::optional<double
 double amount_within(const BezierSurface& s, const BezierSurface& target, double limit,
                      double most) {
   if (departure_bound(s, blend(s, target, most), limit) <= limit) return most;
-  double low = 0;
-  double high = most;
-  for (int i = 0; i < 12 && high - low > 1e-3 * most; ++i) {
-    const double middle = 0.5 * (low + high);
-    (departure_bound(s, blend(s, target, middle), limit) <= limit ? low : high) = middle;
-  }
-  return low;
+  constexpr int kHalvings = 10;  // to a thousandth of it
+  return numeric::last_that_holds(
+      [&](double amount) { return departure_bound(s, blend(s, target, amount), limit) <= limit; },
+      0, most, kHalvings);
 }
 
 /// Sorts by departure and leaves out what is no choice: the same as another, or twice as far away

@@ -9,6 +9,7 @@
 #include "keyline/curve/closest_point.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/lac/chain/closest_point.h"
+#include "keyline/numeric/roots.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -28,15 +29,6 @@ double watched(const PlanarCurve& c, double t, int which) {
   return cross(j.first, j.second);
 }
 
-double root(const PlanarCurve& c, double a, double b, int which) {
-  const bool positive = watched(c, a, which) > 0;
-  for (int i = 0; i < 60; ++i) {
-    const double m = 0.5 * (a + b);
-    ((watched(c, m, which) > 0) == positive ? a : b) = m;
-  }
-  return 0.5 * (a + b);
-}
-
 /// Parameters at which nodes stand: breakpoints with a corner, extrema, inflections, both ends.
 std::vector<double> node_parameters(const PlanarCurve& c) {
   const auto breaks = breakpoints(c);
@@ -49,8 +41,9 @@ std::vector<double> node_parameters(const PlanarCurve& c) {
       for (int k = 0; k < kSteps; ++k) {
         const double from = a + k * step + (k == 0 ? inside : 0);
         const double to = a + (k + 1) * step - (k + 1 == kSteps ? inside : 0);
-        if ((watched(c, from, which) > 0) != (watched(c, to, which) > 0))
-          nodes.push_back(root(c, from, to, which));
+        const auto root =
+            numeric::bracketed_root([&](double t) { return watched(c, t, which); }, from, to, 0);
+        if (root) nodes.push_back(*root);
       }
     if (i + 1 < breaks.size()) {
       const auto before = jet(c, breaks[i] - inside).first;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/segment/slope.h"
+#include "keyline/numeric/halving.h"
 #include "keyline/numeric/quadrature.h"
 #include "keyline/numeric/roots.h"
 
@@ -47,14 +48,10 @@ class Family {
   }
   /// The last arrival angle with a curve on the way from the symmetric one to `limit`.
   double last_towards(double limit) const {
-    double good = from_;
     if (at(limit)) return limit;
-    double bad = limit;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (good + bad);
-      (at(middle) ? good : bad) = middle;
-    }
-    return good;
+    constexpr int kHalvings = 60;  // to rounding
+    return numeric::last_that_holds([this](double b) { return at(b).has_value(); }, from_, limit,
+                                    kHalvings);
   }
 
  private:
@@ -70,14 +67,12 @@ struct Found {
 };
 
 std::unexpected<core::Failure> unreachable(const VolumeRange& range, double volume) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "with these ends, direction and slope the volume lies between %.9g and %.9g",
-                range.smallest, range.largest);
-  char hint[64];
-  const double nearest = volume < range.smallest ? range.smallest : range.largest;
-  std::snprintf(hint, sizeof hint, "nearest volume %.9g", nearest);
-  return core::fail(ErrorCode::undrawable, text, hint, "volume");
+  const std::string smallest = core::number_text(range.smallest, 9);
+  const std::string largest = core::number_text(range.largest, 9);
+  return core::fail(ErrorCode::undrawable,
+                    "with these ends, direction and slope the volume lies between " + smallest +
+                        " and " + largest,
+                    "nearest volume " + (volume < range.smallest ? smallest : largest), "volume");
 }
 
 core::Result<void> checked(const Pose2& start, core::Point2 end, double volume) {

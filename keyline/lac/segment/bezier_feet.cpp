@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "keyline/numeric/roots.h"
+
 namespace keyline::lac::detail {
 
 using core::Vector2;
@@ -70,13 +72,9 @@ double searched_foot(const Homogeneous& h, const Frame& f) {
     }
     behind = now_behind;
   }
-  if (low < 0) return std::numeric_limits<double>::quiet_NaN();
-  double high = low + 1.0 / places;
-  for (int i = 0; i < 60 && high - low > 1e-15; ++i) {
-    const double middle = 0.5 * (low + high);
-    (ahead(middle) <= 0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const auto found =
+      low < 0 ? std::nullopt : numeric::bracketed_root(ahead, low, low + 1.0 / places, 5e-16);
+  return found.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 constexpr double kNear = 1e-3;  ///< of the length
