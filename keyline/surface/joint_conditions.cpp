@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "keyline/curve/bernstein.h"
 #include "keyline/numeric/solve.h"
 
 namespace keyline::surface::detail {
@@ -25,38 +26,20 @@ void add(Form& sum, double weight, const Form& form) {
   for (const auto& [index, w] : form) sum[index] += weight * w;
 }
 
-double binomial(std::size_t n, std::size_t k) {
-  double b = 1;
-  for (std::size_t i = 0; i < k; ++i) b *= static_cast<double>(n - i) / static_cast<double>(i + 1);
-  return b;
-}
+void add(double& sum, double weight, double value) { sum += weight * value; }
 
-Forms product(const Scalar& f, const Forms& g) {
+/// Of a scalar polynomial and one of either kind.
+template <class Value>
+std::vector<Value> product(const Scalar& f, const std::vector<Value>& g) {
   const std::size_t m = f.size() - 1;
   const std::size_t n = g.size() - 1;
-  Forms h(m + n + 1);
+  const auto of_f = curve::detail::binomials<double>(m);
+  const auto of_g = curve::detail::binomials<double>(n);
+  const auto of_h = curve::detail::binomials<double>(m + n);
+  std::vector<Value> h(m + n + 1);
   for (std::size_t i = 0; i <= m; ++i)
     for (std::size_t j = 0; j <= n; ++j)
-      add(h[i + j], f[i] * binomial(m, i) * binomial(n, j) / binomial(m + n, i + j), g[j]);
-  return h;
-}
-
-Scalar square(const Scalar& f) {
-  const std::size_t m = f.size() - 1;
-  Scalar h(2 * m + 1, 0);
-  for (std::size_t i = 0; i <= m; ++i)
-    for (std::size_t j = 0; j <= m; ++j)
-      h[i + j] += f[i] * f[j] * binomial(m, i) * binomial(m, j) / binomial(2 * m, i + j);
-  return h;
-}
-
-Scalar product(const Scalar& f, const Scalar& g) {
-  const std::size_t m = f.size() - 1;
-  const std::size_t n = g.size() - 1;
-  Scalar h(m + n + 1, 0);
-  for (std::size_t i = 0; i <= m; ++i)
-    for (std::size_t j = 0; j <= n; ++j)
-      h[i + j] += f[i] * g[j] * binomial(m, i) * binomial(n, j) / binomial(m + n, i + j);
+      add(h[i + j], f[i] * of_f[i] * of_g[j] / of_h[i + j], g[j]);
   return h;
 }
 
@@ -201,9 +184,9 @@ class Conditions {
     keep(sum({{1, one.first}, {1, product(m.f, two.first)}, {1, product(m.g, along)}}));
     if (held.order < 2 || along.size() < 2) return all;
     const Forms rest = sum({{1, one.second},
-                            {-1, product(square(m.f), two.second)},
+                            {-1, product(product(m.f, m.f), two.second)},
                             {-2, product(product(m.f, m.g), derivative(two.first))},
-                            {-1, product(square(m.g), derivative(along))}});
+                            {-1, product(product(m.g, m.g), derivative(along))}});
     const std::size_t degree = 2 * (m.f.size() - 1);
     const Multipliers n = fit(rest, two.first, along, degree, given_);
     keep(sum({{1, rest}, {1, product(n.f, two.first)}, {1, product(n.g, along)}}));

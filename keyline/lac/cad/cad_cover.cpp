@@ -5,6 +5,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/monotone.h"
 #include "keyline/lac/cad/cad_cubic.h"
+#include "keyline/numeric/binomials.h"
 
 namespace keyline::lac::detail {
 
@@ -24,13 +25,12 @@ constexpr int kMostRefused = 8;  ///< cubics whose curvature is not monotone
 template <std::size_t A, std::size_t B>
 std::array<double, A + B - 1> product(const std::array<double, A>& a,
                                       const std::array<double, B>& b) {
-  constexpr double kBinomial[6][6] = {{1},          {1, 1},          {1, 2, 1},
-                                      {1, 3, 3, 1}, {1, 4, 6, 4, 1}, {1, 5, 10, 10, 5, 1}};
+  constexpr const auto& kBinomials = numeric::kBinomials<A + B - 2>;
   std::array<double, A + B - 1> c{};
   for (std::size_t i = 0; i < A; ++i)
     for (std::size_t j = 0; j < B; ++j)
-      c[i + j] += a[i] * b[j] * (kBinomial[A - 1][i] * kBinomial[B - 1][j]);
-  for (std::size_t k = 0; k < c.size(); ++k) c[k] /= kBinomial[A + B - 2][k];
+      c[i + j] += a[i] * b[j] * (kBinomials[A - 1][i] * kBinomials[B - 1][j]);
+  for (std::size_t k = 0; k < c.size(); ++k) c[k] /= kBinomials[A + B - 2][k];
   return c;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/numeric/binomials.h"
 #include "keyline/numeric/solve.h"
 
 namespace keyline::lac::detail {
@@ -15,16 +16,7 @@ namespace {
 
 using Row = Basis::Row;
 
-/// Pascal's triangle.
-constexpr auto kBinomial = [] {
-  std::array<Row, curve::kMaxBezierDegree + 1> rows{};
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    rows[n][0] = 1;
-    for (std::size_t i = 1; i <= n; ++i)
-      rows[n][i] = rows[n - 1][i - 1] + (i < n ? rows[n - 1][i] : 0);
-  }
-  return rows;
-}();
+constexpr const auto& kBinomials = numeric::kBinomials<curve::kMaxBezierDegree>;
 
 }  // namespace
 
@@ -37,7 +29,7 @@ Basis::Basis(int n, double t) {
   }
   double before = 0;  // of the degree below
   for (int i = 0; i <= n; ++i) {
-    const double now = i < n ? kBinomial[n - 1][i] * rising[i] * falling[n - 1 - i] : 0;
+    const double now = i < n ? kBinomials[n - 1][i] * rising[i] * falling[n - 1 - i] : 0;
     value[i] = (1 - t) * now + t * before;
     slope[i] = n * (before - now);
     before = now;

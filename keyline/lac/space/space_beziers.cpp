@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "keyline/lac/space/space.h"
+#include "keyline/numeric/binomials.h"
 
 namespace keyline::lac {
 namespace {
@@ -66,13 +67,12 @@ Bounds derivatives_over(const Piece& law, double from, double to) {
 /// Bounds of (a b) and of its derivatives added to those of the derivative of c.
 Bounds derivative_and_products(const Bounds& c, const Bounds& k, const Bounds& b, const Bounds& t,
                                const Bounds& d) {
-  constexpr double kBinomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
   const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
   Bounds sum{};
   for (std::size_t n = 0; n < 5; ++n) {
     sum[n] = c[n + 1];
     for (std::size_t j = 0; j <= n; ++j)
-      sum[n] += kBinomial[n][j] * (product(k[j], b[n - j]) + product(t[j], d[n - j]));
+      sum[n] += numeric::kBinomials<4>[n][j] * (product(k[j], b[n - j]) + product(t[j], d[n - j]));
   }
   return sum;
 }
