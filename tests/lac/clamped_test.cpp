@@ -133,6 +133,26 @@ TEST(SolveG1Chain, MeetsAllDirectionsForSlopesBelowZero) {
   EXPECT_GT(split, 0);
 }
 
+/// From its inflection the sharp part's curvature grows as s^(-1/alpha): so slowly at first, next
+/// to slope 0, that no double tells the other end's.
+TEST(SolveG1Chain, IsSplitAtAnInflectionThatNoDoublesTell) {
+  const double alpha = -1e-4;
+  for (const double to : {1.5, 2.5, 3.1})
+    for (const bool reversed : {true, false}) {
+      const auto s = reversed ? solve_g1_directions_chain({{0, 0}, alpha}, {{1, 0}, to}, alpha)
+                              : solve_g1_directions_chain({{0, 0}, to}, {{1, 0}, alpha}, alpha);
+      ASSERT_TRUE(s) << to;
+      ASSERT_EQ(s->chain.pieces.size(), 2U) << to;
+      EXPECT_LE(distance(end_pose(s->chain).position, {1, 0}), 1e-12) << to;
+      EXPECT_EQ(s->chain.pieces[0].curvature_end, 0);
+      EXPECT_EQ(s->chain.pieces[1].curvature_start, 0);
+      EXPECT_EQ(s->reversed, reversed);
+      const Piece& sharp = s->chain.pieces[reversed ? 1 : 0];
+      const double most = std::abs(reversed ? sharp.curvature_end : sharp.curvature_start);
+      EXPECT_NEAR(s->lambda * -alpha * sharp.length * most, 1, 1e-12) << to;
+    }
+}
+
 TEST(SolveG1Chain, BecomesBeziersAndSplines) {
   for (const double alpha : {0.0, 1.0}) {
     const auto s = solve_g1_chain(Point2{0, 0}, Point2{1e-6, 0}, Point2{3, 1}, alpha);

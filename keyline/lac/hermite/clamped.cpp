@@ -9,6 +9,7 @@
 #include "keyline/lac/hermite/chord_kernel.h"
 #include "keyline/lac/hermite/one_signed.h"
 #include "keyline/lac/segment/arm.h"
+#include "keyline/lac/segment/lambda.h"
 
 namespace keyline::lac {
 namespace {
@@ -128,7 +129,9 @@ std::optional<G1Chain> clamped_at_inflection(double from, double to, double alph
     if (std::abs(piece.curvature_start) < 1e-280) piece.curvature_start = 0;
     if (std::abs(piece.curvature_end) < 1e-280) piece.curvature_end = 0;
   }
-  answer.reversed = (*arms)[0].curvature_start == 0;
+  const auto& [first, last] = *arms;
+  answer.reversed = std::abs(first.curvature_start) < std::abs(last.curvature_end);
+  answer.lambda = lambda_of(answer.reversed ? last : first);
   answer.turning = to - from;
   answer.chord_angle = -from;
   answer.clamped = true;

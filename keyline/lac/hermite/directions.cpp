@@ -8,6 +8,7 @@
 #include "keyline/core/text.h"
 #include "keyline/lac/hermite/one_signed.h"
 #include "keyline/lac/segment/arm.h"
+#include "keyline/lac/segment/lambda.h"
 #include "keyline/lac/segment/slope.h"
 #include "keyline/numeric/roots.h"
 
@@ -105,14 +106,6 @@ std::optional<double> search_minor_angle(const InflectingFamily& family, double 
     angle = next;
   }
   return std::nullopt;
-}
-
-/// Lambda of the standard form at the end of larger curvature.
-double lambda_of(const Piece& p) {
-  const double k0 = std::abs(p.curvature_start);
-  const double k1 = std::abs(p.curvature_end);
-  const double sharp = std::max(k0, k1);
-  return sharp == 0 ? 0 : std::abs(curvature_rate(p, k0 >= k1 ? 0 : 1)) / (sharp * sharp);
 }
 
 /// For a chord of length 1 along x; alpha < 0: the arms on both sides of the inflection.

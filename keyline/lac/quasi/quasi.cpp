@@ -9,6 +9,7 @@
 #include "keyline/lac/quasi/quasi_forms.h"
 #include "keyline/lac/quasi/quasi_hermite.h"
 #include "keyline/lac/segment/deviation.h"
+#include "keyline/lac/segment/lambda.h"
 #include "keyline/lac/segment/slope.h"
 #include "keyline/numeric/power_mean.h"
 
@@ -125,15 +126,6 @@ void measure(QuasiResult& r) {
 }
 
 }  // namespace detail
-
-double lambda_of(const Piece& p) {
-  const double k0 = std::abs(p.curvature_start);
-  const double k1 = std::abs(p.curvature_end);
-  if (k0 == k1) return 0;
-  const bool first = (p.alpha <= 1) == (k0 > k1);
-  const double k = first ? k0 : k1;
-  return std::abs(curvature_rate(p, first ? 0 : 1)) / k / k;
-}
 
 Result<Segment> standard_segment(double alpha, double lambda, const core::Interval& angles) {
   const auto bad = [](const char* message, const char* path) {

@@ -51,7 +51,7 @@ struct QuasiResult {
   Segment target;                            ///< the log-aesthetic segment the curve stands for
   QuasiForm form = QuasiForm::taylor_angle;  ///< the one taken
   double about = 0;                          ///< Taylor forms: where it was expanded
-  double lambda = 0;         ///< of the standard form of the curve's own series (see lambda_of)
+  double lambda = 0;         ///< of the standard form of the curve's own series (lambda.h)
   bool lcg_defined = false;  ///< false where there is no graph: arcs, straight lines
   double lcg_slope = 0;
   double lcg_variance = 0;
@@ -62,10 +62,6 @@ struct QuasiResult {
   curve::MonotoneVerdict monotone;
   int iterations = 0;  ///< of the search for lambda
 };
-
-/// Lambda of the standard form: |drho/ds| at the end of smaller radius for alpha <= 1, of larger
-/// radius for alpha > 1, where the radius is taken for 1; 0 for circle and straight line.
-double lambda_of(const Piece& piece);
 
 /// The part of the standard form ([QLAC] Eqs. 1 and 2: at tangent angle 0 the curve passes the
 /// origin along x with radius 1) with the tangent angles of the interval.

@@ -11,6 +11,7 @@
 #include "keyline/lac/hermite/hermite.h"
 #include "keyline/lac/quasi/quasi_search.h"
 #include "keyline/lac/segment/deviation.h"
+#include "keyline/lac/segment/lambda.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
