@@ -7,6 +7,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/hermite/chord_kernel.h"
+#include "keyline/lac/hermite/clamping.h"
 #include "keyline/lac/hermite/one_signed.h"
 #include "keyline/lac/segment/arm.h"
 #include "keyline/lac/segment/lambda.h"
@@ -16,9 +17,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Range of ln kappa from which on a curve is clamped, and the least range that may have to be.
-constexpr double kKept = 100;
-constexpr double kFar = 250;
+using detail::kFar;
+using detail::kKept;
 
 /// A curve of unit chord from its sharp to its flat end, turning left.
 struct Clamped {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/hermite/clamping.h"
 #include "keyline/lac/segment/arm.h"
 #include "keyline/numeric/power_mean.h"
 
@@ -18,10 +19,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Exponents up to here are taken as they are; beyond, e^x - 1 is e^x.
 constexpr double kLargeExponent = 600;
-/// ln of curvature times chord beyond which a piece is clamped, and where it is then cut: what is
-/// cut off is shorter, or turns by less, than e^-100 (as in clamped.h).
-constexpr double kFar = 250;
-constexpr double kKept = 100;
 
 /// ln of decay_integral(k, x).
 double log_decay(double k, double x) {
