@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/lac/segment/piece_shape.h"
+
 /// Quick shots of space curves and how far they miss, against the exact curve.
 namespace keyline::lac::detail {
 namespace {
@@ -189,8 +191,6 @@ TEST(MissOf, IsTheAngleMissed) {
   const Miss around = miss_of(chord, tangent(0.9, 0.51), wanted);
   EXPECT_NEAR(around[2], 0.01 * std::sin(0.9), 1e-5);
   EXPECT_NEAR(around[1], 0, 1e-4);
-  EXPECT_EQ(size_of({1, -2, 0.5}), 2);
-  EXPECT_EQ(size_of({1, HUGE_VAL, 0}), 1e300);
 }
 
 TEST(Steer, MeetsTheDataOfAKnownCurve) {

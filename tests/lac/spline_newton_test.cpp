@@ -231,10 +231,10 @@ TEST(G2Shooting, RefusesWhatIsAstray) {
 }
 
 TEST(G2Shooting, SizeOfAMissIsItsLargest) {
-  EXPECT_EQ(size_of({1, -3, 2}), 3);
-  EXPECT_EQ(size_of({0, 0, 0}), 0);
-  EXPECT_EQ(size_of({1, HUGE_VAL, 2}), 1e300);
-  EXPECT_EQ(size_of({std::nan(""), 0, 0}), 1e300);
+  EXPECT_EQ(size_of(Miss{1, -3, 2}), 3);
+  EXPECT_EQ(size_of(Miss{}), 0);
+  EXPECT_EQ(size_of(Miss{1, HUGE_VAL, 2}), 1e300);
+  EXPECT_EQ(size_of(Miss{std::nan(""), 0, 0}), 1e300);
 }
 
 }  // namespace

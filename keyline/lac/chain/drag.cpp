@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <string>
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/lac/segment/piece_shape.h"
 
 namespace keyline::lac {
@@ -139,12 +140,6 @@ Rows DragProblem::misses(const std::vector<double>& change, Point2 target,
   return {end.x, end.y, at[m].direction - before_[m].direction, dragged.x, dragged.y};
 }
 
-double size_of(const Rows& rows) {
-  double size = 0;
-  for (const double r : rows) size = std::isfinite(r) ? std::max(size, std::abs(r)) : 1e300;
-  return size;
-}
-
 /// The least change that meets the constraints as they are linearised at `change`.
 template <std::size_t N>
 bool project(const std::vector<Rows>& by, const Rows& miss, std::vector<double>& change) {
@@ -178,7 +173,7 @@ bool settle(const DragProblem& problem, Point2 target, double scale, std::vector
   double before = 1e300;
   for (int i = 0; i < 60; ++i) {
     const Rows miss = problem.misses(change, target, by);
-    const double size = size_of(miss);
+    const double size = detail::size_of(miss);
     if (!(size < 1e6)) return false;
     const std::vector<double> old = change;
     const bool solved =
@@ -273,9 +268,8 @@ core::Result<DragSolution> drag(const Chain& given, double t, Point2 target,
   if (const double share =
           go(problem, joints(problem.base())[joint].position, scaled_target, change, solution);
       share < 1) {
-    char hint[64];
-    std::snprintf(hint, sizeof hint, "%.3g of the way could be gone", share);
-    return core::fail(ErrorCode::not_converged, "the point cannot be dragged so far", hint);
+    return core::fail(ErrorCode::not_converged, "the point cannot be dragged so far",
+                      core::number_text(share, 3) + " of the way could be gone");
   }
   solution.chain = transform(problem.moved(change), {unit, 0, {}});
   solution.chain.start = chain.start;

@@ -1,11 +1,11 @@
 #include "keyline/lac/chain/extend.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/text.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac {
@@ -55,10 +55,9 @@ Piece stretched(const Piece& p, double before, double after) {
 }
 
 std::unexpected<core::Failure> past_bound(const char* which, double bound) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s less than %.9g", which, bound);
   return core::fail(ErrorCode::undrawable,
-                    "curvature becomes infinite before the curve is so much longer", text);
+                    "curvature becomes infinite before the curve is so much longer",
+                    which + (" less than " + core::number_text(bound, 9)));
 }
 
 core::Result<void> check(const Piece& first, const Piece& last, double before, double after) {

@@ -133,12 +133,6 @@ bool within_reason(const UnitG2& request, const ShortChain& chain) {
 
 }  // namespace
 
-double size_of(const Miss& miss) {
-  double size = 0;
-  for (const double m : miss) size = std::isfinite(m) ? std::max(size, std::abs(m)) : 1e300;
-  return size;
-}
-
 std::optional<ShortChain> shoot(const UnitG2& request, ShortChain chain, double* residual) {
   if (!within_reason(request, chain)) return std::nullopt;
   Variables variables = variables_of(request, chain);

@@ -30,7 +30,6 @@ struct ShortChain {
 
 /// Misses in x, y and direction.
 using Miss = std::array<double, 3>;
-double size_of(const Miss& miss);
 
 /// From a start to a solution; empty where Newton's method, damped, does not get below 1e-12.
 /// residual: the largest miss reached.

@@ -60,6 +60,15 @@ double absolute_turning(const Piece& piece);
 /// Integral of the squared curvature; a piece without cusp. Accuracy 1e-6 or better.
 double bending_energy(const Piece& piece);
 
+/// Largest of the misses of Newton's method, or of its steps; larger than any that serves where one
+/// is no number.
+template <std::size_t N>
+double size_of(const std::array<double, N>& misses) {
+  double size = 0;
+  for (const double m : misses) size = std::isfinite(m) ? std::max(size, std::abs(m)) : 1e300;
+  return size;
+}
+
 /// Solves a (overwritten) x = b for small dense systems with pivoting; false where singular.
 template <std::size_t N>
 bool solve_small(std::array<std::array<double, N>, N>& a, std::array<double, N>& b) {

@@ -20,6 +20,7 @@ namespace {
 
 using core::ErrorCode;
 using core::Result;
+using detail::size_of;
 using detail::SpaceUnknowns;
 using detail::space::ChordFrame;
 using detail::space::directions_in;
@@ -31,7 +32,6 @@ using detail::space::moved;
 using detail::space::plane_of;
 using detail::space::PlaneSearch;
 using detail::space::Setting;
-using detail::space::size_of;
 using detail::space::solve_compound_plane;
 
 /// As the family of one slope is searched: what winds more is no curve to look at, nor quick to

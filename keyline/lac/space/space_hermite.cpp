@@ -8,6 +8,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
 #include "keyline/lac/hermite/hermite.h"
+#include "keyline/lac/segment/piece_shape.h"
 #include "keyline/lac/space/space_plane.h"
 #include "keyline/lac/space/space_steer.h"
 
@@ -18,6 +19,7 @@ using core::ErrorCode;
 using core::Point3;
 using core::Result;
 using core::Vector3;
+using detail::size_of;
 using detail::SpaceUnknowns;
 using detail::space::ChordFrame;
 using detail::space::directions_in;
@@ -30,7 +32,6 @@ using detail::space::newton_step;
 using detail::space::plane_of;
 using detail::space::reasonable;
 using detail::space::Setting;
-using detail::space::size_of;
 using detail::space::steer;
 
 /// A curve of the family in the standard frame, integrated exactly.

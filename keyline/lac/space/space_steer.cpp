@@ -107,12 +107,6 @@ Miss miss_of(Vector3 chord, Vector3 tangent, const Invariants& wanted) {
   return {core::angle_between({1, 0, 0}, chord) - wanted.first, scale * x, scale * y};
 }
 
-double size_of(const Miss& miss) {
-  double size = 0;
-  for (const double m : miss) size = std::isfinite(m) ? std::max(size, std::abs(m)) : 1e300;
-  return size;
-}
-
 bool reasonable(double alpha, const SpaceUnknowns& x) {
   constexpr double kMost = 4 * core::kPi;
   if (!(x.length > 1e-6) || !(std::abs(x.twist) < kMost)) return false;

@@ -58,7 +58,6 @@ ChordFrame chord_frame(core::Vector3 chord, core::Vector3 side);
 /// Angle of the start tangent against the chord, and direction of the end tangent, less the wanted
 /// ones, for a curve in its standard frame.
 Miss miss_of(core::Vector3 chord, core::Vector3 tangent, const Invariants& wanted);
-double size_of(const Miss& miss);
 /// Turns and twists by less than 4 pi in all, and is longer than 1e-6.
 bool reasonable(double alpha, const SpaceUnknowns& x);
 
