@@ -44,7 +44,7 @@ struct EdgeTolerance {
   }
 };
 
-constexpr double kUsualGap = 1e-5;
+inline constexpr double kUsualGap = 1e-5;
 
 /// With the gap that holds where something of that size is compared.
 EdgeTolerance with_gap(EdgeTolerance tolerance, double size);

@@ -6,6 +6,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/surface/curvature.h"
+#include "keyline/surface/directions.h"
 
 namespace keyline::surface {
 namespace {
@@ -18,6 +19,9 @@ using core::norm;
 using core::Point3;
 using core::Result;
 using core::Vector3;
+using detail::across;
+using detail::any_across;
+using detail::unit;
 
 constexpr std::size_t kMeanOf = 4096;  ///< places that means over a grid are taken of
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -27,17 +31,6 @@ struct Lights {
   Point3 origin;
   double stripe_count, spacing;
 };
-
-Vector3 unit(Vector3 v) { return v / norm(v); }
-
-/// v without its part along the unit vector n.
-Vector3 across(Vector3 v, Vector3 n) { return v - dot(v, n) * n; }
-
-/// Some unit vector at right angles to the unit vector n.
-Vector3 any_across(Vector3 n) {
-  const Vector3 axis = std::abs(n.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-  return unit(across(axis, n));
-}
 
 Point3 middle_of(const JetGrid& grid) {
   Vector3 sum;

@@ -31,7 +31,7 @@ struct StrandWeights {
   std::vector<double> growth;
 };
 
-constexpr double kHolds = 1e8;  ///< weight of what has to hold
+inline constexpr double kHolds = 1e8;  ///< weight of what has to hold
 
 /// Control points of patches whose joints hold, moved in steps of Gauss and Newton: least squares
 /// of what strands are asked for and of the way from home, linear in the conditions of joints,

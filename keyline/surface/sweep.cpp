@@ -7,6 +7,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/axis.h"
 #include "keyline/curve/length.h"
+#include "keyline/surface/directions.h"
 #include "keyline/surface/interpolate.h"
 #include "keyline/surface/tensor.h"
 
@@ -59,12 +60,6 @@ Result<Station> place_on(const BSpline3& rail, double t) {
     return fail(ErrorCode::unsupported, "the rail has a place without tangent",
                 "remove repeated control points", "rail");
   return Station{j.point, j.first / speed, {}};
-}
-
-Vector3 any_across(Vector3 t) {
-  const Vector3 axis = std::abs(t.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-  const Vector3 n = axis - dot(axis, t) * t;
-  return n / norm(n);
 }
 
 /// The normal of `from` carried to `to` without twist: two reflections.
@@ -207,7 +202,7 @@ void append(BSplineSurface& s, const SweptPart& part, double from, double to) {
 Result<MadeSurface> sweep_with(const BSpline3& profile, const Rail& rail, int count) {
   auto start = place_on(rail.curve, 0);
   if (!start) return std::unexpected(start.error());
-  start->normal = any_across(start->tangent);
+  start->normal = detail::any_across(start->tangent);
   MadeSurface made{with_rows(profile, 3, {}, 0), 0};
   Station here = *start;
   for (std::size_t i = 1; i < rail.parts.size(); ++i) {
