@@ -29,12 +29,6 @@ std::string long_name(const std::string& word) {
   return word;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
-  return all;
-}
-
 }  // namespace
 
 Arguments::Arguments(const std::vector<OptionGroup>& groups, bool takes_files)

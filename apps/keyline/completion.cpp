@@ -6,15 +6,10 @@
 #include <fmt/ranges.h>
 
 #include "manual.h"
+#include "words.h"
 
 namespace keyline::app {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
-  return all;
-}
 
 /// The text with `escape` before each character that the shell would take for its own.
 std::string escaped(const std::string& text, std::string_view special, const char* escape) {

@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/text.h"
+
 namespace keyline::app {
 namespace {
 
@@ -103,13 +105,6 @@ Bar& bar() {
   return one;
 }
 
-/// Line breaks and control characters of a message would break the one-line rule.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
-}
-
 }  // namespace
 
 int exit_of(core::ErrorCode code) {
@@ -136,14 +131,14 @@ int report_failure(const core::Failure& failure, const std::string& subject) {
   if (!failure.path.empty() && failure.path != subject) line += failure.path + ": ";
   line += failure.message;
   if (!failure.hint.empty()) line += "; " + failure.hint;
-  std::fprintf(stderr, "%s\n", one_line(std::move(line)).c_str());
+  std::fprintf(stderr, "%s\n", core::on_one_line(line).c_str());
   return exit_of(failure.code);
 }
 
 void say(bool quiet, const std::string& text) {
   if (quiet) return;
   end_progress();
-  std::fprintf(stderr, "keyline: %s\n", one_line(text).c_str());
+  std::fprintf(stderr, "keyline: %s\n", core::on_one_line(text).c_str());
 }
 
 void say_some(bool quiet, const std::string& lead, const std::vector<std::string>& lines,

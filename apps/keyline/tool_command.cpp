@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
 
 #include "list_text.h"
@@ -258,11 +258,12 @@ Result<std::vector<json>> read_all(Session& session, Made& made) {
 
 /// A failure of the i-th curve along u or v names its file and counts from 1.
 core::Failure of_files(const Session& session, core::Failure failure) {
-  const std::array fields{std::string("along_u"), std::string("along_v")};
+  constexpr std::array<std::string_view, 2> fields{"along_u", "along_v"};
   for (const std::size_t way : {0U, 1U}) {
     if (!failure.path.starts_with(fields[way])) continue;
-    const std::size_t open = failure.path.find('[');
-    const int number = open == std::string::npos ? 0 : std::atoi(failure.path.c_str() + open + 1);
+    std::string_view index = std::string_view(failure.path).substr(fields[way].size());
+    index.remove_prefix(index.starts_with('['));
+    const int number = core::take_whole<int>(index).value_or(0);
     failure.path = fmt::format("{}: curve {}", session.files()[way], number + 1);
   }
   return failure;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "keyline/core/text.h"
@@ -251,6 +252,10 @@ std::string default_text(const json& value) {
 }
 
 }  // namespace
+
+std::string joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, " "));
+}
 
 std::string option_name(std::string_view field) {
   std::string name = "--" + std::string(field);

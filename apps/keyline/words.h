@@ -14,6 +14,9 @@
 /// Options of a command line made from described fields: --must-pass 3,8 for must_pass.
 namespace keyline::app {
 
+/// The words parted by spaces.
+std::string joined(const std::vector<std::string>& words);
+
 /// "must_pass" as "--must-pass".
 std::string option_name(std::string_view field);
 

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 
 namespace keyline::exchange::detail {
@@ -150,11 +151,9 @@ Result<PointsColumns> choose_columns(const Names& names, const PointsOptions& op
 }
 
 std::string shortened(std::string_view text) {
-  std::string out;
-  for (const char c : core::whole_characters(text, 40)) {
-    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  return text.size() > 40 ? out + "..." : out;
+  constexpr std::size_t kMost = 40;
+  const std::string out = core::on_one_line(core::whole_characters(text, kMost));
+  return text.size() > kMost ? out + "..." : out;
 }
 
 bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, std::size_t column,
