@@ -34,7 +34,7 @@ std::string text(const std::vector<DxfTag>& tags, int code);
 core::Point3 point(const std::vector<DxfTag>& tags, int code);
 core::Vector3 vector(const std::vector<DxfTag>& tags, int code, core::Vector3 fallback = {});
 
-/// True for the types dxf_shape_of() knows.
+/// True for the types dxf_curve_of() knows.
 bool is_dxf_curve(std::string_view type);
 
 struct DxfCurve {

@@ -6,7 +6,7 @@
 
 namespace keyline::exchange::occt {
 
-/// The file of a document of curves that curve_of() knows, every thing a root of its own with its
+/// The file of a document whose paths are what cad_parts() gives, every thing a root with its own
 /// name, numbers with 17 digits. Throws std::runtime_error or Standard_Failure.
 std::string write_step(const document::Document& document);
 std::string write_iges(const document::Document& document);

@@ -7,7 +7,7 @@
 /// Internals: included once for each instruction set by a source compiled for it.
 namespace keyline::lac::detail {
 
-/// A decay k for decay_integral_of: 0 stands for its limit.
+/// A decay k of decay_integral() (arm.h): 0 stands for its limit.
 template <class Batch>
 struct LaneDecay {
   Batch minus_k, scale;
