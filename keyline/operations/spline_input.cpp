@@ -94,16 +94,16 @@ Result<SplineInput> of_members(const std::vector<Curve>& members, double toleran
   return joined(parts, tolerance);
 }
 
-/// Extent of coordinates and lengths of all members seen.
+/// Box of the points and lengths of all members seen.
 struct Measure {
-  double low = INFINITY;
-  double high = -INFINITY;
+  Point3 low{INFINITY, INFINITY, INFINITY};
+  Point3 high{-INFINITY, -INFINITY, -INFINITY};
   double length = 0;
 
-  void take(core::Point2 p) { take_both(p.x, p.y); }
+  void take(core::Point2 p) { take(Point3{p.x, p.y, 0}); }
   void take(Point3 p) {
-    take_both(p.x, p.y);
-    take_both(p.z, p.z);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   template <class Point>
   void operator()(const curve::Polyline<Point>& c) {
@@ -116,11 +116,9 @@ struct Measure {
     else
       for (const auto& piece : c.pieces) length += std::abs(piece.length);
   }
-
- private:
-  void take_both(double x, double y) {
-    low = std::min({low, x, y});
-    high = std::max({high, x, y});
+  double size() const {
+    const core::Vector3 box = high - low;
+    return std::max({box.x, box.y, box.z, length});
   }
 };
 
@@ -143,7 +141,7 @@ double size_of(const AnyCurve& curve) {
     for (const auto& member : space->curves) visit(member);
   else
     visit(std::get<document::SpaceCurve>(curve));
-  const double size = std::max(measure.high - measure.low, measure.length);
+  const double size = measure.size();
   return size > 0 && std::isfinite(size) ? size : 1;
 }
 

@@ -19,8 +19,8 @@ struct SplineInput {
 /// `tolerance` (> 0); a path as its members end to end.
 core::Result<SplineInput> spline_of(const AnyCurve& curve, double tolerance);
 
-/// A size to measure tolerances by: largest difference of two coordinates of its points, or the
-/// length of a log-aesthetic curve. 1 where there is none.
+/// A size to measure tolerances by, wherever the curve lies: the longest side of the box of its
+/// points, or the length of its log-aesthetic members. 1 where there is none.
 double size_of(const AnyCurve& curve);
 
 }  // namespace keyline::operations

@@ -349,6 +349,25 @@ TEST(SurfaceOperations, SweepsTakeLogAestheticQuasiAndFreeProfiles) {
   EXPECT_EQ(loft["surface"]["degree"][0], 2);
 }
 
+/// The tolerance that is found unasked is a share of the profile's size, not of its distance from
+/// the origin: moved, a surface has as many points and keeps as near to the exact one.
+TEST(SurfaceOperations, SweepsMovedFarAwayAreAsExact) {
+  const auto sweep = [](double x) {
+    return result_of(
+        {{"op", "surface.sweep"},
+         {"profile",
+          {{"type", "bezier"}, {"points", {{x + 1, 0}, {x + 2, 0.5}, {x + 1, 1.4}, {x + 2, 2}}}}},
+         {"rail",
+          {{"type", "bezier"},
+           {"points", {{x, 0, 0}, {x + 2, 0, 3}, {x + 3, 3, 3}, {x + 3, 6, 5}}}}}});
+  };
+  const json here = sweep(0);
+  const json there = sweep(1 << 17);
+  EXPECT_EQ(there["surface"]["points"].size(), here["surface"]["points"].size());
+  EXPECT_NEAR(there["deviation"].get<double>(), here["deviation"].get<double>(), 1e-8);
+  EXPECT_LE(there["deviation"].get<double>(), 1e-5 * 2);
+}
+
 TEST(SurfaceOperations, NetworksTellTheirJointsAndZebra) {
   // arches along x at y = 0, 1.5 and 3, and along y at both ends, whose middles (z = 0.45) the one
   // at y = 1.5 stands on
