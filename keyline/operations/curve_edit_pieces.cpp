@@ -44,14 +44,6 @@ Result<std::vector<PlanarCurve>> pieces_of(const Path& path, double size,
   return all;
 }
 
-bool is_straight(const Bezier2& c) {
-  const core::Vector2 chord = c.control.back() - c.control.front();
-  const double most = 1e-9 * norm(chord) * norm(chord);
-  return std::all_of(c.control.begin(), c.control.end(), [&](const core::Point2& p) {
-    return std::abs(cross(chord, p - c.control.front())) <= most;
-  });
-}
-
 PieceValue place_of(const Bezier2& c, double alpha_max) {
   classa::CavOptions options;
   options.alpha_max = alpha_max;

@@ -12,15 +12,12 @@
 /// Request and answer of the operation curve.edit_pieces, in the plane and in space.
 namespace keyline::operations {
 
-constexpr int kHighestPieceDegree = 8;  ///< as of the approximation by one Bezier
+inline constexpr int kLowestPieceDegree = 3;
+inline constexpr int kHighestPieceDegree = 8;  ///< as of the approximation by one Bezier
 
 /// Of the chord, first and last control edge of a target: at coordinates of a thousand chords
 /// rounding still leaves their direction to 2e-9, far below what a joint shows.
-constexpr double kLeastEdge = 1e-4;
-
-inline constexpr const char* kNoTarget =
-    "no Class A curve of degree 3 to 8 between its tangents, with edges of 1e-4 of the chord or "
-    "more";
+inline constexpr double kLeastEdge = 1e-4;
 
 struct PiecesRequest {
   AnyCurve curve;

@@ -7,6 +7,7 @@
 #include "keyline/core/axis.h"
 #include "keyline/operations/edit_piece.h"
 #include "keyline/operations/ends.h"
+#include "keyline/surface/net.h"
 
 namespace keyline::operations {
 namespace {
@@ -17,15 +18,14 @@ using curve::Bezier3;
 using document::SpaceCurve;
 
 /// Of all vertices and control points, the diagonal of their box.
-double size_of(const std::vector<SpaceCurve>& curves) {
-  core::Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const SpaceCurve& c : curves)
-    for (const double from : document::breakpoints(c)) {
-      const core::Point3 p = evaluate(c, from);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  return core::distance(low, high);
+double size_of(const std::vector<SpaceCurve>& pieces) {
+  surface::Net all;
+  for (const SpaceCurve& c : pieces) {
+    const auto* line = std::get_if<curve::Polyline3>(&c.value);
+    const auto& points = line ? line->points : std::get<Bezier3>(c.value).control;
+    all.points.insert(all.points.end(), points.begin(), points.end());
+  }
+  return surface::extent(all);
 }
 
 std::unexpected<core::Failure> rational() {
@@ -70,14 +70,6 @@ PieceValue value_of(const Bezier3& c, double alpha_max) {
   }
   value.monotone = verdict_of(classa::certify_monotone_curvature(c).answer);
   return value;
-}
-
-bool is_straight(const Bezier3& c) {
-  const Vector3 chord = c.control.back() - c.control.front();
-  const double most = 1e-9 * norm(chord) * norm(chord);
-  return std::all_of(c.control.begin(), c.control.end(), [&](const core::Point3& p) {
-    return norm(cross(chord, p - c.control.front())) <= most;
-  });
 }
 
 /// The Class A curve between the tangents of the piece, if there is one.

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "keyline/classa/between_tangents.h"
@@ -24,10 +27,28 @@ Bezier mixed(const Bezier& given, const Bezier& target, double amount) {
   return c;
 }
 
+/// Whether all control points lie on one straight line, to a billionth of their size.
+template <class Bezier>
+bool is_straight(const Bezier& c) {
+  const auto& start = c.control.front();
+  const auto size = [](const auto& v) {
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(v)>>)
+      return std::abs(v);
+    else
+      return norm(v);
+  };
+  const auto farthest =
+      std::ranges::max(c.control, {}, [&](const auto& p) { return core::distance(start, p); });
+  const auto line = farthest - start;
+  const double most = 1e-9 * dot(line, line);
+  return std::ranges::all_of(c.control,
+                             [&](const auto& p) { return size(cross(line, p - start)) <= most; });
+}
+
 /// Degrees of the curves that a piece may become.
 inline classa::BetweenRange range_for(int degree, double alpha_max) {
   classa::BetweenRange range;
-  range.lowest_degree = std::max(3, degree);
+  range.lowest_degree = std::max(kLowestPieceDegree, degree);
   range.highest_degree = kHighestPieceDegree;
   range.alpha_max = alpha_max;
   return range;
@@ -55,7 +76,9 @@ template <class Bezier, class Bound, class Value>
 EditedPiece take(EditedPiece shown, Bezier& c, const std::optional<Bezier>& target,
                  const PiecesRequest& request, Bound bound, Value value) {
   if (!target) {
-    shown.why = kNoTarget;
+    shown.why = "no Class A curve of degree " + std::to_string(kLowestPieceDegree) + " to " +
+                std::to_string(kHighestPieceDegree) + " between its tangents, with edges of " +
+                core::number_text(kLeastEdge, 2) + " of the chord or more";
     return shown;
   }
   Bezier moved = mixed(c, *target, request.amount);

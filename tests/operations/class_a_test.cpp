@@ -149,7 +149,7 @@ TEST(CurveCav, FreeFormCurves) {
   EXPECT_EQ(result["approximation"]["given_monotone"], "yes");
 }
 
-TEST(CurveCav, InSpace) {
+TEST(CurveCav, TakesMatricesAndCurvesInSpace) {
   const json matrix{{1.04, -0.7, -2.8}, {0.99, 4.89, -1.15}, {2.73, -0.04, 3.44}};
   const json result =
       perform_well("curve.cav", {{"matrix", matrix}, {"tangent", {-0.99, 0.09, 0.09}}});
@@ -176,7 +176,7 @@ TEST(CurveEdit, SlidesToTheMinimum) {
   EXPECT_NEAR(perform_well("curve.edit", request)["after"]["s"].get<double>(), 1.4, 1e-9);
 }
 
-TEST(CurveEdit, InSpace) {
+TEST(CurveEdit, CurvesInSpaceKeepTheirDimensionAndStart) {
   const json tilted{{"type", "bezier"}, {"points", {{0, 0, 0}, {1, 0, 1}, {2, 1, 2}, {2, 3, 2}}}};
   const json edited = perform_well("curve.edit", {{"curve", tilted}, {"end_tolerance", 0}});
   EXPECT_EQ(edited["after"]["type"], 1);
@@ -310,6 +310,20 @@ TEST(CurveEditPieces, TellsHowFarItsBeziersLieOff) {
   EXPECT_EQ(r["joints_after"]["g1"], r["curve"]["curves"].size());
   EXPECT_GE(r["departure"].get<double>(), most);
   EXPECT_LE(r["approximated"].get<double>(), 1e-3 * 6.3);  // of the length
+}
+
+/// A loop has no line to lie on.
+TEST(CurveEdit, APieceThatEndsWhereItBeginsIsKeptAndNotStraight) {
+  for (const json& loop :
+       {json{{0, 0}, {2, 0}, {0, 2}, {0, 0}}, json{{0, 0, 0}, {2, 0, 0}, {0, 2, 1}, {0, 0, 0}}}) {
+    const json r =
+        perform_well("curve.edit_pieces", {{"curve", {{"type", "bezier"}, {"points", loop}}}});
+    EXPECT_EQ(r["pieces"][0]["became"], "kept") << loop;
+    EXPECT_NE(r["pieces"][0]["before"]["type"], 1) << loop;
+  }
+  const json back{{"type", "bezier"}, {"points", {{0, 0}, {3, 3}, {-1, -1}, {0, 0}}}};
+  EXPECT_EQ(perform_well("curve.edit_pieces", {{"curve", back}})["pieces"][0]["became"],
+            "straight");
 }
 
 // Between two ends at one place lies a point: it was given for a circle.

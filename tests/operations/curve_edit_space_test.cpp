@@ -165,5 +165,16 @@ TEST(CurveEditInSpace, HalfTheWayAndLimitsAreKept) {
   EXPECT_EQ(held["joints_after"]["g1"], given.size() - 1);
 }
 
+/// Two loops from one place that go on in each other's direction, but bend to opposite sides there.
+TEST(CurveEditInSpace, JointsOfLoopsFromOnePlaceAreComparedLikeOthers) {
+  const json loops{
+      {"type", "path"},
+      {"curves",
+       {{{"type", "bezier"}, {"points", {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 0, 0}}}},
+        {{"type", "bezier"}, {"points", {{0, 0, 0}, {-1, -1, -1}, {-2, 0, 0}, {0, 0, 0}}}}}}};
+  const json joints = result_of({{"op", "curve.edit_pieces"}, {"curve", loops}})["joints_before"];
+  EXPECT_EQ(joints, (json{{"g0", 2}, {"g1", 2}, {"g2", 0}}));
+}
+
 }  // namespace
 }  // namespace keyline::operations
