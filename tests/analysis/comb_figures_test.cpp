@@ -28,7 +28,7 @@ TEST(CombFigures, OfAClothoid) {
   }
 }
 
-TEST(CombFigures, OfASine) {
+TEST(CombFigures, OfASineAreThoseOfItsFormula) {
   const CombFigures f =
       comb_figures(graph(7, [](double t) { return std::sin(6 * std::numbers::pi * t); }));
   EXPECT_EQ(f.waves, 6);

@@ -156,7 +156,7 @@ TEST(Cav, StraightCurvesAreAtTheirMinimum) {
   }
 }
 
-TEST(Cav, InSpace) {
+TEST(Cav, ATurnedPlaneCurveKeepsItsValueATwistedOneHasThePlanesMinimum) {
   const curve::Bezier2 flat = to_bezier(kOya);
   std::vector<Point3> tilted;
   for (const Point2& p : flat.control) tilted.push_back({p.x + 3, 0.6 * p.y, 0.8 * p.y});

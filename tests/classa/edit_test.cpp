@@ -143,7 +143,7 @@ TEST(Edit, FreeFormReachesItsMinimum) {
   EXPECT_EQ(edited->after.type, 1);
 }
 
-TEST(Edit, InSpace) {
+TEST(Edit, CurvesInSpaceBecomeThePlaneCurveOfLeastEnergyWithTheirEnds) {
   const auto flat = to_bezier(kOya);
   curve::Bezier3 tilted;
   for (const Point2& p : flat.control) tilted.control.push_back({p.x + 3, 0.6 * p.y, 0.8 * p.y});
@@ -212,7 +212,7 @@ TEST(Nearest, ReversingChangesNothing) {
   EXPECT_FALSE(nearest_matrix_curve(curve::Bezier2{{{0, 0}, {1, 0}, {1, 1}, {0, 0}}, {}}));
 }
 
-TEST(Nearest, InSpace) {
+TEST(Nearest, ATurnedPlaneCurveHasThePlanesATwistedOneTheSameFromEitherEnd) {
   const curve::Bezier2 flat{{{0, 0}, {1, 0}, {2.2, 0.4}, {2.5, 2}}, {}};
   curve::Bezier3 tilted;
   for (const Point2& p : flat.control) tilted.control.push_back({p.x + 3, 0.6 * p.y, 0.8 * p.y});

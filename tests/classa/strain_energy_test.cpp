@@ -27,7 +27,7 @@ curve::Jet2 jet(const Arc& c, double t) {
 }
 std::vector<double> breakpoints(const Arc&) { return {0, 1}; }
 
-TEST(StrainEnergy, Circle) {
+TEST(StrainEnergy, OfAnArcIsItsAngleOverItsRadius) {
   for (const double angle : {0.01, 1.0, 5.0})
     EXPECT_NEAR(strain_energy(Arc{2.5, angle}), angle / 2.5, 1e-14 * angle);
   // The same arc as a rational Bezier curve.
@@ -107,7 +107,7 @@ TEST(StrainEnergy, StraightPointLikeAndCusped) {
 }
 
 /// A spline is its Bezier pieces.
-TEST(StrainEnergy, Spline) {
+TEST(StrainEnergy, OfASplineIsThatOfItsBeziers) {
   const curve::BSpline2 spline{
       3, {0, 0, 0, 0, 0.4, 1, 1, 1, 1}, {{0, 0}, {1, 0}, {2, 1}, {2, 3}, {1, 4}}, {}};
   double sum = 0;

@@ -68,11 +68,13 @@ TEST(DepartureBound, SeesWhatRisesBetweenItsPlaces) {
 TEST(DepartureBound, HoldsBetweenItsPlaces) {
   std::mt19937 random(18);
   std::uniform_real_distribution<double> unit(-1, 1);
+  int drawn = 0;
   for (int n = 0; n < 40; ++n) {
     const core::Point2 corner{1 + 0.05 * unit(random), -0.5 + 0.3 * unit(random)};
     const auto a = solve_g1({0, 0}, corner, {2, 0.1}, 2 * unit(random));
     const auto b = solve_g1({0, 0}, corner, {2, 0.1}, 2 * unit(random));
     if (!a || !b) continue;
+    ++drawn;
     double most = 0;
     for (int i = 0; i <= 20011; ++i) {
       const double t = i / 20011.0;
@@ -82,6 +84,7 @@ TEST(DepartureBound, HoldsBetweenItsPlaces) {
     EXPECT_GE(bound, most);
     EXPECT_LE(bound, 1.006 * most + 1e-9);
   }
+  EXPECT_GE(drawn, 20);
 }
 
 // Nothing in the bound has a size of its own.
