@@ -18,18 +18,20 @@ static_assert(kCarried <= SeriesTable::kDegree);
 constexpr int kFineNodes = 64;
 constexpr int kFineDegree = 12;
 
-/// Chebyshev's nodes and polynomials there.
+/// Chebyshev's nodes, and the polynomials at the first half of them: at the mirrored node an even
+/// polynomial is the same and an odd one the opposite.
 template <int Nodes, int Degree>
 struct Chebyshev {
+  static_assert(Nodes % 2 == 0);
   std::array<double, Nodes> node;
-  std::array<std::array<double, Nodes>, Degree + 1> polynomial;
+  std::array<std::array<double, Nodes / 2>, Degree + 1> polynomial;
 
   static const Chebyshev& table() {
     static const Chebyshev made = [] {
       Chebyshev c;
       for (int j = 0; j < Nodes; ++j) c.node[j] = std::cos(core::kPi * (j + 0.5) / Nodes);
       for (int k = 0; k <= Degree; ++k)
-        for (int j = 0; j < Nodes; ++j)
+        for (int j = 0; j < Nodes / 2; ++j)
           c.polynomial[k][j] = std::cos(core::kPi * k * (j + 0.5) / Nodes);
       return c;
     }();
@@ -107,28 +109,40 @@ double whole(double value, int degree, int nodes) {
   return value / std::cos(degree * core::kPi / (2 * nodes));
 }
 
+/// Coefficients by Chebyshev's polynomials of the polynomial with these values at the nodes.
+template <std::size_t Nodes>
+std::array<double, Nodes> chebyshev_coefficients(const std::array<double, Nodes>& values) {
+  const auto& polynomial = Chebyshev<Nodes, Nodes - 1>::table().polynomial;
+  std::array<std::array<double, Nodes / 2>, 2> parity;  // even, odd
+  for (std::size_t j = 0; j < Nodes / 2; ++j) {
+    parity[0][j] = values[j] + values[Nodes - 1 - j];
+    parity[1][j] = values[j] - values[Nodes - 1 - j];
+  }
+  std::array<double, Nodes> coefficient;
+  for (std::size_t k = 0; k < Nodes; ++k) {
+    double sum = 0;
+    for (std::size_t j = 0; j < Nodes / 2; ++j) sum += polynomial[k][j] * parity[k % 2][j];
+    coefficient[k] = sum * (k == 0 ? 1.0 : 2.0) / Nodes;
+  }
+  return coefficient;
+}
+
 /// Bound over [-1, 1] of the polynomial with these values at the nodes: what carries it, of degree
 /// 12 at most, from many nodes; the rest by the sum of its coefficients.
 template <std::size_t Nodes>
 double polynomial_bound(const std::array<double, Nodes>& values, double negligible) {
-  const auto& coarse = Chebyshev<Nodes, Nodes - 1>::table().polynomial;
   const auto& fine = Chebyshev<kFineNodes, kFineDegree>::table().polynomial;
-  std::array<double, Nodes> coefficient;
-  for (std::size_t k = 0; k < Nodes; ++k) {
-    double sum = 0;
-    for (std::size_t j = 0; j < Nodes; ++j) sum += coarse[k][j] * values[j];
-    coefficient[k] = sum * (k == 0 ? 1.0 : 2.0) / Nodes;
-  }
+  const std::array<double, Nodes> coefficient = chebyshev_coefficients(values);
   double rest = 0;
   int degree = Nodes - 1;
   while (degree > 1 && (degree > kFineDegree || rest + std::abs(coefficient[degree]) < negligible))
     rest += std::abs(coefficient[degree--]);
-  std::array<double, kFineNodes> at;
-  at.fill(coefficient[0]);
-  for (int k = 1; k <= degree; ++k)
-    for (int j = 0; j < kFineNodes; ++j) at[j] += coefficient[k] * fine[k][j];
+  std::array<std::array<double, kFineNodes / 2>, 2> parity{};  // even, odd part at the nodes
+  for (int k = 0; k <= degree; ++k)
+    for (int j = 0; j < kFineNodes / 2; ++j) parity[k % 2][j] += coefficient[k] * fine[k][j];
   double largest = 0;
-  for (const double a : at) largest = std::max(largest, std::abs(a));
+  for (int j = 0; j < kFineNodes / 2; ++j)
+    largest = std::max(largest, std::abs(parity[0][j]) + std::abs(parity[1][j]));
   return whole(largest, degree, kFineNodes) + rest;
 }
 

@@ -22,8 +22,7 @@ void SeriesTable::cut(const UnitPiece& unit, double from, double to, double allo
   const double middle = 0.5 * (from + to);
   TaylorSeries series = taylor_series(unit, SeriesVariable::arc_length, middle, kDegree);
   const double reach = 0.5 * (to - from);
-  double remainder = quick_remainder_bound(series, reach);
-  if (!(remainder <= allowed)) remainder = remainder_bound(series, reach);
+  double remainder = remainder_bound(series, reach);
   if (!(remainder <= allowed)) {
     const double width = to - from;
     const double bend = width > 0.01

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/numeric/power_mean.h"
@@ -65,14 +66,43 @@ double majorant(const TaylorSeries& s, double x) {
   return std::abs(s.value) * std::exp(power);
 }
 
-/// Bound of the velocity on the circle |x| = r.
-double velocity_bound(const TaylorSeries& s, double r) {
+/// Logarithm of a bound of the velocity on the circle |x| = r.
+double log_velocity_bound(const TaylorSeries& s, double r) {
   const double largest = majorant(s, r);
-  if (s.variable == SeriesVariable::tangent_angle) return largest * std::exp(s.turning * r);
-  const double angle =
-      s.value == 0 ? 0.5 * largest * r
-                   : r * numeric::power_mean_integral(std::abs(s.value), largest, -s.decay, 1);
-  return std::exp(angle);
+  if (s.variable == SeriesVariable::tangent_angle) return std::log(largest) + s.turning * r;
+  return s.value == 0 ? 0.5 * largest * r
+                      : r * numeric::power_mean_integral(std::abs(s.value), largest, -s.decay, 1);
+}
+
+/// Rate by ln r of what log_velocity_bound tells, and the rate of its logarithm.
+std::pair<double, double> velocity_growth(const TaylorSeries& s, double r) {
+  if (s.value == 0) return {std::abs(s.rate) * r * r, 2};
+  const double x = std::abs(s.log_rate) * r;
+  const double q = x / (1 - s.decay * x);
+  if (s.variable == SeriesVariable::arc_length) return {r * majorant(s, r), 1 + q};
+  const double rate = q + s.turning * r;
+  return {rate, (q * (1 + s.decay * q) + s.turning * r) / rate};
+}
+
+/// ln(r / reach) of the circle whose estimate is about the least. The logarithm of the estimate is
+/// convex in ln r (as that of any largest modulus, by Hadamard's three circles): its rate, the
+/// velocity's less n - 1 + 1 / (r / reach - 1), has one zero. Newton's steps on the difference of
+/// both logarithms, which is nearly straight.
+double best_growth(const TaylorSeries& s, double reach) {
+  double low = 0;
+  double high = std::log(std::min(s.radius / reach, 1e6));
+  double growth = 0.9 * high;
+  for (int step = 0; step < 6; ++step) {
+    const double less = std::expm1(growth);
+    const auto [rate, rise] = velocity_growth(s, reach * (1 + less));
+    const double fall = s.degree + 1 / less;
+    const double off = std::log(rate / fall);
+    if (std::abs(off) < 0.3) break;
+    (off > 0 ? high : low) = growth;
+    const double next = growth - off / (rise + (1 + less) / (less * less * fall));
+    growth = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return growth;
 }
 
 }  // namespace
@@ -126,34 +156,14 @@ Vector2 sum(const TaylorSeries& s, double x) {
   return x * v;
 }
 
-double quick_remainder_bound(const TaylorSeries& s, double reach) {
-  if (!s.analytic || !(reach < s.radius)) return std::numeric_limits<double>::infinity();
-  // Far out in the circle, yet where the velocity is still of size one.
-  const double pace = std::abs(s.value) + std::sqrt(std::abs(s.rate)) + s.turning;
-  const double r = std::min(std::max(0.85 * s.radius, std::sqrt(reach * s.radius)),
-                            std::max(0.4 * s.degree / std::max(pace, 1e-3), 2 * reach));
-  if (!(r > reach) || !(r < s.radius)) return std::numeric_limits<double>::infinity();
-  const double shrink = reach / r;
-  return velocity_bound(s, r) * r * std::pow(shrink, s.degree + 1) /
-         ((s.degree + 1) * (1 - shrink));
-}
-
 double remainder_bound(const TaylorSeries& s, double reach) {
   const double never = std::numeric_limits<double>::infinity();
   if (!s.analytic || !(reach < s.radius)) return never;
   if (reach == 0) return 0;
-  const double n = s.degree;
-  double best = never;
-  double ratio = std::isinf(s.radius) ? 1e3 : std::min(s.radius / reach, 1e3);
-  ratio = std::log(ratio);
-  for (int i = 1; i <= 24; ++i) {
-    const double growth = ratio * i / (std::isinf(s.radius) ? 24.0 : 24.5);
-    const double r = reach * std::exp(growth);
-    const double bound =
-        velocity_bound(s, r) * r * std::exp(-(n + 1) * growth) / ((n + 1) * -std::expm1(-growth));
-    if (bound < best) best = bound;
-  }
-  return best;
+  const double n = s.degree + 1;
+  const double growth = best_growth(s, reach);
+  const double r = reach * std::exp(growth);
+  return std::exp(log_velocity_bound(s, r) - n * growth) * r / (n * -std::expm1(-growth));
 }
 
 }  // namespace keyline::lac::detail

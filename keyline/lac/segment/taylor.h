@@ -56,10 +56,8 @@ core::Vector2 sum(const TaylorSeries& series, double x);
 
 /// Bound of |point - sum| for |x| <= reach: Cauchy's estimate of the terms left out, with the
 /// velocity bounded on a circle of radius r < radius by its majorant (kappa with every coefficient
-/// made positive is again such a power, of the same alpha). Least over several r; infinite where
+/// made positive is again such a power, of the same alpha). Nearly the least over r; infinite where
 /// reach >= radius.
 double remainder_bound(const TaylorSeries& series, double reach);
-/// The same with one r only: sound, up to ten times larger, twenty times quicker.
-double quick_remainder_bound(const TaylorSeries& series, double reach);
 
 }  // namespace keyline::lac::detail
