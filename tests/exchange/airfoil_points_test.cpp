@@ -106,6 +106,17 @@ TEST(AirfoilPoints, SidesGoBackToTheNoseOnce) {
   EXPECT_FALSE(unfolds(few));
 }
 
+// A point in the very middle is not back in the fore half.
+TEST(AirfoilPoints, AStepToTheMiddleIsNoWayBack) {
+  std::vector<std::string> told;
+  acquire::RawCurve curve =
+      curve_of({{4, 4}, {0, 0}, {0.6, 0.1}, {0.5, 0.1}, {1, 0}, {0, 0}, {0.5, -0.1}, {1, 0}});
+  ASSERT_TRUE(unfold_lednicer(curve, told));
+  EXPECT_EQ(told.size(), 1U);
+  EXPECT_EQ(curve.points[1].x, 0.5);
+  EXPECT_EQ(curve.points[2].x, 0.6);
+}
+
 // Two elements parted by (999, 999).
 TEST(AirfoilPoints, ElementsArePartedByTheirMark) {
   std::vector<acquire::RawCurve> curves{

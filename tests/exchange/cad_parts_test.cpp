@@ -54,6 +54,25 @@ TEST(CadParts, MeetWhereOneEndsAndTheNextStarts) {
   EXPECT_TRUE(is_bulged(parts));
 }
 
+/// A cubic that arrives upwards and one that leaves in that direction, turned by so much.
+document::Path two_cubics(double turn) {
+  const auto out = [turn](double x, double y) {
+    return Point2{2 + x * std::cos(turn) - y * std::sin(turn),
+                  2 + x * std::sin(turn) + y * std::cos(turn)};
+  };
+  return {{{curve::Bezier2{{{0, 0}, {1, 0}, {2, 1}, {2, 2}}, {}}},
+           {curve::Bezier2{{{2, 2}, out(0, 1), out(1, 2), out(2, 2)}, {}}}},
+          false};
+}
+
+TEST(CadParts, GoOnAsOneSplineButForCorners) {
+  const CadParts smooth = cad_parts(two_cubics(0), kTolerance).value();
+  ASSERT_EQ(smooth.parts.size(), 1U);
+  EXPECT_EQ(std::get<curve::BSpline2>(smooth.parts[0]).control.size(), 7U);
+  EXPECT_EQ(cad_parts(two_cubics(0.9e-6), kTolerance).value().parts.size(), 1U);
+  EXPECT_EQ(cad_parts(two_cubics(1.1e-6), kTolerance).value().parts.size(), 2U);
+}
+
 TEST(ChainSpline, FollowsEveryPart) {
   CadParts parts = chain();
   parts.deviation = 1e-3;
@@ -94,6 +113,21 @@ TEST(BulgedPolyline, HasTheParts) {
   EXPECT_TRUE(closed.closed);
   EXPECT_EQ(closed.vertices.size(), line.vertices.size());
   EXPECT_EQ(closed.vertices.back().point, (Point2{6, -5}));
+}
+
+// A straight cubic is one edge, a bent one as many as its second derivative asks for: of
+// (0, 0), (1, 0), (2, 1), (3, 1) that is 6, so that n edges are within 6 / 8 / n^2. Half of the
+// tolerance is theirs, 0.031: five, for four are within 0.047.
+TEST(BulgedPolyline, HasNoMoreEdgesThanItTakes) {
+  for (const auto& [high, edges] : {std::pair{0.0, 1U}, {1.0, 5U}}) {
+    CadParts parts;
+    parts.parts.emplace_back(
+        curve::BSpline2{3, {0, 0, 0, 0, 1, 1, 1, 1}, {{0, 0}, {1, 0}, {2, high}, {3, high}}, {}});
+    const BulgedPolyline line = bulged_polyline(parts, false, 0.062);
+    ASSERT_EQ(line.vertices.size(), edges + 1);
+    EXPECT_NEAR(line.deviation, high * 6 / 8 / (edges * edges), 1e-15);
+    EXPECT_EQ(line.vertices.back().point, (Point2{3, high}));
+  }
 }
 
 }  // namespace

@@ -145,6 +145,23 @@ TEST(DxfText, NamesHaveNoSignsOfTheirOwnMeaning) {
   EXPECT_EQ(dxf_name(""), "0");
 }
 
+// DXF reference, "LTYPE": 72 is 65 always, 73 the number of a pattern's elements, 40 its length.
+TEST(DxfFrame, TypesOfLinesHaveNoPattern) {
+  const std::vector<Group> groups = groups_of(written());
+  int seen = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i].code != 0 || groups[i].value != "LTYPE") continue;
+    ++seen;
+    for (std::size_t k = i + 1; groups[k].code != 0; ++k) {
+      const bool pattern = groups[k].code == 73 || groups[k].code == 40;
+      if (pattern || groups[k].code == 72) {
+        EXPECT_EQ(std::stod(groups[k].value), pattern ? 0 : 65);
+      }
+    }
+  }
+  EXPECT_EQ(seen, 3);
+}
+
 // DXF reference, "TABLES section group codes": 5 is a record's handle (105 of a dimension style),
 // 330 its table, 100 its classes, the second its table's own, 2 its name.
 TEST(DxfFrame, RecordsOfTablesAreOfTheirClasses) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include <png.h>
 #include <tiffio.h>
@@ -326,6 +328,17 @@ TEST(ImageReader, RefusesHeaderBombsBeforeMakingRoom) {
     }
     put(png, 29, ~crc, 4, false);
     expect_bad(png);
+  }
+}
+
+TEST(ImageReader, RefusesPicturesWithoutPixels) {
+  EXPECT_TRUE(detail::new_image(3, 2, 6, 6));
+  for (const auto& [width, height] : {std::pair{3, 0}, {0, 3}, {-1, 3}, {3, -1}}) {
+    const auto image = detail::new_image(width, height, 0, 6);
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().message.find(std::to_string(width) + " x " + std::to_string(height)),
+              std::string::npos);
+    EXPECT_NE(image.error().message.find("damaged"), std::string::npos);
   }
 }
 

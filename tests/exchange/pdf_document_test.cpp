@@ -49,6 +49,13 @@ TEST(PdfDocument, IsInRealSizeWithLayersAndColours) {
   EXPECT_TRUE(written->notes.empty());
 }
 
+// Where none is given, a line is as wide as a four-hundredth of the drawing, 1 mm of 400.
+TEST(PdfDocument, LinesWithoutAWidthAreAFourHundredth) {
+  document::Document d = drawing("mm", 400);
+  d.paths[0].stroke_width = 0;
+  EXPECT_THAT(write_pdf_document(d, 1e-3).value().content, HasSubstr("1 0 0 RG 1 w\n"));
+}
+
 // The middle of what is drawn lies in the middle of the page, wherever it was drawn.
 TEST(PdfDocument, TheDrawingStandsInTheMiddleOfThePage) {
   for (const core::Point2 low : {core::Point2{0, 0}, {100, 200}, {-3000, 70}}) {

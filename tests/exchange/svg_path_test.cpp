@@ -102,6 +102,17 @@ TEST(SvgPath, LargeArcTakesTheLongWay) {
   EXPECT_EQ(long_way.back().control.back(), (Point2{1, 1}));
 }
 
+// Half a radian of the unit circle, either way round; its middle lies at a quarter.
+TEST(SvgPath, ShortArcsAreOnePiece) {
+  for (const double sense : {1.0, -1.0}) {
+    const Point2 to{std::cos(0.5), sense * std::sin(0.5)};
+    const auto arcs = detail::svg_arc({1, 0}, to, 1, 1, 0, false, sense > 0);
+    ASSERT_EQ(arcs.size(), 1U);
+    const Point2 middle{std::cos(0.25), sense * std::sin(0.25)};
+    EXPECT_LT(core::distance(evaluate(arcs[0], 0.5), middle), 1e-14);
+  }
+}
+
 TEST(SvgPath, ArcsWithSmallRadiiAreEnlarged) {
   const auto arcs = detail::svg_arc({0, 0}, {10, 0}, 1, 1, 45, false, true);
   ASSERT_EQ(arcs.size(), 2U);
