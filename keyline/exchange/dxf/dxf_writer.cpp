@@ -10,6 +10,7 @@
 #include "keyline/curve/conversion.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/cad/cad_parts.h"
+#include "keyline/exchange/cad/flat_points.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_frame.h"
 #include "keyline/exchange/dxf/dxf_units.h"
