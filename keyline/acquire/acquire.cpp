@@ -155,6 +155,10 @@ double curve_length(const Working& work, bool closed, std::size_t stride) {
 
 /// Fewer points than these cannot tell noise from bends: what windows leave is mostly shape.
 constexpr std::size_t kTelling = 16;
+constexpr double kMostOfFew = 3e-4;  // of the length: the noise of those
+
+/// Of the errors of rounding: residuals of that many show that there are such errors.
+constexpr double kRoundingShows = 0.25;
 
 /// Waves of so many strides are the longest that count as noise.
 constexpr double kStridesPerWave = 10;
@@ -182,14 +186,17 @@ void note_texture(const Working& work, const Texture& texture, KeyLine& line) {
                               "; \"detail\" sets that length");
 }
 
-/// Noise from the residuals, at least that of the rounding where the rounding is fine enough to be
-/// one: integers may also be exact coordinates of a small figure.
+/// Noise from the residuals, at least that of the rounding where there is one. Integers may also be
+/// exact coordinates of a small figure, but those do not leave residuals of that order. Those of
+/// rounding are less than its errors, for along an outline's flat parts these are alike.
 double noise_of(const Working& work, bool closed, const Texture& texture, double rounding) {
-  const double most = 3e-4 * core::polygon_length(work.points, closed);
-  const double estimate =
-      work.points.size() < kTelling ? std::min(texture.noise, most) : texture.noise;
+  const double most = kMostOfFew * core::polygon_length(work.points, closed);
+  const bool telling = work.points.size() >= kTelling;
+  const double estimate = telling ? texture.noise : std::min(texture.noise, most);
   if (work.points.size() < 8) return estimate;
-  return std::max(estimate, std::min(rounding / std::sqrt(12.0), most));
+  const double of_rounding = rounding / std::sqrt(12.0);
+  const bool shows = telling && texture.noise >= kRoundingShows * of_rounding;
+  return std::max(estimate, shows ? of_rounding : std::min(of_rounding, most));
 }
 
 /// The different points in the curve's plane, in their order.

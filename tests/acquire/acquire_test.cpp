@@ -298,6 +298,22 @@ TEST(AcquireKeyLine, EvenGridIsNoRounding) {
   EXPECT_EQ(estimate_rounding(raw), 0.001);
 }
 
+/// Where an outline is flat, whole pixels leave no residuals for many points; their errors are
+/// there all the same. Exact whole numbers leave none anywhere.
+TEST(AcquireKeyLine, WholePixelsErrByTheirRoundingHoweverSmallTheOutline) {
+  RawCurve raw;
+  for (int x = -120; x <= 120; ++x)
+    raw.points.push_back({double(x), std::round(60 * std::sqrt(1 - x * x / 14641.0)), 0});
+  const auto outline = acquire_key_line(raw, {});
+  ASSERT_TRUE(outline);
+  EXPECT_GE(outline->noise, 1 / std::sqrt(12.0));
+  raw.points.clear();
+  for (int x = -20; x <= 20; ++x) raw.points.push_back({double(x), double(x * x), 0});
+  const auto exact = acquire_key_line(raw, {});
+  ASSERT_TRUE(exact);
+  EXPECT_LE(exact->noise, 3.1e-4 * exact->length);
+}
+
 /// A parabola's points with normal errors, many times: neither too high nor too low, little
 /// scatter.
 TEST(EstimateNoise, IsUnbiased) {
