@@ -124,6 +124,9 @@ TEST(Refusals, NameTheFieldAtFault) {
             "end");
   EXPECT_EQ(path("fit.spline", {{"x", {0, 1, 2, 3, 4, 5}}, {"y", {0, 1}}}), "y");
   EXPECT_EQ(path("lac.region", {{"theta", 1}, {"alpha", 1e300}}), "alpha");
+  // Squares of distances would be no numbers any more.
+  const json far{{"type", "bezier"}, {"points", {zeros, {1, 0}, {2, 1e101}}}};
+  EXPECT_EQ(path("curve.analyze", {{"curve", far}}), "curve.points[2][1]");
 }
 
 }  // namespace
