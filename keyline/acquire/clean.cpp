@@ -31,9 +31,7 @@ core::Result<void> check_input(const RawCurve& raw) {
   }
   for (std::size_t i = 0; i < raw.points.size(); ++i) {
     if (core::is_too_large(raw.points[i])) {
-      return core::fail(ErrorCode::bad_input, "a coordinate is larger than 1e100",
-                        "check the unit, or divide all coordinates by a common factor",
-                        place_of(raw, i));
+      return core::coordinate_too_large(place_of(raw, i));
     }
     if (i < raw.weights.size() && (raw.weights[i] < 0 || std::isinf(raw.weights[i]))) {
       return core::fail(ErrorCode::bad_input, "a weight is negative or infinite",

@@ -114,9 +114,7 @@ Result<void> read_coordinates(const json& j, const Place& place, std::span<doubl
   for (std::size_t i = 0; i < j.size(); ++i) {
     const auto number = finite(j[i], Place{&place, {}, i});
     if (!number) return std::unexpected(number.error());
-    if (core::is_too_large(*number))
-      return wrong(Place{&place, {}, i}, "a coordinate is larger than 1e100",
-                   "check the unit, or divide all coordinates by a common factor");
+    if (core::is_too_large(*number)) return core::coordinate_too_large(Place{&place, {}, i}.text());
     if (i >= count) {
       if (*number != 0)
         return core::fail(ErrorCode::unsupported, "a point in space where a planar one is wanted",

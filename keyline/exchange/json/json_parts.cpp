@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "keyline/core/coordinate.h"
+
 namespace keyline::exchange::detail {
 
 using core::ErrorCode;
@@ -68,6 +70,7 @@ Result<std::array<double, 3>> coordinates_of(const json& j, const std::string& w
   for (std::size_t i = 0; i < j.size(); ++i) {
     const auto n = number_from_json(j[i], in(where, i));
     if (!n) return std::unexpected(n.error());
+    if (core::is_too_large(*n)) return core::coordinate_too_large(in(where, i));
     c[i] = *n;
   }
   return c;
