@@ -1,11 +1,10 @@
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "own_numerics.h"
+#include "random_values.h"
 
 /// Blends between curves drawn at random, as random_requests_test.cpp does for other operations.
 namespace keyline::operations {
@@ -13,10 +12,11 @@ namespace {
 
 using nlohmann::json;
 using own::answered;
+using own::any_slope;
+using own::Random;
 using own::requests;
 using own::uniform;
 using own::wrapped;
-using Random = std::mt19937_64;
 
 TEST(RandomRequests, BlendsLeaveAndJoinTheirCurves) {
   Random random(own::seed(6));
@@ -35,7 +35,7 @@ TEST(RandomRequests, BlendsLeaveAndJoinTheirCurves) {
     const json request{{"op", "lac.blend"},
                        {"curves", {curve(), curve()}},
                        {"order", orders[n % 3]},
-                       {"alpha", random() % 2 == 0 ? -1 : uniform(random, -4, 4)}};
+                       {"alpha", random() % 2 == 0 ? -1 : any_slope(random)}};
     SCOPED_TRACE(request.dump());
     const json answer = answered(request);
     if (answer["ok"] == false) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "own_curves.h"
+#include "random_values.h"
 #include "worst.h"
 
 /// Requests drawn at random, answers judged by numerics of the tests' own. 2,000 requests in all;
@@ -15,32 +16,16 @@ namespace {
 
 using nlohmann::json;
 using own::answered;
+using own::any_slope;
+using own::power_of_ten;
+using own::Random;
 using own::requests;
+using own::sign;
 using own::uniform;
 using own::Worst;
 using own::wrapped;
-using Random = std::mt19937_64;
 
 constexpr double kPi = std::numbers::pi;
-
-double sign(Random& random) { return random() % 2 == 0 ? 1 : -1; }
-double power_of_ten(Random& random, double low, double high) {
-  return std::pow(10, uniform(random, low, high));
-}
-
-/// Any slope, whole ones and those next to 0 and 1 often.
-double any_slope(Random& random) {
-  switch (random() % 6) {
-    case 0:
-      return static_cast<double>(random() % 5) - 2;
-    case 1:
-      return sign(random) * power_of_ten(random, -8, 0);
-    case 2:
-      return 1 + sign(random) * power_of_ten(random, -8, 0);
-    default:
-      return uniform(random, -4, 4);
-  }
-}
 
 /// Handles turning by theta with the chord at psi from the first tangent, anywhere, of any size.
 struct Handles {

@@ -19,6 +19,20 @@ inline double power_of_ten(Random& random, double low, double high) {
   return std::pow(10, uniform(random, low, high));
 }
 
+/// Any slope, whole ones and those next to 0 and 1 often.
+inline double any_slope(Random& random) {
+  switch (random() % 6) {
+    case 0:
+      return static_cast<double>(random() % 5) - 2;
+    case 1:
+      return sign(random) * power_of_ten(random, -8, 0);
+    case 2:
+      return 1 + sign(random) * power_of_ten(random, -8, 0);
+    default:
+      return uniform(random, -4, 4);
+  }
+}
+
 /// A place, an attitude and a size: what of a curve must not matter.
 struct Frame2 {
   double x = 0, y = 0, angle = 0, size = 1;
