@@ -7,6 +7,7 @@
 
 #include "keyline/classa/farin.h"
 #include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 
 namespace keyline::classa {
 namespace {
@@ -83,8 +84,7 @@ Vector3 sum(const std::vector<Vector3>& edges) {
 class Search {
  public:
   Search(const Frame& f, int degree) : f_(f), degree_(degree) {
-    const Vector3 other = std::abs(f.chord.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-    p_ = unit(cross(f.chord, other));
+    p_ = core::any_normal(f.chord);
     q_ = cross(f.chord, p_);
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/axis.h"
+
 namespace keyline::classa::detail {
 namespace {
 
@@ -22,10 +24,7 @@ bool shrinks(const std::vector<Point3>& control) {
 /// Of length 1, at right angles to the unit vector x; towards v where that leaves x.
 Vector3 beside(Vector3 x, Vector3 v) {
   Vector3 across = v - dot(v, x) * x;
-  if (!(norm(across) > 1e-12 * norm(v))) {
-    const Vector3 axis = std::abs(x.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-    across = axis - dot(axis, x) * x;
-  }
+  if (!(norm(across) > 1e-12 * norm(v))) across = cross(core::any_normal(x), x);
   return across / norm(across);
 }
 

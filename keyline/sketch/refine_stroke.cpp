@@ -242,7 +242,10 @@ std::optional<double> Refiner::ink_ahead(Point2 from, Vector2 out, double near,
   double darkest = darkness(from);
   double at = 0;
   for (double s = kStep; s <= near; s += kStep)
-    if (const double here = darkness(from + s * out); here > darkest) darkest = here, at = s;
+    if (const double here = darkness(from + s * out); here > darkest) {
+      darkest = here;
+      at = s;
+    }
   const double most = near + width + 3;
   double last = darkest;
   while (at < most) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "keyline/numeric/halving.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/surface/class_a_together.h"
 #include "keyline/surface/departure.h"
@@ -249,14 +250,11 @@ class AsOne {
                                           double share) const {
     auto moved = blend(held, share);
     if (!options_.limit) return moved;
-    double low = 0;
-    double high = share;
     if (farthest(moved) <= *options_.limit) return moved;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (low + high);
-      (farthest(blend(held, middle)) <= *options_.limit ? low : high) = middle;
-    }
-    return blend(held, low);
+    const auto is_within = [&](double part) {
+      return farthest(blend(held, part)) <= *options_.limit;
+    };
+    return blend(held, numeric::last_that_holds(is_within, 0, share, kHalvings));
   }
 
   std::vector<BezierSurface> blend(const std::vector<BezierSurface>& held, double share) const {

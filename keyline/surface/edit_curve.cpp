@@ -5,6 +5,7 @@
 
 #include "keyline/core/axis.h"
 #include "keyline/core/text.h"
+#include "keyline/numeric/halving.h"
 
 namespace keyline::surface::detail {
 
@@ -66,14 +67,13 @@ std::optional<classa::EnergyMinimum> nearest_minimum(const CurveTask& task) {
   };
   auto best = at(1);
   if (!best) return std::nullopt;
-  double low = 0;
-  double high = 1;
-  while (high - low > 1e-7) {
-    const double middle = 0.5 * (low + high);
-    auto found = at(middle);
-    (found ? high : low) = middle;
+  const auto has_one = [&](double share) {
+    auto found = at(share);
     if (found) best = std::move(found);
-  }
+    return found.has_value();
+  };
+  constexpr int kHalvings = 24;  // to 1e-7 of the way
+  numeric::last_that_holds(has_one, 1, 0, kHalvings);
   return *best;
 }
 

@@ -86,8 +86,10 @@ std::pair<double, double> velocity_growth(const TaylorSeries& s, double r) {
 
 /// ln(r / reach) of the circle whose estimate is about the least. The logarithm of the estimate is
 /// convex in ln r (as that of any largest modulus, by Hadamard's three circles): its rate, the
-/// velocity's less n - 1 + 1 / (r / reach - 1), has one zero. Newton's steps on the difference of
-/// both logarithms, which is nearly straight.
+/// velocity's less degree + 1 / (r / reach - 1), has one zero. Newton's steps on the difference of
+/// both logarithms, which is nearly straight, from near the rim, where the zero lies for large
+/// degrees. Any circle gives a bound; where they differ by 0.3 it is some e^(degree / 20) times the
+/// least, and circles larger than a million times the reach are not needed.
 double best_growth(const TaylorSeries& s, double reach) {
   double low = 0;
   double high = std::log(std::min(s.radius / reach, 1e6));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/axis.h"
 #include "keyline/lac/segment/piece_shape.h"
 #include "keyline/numeric/power_mean.h"
 
@@ -47,8 +48,7 @@ Vector3 end_tangent(const Invariants& i) {
 ChordFrame chord_frame(Vector3 chord, Vector3 side) {
   const Vector3 x = unit(chord);
   Vector3 across = side - dot(side, x) * x;
-  if (norm(across) < 1e-14)
-    across = cross(x, std::abs(x.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0});
+  if (norm(across) < 1e-14) across = core::any_normal(x);
   const Vector3 nearly = unit(across);  // what is small has kept a share of x
   const Vector3 y = unit(nearly - dot(nearly, x) * x);
   return {x, y, cross(x, y)};
