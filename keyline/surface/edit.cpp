@@ -80,12 +80,15 @@ BezierSurface blend(const BezierSurface& s, const BezierSurface& whole, double a
   return between;
 }
 
+/// SAV that differs by less is the same.
+constexpr double kSameSav = 1e-6;
+
 /// Less SAV wins, the nearer one of (nearly) equals.
 const Candidate* best_of(const std::vector<Candidate>& all, std::optional<double> limit) {
   const Candidate* best = nullptr;
   for (const Candidate& c : all) {
     if (limit && c.tradeoff.departure > *limit) continue;
-    const bool better = !best || c.tradeoff.sav < best->tradeoff.sav - 1e-6;
+    const bool better = !best || c.tradeoff.sav < best->tradeoff.sav - kSameSav;
     if (better) best = &c;  // candidates come by growing departure
   }
   return best;
@@ -204,6 +207,24 @@ Result<void> slide(const BezierSurface& s, const Candidate& target, const detail
   return {};
 }
 
+/// Towards the nearest target on the way to which, as far as the limit allows, SAV does not rise;
+/// `result` as it is where there is none. One that has to be left goes the way to the first.
+Result<EditResult> go_part_of_the_way(const BezierSurface& s, const std::vector<Candidate>& all,
+                                      const detail::EditTask& task, bool given_will_do,
+                                      EditResult result) {
+  for (const Candidate& c : all) {
+    EditResult part = result;
+    if (auto done = slide(s, c, task, part); !done) return std::unexpected(done.error());
+    const double rise = part.after.sav - part.before.sav;
+    if (!given_will_do || rise <= kSameSav) return part;
+    result.missed.push_back({c.tradeoff.name, "the patch",
+                             "SAV would rise by " + core::number_text(rise, 4) +
+                                 " on the part of the way that the limit allows"});
+  }
+  result.amount = 0;
+  return result;
+}
+
 BezierSurface moved_by(BezierSurface s, core::Vector3 by) {
   for (core::Point3& p : s.net.points) p = p + by;
   return s;
@@ -224,7 +245,8 @@ Result<EditResult> edit_here(const BezierSurface& s, const EditOptions& options)
   if (all.empty() && (options.conditions.empty() || !given_will_do))
     return nothing_found(result, !options.conditions.empty());
   const Candidate* best = best_of(all, options.limit);
-  if (!best && !all.empty() && options.part_of_the_way) best = &all.front();
+  if (!best && !all.empty() && options.part_of_the_way)
+    return go_part_of_the_way(s, all, task, given_will_do, std::move(result));
   if (!best && !given_will_do)
     return fail(ErrorCode::undrawable, "no net that meets the conditions lies within the limit",
                 "allow a departure of " + core::number_text(all.front().tradeoff.departure, 4),

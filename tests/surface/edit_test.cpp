@@ -1,5 +1,7 @@
 #include "keyline/surface/edit.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -209,6 +211,31 @@ TEST(SurfaceEdit, LimitBelowEveryTargetGoesAsFarAsItMay) {
   EXPECT_LE(r.departure, 0.5);
   EXPECT_GT(r.departure, 0.49);
   EXPECT_LT(r.amount, 1);
+}
+
+// All its curves have one matrix (SAV 42.9): part of the way to their minima some have several, at
+// 51 a curve ([Oya] Tab. 2).
+TEST(SurfaceEdit, NoPartOfTheWayRaisesSav) {
+  const double x[] = {0, 1, 2.156, 3.48};
+  const double y[] = {0, 1, 2.206};
+  BezierSurface s{{4, 3, {}}, {}};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 3; ++j)
+      s.net.points.push_back(
+          {x[i], y[j], std::array{0.0, 0.0, 0.112, 0.3712}[i] + std::array{0.0, 0.0, 0.433}[j]});
+  for (const double limit : {0.001, 0.005, 0.02}) {
+    SCOPED_TRACE(limit);
+    EditOptions options;
+    options.keep = Keep::joints;
+    options.limit = limit;
+    const EditResult r = edited(s, options);
+    ASSERT_FALSE(r.tradeoff.empty());
+    EXPECT_GT(r.tradeoff.front().departure, limit);
+    EXPECT_LE(r.after.sav, r.before.sav + 1e-6);
+    EXPECT_EQ(r.amount == 0, r.surface == s);
+    const auto says = [](const MissedTarget& m) { return m.why.starts_with("SAV would rise by "); };
+    EXPECT_TRUE(std::any_of(r.missed.begin(), r.missed.end(), says));
+  }
 }
 
 // A parallelogram cannot be bettered: whatever leaves it as it is, is one choice.
