@@ -15,7 +15,6 @@ namespace keyline::classa {
 using core::ErrorCode;
 using core::fail;
 using core::Point2;
-using core::Vector2;
 
 namespace {
 
@@ -37,17 +36,10 @@ bool all_coincide(const Points& points) {
                      [&](const auto& p) { return distance(p, points.front()) == 0; });
 }
 
-/// First edge that is one: the direction in which the curve leaves.
-Vector2 start_tangent(std::span<const Point2> control) {
-  for (const Point2& p : control)
-    if (distance(p, control.front()) > 0) return p - control.front();
-  return {};
-}
-
 EnergyConditions conditions_of(std::span<const Point2> control, const MatrixReading& reading,
                                const CavOptions& o) {
   EnergyConditions c;
-  c.tangent = start_tangent(control);
+  c.tangent = leaving_edge(control);
   c.chord = control.back() - control.front();
   c.degree = std::max<int>(static_cast<int>(control.size()) - 1, 2);
   c.end_tolerance = o.end_tolerance.value_or(0.01 * norm(c.chord));

@@ -124,14 +124,35 @@ double scale_at_end_angle(double alpha, double angle, int degree, const core::In
   return rising_root(across.data(), degree, s.low, s.high);
 }
 
+namespace {
+
+/// Length below which an edge counts as none.
+template <class Point>
+double least_edge(std::span<const Point> control) {
+  double longest = 0;
+  for (std::size_t i = 0; i + 1 < control.size(); ++i)
+    longest = std::max(longest, distance(control[i], control[i + 1]));
+  return kLeastEdge * longest;
+}
+
+template <class Point>
+core::Displacement<Point> edge_at_start(std::span<const Point> control) {
+  const double least = least_edge(control);
+  const auto next = std::find_if(control.begin(), control.end(), [&](const Point& p) {
+    return distance(p, control.front()) > least;
+  });
+  return *next - control.front();
+}
+
+}  // namespace
+
+Vector2 leaving_edge(std::span<const Point2> control) { return edge_at_start(control); }
+core::Vector3 leaving_edge(std::span<const core::Point3> control) { return edge_at_start(control); }
+
 std::vector<std::optional<ControlMatrix>> ratios(std::span<const Point2> control) {
   std::vector<Vector2> edges;
-  double longest = 0;
-  for (std::size_t i = 0; i + 1 < control.size(); ++i) {
-    edges.push_back(control[i + 1] - control[i]);
-    longest = std::max(longest, norm(edges.back()));
-  }
-  const double least = 1e-12 * longest;
+  for (std::size_t i = 0; i + 1 < control.size(); ++i) edges.push_back(control[i + 1] - control[i]);
+  const double least = least_edge(control);
   std::vector<std::optional<ControlMatrix>> r;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const double before = norm(edges[i]);

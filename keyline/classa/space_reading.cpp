@@ -36,9 +36,7 @@ SpaceReading read_in_space(std::vector<Point3> control, const CavOptions& option
   r.reversed = options.direction == Direction::growing && shrinks(r.control);
   if (r.reversed) std::reverse(r.control.begin(), r.control.end());
   const Point3 start = r.control.front();
-  const auto next = std::find_if(r.control.begin(), r.control.end(),
-                                 [&](Point3 p) { return distance(p, start) > 0; });
-  const Vector3 tangent = *next - start;
+  const Vector3 tangent = leaving_edge(r.control);
   const Vector3 chord = r.control.back() - start;
   r.x = tangent / norm(tangent);
   r.y = beside(r.x, chord);
