@@ -348,7 +348,7 @@ TEST(RandomRequests, QuasiCurvesMeetHandlesAndBoundAndBestIsBest) {
       EXPECT_LT(std::abs(wrapped(last.direction(0) - h.direction(1))), 1e-7);
     }
   }
-  EXPECT_GE(drawn, 3 * requests(0.0015));  // of six forms
+  EXPECT_GE(drawn, requests(0.0015));  // of six forms; the random refusals tell which have none
 }
 
 }  // namespace
