@@ -12,8 +12,8 @@ namespace {
 
 TEST(ScapReader, ReadsCanvasPenAndStrokes) {
   const auto found = read_scap(
-      "#800 600\n@2.5\n{\n\t#7 3\n\t@9\n\t1 2\r\n\t1 2\n\t3 4 0.5\n}\n{\n}\n{\n#8 3\n5 6\n}\n# a "
-      "note\n");
+      "#800 600\n@2.5\n{\n\t#7 3\n\t@9\n\t1 2 0\r\n\t1 2 0\n\t3 4 0.5\n}\n{\n}\n{\n#8 3\n5 6 1\n}\n"
+      "# a note\n");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->width, 800);
   EXPECT_EQ(found->height, 600);
@@ -39,6 +39,10 @@ TEST(ScapReader, OtherLinesAreNamed) {
   EXPECT_EQ(place("@x\n"), "line 1");
   EXPECT_EQ(place("{\n1 1e9\n}\n"), "line 2");
   EXPECT_EQ(place("{\n1 9e8\n}\n"), "read");
+  EXPECT_EQ(place("{\n1 2 0.5\n3 0.5\n}\n"), "line 3");  // a lost number, no y of 0.5
+  EXPECT_EQ(place("{\n1 2 0.5\n}\n{\n3 4\n}\n"), "line 5");
+  EXPECT_EQ(place("{\n1 2 x\n}\n"), "line 2");
+  EXPECT_EQ(place("{\n1 2\n}\n{\n3 4\n"), "line 5");  // cut off
   EXPECT_EQ(place(""), "");
   EXPECT_EQ(place("{\n}\n"), "");
 }

@@ -41,6 +41,9 @@ class Reader {
                           "strokes are { #id group, x y … }", "line " + std::to_string(line_));
       text.remove_prefix(std::min(end + 1, text.size()));
     }
+    if (inside_)
+      return core::fail(core::ErrorCode::bad_input, "the file ends within a stroke",
+                        "check that it is complete", "line " + std::to_string(line_));
     std::erase_if(drawing_.strokes, [](const ScapStroke& s) { return s.points.empty(); });
     if (drawing_.strokes.empty())
       return core::fail(core::ErrorCode::bad_input, "holds no stroke", "give a .scap drawing");
@@ -72,7 +75,7 @@ class Reader {
     if (words.size() < 2 || !parse(words[0].substr(head ? 1 : 0), a) || !parse(words[1], b))
       return false;
     if (!head) {
-      if (!inside_) return false;
+      if (!inside_ || !is_row(words)) return false;
       auto& points = drawing_.strokes.back().points;
       if (points.empty() || points.back() != core::Point2{a, b}) points.push_back({a, b});
     } else if (inside_) {
@@ -85,7 +88,16 @@ class Reader {
     return true;
   }
 
+  /// Whether these are numbers, as many as in the first row: x, y and what else was recorded.
+  bool is_row(const std::vector<std::string_view>& words) {
+    if (columns_ == 0) columns_ = words.size();
+    double number = 0;
+    return words.size() == columns_ &&
+           std::ranges::all_of(words, [&](std::string_view w) { return parse(w, number); });
+  }
+
   ScapDrawing drawing_;
+  std::size_t columns_ = 0;
   int line_ = 0;
   bool inside_ = false;
 };
