@@ -127,6 +127,12 @@ TEST(LineReader, ForeignFormatsAreNamed) {
     EXPECT_EQ(failure(std::string(word) + "\n3 1 0\n0 0 0\n"), mesh) << word;
   for (const char* title : {"CUTOFF\n", "OFF", "OFF-ROAD\n", "PK\n", "% PDF\n", "AC1027\n"})
     EXPECT_EQ(failure(title), "") << title;
+  for (const char* word : {"VECT", "4VECT # of one", "SKEL\t", "QUAD", "CQUAD", "CNMESH 3 2",
+                           "ZMESH", "BEZ333", "CBEZ32", "BBP", "AC3Db", "*3DSMAX_ASCIIEXPORT\t200",
+                           "HIERARCHY", "ncols 4", "**ABCDEFGHIJKLMNOPQRSTUVWXYZabcdef"})
+    EXPECT_TRUE(failure(std::string(word) + "\n1 2 3\n").starts_with("this is ")) << word;
+  for (const char* title : {"VECT 12 %\n", "SQUADRON\n", "MESH of the hull\n", "AQUAD\n"})
+    EXPECT_EQ(failure(title), "") << title;
   EXPECT_EQ(failure("PK\3\4\x14"),
             "this is a zip archive; unpack it; of a FreeCAD document export STEP, of a "
             "spreadsheet CSV");

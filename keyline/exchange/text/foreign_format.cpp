@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "keyline/exchange/text/ascii.h"
+
 namespace keyline::exchange::detail {
 namespace {
 
@@ -27,13 +29,49 @@ constexpr auto kFormats = std::to_array<ForeignFormat>({
     {"# .PCD", "this is a PCD cloud", "save it as .ply or .xyz"},
     {"$MeshFormat", "this is a mesh of Gmsh", kMesh},
     {"#VRML", "this is a VRML scene", kMesh},
+    {"AC3D", "this is a mesh of AC3D", kMesh},
+    {"*3DSMAX_ASCIIEXPORT", "this is a scene of 3ds Max", kMesh},
+    {"HIERARCHY", "this is recorded motion (BVH)", "write the places wanted as .csv"},
+    {"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "this is a Parasolid file", kSolid},
+    {"ncols ", "this is a grid of heights", "write it with x, y and height on each line"},
 });
 
-/// The first word of Geomview's OFF, with what its vertices have in front: "OFF", "STCN4nOFF".
-bool is_off(std::string_view head) {
-  const std::string_view word = head.substr(0, head.find_first_of(" \t\r\n"));
-  return word.ends_with("OFF") && word.size() < head.size() &&
-         word.find_first_not_of("STCN4n") == word.size() - 3;
+constexpr const char* kPoints = "write its points as .csv, or its curves as .dxf or .svg";
+
+constexpr auto kGeomview = std::to_array<ForeignFormat>({
+    {"OFF", "this is a mesh in OFF", kMesh},
+    {"VECT", "this is a list of polylines of Geomview", kPoints},
+    {"SKEL", "this is a list of polylines of Geomview", kPoints},
+    {"QUAD", "this is a mesh of Geomview", kMesh},
+    {"MESH", "this is a mesh of Geomview", kMesh},
+    {"BEZ", "this is a list of patches of Geomview", kSolid},
+    {"BBP", "this is a list of patches of Geomview", kSolid},
+});
+
+/// Whether the word is the name, with what vertices have in front ("STCN4nOFF") and, of patches,
+/// the degrees behind ("BEZ333").
+bool is_geomview(std::string_view word, std::string_view name) {
+  if (name == "BEZ") {
+    const std::size_t degrees = word.find_last_not_of("0123456789") + 1;
+    if (degrees == word.size()) return false;
+    word = word.substr(0, degrees);
+  }
+  return word.ends_with(name) && word.find_first_not_of("STCNZ4n") >= word.size() - name.size();
+}
+
+/// Of a file that begins with one of Geomview's words, numbers or nothing behind it in its line: as
+/// a title has words.
+const ForeignFormat* geomview_format(std::string_view head) {
+  const std::size_t end = head.find_first_of("\r\n");
+  const std::string_view line = head.substr(0, std::min(end, head.find('#')));
+  const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+  const std::string_view behind = trimmed(line.substr(word.size()));
+  if (word.size() == head.size()) return nullptr;
+  if (behind != "BINARY" && behind.find_first_not_of("0123456789 \t") != behind.npos)
+    return nullptr;
+  const auto* const found = std::ranges::find_if(
+      kGeomview, [word](const ForeignFormat& f) { return is_geomview(word, f.start); });
+  return found == kGeomview.end() ? nullptr : found;
 }
 
 /// The version, as in "AC1027", and a zero.
@@ -45,9 +83,8 @@ bool is_dwg(std::string_view head) {
 }  // namespace
 
 const ForeignFormat* foreign_format(std::string_view head) {
-  static constexpr ForeignFormat kOff{"OFF", "this is a mesh in OFF", kMesh};
   static constexpr ForeignFormat kDwg{"AC10", "this is a DWG file", "save it as DXF"};
-  if (is_off(head)) return &kOff;
+  if (const auto* const format = geomview_format(head)) return format;
   if (is_dwg(head)) return &kDwg;
   const auto* const found = std::ranges::find_if(
       kFormats, [head](const ForeignFormat& f) { return head.starts_with(f.start); });
