@@ -138,6 +138,23 @@ TEST(SvgStyles, TellPaintsThatAreNoColour) {
     EXPECT_EQ(painted("", known).unknown, "") << known;
 }
 
+// A width that is none leaves that of what is around it, and is told.
+TEST(SvgStyles, TellWidthsThatAreNone) {
+  for (const char* width : {"3,5", "abc", "-2", "2q", "2.5xx", "1e400"}) {
+    const SvgPaint paint = painted("", "stroke-width='" + std::string(width) + "'");
+    EXPECT_EQ(paint.unread(), std::vector<std::string>{"the stroke-width \"" + std::string(width) +
+                                                       "\" is no length: let pass"});
+    EXPECT_EQ(paint.width, 3);
+  }
+  EXPECT_TRUE(painted("", "stroke-width='1in'").unread().empty());
+  EXPECT_EQ(painted("", "stroke-width='1in'").width, 96);
+  const auto read = read_svg(
+      "<svg xmlns='http://www.w3.org/2000/svg'><path style='stroke-width:3,5' d='M0 0L1 1'/>"
+      "<path style='stroke-width:3,5' d='M0 0L1 2'/></svg>");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->skipped.size(), 1U);
+}
+
 // What of a style is not followed: once for the sheets, once for a paint, at every clipped shape.
 TEST(SvgStyles, AreToldWhereTheyAreLetPass) {
   const auto read = read_svg(

@@ -211,14 +211,12 @@ class SvgReader {
     return false;
   }
 
-  /// Its style; what of it is not followed is told, a colour that is none known once.
+  /// Its style; what of it is not followed is told, a colour or width that is none known once.
   void take_paint(const pugi::xml_node& node, Place& place) {
     if (styles_.clips(node)) skip(line(node), describe(node) + ": is not clipped, whole here");
     place.paint = styles_.paint(node, place.paint);
-    const std::string unknown(core::whole_characters(place.paint.unknown, 40));
-    if (unknown.empty() || !unknown_colors_.insert(unknown).second) return;
-    skip(line(node),
-         describe(node) + ": the paint \"" + unknown + "\" is no plain colour: none taken");
+    for (const std::string& what : place.paint.unread())
+      if (unread_styles_.insert(what).second) skip(line(node), describe(node) + ": " + what);
   }
 
   void read_shape(const pugi::xml_node& node, const Place& place) {
@@ -363,7 +361,7 @@ class SvgReader {
   std::vector<pugi::xml_node> open_;                    ///< elements being read, outermost first
   std::map<std::string, std::pair<int, int>> ignored_;  ///< name: first line, count
   std::size_t visited_ = 0;
-  std::set<std::string> unknown_colors_;
+  std::set<std::string> unread_styles_;
   std::size_t memory_ = 0;
   std::size_t room_;  ///< for the curves
   bool full_ = false;

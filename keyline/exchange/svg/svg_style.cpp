@@ -4,6 +4,7 @@
 #include <array>
 
 #include "keyline/core/leading_number.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/svg/svg_transform.h"
 #include "keyline/exchange/text/ascii.h"
 
@@ -54,6 +55,8 @@ void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
   if (name != "stroke-width") return;
   if (const auto width = parse_svg_length(value); width && width->value >= 0)
     paint.width = in_px(*width);
+  else
+    paint.unknown_width = value;
 }
 
 /// The colour that others call the current one.
@@ -105,6 +108,18 @@ std::string without_comments(std::string_view css) {
 
 }  // namespace
 
+std::vector<std::string> SvgPaint::unread() const {
+  std::vector<std::string> all;
+  const auto tell = [&all](const char* what, std::string_view value, const char* why) {
+    if (!value.empty())
+      all.push_back(std::string(what) + " \"" + std::string(core::whole_characters(value, 40)) +
+                    "\" " + why);
+  };
+  tell("the paint", unknown, "is no plain colour: none taken");
+  tell("the stroke-width", unknown_width, "is no length: let pass");
+  return all;
+}
+
 void SvgStyles::add_sheet(std::string_view css) {
   constexpr std::size_t kMost = 10'000;
   const std::string text = without_comments(css);
@@ -148,6 +163,7 @@ std::vector<std::string_view> SvgStyles::declarations(const pugi::xml_node& node
 
 SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   paint.unknown.clear();
+  paint.unknown_width.clear();
   const auto declared = declarations(node);
   const auto each = [&](auto take) {
     for (const char* name : {"color", "stroke", "fill", "stroke-width", "stroke-opacity",

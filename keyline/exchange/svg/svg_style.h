@@ -15,9 +15,10 @@ struct SvgPaint {
   std::string fill;
   double width = 1;                 ///< of the stroke, in px of its user space
   std::string current = "#000000";  ///< what currentColor means
-  std::string unknown = {};  ///< of this element alone: what it gives as a colour and is none
-  bool stroked = false;      ///< whether something is painted along its outline
-  bool filled = true;        ///< or within it
+  std::string unknown = {};        ///< of this element alone: what it gives as a colour and is none
+  std::string unknown_width = {};  ///< likewise of the width of its stroke
+  bool stroked = false;            ///< whether something is painted along its outline
+  bool filled = true;              ///< or within it
   bool stroke_opaque = true, fill_opaque = true;  ///< not wholly transparent
   bool cut_out = false;  ///< it or what is around it, by display or opacity: for all within
   bool visible = true;   ///< which what is within may say anew
@@ -26,6 +27,9 @@ struct SvgPaint {
   bool painted() const {
     return (stroked && stroke_opaque && width > 0) || (filled && fill_opaque);
   }
+
+  /// What the element gives that is no colour or width, in words.
+  std::vector<std::string> unread() const;
 
   /// The colour of an outline: of its stroke, else of what fills it.
   const std::string& color() const { return stroke.empty() ? fill : stroke; }
