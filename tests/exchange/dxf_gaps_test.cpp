@@ -1,6 +1,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -103,6 +104,46 @@ TEST(DxfReader, FitPointsThatAreAnnouncedHaveToBeThere) {
   const Document d =
       read("0 LINE 8 0 10 1 20 2 11 3 21 4 0 SPLINE 8 0 70 8 71 3 74 3 11 0 21 0 11 5 21 1");
   EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("only 2 of its 3 fit points are there")));
+}
+
+// Every number a curve is made of, by the groups that the DXF reference gives the entity.
+TEST(DxfReader, NoUnreadableNumberIsLetPass) {
+  struct Case {
+    const char* entity;
+    std::vector<int> groups;
+  };
+  const std::vector<int> across{210, 220, 230};
+  for (const auto& [entity, groups] :
+       {Case{"0 LINE 8 0 10 1 20 2 30 0 11 3 21 4 31 0", {10, 20, 30, 11, 21, 31}},
+        {"0 CIRCLE 8 0 10 1 20 2 30 0 40 3", {10, 20, 30, 40}},
+        {"0 ARC 8 0 10 1 20 2 40 3 50 10 51 20", {10, 20, 40, 50, 51}},
+        {"0 ELLIPSE 8 0 10 1 20 2 11 3 21 0 31 0 40 0.5 41 0 42 1", {11, 21, 31, 40, 41, 42}},
+        {"0 LWPOLYLINE 8 0 90 2 70 0 38 5 10 1 20 2 42 1 10 3 20 4", {90, 70, 38, 10, 20, 42}},
+        {"0 SPLINE 8 0 70 8 71 1 72 4 73 2 40 0 40 0 40 1 40 1 10 0 20 0 30 0 10 1 20 1 30 0",
+         {70, 71, 72, 73, 40, 10, 20, 30}},
+        {"0 SPLINE 8 0 70 8 71 3 74 2 11 0 21 0 31 0 11 1 21 1 31 0", {71, 74, 11, 21, 31}}}) {
+    EXPECT_THAT(read(entity).skipped.size(), testing::Le(1U)) << entity;
+    for (const auto& codes : {groups, across})
+      for (const int code : codes) {
+        const Document d = read(std::string(entity) + ' ' + std::to_string(code) + " abc");
+        EXPECT_EQ(d.paths.size() + d.space_curves.size(), 0U) << entity << ' ' << code;
+        EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("\"abc\""))) << entity << ' ' << code;
+      }
+  }
+}
+
+// What no curve is made of is let pass, but told.
+TEST(DxfReader, UnreadableFlagsAndThicknessAreTold) {
+  const std::string line = "0 LINE 8 0 10 1 20 2 11 3 21 4 ";
+  EXPECT_THAT(read(line + "60 abc").skipped,
+              ElementsAre("the visibility of 1 entity, which is no number"));
+  EXPECT_THAT(read(line + "39 abc").skipped, ElementsAre("the thickness of 1 entity"));
+  for (const char* group : {"62", "420"})
+    EXPECT_THAT(read(line + group + " abc").skipped,
+                ElementsAre(HasSubstr("a colour that is no number")));
+  EXPECT_THAT(
+      read(line, "0 SECTION 2 TABLES 0 TABLE 2 LAYER 0 LAYER 2 0 70 abc 0 ENDTAB 0 ENDSEC").skipped,
+      ElementsAre("the visibility of 1 layer, which is no number"));
 }
 
 // A degree of 99999999999 had become 3, a flag of 1.5 a closed curve.

@@ -11,11 +11,16 @@ namespace {
 
 using Tags = std::vector<DxfTag>;
 
-/// Whether one of the groups is there and not 0.
+/// Whether one of the groups is there and not 0, which one that is no number may not be either.
 bool has(const Tags& tags, std::initializer_list<int> codes) {
   return std::ranges::any_of(tags, [&](const DxfTag& tag) {
-    return std::ranges::find(codes, tag.code) != codes.end() && number_of(tag).value_or(0) != 0;
+    return std::ranges::find(codes, tag.code) != codes.end() && number_of(tag) != 0;
   });
+}
+
+bool is_unread(const Tags& tags, int code) {
+  return std::ranges::any_of(
+      tags, [code](const DxfTag& tag) { return tag.code == code && !number_of(tag); });
 }
 
 bool is_given(const Tags& tags, int code) {
@@ -33,6 +38,7 @@ bool is_wide(const DxfEntity& entity) {
 
 void DxfBeside::take_layer(const DxfEntity& layer, const std::string& name) {
   constexpr int kFrozen = 1;
+  unread_layers_ += is_unread(layer.tags, 70);
   const bool off = integer(layer.tags, 62) < 0;
   if (off || (integer(layer.tags, 70) & kFrozen) != 0) unseen_layers_.insert(name);
 }
@@ -40,6 +46,7 @@ void DxfBeside::take_layer(const DxfEntity& layer, const std::string& name) {
 void DxfBeside::take(const DxfEntity& entity, const std::string& layer) {
   if (unseen_layers_.contains(layer)) ++unseen_[layer];
   invisible_ += integer(entity.tags, 60) == 1;
+  unread_ += is_unread(entity.tags, 60);
   thick_ += has(entity.tags, {39});
   wide_ += is_wide(entity);
   fitted_ += entity.type == "SPLINE" && !is_given(entity.tags, 10) && is_given(entity.tags, 11);
@@ -57,6 +64,11 @@ void DxfBeside::tell(std::vector<std::string>& lines) const {
   for (const auto& [layer, count] : unseen_)
     lines.push_back("nothing, but off or frozen: layer " + layer + ", " + entities(count));
   if (invisible_ > 0) lines.push_back("nothing, but not to be seen: " + entities(invisible_));
+  const auto unread = [&lines](const std::string& whose) {
+    lines.push_back("the visibility of " + whose + ", which is no number");
+  };
+  if (unread_layers_ > 0) unread(core::counted(unread_layers_, "layer"));
+  if (unread_ > 0) unread(entities(unread_));
   if (fitted_ > 0)
     lines.push_back("nothing, but a cubic through the fit points stands for " +
                     core::counted(fitted_, "spline") + " without control points");

@@ -26,6 +26,8 @@ class DxfBeside {
   std::unordered_set<std::string> unseen_layers_;
   std::map<std::string, std::size_t> unseen_;  ///< entities of each of them
   std::map<std::string, std::size_t> others_;
+  std::size_t unread_ = 0;  ///< of a visibility that is no number
+  std::size_t unread_layers_ = 0;
   std::size_t paper_ = 0;
   std::size_t invisible_ = 0;
   std::size_t fitted_ = 0;
