@@ -219,6 +219,32 @@ TEST_F(Chains, NumbersOfCadFilesAreChecked) {
   }
 }
 
+// Fields of an IGES directory are eight columns wide (IGES 5.3, 2.2.4.4). OCCT takes one it cannot
+// read for 0: a name, a level or a whole entity was lost.
+TEST_F(Chains, UnreadableFieldsOfAnIgesDirectoryAreRefused) {
+  Document d;
+  d.unit = "mm";
+  d.paths.push_back(
+      {{"a", "front", "#ff0000"}, {{{curve::Bezier2{{{0, 0}, {1, 1}}, {}}}}, false}, 0});
+  const std::string sound = format_document(d, ".iges").value().content;
+  const std::size_t first = sound.find("D0000001") - 72;
+  const std::size_t second = sound.find("D0000002") - 72;
+  const auto why = [&](std::size_t at, const std::string& field) {
+    std::string text = sound;
+    text.replace(at, 8, field);
+    std::ofstream(folder_ / "d.iges", std::ios::binary) << text;
+    const auto read = read_document(folder_ / "d.iges");
+    return read ? std::string() : read.error().path + ": " + read.error().message;
+  };
+  EXPECT_THAT(why(first + 8, "       x"), HasSubstr("\"x\" is no value"));
+  EXPECT_THAT(why(first + 32, "     3,5"), HasSubstr("\"3,5\" is no value"));
+  EXPECT_THAT(why(first + 64, "0000000x"), HasSubstr("\"0000000x\" is no value"));
+  EXPECT_THAT(why(second + 16, "     1e4"), HasSubstr("\"1e4\" is no value"));
+  EXPECT_EQ(why(first + 64, " 0 0 0 0"), "");
+  EXPECT_EQ(why(second + 40, "RESERVED"), "");
+  EXPECT_EQ(why(second + 56, "   A-1.5"), "");  // a label
+}
+
 // A decimal comma makes two coordinates of one: OCCT takes the first three, whatever they are.
 TEST_F(Chains, PointsOfAStepFileHaveThreeCoordinates) {
   Document d;

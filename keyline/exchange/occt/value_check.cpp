@@ -126,6 +126,21 @@ std::string_view bad_parameter(std::string_view text) {
   return {};
 }
 
+/// The first of a directory line's nine fields of eight columns that is no whole number (IGES 5.3,
+/// 2.2.4.4): a second line's 6th and 7th are reserved, its 8th is a label.
+std::string_view bad_directory_field(std::string_view line, bool second) {
+  constexpr std::size_t kWidth = 8;
+  constexpr std::size_t kStatus = 8;  // of the first line: pairs of digits, or blanks for zeros
+  for (std::size_t k = 0; k < 9; ++k) {
+    if (second && k >= 5 && k <= 7) continue;
+    std::string_view field = detail::trimmed(line.substr(k * kWidth, kWidth));
+    const bool status = !second && k == kStatus;
+    if (status && field.find_first_not_of("0123456789 ") == field.npos) continue;
+    if (!field.empty() && !core::parse_whole<long>(field)) return field;
+  }
+  return {};
+}
+
 /// The global section starts with its separators, "1H,,1H;,", or leaves out the usual ones, ",,".
 bool has_usual_separators(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -177,6 +192,7 @@ std::string bad_iges_value(std::string_view text) {
   std::string_view owner;
   std::size_t first = 1;
   std::size_t number = 0;
+  bool second = true;  // of the two lines of an entity's directory
   std::string found;
   const auto check = [&] {
     const std::string_view bad = bad_parameter(parameters);
@@ -188,6 +204,10 @@ std::string bad_iges_value(std::string_view text) {
     const std::string_view line = text.substr(at, end - at);
     at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
     ++number;
+    if (line.size() > 72 && line[72] == 'D') {
+      const std::string_view bad = bad_directory_field(line, second = !second);
+      if (!bad.empty()) return told(number, bad);
+    }
     if (line.size() < 73 || line[72] != 'P') continue;
     if (line.substr(kData, 8) != owner) {
       check();

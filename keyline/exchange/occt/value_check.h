@@ -13,7 +13,8 @@ std::string text_of(const std::string& file);
 /// among the parameters of the DATA sections (ISO 10303-21, 6.4); what else may be wrong is OCCT's.
 std::string bad_step_value(std::string_view text);
 
-/// The same for the parameters of an IGES file's geometry (types 100 to 199; IGES 5.3, 2.2.2).
+/// The same for an IGES file's directory and the parameters of its geometry (types 100 to 199; IGES
+/// 5.3, 2.2.2 and 2.2.4.4).
 std::string bad_iges_value(std::string_view text);
 
 /// What an IGES file lacks at its end, in words: its last line, or parameter lines that the last
