@@ -90,7 +90,8 @@ TEST(PointsSides, AreNotGuessed) {
 TEST(PointsColumns, WithoutANameAreTold) {
   EXPECT_EQ(curves_of("x,y\n0.5,1,7\n1.5,1,8\n")[0].left_out,
             std::vector<std::string>{"1 further column"});
-  for (const char* text : {"x,y\n0,5,1,25\n1,5,2,25\n", "time,value\n0,5,1,25\n1,5,2,25\n"}) {
+  for (const char* text : {"x,y\n0,5,1,25\n1,5,2,25\n", "time,value\n0,5,1,25\n1,5,2,25\n",
+                           "id,x,y\na,0,5,1,25\na,1,5,2,25\n"}) {
     std::istringstream in(text);
     const auto read = read_points(in, "data.csv");
     ASSERT_FALSE(read) << text;

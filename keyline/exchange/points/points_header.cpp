@@ -138,16 +138,21 @@ core::Result<void> PointsTable::take_units(const std::string& place) {
 
 namespace {
 
-bool line_has_no_point(const std::vector<std::string_view>& fields) {
-  return std::ranges::all_of(fields, [](auto field) { return field.find('.') == field.npos; });
+/// Whether a row below a header of so many names has two fields for each number and no fraction:
+/// what decimal commas make of it.
+bool has_decimal_commas(const std::vector<std::string_view>& fields, std::size_t named,
+                        const TableStyle& style) {
+  const auto texts = static_cast<std::size_t>(
+      std::ranges::count_if(fields, [&](auto f) { return !f.empty() && !parse_number(f, style); }));
+  return style.separator == ',' && named >= 2 && fields.size() > named &&
+         fields.size() + texts == 2 * named &&
+         std::ranges::all_of(fields, [](auto f) { return f.find('.') == f.npos; });
 }
 
-/// Twice as many whole numbers as the header has names are what decimal commas make of them.
-core::Result<void> too_wide(std::size_t named, const std::string& place) {
-  return core::fail(
-      ErrorCode::bad_input,
-      std::to_string(2 * named) + " columns below a header of " + std::to_string(named),
-      "where numbers have a decimal comma, separate columns by ; or blanks", place);
+core::Result<void> too_wide(std::size_t columns, std::size_t named, const std::string& place) {
+  return core::fail(ErrorCode::bad_input,
+                    std::to_string(columns) + " columns below a header of " + std::to_string(named),
+                    "where numbers have a decimal comma, separate columns by ; or blanks", place);
 }
 
 }  // namespace
@@ -172,8 +177,7 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
   unknown_header_ = headed == fields.size();
   most_ = std::max({width_, names_.size(), headed});
   const std::size_t named = names_.empty() ? headed : names_.size();
-  if (style_.separator == ',' && named >= 2 && width_ == 2 * named && line_has_no_point(fields))
-    return too_wide(named, place);
+  if (has_decimal_commas(fields, named, style_)) return too_wide(width_, named, place);
   const auto chosen = choose_columns(names_, options_, width_, text_id_, place);
   if (!chosen) return std::unexpected(chosen.error());
   columns_ = *chosen;
