@@ -54,6 +54,20 @@ TEST_F(Outputs, AppearTogether) {
   EXPECT_EQ(count(), 2);
 }
 
+// Locks end with the work: a server that writes all day must not run out of files.
+TEST_F(Outputs, LeaveNothingOpen) {
+  const auto open = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); };
+  put("a", "old");
+  const auto before = open();
+  for (int i = 0; i < 3; ++i) {
+    OutputFiles files;
+    ASSERT_TRUE(files.add(folder_ / "a", "new a"));
+    ASSERT_TRUE(files.add(folder_ / "b", "new b"));
+    ASSERT_TRUE(i == 0 || files.commit());
+  }
+  EXPECT_EQ(open(), before);
+}
+
 TEST_F(Outputs, NoneAppearsWhereOneCannot) {
   put("a", "old");
   fs::create_directories(folder_ / "sub");
