@@ -186,17 +186,35 @@ void note_texture(const Working& work, const Texture& texture, KeyLine& line) {
                               "; \"detail\" sets that length");
 }
 
+/// Steps that the coordinates are multiples of.
+struct Steps {
+  double decimal;
+  double common;
+};
+
+/// Whether the residuals are of the order of a rounding's errors: there are such errors then. Those
+/// of rounding are less than its errors, for along an outline's flat parts these are alike.
+bool shows(const Working& work, const Texture& texture, double rounding) {
+  return work.points.size() >= kTelling &&
+         texture.noise >= kRoundingShows * rounding / std::sqrt(12.0);
+}
+
+/// What the coordinates were rounded to. A common step may also be one of exact coordinates, and
+/// counts only where it shows.
+double rounding_of(const Working& work, const Texture& texture, const Steps& steps) {
+  return shows(work, texture, steps.common) ? std::max(steps.common, steps.decimal) : steps.decimal;
+}
+
 /// Noise from the residuals, at least that of the rounding where there is one. Integers may also be
-/// exact coordinates of a small figure, but those do not leave residuals of that order. Those of
-/// rounding are less than its errors, for along an outline's flat parts these are alike.
+/// exact coordinates of a small figure.
 double noise_of(const Working& work, bool closed, const Texture& texture, double rounding) {
   const double most = kMostOfFew * core::polygon_length(work.points, closed);
   const bool telling = work.points.size() >= kTelling;
   const double estimate = telling ? texture.noise : std::min(texture.noise, most);
   if (work.points.size() < 8) return estimate;
   const double of_rounding = rounding / std::sqrt(12.0);
-  const bool shows = telling && texture.noise >= kRoundingShows * of_rounding;
-  return std::max(estimate, shows ? of_rounding : std::min(of_rounding, most));
+  return std::max(estimate,
+                  shows(work, texture, rounding) ? of_rounding : std::min(of_rounding, most));
 }
 
 /// The different points in the curve's plane, in their order.
@@ -229,9 +247,10 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   auto found = in_order(raw, options, line);
   if (!found) return std::unexpected(found.error());
   Working& work = *found;
-  line.rounding = estimate_rounding(raw);
+  const Steps steps{estimate_rounding(raw), estimate_common_step(raw)};
   const std::size_t stride = noise_stride(work.points, false);
   const auto noise_now = [&](const Texture& texture) {
+    line.rounding = rounding_of(work, texture, steps);
     return options.noise.value_or(noise_of(work, line.closed, texture, line.rounding));
   };
   const auto texture_now = [&] {

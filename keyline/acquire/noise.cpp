@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/acquire/common_step.h"
 #include "keyline/acquire/local_fit.h"
 #include "keyline/core/leading_number.h"
 #include "keyline/core/quantile.h"
@@ -32,7 +33,8 @@ constexpr double kAlike = 1.35;             // variances up to this times the le
 // A window spans about ten strides; what is longer is shape. Ten windows make a curve.
 constexpr std::size_t kScales = 100;
 constexpr double kStays = 1.15;  // a doubling lets a rough line grow by 1.4, a bend by 4 and more
-constexpr double kAskew = 2;     // mean over median beyond which there is more than chance
+constexpr double kLastDigits = 16;  // epsilons that shifts and factors leave wrong at most
+constexpr double kAskew = 2;        // mean over median beyond which there is more than chance
 
 /// Of chi-squared variables over their degrees of freedom: the median, and the mean of the least
 /// two thirds.
@@ -136,20 +138,51 @@ double step_of(std::vector<int> places, int usual_digits) {
   return std::pow(10.0, std::min(core::quantile(std::move(places), 1, 5), 0));
 }
 
+/// Some thousands of the curve's values.
+std::vector<double> values_of(const RawCurve& raw, double core::Point3::* coordinate) {
+  std::vector<double> values;
+  const std::size_t skip = std::max<std::size_t>(1, raw.points.size() / 5000);
+  for (std::size_t i = 0; i < raw.points.size(); i += skip)
+    if (std::isfinite(raw.points[i].*coordinate)) values.push_back(raw.points[i].*coordinate);
+  return values;
+}
+
 /// Empty where the coordinate is 0 throughout and tells nothing.
-std::optional<double> step_of_coordinate(const RawCurve& raw, double core::Point3::* coordinate) {
+std::optional<double> step_of_values(std::span<const double> values) {
   std::vector<int> places;
   std::vector<int> digits;
-  const std::size_t skip = std::max<std::size_t>(1, raw.points.size() / 5000);
-  for (std::size_t i = 0; i < raw.points.size(); i += skip) {
-    const double value = raw.points[i].*coordinate;
-    if (!std::isfinite(value) || value == 0) continue;
+  for (const double value : values) {
+    if (value == 0) continue;
     const DecimalForm form = decimal_form(value);
     places.push_back(form.last_place);
     digits.push_back(form.digits);
   }
   if (places.empty()) return std::nullopt;
   return step_of(std::move(places), core::quantile(std::move(digits)));
+}
+
+/// Empty where too few values differ to tell.
+std::optional<double> common_step_of(std::span<const double> values) {
+  double size = 0;
+  for (const double value : values) size = std::max(size, std::abs(value));
+  const double last_digits = kLastDigits * std::numeric_limits<double>::epsilon() * size;
+  const auto exact = detail::common_step(values, last_digits);
+  const double decimals = step_of_values(values).value_or(0);
+  if (!exact || decimals == 0) return exact;
+  // Before their last decimal was rounded they may have been multiples of something larger.
+  return std::max(*exact, detail::common_step(values, decimals / 2).value_or(0));
+}
+
+/// The finest of the steps that x, y and z tell; 0 where none does.
+template <class StepOf>
+double finest_step(const RawCurve& raw, StepOf step_of_one) {
+  std::optional<double> finest;
+  for (const auto coordinate : {&core::Point3::x, &core::Point3::y, &core::Point3::z}) {
+    if (coordinate == &core::Point3::z && !raw.has_z) continue;
+    if (const auto step = step_of_one(values_of(raw, coordinate)))
+      finest = std::min(finest.value_or(*step), *step);
+  }
+  return finest.value_or(0);
 }
 
 }  // namespace
@@ -206,14 +239,8 @@ double estimate_noise(std::span<const core::Point2> points, bool closed, std::si
   return std::sqrt(sum / weight);
 }
 
-double estimate_rounding(const RawCurve& raw) {
-  std::optional<double> finest;
-  for (const auto coordinate : {&core::Point3::x, &core::Point3::y, &core::Point3::z}) {
-    if (coordinate == &core::Point3::z && !raw.has_z) continue;
-    if (const auto step = step_of_coordinate(raw, coordinate))
-      finest = std::min(finest.value_or(*step), *step);
-  }
-  return finest.value_or(0);
-}
+double estimate_rounding(const RawCurve& raw) { return finest_step(raw, step_of_values); }
+
+double estimate_common_step(const RawCurve& raw) { return finest_step(raw, common_step_of); }
 
 }  // namespace keyline::acquire

@@ -45,4 +45,9 @@ std::size_t noise_stride(std::span<const core::Point2> points, bool closed);
 /// The standard deviation of the rounding error is rounding / sqrt(12).
 double estimate_rounding(const RawCurve& raw);
 
+/// Step of any size that the coordinates are multiples of, wherever these start, as whole pixels in
+/// millimetres are: the finest of those of x, y and z (see detail::common_step); 0 where one of
+/// them has none. Exact coordinates may have one too, such as squares of multiples.
+double estimate_common_step(const RawCurve& raw);
+
 }  // namespace keyline::acquire
