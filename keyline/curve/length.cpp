@@ -1,59 +1,47 @@
 #include "keyline/curve/length.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+
+#include "keyline/numeric/quadrature.h"
 
 namespace keyline::curve {
 namespace detail {
 namespace {
 
-// Ten-point Gauss-Legendre rule on [-1, 1] (positive half).
-constexpr std::array<double, 5> kNodes{0.14887433898163121, 0.43339539412924719,
-                                       0.67940956829902441, 0.86506336668898451,
-                                       0.97390652851717172};
-constexpr std::array<double, 5> kWeights{0.29552422471475287, 0.26926671930999636,
-                                         0.21908636251598204, 0.14945134915058059,
-                                         0.066671344308688138};
+constexpr std::size_t kNodes = 10;  ///< of a panel
 constexpr int kMaxDepth = 50;
 
+/// Gauss's rule by pairs of nodes from the outside in: the same from either end.
+template <std::size_t N>
 double gauss(const SpeedView& v, double low, double high) {
   const double middle = 0.5 * (low + high);
   const double half = 0.5 * (high - low);
-  double sum = 0;
-  for (std::size_t i = 0; i < kNodes.size(); ++i)
-    sum += kWeights[i] * (v(middle - half * kNodes[i]) + v(middle + half * kNodes[i]));
-  return half * sum;
+  constexpr const auto& rule = numeric::gauss_legendre<N>;
+  double sum = N % 2 == 1 ? rule.weights[N / 2] * v(middle) : 0;
+  for (std::size_t i = 0; i < N / 2; ++i) {
+    const double off = half * (1 - 2 * rule.nodes[i]);
+    sum += rule.weights[i] * (v(middle - off) + v(middle + off));
+  }
+  return 2 * half * sum;
 }
 
-struct ShortRule {
-  double widest;  ///< of a panel
-  double middle;  ///< weight of the middle, then nodes on (0, 1] with theirs
-  std::array<std::array<double, 2>, 2> pairs;
-};
-// On a share x of a panel n points miss x (x / 4)^2n of its length where ten points meet 1e-12 on
-// the whole: a quarter is what such a series falls by from term to term. Up to a share of `widest`
-// that is below 1e-17.
-constexpr ShortRule kShortRules[]{
-    {5e-6, 2, {}},
-    {1e-3, 0, {{{0.57735026918962576, 1}}}},
-    {1e-2, 0.88888888888888889, {{{0.77459666924148338, 0.55555555555555556}}}},
-    {0.1,
-     0.56888888888888889,
-     {{{0.53846931010568309, 0.47862867049936647}, {0.90617984593866399, 0.23692688505618909}}}}};
+double panel_length(const SpeedView& v, double low, double high) {
+  return gauss<kNodes>(v, low, high);
+}
 
-/// The length of a part of a panel of that width; negative where high < low.
+/// The length of a part of a panel of that width; negative where high < low. On a share x of a
+/// panel n points miss x (x / 4)^2n of its length where ten points meet 1e-12 on the whole: a
+/// quarter is what such a series falls by from term to term. Each rule is taken up to a share where
+/// that is below 1e-17.
 double gauss_of_part(const SpeedView& v, double low, double high, double width) {
-  const double half = 0.5 * (high - low);
-  for (const ShortRule& rule : kShortRules) {
-    if (!(2 * std::abs(half) <= rule.widest * width)) continue;
-    const double middle = low + half;
-    double sum = rule.middle > 0 ? rule.middle * v(middle) : 0;
-    for (const auto& [node, weight] : rule.pairs)
-      if (weight > 0) sum += weight * (v(middle - half * node) + v(middle + half * node));
-    return half * sum;
-  }
-  return gauss(v, low, high);
+  const double part = std::abs(high - low);
+  if (part <= 5e-6 * width) return (high - low) * v(0.5 * (low + high));
+  if (part <= 1e-3 * width) return gauss<2>(v, low, high);
+  if (part <= 1e-2 * width) return gauss<3>(v, low, high);
+  if (part <= 0.1 * width) return gauss<5>(v, low, high);
+  return panel_length(v, low, high);
 }
 
 /// Calls accept(low, high, length) for panels from low to high in order; `whole` is their rule.
@@ -63,8 +51,8 @@ template <class F>
 void refine(const SpeedView& v, double low, double high, double whole, double allowed, int depth,
             int& halvings, F&& accept) {
   const double middle = 0.5 * (low + high);
-  const double left = gauss(v, low, middle);
-  const double right = gauss(v, middle, high);
+  const double left = panel_length(v, low, middle);
+  const double right = panel_length(v, middle, high);
   const double difference = std::abs(left + right - whole);
   if (!(difference > std::max(allowed, 4e-16 * whole)) || depth >= kMaxDepth || --halvings < 0 ||
       !(low < middle && middle < high)) {
@@ -89,7 +77,7 @@ void integrate(const SpeedView& v, const std::vector<double>& ends, double toler
   std::vector<double> whole;
   double total = 0;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    whole.push_back(gauss(v, ends[i], ends[i + 1]));
+    whole.push_back(panel_length(v, ends[i], ends[i + 1]));
     total += whole.back();
   }
   int halvings = 10'000 + 50 * static_cast<int>(whole.size());
@@ -103,11 +91,8 @@ void integrate(const SpeedView& v, const std::vector<double>& ends, double toler
 bool is_even(const SpeedView& v, double low, double high, double length) {
   constexpr double kRounding = 1e-14;
   const double mean = length / (high - low);
-  const double middle = 0.5 * (low + high);
-  const double half = 0.5 * (high - low);
-  const auto same = [&](double t) { return std::abs(v(t) - mean) <= kRounding * mean; };
-  return std::ranges::all_of(kNodes, [&](double node) {
-    return same(middle - half * node) && same(middle + half * node);
+  return std::ranges::all_of(numeric::gauss_legendre<kNodes>.nodes, [&](double node) {
+    return std::abs(v(low + node * (high - low)) - mean) <= kRounding * mean;
   });
 }
 
@@ -140,7 +125,7 @@ double length_at(const SpeedView& v, const ArcLengthMap& map, double t) {
   const std::size_t i = static_cast<std::size_t>(after - map.t.begin()) - 1;
   if (map.even[i])
     return std::lerp(map.s[i], map.s[i + 1], (t - map.t[i]) / (map.t[i + 1] - map.t[i]));
-  return map.s[i] + (t > map.t[i] ? gauss(v, map.t[i], t) : 0.0);
+  return map.s[i] + (t > map.t[i] ? panel_length(v, map.t[i], t) : 0.0);
 }
 
 /// Newton's method inside a panel, kept between bounds that shrink.
@@ -155,7 +140,7 @@ double invert_length(const SpeedView& v, const ArcLengthMap& map, double s) {
   double t = panel > 0 ? low + (high - low) * (s - map.s[i]) / panel : low;
   if (map.even[i]) return t;
   const double width = high - low;
-  double excess = map.s[i] + gauss(v, map.t[i], t) - s;
+  double excess = map.s[i] + panel_length(v, map.t[i], t) - s;
   for (int step = 0; step < 60 && std::abs(excess) > 2e-16 * map.s.back(); ++step) {
     (excess > 0 ? high : low) = t;
     const double rate = v(t);

@@ -6,22 +6,14 @@
 
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
+#include "keyline/numeric/quadrature.h"
 
 namespace keyline::library {
 namespace {
 
-/// Gauss's nodes and weights of order 6 on [0, 1]: their places mirror one another, so that both
-/// directions of travel see the same angles.
-struct Node {
-  double place;
-  double weight;
-};
-constexpr std::array<Node, 6> kNodes = {{{0.033765242898423987, 0.085662246189585178},
-                                         {0.16939530676686775, 0.18038078652406930},
-                                         {0.38069040695840155, 0.23395696728634552},
-                                         {0.61930959304159845, 0.23395696728634552},
-                                         {0.83060469323313225, 0.18038078652406930},
-                                         {0.96623475710157603, 0.085662246189585178}}};
+/// Gauss's nodes on [0, 1]: their places mirror one another, so that both directions of travel see
+/// the same angles.
+constexpr const auto& kRule = numeric::gauss_legendre<6>;
 
 /// The tangent angle from node to node, unwrapped, and its mean over each part by arc length.
 std::array<double, kTurningParts> mean_angles(const curve::PlanarView& curve) {
@@ -36,12 +28,12 @@ std::array<double, kTurningParts> mean_angles(const curve::PlanarView& curve) {
                           : 1;
     double sum = 0;
     double length = 0;
-    for (const Node& node : kNodes) {
-      const curve::Jet2 jet = curve.jet_at(from + node.place * (to - from));
+    for (std::size_t i = 0; i < kRule.nodes.size(); ++i) {
+      const curve::Jet2 jet = curve.jet_at(from + kRule.nodes[i] * (to - from));
       const double now = curve::tangent_angle(jet);
       if (before) turned += core::wrap_angle(now - *before);
       before = now;
-      const double share = node.weight * curve::speed(jet);
+      const double share = kRule.weights[i] * curve::speed(jet);
       sum += share * turned;
       length += share;
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/lac/space/space_stretch.h"
+#include "keyline/numeric/quadrature.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::lac::detail {
@@ -61,16 +62,16 @@ Motion moved(const Motion& m, Vector3 turn, Vector3 shift) {
 
 /// One step of Magnus' method with Gauss' two nodes.
 Motion stepped(const Laws& laws, const Motion& m, const Stretch& stretch, double from, double h) {
-  constexpr double kNode = 0.28867513459481287;  // sqrt(3) / 6
+  constexpr const auto& kPlaces = numeric::gauss_legendre<2>.nodes;
   std::array<Vector3, 2> turn;
   std::array<double, 2> speed;
   for (int i = 0; i < 2; ++i) {
-    const double s = from + h * (0.5 + (i == 0 ? -kNode : kNode));
+    const double s = from + h * kPlaces[i];
     const double t = stretch.place(s);
     speed[i] = stretch.rate(s);
     turn[i] = speed[i] * Vector3{laws.torsion(t), 0, laws.curvature(t)};
   }
-  const double bracket = h * h * kNode / 2;
+  const double bracket = h * h * (kPlaces[1] - kPlaces[0]) / 4;
   const Vector3 forward{1, 0, 0};
   return moved(m, h / 2 * (turn[0] + turn[1]) + bracket * cross(turn[0], turn[1]),
                h / 2 * (speed[0] + speed[1]) * forward +
