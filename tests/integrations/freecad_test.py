@@ -263,6 +263,19 @@ def test_zebra_ends_where_the_face_is_trimmed(document):
     assert made.Mesh.CountFacets and all(math.hypot(point.x, point.y) < 10.01 for point in made.Mesh.Points)
 
 
+def test_zebra_of_rational_faces(document):
+    """Stripes of a sphere, a cylinder, a cone and a torus lie on them, dark as often as light."""
+    for part in (Part.makeSphere(10), Part.makeCylinder(10, 20), Part.makeCone(10, 4, 20), Part.makeTorus(20, 5)):
+        given = shape(document, part)
+        largest = max(range(len(part.Faces)), key=lambda i: part.Faces[i].Area)
+        face = part.Faces[largest]
+        made = kind(document, "Zebra", (given, [f"Face{largest + 1}"]), Stripes=6.0, View=V(1, 0, 0), Grid=101)
+        share = made.Mesh.Area / face.Area / 2
+        assert 0.4 < share < 0.6, share
+        for point in made.Mesh.Points[::97]:
+            assert face.distToShape(Part.Vertex(point.Vector))[0] < 0.002 * face.BoundBox.DiagonalLength
+
+
 def test_saved_and_opened(document):
     given = sketch(document, [(0, 0), (20, 0), (30, 15)])
     kind(document, "Curve", given)

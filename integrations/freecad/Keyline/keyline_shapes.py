@@ -162,18 +162,21 @@ def face_of(given):
 
 
 def surface_of(face):
-    """The surface of a face, as a B-spline."""
+    """The surface of a face, as a B-spline; rational where cylinders and spheres are."""
     surface = face.Surface
     if not isinstance(surface, Part.BSplineSurface):
         surface = surface.toBSpline()
-    if surface.isURational() or surface.isVRational():
-        raise ValueError("the face is rational, as cylinders and spheres are: only polynomial ones are read")
-    return {
+    surface.setUNotPeriodic()
+    surface.setVNotPeriodic()
+    value = {
         "type": "bspline-surface",
         "degree": [surface.UDegree, surface.VDegree],
         "knots": [list(surface.UKnotSequence), list(surface.VKnotSequence)],
         "points": [[list(p) for p in row] for row in surface.getPoles()],
     }
+    if surface.isURational() or surface.isVRational():
+        value["weights"] = surface.getWeights()
+    return value
 
 
 def wire_of(form, plane):
