@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "keyline/core/error.h"
@@ -9,6 +10,7 @@
 #include "keyline/sketch/hand_seen.h"
 #include "keyline/sketch/lone_passes.h"
 #include "keyline/sketch/meant_line.h"
+#include "keyline/sketch/never_touching.h"
 #include "keyline/sketch/pass_evidence.h"
 #include "keyline/sketch/stroke_grid.h"
 #include "keyline/sketch/two_lines.h"
@@ -22,6 +24,9 @@ using core::Point2;
 /// Lengths of overlap: more than any evidence for two strokes that are of two lines, less than a
 /// wish.
 constexpr double kTwoLines = 1e6;
+
+/// Widths within which lines of a picture touch: there is no room for another between them.
+constexpr double kTouch = 2;
 
 /// Widths of pens that are probable: from the first to the second times the geometric mean of a
 /// drawing's size and the mean length of its strokes.
@@ -95,11 +100,16 @@ bool tell_apart(const TwoLines& lines, PassEvidence& evidence) {
 }
 
 /// Groups by the evidence, with what makes them two lines added to it until nothing does.
-void settle_groups(const PassModel& at_most, Passes& all) {
+void settle_groups(const PassModel& at_most, bool in_picture, Passes& all) {
   for (bool settled = false; !settled;) {
     settled = true;
     all.groups = group_by_evidence(all.evidence);
-    for (const TwoLines& lines : two_lines(all.sampled, all.groups, at_most))
+    auto told = two_lines(all.sampled, all.groups, at_most);
+    if (in_picture)
+      std::ranges::copy(
+          never_touching(all.sampled, all.groups, kTouch * at_most.width, at_most.angle),
+          std::back_inserter(told));
+    for (const TwoLines& lines : told)
       if (tell_apart(lines, all.evidence)) settled = false;
   }
 }
@@ -117,7 +127,7 @@ Passes passes_of(const std::vector<DrawnStroke>& strokes, const ConsolidateOptio
   all.model = reach.seen;
   all.evidence = pass_evidence(all.sampled, reach);
   wish(options.wishes, all.evidence);
-  settle_groups(at_most, all);
+  settle_groups(at_most, options.measured, all);
   return all;
 }
 

@@ -5,12 +5,14 @@
 #include <type_traits>
 #include <utility>
 
-#include "keyline/core/polygon.h"
 #include "keyline/sketch/polyline_tools.h"
+#include "keyline/sketch/stroke_grid.h"
 #include "keyline/sketch/turn_backs.h"
 
 namespace keyline::sketch {
 namespace {
+
+constexpr double kBeside = 1.5;  ///< widths: a line farther off does not explain a pass's ink
 
 /// A line of several strokes, as wide as they are on average.
 FineStroke line_of(const MeantLine& line, const std::vector<FineStroke>& strokes, double width) {
@@ -104,6 +106,25 @@ std::vector<MeantLine> lines_of_passes(std::vector<FineStroke>& strokes, Consoli
   }
 }
 
+/// Parts a stroke's points by whether they lie within `near` of a line.
+void part_by_distance(const FineStroke& line, const FineStroke& stroke, double near,
+                      Merged& merged) {
+  FineStroke none = stroke;
+  none.points.clear();
+  none.widths.clear();
+  merged.passes.push_back(none);
+  merged.far.push_back(std::move(none));
+  const std::vector<SampledStroke> sampled{sample_stroke(line.points, line.closed, near / 4)};
+  const StrokeGrid grid(sampled, near);
+  for (std::size_t i = 0; i < stroke.points.size(); ++i) {
+    bool beside = false;
+    grid.visit(stroke.points[i], near, [&](std::size_t, std::size_t) { beside = true; });
+    FineStroke& part = beside ? merged.passes.back() : merged.far.back();
+    part.points.push_back(stroke.points[i]);
+    part.widths.push_back(stroke.widths[i]);
+  }
+}
+
 }  // namespace
 
 Merged merge(std::vector<FineStroke>& strokes, double width, const ConsolidateOptions& passes,
@@ -111,21 +132,15 @@ Merged merge(std::vector<FineStroke>& strokes, double width, const ConsolidateOp
   std::vector<FineStroke> lines;
   std::vector<std::vector<std::size_t>> members;
   Merged merged;
-  double beside = 0;
-  double length = 0;
   for (const MeantLine& line : lines_of_passes(strokes, passes, wishes)) {
     merged.explained += line.explained;
     const bool alone = line.members.size() == 1;
     lines.push_back(alone ? strokes[line.members.front()] : line_of(line, strokes, width));
     members.push_back(lines.back().members);
     if (alone) continue;
-    beside += line.explained;
-    for (const std::size_t m : line.members) {
-      length += core::polygon_length(strokes[m].points, strokes[m].closed);
-      merged.passes.push_back(strokes[m]);
-    }
+    for (const std::size_t m : line.members)
+      part_by_distance(lines.back(), strokes[m], kBeside * width, merged);
   }
-  if (length > 0) merged.beside = std::min(1.0, beside / length);
   for (std::string& note : unmet_joins(wishes, members)) notes.push_back(std::move(note));
   strokes = std::move(lines);
   return merged;

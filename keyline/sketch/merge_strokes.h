@@ -13,8 +13,9 @@ constexpr double kStrokeStep = 0.7;  ///< widths between the points of drawn str
 /// What became of strokes that were drawn several times.
 struct Merged {
   double explained = 0;            ///< length of strokes beside the line they are members of
-  std::vector<FineStroke> passes;  ///< strokes whose line stands for others too
-  double beside = 1;               ///< share of these passes' length beside their line
+  std::vector<FineStroke> passes;  ///< of strokes whose line stands for others too, the points
+                                   ///< within a pen and a half of it, …
+  std::vector<FineStroke> far;     ///< … and those farther off
 };
 
 /// Strokes drawn several times become one; notes say what wishes could not be met. Where the hand

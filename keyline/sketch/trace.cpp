@@ -145,24 +145,29 @@ core::Result<Merged> merge_traced(std::vector<FineStroke>& lines, const Consolid
   return merge(lines, passes.width, passes, wishes, result.notes);
 }
 
-/// Share of all ink, the faint that was lost included, that the lines explain.
-double explained_share(Ink& found, const Tone& tone, const TraceResult& result,
-                       const Merged& merged) {
+/// What little is explained is told.
+void tell_explained(const std::string& of_what, TraceResult& result) {
+  if (result.explained < kEnoughExplained)
+    result.notes.push_back("warning: the lines explain " +
+                           std::to_string(std::lround(100 * result.explained)) + " % of the " +
+                           of_what);
+}
+
+/// Finds and tells the share of all ink, the faint that was lost included, that lines explain.
+void find_explained(Ink& found, const Tone& tone, const Merged& merged, TraceResult& result) {
   const double ink =
       static_cast<double>(count_ink(found.picture.data.data(), found.picture.data.size()));
   const auto lost = static_cast<double>(
       count_lost(found.faint, found.picture, tone, faint_line(found.width, found.specks)));
   double explained = explained_ink(found.picture, result.strokes);
-  explained += (1 - explained) * merged.beside * explained_ink(found.picture, merged.passes);
-  return explained * ink / (ink + lost);
-}
-
-/// What little is explained is told.
-void tell_explained(const char* of_what, TraceResult& result) {
-  if (result.explained < kEnoughExplained)
-    result.notes.push_back("warning: the lines explain " +
-                           std::to_string(std::lround(100 * result.explained)) + " % of the " +
-                           of_what);
+  explained += (1 - explained) * explained_ink(found.picture, merged.passes);
+  const double far = (1 - explained) * explained_ink(found.picture, merged.far);
+  const double of_all = ink / (ink + lost);
+  result.explained = explained * of_all;
+  const long far_share = std::lround(100 * far * of_all);
+  const std::string in_far =
+      std::to_string(far_share) + " % is passes farther than a pen and a half from their line";
+  tell_explained(far_share > 0 ? "ink; " + in_far : "ink", result);
 }
 
 /// How curves are fitted: they may pass grainy lines farther off.
@@ -344,10 +349,7 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
     return std::unexpected(done.error());
   if (options.progress.stop_requested()) return core::fail(core::ErrorCode::cancelled, "cancelled");
   if (result.strokes.empty()) return nothing_found();
-  if (options.edge == Edge::center) {
-    result.explained = explained_share(found, tone, result, merged);
-    tell_explained("ink", result);
-  }
+  if (options.edge == Edge::center) find_explained(found, tone, merged, result);
   warn_of_photograph(tone, found, options.edge, result);
   turn_up(result);
   return result;

@@ -69,8 +69,8 @@ struct TraceResult {
   std::optional<SheetCorners> sheet;  ///< that the photo was mapped back to
   std::vector<Stroke> strokes;        ///< longest first
   /// Share of the ink within half the line's width and a pixel of a curve, or of a pass as far as
-  /// it runs beside the line that stands for it; of drawn strokes the share of their length beside
-  /// the line they are members of. A note warns below 97 %.
+  /// it lies within a pen and a half of the line that stands for it; of drawn strokes the share of
+  /// their length beside the line they are members of. A note warns below 97 %.
   double explained = 1;
   std::vector<DrawnStroke> passes;     ///< what `members` count: drawn, or of a picture, before
                                        ///< it was consolidated

@@ -245,8 +245,9 @@ double sharpest(const MeantLine& line) {
 // One stroke ends beside the next, too far off to keep to both: a step turned by a right angle.
 TEST(Consolidate, ALineGoesOverGentlyFromStrokeToStroke) {
   const Curve arc = [](double t) { return Point2{200 * std::cos(t), 200 * std::sin(t)}; };
-  const auto lines = consolidate({drawn(arc, 0, 1.2, 1.8, 0), drawn(arc, 1, 2.4, -1.8, 1)},
-                                 {.width = 1, .measured = true, .apart = 4});
+  const auto lines =
+      consolidate({drawn(arc, 0, 1.2, 1.8, 0), drawn(arc, 1, 2.4, -1.8, 1)},
+                  {.width = 1, .measured = true, .apart = 4, .wishes = {{}, {{0, 1}}, {}}});
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_LT(sharpest(lines[0]), 0.2);
 }
