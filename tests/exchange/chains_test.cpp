@@ -243,6 +243,7 @@ TEST_F(Chains, UnreadableFieldsOfAnIgesDirectoryAreRefused) {
   EXPECT_EQ(why(first + 64, " 0 0 0 0"), "");
   EXPECT_EQ(why(second + 40, "RESERVED"), "");
   EXPECT_EQ(why(second + 56, "   A-1.5"), "");  // a label
+  EXPECT_EQ(why(second + 64, "     1.5"), "");  // and what tells it from others
 }
 
 // A decimal comma makes two coordinates of one: OCCT takes the first three, whatever they are.

@@ -127,12 +127,12 @@ std::string_view bad_parameter(std::string_view text) {
 }
 
 /// The first of a directory line's nine fields of eight columns that is no whole number (IGES 5.3,
-/// 2.2.4.4): a second line's 6th and 7th are reserved, its 8th is a label.
+/// 2.2.4.4): of a second line from its 6th on they are reserved, or a label and its subscript.
 std::string_view bad_directory_field(std::string_view line, bool second) {
   constexpr std::size_t kWidth = 8;
   constexpr std::size_t kStatus = 8;  // of the first line: pairs of digits, or blanks for zeros
   for (std::size_t k = 0; k < 9; ++k) {
-    if (second && k >= 5 && k <= 7) continue;
+    if (second && k >= 5) continue;
     std::string_view field = detail::trimmed(line.substr(k * kWidth, kWidth));
     const bool status = !second && k == kStatus;
     if (status && field.find_first_not_of("0123456789 ") == field.npos) continue;
