@@ -8,6 +8,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "keyline/core/polygon.h"
+#include "keyline/curve/bezier_ends.h"
 #include "keyline/curve/bounded.h"
 #include "keyline/curve/curvature_numerator.h"
 
@@ -342,7 +343,7 @@ MonotoneVerdict certify_monotone_curvature(const Bezier2& c, double tolerance) {
 
 MonotoneVerdict certify_monotone_curvature(const BSpline2& c, double tolerance) {
   const auto pieces = to_beziers(c);
-  const auto breaks = breakpoints(c);
+  const auto breaks = bezier_ends(c);
   double length = 0;
   for (const Bezier2& piece : pieces) {
     require_numbers(piece);
@@ -350,10 +351,13 @@ MonotoneVerdict certify_monotone_curvature(const BSpline2& c, double tolerance) 
   }
   if (!(length > 0)) return {};
   Tally tally;
+  const Bezier2* before = nullptr;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Frame frame{breaks[i], breaks[i + 1], length};
+    if (frame.low == frame.high) continue;  // its points are apart by rounding alone
     count(pieces[i], examine(pieces[i], length, tolerance), frame, tally);
-    if (i > 0) count_joint(pieces[i - 1], pieces[i], breaks[i], length, tolerance, tally);
+    if (before) count_joint(*before, pieces[i], breaks[i], length, tolerance, tally);
+    before = &pieces[i];
   }
   return tally.verdict(tolerance);
 }

@@ -6,6 +6,7 @@
 
 #include "keyline/core/interval.h"
 #include "keyline/curve/bernstein.h"
+#include "keyline/curve/bezier_ends.h"
 
 namespace keyline::curve {
 namespace {
@@ -215,7 +216,7 @@ std::vector<Stop> stops_of(const Bezier2& c) {
 }
 
 std::vector<Stop> stops_of(const BSpline2& c) {
-  const std::vector<double> breaks = breakpoints(c);
+  const std::vector<double> breaks = bezier_ends(c);
   const std::vector<Bezier2> pieces = to_beziers(c);
   std::vector<Stop> stops;
   for (std::size_t i = 0; i < pieces.size(); ++i)

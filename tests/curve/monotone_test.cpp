@@ -171,6 +171,19 @@ TEST(Monotone, SplinesPieceByPieceAndAtJoints) {
   EXPECT_EQ(v.answer, Answer::no);
   EXPECT_DOUBLE_EQ(v.witness, 0.5);
   // Quadratic spline: curvature jumps at the joint.
+  // Two knots that the parameter cannot tell apart are as one.
+  const auto two_knots = [](double last, double second) {
+    return BSpline2{3,
+                    {-1, -1, -1, -1, 0, second, 2, 2, 2, 2},
+                    {{0, 0}, {1, 0}, {2, 0.4}, {2.8, 1.2}, {3, 2}, {3 - last, 2.5}},
+                    {}};
+  };
+  for (const double last : {0.1, 2.0}) {
+    const MonotoneVerdict one = certify_monotone_curvature(two_knots(last, 0));
+    const MonotoneVerdict two = certify_monotone_curvature(two_knots(last, 1e-16));
+    EXPECT_EQ(two.answer, one.answer);
+    EXPECT_EQ(two.direction, one.direction);
+  }
   const BSpline2 jump{2, {0, 0, 0, 1, 2, 2, 2}, {{0, 0}, {1, 0}, {2, 1}, {2, 5}}, {}};
   EXPECT_EQ(certify_monotone_curvature(jump).answer, Answer::no);
 }

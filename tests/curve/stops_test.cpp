@@ -70,6 +70,14 @@ TEST(Stops, NoneWhereACurveGoesOn) {
   EXPECT_TRUE(stops_of(Bezier2{{{5, 5}, {5, 5}, {5, 5}}, {}}).empty());
 }
 
+TEST(Stops, KnotsThatTheParameterCannotTellApartAreNone) {
+  const BSpline2 c{
+      2, {-1, -1, -1, 0, 1e-16, 1, 1, 1}, {{0, 0}, {1, 0}, {2, 1}, {3, 3}, {3, 3}}, {}};
+  const auto stops = stops_of(c);
+  ASSERT_EQ(stops.size(), 1U);
+  EXPECT_EQ(stops[0].t, 1);
+}
+
 // A triple knot: the spline stops on one side of it alone.
 TEST(Stops, OfASplineMayHaveOneSide) {
   const BSpline2 c{3,
