@@ -33,7 +33,7 @@ TEST(LambdaOf, MatchesClosedForms) {
 }
 
 TEST(LambdaOf, IsTheSameAtEverySize) {
-  for (const double size : {1e-140, 1e140})
+  for (const double size : {1e-300, 1e-170, 1e-140, 1e140, 1e170})
     EXPECT_NEAR(lambda_of({-1, 3 * size, 2 / size, 0.5 / size}), 0.125, 1e-14) << size;
 }
 

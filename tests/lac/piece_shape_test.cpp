@@ -39,6 +39,8 @@ TEST(BendingEnergy, OfClothoidsIsClosed) {
   EXPECT_NEAR(bending_energy({-1, 3, -1, 2}), 3, 1e-12);
   // Nielsen's: k falls as an exponential, its square has the integral (a^2 - b^2) / (2 ln(a/b)).
   EXPECT_NEAR(bending_energy({0, 1, 3, 1}), 8 / (2 * std::log(3)), 1e-9);
+  // Half a radian of a circle whose curvature has no square: curvature times turning.
+  EXPECT_NEAR(bending_energy({-1, 0.5e-200, 1e200, 1e200}) / 0.5e200, 1, 1e-14);
 }
 
 TEST(SolveSmall, SolvesWithPivoting) {

@@ -265,8 +265,9 @@ double absolute_turning(const Piece& piece) {
 }
 
 double bending_energy(const Piece& piece) {
+  const double root = std::sqrt(piece.length);  // first: the squares alone may be too large
   const auto squared = [&](double t) {
-    const double k = curvature(piece, t);
+    const double k = root * curvature(piece, t);
     return k * k;
   };
   double low = 0;
@@ -275,7 +276,7 @@ double bending_energy(const Piece& piece) {
     sum += numeric::integrate_gauss<8>(squared, low, high);
     low = high;
   }
-  return piece.length * sum;
+  return sum;
 }
 
 }  // namespace keyline::lac::detail
