@@ -7,6 +7,7 @@
 #include <string>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/coordinate.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::classa {
@@ -42,6 +43,11 @@ core::Result<void> validate(const MatrixCurve& c) {
     return fail(ErrorCode::bad_input,
                 "the degree has to lie between 1 and " + std::to_string(curve::kMaxBezierDegree),
                 {}, "degree");
+  if (core::is_too_large(c.beta * norm(c.tangent) *
+                         std::pow(std::max(1.0, c.matrix.s), c.degree - 1)) ||
+      !std::isfinite(std::pow(c.matrix.s, c.degree)))
+    return fail(ErrorCode::bad_input, "an edge is longer than 1e100",
+                "give a smaller scale or degree", "s");
   return {};
 }
 

@@ -39,8 +39,8 @@ struct MatrixCurve {
   int degree = 3;
 };
 
-/// bad_input unless all numbers are finite, the tangent is not zero, beta > 0, s > 0, |alpha| < pi
-/// and the degree lies in 1 … 30. Paths: "tangent", "beta", "alpha", "s", "degree".
+/// bad_input unless all numbers are finite, the tangent is not zero, beta > 0, s > 0, |alpha| < pi,
+/// the degree lies in 1 … 30, edges at most 1e100 long. Paths: those names.
 core::Result<void> validate(const MatrixCurve& c);
 
 /// Its control points; `c` has to be valid.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -21,7 +22,29 @@ inline bool is_too_large(Point3 p) {
   return is_too_large(p.x) || is_too_large(p.y) || is_too_large(p.z);
 }
 
-/// The failure of such a coordinate at that place of what was given.
+/// A number that was read: 0 in place of what doubles hold with fewer digits (below 2.2e-308), as
+/// neither products nor ratios of it say anything.
+inline double with_all_digits(double number) {
+  return std::fpclassify(number) == FP_SUBNORMAL ? 0 : number;
+}
+
+/// The smallest size that is measured: products of three such lengths are not 0.
+inline constexpr double kSmallestSize = 1e-100;
+
+/// True where the points are not all one and lie within less than that of each other.
+template <class Points>
+bool is_too_small(const Points& points) {
+  double farthest = 0;
+  for (const auto& p : points) farthest = std::max(farthest, distance(p, points.front()));
+  return farthest > 0 && farthest < kSmallestSize;
+}
+
+/// The failure of points like that, and that of a coordinate that is too large,
+/// at that place of what was given.
+inline std::unexpected<Failure> size_too_small(std::string place) {
+  return fail(ErrorCode::bad_input, "the points lie within 1e-100 of each other",
+              "check the unit, or multiply all coordinates by a common factor", std::move(place));
+}
 inline std::unexpected<Failure> coordinate_too_large(std::string place) {
   return fail(ErrorCode::bad_input, "a coordinate is larger than 1e100",
               "check the unit, or divide all coordinates by a common factor", std::move(place));

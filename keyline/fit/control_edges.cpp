@@ -29,6 +29,9 @@ std::array<double, 4> bernstein3(double t) {
 
 }  // namespace
 
+/// Of the longest edge of its piece: rounding of the points takes the direction of a shorter one.
+constexpr double kLeastEdge = 1e-12;
+
 Result<std::vector<Edges>> edges_of(const PiecewiseBezier& chain) {
   std::vector<Edges> all;
   for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
@@ -37,11 +40,11 @@ Result<std::vector<Edges>> edges_of(const PiecewiseBezier& chain) {
     for (std::size_t n = 0; n < kEdges; ++n) {
       const Vector2 edge = q[n + 1] - q[n];
       edges.length[n] = core::norm(edge);
-      if (!(edges.length[n] > 0))
-        return core::fail(ErrorCode::bad_input, "a control edge has no length, so no direction",
-                          "move the two handles apart", "curve.curves[" + std::to_string(i) + "]");
       edges.direction[n] = edge / edges.length[n];
     }
+    if (!(std::ranges::min(edges.length) > kLeastEdge * std::ranges::max(edges.length)))
+      return core::fail(ErrorCode::bad_input, "a control edge has no length, so no direction",
+                        "move the two handles apart", "curve.curves[" + std::to_string(i) + "]");
     all.push_back(edges);
   }
   return all;

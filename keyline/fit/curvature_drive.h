@@ -52,7 +52,7 @@ struct CurvatureDrive {
 /// distance moved counts as well, with the least weight that keeps the curve within.
 ///
 /// Fails: bad_input for pieces of a degree other than 1 to 5 or rational ones, pieces that do not
-///        join, edges of no length, fewer than two targets, targets outside [0, 1] or not finite;
+///        join, edges of no length, fewer than two targets, targets outside [0, 1] or past 1e100;
 ///        undrawable where the end is to be held on a chain whose free edges are all parallel.
 /// Accuracy: without max_deviation, targets from a chain of the same directions are met to
 /// rounding.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/curve/jet.h"
 #include "keyline/numeric/monotone_cubic.h"
 #include "keyline/numeric/roots.h"
@@ -114,6 +115,8 @@ Result<std::vector<LocalTarget>> local_targets(std::vector<CurvatureTarget> targ
   for (const CurvatureTarget& t : targets)
     if (!(t.t >= 0 && t.t <= 1) || !std::isfinite(t.curvature))
       return bad("a target lies outside the curve");
+  for (const CurvatureTarget& t : targets)
+    if (core::is_too_large(t.curvature)) return bad("a curvature is larger than 1e100");
   std::sort(targets.begin(), targets.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   const auto same = [](const auto& a, const auto& b) { return a.t == b.t; };
   if (std::adjacent_find(targets.begin(), targets.end(), same) != targets.end())

@@ -98,6 +98,10 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
                     static_cast<double>(canonical.data.columns.size());
   found.criterion = criterion;
   found.criterion.floor /= canonical.scale * canonical.scale;
+  if (found.criterion.floor == 0 && criterion.floor > 0)
+    return core::fail(ErrorCode::bad_input,
+                      "the values lie so near each other that squares of their distances are 0",
+                      "check the unit, or multiply all of them by a common factor");
   detail::CondensedData condensed{canonical.data, 0};
   if (options.condense_above > 0 && canonical.data.parameters.size() > options.condense_above) {
     condensed = detail::condense(canonical.data, options.condense_above);
@@ -243,7 +247,7 @@ core::Result<void> check_range(core::Interval range, std::span<const double> y,
                                const std::optional<core::Interval>& wanted) {
   const auto [least, most] = std::minmax_element(y.begin(), y.end());
   if (!(range.low < range.high) || !std::isfinite(core::length(range)) ||
-      !std::isfinite((*most - *least) * static_cast<double>(y.size()))) {
+      !std::isfinite((*most - *least) * (*most - *least) * static_cast<double>(y.size()))) {
     return core::fail(ErrorCode::bad_input, "x are all equal, or x or y too far apart",
                       "check the values and their unit");
   }

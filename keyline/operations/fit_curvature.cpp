@@ -62,7 +62,8 @@ struct CurvatureRequest {
             "less, stable: 0, decelerating: 0.5 and more)"),
         core::field<&Request::hold_end>("the end point stays; else it moves with the lengths"),
         core::field<&Request::max_deviation>(
-            "farthest the curve may move; else as far as the lengths take it")
+            "farthest the curve may move, not counting what a free end moves along it; else as far "
+            "as the lengths take it")
             .in("length")
             .within(core::kPositive),
         core::field<&Request::keep_monotone>("pieces of monotone curvature stay so"));

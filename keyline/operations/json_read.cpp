@@ -61,7 +61,7 @@ Result<double> finite(const json& j, const Place& place) {
   if (!j.is_number()) return not_a(place, "a number");
   const double value = j.get<double>();
   if (!std::isfinite(value)) return wrong(place, "the number is not finite", "give a finite one");
-  return value;
+  return core::with_all_digits(value);
 }
 
 Result<void> read_integer(const Type& type, const Field& field, const json& j, const Place& place,

@@ -154,6 +154,8 @@ TEST(LocalTargets, RefuseWhatIsNone) {
   }
   EXPECT_EQ(local_targets({{0.5, 1}, {0.2, 1}, {0.5, 2}}, 1).error().message,
             "two targets lie in one place");
+  EXPECT_EQ(local_targets({{0, 1}, {1, -1e300}}, 1).error().message,
+            "a curvature is larger than 1e100");  // its square would be no number
   EXPECT_EQ(local_targets({{0.5, 1}}, 1).error().message, "there are fewer than two targets");
 }
 

@@ -348,6 +348,16 @@ TEST(FitSpline, HugeAndTinyCoordinates) {
     ASSERT_TRUE(fit) << scale;
     EXPECT_LT(fit->deviation, 0.02 * scale);
   }
+  // Squares of residuals are 0, or no numbers: there is no criterion.
+  const std::vector<double> x = {0, 1, 2, 3, 4, 5};
+  for (const double scale : {1e-170, 1e170}) {
+    std::vector<double> y = {0, 1, 3, 2, 1, 0};
+    for (double& value : y) value *= scale;
+    const auto none = fit_function(x, y, {}, SplineFitOptions::for_fairing());
+    ASSERT_FALSE(none) << scale;
+    EXPECT_EQ(none.error().code, core::ErrorCode::bad_input);
+    EXPECT_TRUE(none.error().message.contains(scale < 1 ? "squares" : "too far apart"));
+  }
 }
 
 }  // namespace

@@ -129,5 +129,49 @@ TEST(Refusals, NameTheFieldAtFault) {
   EXPECT_EQ(path("curve.analyze", {{"curve", far}}), "curve.points[2][1]");
 }
 
+// What would end as numbers that are none (each did, as an internal error, or ran without end).
+TEST(Refusals, NameNumbersBeyondWhatTheirProductsAllow) {
+  const auto path = [](const char* op, const json& request) {
+    const auto r = perform(op, request, {});
+    return r ? "answered" : r.error().code == core::ErrorCode::bad_input ? r.error().path : "?";
+  };
+  const json tiny{{"type", "bezier"}, {"points", {{0, 0}, {1e-160, 0}, {2e-160, 1e-160}}}};
+  EXPECT_EQ(path("curve.analyze", {{"curve", tiny}}), "curve.points");
+  const json net{{{0, 0, 0}, {0, 1e-160, 0}}, {{1e-160, 0, 0}, {1e-160, 1e-160, 1e-161}}};
+  EXPECT_EQ(path("surface.sav", {{"surface", {{"type", "bezier-surface"}, {"points", net}}}}),
+            "surface.points");
+  const auto chain = [](double direction, double length) {
+    const json piece{{"alpha", -1}, {"length", length}, {"curvature", {1, 1.5}}};
+    return json{{"type", "log-aesthetic"},
+                {"start", {0, 0}},
+                {"direction", direction},
+                {"pieces", {piece}}};
+  };
+  EXPECT_EQ(path("curve.offset", {{"curve", chain(1e150, 1)}, {"distance", 0.1}}),
+            "curve.direction");
+  EXPECT_EQ(path("curve.offset", {{"curve", chain(0, 5e-324)}, {"distance", 0.1}}),
+            "curve.pieces[0]");
+  EXPECT_EQ(path("curve.cav", {{"alpha", 0.2}, {"s", 1e100}, {"degree", 4}, {"tangent", {1, 0}}}),
+            "s");
+  const json points{{0, 0}, {1, 0}, {2, 0.2}, {3, 0.7}, {3.8, 1.5}};
+  const json spline{{"type", "bspline"},
+                    {"degree", 3},
+                    {"knots", {0, 0, 0, 0, 1e-160, 2, 2, 2, 2}},
+                    {"points", points}};
+  EXPECT_EQ(path("curve.reverse", {{"curve", spline}}), "curve");
+  json edge{{"type", "bezier"}, {"points", points}};
+  edge["points"][1] = {1e-200, 0};
+  EXPECT_EQ(path("fit.curvature", {{"curve", edge}, {"target", "smooth"}}), "curve.curves[0]");
+}
+
+// Below 2.2e-308 a double has no 16 digits, and its ratios none: a slope of 5e-324 is one of 0.
+TEST(Requests, NumbersWithoutDigitsAreZero) {
+  const auto curve = [](double alpha) {
+    return perform("lac.segment", {{"points", {{0, 0}, {2, 0}, {3, 1.5}}}, {"alpha", alpha}}, {});
+  };
+  ASSERT_TRUE(curve(0) && curve(5e-324));
+  EXPECT_EQ(*curve(5e-324), *curve(0));
+}
+
 }  // namespace
 }  // namespace keyline::operations

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/document/path_gap.h"
 #include "keyline/exchange/json/json_parts.h"
 #include "keyline/lac/chain/chain.h"
@@ -22,6 +23,7 @@ using document::Path;
 using document::PlanarCurve;
 using nlohmann::json;
 
+constexpr double kMostTurning = 1e5;  // as of a piece: what turns farther has lost its digits
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using detail::curve_json;
@@ -83,6 +85,9 @@ Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
   if (!position) return std::unexpected(position.error());
   const auto direction = detail::number_member(j, "direction", where);
   if (!direction) return std::unexpected(direction.error());
+  if (std::abs(*direction) > kMostTurning)
+    return fail(ErrorCode::bad_input, "the direction lies beyond 1e5 radians",
+                "take off whole turns", in(where, "direction"));
   chain.start = {*position, *direction};
   const auto closed = closed_of(j, where);
   if (!closed) return std::unexpected(closed.error());
@@ -128,7 +133,7 @@ Result<double> number_from_json(const json& j, const std::string& where) {
   const double value = j.get<double>();
   if (!std::isfinite(value))
     return fail(ErrorCode::bad_input, "the number is not finite", "give a finite number", where);
-  return value;
+  return core::with_all_digits(value);
 }
 
 Result<Point2> point_from_json(const json& j, const std::string& where) {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/core/error.h"
 #include "keyline/core/text.h"
 #include "keyline/curve/bezier.h"
@@ -130,6 +131,7 @@ core::Result<std::vector<Point>> points_member(const nlohmann::json& j, const st
                         "give every point the same", in(place, i));
     points.push_back(*p);
   }
+  if (core::is_too_small(points)) return core::size_too_small(place);
   return points;
 }
 

@@ -74,6 +74,7 @@ Result<Controls> read_controls(const json& j, const std::string& where) {
   if (!rows) return std::unexpected(rows.error());
   auto points = read_rows<core::Point3>(**rows, in(where, "points"), point3_from_json);
   if (!points) return std::unexpected(points.error());
+  if (core::is_too_small(*points)) return core::size_too_small(in(where, "points"));
   Controls c;
   c.net = {static_cast<int>((*rows)->size()), static_cast<int>((**rows)[0].size()),
            std::move(*points)};
