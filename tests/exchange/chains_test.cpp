@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -244,6 +245,37 @@ TEST_F(Chains, UnreadableFieldsOfAnIgesDirectoryAreRefused) {
   EXPECT_EQ(why(second + 40, "RESERVED"), "");
   EXPECT_EQ(why(second + 56, "   A-1.5"), "");  // a label
   EXPECT_EQ(why(second + 64, "     1.5"), "");  // and what tells it from others
+  EXPECT_THAT(why(sound.find("P0000001") - 72, "1x0,    "), HasSubstr("\"1x0\" is no value"));
+  std::string longer = sound;  // by a column: the line is of no section
+  longer.insert(first + 8, " ");
+  std::ofstream(folder_ / "d.iges", std::ios::binary) << longer;
+  const auto read = read_document(folder_ / "d.iges");
+  const auto line = 1 + std::ranges::count(sound.substr(0, first), '\n');
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message,
+              HasSubstr("line " + std::to_string(line) + ": it has no letter of a section"));
+}
+
+// ISO 10303-21, 6.4: what is left out is written $, letters beyond ASCII stand in strings alone.
+TEST_F(Chains, NothingIsNoValueOfAStepFile) {
+  Document d;
+  d.unit = "mm";
+  d.paths.push_back({{"a", "", "#123456"}, {{{curve::Bezier2{{{0, 0}, {1, 2}}, {}}}}, false}, 0});
+  const std::string sound = format_document(d, ".step").value().content;
+  const auto why = [&](std::size_t at, std::size_t size, const std::string& value) {
+    std::string text = sound;
+    std::ofstream(folder_ / "d.step", std::ios::binary) << text.replace(at, size, value);
+    const auto read = read_document(folder_ / "d.step");
+    return read ? std::string() : read.error().message;
+  };
+  EXPECT_EQ(why(0, 0, ""), "");
+  for (const char* owner : {"COLOUR_RGB('',", "CARTESIAN_POINT('',("}) {
+    const std::size_t at = sound.find(owner) + std::string_view(owner).size();
+    const std::size_t size = sound.find_first_of(",)", at) - at;
+    for (const char* none : {"", "  ", "\u00bd", "\u22121.", "\x1a"})
+      EXPECT_THAT(why(at, size, none), HasSubstr("is no value")) << owner << none;
+    EXPECT_EQ(why(at, size, " 0.5 "), "") << owner;
+  }
 }
 
 // A decimal comma makes two coordinates of one: OCCT takes the first three, whatever they are.

@@ -140,8 +140,8 @@ document::Document read_iges(const std::string& file) {
   ShapeWalk walk(document, labels);
   for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
-  if (std::string missing = missing_iges_end(text); !missing.empty())
-    document.skipped.push_back(std::move(missing));
+  for (std::string lost : {odd_iges_line(text), missing_iges_end(text)})
+    if (!lost.empty()) document.skipped.push_back(std::move(lost));
   return document;
 }
 

@@ -13,7 +13,9 @@ namespace keyline::exchange::occt {
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+bool is_letter(char c) {  // or the mark of a name of the user's own
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '!';
+}
 
 std::string told(std::size_t line, std::string_view value) {
   return "line " + std::to_string(line) + ": \"" + core::on_one_line(value.substr(0, 40)) +
@@ -39,6 +41,8 @@ class StepValues {
         if (is_fourth(value))
           return "line " + std::to_string(line_of(from)) +
                  ": a point or direction of more than three coordinates";
+      } else if (is_gap(c)) {
+        return told(line_of(at_), {});
       } else {
         depth_ += c == '(' ? 1 : c == ')' ? -1 : 0;
         if (c == ';') depth_ = listed_ = 0;
@@ -49,8 +53,16 @@ class StepValues {
   }
 
  private:
-  static bool is_start(char c) {
-    return is_letter(c) || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == '#';
+  static constexpr std::string_view kMarks = "(),;=/'\"$*";
+
+  static bool is_start(char c) { return !is_space(c) && kMarks.find(c) == kMarks.npos; }
+
+  /// What is left out has a mark of its own, $; nothing between two commas is a value lost.
+  bool is_gap(char c) const {
+    if (depth_ == 0 || (c != ',' && c != ')')) return false;
+    std::size_t before = at_;
+    while (before > 0 && is_space(text_[before - 1])) --before;
+    return before > 0 && (text_[before - 1] == ',' || (c == ',' && text_[before - 1] == '('));
   }
 
   /// A quote within is doubled: it ends one string and starts the next.
@@ -58,8 +70,7 @@ class StepValues {
 
   std::string_view word() {
     const std::size_t from = at_;
-    while (at_ < text_.size() && !is_space(text_[at_]) &&
-           std::string_view("(),;=/'\"$*").find(text_[at_]) == std::string_view::npos)
+    while (at_ < text_.size() && !is_space(text_[at_]) && kMarks.find(text_[at_]) == kMarks.npos)
       ++at_;
     return text_.substr(from, at_ - from);
   }
@@ -97,6 +108,8 @@ class StepValues {
   int coordinates_ = 0;
 };
 
+constexpr std::size_t kSection = 72;  // column of an IGES line's section, from 0
+
 /// A number as Fortran writes it too, with D before the exponent.
 bool is_iges_number(std::string_view word) {
   std::string plain(word);
@@ -107,9 +120,10 @@ bool is_iges_number(std::string_view word) {
 
 /// The parameters of one entity; empty where all are numbers, strings or absent.
 std::string_view bad_parameter(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  const auto type = core::parse_number(text.substr(0, comma));
-  if (!type || *type < 100 || *type >= 200) return {};
+  const std::string_view kind = detail::trimmed(text.substr(0, text.find_first_of(",;")));
+  const auto type = core::parse_whole<int>(kind);
+  if (!type) return kind;
+  if (*type < 100 || *type >= 200) return {};
   for (std::size_t at = 0; at < text.size();) {
     at = std::min(text.find_first_not_of(" \t", at), text.size());
     std::string_view behind = text.substr(at);
@@ -146,7 +160,7 @@ bool has_usual_separators(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     const std::string_view line = text.substr(at, end - at);
-    if (line.size() > 72 && line[72] == 'G')
+    if (line.size() > kSection && line[kSection] == 'G')
       return line.starts_with(",,") || line.starts_with("1H,,1H;,");
     at = end + 1;
   }
@@ -163,7 +177,6 @@ std::string text_of(const std::string& file) {
 std::string bad_step_value(std::string_view text) { return StepValues(text).bad(); }
 
 std::string missing_iges_end(std::string_view text) {
-  constexpr std::size_t kSection = 72;  // column of a line's section, from 0
   std::size_t parameters = 0;
   std::string_view last;
   for (std::size_t at = 0; at < text.size();) {
@@ -182,6 +195,23 @@ std::string missing_iges_end(std::string_view text) {
   if (!told || *told <= parameters) return {};
   return core::counted(*told - parameters, "parameter line") + " of " + std::to_string(*told) +
          " that are not in the file";
+}
+
+std::string odd_iges_line(std::string_view text) {
+  std::size_t number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
+    ++number;
+    if (line.find_first_not_of(" \t\x1a") == line.npos) continue;
+    const char section = line.size() > kSection ? line[kSection] : ' ';
+    if (section == 'T') break;
+    if (std::string_view("SGDP").find(section) == std::string_view::npos)
+      return "line " + std::to_string(number) +
+             ": it has no letter of a section in column 73; it and what belongs to it";
+  }
+  return {};
 }
 
 std::string bad_iges_value(std::string_view text) {
@@ -204,11 +234,11 @@ std::string bad_iges_value(std::string_view text) {
     const std::string_view line = text.substr(at, end - at);
     at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
     ++number;
-    if (line.size() > 72 && line[72] == 'D') {
+    if (line.size() > kSection && line[kSection] == 'D') {
       const std::string_view bad = bad_directory_field(line, second = !second);
       if (!bad.empty()) return told(number, bad);
     }
-    if (line.size() < 73 || line[72] != 'P') continue;
+    if (line.size() <= kSection || line[kSection] != 'P') continue;
     if (line.substr(kData, 8) != owner) {
       check();
       owner = line.substr(kData, 8);

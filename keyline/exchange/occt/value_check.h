@@ -17,6 +17,10 @@ std::string bad_step_value(std::string_view text);
 /// 5.3, 2.2.2 and 2.2.4.4).
 std::string bad_iges_value(std::string_view text);
 
+/// The first line of an IGES file that belongs to no section, as one with a column more or less
+/// does (IGES 5.3, 2.2.1), as what is not read of it; empty where there is none.
+std::string odd_iges_line(std::string_view text);
+
 /// What an IGES file lacks at its end, in words: its last line, or parameter lines that the last
 /// one counts (IGES 5.3, 2.2.4.6); empty where it is whole. OCCT reads what is there.
 std::string missing_iges_end(std::string_view text);
