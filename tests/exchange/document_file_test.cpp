@@ -390,5 +390,10 @@ TEST_F(Files, TheDeviationOfSamplesIsThatOfTheirPolygon) {
   EXPECT_NEAR(csv->deviation, 1 - std::cos(core::kPi / 100), 1e-9);
 }
 
+TEST(Document, OtherExtensionsAreNotWritten) {
+  for (const char* none : {".abc", ".stl", ""})
+    EXPECT_THAT(format_document(mixed(), none).error().message, HasSubstr("can be written"));
+}
+
 }  // namespace
 }  // namespace keyline::exchange

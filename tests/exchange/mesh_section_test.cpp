@@ -165,5 +165,22 @@ TEST(Section, TellsWhatOfAMeshCouldNotBeRead) {
   std::filesystem::remove(file);
 }
 
+// Coordinates are known by their names, whatever stands between them.
+TEST(StreamPoints, PropertiesMayStandInAnyOrder) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-stream-" + std::to_string(::getpid()) + ".ply");
+  std::string ply =
+      "ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty uchar red\nproperty char z\n"
+      "property uchar green\nproperty char x\nproperty char y\nproperty uchar blue\nend_header\n";
+  for (const int byte : {200, 3, 100, 1, 2, 50, 201, 6, 101, 4, 5, 51})
+    ply += static_cast<char>(byte);
+  std::ofstream(file, std::ios::binary) << ply;
+  std::vector<core::Point3> points;
+  const auto left = stream_points(file, [&points](core::Point3 p) { points.push_back(p); });
+  std::filesystem::remove(file);
+  ASSERT_TRUE(left) << left.error().message;
+  EXPECT_EQ(points, (std::vector<core::Point3>{{1, 2, 3}, {4, 5, 6}}));
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -69,6 +69,8 @@ TEST(SvgWriter, HasTightPageAndRealSize) {
   EXPECT_STREQ(root.child("g").attribute("inkscape:label").value(), "L");
   EXPECT_STREQ(root.child("g").child("path").attribute("d").value(), "M0 0C0 -40 100 -40 100 0");
   EXPECT_EQ(*svg, write_svg({{"L", {arch}}}, {.unit = "m", .margin = 0}).value());
+  const auto wide = write_svg({{"L", {arch}}}, {.unit = "m", .margin = 0.1});
+  EXPECT_NE(wide->find("height=\"50000mm\" viewBox=\"-10 -40 120 50\""), std::string::npos);
 }
 
 TEST(SvgWriter, LinesAreAsWideAsTheLayerTimesTheDrawings) {
