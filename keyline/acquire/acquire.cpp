@@ -224,6 +224,7 @@ core::Result<Working> in_order(const RawCurve& raw, const AcquireOptions& option
   note_plane(line, detail::extent_of(work->points));
   merge(*work, line);
   detail::put_in_order(*work, options, line);
+  if (options.cancellation.stop_requested()) return core::fail(ErrorCode::cancelled, "cancelled");
   if (work->points.size() >= 2) return work;
   const bool one = raw.points.size() == 1;
   return core::fail(ErrorCode::bad_input,

@@ -6,6 +6,7 @@
 #include "keyline/acquire/key_line.h"
 #include "keyline/acquire/raw_curve.h"
 #include "keyline/core/error.h"
+#include "keyline/core/progress.h"
 
 namespace keyline::acquire {
 
@@ -19,7 +20,8 @@ struct AcquireOptions {
   std::optional<double> noise;  ///< known standard deviation; empty: estimated
   /// Waves shorter than this are noise, in the points' unit; empty: found where texture shows.
   std::optional<double> detail;
-  std::optional<Plane> plane;  ///< empty: fitted (3D input) or z = 0 (planar input)
+  std::optional<Plane> plane;                 ///< empty: fitted (3D input) or z = 0 (planar input)
+  core::CancellationToken cancellation = {};  ///< asked while points are put in order
 };
 
 /// From raw points to a key-line: non-finite points and duplicates dropped, the plane fitted,
@@ -27,7 +29,7 @@ struct AcquireOptions {
 /// recognised, noise and rounding estimated, corners found. The report lists every step.
 ///
 /// Returns:    bad-input where fewer than two distinct finite points remain, a coordinate exceeds
-///             1e100 in size, or weights are negative or do not match the points.
+///             1e100 in size, or weights are negative or do not match the points; cancelled.
 /// Invariance: moving, turning, scaling the input moves, turns, scales the answer; reversing it
 ///             reverses the answer.
 /// Cost:       O(n log n).

@@ -35,16 +35,17 @@ std::vector<double> steps_of(std::span<const Point> points) {
 
 /// Repeated points hang on the tree by edges of no length: searched for neighbours, each would find
 /// only the others at its place.
-bool follows_tree(std::span<const core::Point2> points) {
+bool follows_tree(std::span<const core::Point2> points,
+                  const core::CancellationToken& cancellation) {
   const std::vector<std::size_t> first = detail::first_at_place(points);
   std::vector<core::Point2> places;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (first[i] == i) places.push_back(points[i]);
   }
   std::vector<double> edges(points.size() - places.size(), 0.0);
-  for (const auto& edge : detail::spanning_tree(places, detail::neighbour_lists(places), false)) {
+  const Lists neighbours = detail::neighbour_lists(places, cancellation);
+  for (const auto& edge : detail::spanning_tree(places, neighbours, false))
     edges.push_back(edge.length);
-  }
   return trimmed_sum(steps_of(points)) <= 2 * trimmed_sum(std::move(edges));
 }
 
@@ -234,12 +235,13 @@ bool insert_best(std::span<const core::Point2> points, const std::vector<std::si
 
 }  // namespace
 
-bool is_ordered(std::span<const core::Point2> points) {
-  if (points.size() < 6) return true;
-  if (follows_tree(points)) return true;
+bool is_ordered(std::span<const core::Point2> points, const core::CancellationToken& cancellation) {
+  if (points.size() < 6 || cancellation.stop_requested()) return true;
+  if (follows_tree(points, cancellation)) return true;
   if (core::quantile(steps_of(points)) > 0.02 * detail::extent_of(points)) return false;
   for (std::size_t group = 4; points.size() / group >= 16; group *= 2) {
-    if (follows_tree(group_means(points, group))) return true;
+    if (cancellation.stop_requested() || follows_tree(group_means(points, group), cancellation))
+      return true;
   }
   return false;
 }

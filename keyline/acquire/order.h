@@ -5,14 +5,17 @@
 #include <vector>
 
 #include "keyline/core/point.h"
+#include "keyline/core/progress.h"
 
 namespace keyline::acquire {
 
 /// True where the order of the points already follows a curve: without its longest twentieth, the
 /// polygon through them is at most twice as long as the minimum spanning tree without its longest
 /// twentieth; or, for points denser than their noise, the same holds for the means of consecutive
-/// groups while steps stay below a fiftieth of the extent.
-bool is_ordered(std::span<const core::Point2> points);
+/// groups while steps stay below a fiftieth of the extent. Whatever it says once cancelled means
+/// nothing.
+bool is_ordered(std::span<const core::Point2> points,
+                const core::CancellationToken& cancellation = {});
 
 /// In space: true unless the median step from point to point is more than ten times the median
 /// distance of a point from its nearest. Noise about a curve makes that of a thousand points within

@@ -82,13 +82,15 @@ void permute(Working& work, const std::vector<std::size_t>& order) {
   arranged(work.sources);
 }
 
-void order_anew(Working& work, KeyLine& line) {
+void order_anew(Working& work, const core::CancellationToken& cancellation, KeyLine& line) {
   merge_anywhere(work, line);
-  if (work.points.size() < 3) return;
+  if (work.points.size() < 3 || cancellation.stop_requested()) return;
   drop_isolated(work, line);
   line.report.reordered = true;
   line.report.notes.emplace_back("the points were not in order: put in order along the curve");
+  if (cancellation.stop_requested()) return;
   const BandWidth band = measure_band(work.points);
+  if (cancellation.stop_requested()) return;
   if (band.width > 0) {
     take(work, average_band(work.points, work.weights, band.radius), line);
     return;
@@ -216,10 +218,10 @@ void calm(Working& work, KeyLine& line) {
 
 void put_in_order(Working& work, const AcquireOptions& options, KeyLine& line) {
   if (work.points.size() < 6 && !options.ordered) return;
-  if (options.ordered.value_or(is_ordered(work.points))) {
+  if (options.ordered ? *options.ordered : is_ordered(work.points, options.cancellation)) {
     if (!options.ordered) join_runs(work, line);
   } else {
-    order_anew(work, line);
+    order_anew(work, options.cancellation, line);
   }
   if (work.scattered && !options.ordered.value_or(false)) calm(work, line);
 }

@@ -95,10 +95,11 @@ Reach reach_from(const Links& links, std::size_t start) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> neighbour_lists(std::span<const core::Point2> points) {
+std::vector<std::vector<std::size_t>> neighbour_lists(std::span<const core::Point2> points,
+                                                      const core::CancellationToken& cancellation) {
   const KdTree tree(points);
   std::vector<std::vector<std::size_t>> lists(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size() && !cancellation.stop_requested(); ++i) {
     lists[i] = tree.nearest(points[i], kNeighbours, i);
   }
   return lists;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "keyline/core/point.h"
+#include "keyline/core/progress.h"
 
 namespace keyline::acquire::detail {
 
@@ -16,8 +17,9 @@ struct Edge {
   double length = 0;
 };
 
-/// The 8 nearest neighbours of every point.
-std::vector<std::vector<std::size_t>> neighbour_lists(std::span<const core::Point2> points);
+/// The 8 nearest neighbours of every point; of those that come once it is cancelled, none.
+std::vector<std::vector<std::size_t>> neighbour_lists(
+    std::span<const core::Point2> points, const core::CancellationToken& cancellation = {});
 
 /// Edges of the minimum spanning tree of the neighbour graph, shortest first (Kruskal). A forest
 /// where the graph falls apart, unless `connect`: then the trees are joined by shortest edges

@@ -126,7 +126,7 @@ Result<document::Path> splines_of(const acquire::KeyLine& line, const AnalyzeReq
 
 Result<AnalyzeAnswer> run(const AnalyzeRequest& request, const Context& context) {
   const Subject& subject = request.subject;
-  auto line = measured_line(subject);
+  auto line = measured_line(subject, context.progress.cancellation);
   if (!line) return std::unexpected(std::move(line.error()));
   const bool polygon = subject.curve && *line && !are_points_of_a_curve((**line).points);
   if (!*line || polygon) {

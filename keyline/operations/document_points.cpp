@@ -182,7 +182,9 @@ Result<void> add_line(ReadAnswer& answer, KeyLine line, const RawCurve& raw, boo
   return {};
 }
 
-Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& file) {
+Result<ReadAnswer> read_points_of(const InputRequest& input,
+                                  const core::CancellationToken& cancellation,
+                                  const std::string& file) {
   const auto read = in_file(read_raw(input, file), file);
   if (!read) return std::unexpected(read.error());
   const std::vector<RawCurve>& raw = read->curves;
@@ -197,7 +199,8 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
     if (!(*wanted)[i]) continue;
     const std::string which = curve.id.empty() ? fmt::format("curve {}", i + 1) : curve.id;
     const std::string place = raw.size() > 1 ? file + ": " + which : file;
-    auto line = in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)), place);
+    auto line = in_file(
+        acquire::acquire_key_line(curve, acquire_options(input.acquiring, cancellation)), place);
     if (!line) return std::unexpected(line.error());
     line->id = curve.id;
     if (auto added = in_file(add_line(answer, std::move(*line), curve, input.planar), place);
@@ -207,7 +210,8 @@ Result<ReadAnswer> read_points_of(const InputRequest& input, const std::string& 
   return answer;
 }
 
-Result<ReadAnswer> join_files(const InputRequest& input) {
+Result<ReadAnswer> join_files(const InputRequest& input,
+                              const core::CancellationToken& cancellation) {
   std::vector<RawCurve> parts;
   ReadAnswer answer;
   CommonUnit unit;
@@ -219,7 +223,7 @@ Result<ReadAnswer> join_files(const InputRequest& input) {
   }
   answer.unit = unit.name();
   take_unit(answer.unit, input.unit, answer.skipped);
-  auto line = acquire::acquire_joined(parts, acquire_options(input.acquiring));
+  auto line = acquire::acquire_joined(parts, acquire_options(input.acquiring, cancellation));
   if (!line) return std::unexpected(line.error());
   if (!has_plane(*line))
     return fail(ErrorCode::bad_input, "the parts lie in no plane",
@@ -231,9 +235,11 @@ Result<ReadAnswer> join_files(const InputRequest& input) {
 
 }  // namespace
 
-Result<ReadAnswer> read_points_input(const InputRequest& input) {
+Result<ReadAnswer> read_points_input(const InputRequest& input,
+                                     const core::CancellationToken& cancellation) {
   const bool alone = input.file.size() == 1;
-  auto read = alone ? read_points_of(input, input.file.front()) : join_files(input);
+  auto read = alone ? read_points_of(input, cancellation, input.file.front())
+                    : join_files(input, cancellation);
   if (!read) return read;
   read->kind = alone ? InputRequest::kAlone : 0U;
   if (input.row || input.column)

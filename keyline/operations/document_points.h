@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "keyline/core/error.h"
+#include "keyline/core/progress.h"
 #include "keyline/document/select.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/mesh/section_file.h"
@@ -52,6 +53,7 @@ core::Result<exchange::FileSection> cut_file(const InputRequest& input, const st
 
 /// The key-lines of a table, or the one that several files are parts of: in their planes where
 /// `planar` is set, else where they lie in space.
-core::Result<ReadAnswer> read_points_input(const InputRequest& input);
+core::Result<ReadAnswer> read_points_input(const InputRequest& input,
+                                           const core::CancellationToken& cancellation);
 
 }  // namespace keyline::operations

@@ -61,7 +61,8 @@ struct Opened {
 };
 
 /// The lines in which a plane cuts a mesh; of a cloud, its section as acquired.
-Result<Opened> open_section(const InputRequest& input, const std::string& file) {
+Result<Opened> open_section(const InputRequest& input, const core::CancellationToken& cancellation,
+                            const std::string& file) {
   const auto cut = cut_file(input, file);
   if (!cut) return std::unexpected(cut.error());
   document::Document document;
@@ -73,8 +74,8 @@ Result<Opened> open_section(const InputRequest& input, const std::string& file) 
     if (cut->ordered) {
       for (const core::Point3 p : curve.points) line.points.push_back({p.x, p.y});
     } else {
-      const auto acquired =
-          in_file(acquire::acquire_key_line(curve, acquire_options(input.acquiring)), file);
+      const auto acquired = in_file(
+          acquire::acquire_key_line(curve, acquire_options(input.acquiring, cancellation)), file);
       if (!acquired) return std::unexpected(acquired.error());
       line.points = acquired->points;
       closed = acquired->closed;
@@ -91,7 +92,8 @@ exchange::Format format_of(const std::string& file) {
 
 Result<Opened> open_curves(const InputRequest& input, const core::Progress& progress) {
   const std::string& file = input.file.front();
-  if (exchange::is_mesh_file(file) && !input.section.empty()) return open_section(input, file);
+  if (exchange::is_mesh_file(file) && !input.section.empty())
+    return open_section(input, progress.cancellation, file);
   auto document = exchange::read_document(
       file, {.glyphs = input.glyphs, .cancellation = progress.cancellation});
   if (!document) return std::unexpected(document.error());
@@ -173,7 +175,7 @@ Result<ReadAnswer> read_files(const InputRequest& request, const core::Progress&
   if (!points && request.file.size() > 1)
     return fail(ErrorCode::bad_input, "several files are parts of one key-line of points",
                 "give one file of curves, or one drawing, at a time", "file");
-  if (points) return read_points_input(request);
+  if (points) return read_points_input(request, progress.cancellation);
   auto read = exchange::has_image_name(file) ? read_drawing(request, progress)
                                              : read_curves(request, progress);
   if (read) read->kind |= InputRequest::kAlone;

@@ -42,7 +42,7 @@ core::Result<std::vector<std::size_t>> indices_in(const acquire::KeyLine& line,
 }
 
 core::Result<FairAnswer> run(const FairRequest& request, const Context& context) {
-  auto measured = measured_line(request.subject);
+  auto measured = measured_line(request.subject, context.progress.cancellation);
   if (!measured) return std::unexpected(std::move(measured.error()));
   auto line = *measured ? core::Result<acquire::KeyLine>(**measured)
                         : sampled_line(*request.subject.curve, request.options.tolerance);

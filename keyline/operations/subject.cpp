@@ -40,11 +40,12 @@ std::vector<core::Point2> vertices_of(const document::Path& path) {
   return are_points_of_a_curve(vertices) ? vertices : std::vector<core::Point2>{};
 }
 
-Result<acquire::KeyLine> acquired(const std::vector<core::Point2>& points, const Subject& subject) {
+Result<acquire::KeyLine> acquired(const std::vector<core::Point2>& points, const Subject& subject,
+                                  const core::CancellationToken& cancellation) {
   acquire::RawCurve raw;
   for (const core::Point2 p : points) raw.points.push_back({p.x, p.y, 0});
   raw.weights = subject.weights;
-  acquire::AcquireOptions options = acquire_options(subject.acquiring);
+  acquire::AcquireOptions options = acquire_options(subject.acquiring, cancellation);
   if (subject.curve) {
     options.ordered = true;
     if (subject.curve->closed && !options.closed) options.closed = true;
@@ -72,8 +73,10 @@ Result<void> check_extent(const document::Path& path) {
               "curve");
 }
 
-acquire::AcquireOptions acquire_options(const Acquiring& told) {
+acquire::AcquireOptions acquire_options(const Acquiring& told,
+                                        const core::CancellationToken& cancellation) {
   acquire::AcquireOptions options;
+  options.cancellation = cancellation;
   options.closed = told.closed;
   if (told.keep_order) options.ordered = true;
   options.remove_outliers = !told.keep_strays;
@@ -196,7 +199,8 @@ Result<acquire::KeyLine> sampled_line(const document::Path& path, double toleran
   return line;
 }
 
-Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject) {
+Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject,
+                                                      const core::CancellationToken& cancellation) {
   using Line = std::optional<acquire::KeyLine>;
   if ((subject.points ? 1 : 0) + (subject.curve ? 1 : 0) + (subject.line ? 1 : 0) != 1)
     return fail(ErrorCode::bad_input, "either \"points\" or \"curve\" is wanted",
@@ -211,7 +215,7 @@ Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject) {
     }
     return Line{};
   }
-  auto line = acquired(points, subject);
+  auto line = acquired(points, subject, cancellation);
   if (!line) return std::unexpected(line.error());
   return Line{std::move(*line)};
 }

@@ -7,6 +7,7 @@
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/acquire/key_line.h"
+#include "keyline/core/progress.h"
 #include "keyline/operations/uses.h"
 #include "keyline/operations/values.h"
 
@@ -40,7 +41,8 @@ struct Acquiring {
 /// bad_input for a curve that is one point, with "curve" as path.
 core::Result<void> check_extent(const document::Path& path);
 
-acquire::AcquireOptions acquire_options(const Acquiring& told);
+acquire::AcquireOptions acquire_options(const Acquiring& told,
+                                        const core::CancellationToken& cancellation);
 
 struct Subject {
   std::optional<std::vector<core::Point2>> points;
@@ -72,8 +74,9 @@ bool are_points_of_a_curve(const std::vector<core::Point2>& vertices);
 
 /// The subject's points as a key-line, where it is made of points: those given (put in order and
 /// cleaned), those of a line as they are, the vertices of a polyline in their order. Empty where it
-/// is another curve. bad_input unless it is one of the three.
-core::Result<std::optional<acquire::KeyLine>> measured_line(const Subject& subject);
+/// is another curve. bad_input unless it is one of the three; cancelled.
+core::Result<std::optional<acquire::KeyLine>> measured_line(
+    const Subject& subject, const core::CancellationToken& cancellation);
 
 /// What was given with a subject and has no use for it; measured: that measured_line() has one.
 inline std::vector<std::string> unused_of(const Subject& subject, bool measured) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/acquire/acquire.h"
+#include "keyline/acquire/spanning_tree.h"
 #include "keyline/core/angle.h"
 #include "keyline/numeric/random.h"
 
@@ -42,6 +44,32 @@ TEST(OrderInSpace, IsNoneOfPointsStrewnOverASurface) {
     }
     EXPECT_FALSE(is_ordered(std::span<const core::Point3>(points))) << count;
   }
+}
+
+std::vector<core::Point2> strewn_on_a_circle(std::size_t count) {
+  numeric::Random random(5);
+  std::vector<core::Point2> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = random.uniform(0, 2 * core::kPi);
+    points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  return points;
+}
+
+// 200,000 points took five seconds to be cancelled.
+TEST(OrderOfPoints, IsLookedForNoLongerOnceCancelled) {
+  const std::vector<core::Point2> points = strewn_on_a_circle(300);
+  const auto stopped = core::CancellationToken::make();
+  EXPECT_FALSE(is_ordered(points, stopped));
+  EXPECT_EQ(detail::neighbour_lists(points, stopped)[299].size(), 8U);
+  stopped.request_stop();
+  EXPECT_TRUE(is_ordered(points, stopped));
+  EXPECT_TRUE(detail::neighbour_lists(points, stopped)[0].empty());
+  RawCurve raw;
+  for (const core::Point2 p : points) raw.points.push_back({p.x, p.y, 0});
+  AcquireOptions options;
+  options.cancellation = stopped;
+  EXPECT_EQ(acquire_key_line(raw, options).error().code, core::ErrorCode::cancelled);
 }
 
 }  // namespace
