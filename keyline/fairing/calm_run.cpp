@@ -84,7 +84,8 @@ BandOptions piece_band(const CalmRun& run, const CalmRunOptions& options) {
 /// curve that is too low to be seen may grow in them: then more are tried.
 void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
                    const CalmRunOptions& options) {
-  const double energy = std::max(run.calm_energy, unseen_energy(run.curve, options.tolerance));
+  const double energy =
+      std::max(run.calm_energy, unseen_energy(run.curve.length, options.tolerance));
   const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes, energy,
                           options.tolerance);
   const BandOptions band = piece_band(run, options);

@@ -6,6 +6,8 @@
 #include "keyline/curve/concept.h"
 #include "keyline/curve/length.h"
 #include "keyline/fairing/fair.h"
+#include "keyline/fairing/flat_pieces.h"
+#include "keyline/fairing/runs.h"
 #include "keyline/fit/smoothing_spline.h"
 #include "keyline/lac/chain/chain_graph.h"
 
@@ -31,39 +33,55 @@ curve::CurvatureGraph graph_of(const curve::BSpline2& spline) {
   return graph;
 }
 
-void add(analysis::CombFigures& sum, const analysis::CombFigures& one) {
-  sum.waves += one.waves;
-  sum.energy = std::max(sum.energy, one.energy);
-  sum.jolt = std::max(sum.jolt, one.jolt);
+analysis::CombFigures sum_of(const std::vector<analysis::CombFigures>& all) {
+  analysis::CombFigures sum;
+  for (const analysis::CombFigures& one : all) {
+    sum.waves += one.waves;
+    sum.energy = std::max(sum.energy, one.energy);
+    sum.jolt = std::max(sum.jolt, one.jolt);
+  }
+  return sum;
 }
 
-/// The points of an answer of one chain in its order: of a closed key-line that a corner parts,
-/// from the corner on.
-std::vector<core::Point2> points_along(const acquire::KeyLine& line, bool open) {
-  std::vector<core::Point2> points = line.points;
-  if (!line.closed || !open || line.corners.empty()) return points;
-  const auto corner = points.begin() + static_cast<std::ptrdiff_t>(line.corners.front());
-  std::rotate(points.begin(), corner, points.end());
-  points.push_back(points.front());
-  return points;
+/// The points of each member of the answer; nothing where parts of a given curve are kept.
+std::vector<detail::Run> runs_of_members(const acquire::KeyLine& line, const FairResult& result) {
+  const auto is_chain = [](const FairCurve& member) {
+    return std::holds_alternative<lac::Chain>(member);
+  };
+  if (result.curves.empty() || !std::ranges::all_of(result.curves, is_chain)) return {};
+  const bool open = !std::get<lac::Chain>(result.curves.front()).closed;
+  FairOptions options;
+  options.keep_corners = result.curves.size() > 1 || (line.closed && open);
+  std::vector<detail::Run> runs = detail::runs_of(line, options);
+  return runs.size() == result.curves.size() ? runs : std::vector<detail::Run>{};
 }
 
 /// The splines that any answer is held against.
 FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result, int threads) {
   FairFigures figures;
+  std::vector<analysis::CombFigures> splines;
   for (const curve::BSpline2& spline : result.splines)
-    add(figures.spline, analysis::comb_figures(graph_of(spline)));
-  if (result.curves.size() != 1) return figures;
-  const auto* chain = std::get_if<lac::Chain>(&result.curves.front());
-  const bool open = chain ? !chain->closed : !result.closed;
-  const auto smooth =
-      fit::smoothing_spline_curvature(points_along(line, open), !open, result.tolerance, threads);
-  if (smooth) figures.smoothing_spline = analysis::comb_figures(*smooth);
+    splines.push_back(analysis::comb_figures(graph_of(spline)));
+  figures.spline = sum_of(splines);
+  std::vector<analysis::CombFigures> found;
+  for (const detail::Run& run : runs_of_members(line, result)) {
+    const auto smooth =
+        fit::smoothing_spline_curvature(run.points, run.closed, result.tolerance, threads);
+    if (smooth) found.push_back(analysis::comb_figures(*smooth));
+    figures.rivals.push_back(smooth ? found.back() : figures.spline);
+  }
+  if (!found.empty()) figures.smoothing_spline = sum_of(found);
   return figures;
 }
 
-bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
-  return a.waves <= b.waves && a.energy <= kAsGood * b.energy && a.jolt <= kAsGood * b.jolt;
+/// Holds a member, or all together, against a rival; energy that is unseen is none.
+void hold(FairFigures& figures, const analysis::CombFigures& member,
+          const analysis::CombFigures& rival, double unseen) {
+  if (member.energy <= unseen) return;
+  const double times = std::max(member.energy / rival.energy, member.jolt / rival.jolt);
+  figures.waves_over += std::max(0, member.waves - rival.waves);
+  figures.times = std::max(figures.times, times);
+  if (!(member.waves <= rival.waves && times <= kAsGood)) ++figures.unfair;
 }
 
 }  // namespace
@@ -71,12 +89,22 @@ bool as_fair(const analysis::CombFigures& a, const analysis::CombFigures& b) {
 FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result,
                          const FairFigures* before, int threads) {
   FairFigures figures = before ? *before : rivals_of(line, result, threads);
-  figures.answer = {};
-  for (const FairCurve& member : result.curves)
-    add(figures.answer,
-        std::visit([](const auto& c) { return analysis::comb_figures(graph_of(c)); }, member));
-  figures.fair =
-      result.all_single || figures.answer.energy == 0 || as_fair(figures.answer, figures.rival());
+  figures.unfair = 0;
+  figures.waves_over = 0;
+  figures.times = 0;
+  std::vector<analysis::CombFigures> members;
+  std::vector<double> unseen;  // energies
+  for (const FairCurve& member : result.curves) {
+    const auto graph = std::visit([](const auto& c) { return graph_of(c); }, member);
+    members.push_back(analysis::comb_figures(graph));
+    unseen.push_back(detail::unseen_energy(graph.arc_length.back(), result.tolerance));
+  }
+  figures.answer = sum_of(members);
+  const bool each = figures.rivals.size() == members.size();
+  for (std::size_t k = 0; each && k < members.size(); ++k)
+    hold(figures, members[k], figures.rivals[k], unseen[k]);
+  if (!each) hold(figures, figures.answer, figures.rival(), 0);
+  figures.fair = result.all_single || figures.unfair == 0;
   return figures;
 }
 

@@ -36,7 +36,8 @@ bool worth_about(const DenseCurve& trial, const DenseCurve& curve, const Straigh
                  const FlatOptions& options) {
   const double length = curve.at[line.last] - curve.at[line.first];
   const double reach = kNear * length;
-  const double unseen = unseen_energy(curve, options.band.tolerance) / std::pow(4 * reach, 5);
+  const double unseen =
+      unseen_energy(curve.length, options.band.tolerance) / std::pow(4 * reach, 5);
   const int steps = static_cast<int>(std::ceil((1 + 2 * kBeside) / kNear));
   for (int k = 0; k <= steps; ++k) {
     const double place = curve.at[line.first] + length * ((1 + 2 * kBeside) * k / steps - kBeside);
@@ -50,7 +51,7 @@ bool worth_about(const DenseCurve& trial, const DenseCurve& curve, const Straigh
 bool take(DenseCurve trial, DenseCurve& curve, BandReport& band,
           const std::vector<FitPoint>& points, const FlatOptions& options,
           const std::vector<Straight>& lines = {}) {
-  const double before = std::max(band.energy, unseen_energy(curve, options.band.tolerance));
+  const double before = std::max(band.energy, unseen_energy(curve.length, options.band.tolerance));
   const BandReport found = least_variation(trial, points, options.band);
   if (!found.within || found.rms > options.most_rms || found.energy > options.worth * before)
     return false;
@@ -111,8 +112,8 @@ bool nearly_arc(const DenseCurve& curve, double tolerance) {
 
 }  // namespace
 
-double unseen_energy(const DenseCurve& curve, double tolerance) {
-  const double change = kArc * kUnseen * tolerance / curve.length;
+double unseen_energy(double length, double tolerance) {
+  const double change = kArc * kUnseen * tolerance / length;
   return change * change;
 }
 
@@ -143,11 +144,12 @@ void make_arcs(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>&
   if (curve.kind.empty()) curve.kind.assign(curve.alpha.size(), PieceKind::curve);
   std::vector<double> own(curve.alpha.size());  // roots of the pieces' energies
   for (std::size_t p = 0; p < own.size(); ++p) own[p] = std::abs(energy_of(curve, p).root);
-  const double least = std::max(kFree * band.energy, unseen_energy(curve, options.band.tolerance));
+  const double least =
+      std::max(kFree * band.energy, unseen_energy(curve.length, options.band.tolerance));
   // What arcs do not vary their neighbours have to, at more cost: more than that is not worth a
   // try.
-  const double most =
-      (options.worth - 1) * std::max(band.energy, unseen_energy(curve, options.band.tolerance));
+  const double most = (options.worth - 1) *
+                      std::max(band.energy, unseen_energy(curve.length, options.band.tolerance));
   std::vector<std::size_t> which;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p)
     if (!flat(curve, p) && own[p] * own[p] < least &&

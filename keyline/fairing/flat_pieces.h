@@ -14,9 +14,9 @@ struct FlatOptions {
   double worth = 1.25;         ///< so many times the energy is the most that they may cost
 };
 
-/// Energy below which nothing is to be seen: of curvature that changes so little that the curve
-/// departs from an arc by a tenth of the tolerance.
-double unseen_energy(const DenseCurve& curve, double tolerance);
+/// Energy below which nothing is to be seen: of curvature that changes so little that a curve of
+/// that length departs from an arc by a tenth of the tolerance.
+double unseen_energy(double length, double tolerance);
 
 /// Where points stand on a line (see straight_stretches) the free curve becomes one, as far as it
 /// stays within the tolerance, turns no more often, shows no more waves and costs no more than

@@ -48,10 +48,8 @@ double rms_of(const FairResult& result) {
 /// How far an answer is from fair, the worse the greater.
 std::tuple<bool, int, double, double> unfairness(const FairResult& result) {
   const FairFigures& f = result.fairness;
-  const analysis::CombFigures& rival = f.rival();
   if (f.fair) return {!result.within_tolerance, 0, 0, 0};
-  return {!result.within_tolerance, std::max(0, f.answer.waves - rival.waves),
-          std::max(f.answer.energy / rival.energy, f.answer.jolt / rival.jolt), f.answer.energy};
+  return {!result.within_tolerance, f.waves_over, f.times, f.answer.energy};
 }
 
 core::Result<FairResult> judged(const acquire::KeyLine& line, core::Result<FairResult> found,

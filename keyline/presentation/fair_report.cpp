@@ -53,6 +53,9 @@ std::string fairness_line(const fairing::FairFigures& f) {
   const char* whose = f.smoothing_spline ? "the smoothest spline within the tolerance"
                                          : "the spline through the points";
   if (f.fair) return fmt::format("Fair: as calm a comb as that of {}, or calmer.", whose);
+  if (f.rivals.size() > 1)
+    return fmt::format("Not fair: for {} of {} chains between corners {} has a calmer comb.",
+                       f.unfair, f.rivals.size(), whose);
   const analysis::CombFigures& rival = f.rival();
   return fmt::format("Not fair: {} has a calmer comb ({}, variation {}, jolt {}).", whose,
                      core::counted(static_cast<std::size_t>(rival.waves), "wave"),

@@ -70,6 +70,66 @@ TEST(FairFigures, TheSplineToCompareWithStaysOpenAtACorner) {
   }
 }
 
+/// The loop and, from its node on, a parabola y = x^2 / 2 from 0 to 1, whose curvature is
+/// (1 + x^2)^(-3/2): along it |d curvature / ds| = 3 x / (1 + x^2)^3.
+acquire::KeyLine folium_and_parabola() {
+  acquire::KeyLine line = folium(120, 0);
+  line.closed = false;
+  line.corners = {120};
+  for (int i = 0; i <= 60; ++i) line.points.push_back({i / 60.0, i * i / 7200.0});
+  return line;
+}
+
+double variation_of_parabola() {
+  constexpr int n = 4000;
+  double sum = 0, length = 0;
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) / n;
+    const double slope = 1 + x * x;
+    sum += std::pow(3 * x / std::pow(slope, 3), 2) * std::sqrt(slope) / n;
+    length += std::sqrt(slope) / n;
+  }
+  return sum * std::pow(length, 3);
+}
+
+// Held together, what the parabola's chain has too much would be nothing beside the loop.
+TEST(FairFigures, EveryMemberIsHeldAgainstItsOwnRival) {
+  const acquire::KeyLine line = folium_and_parabola();
+  const auto beside = [&](double rise) {
+    FairResult answer;
+    answer.tolerance = 1e-5;
+    answer.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 4, 0.1, 0.2}}});
+    answer.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 1, 0.1, 0.1 + rise}}});
+    return fair_figures(line, answer);
+  };
+  const FairFigures calm = beside(0.5);
+  ASSERT_EQ(calm.rivals.size(), 2U);
+  EXPECT_NEAR(calm.rivals[1].energy, variation_of_parabola(), 0.2 * variation_of_parabola());
+  ASSERT_TRUE(calm.smoothing_spline);
+  EXPECT_GT(calm.smoothing_spline->energy, 10 * variation_of_parabola());
+  EXPECT_TRUE(calm.fair);
+  const FairFigures wild = beside(std::sqrt(3 * variation_of_parabola()));
+  EXPECT_LT(wild.answer.energy, wild.smoothing_spline->energy);
+  EXPECT_EQ(wild.unfair, 1U);
+  EXPECT_NEAR(wild.times, 3, 0.5);
+  EXPECT_FALSE(wild.fair);
+}
+
+// A chain of length 2 departs from an arc by a tenth of a tolerance of 0.01 where its curvature
+// changes by 32 * 0.001 / 2^2.
+TEST(FairFigures, WhatIsAnArcToTheEyeIsCalm) {
+  FairFigures before;
+  before.rivals = {analysis::CombFigures{0, 1e-9, 0.005}};
+  const auto beside = [&](double rise) {
+    FairResult answer;
+    answer.tolerance = 0.01;
+    answer.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 2, 0.1, 0.1 + rise}}});
+    return fair_figures({}, answer, &before).fair;
+  };
+  EXPECT_TRUE(beside(0.99 * 0.008));
+  EXPECT_FALSE(beside(1.01 * 0.008));
+}
+
 /// A clothoid from 0.1 to 0.5 along 2: its energy is 0.4^2 * 2^2, its comb a straight line.
 FairResult one_clothoid() {
   FairResult answer;

@@ -53,7 +53,7 @@ struct Given {
 TEST(UnseenEnergy, IsOfATenthOfTheToleranceInUnitsOfTheLength) {
   DenseCurve curve;
   curve.length = 2;
-  EXPECT_NEAR(unseen_energy(curve, 0.01), std::pow(32 * 0.1 * 0.01 / 2, 2), 1e-18);
+  EXPECT_NEAR(unseen_energy(curve.length, 0.01), std::pow(32 * 0.1 * 0.01 / 2, 2), 1e-18);
 }
 
 /// Three clothoids, the one between rising by so much over 0.3.

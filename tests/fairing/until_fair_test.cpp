@@ -117,7 +117,10 @@ TEST(UntilFair, SmoothnessCountsForNothingWithoutNoise) {
   }
 }
 
-/// Answers farther off the smoother, the two smoothest by more than the noise's square root of two.
+constexpr double kNoise = 1e-3;  // little beside the chains' length of 2
+
+/// Answers farther off the smoother, the two smoothest by more than the noise's square root of two:
+/// in units of the noise.
 double rms_at(double smoothness) { return smoothness < 0.7 ? 1 + smoothness / 2 : 1.5; }
 
 // Farther from the points than errors and a departure as large as theirs explain, only what is fair
@@ -128,9 +131,9 @@ TEST(UntilFair, DepartsByMoreThanTheNoiseOnlyWhereThatIsFair) {
     const auto found =
         until_fair(three_points(), {}, [&](const FairOptions& options, const FairResult* before) {
           auto result = solver(options, before);
-          result->noise = 1;
-          result->tolerance = noise_factor(3);
-          result->offsets.assign(3, rms_at(result->smoothness));
+          result->noise = kNoise;
+          result->tolerance = kNoise * noise_factor(3);
+          result->offsets.assign(3, kNoise * rms_at(result->smoothness));
           return result;
         });
     EXPECT_EQ(found->smoothness, taken);
