@@ -145,6 +145,7 @@ TEST(SvgReader, SaysWhatThePageShows) {
   EXPECT_EQ(page("width='40' height='0'"), Sides{});
   EXPECT_EQ(page("width='40' height='30'"), (Sides{0, -30, 40, 0}));
   EXPECT_EQ(page("viewBox='1e308 0 1e308 10'"), Sides{});  // no numbers for its right side
+  EXPECT_EQ(page("viewBox='0 1e20 10 1'"), Sides{});       // its height is lost in rounding
   EXPECT_EQ(page("viewBox='5 6 40 20'"), (Sides{5, -26, 45, -6}));
   EXPECT_EQ(page("width='200mm' height='100mm' viewBox='5 6 400 200'"),
             (Sides{2.5, -103, 202.5, -3}));
