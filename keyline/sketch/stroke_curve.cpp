@@ -234,9 +234,16 @@ DrivenRun give_rhythm(const std::vector<Point2>& points, bool closed, double mos
   return {pieces.size(), target.places, before, std::min(before, after), target.straight_ended};
 }
 
+/// How far driving may take the curve of a line; in a picture, on its ink.
+double drive_room(double width, const StrokeCurveOptions& options, bool in_picture) {
+  const double room = kDriveTolerances * options.tolerance;
+  const double on_ink = in_picture ? std::max(options.tolerance, 0.5 * width) : room;
+  return std::max(std::min(room, on_ink), kDriveShare * width);
+}
+
 /// Takes the waves out of a run's curvature; where asked for, gives what is left its rhythm, unless
 /// that brings waves back.
-void drive(const std::vector<Point2>& points, bool closed, double width,
+void drive(const std::vector<Point2>& points, bool closed, double most,
            const StrokeCurveOptions& options, std::vector<curve::Bezier2>& pieces,
            std::vector<DrivenRun>& runs) {
   if (points.size() < kFewestDriven) {
@@ -244,7 +251,6 @@ void drive(const std::vector<Point2>& points, bool closed, double width,
     return;
   }
   const bool rhythm = options.aim == CurvatureAim::rhythm;
-  const double most = std::max(kDriveTolerances * options.tolerance, kDriveShare * width);
   if (rhythm && options.rhythm != fit::WantedRhythm::own && options.tolerance > 0) {
     runs.push_back(give_rhythm(points, closed, most, options.rhythm, pieces));
     return;
@@ -316,11 +322,12 @@ Stroke curve_of(const FineStroke& fine, const StrokeCurveOptions& options, const
     };
   const auto runs = fit_segments(fine.points, fine.closed, segments);
   std::vector<DrivenRun> driven;
+  const double room = drive_room(fine.width, options, picture != nullptr);
   for (const SegmentRun& run : runs) {
     const std::vector<curve::Bezier2> quadratic = quadratics(run.vertices, run.closed);
     std::vector<curve::Bezier2> pieces = quintics_of(run, fine, quadratic, options);
     if (options.aim != CurvatureAim::none)
-      drive(points_of(run, fine), run.closed, fine.width, options, pieces, driven);
+      drive(points_of(run, fine), run.closed, room, options, pieces, driven);
     if (!stroke.curve.empty()) stroke.corners.push_back(stroke.curve.size());
     if (stroke.curve.empty() && fine.closed && !run.closed) stroke.corners.push_back(0);
     stroke.curve.insert(stroke.curve.end(), pieces.begin(), pieces.end());

@@ -31,7 +31,8 @@ struct StrokeCurveOptions {
   /// [Sketch] section 5.
   double tolerance = 0.5;
   double width_share = 0.1;
-  /// Curves keep within three times the tolerance, or 0.3 of the width, of where they were.
+  /// Curves keep within three times the tolerance (of a picture, half the width if that is less)
+  /// or 0.3 of the width of where they were.
   CurvatureAim aim = CurvatureAim::none;
   fit::WantedRhythm rhythm = fit::WantedRhythm::own;  ///< of aim rhythm
 };

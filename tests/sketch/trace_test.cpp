@@ -357,6 +357,19 @@ TEST(Trace, ADrawingInShadeIsNoPhotograph) {
   EXPECT_TRUE(doubts(ball));
 }
 
+// Waves of 2 pixels either way, of a pen of 1.5: taken out as far as wider ink allows they leave
+// it.
+TEST(Trace, SmoothCurvesKeepToThinInk) {
+  Image image = blank_page(240, 80);
+  const auto at = [](int x) { return Point2{1.0 * x, 40 + 2 * std::sin(x * M_PI / 40)}; };
+  for (int x = 20; x < 220; x += 2) draw_line(image, at(x), at(x + 2), 1.5);
+  TraceOptions options;
+  options.curve.aim = CurvatureAim::smooth;
+  const auto result = trace(std::move(image), options);
+  ASSERT_TRUE(result);
+  EXPECT_GT(result->explained, 0.99);
+}
+
 TEST(Trace, DrawnStrokesSayWhoStandsForThem) {
   std::vector<DrawnStroke> strokes;
   for (int k = 0; k < 3; ++k) strokes.push_back({{{0, 0.5 * k}, {40, 0.5 * k}, {100, 0.5 * k}}});
