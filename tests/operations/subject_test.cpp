@@ -89,13 +89,13 @@ TEST(MeasuredLine, RefusesWhatWouldTakeHours) {
   document::Path& path = *subject.curve;
   for (int i = 0; i < 10001; ++i)
     path.curves.push_back({curve::Bezier2{{{1.0 * i, 0}, {i + 0.5, 1}, {i + 1.0, 0}}, {}}});
-  const auto refused = measured_line(subject);
+  const auto refused = measured_line(subject, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, core::ErrorCode::unsupported);
   EXPECT_EQ(refused.error().path, "curve");
   EXPECT_EQ(refused.error().message, "a curve of 10001 spans; at most 10000 at a time");
   path.curves.pop_back();
-  EXPECT_TRUE(measured_line(subject));
+  EXPECT_TRUE(measured_line(subject, {}));
 }
 
 TEST(Refusals, ACurveThatIsOnePointIsNamed) {
