@@ -8,6 +8,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/coordinate.h"
+#include "keyline/curve/least_edge.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::classa {
@@ -138,7 +139,7 @@ double least_edge(std::span<const Point> control) {
   double longest = 0;
   for (std::size_t i = 0; i + 1 < control.size(); ++i)
     longest = std::max(longest, distance(control[i], control[i + 1]));
-  return kLeastEdge * longest;
+  return curve::kLeastEdge * longest;
 }
 
 template <class Point>

@@ -59,17 +59,13 @@ double end_angle(const ControlMatrix& m, int degree);
 /// where it is not reached. Needs end_angle to grow with s there.
 double scale_at_end_angle(double alpha, double angle, int degree, const core::Interval& s);
 
-/// An edge shorter than this share of the longest counts as none: rounding of the points takes its
-/// direction.
-inline constexpr double kLeastEdge = 1e-12;
-
-/// From the first control point to the next that lies farther off than kLeastEdge of the longest
-/// edge: the direction in which the curve leaves. Not all points may be one.
+/// From the first control point to the next that lies farther off than curve::kLeastEdge of the
+/// longest edge: the direction in which the curve leaves. Not all points may be one.
 core::Vector2 leaving_edge(std::span<const core::Point2> control);
 core::Vector3 leaving_edge(std::span<const core::Point3> control);
 
 /// One matrix for each two consecutive edges, alpha in (-pi, pi]; empty where one of the edges is
-/// shorter than kLeastEdge of the longest. A curve of degree 1 has none.
+/// shorter than curve::kLeastEdge of the longest. A curve of degree 1 has none.
 std::vector<std::optional<ControlMatrix>> ratios(std::span<const core::Point2> control);
 
 /// Whether the edges shrink on the whole: the last against the first, then inwards. Where lengths

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "keyline/curve/least_edge.h"
+
 namespace keyline::fit {
 
 using core::cross;
@@ -29,9 +31,6 @@ std::array<double, 4> bernstein3(double t) {
 
 }  // namespace
 
-/// Of the longest edge of its piece: rounding of the points takes the direction of a shorter one.
-constexpr double kLeastEdge = 1e-12;
-
 Result<std::vector<Edges>> edges_of(const PiecewiseBezier& chain) {
   std::vector<Edges> all;
   for (std::size_t i = 0; i < chain.pieces.size(); ++i) {
@@ -42,7 +41,7 @@ Result<std::vector<Edges>> edges_of(const PiecewiseBezier& chain) {
       edges.length[n] = core::norm(edge);
       edges.direction[n] = edge / edges.length[n];
     }
-    if (!(std::ranges::min(edges.length) > kLeastEdge * std::ranges::max(edges.length)))
+    if (!(std::ranges::min(edges.length) > curve::kLeastEdge * std::ranges::max(edges.length)))
       return core::fail(ErrorCode::bad_input, "a control edge has no length, so no direction",
                         "move the two handles apart", "curve.curves[" + std::to_string(i) + "]");
     all.push_back(edges);
