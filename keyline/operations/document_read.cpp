@@ -198,7 +198,7 @@ Result<ReadAnswer> read_input(const InputRequest& request, const core::Progress&
     files.push_back(std::move(*opened));
   }
   auto read = read_files(readable, progress);
-  if (read && progress.stop_requested())
+  if (progress.stop_requested())
     return fail(ErrorCode::cancelled, "cancelled", {}, request.file.front());
   if (read) read->unused = unused_fields(request, read->kind);
   if (!read)
