@@ -41,7 +41,8 @@ Result<std::vector<Edges>> edges_of(const PiecewiseBezier& chain) {
       edges.length[n] = core::norm(edge);
       edges.direction[n] = edge / edges.length[n];
     }
-    if (!(std::ranges::min(edges.length) > curve::kLeastEdge * std::ranges::max(edges.length)))
+    const auto [least, most] = std::minmax_element(edges.length.begin(), edges.length.end());
+    if (!(*least > curve::kLeastEdge * *most))
       return core::fail(ErrorCode::bad_input, "a control edge has no length, so no direction",
                         "move the two handles apart", "curve.curves[" + std::to_string(i) + "]");
     all.push_back(edges);

@@ -9,6 +9,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/document/arc.h"
 #include "keyline/exchange/dxf/dxf_reader.h"
+#include "keyline/exchange/dxf/dxf_writer.h"
 
 namespace keyline::exchange {
 namespace {
@@ -200,6 +201,20 @@ TEST(DxfReader, BlanksBehindTypesCountForNothing) {
   ASSERT_TRUE(document) << document.error().message;
   EXPECT_EQ(document->paths.size(), 1U);
   EXPECT_THAT(document->skipped, testing::IsEmpty());
+}
+
+// The end of a closed curve that misses its start is put there, and that is how far off it is.
+TEST(DxfWriter, ClosingUpIsToldAsDeviation) {
+  Document d;
+  d.unit = "mm";
+  d.paths.push_back(
+      {{"a", "", ""}, {{{curve::Bezier2{{{0, 0}, {10, 0}, {0, 10}, {3e-6, 4e-6}}, {}}}}, true}, 0});
+  const auto written = write_dxf(d, {});
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_DOUBLE_EQ(written->deviation, 5e-6);
+  const auto back = read_dxf(written->content);
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(back->paths.at(0).path.closed);
 }
 
 }  // namespace

@@ -238,20 +238,6 @@ TEST(DxfWriter, ReadsBack) {
   EXPECT_NEAR(distance(evaluate(d.paths[0].path, 1), evaluate(exact, 1)), 0, 1e-12);
 }
 
-// The end of a closed curve that misses its start is put there, and that is how far off it is.
-TEST(DxfWriter, ClosingUpIsToldAsDeviation) {
-  Document d;
-  d.unit = "mm";
-  d.paths.push_back(
-      {{"a", "", ""}, {{{curve::Bezier2{{{0, 0}, {10, 0}, {0, 10}, {3e-6, 4e-6}}, {}}}}, true}, 0});
-  const auto written = write_dxf(d, {});
-  ASSERT_TRUE(written) << written.error().message;
-  EXPECT_DOUBLE_EQ(written->deviation, 5e-6);
-  const auto back = read_dxf(written->content);
-  ASSERT_TRUE(back);
-  EXPECT_TRUE(back->paths.at(0).path.closed);
-}
-
 // The side of a bulge is that of the turn: to the right, negative. Values by hand: a quarter circle
 // of radius 1 from (0,0), heading along x and turning right, ends at (1,-1); tan(90/4 degrees).
 TEST(DxfWriter, RightTurnsHaveNegativeBulges) {

@@ -40,7 +40,7 @@ TEST(ScapReader, OtherLinesAreNamed) {
   EXPECT_EQ(place("{\n1 1e9\n}\n"), "line 2");
   EXPECT_EQ(place("{\n1 9e8\n}\n"), "read");
   EXPECT_EQ(place("{\n1 2 0.5\n3 0.5\n}\n"), "line 3");  // a lost number, no y of 0.5
-  EXPECT_EQ(place("{\n1 2 0.5\n}\n{\n3 4\n}\n"), "line 5");
+  EXPECT_EQ(place("{\n1 2 0.5\n}\n{\n3 4\n5 6\n}\n"), "read");
   EXPECT_EQ(place("{\n1 2 x\n}\n"), "line 2");
   EXPECT_EQ(place("{\n1 2\n}\n{\n3 4\n"), "line 5");  // cut off
   EXPECT_EQ(place(""), "");

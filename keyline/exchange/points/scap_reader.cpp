@@ -56,6 +56,7 @@ class Reader {
     if (words[0] == "{") {
       if (inside_) return false;
       drawing_.strokes.emplace_back();
+      columns_ = 0;
       return inside_ = true;
     }
     if (words[0] == "}") {
@@ -88,7 +89,8 @@ class Reader {
     return true;
   }
 
-  /// Whether these are numbers, as many as in the first row: x, y and what else was recorded.
+  /// Whether these are numbers, as many as in the stroke's first row: x, y and what else was
+  /// recorded.
   bool is_row(const std::vector<std::string_view>& words) {
     if (columns_ == 0) columns_ = words.size();
     double number = 0;

@@ -28,7 +28,7 @@ std::vector<core::Point2> upright(const ScapDrawing& drawing, const ScapStroke& 
 /// Reads "#width height", "@pen" and blocks { #id group, x y … }; what stands behind the blocks in
 /// lines that start with # is skipped.
 /// Fails: bad_input with "line N" for anything else, numbers that are not finite, rows of more or
-/// fewer numbers than the first, a stroke that does not end, or no stroke.
+/// fewer numbers than their stroke's first, a stroke that does not end, or no stroke.
 core::Result<ScapDrawing> read_scap(std::string_view text);
 
 }  // namespace keyline::exchange
