@@ -1,9 +1,9 @@
 #include "keyline/sketch/never_touching.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "keyline/core/disjoint_sets.h"
 
 namespace keyline::sketch {
 namespace {
@@ -11,23 +11,22 @@ namespace {
 /// Strokes of a group, by index, put together where they touch.
 std::vector<std::vector<std::size_t>> touching(const std::vector<SampledStroke>& some, double near,
                                                double angle) {
-  std::vector<std::size_t> part(some.size());
-  std::iota(part.begin(), part.end(), std::size_t{0});
+  core::DisjointSets sets(some.size());
   const StrokeGrid grid(some, near);
   const double least = std::cos(angle);
   for (std::size_t a = 0; a < some.size(); ++a)
     for (std::size_t k = 0; k < some[a].points.size(); ++k)
       grid.visit_others(some[a].points[k], near, a, [&](std::size_t b, std::size_t m) {
-        if (part[a] == part[b]) return;
-        if (std::abs(dot(some[a].tangents[k], some[b].tangents[m])) < least) return;
-        const auto [low, high] = std::minmax({part[a], part[b]});
-        std::ranges::replace(part, high, low);
+        if (std::abs(dot(some[a].tangents[k], some[b].tangents[m])) >= least) sets.join(a, b);
       });
-  std::map<std::size_t, std::vector<std::size_t>> parts;
-  for (std::size_t a = 0; a < some.size(); ++a) parts[part[a]].push_back(a);
-  std::vector<std::vector<std::size_t>> all;
-  for (auto& [name, members] : parts) all.push_back(std::move(members));
-  return all;
+  std::map<std::size_t, std::size_t> place;  // of the part that a stroke stands for
+  std::vector<std::vector<std::size_t>> parts;
+  for (std::size_t a = 0; a < some.size(); ++a) {
+    const std::size_t i = place.try_emplace(sets.find(a), parts.size()).first->second;
+    if (i == parts.size()) parts.emplace_back();
+    parts[i].push_back(a);
+  }
+  return parts;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/text/ascii.h"
+#include "keyline/exchange/text/byte_lines.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -155,15 +156,16 @@ std::string_view bad_directory_field(std::string_view line, bool second) {
   return {};
 }
 
+/// A blank where the line ends before it.
+char section_of(std::string_view line) { return line.size() > kSection ? line[kSection] : ' '; }
+
+bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\x1a") == line.npos; }
+
 /// The global section starts with its separators, "1H,,1H;,", or leaves out the usual ones, ",,".
 bool has_usual_separators(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    if (line.size() > kSection && line[kSection] == 'G')
-      return line.starts_with(",,") || line.starts_with("1H,,1H;,");
-    at = end + 1;
-  }
+  detail::ByteLines lines(text);
+  for (std::string_view line; lines.next(line);)
+    if (section_of(line) == 'G') return line.starts_with(",,") || line.starts_with("1H,,1H;,");
   return false;
 }
 
@@ -179,15 +181,13 @@ std::string bad_step_value(std::string_view text) { return StepValues(text).bad(
 std::string missing_iges_end(std::string_view text) {
   std::size_t parameters = 0;
   std::string_view last;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    at = end + 1;
-    if (line.find_first_not_of(" \t\x1a") == line.npos) continue;
+  detail::ByteLines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (is_blank(line)) continue;
     last = line;
-    parameters += line.size() > kSection && line[kSection] == 'P';
+    parameters += section_of(line) == 'P';
   }
-  if (last.size() <= kSection || last[kSection] != 'T')
+  if (section_of(last) != 'T')
     return "the rest of the file: it is cut off before its last line (section T)";
   std::string_view count = last.substr(last.find('P') + 1);
   count.remove_prefix(std::min(count.find_first_not_of(' '), count.size()));
@@ -198,17 +198,13 @@ std::string missing_iges_end(std::string_view text) {
 }
 
 std::string odd_iges_line(std::string_view text) {
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-    ++number;
-    if (line.find_first_not_of(" \t\x1a") == line.npos) continue;
-    const char section = line.size() > kSection ? line[kSection] : ' ';
+  detail::ByteLines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (is_blank(line)) continue;
+    const char section = section_of(line);
     if (section == 'T') break;
     if (std::string_view("SGDP").find(section) == std::string_view::npos)
-      return "line " + std::to_string(number) +
+      return lines.place() +
              ": it has no letter of a section in column 73; it and what belongs to it";
   }
   return {};
@@ -221,7 +217,6 @@ std::string bad_iges_value(std::string_view text) {
   std::string parameters;
   std::string_view owner;
   std::size_t first = 1;
-  std::size_t number = 0;
   bool second = true;  // of the two lines of an entity's directory
   std::string found;
   const auto check = [&] {
@@ -229,20 +224,18 @@ std::string bad_iges_value(std::string_view text) {
     if (!bad.empty() && found.empty()) found = told(first, bad);
     parameters.clear();
   };
-  for (std::size_t at = 0; at < text.size() && found.empty();) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-    ++number;
-    if (line.size() > kSection && line[kSection] == 'D') {
+  detail::ByteLines lines(text);
+  for (std::string_view line; found.empty() && lines.next(line);) {
+    const char section = section_of(line);
+    if (section == 'D') {
       const std::string_view bad = bad_directory_field(line, second = !second);
-      if (!bad.empty()) return told(number, bad);
+      if (!bad.empty()) return told(lines.number(), bad);
     }
-    if (line.size() <= kSection || line[kSection] != 'P') continue;
+    if (section != 'P') continue;
     if (line.substr(kData, 8) != owner) {
       check();
       owner = line.substr(kData, 8);
-      first = number;
+      first = lines.number();
     }
     parameters += line.substr(0, kData);
   }
