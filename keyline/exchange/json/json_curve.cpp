@@ -23,7 +23,6 @@ using document::Path;
 using document::PlanarCurve;
 using nlohmann::json;
 
-constexpr double kMostTurning = 1e5;  // as of a piece: what turns farther has lost its digits
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using detail::curve_json;
@@ -85,7 +84,7 @@ Result<PlanarCurve> read_chain(const json& j, const std::string& where) {
   if (!position) return std::unexpected(position.error());
   const auto direction = detail::number_member(j, "direction", where);
   if (!direction) return std::unexpected(direction.error());
-  if (std::abs(*direction) > kMostTurning)
+  if (std::abs(*direction) > lac::kLargestTurning)
     return fail(ErrorCode::bad_input, "the direction lies beyond 1e5 radians",
                 "take off whole turns", in(where, "direction"));
   chain.start = {*position, *direction};

@@ -16,8 +16,6 @@ using core::Point2;
 using core::Pose2;
 using core::Vector2;
 
-constexpr double kLargestTurning = 1e5;
-
 bool is_straight(const Piece& p) { return p.curvature_start == 0 && p.curvature_end == 0; }
 
 double sign_of(const Piece& p) { return p.curvature_start + p.curvature_end < 0 ? -1.0 : 1.0; }

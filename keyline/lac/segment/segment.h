@@ -51,7 +51,10 @@ inline Segment place(const Piece& p, const core::Pose2& start) {
   return {start, p.alpha, p.length, p.curvature_start, p.curvature_end};
 }
 
-/// bad_input with the rule that is broken, or nothing. The turning must stay below 1e5 radians.
+/// Radians: what turns farther, or points there, has lost digits of its direction.
+inline constexpr double kLargestTurning = 1e5;
+
+/// bad_input with the rule that is broken, or nothing. The turning is at most kLargestTurning.
 core::Result<void> validate(const Piece& piece);
 core::Result<void> validate(const Segment& segment);
 
