@@ -87,19 +87,22 @@ double arms_length(const Ring& ring, std::ptrdiff_t i, int arm) {
 /// the nearer one's may be by chance, for a bend about i fades with the distance: what turns more
 /// there is another. What noise adds stays in: of a turn that is told by five standard errors
 /// (kClearance) it is no share that counts, and taken off it made corners of tips that are bends.
-/// Where points stand closer there than at i, which turns by `size`, it is what a curve as bent as
+/// Where points stand closer there than at i, which turns by `angle`, it is what a curve as bent as
 /// there turns along the arms of i: bends are sampled as it comes. Not where i turns by a right
-/// angle or more: a bend of which one point tells so much is not known to be one.
-double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double size) {
+/// angle or more: a bend of which one point tells so much is not known to be one, and what turns
+/// the other way beside it is none of it.
+double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double angle) {
   double beside = 0;
-  const double length = size < kUnsampled ? arms_length(ring, i, arm) : 0;
+  const bool bent = std::abs(angle) < kUnsampled;
+  const double length = bent ? arms_length(ring, i, arm) : 0;
   for (const std::ptrdiff_t way : {-arm, arm}) {
     double most = HUGE_VAL;
     for (const std::ptrdiff_t k : {i + way, i + 2 * way}) {
       if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
       const Turn flank = turn_at(ring, k, arm, noise);
       const double closer = std::max(1.0, length / arms_length(ring, k, arm));
-      const double turn = std::abs(flank.angle) * closer;
+      const bool other_way = std::signbit(flank.angle) != std::signbit(angle);
+      const double turn = bent || !other_way ? std::abs(flank.angle) * closer : 0;
       beside = std::max(beside, std::min(turn, most));
       most = turn + kByChance * flank.error * closer;
     }
@@ -158,7 +161,7 @@ double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
     const double size = std::abs(turn.angle);
     if (turn.error * kClearance > std::max(t.angle, 0.5 * size)) continue;
     if (size < std::max(kKink * t.angle, 2 * kClearance * turn.error)) return 0;
-    const double beside = turn_beside(ring, i, arm, t.noise, size);
+    const double beside = turn_beside(ring, i, arm, t.noise, turn.angle);
     const double rest = std::max(beside, t.usual);
     if (arm == 1 && size >= kKinkConcentration * rest) return turn.angle;
     if (size < t.angle || size < kContrast * t.usual) return 0;

@@ -12,7 +12,8 @@ namespace keyline::acquire {
 /// `angle` (radians), twice what its standard error from `noise` allows at 5 sigma, 2.5 times the
 /// turn of the curve on either side and 3 times the usual turn at a vertex, so that a tight but
 /// sampled bend (the nose of an airfoil) is none. Where points beside stand closer, what counts is
-/// what a curve as bent as theirs would turn over the vertex' own arms. A kink between very smooth
+/// what a curve as bent as theirs would turn over the vertex' own arms; beside a turn by a right
+/// angle or more, what turns the other way does not count. A kink between very smooth
 /// runs counts from a sixth of the angle on, if it is 12 times as sharp as all around it.
 /// Increasing; ends of an open polygon are never listed.
 std::vector<std::size_t> find_corners(std::span<const core::Point2> points, bool closed,

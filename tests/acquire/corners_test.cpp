@@ -66,6 +66,22 @@ TEST(Corners, FoundWhereABendEnds) {
   }
 }
 
+// A polyline with one edge between a corner and the next, which turns the other way: the sharper
+// one is it.
+TEST(Corners, FoundBesideACornerThatTurnsTheOtherWay) {
+  const auto step = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return core::Vector2{std::cos(angle), std::sin(angle)};
+  };
+  for (const double turn : {120.0, 140.0}) {
+    std::vector<Point2> points{{0, 0}};
+    for (int i = 0; i < 20; ++i) points.push_back(points.back() + step(0));
+    points.push_back(points.back() + step(turn));
+    for (int i = 0; i < 20; ++i) points.push_back(points.back() + step(25));
+    EXPECT_EQ(find_corners(points, false, 0, kAngle), Corners{20}) << turn;
+  }
+}
+
 // The foot of a letter: what turns as much two arms on is a corner of its own, not a bend about the
 // first. With this noise an arm is two points long.
 TEST(Corners, MayStandTwoArmsApart) {
