@@ -157,30 +157,54 @@ TEST(Quasi, PolygonsAreFoundHoweverFarTheirPieceTurns) {
   }
 }
 
-// Solved in the tests' own way from 30,000 starts (mended: both misses change their sign between
-// the places of the grid, not at them): turning and growth of the only piece there is.
-TEST(Quasi, TaylorFormsAreFoundBetweenThePlacesOfTheGrid) {
+// Solved in the tests' own way from 30,000 starts, the last three by scipy from every cell of a
+// fine grid in which both misses change their sign: turning and growth of the only piece there is.
+// A grid of the angles themselves missed them: they leap where an end edge vanishes.
+TEST(Quasi, TaylorFormsAreFoundWhereverTheyAre) {
   const struct {
     QuasiForm form;
-    double alpha;
+    double alpha, about;
     int degree;
     core::Point2 p1;
     double turning, growth;
   } cases[] = {{QuasiForm::taylor_angle,
                 -0.17926712843817638,
+                0,
                 8,
                 {0.07669624388380361, -0.2508464777203895},
                 2.380213096982766,
                 -0.7622996605844345},
                {QuasiForm::taylor_arc,
                 -1.125979430212512,
+                0,
                 9,
                 {0.2584290784243121, -0.6789242366149785},
                 3.3402715736407,
-                -1.0726288641229254}};
+                -1.0726288641229254},
+               {QuasiForm::taylor_angle,
+                -0.07860785738582088,
+                0.052944815575166615,
+                10,
+                {1.532472169893353, -0.4397126279167722},
+                0.3325775063844612,
+                -0.7889984159505874},
+               {QuasiForm::taylor_angle,
+                0.43939113318240475,
+                0.5,
+                10,
+                {-0.0035558299306040248, -0.0025483223973269947},
+                0.012268083072907401,
+                3.825436250729656},
+               {QuasiForm::taylor_arc,
+                0.28194585228353164,
+                1,
+                12,
+                {0.9708882493967695, -0.031021958914185854},
+                0.03226748576882041,
+                -3.486013975489244}};
   for (const auto& c : cases) {
     const auto r =
-        quasi_log_aesthetic({0, 0}, c.p1, {1, 0}, c.alpha, {c.form, c.degree, 0.0, false});
+        quasi_log_aesthetic({0, 0}, c.p1, {1, 0}, c.alpha, {c.form, c.degree, c.about, false});
     ASSERT_TRUE(r) << c.alpha;
     const auto& b = r->curve.control;
     EXPECT_LT(std::abs(cross(b[1] - b[0], c.p1 - b[0])), 1e-13);

@@ -69,7 +69,7 @@ class OverHandles {
   }
 
   /// Of the curves of settled options the closest to the target; nothing where there is none.
-  std::optional<QuasiResult> closest(const QuasiOptions& settled, bool thorough) const {
+  std::optional<QuasiResult> closest(const QuasiOptions& settled) const {
     Unknowns x{numeric::log_ratio(unit_.piece.curvature_end, unit_.piece.curvature_start),
                unit_.turning};
     detail::HandleSearch search(angles_, alpha_, settled);
@@ -79,7 +79,7 @@ class OverHandles {
       if (holds_tangents(r.curve)) return r;
     }
     std::optional<QuasiResult> closest;
-    for (const Unknowns& found : search.scan(thorough)) {
+    for (const Unknowns& found : search.all()) {
       QuasiResult r = laid(found, settled);
       if (!holds_tangents(r.curve)) continue;
       if (!closest || r.deviation < closest->deviation) closest = std::move(r);
@@ -95,7 +95,7 @@ class OverHandles {
                                  QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
       const auto options = settled({form, degree, {}, false});
       if (!options) continue;
-      auto r = closest(*options, false);
+      auto r = closest(*options);
       if (r && !(all && all->deviation <= r->deviation))
         all = {std::move(r->curve), r->deviation, false};
     }
@@ -192,7 +192,7 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   }
   const auto settled = forms.settled(options);
   if (!settled) return std::unexpected(settled.error());
-  auto closest = forms.closest(*settled, true);
+  auto closest = forms.closest(*settled);
   if (!closest)
     return core::fail(
         ErrorCode::undrawable,

@@ -12,11 +12,8 @@ namespace keyline::lac::detail {
 
 namespace {
 
-constexpr std::size_t kTried = 16;  // places of least miss, of each kind
 constexpr double kMostSeriesTurning = 6.2;
-constexpr int kDepth = 5;       // of quarters; the first is taken unseen, a miss may dip inside
-constexpr int kLeaping = 1;     // down to this depth cells in which a miss leaps are quartered too
-constexpr double kMet = 1e-11;  // radians
+constexpr double kMet = 1e-11;         // radians
 constexpr double kMostTurning = 1e30;  // of a polygon's piece
 constexpr double kFarthest = 350;      // log of the ratio of polygons' radii
 
@@ -72,13 +69,15 @@ std::optional<Miss> HandleSearch::at(const Unknowns& x) const {
   return Miss{core::wrap_angle(turned), chord};
 }
 
+SeriesVariable HandleSearch::variable() const {
+  return options_.form == QuasiForm::taylor_angle ? SeriesVariable::tangent_angle
+                                                  : SeriesVariable::arc_length;
+}
+
 EndEdges HandleSearch::end_edges(const UnitPiece& unit) const {
   const int n = options_.degree;
   if (!is_discrete(options_.form)) {
-    const SeriesVariable variable = options_.form == QuasiForm::taylor_angle
-                                        ? SeriesVariable::tangent_angle
-                                        : SeriesVariable::arc_length;
-    return taylor_end_edges(taylor_series(unit, variable, *options_.about, n));
+    return taylor_end_edges(taylor_series(unit, variable(), *options_.about, n));
   }
   const ControlPolygon b = draw_form(unit, options_).polygon;
   return {b[1] - b[0], b[n] - b[n - 1], b[n] - b[0]};
@@ -104,22 +103,8 @@ std::optional<Unknowns> HandleSearch::newton_step(const Unknowns& x, const Miss&
   return Unknowns{std::clamp(dq, -1.5, 1.5), std::clamp(dt, -0.5 * x.turning, 0.5 * x.turning)};
 }
 
-std::vector<Unknowns> HandleSearch::scan(bool thorough) {
-  if (is_discrete(options_.form)) return polygons();
-  std::vector<Unknowns> found;
-  solve_from(places_of_least_miss(missed()), found);
-  if (thorough && found.empty()) solve_from(where_signs_change(), found);
-  return found;
-}
-
-void HandleSearch::solve_from(const std::vector<Unknowns>& starts, std::vector<Unknowns>& found) {
-  for (Unknowns x : starts) {
-    if (!solve(x)) continue;
-    const bool known = std::any_of(found.begin(), found.end(), [&](const Unknowns& y) {
-      return std::abs(y.log_ratio - x.log_ratio) + std::abs(y.turning - x.turning) < 1e-7;
-    });
-    if (!known) found.push_back(x);
-  }
+std::vector<Unknowns> HandleSearch::all() {
+  return is_discrete(options_.form) ? polygons() : series();
 }
 
 // ---- Polygons -----------------------------------------------------------------------------
@@ -166,87 +151,33 @@ Unknowns HandleSearch::turning_rightly(double log_ratio) const {
 
 // ---- Taylor forms -------------------------------------------------------------------------
 
-Unknowns HandleSearch::grid_place(int ratio, int turning) const {
-  const double least = 0.2 * turning_;
-  const double share = turning / (Grid::kTurnings - 1.0);
-  return {1.0 * (ratio - Grid::kRatios / 2),
-          std::min(least * std::pow(kMostSeriesTurning / least, share), kMostSeriesTurning)};
+std::vector<Unknowns> HandleSearch::series() {
+  std::vector<Unknowns> found;
+  for (const SeriesPlace& place : series_places(
+           {variable(), alpha_, *options_.about, options_.degree, turning_, chord_angle_})) {
+    Unknowns x = unknowns_of(place);
+    if (!solve(x)) continue;
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Unknowns& y) {
+      return std::abs(y.log_ratio - x.log_ratio) + std::abs(y.turning - x.turning) < 1e-7;
+    });
+    if (!known) found.push_back(x);
+  }
+  return found;
 }
 
-HandleSearch::Grid HandleSearch::missed() const {
-  Grid grid;
-  for (int i = 0; i < Grid::kRatios; ++i)
-    for (int j = 0; j < Grid::kTurnings; ++j) grid.at.push_back(at(grid_place(i, j)));
-  return grid;
-}
-
-/// Those of the grid that miss less than those around them, and of all the least.
-std::vector<Unknowns> HandleSearch::places_of_least_miss(const Grid& grid) const {
-  const auto is_low = [&](int i, int j) {
-    for (int a = std::max(i - 1, 0); a <= std::min(i + 1, Grid::kRatios - 1); ++a)
-      for (int b = std::max(j - 1, 0); b <= std::min(j + 1, Grid::kTurnings - 1); ++b)
-        if (grid(a, b) && grid(a, b)->size() < grid(i, j)->size()) return false;
-    return true;
+/// Not finite where there is no piece.
+Unknowns HandleSearch::unknowns_of(const SeriesPlace& place) const {
+  const bool by_angle = options_.form == QuasiForm::taylor_angle;
+  const double decay = by_angle ? 1 - alpha_ : alpha_;
+  // Of curvature or radius: its logarithm, 0 at the point of expansion.
+  const auto grown = [&](double x) {
+    const double step = place.log_rate * x;
+    return decay == 0 ? step : -std::log1p(-decay * step) / decay;
   };
-  std::vector<std::pair<double, Unknowns>> lows, all;
-  for (int i = 0; i < Grid::kRatios; ++i)
-    for (int j = 0; j < Grid::kTurnings; ++j) {
-      if (!grid(i, j)) continue;
-      all.push_back({grid(i, j)->size(), grid_place(i, j)});
-      if (is_low(i, j)) lows.push_back(all.back());
-    }
-  std::vector<Unknowns> starts;
-  for (auto* places : {&lows, &all}) {
-    std::ranges::sort(*places, {}, [](const auto& p) { return p.first; });
-    if (places->size() > kTried) places->resize(kTried);
-    for (const auto& [miss, x] : *places) starts.push_back(x);
-  }
-  return starts;
-}
-
-Unknowns HandleSearch::Cell::at(double x, double y) const {
-  return {std::lerp(low.log_ratio, high.log_ratio, x), std::lerp(low.turning, high.turning, y)};
-}
-
-std::array<HandleSearch::Cell, 4> HandleSearch::Cell::quarters() const {
-  return {{{at(0, 0), at(0.5, 0.5)},
-           {at(0.5, 0), at(1, 0.5)},
-           {at(0, 0.5), at(0.5, 1)},
-           {at(0.5, 0.5), at(1, 1)}}};
-}
-
-/// Whether both misses have either sign in a cell; where one leaps round only if it may.
-bool HandleSearch::straddles(const Cell& cell, bool leaping) const {
-  Miss least{HUGE_VAL, HUGE_VAL}, most{-HUGE_VAL, -HUGE_VAL};
-  for (int i = 0; i <= 2; ++i)
-    for (int j = 0; j <= 2; ++j) {
-      const std::optional<Miss> m = at(cell.at(0.5 * i, 0.5 * j));
-      if (!m) return false;
-      least = {std::min(least.turning, m->turning), std::min(least.chord_angle, m->chord_angle)};
-      most = {std::max(most.turning, m->turning), std::max(most.chord_angle, m->chord_angle)};
-    }
-  if (!(least.turning <= 0 && most.turning >= 0 && least.chord_angle <= 0 && most.chord_angle >= 0))
-    return false;
-  return leaping ||
-         std::max(most.turning - least.turning, most.chord_angle - least.chord_angle) < core::kPi;
-}
-
-void HandleSearch::quarter(const Cell& cell, int depth, std::vector<Unknowns>& starts) const {
-  if (depth < kDepth && !straddles(cell, depth >= kLeaping)) return;
-  if (depth == 0) {
-    starts.push_back(cell.at(0.5, 0.5));
-    return;
-  }
-  for (const Cell& q : cell.quarters()) quarter(q, depth - 1, starts);
-}
-
-/// What no start near by is led to: quarters of quarters in which both misses change their sign.
-std::vector<Unknowns> HandleSearch::where_signs_change() const {
-  std::vector<Unknowns> starts;
-  for (int i = 0; i + 1 < Grid::kRatios; ++i)
-    for (int j = 0; j + 1 < Grid::kTurnings; ++j)
-      quarter({grid_place(i, j), grid_place(i + 1, j + 1)}, kDepth, starts);
-  return starts;
+  const double start = grown(-*options_.about), end = grown(1 - *options_.about);
+  if (by_angle) return {end - start, place.value};
+  const Piece piece{alpha_, 1, place.value * std::exp(start), place.value * std::exp(end)};
+  return {start - end, total_turning(piece)};
 }
 
 }  // namespace keyline::lac::detail
