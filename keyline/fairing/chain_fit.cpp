@@ -68,26 +68,38 @@ double step_limit(const FitChain& chain, const detail::Step& step) {
   return share;
 }
 
-/// Exponent e with which a joint's curvature enters the piece beside it: near an inflection the
-/// piece depends smoothly on |curvature|^e, not on the curvature; of two pieces the smaller, to
-/// which the other is smooth as well. 1 where no inflection is near.
-double curvature_exponent(const FitChain& chain, std::size_t joint) {
-  double least = kSteepestSlope;
+/// What a joint's curvature is to the pieces beside it: near an inflection they depend smoothly on
+/// bend = |curvature|^exponent * beside^(1 - exponent), with its sign, and not on the curvature.
+struct Bend {
+  double exponent = 1;  ///< 1 where no inflection is near
+  double beside = 1;    ///< the larger curvature at the piece's other end
+
+  /// By which the curvature changes with the bend.
+  double rate(double curvature) const {
+    if (exponent == 1 || curvature == 0) return 1;
+    return std::pow(std::abs(curvature) / beside, 1 - exponent) / exponent;
+  }
+
+  /// The curvature after a change that is meant linearly in the bend.
+  double changed(double curvature, double by) const {
+    if (exponent == 1 || curvature == 0) return curvature + by;
+    const double power = 1 + exponent * by / curvature;
+    return curvature * std::copysign(std::pow(std::abs(power), 1 / exponent), power);
+  }
+};
+
+/// Of the two pieces beside a joint that with the smaller exponent, to which the other is smooth as
+/// well.
+Bend bend_at(const FitChain& chain, std::size_t joint) {
+  Bend least{.exponent = kSteepestSlope};
   for (const std::size_t i : {joint - 1, joint}) {
     if (i >= chain.pieces.size() || chain.pieces[i].kind != PieceKind::curve) continue;
-    const double other = chain.joints[i == joint ? joint + 1 : joint - 1].curvature;
+    const double other = std::abs(chain.joints[i == joint ? joint + 1 : joint - 1].curvature);
     const double alpha = chain.pieces[i].alpha;
-    if (alpha >= 0 || std::abs(chain.joints[joint].curvature) > kSmall * std::abs(other)) continue;
-    least = std::min(least, -alpha);
+    if (alpha >= 0 || std::abs(chain.joints[joint].curvature) > kSmall * other) continue;
+    if (-alpha < least.exponent) least = {-alpha, other};
   }
-  return least < kSteepestSlope ? least : 1;
-}
-
-/// The curvature after a change that is meant linearly in |curvature|^exponent.
-double changed_curvature(double curvature, double by, double exponent) {
-  if (exponent == 1 || curvature == 0) return curvature + by;
-  const double power = 1 + exponent * by / curvature;
-  return curvature * std::copysign(std::pow(std::abs(power), 1 / exponent), power);
+  return least.exponent < kSteepestSlope ? least : Bend{};
 }
 
 /// The end is held by a heavy weight, which gives way by a billionth: not at all.
@@ -99,16 +111,15 @@ void keep_held_end(FitChain& next, const FitChain& chain) {
   if (chain.hold_end >= Hold::curvature) end.curvature = before.curvature;
 }
 
-FitChain moved(const FitChain& chain, const detail::Step& step, double share, bool fine) {
+FitChain moved(const FitChain& chain, const detail::Step& step, double share,
+               const std::vector<Bend>& bends) {
   FitChain next = chain;
-  const bool bent = fine && !chain.closed;
   for (std::size_t k = 0; k < next.joints.size(); ++k) {
     FitJoint& joint = next.joints[k];
     joint.position.x += share * step.state[k](0);
     joint.position.y += share * step.state[k](1);
     joint.direction += share * step.state[k](2);
-    const double exponent = bent ? curvature_exponent(chain, k) : 1;
-    joint.curvature = changed_curvature(joint.curvature, share * step.state[k](3), exponent);
+    joint.curvature = bends[k].changed(joint.curvature, share * step.state[k](3));
   }
   keep_held_end(next, chain);
   for (std::size_t i = 0; i < next.pieces.size(); ++i) {
@@ -124,6 +135,23 @@ FitChain moved(const FitChain& chain, const detail::Step& step, double share, bo
     }
   }
   return next;
+}
+
+/// In terms of bends: near an inflection what the chain changes by with the curvature, beyond all
+/// bounds or hardly at all, would drown the rest. `still`: the squares that keep variables where
+/// they are stay theirs.
+void take_bends(std::vector<Stage>& stages, const std::vector<double>& rates, bool still) {
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    Stage& stage = stages[i];
+    detail::Vector7 by = detail::Vector7::Ones();
+    by(kCurvature) = rates[i];
+    by(kNextCurvature) = rates[i + 1];
+    stage.step *= by.asDiagonal();
+    stage.step.row(3) /= rates[i + 1];
+    if (still) continue;
+    stage.hessian = by.asDiagonal() * stage.hessian * by.asDiagonal();
+    stage.gradient = by.asDiagonal() * stage.gradient;
+  }
 }
 
 void damp(std::vector<Stage>& stages, const FitChain& chain, double lambda, double unit) {
@@ -169,17 +197,30 @@ class Descent {
  private:
   numeric::StepOutcome iterate(double damping) {
     const int iteration = steps_++;
+    const std::vector<Bend> bends = bends_of_joints();
+    std::vector<double> rates;
+    for (std::size_t k = 0; k < bends.size(); ++k)
+      rates.push_back(bends[k].rate(chain_.joints[k].curvature));
     std::vector<Stage> stages = model_.stages;
+    take_bends(stages, rates, options_.close_gaps);
     damp(stages, chain_, damping, 100 * options_.scale * options_.scale);
-    const detail::Step step = solve_stages(stages, boundary_of(chain_));
+    detail::Step step = solve_stages(stages, boundary_of(chain_));
     if (!step.sound) return {numeric::StepEnd::unsolved};
-    FitChain next = moved(chain_, step, step_limit(chain_, step), options_.fine);
+    for (std::size_t k = 0; k < rates.size(); ++k) step.state[k](3) *= rates[k];
+    FitChain next = moved(chain_, step, step_limit(chain_, step), bends);
     Evaluation evaluation(next, points_, options_);
     evaluation.move_feet();
     Model trial = evaluation.model();
     if (better(trial)) return {accept(std::move(next), std::move(trial), iteration)};
     const bool closed = options_.close_gaps && model_.max_gap < 1e-14;
     return {closed ? numeric::StepEnd::settled : numeric::StepEnd::refused};
+  }
+
+  std::vector<Bend> bends_of_joints() const {
+    std::vector<Bend> bends(chain_.joints.size());
+    if (options_.fine && !chain_.closed)
+      for (std::size_t k = 0; k < bends.size(); ++k) bends[k] = bend_at(chain_, k);
+    return bends;
   }
 
   bool better(const Model& trial) const {

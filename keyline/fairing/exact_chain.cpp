@@ -25,7 +25,7 @@ bool converges(ChainSearchResult& found, const std::vector<FitPoint>& points, do
                double& reached) {
   ChainFitOptions fit;
   fit.fine = true;
-  fit.iterations = 150;
+  fit.iterations = 400;  // one ill placed joint takes 300
   fit.gradient_tolerance = 1e-6;
   fit.slope_prior = 0;
   fit.scale = std::max(exact, 1e-2 * found.fit.max_offset);

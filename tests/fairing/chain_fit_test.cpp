@@ -28,15 +28,17 @@ FitChain from(const lac::Chain& chain) {
 }
 
 const lac::Chain kTruth{{{0, 0}, 0.1}, {{-0.7, 0.5, 0.5, 2}, {0.8, 0.5, 2, 4}}, false};
+// Slopes that meet in an inflection.
+const lac::Chain kInflected{{{0, 0}, 0.1}, {{-1.4, 0.4, -3, 0}, {-0.35, 0.6, 0, 4}}, false};
 
 /// Points of the truth with feet where they stand.
 struct Given {
   FitChain chain;
   std::vector<FitPoint> points;
 };
-Given given(int per_piece = 12) {
-  Given g{from(kTruth), {}};
-  const auto segments = lac::segments(kTruth);
+Given given(int per_piece = 12, const lac::Chain& truth = kTruth) {
+  Given g{from(truth), {}};
+  const auto segments = lac::segments(truth);
   for (int i = 0; i < 2; ++i)
     for (int k = 0; k <= per_piece; ++k) {
       if (i == 1 && k == 0) continue;
@@ -73,6 +75,23 @@ TEST(FitChain, ComesBackToWhatThePointsWereTakenFrom) {
   EXPECT_NEAR(g.chain.pieces[1].alpha, 0.8, 1e-3);
   EXPECT_NEAR(g.chain.pieces[1].length, 0.5, 1e-5);
   EXPECT_NEAR(g.chain.joints[1].curvature, 2, 1e-3);
+}
+
+// A slope of -0.35 lets the joint's curvature c change the chain as c^0.35 does: without bound
+// towards zero, where the joint belongs.
+TEST(FitChain, ComesBackToAJointThatIsAnInflection) {
+  for (const double start : {0.02, -0.02}) {
+    Given g = given(30, kInflected);
+    g.chain.joints[1].curvature = start;
+    g.chain.joints[1].position.x += 0.005;
+    for (FitPiece& piece : g.chain.pieces) piece.alpha *= 1.1;
+    const ChainFitReport report = fit_chain(g.chain, g.points, fine());
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(report.max_offset, 1e-10);
+    EXPECT_NEAR(g.chain.joints[1].curvature, 0, 1e-20);
+    EXPECT_NEAR(g.chain.pieces[0].alpha, -1.4, 1e-7);
+    EXPECT_NEAR(g.chain.pieces[1].alpha, -0.35, 1e-7);
+  }
 }
 
 TEST(FitChain, HeldEndsStayToTheBit) {

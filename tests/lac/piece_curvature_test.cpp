@@ -43,5 +43,19 @@ TEST(PieceCurvature, OfOneSignAPowerRunsLinearly) {
     }
 }
 
+// For alpha = -1/2 the root r of curvature runs linearly, and the curvature r^2 changes with its
+// start by |r| (1 - v) / root of the start, however small that is and of whichever sign.
+TEST(PieceCurvature, ChangesWithAnEndThatIsNearlyZeroAsItsPowerDoes) {
+  for (const double start : {1e-6, -1e-6, 1e-14, -1e-14, 1e-20, -1e-20})
+    for (const double v : {0.1, 0.5, 0.9}) {
+      const double root = std::lerp(with_sign(std::sqrt(std::abs(start)), start), 2.0, v);
+      const double expected = std::abs(root) * (1 - v) / std::sqrt(std::abs(start));
+      const PieceCurvature piece(start, 4, -0.5);
+      EXPECT_NEAR(piece.at(v).by_start, expected, 1e-12 * expected) << start;
+      const PieceCurvature back(4, start, -0.5);
+      EXPECT_NEAR(back.at(1 - v).by_end, expected, 1e-12 * expected) << start;
+    }
+}
+
 }  // namespace
 }  // namespace keyline::lac

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFarPower = 30;     // logarithm from which the mean is measured from the other end
 constexpr double kNearPower = 1e-3;  // …and below which it is a series
-constexpr double kLeast = 1e-9;      // of the larger curvature, for powers of what vanishes
+constexpr double kLeast = 1e-9;      // of the larger curvature, for powers of one that is zero
 constexpr double kLeastMean = 1e-12;
 
 }  // namespace
@@ -40,8 +40,8 @@ PieceCurvature::PieceCurvature(double curvature_start, double curvature_end, dou
   const double b = end_ / scale_;
   power_start_ = numeric::signed_power(a, power_);
   power_end_ = numeric::signed_power(b, power_);
-  rate_start_ = std::pow(std::max(std::abs(a), kLeast), power_ - 1);
-  rate_end_ = std::pow(std::max(std::abs(b), kLeast), power_ - 1);
+  rate_start_ = std::pow(a == 0 ? kLeast : std::abs(a), power_ - 1);
+  rate_end_ = std::pow(b == 0 ? kLeast : std::abs(b), power_ - 1);
   log_start_ = std::log(std::max(std::abs(a), 1e-300));
   log_end_ = std::log(std::max(std::abs(b), 1e-300));
 }
