@@ -9,6 +9,10 @@ namespace keyline::fairing::detail {
 inline constexpr std::size_t kMostExactPieces = 8;  ///< longer chains are not drawn exactly
 /// Points that tell a piece: two more than it has freedoms beside its ends'.
 inline constexpr std::size_t kStretchPoints = 8;
+/// Fewest points that tell a single piece: one more than the five numbers that place it across
+/// them. A sixth that it meets too is an accident once in 500, for their errors are no less than
+/// 1e-4 of the length as far as is known.
+inline constexpr std::size_t kPiecePoints = 6;
 /// Points of a chain whose shortest piece is a fiftieth of it: as many on that as a stretch has.
 inline constexpr std::size_t kTellingPoints = 50 * kStretchPoints;
 

@@ -50,7 +50,7 @@ bool within_slopes(const FitChain& chain, const RunOptions& options) {
 /// is one of their spacing.
 std::optional<FitChain> piece_at_sight(const std::vector<FitPoint>& points,
                                        const RunOptions& options) {
-  if (points.size() < kStretchPoints || points.size() > kTellingPoints) return std::nullopt;
+  if (points.size() < kPiecePoints || points.size() > kTellingPoints) return std::nullopt;
   if (options.max_rate) return std::nullopt;
   auto found = one_exact_piece(points, false, exactness({}));
   return found && within_slopes(*found, options) ? std::move(found) : std::nullopt;

@@ -62,7 +62,7 @@ TEST(OnePiece, TellsHowFarItIsFromOthers) {
 TEST(FewExactPoints, OfOnePieceGiveItBack) {
   for (const double alpha : {-1.0, 1.0, 2.0}) {
     const lac::Segment truth = drawn(alpha, 0.6, 5);
-    for (const int count : {8, 12, 24}) {
+    for (const int count : {6, 7, 8, 12, 24}) {
       acquire::KeyLine line;
       line.points = lac::sample(truth, count);
       line.length = 40;
@@ -73,6 +73,15 @@ TEST(FewExactPoints, OfOnePieceGiveItBack) {
       EXPECT_TRUE(result.fairness.fair);
     }
   }
+}
+
+/// One piece passes any five points that bend one way: these may be off by their noise.
+TEST(FewExactPoints, OfFiveTellNothing) {
+  acquire::KeyLine line;
+  line.points = lac::sample(drawn(1, 0.6, 5), 5);
+  line.length = 40;
+  line.noise = 0.01;
+  EXPECT_FALSE(fair(line).value().all_single);
 }
 
 /// Limits come before exactness.
