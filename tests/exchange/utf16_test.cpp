@@ -30,6 +30,14 @@ TEST(Utf16, HalvesAreOneCharacter) {
   EXPECT_EQ(from_utf16("\xe0\x00\0a"sv, true), "\uE000a");
 }
 
+TEST(Utf16, IsWrittenInDigits) {
+  EXPECT_EQ(utf16_digits(0x41, "\\U+"), "\\U+0041");
+  EXPECT_EQ(utf16_digits(0xFFFF), "FFFF");
+  EXPECT_EQ(utf16_digits(0x10000), "D800DC00");
+  EXPECT_EQ(utf16_digits(0x1F697, "\\U+"), "\\U+D83D\\U+DE97");
+  EXPECT_EQ(utf16_digits(0x10FFFF), "DBFFDFFF");
+}
+
 // A first half without its second is no character, and takes none of the next with it.
 TEST(Utf16, ALoneHalfTakesNothingWithIt) {
   EXPECT_TRUE(from_utf16("\xd8\x3d\0a"sv, true).ends_with("a"));

@@ -6,6 +6,7 @@
 
 #include "keyline/core/utf8.h"
 #include "keyline/exchange/points/points_writer.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -196,7 +197,6 @@ void DxfText::handle(int code) { text(code, handle_text(next_++)); }
 
 std::string dxf_text(std::string_view name) {
   constexpr std::size_t kLongest = 240;
-  static constexpr char kDigits[] = "0123456789ABCDEF";
   std::string result;
   for (std::size_t at = 0; at < name.size() && result.size() < kLongest;) {
     const unsigned code = core::code_point(name, at);
@@ -205,12 +205,7 @@ std::string dxf_text(std::string_view name) {
     } else if (code < 0x80) {
       result += static_cast<char>(code);
     } else {
-      const auto append = [&](unsigned unit) {
-        result += "\\U+";
-        for (int shift = 12; shift >= 0; shift -= 4) result += kDigits[unit >> shift & 15];
-      };
-      if (code > 0xffff) append(0xd7c0 + (code >> 10));  // two units of UTF-16
-      append(code > 0xffff ? 0xdc00 + (code & 0x3ff) : code);
+      result += utf16_digits(code, "\\U+");
     }
   }
   return result;

@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/exchange/text/ascii.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -51,10 +52,8 @@ std::optional<unsigned> unit_at(std::string_view text) {
 std::optional<std::pair<unsigned, std::size_t>> escape_at(std::string_view text) {
   const auto first = unit_at(text);
   if (!first) return std::nullopt;
-  const bool high = *first >= 0xd800 && *first < 0xdc00;
-  if (const auto low = high ? unit_at(text.substr(7)) : std::nullopt)
-    if (*low >= 0xdc00 && *low < 0xe000)
-      return std::pair{0x10000 + ((*first - 0xd800) << 10) + (*low - 0xdc00), std::size_t{14}};
+  if (const auto second = unit_at(text.substr(7)))
+    if (const auto both = of_pair(*first, *second)) return std::pair{*both, std::size_t{14}};
   return std::pair{*first, std::size_t{7}};
 }
 

@@ -11,6 +11,7 @@
 #include "keyline/curve/bounding_box.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/svg/drawing_layers.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
 namespace {
@@ -21,7 +22,6 @@ using curve::Box2;
 
 constexpr double kLargestPage = 14400;  // pt
 constexpr double kPointsPerMillimetre = 72 / 25.4;
-constexpr const char* kHex = "0123456789ABCDEF";
 
 std::optional<Box2> box_of(const std::vector<SvgLayer>& layers) {
   std::optional<Box2> all;
@@ -51,18 +51,8 @@ std::string decimal(double value, int decimals) {
 /// A text string in UTF-16.
 std::string text_string(const std::string& name) {
   std::string text = "<FEFF";
-  const auto append = [&text](unsigned unit) {
-    for (int shift = 12; shift >= 0; shift -= 4) text += kHex[unit >> shift & 15];
-  };
-  for (std::size_t at = 0; at < name.size();) {
-    const unsigned code = core::code_point(name, at);
-    if (code < 0x10000) {
-      append(code);
-    } else {
-      append(0xD800 + ((code - 0x10000) >> 10));
-      append(0xDC00 + ((code - 0x10000) & 0x3ff));
-    }
-  }
+  for (std::size_t at = 0; at < name.size();)
+    text += detail::utf16_digits(core::code_point(name, at));
   return text + ">";
 }
 

@@ -1,6 +1,7 @@
 #include "keyline/exchange/text/utf16.h"
 
 #include <cstddef>
+#include <utility>
 
 #include "keyline/core/utf8.h"
 
@@ -21,14 +22,30 @@ bool starts_as_utf16(std::string_view bytes) {
   return bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
 }
 
+std::optional<unsigned> of_pair(unsigned first, unsigned second) {
+  if (!is_first_half(first) || second < 0xdc00 || second >= 0xe000) return std::nullopt;
+  return 0x10000 + ((first - 0xd800) << 10) + (second - 0xdc00);
+}
+
+std::string utf16_digits(unsigned code, std::string_view mark) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string text;
+  const auto append = [&](unsigned unit) {
+    text += mark;
+    for (int shift = 12; shift >= 0; shift -= 4) text += kDigits[unit >> shift & 15];
+  };
+  if (code > 0xffff) append(0xd7c0 + (code >> 10));  // 0xd800 + (code - 0x10000 >> 10)
+  append(code > 0xffff ? 0xdc00 + (code & 0x3ff) : code);
+  return text;
+}
+
 std::string from_utf16(std::string_view bytes, bool big_endian) {
   std::string text;
   for (std::size_t at = 0; at + 1 < bytes.size(); at += 2) {
     unsigned code = unit_at(bytes, at, big_endian);
-    const bool pair = is_first_half(code) && at + 3 < bytes.size();
-    if (const unsigned low = pair ? unit_at(bytes, at + 2, big_endian) : 0;
-        low >= 0xdc00 && low < 0xe000) {
-      code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
+    const unsigned next = at + 3 < bytes.size() ? unit_at(bytes, at + 2, big_endian) : 0;
+    if (const auto both = of_pair(code, next)) {
+      code = *both;
       at += 2;
     }
     if (code != 0xfeff) core::append_utf8(text, code);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -7,6 +8,12 @@ namespace keyline::exchange::detail {
 
 /// True for a byte order mark of UTF-16, as Windows' editors and shells begin a text.
 bool starts_as_utf16(std::string_view bytes);
+
+/// The code point that two units of UTF-16 are together; empty where they are no pair.
+std::optional<unsigned> of_pair(unsigned first, unsigned second);
+
+/// The one or two units of a code point, each as four hexadecimal digits behind `mark`.
+std::string utf16_digits(unsigned code, std::string_view mark = "");
 
 /// UTF-16 as UTF-8, without byte order marks; half a character at the end is left out.
 std::string from_utf16(std::string_view bytes, bool big_endian);
