@@ -226,10 +226,7 @@ class Job {
 
   Result<FairResult> run_region() {
     const core::Interval region = *options_.region;
-    acquire::KeyLine smooth = line_;
-    smooth.corners.clear();
-    runs_ = {line_.closed ? detail::runs_of(smooth, {}).front()
-                          : detail::run_between(smooth, 0, line_.points.size() - 1)};
+    runs_ = detail::smooth_runs(line_, false);
     fit::SplineFitOptions of_whole = detail::fit_of(runs_[0], spline_options());
     of_whole.progress = core::part_of(options_.progress, 0, 0.4);
     const auto whole = fit::fit_spline(runs_[0].points, runs_[0].weights, of_whole);

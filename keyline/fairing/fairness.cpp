@@ -50,9 +50,8 @@ std::vector<detail::Run> runs_of_members(const acquire::KeyLine& line, const Fai
   };
   if (result.curves.empty() || !std::ranges::all_of(result.curves, is_chain)) return {};
   const bool open = !std::get<lac::Chain>(result.curves.front()).closed;
-  FairOptions options;
-  options.keep_corners = result.curves.size() > 1 || (line.closed && open);
-  std::vector<detail::Run> runs = detail::runs_of(line, options);
+  const bool cut = result.curves.size() > 1 || (line.closed && open);
+  std::vector<detail::Run> runs = detail::smooth_runs(line, cut);
   return runs.size() == result.curves.size() ? runs : std::vector<detail::Run>{};
 }
 

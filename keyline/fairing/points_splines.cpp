@@ -9,7 +9,7 @@ namespace keyline::fairing {
 
 core::Result<std::vector<curve::BSpline2>> splines_of(const acquire::KeyLine& line,
                                                       const fit::SplineFitOptions& options) {
-  const std::vector<detail::Run> runs = detail::runs_of(line, {});
+  const std::vector<detail::Run> runs = detail::smooth_runs(line);
   std::vector<curve::BSpline2> splines;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     fit::SplineFitOptions of_run = detail::fit_of(runs[k], options);

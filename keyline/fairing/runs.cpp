@@ -9,15 +9,6 @@
 namespace keyline::fairing::detail {
 namespace {
 
-void add_point(Run& run, const acquire::KeyLine& line, std::size_t index,
-               const std::vector<std::size_t>& must_pass) {
-  if (std::find(must_pass.begin(), must_pass.end(), index) != must_pass.end())
-    run.must_pass.push_back(run.points.size());
-  run.points.push_back(line.points[index]);
-  if (!line.weights.empty()) run.weights.push_back(line.weights[index]);
-  run.index.push_back(index);
-}
-
 /// The polygon's length overstates that of the curve where points are denser than their noise; the
 /// key-line knows its own.
 double overstated(const acquire::KeyLine& line) {
@@ -26,45 +17,61 @@ double overstated(const acquire::KeyLine& line) {
 }
 
 /// Points first … first + count of the line, wrapping around where it is closed.
-Run stretch(const acquire::KeyLine& line, std::size_t first, std::size_t count,
-            const std::vector<std::size_t>& must_pass) {
+Run stretch(const acquire::KeyLine& line, std::size_t first, std::size_t count) {
   Run run;
-  for (std::size_t k = 0; k <= count; ++k)
-    add_point(run, line, (first + k) % line.points.size(), must_pass);
+  for (std::size_t k = 0; k <= count; ++k) {
+    const std::size_t index = (first + k) % line.points.size();
+    run.points.push_back(line.points[index]);
+    if (!line.weights.empty()) run.weights.push_back(line.weights[index]);
+    run.index.push_back(index);
+  }
   run.length = overstated(line) * core::polygon_length(run.points, false);
   return run;
+}
+
+/// Where the line is cut, in its order: an open one at its ends too, a closed one at its first
+/// corner again after a round.
+std::vector<std::size_t> cuts_of(const acquire::KeyLine& line, bool at_corners) {
+  const std::size_t n = line.points.size();
+  std::vector<std::size_t> cuts;
+  if (!line.closed) cuts.push_back(0);
+  if (at_corners)
+    for (const std::size_t c : line.corners)
+      if (line.closed || (c > 0 && c + 1 < n)) cuts.push_back(c);
+  if (!line.closed)
+    cuts.push_back(n - 1);
+  else if (!cuts.empty())
+    cuts.push_back(cuts.front() + n);
+  return cuts;
 }
 
 }  // namespace
 
 Run run_between(const acquire::KeyLine& line, std::size_t first, std::size_t last) {
-  return stretch(line, first, last - first, {});
+  return stretch(line, first, last - first);
 }
 
-std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options) {
-  const std::size_t n = line.points.size();
-  std::vector<std::size_t> cuts;
-  if (options.keep_corners)
-    for (const std::size_t c : line.corners)
-      if (line.closed || (c > 0 && c + 1 < n)) cuts.push_back(c);
-  std::vector<Run> runs;
-  if (line.closed && cuts.empty()) {
-    Run run = stretch(line, 0, n - 1, options.must_pass);
+std::vector<Run> smooth_runs(const acquire::KeyLine& line, bool at_corners) {
+  const std::vector<std::size_t> cuts = cuts_of(line, at_corners);
+  if (cuts.empty()) {
+    Run run = stretch(line, 0, line.points.size() - 1);
     run.closed = true;
     run.length = overstated(line) * core::polygon_length(run.points, true);
     return {run};
   }
-  if (line.closed) {
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const std::size_t next = k + 1 < cuts.size() ? cuts[k + 1] : cuts[0] + n;
-      runs.push_back(stretch(line, cuts[k], next - cuts[k], options.must_pass));
-    }
-    return runs;
-  }
-  cuts.insert(cuts.begin(), 0);
-  cuts.push_back(n - 1);
+  std::vector<Run> runs;
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
-    runs.push_back(stretch(line, cuts[k], cuts[k + 1] - cuts[k], options.must_pass));
+    runs.push_back(run_between(line, cuts[k], cuts[k + 1]));
+  return runs;
+}
+
+std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options) {
+  std::vector<Run> runs = smooth_runs(line, options.keep_corners);
+  for (Run& run : runs)
+    for (std::size_t k = 0; k < run.index.size(); ++k)
+      if (std::ranges::find(options.must_pass, run.index[k]) != options.must_pass.end())
+        run.must_pass.push_back(k);
+  if (line.closed) return runs;
   runs.front().clamp_start = options.clamp.start;
   runs.back().clamp_end = options.clamp.end;
   return runs;

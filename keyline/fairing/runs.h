@@ -8,6 +8,9 @@ namespace keyline::fairing::detail {
 
 /// The key-line cut at its corners into smooth runs; neighbours share the corner's point. A
 /// closed line with corners is cut open at the first of them.
+std::vector<Run> smooth_runs(const acquire::KeyLine& line, bool at_corners = true);
+
+/// The same, cut as `options` ask; they know what they pass and how they end.
 std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options);
 
 /// Points first … last of the key-line as one open run.

@@ -124,7 +124,7 @@ core::HalfPlane mirrored_half(const core::HalfPlane& half, const core::Pose2& ax
 /// Runs of the half; those at its ends know how they stand to the line of symmetry.
 std::vector<Run> half_runs(const HalfLine& half, const core::Pose2& axis,
                            const std::vector<core::HalfPlane>& inside) {
-  std::vector<Run> runs = runs_of(half.line, {});
+  std::vector<Run> runs = smooth_runs(half.line);
   for (Run& run : runs) {
     for (std::size_t i = 0; i < half.measured.size(); ++i) {
       const auto at = std::ranges::find(run.index, half.belongs[i]);
