@@ -171,7 +171,7 @@ Result<json> Session::write(const presentation::Pages& pages, const presentation
   if (!written) return std::unexpected(told(written.error()));
   for (const std::string& name : written->unused)
     uses_.add(core::type_of<operations::FormatOptions>(), {{name, true}}, written->unused);
-  for (const operations::Written& one : written->written) {
+  for (const operations::WrittenFile& one : written->written) {
     for (const std::string& note : one.notes) say(door_.quiet, one.file + ": " + note);
     if (one.deviation > 0)
       say(door_.quiet, fmt::format("{}: deviation {:.3g}", one.file, one.deviation));

@@ -126,8 +126,9 @@ std::string query_value(const std::string& query, const std::string& name) {
 
 /// Curves and surfaces as one file; pictures and pages where the extension means one, of what
 /// "report" tells where that is there.
-Result<operations::Written> written_as(const std::string& file, json request, const Folder& folder,
-                                       const operations::Context& context) {
+Result<operations::WrittenFile> written_as(const std::string& file, json request,
+                                           const Folder& folder,
+                                           const operations::Context& context) {
   request["file"] = file;
   const json told = request.value("report", json());
   request.erase("report");

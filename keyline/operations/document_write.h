@@ -68,19 +68,20 @@ struct WriteRequest {
   }
 };
 
-struct Written {
+struct WrittenFile {
   std::string file;
   double deviation = 0;
   std::vector<std::string> notes;
   static constexpr auto describe() {
-    return core::fields(core::field<&Written::file>("as asked for"),
-                        core::field<&Written::deviation>("of what is not exact in it").in("length"),
-                        core::field<&Written::notes>("what the format could not hold, in words"));
+    return core::fields(
+        core::field<&WrittenFile::file>("as asked for"),
+        core::field<&WrittenFile::deviation>("of what is not exact in it").in("length"),
+        core::field<&WrittenFile::notes>("what the format could not hold, in words"));
   }
 };
 
 struct WriteAnswer {
-  std::vector<Written> written;
+  std::vector<WrittenFile> written;
   std::vector<std::string> unused;
   static constexpr auto describe() {
     return core::fields(core::field<&WriteAnswer::written>("one for each file"),

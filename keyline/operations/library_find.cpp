@@ -1,7 +1,7 @@
 #include "keyline/exchange/document_file.h"
 #include "keyline/library/search.h"
 #include "keyline/library/statistics.h"
-#include "keyline/operations/document_read.h"
+#include "keyline/operations/document_write.h"
 #include "keyline/operations/library_entry.h"
 #include "keyline/operations/open_library.h"
 #include "keyline/operations/registry.h"
@@ -99,19 +99,7 @@ struct ExportRequest {
   }
 };
 
-struct ExportAnswer {
-  std::string file;
-  double deviation = 0;
-  std::vector<std::string> notes;
-  static constexpr auto describe() {
-    using A = ExportAnswer;
-    return core::fields(core::field<&A::file>("as asked for"),
-                        core::field<&A::deviation>("of what is not exact in it").in("length"),
-                        core::field<&A::notes>("what the format could not hold, in words"));
-  }
-};
-
-Result<ExportAnswer> run_export(const ExportRequest& request, const Context&) {
+Result<WrittenFile> run_export(const ExportRequest& request, const Context&) {
   auto library = open_library(request.library, library::Mode::read);
   if (!library) return std::unexpected(library.error());
   const auto document = library::export_document(*library, request.numbers);
@@ -120,7 +108,7 @@ Result<ExportAnswer> run_export(const ExportRequest& request, const Context&) {
   options.tolerance = request.tolerance;
   const auto written = exchange::write_document(*document, request.file, options);
   if (!written) return std::unexpected(exchange::in_file(written.error(), request.file));
-  return ExportAnswer{request.file, written->deviation, written->notes};
+  return WrittenFile{request.file, written->deviation, written->notes};
 }
 
 struct StatsRequest {
