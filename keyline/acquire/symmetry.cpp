@@ -12,6 +12,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "keyline/core/extent.h"
 #include "keyline/core/text.h"
 
 namespace keyline::acquire {
@@ -91,20 +92,6 @@ double score(const Mirror& m, const std::vector<Point3>& probes, const Cubes& cu
   return sum / static_cast<double>(probes.size());
 }
 
-struct Box {
-  Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
-  Point3 high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-};
-
-Box box_of(std::span<const Point3> points) {
-  Box b;
-  for (const Point3 p : points) {
-    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
-    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
-  }
-  return b;
-}
-
 Point3 mean_of(std::span<const Point3> points) {
   Vector3 sum{};
   for (const Point3 p : points) sum = sum + (p - Point3{});
@@ -112,7 +99,7 @@ Point3 mean_of(std::span<const Point3> points) {
 }
 
 /// Coordinate planes and those of the principal axes, through the mean and the middle of the box.
-std::vector<Mirror> candidates(const std::vector<Point3>& points, const Box& box) {
+std::vector<Mirror> candidates(const std::vector<Point3>& points, const core::Box3& box) {
   const Point3 mean = mean_of(points);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Point3 p : points) {
@@ -183,7 +170,7 @@ Plane plane_of(Vector3 normal, double offset) {
 namespace {
 
 /// What there is to cut: the bounding box, and the planes through its middle.
-std::string planes_of(const Box& box) {
+std::string planes_of(const core::Box3& box) {
   constexpr int kDigits = 4;
   const auto side = [](char axis, double low, double high) {
     return std::string(1, axis) + " from " + core::number_text(low, kDigits) + " to " +
@@ -206,8 +193,8 @@ core::Result<SymmetryPlane> symmetry_plane(std::span<const Point3> points) {
   if (points.size() < 20 || !finite)
     return core::fail(core::ErrorCode::bad_input, "a symmetry plane needs 20 points or more",
                       "name the plane, as in y=0");
-  const Box box = box_of(points);
-  const double size = distance(box.low, box.high);
+  const core::Box3 box = core::box_of(points);
+  const double size = diagonal(box);
   if (!(size > 0) || !std::isfinite(size))
     return core::fail(core::ErrorCode::bad_input, "the points have no extent", "check the file");
   const std::vector<Point3> probes = thinned(points, kProbes);

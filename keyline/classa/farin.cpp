@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
+#include "keyline/core/extent.h"
 #include "keyline/curve/bernstein.h"
 #include "keyline/curve/bounded.h"
 
@@ -33,8 +34,7 @@ Vector3 times(const Matrix3& m, Vector3 v) {
 
 /// N'V - 3NV' in plain Bernstein coefficients.
 Coefficients<Bounded> rate_of(const curve::Bezier3& c) {
-  double size = 0;
-  for (const auto& p : c.control) size = std::max(size, distance(p, c.control.front()));
+  const double size = core::reach(c.control);
   const auto axis = [&](double core::Point3::* coordinate) {
     Coefficients<Bounded> a;
     for (const auto& p : c.control) {

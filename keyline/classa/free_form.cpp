@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "keyline/classa/deviation.h"
+#include "keyline/core/extent.h"
 #include "keyline/core/text.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/fit/bezier_fit.h"
@@ -64,8 +65,7 @@ core::Result<Approximation> fit_within(const std::vector<Point2>& points, core::
 core::Result<Approximation> approximate(const curve::PlanarView& c, std::optional<double> tolerance,
                                         const PiecesWithin& pieces) {
   const std::vector<Point2> points = sample(c);
-  double size = 0;
-  for (const Point2& p : points) size = std::max(size, distance(p, points.front()));
+  const double size = core::reach(points);
   const double wanted = tolerance.value_or(1e-3 * size);
   if (!(wanted > 0 && std::isfinite(wanted)))
     return fail(ErrorCode::bad_input, "the tolerance of the approximation is not positive",

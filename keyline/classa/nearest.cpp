@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/extent.h"
 #include "keyline/curve/closest_point.h"
 #include "keyline/curve/length.h"
 #include "keyline/numeric/levenberg_marquardt.h"
@@ -199,8 +200,7 @@ std::optional<NearestCurve> nearest_from_start(const curve::Bezier2& given,
 
 std::optional<NearestCurve> nearest_matrix_curve(const curve::Bezier2& given,
                                                  const NearestOptions& options) {
-  double size = 0;
-  for (const Point2& p : given.control) size = std::max(size, distance(p, given.control.front()));
+  const double size = core::reach(given.control);
   if (curve::degree(given) < 2 ||
       distance(given.control.front(), given.control.back()) <= 1e-9 * size)
     return std::nullopt;

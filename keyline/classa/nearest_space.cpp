@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "keyline/core/axis.h"
+#include "keyline/core/extent.h"
 #include "keyline/curve/closest_point.h"
 #include "keyline/curve/length.h"
 
@@ -92,8 +93,7 @@ double farthest_from_given(const curve::Bezier3& from, const curve::Bezier3& giv
 
 std::optional<NearestSpaceCurve> nearest_matrix_curve(const curve::Bezier3& given,
                                                       const NearestOptions& options) {
-  double size = 0;
-  for (const Point3& p : given.control) size = std::max(size, distance(p, given.control.front()));
+  const double size = core::reach(given.control);
   if (!(distance(given.control.front(), given.control.back()) > 1e-9 * size)) return std::nullopt;
   const Plane plane = plane_through_ends(given.control);
   curve::Bezier2 seen;

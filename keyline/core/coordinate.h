@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/error.h"
+#include "keyline/core/extent.h"
 #include "keyline/core/point.h"
 
 namespace keyline::core {
@@ -34,9 +35,8 @@ inline constexpr double kSmallestSize = 1e-100;
 /// True where the points are not all one and lie within less than that of each other.
 template <class Points>
 bool is_too_small(const Points& points) {
-  double farthest = 0;
-  for (const auto& p : points) farthest = std::max(farthest, distance(p, points.front()));
-  return farthest > 0 && farthest < kSmallestSize;
+  const double size = reach(points);
+  return size > 0 && size < kSmallestSize;
 }
 
 /// The failure of points like that, and that of a coordinate that is too large,

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keyline/core/extent.h"
 #include "keyline/core/text.h"
 #include "keyline/document/path_gap.h"
 #include "keyline/document/units.h"
@@ -151,25 +152,14 @@ Result<Document> document_of(Format format, const fs::path& file, const ReadOpti
   return fail(ErrorCode::internal, "no reader for this format");
 }
 
-struct Corners {
-  core::Point3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
-  core::Point3 high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
-  void take(core::Point3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  void take(core::Point2 p) { take(core::Point3{p.x, p.y, 0}); }
-};
-
 /// Breakpoints and places between them.
 template <class C>
-void sample_into(Corners& corners, const C& curve) {
+void sample_into(core::Box3& box, const C& curve) {
   constexpr int kBetween = 4;
   const auto at = breakpoints(curve);
   for (std::size_t i = 1; i < at.size(); ++i)
     for (int k = 0; k <= kBetween; ++k)
-      corners.take(evaluate(curve, at[i - 1] + (at[i] - at[i - 1]) * k / kBetween));
+      box.take(evaluate(curve, at[i - 1] + (at[i] - at[i - 1]) * k / kBetween));
 }
 
 /// Paths of other programs may have gaps: told, and left.
@@ -204,12 +194,12 @@ Result<Document> read_document(const fs::path& file, const ReadOptions& options)
 }
 
 double extent(const Document& document) {
-  Corners corners;
-  for (const auto& named : document.paths) sample_into(corners, prepared(named.path));
-  for (const auto& named : document.space_curves) sample_into(corners, named.curve);
+  core::Box3 box;
+  for (const auto& named : document.paths) sample_into(box, prepared(named.path));
+  for (const auto& named : document.space_curves) sample_into(box, named.curve);
   for (const auto& named : document.surfaces)
-    for (const core::Point3 p : net_of(named.surface).points) corners.take(p);
-  const double size = distance(corners.low, corners.high);
+    for (const core::Point3 p : net_of(named.surface).points) box.take(p);
+  const double size = diagonal(box);
   return std::isfinite(size) ? size : 0;
 }
 

@@ -5,6 +5,7 @@
 #include "keyline/classa/deviation.h"
 #include "keyline/classa/farin.h"
 #include "keyline/core/axis.h"
+#include "keyline/core/extent.h"
 #include "keyline/operations/edit_piece.h"
 #include "keyline/operations/ends.h"
 #include "keyline/surface/net.h"
@@ -19,13 +20,12 @@ using document::SpaceCurve;
 
 /// Of all vertices and control points, the diagonal of their box.
 double size_of(const std::vector<SpaceCurve>& pieces) {
-  surface::Net all;
+  core::Box3 box;
   for (const SpaceCurve& c : pieces) {
     const auto* line = std::get_if<curve::Polyline3>(&c.value);
-    const auto& points = line ? line->points : std::get<Bezier3>(c.value).control;
-    all.points.insert(all.points.end(), points.begin(), points.end());
+    for (const auto& p : line ? line->points : std::get<Bezier3>(c.value).control) box.take(p);
   }
-  return surface::extent(all);
+  return diagonal(box);
 }
 
 std::unexpected<core::Failure> rational() {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/extent.h"
 #include "keyline/core/polygon.h"
 #include "keyline/curve/bounding_box.h"
 #include "keyline/curve/length.h"
@@ -15,18 +16,11 @@ using core::fail;
 using core::Point3;
 using core::Result;
 
-struct Box {
-  Point3 low{INFINITY, INFINITY, INFINITY};
-  Point3 high{-INFINITY, -INFINITY, -INFINITY};
+struct Box : core::Box3 {
   static constexpr auto describe() {
     return core::fields(core::field<&Box::low>("least coordinates"),
                         core::field<&Box::high>("largest coordinates"));
   }
-  void take(Point3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  void take(core::Point2 p) { take(Point3{p.x, p.y, 0}); }
 };
 
 enum class ThingKind { curve, space_curve, surface, points };

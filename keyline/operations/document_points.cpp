@@ -10,6 +10,7 @@
 #include "keyline/acquire/section.h"
 #include "keyline/acquire/section_curves.h"
 #include "keyline/acquire/symmetry.h"
+#include "keyline/core/extent.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/cad/planar_form.h"
 #include "keyline/exchange/file/read_file.h"
@@ -106,10 +107,7 @@ Result<exchange::PointsFile> read_raw(const InputRequest& input, const std::stri
 
 /// Whether measured points have a plane worth the name.
 bool has_plane(const KeyLine& line) {
-  double reach = 0;
-  for (const core::Point2 p : line.points)
-    reach = std::max(reach, core::distance(p, line.points.front()));
-  return line.report.plane_departure <= exchange::kMostOfMeasured * reach;
+  return line.report.plane_departure <= exchange::kMostOfMeasured * core::reach(line.points);
 }
 
 /// Points of three coordinates that leave z = 0.

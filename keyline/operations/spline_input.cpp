@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/core/extent.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/lac/cad/cad.h"
 
@@ -96,30 +97,21 @@ Result<SplineInput> of_members(const std::vector<Curve>& members, double toleran
 
 /// Box of the points and lengths of all members seen.
 struct Measure {
-  Point3 low{INFINITY, INFINITY, INFINITY};
-  Point3 high{-INFINITY, -INFINITY, -INFINITY};
+  core::Box3 box;
   double length = 0;
 
-  void take(core::Point2 p) { take(Point3{p.x, p.y, 0}); }
-  void take(Point3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
   template <class Point>
   void operator()(const curve::Polyline<Point>& c) {
-    for (const Point& p : c.points) take(p);
+    for (const Point& p : c.points) box.take(p);
   }
   template <class Curve>
   void operator()(const Curve& c) {
     if constexpr (requires { c.control; })
-      for (const auto& p : c.control) take(p);
+      for (const auto& p : c.control) box.take(p);
     else
       for (const auto& piece : c.pieces) length += std::abs(piece.length);
   }
-  double size() const {
-    const core::Vector3 box = high - low;
-    return std::max({box.x, box.y, box.z, length});
-  }
+  double size() const { return std::max(longest_side(box), length); }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "keyline/operations/surface_edit.h"
 
+#include "keyline/core/extent.h"
 #include "keyline/operations/registry.h"
 
 namespace keyline::operations {
@@ -71,12 +72,10 @@ namespace {
 constexpr double kUsualShare = 0.01;  // of the size
 
 double size_of(std::span<const surface::Surface> all) {
-  surface::Net points;
-  for (const surface::Surface& s : all) {
-    const auto& own = surface::net_of(s).points;
-    points.points.insert(points.points.end(), own.begin(), own.end());
-  }
-  return surface::extent(points);
+  core::Box3 box;
+  for (const surface::Surface& s : all)
+    for (const core::Point3 p : surface::net_of(s).points) box.take(p);
+  return diagonal(box);
 }
 
 bool several_patches(std::span<const surface::Surface> all) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "keyline/core/extent.h"
 #include "keyline/figure/plot.h"
 
 namespace keyline::presentation {
@@ -54,17 +55,6 @@ Shown shown(const lac::SpaceChain& chain, double longest) {
     s.teeth.push_back(frames[i].position - tooth * frames[i].normal);
   }
   return s;
-}
-
-double extent_of(const std::vector<Point3>& points) {
-  double extent = 0;
-  for (const auto axis : {&Point3::x, &Point3::y, &Point3::z}) {
-    const auto [low, high] =
-        std::minmax_element(points.begin(), points.end(),
-                            [&](const Point3& a, const Point3& b) { return a.*axis < b.*axis; });
-    extent = std::max(extent, (*high).*axis - (*low).*axis);
-  }
-  return extent;
 }
 
 /// Directions of the axes, where they do not lie along the page.
@@ -119,11 +109,11 @@ Drawing view_of(const View& view, const Shown& what, double extent, bool slanted
 }
 
 Drawing views_of(const lac::SpaceChain& chain) {
-  const double box = extent_of(lac::sample(chain, kPoints));
+  const double box = longest_side(core::box_of(lac::sample(chain, kPoints)));
   const Shown what = shown(chain, kAside * box);
   std::vector<Point3> all = what.points;
   all.insert(all.end(), what.teeth.begin(), what.teeth.end());
-  const double extent = 1.2 * extent_of(all);  // seen at a slant a box is wider
+  const double extent = 1.2 * longest_side(core::box_of(all));  // seen at a slant a box is wider
   // Along the cube's diagonal, from where x comes to the lower right and y goes to the upper right.
   const double a = std::sqrt(0.5), b = std::sqrt(1.0 / 6);
   const View slant{"At a slant, with its comb of curvature", {a, a, 0}, {-b, b, 2 * b}};

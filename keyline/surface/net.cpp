@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "keyline/core/extent.h"
+
 namespace keyline::surface {
 
 using core::ErrorCode;
@@ -62,15 +64,6 @@ core::Result<void> validate(const Net& net, const std::vector<double>& weights) 
   return {};
 }
 
-double extent(const Net& net) {
-  if (net.points.empty()) return 0;
-  Point3 low = net.points[0];
-  Point3 high = low;
-  for (const Point3& p : net.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return core::distance(low, high);
-}
+double extent(const Net& net) { return diagonal(core::box_of(net.points)); }
 
 }  // namespace keyline::surface

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/extent.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::surface {
@@ -23,9 +24,7 @@ namespace {
 
 /// No control matrix at all: a curve without a length or without a chord.
 bool has_no_chord(const std::vector<Point3>& control) {
-  double size = 0;
-  for (const Point3& p : control) size = std::max(size, core::distance(p, control.front()));
-  return core::distance(control.front(), control.back()) <= 1e-12 * size;
+  return core::distance(control.front(), control.back()) <= 1e-12 * core::reach(control);
 }
 
 CurveValue without_matrix(const std::vector<Point3>& control, const CavOptions& options) {

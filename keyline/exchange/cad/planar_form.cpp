@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/core/extent.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/svg/cubic_path.h"
 
@@ -15,8 +16,7 @@ using core::Point3;
 
 std::optional<acquire::PlaneFit> plane_of_points(const std::vector<Point3>& points, double most) {
   auto fit = acquire::fit_plane(points);
-  double size = 0;
-  for (const Point3 p : points) size = std::max(size, distance(p, points.front()));
+  const double size = core::reach(points);
   if (!(size > 0) || fit.departure > most * size) return std::nullopt;
   if (fit.departure <= kExactly * size) fit.departure = 0;
   return fit;

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/core/extent.h"
 #include "keyline/document/arc.h"
 #include "keyline/exchange/cad/flat_points.h"
 #include "keyline/exchange/cad/spline_corners.h"
@@ -131,10 +132,8 @@ void add_curve(document::Document& document, const opencascade::handle<Geom_Curv
     document.space_curves.push_back({label, {std::move(made)}});
     return;
   }
-  const Point3 start = made.control.front();
-  double size = 0;
-  for (const Point3& p : made.control) size = std::max(size, distance(start, p));
-  const bool closed = distance(start, made.control.back()) <= kMeeting * size;
+  const bool closed =
+      distance(made.control.front(), made.control.back()) <= kMeeting * core::reach(made.control);
   const curve::BSpline2 planar{made.degree, std::move(made.knots), flat(made.control),
                                std::move(made.weights)};
   document.paths.push_back({label, {detail::parted_at_corners(planar), closed}, 0});
