@@ -9,6 +9,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/core/coordinate.h"
 #include "keyline/curve/least_edge.h"
+#include "keyline/numeric/newton_bracket.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::classa {
@@ -88,6 +89,7 @@ namespace {
 /// Zero of the polynomial with the n coefficients c (highest last), which rises through it between
 /// low and high: Newton's method, halving where it leaves the bracket.
 double rising_root(const double* c, int n, double low, double high) {
+  numeric::NewtonBracket between{low, high};
   double x = low;
   for (int iteration = 0; iteration < 100; ++iteration) {
     double value = 0;
@@ -97,9 +99,7 @@ double rising_root(const double* c, int n, double low, double high) {
       value = value * x + c[i];
     }
     if (value == 0) return x;
-    (value < 0 ? low : high) = x;
-    double next = x - value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double next = between.next(x, value, slope);
     if (std::abs(next - x) <= 2e-16 * x) return next;
     x = next;
   }

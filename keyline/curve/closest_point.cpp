@@ -7,6 +7,7 @@
 
 #include "keyline/curve/bernstein.h"
 #include "keyline/curve/bounding_box.h"
+#include "keyline/numeric/newton_bracket.h"
 
 namespace keyline::curve {
 
@@ -31,17 +32,16 @@ void consider(const C& c, Point2 p, double t, ClosestPoint& best) {
 /// Stationary point of the distance between low and high, by Newton's method kept inside.
 template <class C>
 double stationary_point(const C& c, Point2 p, double low, double high) {
+  numeric::NewtonBracket between{low, high};
   double t = 0.5 * (low + high);
-  for (int step = 0; step < 80 && high - low > 0; ++step) {
+  for (int step = 0; step < 80 && between.low < between.high; ++step) {
     const Jet2 j = jet(c, t);
     const Vector2 offset = j.point - p;
     const double slope = dot(offset, j.first);
     if (slope == 0) break;
-    (slope > 0 ? high : low) = t;
     const double bend = dot(j.first, j.first) + dot(offset, j.second);
-    double next = bend > 0 ? t - slope / bend : low - 1;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (next == t || !(low < next || next < high)) break;
+    const double next = between.next(t, slope, bend);
+    if (next == t) break;
     t = next;
   }
   return t;

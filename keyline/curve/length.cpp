@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "keyline/numeric/newton_bracket.h"
 #include "keyline/numeric/quadrature.h"
 
 namespace keyline::curve {
@@ -134,18 +135,14 @@ double invert_length(const SpeedView& v, const ArcLengthMap& map, double s) {
   if (s >= map.s.back()) return 1;
   const auto after = std::upper_bound(map.s.begin() + 1, map.s.end() - 1, s);
   const std::size_t i = static_cast<std::size_t>(after - map.s.begin()) - 1;
-  double low = map.t[i];
-  double high = map.t[i + 1];
+  numeric::NewtonBracket between{map.t[i], map.t[i + 1]};
+  const double width = between.high - between.low;
   const double panel = map.s[i + 1] - map.s[i];
-  double t = panel > 0 ? low + (high - low) * (s - map.s[i]) / panel : low;
+  double t = between.low + (panel > 0 ? width * (s - map.s[i]) / panel : 0);
   if (map.even[i]) return t;
-  const double width = high - low;
   double excess = map.s[i] + panel_length(v, map.t[i], t) - s;
   for (int step = 0; step < 60 && std::abs(excess) > 2e-16 * map.s.back(); ++step) {
-    (excess > 0 ? high : low) = t;
-    const double rate = v(t);
-    double next = rate > 0 ? t - excess / rate : low - 1;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double next = between.next(t, excess, v(t));
     if (next == t) break;
     excess += gauss_of_part(v, t, next, width);
     t = next;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "keyline/core/axis.h"
+#include "keyline/numeric/newton_bracket.h"
 #include "keyline/surface/curvature.h"
 #include "keyline/surface/stripe_turn.h"
 
@@ -54,17 +55,14 @@ class EdgeProjection {
     int best = 0;
     for (int i = 1; i <= kCoarse; ++i)
       if (core::distance(points_[i], p) < core::distance(points_[best], p)) best = i;
-    double low = std::max(best - 1, 0) / static_cast<double>(kCoarse);
-    double high = std::min(best + 1, kCoarse) / static_cast<double>(kCoarse);
+    numeric::NewtonBracket between{std::max(best - 1, 0) / static_cast<double>(kCoarse),
+                                   std::min(best + 1, kCoarse) / static_cast<double>(kCoarse)};
     double t = best / static_cast<double>(kCoarse);
-    for (int step = 0; step < 60 && high - low > 1e-15; ++step) {
+    for (int step = 0; step < 60 && between.high - between.low > 1e-15; ++step) {
       const EdgeJet j = edge_jet(surface_, edge_, t);
       const Vector3 d = j.point - p;
-      const double slope = dot(d, j.first);
-      (slope > 0 ? high : low) = t;
       const double bend = dot(j.first, j.first) + dot(d, j.second);
-      double next = bend > 0 ? t - slope / bend : 0.5 * (low + high);
-      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const double next = between.next(t, dot(d, j.first), bend);
       if (std::abs(next - t) < 1e-15) break;
       t = next;
     }

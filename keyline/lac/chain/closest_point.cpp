@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "keyline/core/angle.h"
+#include "keyline/numeric/newton_bracket.h"
 
 namespace keyline::lac {
 namespace {
@@ -114,13 +115,12 @@ void Search::look(const End& a, const End& b, int halvings) {
 /// Newton's method for the zero of the slope between two ends.
 void Search::refine(End low, End high) {
   if (slope_at(low).value >= 0 || slope_at(high).value <= 0) return;  // an end is the nearest
+  numeric::NewtonBracket between{low.t, high.t};
   End at = end_at(0.5 * (low.t + high.t));
   offer(at);
   for (int i = 0; i < 60; ++i) {
     const Slope slope = slope_at(at);
-    (slope.value < 0 ? low : high) = at;
-    double next = at.t - slope.value / (slope.rate * segment_.length);
-    if (!(next >= low.t && next <= high.t)) next = 0.5 * (low.t + high.t);
+    const double next = between.next(at.t, slope.value, slope.rate * segment_.length);
     const double step = std::abs(next - at.t);
     at = end_at(next);
     offer(at);

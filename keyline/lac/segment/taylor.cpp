@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/numeric/newton_bracket.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::lac::detail {
@@ -91,18 +92,15 @@ std::pair<double, double> velocity_growth(const TaylorSeries& s, double r) {
 /// degrees. Any circle gives a bound; where they differ by 0.3 it is some e^(degree / 20) times the
 /// least, and circles larger than a million times the reach are not needed.
 double best_growth(const TaylorSeries& s, double reach) {
-  double low = 0;
-  double high = std::log(std::min(s.radius / reach, 1e6));
-  double growth = 0.9 * high;
+  numeric::NewtonBracket between{0, std::log(std::min(s.radius / reach, 1e6))};
+  double growth = 0.9 * between.high;
   for (int step = 0; step < 6; ++step) {
     const double less = std::expm1(growth);
     const auto [rate, rise] = velocity_growth(s, reach * (1 + less));
     const double fall = s.degree + 1 / less;
     const double off = std::log(rate / fall);
     if (std::abs(off) < 0.3) break;
-    (off > 0 ? high : low) = growth;
-    const double next = growth - off / (rise + (1 + less) / (less * less * fall));
-    growth = next > low && next < high ? next : 0.5 * (low + high);
+    growth = between.next(growth, off, rise + (1 + less) / (less * less * fall));
   }
   return growth;
 }
