@@ -156,6 +156,12 @@ std::string shortened(std::string_view text) {
   return text.size() > kMost ? out + "..." : out;
 }
 
+bool all_numbers(const std::vector<std::string_view>& fields, const TableStyle& style,
+                 std::size_t from) {
+  return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(from), fields.end(),
+                     [&](auto f) { return parse_number(f, style).has_value(); });
+}
+
 bool is_remark(const std::vector<std::string_view>& fields, TableStyle style, std::size_t column,
                std::size_t width) {
   const auto is_number = [&](std::string_view f) {

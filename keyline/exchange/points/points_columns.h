@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,10 @@ bool is_coordinate_word(std::string_view word);
 
 /// The first 40 characters without control characters, for messages and names.
 std::string shortened(std::string_view text);
+
+/// Whether all fields from that one on are numbers.
+bool all_numbers(const std::vector<std::string_view>& fields, const TableStyle& style,
+                 std::size_t from = 0);
 
 /// True for a line among or behind the rows of a table that a person takes for text: it holds a
 /// word and has not the shape of a row of `width` fields that starts with a number in `column`.

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
+#include "keyline/exchange/points/points_parts.h"
 #include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::detail {
@@ -19,11 +19,6 @@ using core::ErrorCode;
 constexpr std::size_t kFewest = 3;  // rows that make a table beyond doubt
 
 }  // namespace
-
-bool PointsTable::all_numbers(const Fields& fields, std::size_t from) const {
-  return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(from), fields.end(),
-                     [&](auto f) { return parse_number(f, style_).has_value(); });
-}
 
 core::Result<void> PointsTable::take(std::string_view line, int number, const std::string& place) {
   line = trimmed(line);
@@ -37,10 +32,47 @@ core::Result<void> PointsTable::take(std::string_view line, int number, const st
   return among_data(line, number, place);
 }
 
+void PointsTable::meet_blank(int number) {
+  if (!started_) return;
+  if (!blanks_.empty() && blanks_.back().first + blanks_.back().count == number)
+    ++blanks_.back().count;
+  else
+    blanks_.push_back({number, 1});
+}
+
+core::Result<void> PointsTable::before_data(std::string_view line, int number,
+                                            const std::string& place) {
+  const auto first = is_first_row(head_, options_, line, number, place);
+  if (!first) return std::unexpected(first.error());
+  return *first ? start(split(line, head_.style), number, place) : core::Result<void>{};
+}
+
+core::Result<void> PointsTable::start(const Fields& fields, int number, const std::string& place) {
+  started_ = true;
+  width_ = fields.size();
+  first_line_ = number;
+  const auto columns = columns_below(head_, options_, fields, place);
+  if (!columns) return std::unexpected(columns.error());
+  columns_ = *columns;
+  most_ = std::max({width_, head_.names.size(), head_.headed});
+  const auto unit = unit_below(head_, columns_, place, left_out_);
+  if (!unit) return std::unexpected(unit.error());
+  unit_ = *unit;
+  const std::size_t known = !head_.names.empty() ? head_.names.size() : head_.text_id ? 4 : 3;
+  if (options_.columns.empty()) ignored_columns_ = width_ - std::min(width_, known);
+  auto row = row_of(fields, columns_, head_.style, place);
+  if (!row) return std::unexpected(row.error());
+  counting_ = head_.names.empty() && options_.columns.empty() && !head_.text_id &&
+              columns_.z != PointsColumns::kNone;
+  watch_counter(fields);
+  add(*row, number);
+  return {};
+}
+
 /// A row without what a comment's mark parts from its numbers: "0.5 0.1  ! tip". Where names of
 /// curves stand in rows, the mark may be of one.
 std::string_view PointsTable::without_remark(std::string_view line) {
-  if (columns_.id != PointsColumns::kNone || names_curves(names_, options_)) return line;
+  if (columns_.id != PointsColumns::kNone || names_curves(head_.names, options_)) return line;
   for (std::size_t at = line.find_first_of(" \t"); at != line.npos;
        at = line.find_first_of(" \t", at + 1)) {
     if (!is_comment(line.substr(at))) continue;
@@ -55,56 +87,54 @@ std::string_view PointsTable::without_remark(std::string_view line) {
   return line;
 }
 
-/// Of the first row with a fraction in it: whether a comma parts it or a point.
-void PointsTable::learn_fraction(std::string_view line) {
-  const std::size_t at = fraction_known_ ? line.npos : line.find_first_of(".,");
-  if (at == line.npos) return;
-  fraction_known_ = true;
-  style_.decimal_comma = line[at] == ',';
-}
-
 core::Result<void> PointsTable::among_data(std::string_view line, int number,
                                            const std::string& place) {
-  learn_fraction(line);
-  const Fields fields = split(line, style_);
+  // The first row with a fraction in it tells whether a comma parts it or a point.
+  const std::size_t at = head_.fraction_known ? line.npos : line.find_first_of(".,");
+  if (at != line.npos) {
+    head_.fraction_known = true;
+    head_.style.decimal_comma = line[at] == ',';
+  }
+  const Fields fields = split(line, head_.style);
   if (fields.empty()) {  // nothing but separators
     meet_blank(number);
     return {};
   }
   const auto x = static_cast<std::size_t>(columns_.x);
   const bool remark = columns_.id == PointsColumns::kNone
-                          ? is_remark(fields, style_, x, width_)
+                          ? is_remark(fields, head_.style, x, width_)
                           : fields.size() < width_ && fields.size() <= x;
   if (remark || is_lone(fields)) return set_aside(fields, line, number, place);
   if (first_was_none(fields)) {
     restart(fields.size(), place);
     return before_data(line, number, place);
   }
-  auto row = row_of(fields, place);
+  auto row = row_of(fields, columns_, head_.style, place);
   if (!row) return std::unexpected(row.error());
   if (auto done = surplus(fields, number, place); !done) return done;
   if (remark_)
     if (auto again = take_up_again(); !again) return again;
   watch_counter(fields);
-  add(std::move(*row), number);
+  add(*row, number);
   return {};
 }
 
 /// A number by itself where points have two and more: the count of the rows that follow, or behind
 /// them all.
 bool PointsTable::is_lone(const Fields& fields) const {
-  return fields.size() == 1 && style_.separator == ' ' && columns_.last() > 0 &&
-         columns_.id == PointsColumns::kNone && all_numbers(fields, 0);
+  return fields.size() == 1 && head_.style.separator == ' ' && columns_.last() > 0 &&
+         columns_.id == PointsColumns::kNone && all_numbers(fields, head_.style);
 }
 
 core::Result<void> PointsTable::set_aside(const Fields& fields, std::string_view line, int number,
                                           const std::string& place) {
   if (auto all = meet_count(); !all) return all;
   remark_text_ = shortened(line);
-  like_row_ = is_like_row(fields, style_, width_);
+  like_row_ = is_like_row(fields, head_.style, width_);
   if (is_lone(fields)) {
-    if (run_ < kFewest && !remark_) return std::unexpected(too_few(1, place));
-    count_ = {.rows = *parse_number(fields[0], style_), .failure = too_few(1, place)};
+    if (run_ < kFewest && !remark_) return std::unexpected(too_few(1, columns_, place));
+    count_ = {.rows = *parse_number(fields[0], head_.style),
+              .failure = too_few(1, columns_, place)};
     remark_ = count_->failure;
   } else {
     remark_ = {ErrorCode::bad_input, "text where a number belongs: '" + remark_text_ + "'",
@@ -128,11 +158,11 @@ core::Result<void> PointsTable::surplus(const Fields& fields, int number,
                                         const std::string& place) {
   if (fields.size() <= most_) return {};
   const auto is_number = [&](std::string_view f) {
-    return !f.empty() && parse_number(f, style_).has_value();
+    return !f.empty() && parse_number(f, head_.style).has_value();
   };
   if (std::none_of(fields.begin() + static_cast<std::ptrdiff_t>(most_), fields.end(), is_number))
     return {};
-  if (style_.separator == ',')
+  if (head_.style.separator == ',')
     return core::fail(ErrorCode::bad_input,
                       core::counted(fields.size(), "column") + " where the first row has " +
                           std::to_string(most_),
@@ -145,9 +175,9 @@ core::Result<void> PointsTable::surplus(const Fields& fields, int number,
 /// A first row of more or fewer numbers than the next, as the window before an airfoil's points or
 /// the count before a list of points in space, is no point.
 bool PointsTable::first_was_none(const Fields& fields) const {
-  const bool chosen = !names_.empty() || !options_.columns.empty() || text_id_;
-  return rows_ == 1 && !chosen && !remark_ && style_.separator == ' ' && fields.size() >= 2 &&
-         fields.size() != width_ && all_numbers(fields, 0);
+  const bool chosen = !head_.names.empty() || !options_.columns.empty() || head_.text_id;
+  return rows_ == 1 && !chosen && !remark_ && head_.style.separator == ' ' && fields.size() >= 2 &&
+         fields.size() != width_ && all_numbers(fields, head_.style);
 }
 
 void PointsTable::restart(std::size_t fields, const std::string& place) {
@@ -185,9 +215,9 @@ core::Result<void> PointsTable::take_up_again() {
 /// Whether column 1 goes on counting the rows; what column 4 holds is kept as long as it does.
 void PointsTable::watch_counter(const Fields& fields) {
   if (!counting_) return;
-  counting_ = parse_number(fields[0], style_) == static_cast<double>(rows_ + 1) &&
+  counting_ = parse_number(fields[0], head_.style) == static_cast<double>(rows_ + 1) &&
               fields[0].find_first_of(".,") == fields[0].npos && fields.size() == width_;
-  const auto fourth = fields.size() > 3 ? parse_number(fields[3], style_) : std::nullopt;
+  const auto fourth = fields.size() > 3 ? parse_number(fields[3], head_.style) : std::nullopt;
   fourth_.push_back(fourth.value_or(std::numeric_limits<double>::quiet_NaN()));
   if (!counting_) fourth_ = {};
 }
@@ -214,10 +244,10 @@ void PointsTable::drop_counter() {
 void PointsTable::tell_columns() {
   if (!options_.columns.empty()) return;
   std::string others;
-  for (std::size_t k = 0; k < names_.size(); ++k) {
+  for (std::size_t k = 0; k < head_.names.size(); ++k) {
     const int column = static_cast<int>(k);
-    if (columns_.takes(column) || names_[k].empty()) continue;
-    others += (others.empty() ? "" : ", ") + names_[k];
+    if (columns_.takes(column) || head_.names[k].empty()) continue;
+    others += (others.empty() ? "" : ", ") + head_.names[k];
   }
   if (!others.empty()) left_out_.insert(left_out_.begin(), "columns beside: " + shortened(others));
   if (ignored_columns_ > 0)
@@ -243,67 +273,20 @@ RawCurve& PointsTable::curve_of(std::string_view id) {
   return curves_[current_];
 }
 
-core::Failure PointsTable::too_few(std::size_t fields, const std::string& place) const {
-  return {ErrorCode::bad_input,
-          "only " + std::to_string(fields) + " of at least " +
-              core::counted(static_cast<std::size_t>(columns_.last()) + 1, "column"),
-          "give every point all its coordinates", place};
-}
-
-core::Result<double> PointsTable::number_in(const Fields& fields, int column,
-                                            const std::string& place) const {
-  const auto k = static_cast<std::size_t>(column);
-  // A missing last entry was dropped with the trailing separators.
-  const std::string_view field = k < fields.size() ? fields[k] : std::string_view{};
-  if (k > fields.size() || (k == fields.size() && style_.separator == ' '))
-    return std::unexpected(too_few(fields.size(), place));
-  const auto value = parse_number(field, style_);
-  if (!value) {
-    return core::fail(ErrorCode::bad_input,
-                      "text where a number belongs: '" + shortened(field) + "'",
-                      "give a number, or choose other columns", place);
-  }
-  if (core::is_too_large(*value)) {
-    return core::fail(ErrorCode::bad_input, "the number " + shortened(field) + " is too large",
-                      "check the unit, or divide all coordinates by a common factor", place);
-  }
-  return *value;
-}
-
-core::Result<PointsTable::Row> PointsTable::row_of(const Fields& fields,
-                                                   const std::string& place) const {
-  Row row;
-  const std::pair<int, double*> wanted[] = {{columns_.x, &row.point.x},
-                                            {columns_.y, &row.point.y},
-                                            {columns_.z, &row.point.z},
-                                            {columns_.weight, &row.weight}};
-  for (const auto& [column, target] : wanted) {
-    if (column == PointsColumns::kNone) continue;
-    const auto value = number_in(fields, column, place);
-    if (!value) return std::unexpected(value.error());
-    *target = *value;
-  }
-  if (columns_.two()) {
-    const auto second = second_of(fields, place);
-    if (!second) return std::unexpected(second.error());
-    row.second = *second;
-  }
-  const auto k = static_cast<std::size_t>(columns_.id);
-  if (columns_.id == PointsColumns::kNone || k >= fields.size()) return row;
-  const std::string_view id = fields[k];
-  const bool quoted = id.size() >= 2 && id.front() == '"' && id.back() == '"';
-  row.id = quoted ? unquoted(id) : std::string(id);
-  return row;
-}
-
-void PointsTable::add(const Row& row, int number) {
+/// Of sides that have an x each the shorter one has neither number at the end.
+void PointsTable::add(const PointsRow& row, int number) {
   ++rows_;
   if (++run_ >= kFewest) unproven_.reset();
-  RawCurve& curve = curve_of(row.id);
-  put(curve, row.point, row.weight, number);
+  const auto put = [&](RawCurve& curve, core::Point3 p) {
+    if (columns_.own_x() && std::isnan(p.x) && std::isnan(p.y)) return;
+    curve.points.push_back(p);
+    curve.source_lines.push_back(number);
+    if (columns_.weight != PointsColumns::kNone) curve.weights.push_back(row.weight);
+  };
+  put(curve_of(row.id), row.point);
   if (!columns_.two()) return;
   seconds_.resize(curves_.size());
-  put(seconds_[current_], row.second, row.weight, number);
+  put(seconds_[current_], row.second);
 }
 
 /// Of a title that is a number: whether it counts the rows behind it, the points among them or
@@ -319,13 +302,12 @@ bool PointsTable::title_counts(double number) const {
 /// A curve takes the title of its file, if that does not count its points; of several, those
 /// without a name of their own.
 void PointsTable::name_curves() {
-  const bool title_is_header = unknown_header_ && text_lines_ == 1;
-  if (columns_.id != PointsColumns::kNone || text_lines_ == 0 || title_is_header) return;
-  const auto value = parse_number(first_text_, style_);
+  if (columns_.id != PointsColumns::kNone || head_.has_no_title()) return;
+  const auto value = parse_number(head_.first_text, head_.style);
   const bool counts = value && title_counts(*value);
-  const std::string title = counts ? std::string() : first_text_;
+  const std::string title = counts ? std::string() : head_.first_text;
   if (value && !counts)
-    left_out_.push_back("the number before the rows, " + first_text_ +
+    left_out_.push_back("the number before the rows, " + head_.first_text +
                         ", counts none of them: taken for a title");
   std::size_t number = 0;
   for (RawCurve& curve : curves_) {
@@ -337,21 +319,20 @@ void PointsTable::name_curves() {
 /// Of the lines before the rows: names of columns that are not looked for, and titles behind the
 /// first.
 void PointsTable::tell_titles() {
-  if (titles_.empty()) return;
-  if (unknown_header_) {
+  if (head_.titles.empty()) return;
+  if (head_.unknown) {
     left_out_.insert(left_out_.begin(),
-                     titles_.back() + ": names no x and y: the first columns taken");
-    titles_.pop_back();
+                     head_.titles.back() + ": names no x and y: the first columns taken");
+    head_.titles.pop_back();
   }
-  if (titles_.size() > 1) left_out_.insert(left_out_.begin(), titles_.begin() + 1, titles_.end());
+  if (head_.titles.size() > 1)
+    left_out_.insert(left_out_.begin(), head_.titles.begin() + 1, head_.titles.end());
 }
 
 void PointsTable::tell_left_out() {
-  const bool title_is_header = unknown_header_ && text_lines_ == 1;
-  for (RawCurve& curve : curves_) {
-    if (text_lines_ > 0 && !title_is_header)
-      curve.notes.push_back(core::counted(text_lines_, "title line") + " before the points");
-  }
+  if (!head_.has_no_title())
+    for (RawCurve& curve : curves_)
+      curve.notes.push_back(core::counted(head_.text_lines, "title line") + " before the points");
   tell_columns();
   tell_titles();
   left_out_ = core::told_in_part(std::move(left_out_), "further line");
@@ -364,23 +345,27 @@ core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
   if (auto all = meet_count(); !all) return std::unexpected(all.error());
   if (misfit_ && rows_ < kFewest) return std::unexpected(*misfit_);
   if (curves_.empty()) {
-    const bool empty = text_lines_ == 0 && names_.empty();
-    return core::fail(ErrorCode::bad_input,
-                      empty ? "the file is empty"
-                            : "no points found" + (first_text_.empty()
-                                                       ? std::string()
-                                                       : " (it starts with '" + first_text_ + "')"),
-                      "give a text file with two or three numbers on each line", name);
+    const bool empty = head_.text_lines == 0 && head_.names.empty();
+    return core::fail(
+        ErrorCode::bad_input,
+        empty ? "the file is empty"
+              : "no points found" + (head_.first_text.empty()
+                                         ? std::string()
+                                         : " (it starts with '" + head_.first_text + "')"),
+        "give a text file with two or three numbers on each line", name);
   }
   drop_counter();
-  join_named_points();
-  const bool sides = columns_.two();
-  if (sides) {
+  const bool named = columns_.id != PointsColumns::kNone;
+  if (columns_.two()) {
     name_curves();
-    part_sides();
+    curves_ = sides_of(std::move(curves_), std::move(seconds_), *head_.sides);
+  } else if (named && options_.id_column.empty()) {
+    join_named_points(curves_, columns_.id, left_out_);
   }
-  part_curves();
-  if (!sides) name_curves();
+  const bool lines_part = !named && options_.blank_lines_part;
+  curves_ = parts_of(std::move(curves_), head_.names.empty(),
+                     lines_part ? blanks_ : std::vector<BlankLines>{}, left_out_);
+  if (!columns_.two()) name_curves();
   tell_left_out();
   return std::move(curves_);
 }

@@ -1,0 +1,185 @@
+#include "keyline/exchange/points/points_head.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/text/ascii.h"
+
+namespace keyline::exchange::detail {
+namespace {
+
+using core::ErrorCode;
+using Fields = std::vector<std::string_view>;
+
+void remember_title(PointsHead& head, std::string_view line, int number) {
+  constexpr std::size_t kMostKept = 100;
+  if (head.titles.size() < kMostKept)
+    head.titles.push_back("line " + std::to_string(number) + ": " + shortened(line));
+  if (head.first_text.empty()) head.first_text = shortened(line);
+  head.last_text = std::string(line.substr(0, 4096));
+  ++head.text_lines;
+}
+
+/// Tabs part fields where a header's do so, or where the first is a name; elsewhere they are white
+/// space as any other, of which there may be several in a row.
+bool tabs_part(const PointsHead& head, std::string_view line) {
+  const Fields fields = split(line, {'\t', head.style.decimal_comma});
+  if (fields.size() < 2) return false;
+  if (!head.names.empty()) return head.separator == '\t' && fields.size() <= head.names.size();
+  return fields.size() >= 3 && !parse_number(fields[0], head.style) &&
+         all_numbers(fields, head.style, 1);
+}
+
+void take_style(PointsHead& head, char separator, std::string_view line) {
+  TableStyle& style = head.style;
+  style = separator == 0 ? guess_style(line)
+                         : TableStyle{separator, separator != ',' && line.find(',') != line.npos};
+  if (separator == 0 && style.separator == ' ' && tabs_part(head, line)) style.separator = '\t';
+  head.fraction_known =
+      style.separator == ',' || style.separator == ' ' || line.find_first_of(".,") != line.npos;
+}
+
+/// A header may be separated by a comma although rows are not, and the other way round.
+bool take_header(PointsHead& head, const PointsOptions& options, std::string_view text, int number,
+                 bool comment) {
+  for (const char separator : {',', ';', '\t', ' '}) {
+    std::vector<std::string> names;
+    std::vector<HeaderUnit> units;
+    const Fields cells = split(text, {separator, false});
+    for (const auto field : cells) {
+      names.push_back(plain_name(field));
+      units.push_back(unit_of(field));
+    }
+    auto sides = find_sides(cells, separator == ' ');
+    if (!sides && !is_points_header(names, options)) continue;
+    head.sides = std::move(sides);
+    head.names = std::move(names);
+    head.units = std::move(units);
+    head.separator = separator;
+    head.counts = comment;
+    head.line = number;
+    return true;
+  }
+  return false;
+}
+
+/// A second line of a header, of units alone: "mm,mm", "[m];[m];-".
+bool take_unit_row(PointsHead& head, std::string_view text, int number) {
+  if (head.names.empty()) return false;
+  const Fields fields = split(text, {head.separator, false});
+  if (fields.size() < 2 || fields.size() > head.names.size()) return false;
+  std::vector<HeaderUnit> units;
+  for (const std::string_view field : fields) {
+    if (parse_number(field, head.style) && !field.empty()) return false;
+    units.push_back(unit_alone(field));
+  }
+  const auto says = [](const HeaderUnit& u) { return !u.known.empty() || !u.unknown.empty(); };
+  if (std::ranges::none_of(units, says)) return false;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    if (says(units[i])) head.units[i] = units[i];
+  head.line = number;
+  return true;
+}
+
+/// Whether a row below a header of so many names has two fields for each number and no fraction:
+/// what decimal commas make of it.
+bool has_decimal_commas(const Fields& fields, std::size_t named, const TableStyle& style) {
+  const auto texts = static_cast<std::size_t>(
+      std::ranges::count_if(fields, [&](auto f) { return !f.empty() && !parse_number(f, style); }));
+  return style.separator == ',' && named >= 2 && fields.size() > named &&
+         fields.size() + texts == 2 * named &&
+         std::ranges::all_of(fields, [](auto f) { return f.find('.') == f.npos; });
+}
+
+/// "# x y" over rows that begin with 1: the mark of a comment is a column's name.
+void name_the_mark(PointsHead& head) {
+  head.names.insert(head.names.begin(), "#");
+  head.units.insert(head.units.begin(), HeaderUnit{});
+  if (!head.sides) return;
+  for (Sides::Side* side : {&head.sides->first, &head.sides->second}) {
+    ++side->x;
+    ++side->y;
+  }
+}
+
+}  // namespace
+
+core::Result<bool> is_first_row(PointsHead& head, const PointsOptions& options,
+                                std::string_view line, int number, const std::string& place) {
+  const bool comment = is_comment(line);
+  const std::string_view text = comment ? comment_text(line) : line;
+  if (take_unit_row(head, text, number) || lower_case(text).starts_with("sep=")) return false;
+  if (!comment) {
+    take_style(head, options.separator, line);
+    const TableStyle& style = head.style;
+    const Fields fields = split(line, style);
+    if (!head.names.empty() && head.names.size() <= fields.size() + 1 && fields.size() >= 2)
+      return true;
+    const auto first = fields.empty() ? std::nullopt : parse_number(fields[0], style);
+    head.text_id =
+        style.separator != ' ' && fields.size() >= 3 && all_numbers(fields, style, 1) && !first;
+    if (fields.size() >= 2 && (head.text_id || all_numbers(fields, style, 0))) return true;
+    if (style.separator != ' ' && fields.size() >= 2 && first && !std::isnan(*first)) {
+      return core::fail(ErrorCode::bad_input,
+                        "text where a number belongs: '" + shortened(line) + "'",
+                        "give numbers only, or start the line with #", place);
+    }
+  }
+  if (take_header(head, options, text, number, comment)) return false;
+  if (const std::string unit = unit_said(text); !unit.empty()) {
+    head.said_unit = unit;
+    if (lower_case(text).starts_with("unit")) return false;  // it says nothing else
+  }
+  if (!comment) remember_title(head, line, number);
+  return false;
+}
+
+core::Result<PointsColumns> columns_below(PointsHead& head, const PointsOptions& options,
+                                          const Fields& first_row, const std::string& place) {
+  const std::size_t width = first_row.size();
+  if (head.counts && width == head.names.size() + 1 && first_row[0] == "1") name_the_mark(head);
+  // Words between spaces are a title; a line with tabs heads columns, which tabs or spaces part.
+  const bool tabs = head.last_text.find('\t') != std::string::npos;
+  const TableStyle heads =
+      tabs && head.style.separator == ' ' ? TableStyle{'\t', false} : head.style;
+  head.headed =
+      head.text_lines > 0 && heads.separator != ' ' ? split(head.last_text, heads).size() : 0;
+  head.unknown = head.headed == width;
+  const std::size_t named = head.names.empty() ? head.headed : head.names.size();
+  if (has_decimal_commas(first_row, named, head.style))
+    return core::fail(ErrorCode::bad_input,
+                      std::to_string(width) + " columns below a header of " + std::to_string(named),
+                      "where numbers have a decimal comma, separate columns by ; or blanks", place);
+  auto columns = choose_columns(head.names, options, width, head.text_id, place);
+  if (columns && head.sides && options.columns.empty()) {
+    columns->x = head.sides->first.x;
+    columns->y = head.sides->first.y;
+    columns->x2 = head.sides->second.x;
+    columns->y2 = head.sides->second.y;
+    columns->z = PointsColumns::kNone;
+  }
+  return columns;
+}
+
+core::Result<std::string> unit_below(const PointsHead& head, const PointsColumns& columns,
+                                     const std::string& place, std::vector<std::string>& left_out) {
+  std::string unit;
+  for (const int column : {columns.x, columns.y, columns.z, columns.x2, columns.y2}) {
+    if (column < 0 || static_cast<std::size_t>(column) >= head.units.size()) continue;
+    const auto& [known, unknown] = head.units[static_cast<std::size_t>(column)];
+    if (!unknown.empty() && unit.empty())
+      left_out.push_back("line " + std::to_string(head.line) + ": the unit " + shortened(unknown) +
+                         ", which is none of mm, cm, m, km, in, ft, pt, px");
+    if (known.empty()) continue;
+    if (!unit.empty() && unit != known)
+      return core::fail(ErrorCode::bad_input,
+                        "the header gives the coordinates two units, " + unit + " and " + known,
+                        "give all coordinates in one", place);
+    unit = known;
+  }
+  return unit.empty() ? head.said_unit : unit;
+}
+
+}  // namespace keyline::exchange::detail
