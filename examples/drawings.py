@@ -98,9 +98,9 @@ def passes():
     ink = [0.0] * (width * height)
     shoulder = [(40, 120), (150, 70), (300, 60), (440, 110)]
     arch = [(90, 200), (100, 110), (200, 110), (210, 200)]
-    for line, shifts in ((shoulder, (-6, -2, 2, 6)), (arch, (-4, 1, 5))):
-        for shift in shifts:
-            handles = [(x + noise.normal(2), y + shift + noise.normal(1)) for x, y in line]
+    for line, times in ((shoulder, 4), (arch, 3)):
+        for _ in range(times):
+            handles = [(x + noise.normal(3), y + noise.normal(3)) for x, y in line]
             pencil(ink, width, bezier(handles), noise, 2.2, 0.7)
     pencil(ink, width, bezier([(230, 200), (300, 204), (370, 203), (440, 196)]), noise, 2.2, 0.7)
     return {"passes.png": grey_png(width, height, on_shaded_paper(ink, width, height, noise))}
