@@ -7,6 +7,7 @@
 
 #include "keyline/core/error.h"
 #include "keyline/core/polygon.h"
+#include "keyline/sketch/double_edges.h"
 #include "keyline/sketch/hand_seen.h"
 #include "keyline/sketch/lone_passes.h"
 #include "keyline/sketch/meant_line.h"
@@ -105,10 +106,12 @@ void settle_groups(const PassModel& at_most, bool in_picture, Passes& all) {
     settled = true;
     all.groups = group_by_evidence(all.evidence);
     auto told = two_lines(all.sampled, all.groups, at_most);
-    if (in_picture)
+    if (in_picture) {
       std::ranges::copy(
           never_touching(all.sampled, all.groups, kTouch * at_most.width, at_most.angle),
           std::back_inserter(told));
+      std::ranges::copy(double_edges(all.sampled, all.groups, at_most), std::back_inserter(told));
+    }
     for (const TwoLines& lines : told)
       if (tell_apart(lines, all.evidence)) settled = false;
   }

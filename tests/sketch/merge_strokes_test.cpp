@@ -35,7 +35,7 @@ std::vector<Point2> straight(double y, int to) {
 const ConsolidateOptions kTwoWide{.width = 2, .measured = true, .apart = 4, .hand = 0};
 
 TEST(MergeStrokes, TellsPassesFromStrokesAlone) {
-  std::vector<FineStroke> strokes{stroke(straight(0, 200), 0), stroke(straight(3, 200), 1),
+  std::vector<FineStroke> strokes{stroke(straight(0, 200), 0), stroke(straight(2.8, 200), 1),
                                   stroke(straight(80, 200), 2)};
   std::vector<std::string> notes;
   const Merged merged = merge(strokes, 2, kTwoWide, {}, notes);
@@ -79,7 +79,7 @@ core::Result<TraceResult> consolidated(const std::vector<std::pair<double, doubl
 
 // Ink of passes beside their line is explained: there is nothing to warn of.
 TEST(MergeStrokes, InkOfPassesIsExplained) {
-  const auto result = consolidated({{40, 40}, {45, 47}, {90, 90}});
+  const auto result = consolidated({{40, 40}, {43.5, 47.5}, {90, 90}});
   ASSERT_TRUE(result);
   ASSERT_EQ(result->strokes.size(), 2U);
   EXPECT_GT(result->explained, 0.99);
@@ -100,12 +100,17 @@ TEST(MergeStrokes, TellsPassesThatLieFarFromTheirLine) {
   }));
 }
 
-// A double edge, two and a half pens apart all along, is two lines; on them, not between.
+// A double edge, two and a half pens apart all along, is two lines; on them, not between. So is one
+// whose second edge touches the first at its right end (there are 1.7 pens from middle to middle).
 TEST(MergeStrokes, KeepsDoubleEdgesOfAPicture) {
   const auto result = consolidated({{40, 40}, {47.5, 47.5}, {90, 90}});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->strokes.size(), 3U);
   EXPECT_GT(result->explained, 0.99);
+  const auto touching = consolidated({{40, 40}, {46.5, 45}, {90, 90}});
+  ASSERT_TRUE(touching);
+  EXPECT_EQ(touching->strokes.size(), 3U);
+  EXPECT_GT(touching->explained, 0.99);
 }
 
 }  // namespace
