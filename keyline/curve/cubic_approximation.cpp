@@ -281,6 +281,11 @@ PiecewiseBezier cover(Panels panels, double tolerance) {
   join(panels.list);
   PiecewiseBezier result;
   double bound = 0;
+  if (panels.error > tolerance) {  // doubles cannot do it: nor can fewer pieces
+    for (const Panel& p : panels.list)
+      result.pieces.push_back({{p.cubic.control.begin(), p.cubic.control.end()}, {}});
+    panels.list.clear();
+  }
   for (std::size_t i = 0; i < panels.list.size();) {
     std::size_t next = i + 1;
     while (next < panels.list.size() && panels.list[next].joined) ++next;
