@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <string>
 
 #include "keyline/curve/homogeneous.h"
@@ -124,9 +126,17 @@ BSpline<P> reverse(const BSpline<P>& c) {
   BSpline<P> r = c;
   std::reverse(r.control.begin(), r.control.end());
   std::reverse(r.weights.begin(), r.weights.end());
-  std::reverse(r.knots.begin(), r.knots.end());
   const double sum = c.knots.empty() ? 0 : c.knots.front() + c.knots.back();
-  for (double& u : r.knots) u = sum - u;
+  const auto reversed_about = [&](double total) {
+    std::transform(c.knots.rbegin(), c.knots.rend(), r.knots.begin(),
+                   [total](double u) { return total - u; });
+  };
+  const auto distinct = [](const std::vector<double>& knots) {
+    return std::inner_product(knots.begin() + !knots.empty(), knots.end(), knots.begin(), 0,
+                              std::plus<>(), std::not_equal_to<>());
+  };
+  reversed_about(sum);
+  if (distinct(r.knots) < distinct(c.knots)) reversed_about(0);
   return r;
 }
 

@@ -89,6 +89,7 @@ template <class P>
 std::pair<BSpline<P>, BSpline<P>> split(const BSpline<P>& c, double t);
 template <class P>
 BSpline<P> subcurve(const BSpline<P>& c, double t0, double t1);
+/// Over the same domain [a, b]; over [-b, -a] where knots would fall together that differ.
 template <class P>
 BSpline<P> reverse(const BSpline<P>& c);
 BSpline2 transform(const BSpline2& c, const core::Similarity2& map);

@@ -55,7 +55,7 @@ Result<Outcome> run_typed(const Operation& operation, const json& request, Conte
   // What files hold was looked at when they were read.
   if (!operation.reads_files)
     if (auto sound = check_values(*operation.result, result->get()); !sound)
-      return std::unexpected(std::move(sound.error()));
+      return std::unexpected(explained(std::move(sound.error()), request));
   return Outcome{&operation, std::move(whole.own), std::move(*result)};
 }
 
@@ -135,7 +135,9 @@ Result<json> perform(const std::string& name, const json& request, const Context
   return guarded<json>(*operation, [&]() -> Result<json> {
     const auto outcome = run_typed(*operation, request, context);
     if (!outcome) return std::unexpected(outcome.error());
-    return result_json(*outcome);
+    auto result = result_json(*outcome);
+    if (!result) return std::unexpected(explained(std::move(result.error()), request));
+    return result;
   });
 }
 

@@ -1,7 +1,13 @@
 #include "keyline/operations/sound_result.h"
 
+#include <cmath>
+#include <optional>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
+#include "keyline/core/coordinate.h"
+#include "keyline/operations/common.h"
 #include "keyline/operations/values.h"
 
 namespace keyline::operations {
@@ -53,7 +59,34 @@ std::unexpected<core::Failure> within(core::Failure failure, const std::string& 
   return std::unexpected(std::move(failure));
 }
 
+bool is_extreme(double number) {
+  const double size = std::abs(number);
+  return size > core::kLargestCoordinate || (size > 0 && size < core::kSmallestSize);
+}
+
+/// Where the first such number stands.
+std::optional<std::string> extreme_in(const nlohmann::json& j, const std::string& place) {
+  if (j.is_number_float() && is_extreme(j.get<double>())) return place;
+  if (!j.is_structured()) return std::nullopt;
+  for (const auto& [key, item] : j.items()) {
+    const std::string step = j.is_array() ? "[" + key + "]" : place.empty() ? key : "." + key;
+    if (auto found = extreme_in(item, place + step)) return found;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+core::Failure explained(core::Failure unsound, const nlohmann::json& request) {
+  nlohmann::json own = request;
+  for (const std::string_view key : detail::kEnvelope) own.erase(std::string(key));
+  const auto place = extreme_in(own, "");
+  if (!place) return unsound;
+  return core::fail(core::ErrorCode::bad_input,
+                    "with this number the result leaves the range of doubles",
+                    "give one between 1e-100 and 1e100 in size, or 0", *place)
+      .error();
+}
 
 Result<void> check_values(const Type& type, const void* value) {
   switch (type.kind) {

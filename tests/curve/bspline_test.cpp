@@ -99,6 +99,17 @@ TEST(BSpline, SubcurveAndReverse) {
   }
 }
 
+// 2 - 1e-160 is 2: six knots at the end would be one too many.
+TEST(BSpline, ReversingKeepsKnotsApart) {
+  const BSpline2 c{
+      3, {0, 0, 0, 0, 1e-160, 2, 2, 2, 2}, {{0, 0}, {1, 0}, {2, 0.2}, {3, 0.7}, {3.8, 1.5}}, {}};
+  const BSpline2 back = reverse(c);
+  EXPECT_TRUE(validate(back));
+  EXPECT_EQ(back.knots, (std::vector<double>{-2, -2, -2, -2, -1e-160, 0, 0, 0, 0}));
+  EXPECT_EQ(reverse(back).knots, c.knots);
+  EXPECT_LT(distance(evaluate(back, 0.25), evaluate(c, 0.75)), 1e-12);
+}
+
 TEST(BSpline, JumpsAreKept) {
   const BSpline2 c{1, {0, 0, 1, 1, 2, 2}, {{0, 0}, {1, 0}, {1, 5}, {2, 5}}, {}};
   ASSERT_TRUE(validate(c));

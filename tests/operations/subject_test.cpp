@@ -154,14 +154,36 @@ TEST(Refusals, NameNumbersBeyondWhatTheirProductsAllow) {
   EXPECT_EQ(path("curve.cav", {{"alpha", 0.2}, {"s", 1e100}, {"degree", 4}, {"tangent", {1, 0}}}),
             "s");
   const json points{{0, 0}, {1, 0}, {2, 0.2}, {3, 0.7}, {3.8, 1.5}};
-  const json spline{{"type", "bspline"},
-                    {"degree", 3},
-                    {"knots", {0, 0, 0, 0, 1e-160, 2, 2, 2, 2}},
-                    {"points", points}};
-  EXPECT_EQ(path("curve.reverse", {{"curve", spline}}), "curve");
   json edge{{"type", "bezier"}, {"points", points}};
   edge["points"][1] = {1e-200, 0};
   EXPECT_EQ(path("fit.curvature", {{"curve", edge}, {"target", "smooth"}}), "curve.curves[0]");
+}
+
+// What leaves the range of doubles in the result only is laid to the number that takes it there;
+// all were `internal`.
+TEST(Requests, ResultsBeyondDoublesAreRefusedByTheirNumber) {
+  const auto refused = [](const char* op, const json& request) {
+    const auto r = perform(op, request, {});
+    return r ? "answered" : r.error().code == core::ErrorCode::bad_input ? r.error().path : "?";
+  };
+  json bent{{"type", "bezier"}, {"points", {{0, 0}, {1, 0}, {2, 0.6}, {2.5, 1.6}}}};
+  bent["weights"] = {1, 2, 1e300, 1};
+  EXPECT_EQ(refused("curve.offset", {{"curve", bent}, {"distance", 0.1}}), "curve.weights[2]");
+  bent["weights"] = {1e160, 2, 0.5, 1};
+  EXPECT_EQ(refused("curve.analyze", {{"curve", bent}}), "curve.weights[0]");
+  const json chain{{"type", "log-aesthetic"},
+                   {"start", {0, 0}},
+                   {"direction", 0},
+                   {"pieces", {{{"alpha", 1}, {"length", 2}, {"curvature", {0.2, 1e308}}}}}};
+  EXPECT_EQ(refused("curve.show", {{"curve", chain}, {"bezier", {{"tolerance", 1e-3}}}}),
+            "curve.pieces[0].curvature[1]");
+  EXPECT_EQ(refused("lac.hermite", {{"id", 1e300},
+                                    {"start", {0, 0}},
+                                    {"end", {3e-300, 1e-300}},
+                                    {"directions", {-2e-301, 9e-301}},
+                                    {"curvatures", {1e-301, 5e-301}},
+                                    {"alpha", -1}}),
+            "curvatures[0]");
 }
 
 // Below 2.2e-308 a double has no 16 digits, and its ratios none: a slope of 5e-324 is one of 0.
