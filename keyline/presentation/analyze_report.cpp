@@ -171,12 +171,7 @@ void add_notes(const CurveAnalysis& a, const std::string& unit, report::Report& 
 
 report::Report analyze_report(const CurveAnalysis& analysis, const document::Path& path,
                               const AnalyzeReportOptions& options) {
-  report::Report report;
-  report.title = options.title.empty() ? "Analysis of a curve" : options.title;
-  report.subtitle = options.subtitle;
-  report.generator = options.generator;
-  report.command = options.command;
-  report.options = options.options;
+  report::Report report = detail::headed(options, "Analysis of a curve");
   set_verdict(analysis, report);
   set_numbers(analysis, operations::comb_figures_of(path), options.unit, report);
   const figure::SampledCurve curve = detail::path_samples(path, analysis.split.pieces);

@@ -140,12 +140,7 @@ namespace {
 
 /// Title, command and the options the edit was made with.
 report::Report edit_head(const classa::EditOptions& options, const ReportOptions& report) {
-  report::Report r;
-  r.title = report.title.empty() ? "Edited curve" : report.title;
-  r.subtitle = report.subtitle;
-  r.command = report.command;
-  r.generator = report.generator;
-  r.options = report.options;
+  report::Report r = detail::headed(report, "Edited curve");
   r.options.push_back({"amount", number(options.amount)});
   r.options.push_back({"largest alpha", number(options.cav.alpha_max)});
   r.options.push_back({"end tolerance", options.cav.end_tolerance

@@ -10,6 +10,7 @@
 #include "keyline/curve/length.h"
 #include "keyline/document/color.h"
 #include "keyline/figure/line_drawing.h"
+#include "keyline/presentation/report_parts.h"
 
 namespace keyline::presentation {
 namespace {
@@ -109,12 +110,8 @@ Result<report::Report> document_report(const document::Document& document,
                                        const ReportOptions& options) {
   auto picture = document_picture(document, options);
   if (!picture) return std::unexpected(picture.error());
-  report::Report report{.title = options.title,
-                        .subtitle = options.subtitle,
-                        .verdict_line = core::counted(document.paths.size(), "curve"),
-                        .options = options.options,
-                        .command = options.command,
-                        .generator = options.generator};
+  report::Report report = detail::headed(options, "");
+  report.verdict_line = core::counted(document.paths.size(), "curve");
   report.sections.push_back({.title = "Curves",
                              .figures = {{std::move(*picture), "The curves where they lie"}},
                              .tables = {curve_table(document)}});

@@ -335,14 +335,7 @@ void add_notes(const Material& m, report::Report& report) {
   for (const std::string& note : r.notes) report.notes.push_back({report::NoteKind::note, note});
 }
 
-std::string title_of(const Material& m) {
-  if (!m.options.title.empty()) return m.options.title;
-  return m.line.id.empty() ? "Faired key-line" : "Faired key-line " + m.line.id;
-}
-
 void add_repeat(const Material& m, report::Report& report) {
-  report.options = m.options.options;
-  report.command = m.options.command;
   const auto add = [&](const char* name, std::string value) {
     const bool told = std::any_of(report.options.begin(), report.options.end(),
                                   [&](const auto& option) { return option.first == name; });
@@ -365,10 +358,8 @@ report::Report fair_report(const acquire::KeyLine& line, const FairResult& resul
                    detail::faired_samples(result),
                    detail::spline_samples(result),
                    {.unit = options.unit, .largest_height = kMostHeight}};
-  report::Report report;
-  report.title = title_of(m);
-  report.subtitle = options.subtitle;
-  report.generator = options.generator;
+  report::Report report =
+      detail::headed(options, line.id.empty() ? "Faired key-line" : "Faired key-line " + line.id);
   set_verdict(m, report);
   set_numbers(m, report);
   report.sections = {overlay_section(m), curvature_section(m), piece_section(m), graph_section(m),

@@ -34,6 +34,14 @@ std::string jump_text(double value, const std::string& unit) {
 
 }  // namespace
 
+report::Report headed(const ReportOptions& options, std::string title) {
+  return {.title = options.title.empty() ? std::move(title) : options.title,
+          .subtitle = options.subtitle,
+          .options = options.options,
+          .command = options.command,
+          .generator = options.generator};
+}
+
 std::string length_text(double value, const std::string& unit, int significant) {
   return with_unit(short_number(value, significant), unit);
 }

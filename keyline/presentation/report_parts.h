@@ -13,6 +13,9 @@
 /// What the reports of fairing and of analysis share.
 namespace keyline::presentation::detail {
 
+/// A report of its head alone; `title` where the options give none.
+report::Report headed(const ReportOptions& options, std::string title);
+
 /// "12.3 mm", with a no-break space; "12.3" without a unit.
 std::string length_text(double value, const std::string& unit, int significant = 4);
 /// "radius 120 mm" as "120 mm"; "∞" for a straight end.

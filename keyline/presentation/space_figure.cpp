@@ -10,6 +10,7 @@
 
 #include "keyline/core/extent.h"
 #include "keyline/figure/plot.h"
+#include "keyline/presentation/report_parts.h"
 
 namespace keyline::presentation {
 namespace {
@@ -187,12 +188,7 @@ Drawing space_picture(const lac::SpaceChain& chain, const ReportOptions& options
 }
 
 report::Report space_report(const lac::SpaceChain& chain, const ReportOptions& options) {
-  report::Report report;
-  report.title = title_of(options);
-  report.subtitle = options.subtitle;
-  report.generator = options.generator;
-  report.command = options.command;
-  report.options = options.options;
+  report::Report report = detail::headed(options, title_of(options));
   report.numbers = {{"Length", fmt::format("{:.6g}", arc_length(chain)), options.unit}};
   report::ReportTable table{
       "Pieces",

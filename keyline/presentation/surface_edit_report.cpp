@@ -8,6 +8,7 @@
 #include "keyline/core/text.h"
 #include "keyline/figure/plot.h"
 #include "keyline/figure/ticks.h"
+#include "keyline/presentation/report_parts.h"
 #include "keyline/presentation/surface_pictures.h"
 #include "keyline/presentation/surface_tables.h"
 
@@ -71,14 +72,6 @@ Result<Drawing> shots_before_and_after(const Surface& given, const std::vector<S
     cells.push_back(std::move(pair->after));
   }
   return figure::tile(cells, 2);
-}
-
-void set_head(const ReportOptions& options, report::Report& report) {
-  report.title = options.title.empty() ? "Surface edit" : options.title;
-  report.subtitle = options.subtitle;
-  report.options = options.options;
-  report.command = options.command;
-  report.generator = options.generator;
 }
 
 }  // namespace
@@ -149,8 +142,7 @@ void tell_edit(const surface::EditResult& edited, const std::string& unit, repor
 Result<report::Report> surface_edit_report(const surface::BezierSurface& given,
                                            const surface::EditResult& edited,
                                            const ReportOptions& options) {
-  report::Report report;
-  set_head(options, report);
+  report::Report report = detail::headed(options, "Surface edit");
   tell_edit(edited, options.unit, report);
   auto page = surface_edit_page(given, edited, options);
   if (!page) return std::unexpected(page.error());
@@ -254,8 +246,7 @@ Result<Drawing> surface_edit_page(const Surface& given, const surface::SurfaceEd
 
 Result<report::Report> surface_edit_report(const Surface& given, const surface::SurfaceEdit& edit,
                                            const ReportOptions& options) {
-  report::Report report;
-  set_head(options, report);
+  report::Report report = detail::headed(options, "Surface edit");
   const double before = sum_of(values_before(edit));
   const double after = sum_of(values_after(edit));
   const surface::PatchesEdit& all = edit.edited;

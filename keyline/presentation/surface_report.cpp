@@ -7,6 +7,7 @@
 #include "keyline/core/text.h"
 #include "keyline/figure/plot.h"
 #include "keyline/figure/ticks.h"
+#include "keyline/presentation/report_parts.h"
 #include "keyline/presentation/surface_pictures.h"
 #include "keyline/presentation/surface_tables.h"
 
@@ -101,12 +102,7 @@ Result<Drawing> shot_of(const std::vector<Surface>& surfaces, const std::optiona
   return surface_picture(surfaces, picture);
 }
 
-void set_head(const SurfaceSubject& subject, const ReportOptions& options, report::Report& report) {
-  report.title = options.title.empty() ? "Surface: " + subject.name : options.title;
-  report.subtitle = options.subtitle;
-  report.options = options.options;
-  report.command = options.command;
-  report.generator = options.generator;
+void set_numbers(const SurfaceSubject& subject, report::Report& report) {
   const surface::PatchGrid grid = surface::patches_of(subject.surface);
   const surface::Net& net = grid.patches.front().net;
   if (!subject.values.empty()) {
@@ -127,8 +123,8 @@ void set_head(const SurfaceSubject& subject, const ReportOptions& options, repor
 
 Result<report::Report> surface_report(const SurfaceSubject& subject, const ReportOptions& options,
                                       const SurfaceLook& look) {
-  report::Report report;
-  set_head(subject, options, report);
+  report::Report report = detail::headed(options, "Surface: " + subject.name);
+  set_numbers(subject, report);
   set_verdict(subject, report);
   if (subject.trims > 0)
     report.notes.push_back(
