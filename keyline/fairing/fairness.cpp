@@ -8,6 +8,7 @@
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/runs.h"
+#include "keyline/fit/few_knots.h"
 #include "keyline/fit/smoothing_spline.h"
 #include "keyline/lac/chain/chain_graph.h"
 
@@ -55,6 +56,18 @@ std::vector<detail::Run> runs_of_members(const acquire::KeyLine& line, const Fai
   return runs.size() == result.curves.size() ? runs : std::vector<detail::Run>{};
 }
 
+/// Of the smoothest spline; its waves are no more than those of a spline of few knots, which does
+/// not ripple. Nothing where the first is not found.
+std::optional<analysis::CombFigures> smooth_rival(const detail::Run& run, double tolerance,
+                                                  int threads) {
+  const auto smooth = fit::smoothing_spline_curvature(run.points, run.closed, tolerance, threads);
+  if (!smooth) return std::nullopt;
+  analysis::CombFigures figures = analysis::comb_figures(*smooth);
+  if (const auto few = fit::few_knots_curvature(run.points, run.closed, tolerance))
+    figures.waves = std::min(figures.waves, analysis::comb_figures(*few).waves);
+  return figures;
+}
+
 /// The splines that any answer is held against.
 FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result, int threads) {
   FairFigures figures;
@@ -64,9 +77,8 @@ FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result, in
   figures.spline = sum_of(splines);
   std::vector<analysis::CombFigures> found;
   for (const detail::Run& run : runs_of_members(line, result)) {
-    const auto smooth =
-        fit::smoothing_spline_curvature(run.points, run.closed, result.tolerance, threads);
-    if (smooth) found.push_back(analysis::comb_figures(*smooth));
+    const auto smooth = smooth_rival(run, result.tolerance, threads);
+    if (smooth) found.push_back(*smooth);
     figures.rivals.push_back(smooth ? found.back() : figures.spline);
   }
   if (!found.empty()) figures.smoothing_spline = sum_of(found);

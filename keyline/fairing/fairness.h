@@ -18,8 +18,8 @@ struct FairResult;
 struct FairFigures {
   analysis::CombFigures answer;
   analysis::CombFigures spline;  ///< of step 2
-  /// Of the smoothest quintic splines within the tolerance, one for each member between corners;
-  /// not where parts are kept as given.
+  /// Of the smoothest quintic splines within the tolerance, one for each member between corners,
+  /// with no more waves than those of few knots; not where parts are kept as given.
   std::optional<analysis::CombFigures> smoothing_spline;
   std::vector<analysis::CombFigures> rivals;  ///< what each member is held against; may be empty
   std::size_t unfair = 0;  ///< members that are not as calm, as far as that can be seen

@@ -70,6 +70,37 @@ TEST(FairFigures, TheSplineToCompareWithStaysOpenAtACorner) {
   }
 }
 
+/// An outline of three bulges in whole three-hundredths.
+acquire::KeyLine bulges(int count) {
+  acquire::KeyLine line;
+  line.closed = true;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    const double radius = 1 + 0.3 * std::cos(3 * angle);
+    line.points.push_back({std::round(300 * 1.5 * radius * std::cos(angle)) / 300,
+                           std::round(300 * radius * std::sin(angle)) / 300});
+  }
+  for (int i = 0; i < count; ++i)
+    line.length += core::distance(line.points[i], line.points[(i + 1) % count]);
+  return line;
+}
+
+// With two even knots to a point it had 17 waves. FITPACK's (scipy's splprep, k = 5, the largest
+// smoothing within the tolerance, and the comb as bench/fairness/comb.py reads it) has 5.
+TEST(FairFigures, TheSplineToCompareWithIsAsCalmAsFitpacks) {
+  const acquire::KeyLine line = bulges(100);
+  FairResult answer;
+  answer.curves.emplace_back(
+      lac::Chain{.start = {}, .pieces = {{-1, line.length, 0.1, 0.2}}, .closed = true});
+  answer.closed = true;
+  answer.tolerance = 1.0 / 300;
+  const FairFigures figures = fair_figures(line, answer);
+  ASSERT_TRUE(figures.smoothing_spline);
+  EXPECT_EQ(figures.smoothing_spline->waves, 5);
+  EXPECT_NEAR(figures.smoothing_spline->energy, 3.255e5, 0.1 * 3.255e5);
+  EXPECT_NEAR(figures.smoothing_spline->jolt, 0.179, 0.15 * 0.179);
+}
+
 /// The loop and, from its node on, a parabola y = x^2 / 2 from 0 to 1, whose curvature is
 /// (1 + x^2)^(-3/2): along it |d curvature / ds| = 3 x / (1 + x^2)^3.
 acquire::KeyLine folium_and_parabola() {

@@ -1,0 +1,60 @@
+#include "keyline/fit/few_knots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace keyline::fit {
+namespace {
+
+std::vector<core::Point2> ellipse(int n, double share, double noise) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> unit(0, 1);
+  std::vector<core::Point2> points;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * share * i / (share < 1 ? n - 1 : n);
+    const double x = noise * unit(random);
+    points.push_back({3 * std::cos(t) + x, 2 * std::sin(t) + noise * unit(random)});
+  }
+  return points;
+}
+
+TEST(FewKnots, HaveTheCurvatureOfAnEllipse) {
+  const auto graph = few_knots_curvature(ellipse(200, 1, 0), true, 1e-5);
+  ASSERT_TRUE(graph);
+  double largest = 0;
+  for (const double k : graph->curvature) largest = std::max(largest, std::abs(k));
+  EXPECT_NEAR(graph->arc_length.back(), 15.8654396, 1e-3);  // perimeter, Ramanujan's series
+  EXPECT_NEAR(largest, 0.75, 1e-2);                         // a / b^2
+}
+
+// Points that come twice and a seam that is there twice change nothing.
+TEST(FewKnots, TakeEveryPointOnce) {
+  const auto points = ellipse(40, 1, 1e-3);
+  std::vector<core::Point2> twice;
+  for (const core::Point2 p : points) twice.insert(twice.end(), 2, p);
+  twice.push_back(points.front());
+  const auto once = few_knots_curvature(points, true, 4e-3);
+  const auto again = few_knots_curvature(twice, true, 4e-3);
+  ASSERT_TRUE(once && again);
+  EXPECT_EQ(once->curvature, again->curvature);
+}
+
+// As tight as rounding, where there have to be as many knots as points allow.
+TEST(FewKnots, KeepATightTolerance) {
+  EXPECT_TRUE(few_knots_curvature(ellipse(30, 0.6, 1e-2), false, 1e-9));
+  EXPECT_TRUE(few_knots_curvature(ellipse(30, 1, 1e-2), true, 1e-9));
+}
+
+TEST(FewKnots, RefuseWhatHasNone) {
+  const std::vector<core::Point2> one(20, {1, 2});
+  EXPECT_FALSE(few_knots_curvature(one, false, 1e-3));
+  EXPECT_FALSE(few_knots_curvature(ellipse(5, 1, 0), false, 1e-3));
+}
+
+}  // namespace
+}  // namespace keyline::fit
