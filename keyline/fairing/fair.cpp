@@ -11,6 +11,7 @@
 #include "keyline/core/text.h"
 #include "keyline/fairing/asked.h"
 #include "keyline/fairing/assemble.h"
+#include "keyline/fairing/corner_points.h"
 #include "keyline/fairing/corners.h"
 #include "keyline/fairing/free_ends.h"
 #include "keyline/fairing/joint_rates.h"
@@ -56,6 +57,7 @@ class Job {
   Result<FairResult> run() {
     if (options_.region) return run_region();
     runs_ = detail::runs_of(line_, options_);
+    detail::meet_between_points(runs_, result_.tolerance, line_.closed);
     if (auto sound = detail::bound_runs(runs_, line_, options_, result_.tolerance); !sound)
       return std::unexpected(sound.error());
     const auto mirror = asked_mirror();

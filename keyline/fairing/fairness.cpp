@@ -5,6 +5,7 @@
 
 #include "keyline/curve/concept.h"
 #include "keyline/curve/length.h"
+#include "keyline/fairing/corner_points.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/runs.h"
@@ -53,7 +54,9 @@ std::vector<detail::Run> runs_of_members(const acquire::KeyLine& line, const Fai
   const bool open = !std::get<lac::Chain>(result.curves.front()).closed;
   const bool cut = result.curves.size() > 1 || (line.closed && open);
   std::vector<detail::Run> runs = detail::smooth_runs(line, cut);
-  return runs.size() == result.curves.size() ? runs : std::vector<detail::Run>{};
+  if (runs.size() != result.curves.size()) return {};
+  detail::meet_between_points(runs, result.tolerance, line.closed);
+  return runs;
 }
 
 /// Of the smoothest spline; its waves are no more than those of a spline of few knots, which does

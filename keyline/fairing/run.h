@@ -18,9 +18,11 @@
 namespace keyline::fairing::detail {
 
 struct Run {
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);  ///< no point of the key-line
+
   std::vector<core::Point2> points;
   std::vector<double> weights;         ///< empty or one per point
-  std::vector<std::size_t> index;      ///< of each point in the key-line
+  std::vector<std::size_t> index;      ///< of each point in the key-line, or none
   std::vector<std::size_t> must_pass;  ///< into points
   bool closed = false;
   Clamp clamp_start = Clamp::none;

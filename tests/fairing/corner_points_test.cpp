@@ -1,0 +1,91 @@
+#include "keyline/fairing/corner_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "keyline/fairing/fair.h"
+#include "keyline/fairing/runs.h"
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+core::Point2 on_circle(core::Point2 centre, double radius, double degrees) {
+  return {centre.x + radius * std::cos(degrees * kDegree),
+          centre.y + radius * std::sin(degrees * kDegree)};
+}
+
+// Circles of radius 5 about (-3, 0) and (3, 0) meet in (0, 4), at angles of 53.13 and 126.87
+// degrees. Up to there the first, by steps of 2 degrees, from there on the second: the last point
+// before the corner is 3.13 degrees away from it, the next one 0.87.
+constexpr double kMeet = 53.13010235415598;
+acquire::KeyLine two_arcs(double before, double after) {
+  acquire::KeyLine line;
+  for (int i = 20; i >= 0; --i)
+    line.points.push_back(on_circle({-3, 0}, 5, kMeet - before - 2 * i));
+  line.corners = {line.points.size() - 1};
+  for (int i = after > 0 ? 0 : 1; i <= 20; ++i)
+    line.points.push_back(on_circle({3, 0}, 5, 180 - kMeet + after + 2 * i));
+  line.length = 10 * 41 * kDegree;
+  return line;
+}
+
+std::vector<Run> met(const acquire::KeyLine& line, const FairOptions& options = {}) {
+  std::vector<Run> runs = runs_of(line, options);
+  meet_between_points(runs, 0.01, false);
+  return runs;
+}
+
+TEST(CornerPoints, AreLeftToTheSideWhoseCurveTheyLieOn) {
+  const acquire::KeyLine line = two_arcs(1.13, 0.87);
+  const auto runs = met(line);
+  ASSERT_EQ(runs.size(), 2U);
+  ASSERT_EQ(runs[0].points.size(), 22U);
+  ASSERT_EQ(runs[1].points.size(), 22U);
+  EXPECT_EQ(runs[0].points[20], line.points[20]);
+  EXPECT_EQ(runs[0].index[21], Run::none);
+  EXPECT_EQ(runs[1].index[0], Run::none);
+  EXPECT_EQ(runs[1].index[1], 21U);
+  EXPECT_NEAR(runs[0].points[21].x, 0, 1e-3);
+  EXPECT_NEAR(runs[0].points[21].y, 4, 1e-3);
+  EXPECT_EQ(runs[0].points[21], runs[1].points[0]);
+  // Backwards the corner's point is the second run's.
+  acquire::KeyLine back = line;
+  std::ranges::reverse(back.points);
+  back.corners = {21};
+  const auto other = met(back);
+  ASSERT_EQ(other[1].points.size(), 22U);
+  EXPECT_EQ(other[1].points[1], back.points[21]);
+  EXPECT_EQ(other[1].index[0], Run::none);
+  EXPECT_NEAR(other[0].points.back().y, 4, 1e-3);
+}
+
+TEST(CornerPoints, StayWithBothWhereTheyAreTheCorner) {
+  const auto runs = met(two_arcs(0, 0));
+  EXPECT_EQ(runs[0].points.size() + runs[1].points.size(), 42U);
+  EXPECT_EQ(std::ranges::count(runs[0].index, Run::none), 0);
+  // Nor is a point given to one side that has to be passed.
+  const auto held = met(two_arcs(1.13, 0.87), {.must_pass = {20}});
+  EXPECT_EQ(held[0].points.size() + held[1].points.size(), 43U);
+}
+
+// Asked to come to the first side's last point as well, the second arc would begin with a hook.
+TEST(CornerPoints, ArcsThatMeetBetweenPointsComeOutAsArcs) {
+  const auto found = fair(two_arcs(1.13, 0.87), {.tolerance = 0.01});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->curves.size(), 2U);
+  EXPECT_TRUE(found->within_tolerance);
+  EXPECT_EQ(found->fairness.answer.waves, 0);
+  EXPECT_EQ(found->pieces.size(), 2U);
+  const auto& second = std::get<lac::Chain>(found->curves[1]);
+  EXPECT_NEAR(second.start.position.x, 0, 1e-3);
+  EXPECT_NEAR(second.start.position.y, 4, 1e-3);
+  EXPECT_NEAR(second.pieces.front().curvature_start, 0.2, 1e-3);
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail
