@@ -5,6 +5,7 @@
 
 #include "keyline/curve/concept.h"
 #include "keyline/curve/length.h"
+#include "keyline/curve/spline_graph.h"
 #include "keyline/fairing/corner_points.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/flat_pieces.h"
@@ -16,23 +17,12 @@
 namespace keyline::fairing {
 namespace {
 
-constexpr int kPerSpline = 6000;  // even steps of a spline's parameter at which its comb is read
-constexpr double kAsGood = 1.5;   // times another's figure: as calm to the eye
+constexpr double kAsGood = 1.5;  // times another's figure: as calm to the eye
 
 curve::CurvatureGraph graph_of(const lac::Chain& chain) { return lac::curvature_graph(chain); }
 
 curve::CurvatureGraph graph_of(const curve::BSpline2& spline) {
-  curve::CurvatureGraph graph;
-  core::Point2 last = jet(spline, 0).point;
-  double at = 0;
-  for (int i = 0; i <= kPerSpline; ++i) {
-    const curve::Jet2 here = jet(spline, static_cast<double>(i) / kPerSpline);
-    at += core::distance(last, here.point);
-    last = here.point;
-    graph.arc_length.push_back(at);
-    graph.curvature.push_back(curvature(here));
-  }
-  return graph;
+  return curve::curvature_graph(spline);
 }
 
 analysis::CombFigures sum_of(const std::vector<analysis::CombFigures>& all) {

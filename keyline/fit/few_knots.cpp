@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "keyline/curve/spline_graph.h"
 #include "keyline/fit/jump_spline.h"
 #include "keyline/numeric/halving.h"
 
@@ -22,7 +23,6 @@ constexpr std::size_t kAtOnce = 20;  // so many knots allow for one more before 
 constexpr int kHalvings = 24;
 constexpr double kStiffest = 12;  // decimal logarithms of the penalty that are searched; jumps grow
 constexpr double kSoftest = -36;  // with the fifth power of how near knots are
-constexpr int kSamples = 6000;    // even steps of the parameter at which curvature is read
 constexpr int kSteps = 4;         // of Newton's to a point's foot
 
 /// By chord lengths; points that repeat the one before are left out.
@@ -144,20 +144,6 @@ curve::BSpline2 most_penalised(JumpSpline& spline, Band& band) {
   return smoothest;
 }
 
-curve::CurvatureGraph graph_of(const curve::BSpline2& spline) {
-  curve::CurvatureGraph graph;
-  core::Point2 last = evaluate(spline, 0);
-  double length = 0;
-  for (int i = 0; i <= kSamples; ++i) {
-    const curve::Jet2 here = jet(spline, static_cast<double>(i) / kSamples);
-    length += core::distance(last, here.point);
-    last = here.point;
-    graph.arc_length.push_back(length);
-    graph.curvature.push_back(curvature(here));
-  }
-  return graph;
-}
-
 }  // namespace
 
 std::optional<curve::CurvatureGraph> few_knots_curvature(std::span<const core::Point2> points,
@@ -172,7 +158,7 @@ std::optional<curve::CurvatureGraph> few_knots_curvature(std::span<const core::P
   for (;;) {
     JumpSpline spline(data, knots);
     if (!spline.solve(0)) return std::nullopt;
-    if (band.holds(spline)) return graph_of(most_penalised(spline, band));
+    if (band.holds(spline)) return curve::curvature_graph(most_penalised(spline, band));
     Knots more = with_more(knots, spline, data);
     if (more.size() == knots.size()) return std::nullopt;
     knots = std::move(more);

@@ -69,13 +69,17 @@ TEST(CornerPoints, StayWithBothWhereTheyAreTheCorner) {
   EXPECT_EQ(runs[0].points.size() + runs[1].points.size(), 42U);
   EXPECT_EQ(std::ranges::count(runs[0].index, Run::none), 0);
   // Nor is a point given to one side that has to be passed.
-  const auto held = met(two_arcs(1.13, 0.87), {.must_pass = {20}});
+  FairOptions passing;
+  passing.must_pass = {20};
+  const auto held = met(two_arcs(1.13, 0.87), passing);
   EXPECT_EQ(held[0].points.size() + held[1].points.size(), 43U);
 }
 
 // Asked to come to the first side's last point as well, the second arc would begin with a hook.
 TEST(CornerPoints, ArcsThatMeetBetweenPointsComeOutAsArcs) {
-  const auto found = fair(two_arcs(1.13, 0.87), {.tolerance = 0.01});
+  FairOptions options;
+  options.tolerance = 0.01;
+  const auto found = fair(two_arcs(1.13, 0.87), options);
   ASSERT_TRUE(found);
   ASSERT_EQ(found->curves.size(), 2U);
   EXPECT_TRUE(found->within_tolerance);
