@@ -37,6 +37,15 @@ TEST(CombFigures, OfASineAreThoseOfItsFormula) {
   EXPECT_NEAR(f.jolt, std::sin(6 * std::numbers::pi * 0.0025), 1e-3);
 }
 
+// A plateau, and from 0 to its height within the last 0.5 % of the length.
+TEST(CombFigures, JoltIsThatOfTheVeryEndToo) {
+  const auto k = [](double t) {
+    const double plateau = std::clamp(std::min(t - 0.2, 0.8 - t) / 0.1, 0.0, 1.0);
+    return plateau + std::max(0.0, (t - 0.995) / 0.005);
+  };
+  EXPECT_NEAR(comb_figures(graph(3, k)).jolt, 1, 1e-6);
+}
+
 // Curvature of an arc given as a rational Bezier: rounding, which turns at every second sample.
 TEST(CombFigures, OfRoundingAreNone) {
   for (const double turning : {0.0, 1.5, 900.0}) {

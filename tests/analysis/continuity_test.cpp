@@ -1,5 +1,7 @@
 #include "keyline/analysis/continuity.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "spirals.h"
@@ -26,6 +28,22 @@ TEST(Continuity, OrdersOfJoints) {
   EXPECT_EQ(order_after(first, testing::arcs({1}, {1}, {end.position, end.direction + 0.1})), 0);
   const core::Point2 off = end.position + core::Vector2{0.01, 0};
   EXPECT_EQ(order_after(first, testing::arcs({1}, {1}, {off, end.direction})), -1);
+}
+
+// On either side of each tolerance of the guide's table.
+TEST(Continuity, OrdersEndAtTheirTolerances) {
+  const SpiralCurve first = testing::clothoid(0, 1, 1);
+  const core::Pose2 end = end_of(first);
+  const auto beside = [&](double share) {
+    const core::Point2 off = end.position + core::Vector2{share * 1e-6, 0};
+    const core::Pose2 turned{end.position, end.direction + share * 1e-4};
+    return std::array{order_after(first, testing::clothoid(1, 2 + share * 1e-2, 1, end)),
+                      order_after(first, testing::clothoid(1 + share * 1e-3, 3, 1, end)),
+                      order_after(first, testing::clothoid(1, 3, 1, turned)),
+                      order_after(first, testing::clothoid(1, 3, 1, {off, end.direction}))};
+  };
+  EXPECT_EQ(beside(0.8), (std::array{3, 2, 2, 2}));
+  EXPECT_EQ(beside(1.3), (std::array{2, 1, 0, -1}));
 }
 
 TEST(Continuity, JumpsAreMeasured) {
