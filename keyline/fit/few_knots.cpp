@@ -66,7 +66,7 @@ std::vector<Gap> gaps_between(const Knots& knots, const JumpSpline& spline,
                               const PlacedPoints& data) {
   std::vector<Gap> gaps;
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-    Gap& gap = gaps.emplace_back(knots[k], knots[k + 1], 0);
+    Gap& gap = gaps.emplace_back(Gap{knots[k], knots[k + 1], 0});
     for (std::size_t i = gap.from; i <= gap.to && i < data.points.size(); ++i) {
       const core::Vector2 offset = spline.offset(i);
       gap.squares += (i == gap.from || i == gap.to ? 0.5 : 1) * dot(offset, offset);
