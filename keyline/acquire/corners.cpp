@@ -208,11 +208,9 @@ namespace {
 constexpr std::size_t kFewest = 6;  // points: of fewer a line alone tells, which bends leave
 constexpr int kMostDegree = 3;
 constexpr double kTells = 10.13;  // F of 1 and 3 degrees of freedom that chance passes in one of 20
-constexpr double kNear =
-    1.0 / 3;                    // of a tolerance: what points err by, where it is three times that
-constexpr double kReach = 2;    // of the gap between two sides: how far a corner in it may be
-constexpr int kSteps = 20;      // of Newton
-constexpr double kMet = 1e-12;  // of the gap
+constexpr double kReach = 2;      // of the gap between two sides: how far a corner in it may be
+constexpr int kSteps = 20;        // of Newton
+constexpr double kMet = 1e-12;    // of the gap
 constexpr double kLeastSine = 0.1;    // of the angle at which sides meet: others touch anywhere
 constexpr double kDifference = 1e-4;  // of the gap: for slopes
 

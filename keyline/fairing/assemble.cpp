@@ -100,8 +100,10 @@ void read_run(FairResult& result, const RunResult& solved, const Run& run, int c
   std::vector<int> count(solved.chain.pieces.size(), 0);
   std::vector<double> deviation(solved.chain.pieces.size(), 0);
   double square = 0;
+  std::size_t measured = 0;
   for (std::size_t j = 0; j < places.size(); ++j) {
     if (run.index[j] == Run::none) continue;
+    ++measured;
     const PointPlace& place = places[j];
     ++count[place.piece];
     square += place.offset * place.offset;
@@ -109,7 +111,6 @@ void read_run(FairResult& result, const RunResult& solved, const Run& run, int c
     double& kept = result.offsets[run.index[j]];
     if (std::abs(place.offset) >= std::abs(kept)) kept = place.offset;
   }
-  const auto measured = places.size() - std::ranges::count(run.index, Run::none);
   const double rms = std::sqrt(square / static_cast<double>(measured));
   std::vector<FairPiece> pieces =
       read_pieces(solved.chain, std::max(result.noise, rms), count, options);

@@ -40,18 +40,9 @@ void end_at(Run& run, bool start, core::Point2 place, bool beyond) {
   run.length *= core::polygon_length(run.points, false) / before;
 }
 
-/// Where a side goes on to a corner behind the point that the other one passes.
-std::optional<core::Point2> corner_behind(std::vector<core::Point2> side,
-                                          std::vector<core::Point2> other, double tolerance) {
-  const core::Point2 shared = side.back();
-  const auto off = [shared](const std::vector<core::Point2>& points) {
-    return acquire::distance_beyond(std::span(points).first(points.size() - 1), shared);
-  };
-  const auto own = off(side);
-  const auto others = off(other);
-  if (!own || !others || *own > tolerance || *others <= tolerance) return std::nullopt;
-  other.pop_back();
-  return acquire::corner_beyond(side, other);
+/// By how much a side, going on, passes its last point.
+std::optional<double> off_last(std::span<const core::Point2> side) {
+  return acquire::distance_beyond(side.first(side.size() - 1), side.back());
 }
 
 }  // namespace
@@ -63,13 +54,18 @@ void meet_between_points(std::vector<Run>& runs, double tolerance, bool round) {
     Run& before = runs[k];
     Run& after = runs[next];
     if (must_pass(before, before.points.size() - 1) || must_pass(after, 0)) continue;
-    const auto one = towards(before, false);
-    const auto other = towards(after, true);
-    const auto behind = corner_behind(one, other, tolerance);
-    const auto ahead = behind ? std::nullopt : corner_behind(other, one, tolerance);
-    if (!behind && !ahead) continue;
-    end_at(before, false, behind ? *behind : *ahead, behind.has_value());
-    end_at(after, true, behind ? *behind : *ahead, ahead.has_value());
+    auto one = towards(before, false);
+    auto other = towards(after, true);
+    const auto off_one = off_last(one);
+    const auto off_other = off_last(other);
+    if (!off_one || !off_other) continue;
+    const bool of_one = *off_one <= tolerance;
+    if (of_one == (*off_other <= tolerance)) continue;  // both sides' point, or neither's
+    (of_one ? other : one).pop_back();
+    const auto place = acquire::corner_beyond(one, other);
+    if (!place) continue;
+    end_at(before, false, *place, of_one);
+    end_at(after, true, *place, !of_one);
   }
 }
 
