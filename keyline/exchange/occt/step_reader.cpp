@@ -1,3 +1,4 @@
+#include <Interface_Check.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
@@ -9,12 +10,14 @@
 #include <StepBasic_ProductDefinitionRelationship.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Direction.hxx>
+#include <StepGeom_GeometricRepresentationItem.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
 #include <StepRepr_Representation.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_ShapeDefinitionRepresentation.hxx>
 #include <StepVisual_Colour.hxx>
+#include <StepVisual_ColourRgb.hxx>
 #include <StepVisual_LayeredItem.hxx>
 #include <StepVisual_PresentationLayerAssignment.hxx>
 #include <StepVisual_PresentationStyleByContext.hxx>
@@ -24,6 +27,7 @@
 #include <cmath>
 #include <gp_XYZ.hxx>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "keyline/exchange/dxf/dxf_color.h"
@@ -61,10 +65,39 @@ std::string hex(const Quantity_Color& color) {
   return detail::true_color(channel(r) << 16 | channel(g) << 8 | channel(b));
 }
 
+using Entities = std::set<const Standard_Transient*>;
+
+bool is_intensity(double v) { return v >= 0 && v <= 1; }
+
+/// Entities whose parameters are not those of their kind, which are told: OCCT takes nothing or 0
+/// for what it cannot make out. Throws where that is geometry.
+Entities unsound(const Handle(Interface_InterfaceModel) & model, document::Document& document) {
+  Entities found;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model->Value(i);
+    const auto check = model->Check(i, Standard_True);
+    const auto color = Handle(StepVisual_ColourRgb)::DownCast(entity);
+    std::string why;
+    if (check->HasFailed())
+      why = check->CFail(1);
+    else if (!color.IsNull() && !(is_intensity(color->Red()) && is_intensity(color->Green()) &&
+                                  is_intensity(color->Blue())))
+      why = "a colour is three numbers from 0 to 1";
+    if (why.empty()) continue;
+    why = text(model->StringLabel(entity)) + ": " + why;
+    if (entity->IsKind(STANDARD_TYPE(StepGeom_GeometricRepresentationItem)))
+      throw std::runtime_error(why + "; mend the file");
+    document.skipped.push_back(why);
+    found.insert(entity.get());
+  }
+  return found;
+}
+
 /// Colours and layers by the entity they are given to.
 class Looks {
  public:
-  explicit Looks(const Handle(XSControl_WorkSession) & session) {
+  Looks(const Handle(XSControl_WorkSession) & session, const Entities& unsound)
+      : unsound_(unsound) {
     STEPConstruct_Styles styles(session);
     if (styles.LoadStyles())
       for (int i = 1; i <= styles.NbStyles(); ++i) add(styles, styles.Style(i));
@@ -99,7 +132,8 @@ class Looks {
     if (!styles.GetColors(style, surface, border, curve, rendered, transparency, component)) return;
     Quantity_Color color;
     for (const auto& found : {surface, curve, border, rendered})
-      if (!found.IsNull() && STEPConstruct_Styles::DecodeColor(found, color)) {
+      if (!found.IsNull() && !unsound_.contains(found.get()) &&
+          STEPConstruct_Styles::DecodeColor(found, color)) {
         const Standard_Transient* context = context_of(style);
         colors_.emplace(context ? context : style->Item().get(), hex(color));
         return;
@@ -125,6 +159,7 @@ class Looks {
       layers_.emplace(layer->AssignedItemsValue(i).Value().get(), text(layer->Name()));
   }
 
+  const Entities& unsound_;
   std::map<const Standard_Transient*, std::string> colors_;
   std::map<const Standard_Transient*, std::string> layers_;
 };
@@ -197,6 +232,7 @@ document::Document read_step(const std::string& file) {
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
     throw std::runtime_error("this is no STEP file that can be read; check that it is complete");
   document::Document document;
+  const Entities unsound_entities = unsound(reader.WS()->Model(), document);
   const auto [occt_unit, unit] = unit_of(reader, document);
   document.unit = unit;
   Interface_Static::SetCVal("xstep.cascade.unit", occt_unit);
@@ -205,7 +241,7 @@ document::Document read_step(const std::string& file) {
   if (done < roots)
     document.skipped.push_back(std::to_string(roots - done) + " of " + std::to_string(roots) +
                                " things could not be made into shapes");
-  const Looks looks(reader.WS());
+  const Looks looks(reader.WS(), unsound_entities);
   const PartLabels labels(reader.WS(), [&](const Handle(Standard_Transient) & entity) {
     EntityLabel own{{name_of(entity), {}, {}}, false};
     own.placement = !Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(entity).IsNull();

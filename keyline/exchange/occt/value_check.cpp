@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
@@ -119,12 +122,11 @@ bool is_iges_number(std::string_view word) {
   return core::parse_number(plain).has_value();
 }
 
-/// The parameters of one entity; empty where all are numbers, strings or absent.
-std::string_view bad_parameter(std::string_view text) {
-  const std::string_view kind = detail::trimmed(text.substr(0, text.find_first_of(",;")));
-  const auto type = core::parse_whole<int>(kind);
-  if (!type) return kind;
-  if (*type < 100 || *type >= 200) return {};
+using Words = std::vector<std::string_view>;
+
+/// The parameters of one entity, its type first; of strings what is behind them, as nothing.
+Words words_of(std::string_view text) {
+  Words words;
   for (std::size_t at = 0; at < text.size();) {
     at = std::min(text.find_first_not_of(" \t", at), text.size());
     std::string_view behind = text.substr(at);
@@ -134,11 +136,52 @@ std::string_view bad_parameter(std::string_view text) {
     const std::size_t stop = std::min(text.find_first_of(",;", at), text.size());
     std::string_view word = text.substr(at, stop - at);
     while (word.ends_with(' ')) word.remove_suffix(1);
-    if (!word.empty() && !is_iges_number(word)) return word;
+    words.push_back(word);
     if (stop < text.size() && text[stop] == ';') break;  // a remark may follow
     at = stop + 1;
   }
-  return {};
+  return words;
+}
+
+/// How many parameters an arc, a line, a point or a list of points has, its type among them (IGES
+/// 5.3, 4.3, 4.13, 4.16, 4.6); none of others.
+std::optional<std::size_t> count_of(int type, const Words& words) {
+  if (type == 100) return 8;
+  if (type == 110) return 7;
+  if (type == 116) return 5;
+  if (type != 106 || words.size() < 3) return std::nullopt;
+  const auto kind = core::parse_whole<int>(words[1]);
+  const auto points = core::parse_whole<std::size_t>(words[2]);
+  if (!kind || *kind < 1 || *kind > 3 || !points || *points > words.size()) return std::nullopt;
+  return *kind == 1 ? 4 + 2 * *points : 3 + (*kind == 2 ? 3 : 6) * *points;
+}
+
+/// What may stand behind an entity's own parameters: twice a count and so many pointers (IGES 5.3,
+/// 2.2.4.5.2).
+bool are_pointers(std::span<const std::string_view> words) {
+  for (int list = 0; list < 2 && !words.empty(); ++list) {
+    const auto count = words[0].empty() ? 0 : core::parse_whole<std::size_t>(words[0]);
+    if (!count || *count >= words.size()) return false;
+    words = words.subspan(1 + *count);
+  }
+  return words.empty();
+}
+
+/// What is wrong with the parameters of one entity, which start in that line; empty where nothing
+/// is: all are numbers, strings or absent, and no more than there are of its type.
+std::string wrong_with(std::string_view text, std::size_t line) {
+  const std::string_view kind = detail::trimmed(text.substr(0, text.find_first_of(",;")));
+  if (kind.empty()) return {};
+  const auto type = core::parse_whole<int>(kind);
+  if (!type) return told(line, kind);
+  if (*type < 100 || *type >= 200) return {};
+  const Words words = words_of(text);
+  for (const std::string_view word : words)
+    if (!word.empty() && !is_iges_number(word)) return told(line, word);
+  const std::size_t own = count_of(*type, words).value_or(words.size());
+  if (words.size() <= own || are_pointers(std::span(words).subspan(own))) return {};
+  return "line " + std::to_string(line) + ": more numbers than an entity of type " +
+         std::to_string(*type) + " has";
 }
 
 /// The first of a directory line's nine fields of eight columns that is no whole number (IGES 5.3,
@@ -220,8 +263,7 @@ std::string bad_iges_value(std::string_view text) {
   bool second = true;  // of the two lines of an entity's directory
   std::string found;
   const auto check = [&] {
-    const std::string_view bad = bad_parameter(parameters);
-    if (!bad.empty() && found.empty()) found = told(first, bad);
+    if (found.empty()) found = wrong_with(parameters, first);
     parameters.clear();
   };
   detail::ByteLines lines(text);

@@ -14,7 +14,8 @@ std::string text_of(const std::string& file);
 std::string bad_step_value(std::string_view text);
 
 /// The same for an IGES file's directory and the parameters of its geometry (types 100 to 199; IGES
-/// 5.3, 2.2.2 and 2.2.4.4).
+/// 5.3, 2.2.2 and 2.2.4.4), and arcs, lines, points and lists of points that have more than theirs,
+/// as decimal commas make them.
 std::string bad_iges_value(std::string_view text);
 
 /// The first line of an IGES file that belongs to no section, as one with a column more or less

@@ -1,0 +1,101 @@
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/document/document.h"
+#include "keyline/exchange/document_file.h"
+
+#include "cad_fixture.h"
+
+namespace keyline::exchange {
+namespace {
+
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Files of one coloured curve whose values are exchanged for others.
+class CadValues : public CadTest {
+ protected:
+  static std::string sound(const std::string& extension, const curve::Bezier2& curve) {
+    document::Document d;
+    d.unit = "mm";
+    d.paths.push_back({{"a", "", "#336699"}, {{{curve}}, false}, 0});
+    return format_document(d, extension).value().content;
+  }
+
+  /// The file with what stands from the end of `before` up to `end` replaced.
+  core::Result<document::Document> with(std::string text, const std::string& extension,
+                                        std::string_view before, char end,
+                                        std::string_view value) const {
+    const std::size_t at = text.find(before);
+    if (at == std::string::npos) return core::fail(core::ErrorCode::internal, "not there", "", "");
+    const std::size_t from = at + before.size();
+    text.replace(from, text.find(end, from) - from, value);
+    const auto file = folder_ / ("d" + extension);
+    std::ofstream(file, std::ios::binary) << text;
+    return read_document(file);
+  }
+};
+
+const curve::Bezier2 kLine{{{0, 0}, {12.5, 3.75}}, {}};
+const curve::Bezier2 kArch{{{0, 0}, {10, 12.5}, {30, 0.25}, {40, 20}}, {}};
+
+// ISO 10303-46: a colour has a name and three intensities from 0 to 1. OCCT takes 0 for what is not
+// there, and 1 for 255.
+TEST_F(CadValues, ColoursThatAreNoneAreToldAndNotGuessed) {
+  const std::string file = sound(".step", kArch);
+  const auto with_color = [&](std::string_view rgb) {
+    return with(file, ".step", "COLOUR_RGB('',", ')', rgb);
+  };
+  const auto green = with_color("0.2,0.6,0.");
+  ASSERT_TRUE(green) << green.error().message;
+  EXPECT_EQ(green->paths.at(0).label.color, "#339900");
+  EXPECT_THAT(green->skipped, IsEmpty());
+  for (const char* none : {"0.2,0.4", "$,0.4,0.6", "-0.2,0.4,0.6", "0.2,0.4,1.001"}) {
+    const auto read = with_color(none);
+    ASSERT_TRUE(read) << none << ": " << read.error().message;
+    EXPECT_EQ(read->paths.at(0).label.color, "") << none;
+    const auto why = AnyOf(HasSubstr("Count of Parameters is not 4"), HasSubstr("not a Real"),
+                           HasSubstr("three numbers from 0 to 1"));
+    EXPECT_THAT(read->skipped, ElementsAre(why)) << none;
+  }
+}
+
+// ISO 10303-42: a spline has nine parameters, a degree and multiplicities that are whole numbers;
+// OCCT takes 0 for others, or breaks down.
+TEST_F(CadValues, GeometryOfOtherParametersIsRefused) {
+  const std::string file = sound(".step", kArch);
+  for (const char* degree : {"$", "3,3"}) {
+    const auto read = with(file, ".step", "B_SPLINE_CURVE_WITH_KNOTS('',", ',', degree);
+    ASSERT_FALSE(read) << degree;
+    EXPECT_THAT(read.error().message, HasSubstr("#")) << degree;
+  }
+  const auto read = with(file, ".step", "CARTESIAN_POINT('',(", ',', "$");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("not a Real"));
+}
+
+// IGES 5.3, 4.13: a line has six numbers; a decimal comma makes a seventh, and another end.
+TEST_F(CadValues, ALineOfMoreNumbersThanSixIsRefused) {
+  const std::string file = sound(".iges", kLine);
+  const std::size_t at = file.find("1.25", file.find("110,"));
+  ASSERT_NE(at, std::string::npos);
+  std::string commas = file;
+  commas[at + 1] = ',';
+  const auto name = folder_ / "d.iges";
+  std::ofstream(name, std::ios::binary) << commas;
+  const auto read = read_document(name);
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("more numbers than an entity of type 110 has"));
+  std::ofstream(name, std::ios::binary) << file;
+  EXPECT_TRUE(read_document(name));
+}
+
+}  // namespace
+}  // namespace keyline::exchange
