@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -22,6 +24,22 @@ TEST(ParseNumber, MayBeQuotedInBracketsOrOfFortran) {
     EXPECT_FALSE(parse_number(none, point)) << none;
   EXPECT_FALSE(parse_number(std::string(200, '1'), point));
   EXPECT_EQ(parse_number(std::string(126, '0') + "7.", point), 7);
+}
+
+// The end mark of CP/M stands behind the text. A stray one between digits makes no two numbers of
+// one.
+TEST(Split, AnEndMarkPartsNoNumber) {
+  using Fields = std::vector<std::string_view>;
+  const TableStyle spaces{' ', false};
+  EXPECT_EQ(split("\x1a 1\t2\x1a ", spaces), (Fields{"1", "2"}));
+  const Fields fields = split(
+      "2 0.\x1a"
+      "7",
+      spaces);
+  EXPECT_EQ(fields, (Fields{"2",
+                            "0.\x1a"
+                            "7"}));
+  EXPECT_FALSE(parse_number(fields.back(), spaces));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "keyline/core/text.h"
+#include "keyline/exchange/points/points_nodes.h"
 #include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::detail {
@@ -109,7 +110,13 @@ void name_the_mark(PointsHead& head) {
 core::Result<bool> is_first_row(PointsHead& head, const PointsOptions& options,
                                 std::string_view line, int number, const std::string& place) {
   const bool comment = is_comment(line);
-  const std::string_view text = comment ? comment_text(line) : line;
+  const auto variables = tecplot_variables(line);
+  const std::string_view text = variables ? *variables : comment ? comment_text(line) : line;
+  if (variables && take_header(head, options, text, number, false)) return false;
+  if (is_tecplot_zone(line)) {
+    remember_title(head, line, number);
+    return false;
+  }
   if (take_unit_row(head, text, number) || lower_case(text).starts_with("sep=")) return false;
   if (!comment) {
     take_style(head, options.separator, line);

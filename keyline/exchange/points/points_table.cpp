@@ -27,8 +27,11 @@ core::Result<void> PointsTable::take(std::string_view line, int number, const st
     return {};
   }
   if (!is_comment(line)) line = without_remark(line);
+  if (is_tecplot_zone(line) && is_zone_of_blocks(line))
+    return core::fail(ErrorCode::bad_input, "a zone of Tecplot that is no list of points",
+                      "write its points one to a row (DATAPACKING=POINT)", place);
   if (!started_) return before_data(line, number, place);
-  if (is_comment(line)) return {};
+  if (is_comment(line) || is_behind_nodes(number)) return {};
   return among_data(line, number, place);
 }
 
@@ -53,16 +56,18 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
   first_line_ = number;
   const auto columns = columns_below(head_, options_, fields, place);
   if (!columns) return std::unexpected(columns.error());
-  columns_ = *columns;
+  columns_ = nodes_ ? nodes_->columns() : *columns;
+  first_row_ = numbers_of(fields, head_.style);
   most_ = std::max({width_, head_.names.size(), head_.headed});
   const auto unit = unit_below(head_, columns_, place, left_out_);
   if (!unit) return std::unexpected(unit.error());
   unit_ = *unit;
   const std::size_t known = !head_.names.empty() ? head_.names.size() : head_.text_id ? 4 : 3;
   if (options_.columns.empty()) ignored_columns_ = width_ - std::min(width_, known);
+  if (nodes_) ignored_columns_ = nodes_->others;
   auto row = row_of(fields, columns_, head_.style, place);
   if (!row) return std::unexpected(row.error());
-  counting_ = head_.names.empty() && options_.columns.empty() && !head_.text_id &&
+  counting_ = !nodes_ && head_.names.empty() && options_.columns.empty() && !head_.text_id &&
               columns_.z != PointsColumns::kNone;
   watch_counter(fields);
   add(*row, number);
@@ -105,12 +110,16 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
                           ? is_remark(fields, head_.style, x, width_)
                           : fields.size() < width_ && fields.size() <= x;
   if (remark || is_lone(fields)) return set_aside(fields, line, number, place);
-  if (first_was_none(fields)) {
+  const auto nodes = is_first_of_many() ? node_counts(first_row_, fields, head_.style) : nodes_;
+  if (first_was_none(fields) || nodes.has_value() != nodes_.has_value()) {
     restart(fields.size(), place);
+    nodes_ = nodes;
     return before_data(line, number, place);
   }
   auto row = row_of(fields, columns_, head_.style, place);
   if (!row) return std::unexpected(row.error());
+  if (nodes_ && !nodes_->is_next(fields, head_.style, rows_))
+    return std::unexpected(nodes_->out_of_turn(fields, place));
   if (auto done = surplus(fields, number, place); !done) return done;
   if (remark_)
     if (auto again = take_up_again(); !again) return again;
@@ -175,9 +184,23 @@ core::Result<void> PointsTable::surplus(const Fields& fields, int number,
 /// A first row of more or fewer numbers than the next, as the window before an airfoil's points or
 /// the count before a list of points in space, is no point.
 bool PointsTable::first_was_none(const Fields& fields) const {
-  const bool chosen = !head_.names.empty() || !options_.columns.empty() || head_.text_id;
-  return rows_ == 1 && !chosen && !remark_ && head_.style.separator == ' ' && fields.size() >= 2 &&
-         fields.size() != width_ && all_numbers(fields, head_.style);
+  return is_first_of_many() && fields.size() >= 2 && fields.size() != width_ &&
+         all_numbers(fields, head_.style);
+}
+
+/// Whether one row has been read so far, of columns that nothing but it has told.
+bool PointsTable::is_first_of_many() const {
+  const bool chosen = !head_.names.empty() || !options_.columns.empty() || head_.text_id || nodes_;
+  return rows_ == 1 && !chosen && !remark_ && head_.style.separator == ' ';
+}
+
+/// Whether all nodes have been read that the first line counts; told once.
+bool PointsTable::is_behind_nodes(int number) {
+  if (!nodes_ || rows_ < nodes_->nodes) return false;
+  if (!std::exchange(told_behind_, true))
+    left_out_.push_back("line " + std::to_string(number) + ": what follows the " +
+                        core::counted(nodes_->nodes, "node"));
+  return true;
 }
 
 void PointsTable::restart(std::size_t fields, const std::string& place) {
@@ -341,9 +364,10 @@ void PointsTable::tell_left_out() {
 
 core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
   if (unproven_) return std::unexpected(*unproven_);
+  if (nodes_ && rows_ < nodes_->nodes) return std::unexpected(nodes_->too_few(rows_, name));
   if (remark_ && rows_ < 2) return std::unexpected(*remark_);  // what is no row hides them
   if (auto all = meet_count(); !all) return std::unexpected(all.error());
-  if (misfit_ && rows_ < kFewest) return std::unexpected(*misfit_);
+  if (misfit_ && !nodes_ && rows_ < kFewest) return std::unexpected(*misfit_);
   if (curves_.empty()) {
     const bool empty = head_.text_lines == 0 && head_.names.empty();
     return core::fail(

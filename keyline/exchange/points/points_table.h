@@ -12,6 +12,7 @@
 #include "keyline/exchange/points/points_blocks.h"
 #include "keyline/exchange/points/points_columns.h"
 #include "keyline/exchange/points/points_head.h"
+#include "keyline/exchange/points/points_nodes.h"
 #include "keyline/exchange/points/points_reader.h"
 #include "keyline/exchange/points/points_row.h"
 
@@ -48,6 +49,8 @@ class PointsTable {
   core::Result<void> take_up_again();
   core::Result<void> meet_count();
   bool first_was_none(const Fields& fields) const;
+  bool is_first_of_many() const;
+  bool is_behind_nodes(int number);
   std::string_view without_remark(std::string_view line);
   core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
   void add(const PointsRow& row, int number);
@@ -76,7 +79,10 @@ class PointsTable {
   std::optional<core::Failure> remark_;    // the last line of text behind rows, as a failure
   std::optional<core::Failure> unproven_;  // of the text before rows too few to be a curve
   std::optional<core::Failure> misfit_;    // of rows that do not fit the first line of numbers
-  std::optional<Count> count_;             // of the rows since the last such line
+  std::optional<NodeCounts> nodes_;        // where the first line has them
+  std::vector<double> first_row_;          // its numbers, -1 for what is none
+  bool told_behind_ = false;
+  std::optional<Count> count_;  // of the rows since the last such line
   std::string remark_text_;
   bool like_row_ = false;  // the remark is rather a row with a mistake in it: it names no curve
   std::size_t run_ = 0;    // rows since the last line of text

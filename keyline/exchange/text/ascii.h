@@ -10,7 +10,8 @@ namespace keyline::exchange::detail {
 /// With the letters A to Z small.
 std::string lower_case(std::string_view text);
 
-/// Blanks in a line of a table; ^Z, the end mark of CP/M and DOS, is one.
+/// Blanks at the ends of a line of a table and of its fields; ^Z, the end mark of CP/M and DOS, is
+/// one. Within a field it is none: it parts no number in two.
 inline constexpr std::string_view kBlanks = " \t\f\v\x1a";
 
 /// Without these at both ends.

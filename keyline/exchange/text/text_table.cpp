@@ -73,7 +73,7 @@ std::vector<std::string_view> split(std::string_view line, TableStyle style) {
   line = trimmed(line);
   if (style.separator == ' ') {
     while (!line.empty()) {
-      std::size_t length = std::min(line.find_first_of(kBlanks), line.size());
+      std::size_t length = std::min(line.find_first_of(" \t\f\v"), line.size());
       if (const std::size_t touching = end_of_touching(line.substr(0, length)); touching > 0)
         length = touching;
       fields.push_back(line.substr(0, length));
