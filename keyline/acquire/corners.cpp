@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "keyline/acquire/local_fit.h"
+#include "keyline/acquire/going_on.h"
 #include "keyline/core/angle.h"
 #include "keyline/core/quantile.h"
 #include "keyline/core/second_moments.h"
@@ -31,8 +31,14 @@ constexpr double kUnsampled = 0.5 * std::numbers::pi;  // a bend turns by less a
 // these 4.3 times as much as the next.
 constexpr double kGrowth = 2;        // least growth from one turn to the next
 constexpr double kMostGrowth = 4.3;  // growth beyond this says nothing about the tip
-constexpr double kTip = 1.25;  // 5.3 / 4.3, rounded up: how much faster the last step may grow
-constexpr double kSure = 3;    // standard errors by which the turns beside it are no noise
+constexpr double kTip = 1.25;      // 5.3 / 4.3, rounded up: how much faster the last step may grow
+constexpr double kEdgeTip = 1.45;  // the same where the tip lies half way between two points
+constexpr double kSure = 3;        // standard errors by which what is seen is no noise
+constexpr std::ptrdiff_t kApart = 2;  // vertices between corners at least
+// A corner in the edge between two points.
+constexpr std::size_t kSide = 9;  // points of a side: as many as going_on.h asks for, and the last
+constexpr double kHolds = 0.1;    // of its depth behind the edge: how far off its sides may be
+constexpr double kUneven = 1.25;  // of the distance of points beside: the way round the corner
 
 /// Polygon read with indices that may run past its ends.
 class Ring {
@@ -40,10 +46,12 @@ class Ring {
   Ring(std::span<const core::Point2> points, bool closed) : points_(points), closed_(closed) {}
 
   bool has(std::ptrdiff_t i) const { return closed_ || (i >= 0 && i < size()); }
-  core::Point2 operator[](std::ptrdiff_t i) const {
+  std::size_t index(std::ptrdiff_t i) const {
     const std::ptrdiff_t n = size();
-    return points_[static_cast<std::size_t>(((i % n) + n) % n)];
+    return static_cast<std::size_t>(((i % n) + n) % n);
   }
+  core::Point2 operator[](std::ptrdiff_t i) const { return points_[index(i)]; }
+  std::size_t count() const { return points_.size(); }
   std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(points_.size()); }
 
  private:
@@ -74,35 +82,51 @@ struct Turn {
   double error = 0;  // standard deviation from noise
 };
 
-Turn turn_at(const Ring& ring, std::ptrdiff_t i, int arm, double noise) {
-  const Arm before = arm_of(ring, i - arm, i);
-  const Arm after = arm_of(ring, i, i + arm);
+/// Where the direction may jump: at a vertex (first and last are it) or in the edge between two.
+struct Place {
+  std::ptrdiff_t first;
+  std::ptrdiff_t last;
+
+  double vertices() const { return static_cast<double>(last - first + 1); }
+  /// That many vertices before it, or after it where count is positive.
+  std::ptrdiff_t beside(std::ptrdiff_t count) const { return (count < 0 ? first : last) + count; }
+  bool has_arms(const Ring& ring, std::ptrdiff_t arm) const {
+    return ring.has(first - arm) && ring.has(last + arm);
+  }
+};
+
+Place vertex(std::ptrdiff_t i) { return {i, i}; }
+
+Turn turn_at(const Ring& ring, Place at, int arm, double noise) {
+  const Arm before = arm_of(ring, at.first - arm, at.first);
+  const Arm after = arm_of(ring, at.last, at.last + arm);
   return {core::angle_between(before.direction, after.direction),
           1.3 * noise * std::sqrt(1 / before.spread + 1 / after.spread)};
 }
 
-double arms_length(const Ring& ring, std::ptrdiff_t i, int arm) {
-  return core::distance(ring[i - arm], ring[i]) + core::distance(ring[i], ring[i + arm]);
+double arms_length(const Ring& ring, Place at, int arm) {
+  return core::distance(ring[at.first - arm], ring[at.first]) +
+         core::distance(ring[at.last], ring[at.last + arm]);
 }
 
-/// Largest turn at the four vertices nearest the arms of vertex i; of a farther one no more than
-/// the nearer one's may be by chance, for a bend about i fades with the distance: what turns more
-/// there is another. What noise adds stays in: of a turn that is told by five standard errors
-/// (kClearance) it is no share that counts, and taken off it made corners of tips that are bends.
-/// Where points stand closer there than at i, which turns by `angle`, it is what a curve as bent as
-/// there turns along the arms of i: bends are sampled as it comes. Not where i turns by a right
-/// angle or more: a bend of which one point tells so much is not known to be one, and what turns
-/// the other way beside it is none of it.
-double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double angle) {
+/// Largest turn at the four vertices nearest the arms of a place; of a farther one no more than
+/// the nearer one's may be by chance, for a bend about the place fades with the distance: what
+/// turns more there is another. What noise adds stays in: of a turn that is told by five standard
+/// errors (kClearance) it is no share that counts, and taken off it made corners of tips that are
+/// bends. Where points stand closer there than at the place, which turns by `angle`, it is what a
+/// curve as bent as there turns along the arms of the place: bends are sampled as it comes. Not
+/// where a vertex turns by a right angle or more: a bend of which one point tells so much is not
+/// known to be one, and what turns the other way beside it is none of it.
+double turn_beside(const Ring& ring, Place at, int arm, double noise, double angle) {
   double beside = 0;
-  const bool bent = std::abs(angle) < kUnsampled;
-  const double length = bent ? arms_length(ring, i, arm) : 0;
+  const bool bent = std::abs(angle) < at.vertices() * kUnsampled;
+  const double length = bent ? arms_length(ring, at, arm) : 0;
   for (const std::ptrdiff_t way : {-arm, arm}) {
     double most = HUGE_VAL;
-    for (const std::ptrdiff_t k : {i + way, i + 2 * way}) {
-      if (!ring.has(k - arm) || !ring.has(k + arm)) continue;
-      const Turn flank = turn_at(ring, k, arm, noise);
-      const double closer = std::max(1.0, length / arms_length(ring, k, arm));
+    for (const std::ptrdiff_t k : {at.beside(way), at.beside(2 * way)}) {
+      if (!vertex(k).has_arms(ring, arm)) continue;
+      const Turn flank = turn_at(ring, vertex(k), arm, noise);
+      const double closer = std::max(1.0, length / arms_length(ring, vertex(k), arm));
       const bool other_way = std::signbit(flank.angle) != std::signbit(angle);
       const double turn = bent || !other_way ? std::abs(flank.angle) * closer : 0;
       beside = std::max(beside, std::min(turn, most));
@@ -112,20 +136,21 @@ double turn_beside(const Ring& ring, std::ptrdiff_t i, int arm, double noise, do
   return beside;
 }
 
-/// True where vertex i is the tip of a bend: at the vertices an arm away the curve turns the same
-/// way and at least kGrowth times as much as two arms away, and at i by no more than that growth,
-/// gone on, leads to.
-bool is_tip(const Ring& ring, std::ptrdiff_t i, int arm, double noise, double angle) {
+/// True where a place is the tip of a bend: at the vertices an arm away the curve turns the same
+/// way and at least kGrowth times as much as two arms away, and at each vertex of the place by no
+/// more than that growth, gone on, leads to.
+bool is_tip(const Ring& ring, Place at, int arm, double noise, double angle) {
   double expected = 1;  // product of both sides
   for (const std::ptrdiff_t way : {-arm, arm}) {
-    if (!ring.has(i + 2 * way - arm) || !ring.has(i + 2 * way + arm)) return false;
-    const Turn near = turn_at(ring, i + way, arm, noise);
+    if (!vertex(at.beside(2 * way)).has_arms(ring, arm)) return false;
+    const Turn near = turn_at(ring, vertex(at.beside(way)), arm, noise);
     const double size = std::copysign(1.0, angle) * near.angle;
-    const double next = std::abs(turn_at(ring, i + 2 * way, arm, noise).angle);
+    const double next = std::abs(turn_at(ring, vertex(at.beside(2 * way)), arm, noise).angle);
     if (size < kSure * near.error || size < kGrowth * next) return false;
     expected *= size * std::min(size / std::max(next, 1e-300), kMostGrowth);
   }
-  return std::abs(angle) <= kTip * std::sqrt(expected);
+  return std::abs(angle) <=
+         at.vertices() * (at.first == at.last ? kTip : kEdgeTip) * std::sqrt(expected);
 }
 
 /// Turn that four fifths of the vertices stay below.
@@ -144,144 +169,128 @@ struct Thresholds {
   double usual;
 };
 
-/// True where the turn between longer arms happens at the vertex itself, to a standard error: noise
+/// True where the turn between longer arms happens at the place itself, to a standard error: noise
 /// as large as the single turns of a bend singles one of them out.
-bool is_own_turn(const Ring& ring, std::ptrdiff_t i, double size, double noise) {
-  const auto own = [&](std::ptrdiff_t k) {
-    if (!ring.has(k - 1) || !ring.has(k + 1)) return 0.0;
-    return std::abs(core::angle_between(ring[k] - ring[k - 1], ring[k + 1] - ring[k]));
+bool is_own_turn(const Ring& ring, Place at, double size, double noise) {
+  const auto own = [&](Place k) {
+    return k.has_arms(ring, 1) ? std::abs(turn_at(ring, k, 1, 0).angle) : 0.0;
   };
-  const double sure = own(i) - turn_at(ring, i, 1, noise).error;
-  return sure >= kOwnShare * size && own(i) >= 1.5 * std::max(own(i - 1), own(i + 1));
+  const double sure = own(at) - turn_at(ring, at, 1, noise).error;
+  return sure >= kOwnShare * size &&
+         own(at) >=
+             1.5 * at.vertices() * std::max(own(vertex(at.beside(-1))), own(vertex(at.beside(1))));
 }
 
-/// Turn at vertex i if it is a corner, else 0. The arm is the shortest that beats the noise.
-double corner_turn(const Ring& ring, std::ptrdiff_t i, const Thresholds& t) {
+/// Turn at a place if it is a corner, else 0. The arm is the shortest that beats the noise.
+double corner_turn(const Ring& ring, Place at, const Thresholds& t) {
   for (const int arm : kArms) {
-    if (!ring.has(i - arm) || !ring.has(i + arm) || 4 * arm >= ring.size()) return 0;
-    const Turn turn = turn_at(ring, i, arm, t.noise);
+    if (!at.has_arms(ring, arm) || 4 * arm >= ring.size()) return 0;
+    const Turn turn = turn_at(ring, at, arm, t.noise);
     const double size = std::abs(turn.angle);
     if (turn.error * kClearance > std::max(t.angle, 0.5 * size)) continue;
     if (size < std::max(kKink * t.angle, 2 * kClearance * turn.error)) return 0;
-    const double beside = turn_beside(ring, i, arm, t.noise, turn.angle);
+    const double beside = turn_beside(ring, at, arm, t.noise, turn.angle);
     const double rest = std::max(beside, t.usual);
-    if (arm == 1 && size >= kKinkConcentration * rest) return turn.angle;
-    if (size < t.angle || size < kContrast * t.usual) return 0;
-    if (arm > 1 && !is_own_turn(ring, i, size, t.noise)) return 0;
-    if (size < kConcentration * beside) return 0;
-    return is_tip(ring, i, arm, t.noise, turn.angle) ? 0 : turn.angle;
+    if (arm == 1 && size >= at.vertices() * kKinkConcentration * rest) return turn.angle;
+    if (size < t.angle || size < at.vertices() * kContrast * t.usual) return 0;
+    if (arm > 1 && !is_own_turn(ring, at, size, t.noise)) return 0;
+    if (size < at.vertices() * kConcentration * beside) return 0;
+    return is_tip(ring, at, arm, t.noise, turn.angle) ? 0 : turn.angle;
   }
   return 0;
+}
+
+/// Points of one side of an edge in order towards it, up to the next corner but no more than tell
+/// where it goes on to.
+std::vector<core::Point2> side_of(const Ring& ring, const std::vector<bool>& cornered,
+                                  std::ptrdiff_t from, std::ptrdiff_t step) {
+  const std::size_t most = std::min(kSide, ring.count() / 2);
+  std::vector<core::Point2> side;
+  for (std::ptrdiff_t k = from; ring.has(k) && side.size() < most; k += step) {
+    side.push_back(ring[k]);
+    if (cornered[ring.index(k)]) break;
+  }
+  std::ranges::reverse(side);
+  return side;
+}
+
+/// True where both sides of an edge go on to a corner in it, round which it is no farther than from
+/// point to point beside. A bend would leave the last points beside where those before go on to.
+bool meet_in(const Ring& ring, const std::vector<bool>& cornered, Place edge, double noise) {
+  const auto one = side_of(ring, cornered, edge.first, -1);
+  const auto other = side_of(ring, cornered, edge.last, 1);
+  const auto place = corner_beyond(one, other);
+  if (!place) return false;
+  const double round = core::distance(one.back(), *place) + core::distance(*place, other.back());
+  const double gap = std::max(core::distance(ring[edge.first - 1], ring[edge.first]),
+                              core::distance(ring[edge.last], ring[edge.last + 1]));
+  if (round > kUneven * gap) return false;
+  const core::Vector2 chord = other.back() - one.back();
+  const double depth = std::abs(core::cross(chord, *place - one.back())) / core::norm(chord);
+  const auto holds = [&](std::span<const core::Point2> side) {
+    const auto off = distance_beyond(side.first(side.size() - 1), side.back());
+    return off && *off <= std::max(kSure * noise, kHolds * depth);
+  };
+  return holds(one) && holds(other);
+}
+
+/// Turns at vertices that are corners, or in the edges after them; of neighbouring ones only the
+/// sharpest.
+std::vector<std::size_t> sharpest(const Ring& ring, const std::vector<double>& turns) {
+  std::vector<std::size_t> corners;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (turns[i] == 0) continue;
+    bool is_sharpest = true;
+    for (std::ptrdiff_t d = -kApart; d <= kApart && is_sharpest; ++d) {
+      const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(i) + d;
+      if (d == 0 || !ring.has(k)) continue;
+      const double other = std::abs(turns[ring.index(k)]);
+      is_sharpest = other < std::abs(turns[i]) || (other == std::abs(turns[i]) && d > 0);
+    }
+    if (is_sharpest) corners.push_back(i);
+  }
+  return corners;
+}
+
+/// Turns at the vertices that are corners, 0 at all others.
+std::vector<double> vertex_turns(const Ring& ring, const Thresholds& t) {
+  std::vector<double> turns;
+  for (std::ptrdiff_t i = 0; i < ring.size(); ++i) turns.push_back(corner_turn(ring, vertex(i), t));
+  return turns;
+}
+
+/// The same of the edges after them, but where a corner is within two vertices.
+std::vector<double> edge_turns(const Ring& ring, const std::vector<std::size_t>& corners,
+                               const Thresholds& t) {
+  std::vector<double> turns(ring.count(), 0);
+  std::vector<bool> cornered(ring.count(), false);
+  for (const std::size_t i : corners) cornered[i] = true;
+  const auto near_corner = [&](Place at) {
+    for (std::ptrdiff_t k = at.first - kApart; k <= at.last + kApart; ++k)
+      if (ring.has(k) && cornered[ring.index(k)]) return true;
+    return false;
+  };
+  for (std::ptrdiff_t i = 0; i < ring.size(); ++i) {
+    const Place edge{i, i + 1};
+    if (!ring.has(i + 1) || near_corner(edge)) continue;
+    const double turn = corner_turn(ring, edge, t);
+    if (turn != 0 && meet_in(ring, cornered, edge, t.noise)) turns[ring.index(i)] = turn;
+  }
+  return turns;
 }
 
 }  // namespace
 
 std::vector<std::size_t> find_corners(std::span<const core::Point2> points, bool closed,
                                       double noise, double angle) {
+  if (points.size() < 4) return {};
   const Ring ring(points, closed);
-  std::vector<double> turns(points.size(), 0);
-  if (points.size() >= 4) {
-    const Thresholds thresholds{noise, angle, usual_turn(ring)};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      turns[i] = corner_turn(ring, static_cast<std::ptrdiff_t>(i), thresholds);
-    }
-  }
-  // Of neighbouring candidates only the sharpest is the corner.
-  std::vector<std::size_t> corners;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (turns[i] == 0) continue;
-    bool sharpest = true;
-    for (std::ptrdiff_t d = -2; d <= 2 && sharpest; ++d) {
-      const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(i) + d;
-      if (d == 0 || !ring.has(k)) continue;
-      const double other =
-          std::abs(turns[static_cast<std::size_t>((k + ring.size()) % ring.size())]);
-      sharpest = other < std::abs(turns[i]) || (other == std::abs(turns[i]) && d > 0);
-    }
-    if (sharpest) corners.push_back(i);
-  }
+  const Thresholds thresholds{noise, angle, usual_turn(ring)};
+  std::vector<std::size_t> corners = sharpest(ring, vertex_turns(ring, thresholds));
+  const auto between = sharpest(ring, edge_turns(ring, corners, thresholds));
+  corners.insert(corners.end(), between.begin(), between.end());
+  std::ranges::sort(corners);
   return corners;
-}
-
-namespace {
-
-constexpr std::size_t kFewest = 6;  // points: of fewer a line alone tells, which bends leave
-constexpr int kMostDegree = 3;
-constexpr double kTells = 10.13;  // F of 1 and 3 degrees of freedom that chance passes in one of 20
-constexpr double kReach = 2;      // of the gap between two sides: how far a corner in it may be
-constexpr int kSteps = 20;        // of Newton
-constexpr double kMet = 1e-12;    // of the gap
-constexpr double kLeastSine = 0.1;    // of the angle at which sides meet: others touch anywhere
-constexpr double kDifference = 1e-4;  // of the gap: for slopes
-
-/// A polynomial through twice as many of the last points as it has terms.
-std::optional<detail::LocalFit> fit_last(std::span<const core::Point2> points, int degree) {
-  const auto count = static_cast<std::size_t>(2 * (degree + 1));
-  if (points.size() < std::max(count, kFewest)) return std::nullopt;
-  return detail::LocalFit::make(points.last(count), degree);
-}
-
-/// A line through the last six points, or a parabola where these tell its bend.
-std::optional<detail::LocalFit> going_on(std::span<const core::Point2> points) {
-  if (points.size() < kFewest) return std::nullopt;
-  const auto line = detail::LocalFit::make(points.last(kFewest), 1);
-  const auto parabola = detail::LocalFit::make(points.last(kFewest), 2);
-  if (!line || !parabola) return line;
-  const double left = parabola->squared_residuals() / (kFewest - 3);
-  return line->squared_residuals() - parabola->squared_residuals() > kTells * left ? parabola
-                                                                                   : line;
-}
-
-/// Where both are 0, from a place on.
-std::optional<core::Point2> crossing(const detail::LocalFit& one, const detail::LocalFit& other,
-                                     core::Point2 from, double gap) {
-  const double h = kDifference * gap;
-  const auto slope = [h](const detail::LocalFit& fit, core::Point2 p) {
-    return core::Vector2{
-               fit.residual(p + core::Vector2{h, 0}) - fit.residual(p - core::Vector2{h, 0}),
-               fit.residual(p + core::Vector2{0, h}) - fit.residual(p - core::Vector2{0, h})} /
-           (2 * h);
-  };
-  for (int step = 0; step < kSteps; ++step) {
-    const double f = one.residual(from);
-    const double g = other.residual(from);
-    if (std::max(std::abs(f), std::abs(g)) <= kMet * gap) return from;
-    const core::Vector2 u = slope(one, from);
-    const core::Vector2 v = slope(other, from);
-    const double det = core::cross(u, v);
-    if (!(std::abs(det) >= kLeastSine * core::norm(u) * core::norm(v))) return std::nullopt;
-    from = from + core::Vector2{g * u.y - f * v.y, f * v.x - g * u.x} / det;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<double> distance_beyond(std::span<const core::Point2> points, core::Point2 p) {
-  std::optional<double> least;
-  for (int degree = 1; degree <= kMostDegree; ++degree) {
-    const auto fit = fit_last(points, degree);
-    if (!fit) continue;
-    const double off = std::abs(fit->residual(p));
-    least = std::min(least.value_or(off), off);
-  }
-  return least;
-}
-
-std::optional<core::Point2> corner_beyond(std::span<const core::Point2> one,
-                                          std::span<const core::Point2> other) {
-  const auto before = going_on(one);
-  const auto after = going_on(other);
-  if (!before || !after) return std::nullopt;
-  const double gap = core::distance(one.back(), other.back());
-  const auto met = crossing(*before, *after, one.back() + (other.back() - one.back()) / 2, gap);
-  if (!met) return std::nullopt;
-  for (const auto& side : {one, other}) {
-    const core::Vector2 on = *met - side.back();
-    const core::Vector2 way = side.back() - side[side.size() - 2];
-    if (core::dot(on, way) < 0 || core::norm(on) > kReach * gap) return std::nullopt;
-  }
-  return met;
 }
 
 }  // namespace keyline::acquire

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "keyline/acquire/corners.h"
+#include "keyline/acquire/going_on.h"
 #include "keyline/core/polygon.h"
 
 namespace keyline::fairing::detail {
@@ -50,7 +50,7 @@ std::optional<double> off_last(std::span<const core::Point2> side) {
 void meet_between_points(std::vector<Run>& runs, double tolerance, bool round) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const std::size_t next = (k + 1) % runs.size();
-    if (runs[k].closed || next == k || (next == 0 && !round)) continue;
+    if (runs[k].closed || (next == 0 && !round)) continue;
     Run& before = runs[k];
     Run& after = runs[next];
     if (must_pass(before, before.points.size() - 1) || must_pass(after, 0)) continue;

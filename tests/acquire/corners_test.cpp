@@ -33,6 +33,23 @@ std::vector<Point2> nose(double step, double closer) {
   return points;
 }
 
+/// The same nose by even steps along it, its tip half way between two points.
+std::vector<Point2> even_nose(double half_axis, double step) {
+  const auto at = [half_axis](double t) {
+    return Point2{1 - std::cos(t), half_axis * std::sin(t)};
+  };
+  std::vector<Point2> side;
+  double length = 0;
+  for (double t = 0; t < 1.5; t += 1e-4) {
+    length += core::distance(at(t), at(t + 1e-4));
+    if (length >= step * (static_cast<double>(side.size()) + 0.5)) side.push_back(at(t + 1e-4));
+  }
+  std::vector<Point2> points;
+  for (auto p = side.rbegin(); p != side.rend(); ++p) points.push_back({p->x, -p->y});
+  points.insert(points.end(), side.begin(), side.end());
+  return points;
+}
+
 // An ellipse has no corner, however its points are spread.
 TEST(Corners, NoneAtANoseWithPointsCloserBesideItsTip) {
   for (const double step : {0.05, 0.08, 0.1, 0.12}) {
@@ -164,45 +181,57 @@ TEST(Corners, FoundAtATipBesideTightBends) {
   EXPECT_EQ(find_corners(points, false, 0, kAngle), Corners{before.size()});
 }
 
-/// Points of a line up to its last one, a step apart.
-std::vector<Point2> towards(Point2 last, core::Vector2 step) {
+/// Two sides that meet at the origin under `turn`, the second with another bend, sampled by steps
+/// of 1 along them; the last point of the first is `before` away from it.
+std::vector<Point2> two_sides(double turn, double before) {
+  const auto side = [](double bend, double s) {
+    return bend == 0 ? Point2{s, 0}
+                     : Point2{std::sin(bend * s) / bend, (1 - std::cos(bend * s)) / bend};
+  };
   std::vector<Point2> points;
-  for (int i = 8; i >= 0; --i) points.push_back(last - i * step);
+  for (int i = 14; i >= 0; --i) points.push_back(side(0.02, -i - before));
+  for (int i = 0; i < 15; ++i) {
+    const Point2 p = side(-0.03, 1 - before + i);
+    points.push_back(
+        {std::cos(turn) * p.x - std::sin(turn) * p.y, std::sin(turn) * p.x + std::cos(turn) * p.y});
+  }
   return points;
 }
 
-TEST(CornerBeyond, IsWhereTheSidesMeetAheadOfBoth) {
-  const auto one = towards({0, 0}, {1, 0});
-  const auto met = corner_beyond(one, towards({0.6, 0.4}, {0, -1}));
-  ASSERT_TRUE(met);
-  EXPECT_NEAR(met->x, 0.6, 1e-12);
-  EXPECT_NEAR(met->y, 0, 1e-12);
-  EXPECT_FALSE(corner_beyond(one, towards({-0.6, 0.4}, {0, -1}))) << "behind one's end";
-  EXPECT_FALSE(corner_beyond(one, towards({0.6, -0.4}, {0, -1}))) << "behind the other's";
-  EXPECT_FALSE(corner_beyond(one, towards({1, 0.4}, {-1, 0}))) << "side by side";
-  EXPECT_FALSE(corner_beyond(one, towards({3, 0.5}, {-1, -0.12}))) << "too far ahead";
-}
-
-// Circles of radius 5 about (-3, 0) and (3, 0) meet in (0, 4), at 53.13 degrees.
-TEST(CornerBeyond, SidesMayBeBent) {
-  std::vector<Point2> one, other;
-  for (int i = 9; i >= 0; --i) {
-    const double angle = (53.13010235415598 - 1 - 2 * i) * std::numbers::pi / 180;
-    one.push_back({5 * std::cos(angle) - 3, 5 * std::sin(angle)});
-    other.push_back({-one.back().x, one.back().y});
+// Wherever the corner lies between the two points: one of them stands for it.
+TEST(Corners, FoundBetweenPoints) {
+  for (const double degrees : {45.0, 70.0, 100.0, -60.0}) {
+    for (const double before : {0.3, 0.4, 0.5, 0.6, 0.7}) {
+      const auto points = two_sides(degrees * std::numbers::pi / 180, before);
+      const Corners found = find_corners(points, false, 0, kAngle);
+      ASSERT_EQ(found.size(), 1U) << degrees << ", " << before;
+      EXPECT_NEAR(static_cast<double>(found.front()), 14.5, 0.5) << degrees << ", " << before;
+    }
   }
-  const auto met = corner_beyond(one, other);
-  ASSERT_TRUE(met);
-  EXPECT_NEAR(met->x, 0, 1e-9);
-  EXPECT_NEAR(met->y, 4, 1e-3);
 }
 
-TEST(DistanceBeyond, IsThatOfTheNearestPolynomial) {
-  EXPECT_NEAR(*distance_beyond(towards({0, 0}, {1, 0}), {1, 0.5}), 0.5, 1e-12);
-  std::vector<Point2> parabola;  // y = x^2 / 100
-  for (int i = -9; i <= 0; ++i) parabola.push_back({0.1 * i, 1e-4 * i * i});
-  EXPECT_NEAR(*distance_beyond(parabola, {0.1, 1e-4}), 0, 1e-8);
-  EXPECT_FALSE(distance_beyond(std::vector<Point2>(5, Point2{0, 0}), {1, 0}));
+// A bend by 90 degrees with a radius of 1.27 steps, or a chamfer, sampled at both its ends: round a
+// corner it would be farther than from point to point.
+TEST(Corners, NoneInARoundingAsLongAsAStep) {
+  std::vector<Point2> points;
+  for (int i = 14; i >= 0; --i) points.push_back({-0.7071 - i, 0});
+  for (int i = 0; i < 15; ++i) points.push_back({0, 0.7071 + i});
+  EXPECT_EQ(find_corners(points, false, 0, kAngle), Corners{});
+}
+
+// Noses of ellipses and tips of parabolas that lie between two points, sampled evenly along them.
+TEST(Corners, NoneAtATipThatTwoPointsTell) {
+  for (const double half_axis : {0.05, 0.1, 0.2, 0.4}) {
+    for (const double step : {0.02, 0.04, 0.06, 0.1}) {
+      EXPECT_EQ(find_corners(even_nose(half_axis, step), false, 0, kAngle), Corners{})
+          << half_axis << ", " << step;
+    }
+  }
+  for (const double step : {1.5, 2.0, 3.0}) {
+    std::vector<Point2> points;
+    for (double y = -9.5 * step; y < 10 * step; y += step) points.push_back({y * y / 4, y});
+    EXPECT_EQ(find_corners(points, false, 0, kAngle), Corners{}) << step;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/polygon.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/runs.h"
 
@@ -73,6 +74,33 @@ TEST(CornerPoints, StayWithBothWhereTheyAreTheCorner) {
   passing.must_pass = {20};
   const auto held = met(two_arcs(1.13, 0.87), passing);
   EXPECT_EQ(held[0].points.size() + held[1].points.size(), 43U);
+}
+
+// A drop: two arcs of 5 about (-3, 0) and (3, 0) from (0, 4) to (0, -4) whose points leave out the
+// tip at the top and take the one below.
+TEST(CornerPoints, OneCornerOfAClosedOutlineIsWhereBothItsEndsGoOnTo) {
+  acquire::KeyLine line;
+  line.closed = true;
+  const auto arc = [&](double from, double to, core::Point2 centre) {
+    for (int i = 0; i <= 40; ++i)
+      line.points.push_back(on_circle(centre, 5, from + (to - from) * i / 40));
+  };
+  arc(kMeet - 1.13, -kMeet, {-3, 0});
+  line.points.pop_back();
+  arc(180 + kMeet, 180 - kMeet + 0.87, {3, 0});
+  line.corners = {0};
+  line.length = core::polygon_length(line.points, true);
+  auto runs = runs_of(line, {});
+  ASSERT_EQ(runs.size(), 1U);
+  meet_between_points(runs, 0.01, true);
+  EXPECT_EQ(runs[0].points.size(),
+            line.points.size() + 2);  // the tip at both ends for point 0 at one
+  EXPECT_EQ(runs[0].points.front(), runs[0].points.back());
+  EXPECT_EQ(runs[0].index.front(), Run::none);
+  EXPECT_EQ(runs[0].index[1], 0U);
+  EXPECT_EQ(runs[0].index.back(), Run::none);
+  EXPECT_NEAR(runs[0].points.front().x, 0, 1e-3);
+  EXPECT_NEAR(runs[0].points.front().y, 4, 1e-3);
 }
 
 // Asked to come to the first side's last point as well, the second arc would begin with a hook.
