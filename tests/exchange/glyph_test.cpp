@@ -149,6 +149,31 @@ TEST(Glif, NodesStandAtExtremaAndTheOutlineIsKept) {
   EXPECT_TRUE(node);
 }
 
+// The quadratic of 0, 3/2 and 1 along a line is 3t - 2t^2 of it: it turns back at 9/8. The
+// curvature of others that run along a line changes its sign by rounding alone.
+TEST(Glif, StraightCurvesAreLinesBetweenTheirTurns) {
+  const auto at = [](double s) { return Point2{7 + 100 * s, -3 + 70 * s}; };
+  const curve::BSpline2 spline{2, {0, 0, 0, 1, 2, 2, 2}, {at(0), at(0.3), at(0.6), at(1)}, {}};
+  Document d;
+  d.paths.push_back({{"a", "", ""}, {{{Bezier2{{at(0), at(1.5), at(1)}, {}}}}, false}, 0});
+  d.paths.push_back({{"a", "", ""}, {{{Bezier2{{at(0), at(0.1), at(0.7), at(1)}, {}}}}, false}, 0});
+  d.paths.push_back({{"a", "", ""}, {{{spline}}, false}, 0});
+  const auto written = write_glif(d, {.tolerance = 0.2});
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_LT(written->deviation, 1e-12);
+  const auto read = read_glif(written->content);
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->paths.size(), 3U);
+  ASSERT_EQ(read->paths[0].path.curves.size(), 2U);
+  EXPECT_LT(core::distance(piece(*read, 0, 0).control.back(), at(1.125)), 1e-12);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& last = std::get<Bezier2>(read->paths[k].path.curves.back().value);
+    EXPECT_EQ(last.control.size(), 2U) << k;
+    EXPECT_EQ(last.control.back(), at(1)) << k;
+    if (k > 0) EXPECT_EQ(read->paths[k].path.curves.size(), 1U) << k;
+  }
+}
+
 TEST(Glif, JointsOfG2CurvesStayG2) {
   Document d;
   lac::Chain chain{{{0, 0}, 0.2}, {{-1, 300, 0.001, 0.006}, {1, 250, 0.006, 0.003}}, false};

@@ -29,35 +29,66 @@ double watched(const PlanarCurve& c, double t, int which) {
   return cross(j.first, j.second);
 }
 
-/// Parameters at which nodes stand: breakpoints with a corner, extrema, inflections, both ends.
-std::vector<double> node_parameters(const PlanarCurve& c) {
+/// Adds the parameters, not at breakpoints, where something changes its sign.
+template <typename Watched>
+void add_changes(std::vector<double>& nodes, const PlanarCurve& c, const Watched& watched) {
   const auto breaks = breakpoints(c);
-  std::vector<double> nodes{0, 1};
   for (std::size_t i = 1; i < breaks.size(); ++i) {
     const double a = breaks[i - 1];
     const double step = (breaks[i] - a) / kSteps;
     const double inside = 1e-9 * (breaks[i] - a);
-    for (int which = 0; which < 3; ++which)
-      for (int k = 0; k < kSteps; ++k) {
-        const double from = a + k * step + (k == 0 ? inside : 0);
-        const double to = a + (k + 1) * step - (k + 1 == kSteps ? inside : 0);
-        const auto root =
-            numeric::bracketed_root([&](double t) { return watched(c, t, which); }, from, to, 0);
-        if (root) nodes.push_back(*root);
-      }
-    if (i + 1 < breaks.size()) {
-      const auto before = jet(c, breaks[i] - inside).first;
-      const auto after = jet(c, breaks[i] + inside).first;
-      if (std::abs(core::angle_between(before, after)) > 1e-6) nodes.push_back(breaks[i]);
+    for (int k = 0; k < kSteps; ++k) {
+      const double from = a + k * step + (k == 0 ? inside : 0);
+      const double to = a + (k + 1) * step - (k + 1 == kSteps ? inside : 0);
+      if (const auto root = numeric::bracketed_root(watched, from, to, 0)) nodes.push_back(*root);
     }
   }
+}
+
+/// In order, those closer than this made one.
+std::vector<double> parted(std::vector<double> nodes) {
   std::sort(nodes.begin(), nodes.end());
-  // Nodes closer than this are one.
-  std::vector<double> parted;
+  std::vector<double> out;
   for (const double t : nodes)
-    if (parted.empty() || t - parted.back() > 1e-4) parted.push_back(t);
-  parted.back() = 1;
-  return parted;
+    if (out.empty() || t - out.back() > 1e-4) out.push_back(t);
+  out.back() = 1;
+  return out;
+}
+
+/// Parameters at which nodes stand: breakpoints with a corner, extrema, inflections, both ends.
+std::vector<double> node_parameters(const PlanarCurve& c) {
+  const auto breaks = breakpoints(c);
+  std::vector<double> nodes{0, 1};
+  for (int which = 0; which < 3; ++which)
+    add_changes(nodes, c, [&](double t) { return watched(c, t, which); });
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
+    const double inside = 1e-9 * (breaks[i] - breaks[i - 1]);
+    const auto before = jet(c, breaks[i] - inside).first;
+    const auto after = jet(c, breaks[i] + inside).first;
+    if (std::abs(core::angle_between(before, after)) > 1e-6) nodes.push_back(breaks[i]);
+  }
+  return parted(std::move(nodes));
+}
+
+/// A curve whose control points lie on a line to 1e-9 of its size, as lines between its ends and
+/// the places where it turns back; none for others. Curvature is rounding alone there, and its
+/// changes of sign are no inflections.
+std::optional<GlyphCubics> straight_lines(const PlanarCurve& c,
+                                          const std::vector<Point2>& control) {
+  const Point2 start = control.front();
+  const auto far =
+      std::ranges::max_element(control, {}, [start](Point2 p) { return core::distance(start, p); });
+  const Vector2 along = *far - start;
+  GlyphCubics made;
+  for (const Point2 p : control)
+    made.deviation = std::max(made.deviation, std::abs(cross(along, p - start)) / norm(along));
+  if (!(made.deviation <= 1e-9 * norm(along))) return std::nullopt;
+  std::vector<double> nodes{0, 1};
+  add_changes(nodes, c, [&](double t) { return dot(jet(c, t).first, along); });
+  nodes = parted(std::move(nodes));
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    made.pieces.push_back({{evaluate(c, nodes[i - 1]), evaluate(c, nodes[i])}, {}});
+  return made;
 }
 
 PlanarCurve part_of(const PlanarCurve& c, double t0, double t1) {
@@ -167,6 +198,11 @@ GlyphCubics glyph_cubics(const PlanarCurve& c, double tolerance) {
   }
   if (const auto* bezier = std::get_if<Bezier2>(&c.value); bezier && bezier->control.size() == 2)
     return {{*bezier}, 0};
+  const std::vector<Point2>* control = nullptr;
+  if (const auto* bezier = std::get_if<Bezier2>(&c.value)) control = &bezier->control;
+  if (const auto* spline = std::get_if<curve::BSpline2>(&c.value)) control = &spline->control;
+  if (control != nullptr)
+    if (auto lines = straight_lines(c, *control)) return *lines;
   const auto nodes = node_parameters(c);
   for (std::size_t i = 1; i < nodes.size(); ++i)
     add_stretch(made, part_of(c, nodes[i - 1], nodes[i]), tolerance);
