@@ -17,6 +17,7 @@ namespace {
 using document::Document;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// Groups parted by blanks as a drawing's entities, behind a header.
 Document read(const std::string& entities, const std::string& before = {}) {
@@ -78,6 +79,22 @@ TEST(DxfEllipse, TurnsAtMostOnceAround) {
   EXPECT_EQ(ends("0", "6.2831853072"), (std::pair{std::size_t{4}, true}));
   EXPECT_EQ(ends("1", "7.283185307"), (std::pair{std::size_t{4}, true}));
   EXPECT_EQ(ends("6", "1"), (std::pair{std::size_t{1}, false}));
+}
+
+// A spline that counts more than it has was cut short: what is left of it is another curve.
+TEST(DxfReader, SplinesOfFewerPointsThanTheyCountAreSaid) {
+  const std::string cubic =
+      "70 8 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 "
+      "10 0 20 0 10 1 20 2 10 3 20 2 10 4 20 0";
+  for (const char* sound : {"72 8 73 4 ", "73 4 ", "", "72 0 73 0 "})
+    EXPECT_THAT(read("0 SPLINE 8 0 " + (sound + cubic)).skipped, IsEmpty()) << sound;
+  const auto why = [&](const char* counts) {
+    const Document d = read("0 SPLINE 8 0 " + (counts + cubic));
+    EXPECT_EQ(d.paths.size(), 0U) << counts;
+    return d.skipped.at(0);
+  };
+  EXPECT_THAT(why("72 9 73 5 "), HasSubstr("only 4 of its 5 control points are there"));
+  EXPECT_THAT(why("72 10 73 4 "), HasSubstr("only 8 of its 10 knots are there"));
 }
 
 // What is not there is no 0.

@@ -73,6 +73,16 @@ Result<DxfCurve> bent(const std::vector<BulgeVertex>& vertices, bool closed, con
   return DxfCurve{mapped(shape, frame), closed};
 }
 
+/// Why an entity that counts more of a kind, in that group, than it has is none; empty where it
+/// does not.
+std::string lacks(const Tags& tags, int group, std::size_t there, const char* one,
+                  const char* more) {
+  const int wanted = integer(tags, group);
+  if (wanted <= static_cast<int>(there)) return {};
+  return "only " + std::to_string(there) + " of its " +
+         core::counted(static_cast<std::size_t>(wanted), one, more) + " there";
+}
+
 Result<DxfCurve> light_polyline_of(const Tags& tags) {
   const double elevation = real(tags, 38);
   std::vector<BulgeVertex> vertices;
@@ -83,10 +93,8 @@ Result<DxfCurve> light_polyline_of(const Tags& tags) {
     if (tag.code == 20) vertices.back().point.y = *value;
     if (tag.code == 42) vertices.back().bulge = *value;
   }
-  if (const int wanted = integer(tags, 90); wanted > static_cast<int>(vertices.size()))
-    return none("only " + std::to_string(vertices.size()) + " of its " +
-                core::counted(static_cast<std::size_t>(wanted), "vertex is", "vertices are") +
-                " there");
+  if (const auto why = lacks(tags, 90, vertices.size(), "vertex is", "vertices are"); !why.empty())
+    return none(why);
   return bent(vertices, (integer(tags, 70) & 1) != 0, frame_of(tags));
 }
 
@@ -147,15 +155,15 @@ Result<DxfCurve> spline_of(const Tags& tags) {
   const bool closed = (integer(tags, 70) & 1) != 0;
   if (lists.control.empty()) {
     auto& fit = lists.fit;
-    if (const int wanted = integer(tags, 74); wanted > static_cast<int>(fit.size()))
-      return none(
-          "only " + std::to_string(fit.size()) + " of its " +
-          core::counted(static_cast<std::size_t>(wanted), "fit point is", "fit points are") +
-          " there");
+    const auto why = lacks(tags, 74, fit.size(), "fit point is", "fit points are");
+    if (!why.empty()) return none(why);
     fit.erase(std::unique(fit.begin(), fit.end()), fit.end());
     if (fit.size() < 2) return none("it has neither control points nor two fit points");
     return DxfCurve{fit_point_spline(fit, vector(tags, 12), vector(tags, 13), closed), closed};
   }
+  auto why = lacks(tags, 73, lists.control.size(), "control point is", "control points are");
+  if (why.empty()) why = lacks(tags, 72, lists.knots.size(), "knot is", "knots are");
+  if (!why.empty()) return none(why);
   mend(lists.knots);
   curve::BSpline3 spline;
   spline.degree = integer(tags, 71, 3);
