@@ -55,14 +55,15 @@ std::optional<NodeCounts> node_counts(const std::vector<double>& first,
   if (first.size() != 4 || !std::ranges::all_of(first, is_count)) return std::nullopt;
   const double dimension = first[1];
   const double others = first[2] + first[3];
-  const auto number = second.empty() ? std::nullopt : parse_number(second[0], style);
+  if (second.empty()) return std::nullopt;
+  const double number = parse_number(second[0], style).value_or(-1);
   const bool nodes = first[0] > 1 && (dimension == 2 || dimension == 3) && first[3] <= 1 &&
                      static_cast<double>(second.size()) == 1 + dimension + others &&
                      (number == 0 || number == 1);
   if (!nodes) return std::nullopt;
   return NodeCounts{.nodes = static_cast<std::size_t>(first[0]),
                     .others = static_cast<std::size_t>(others),
-                    .first = *number,
+                    .first = number,
                     .in_space = dimension == 3};
 }
 
