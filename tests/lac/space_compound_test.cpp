@@ -1,5 +1,6 @@
 #include "keyline/lac/space/space_compound.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -110,6 +111,38 @@ TEST(SolveCompoundSpace, IsLookedForAllOverTheFamily) {
   ASSERT_TRUE(solved) << solved.error().hint;
   EXPECT_LT(distance(frame_at(solved->chain, 1).position, end), 1e-10);
   EXPECT_NEAR(arc_length(solved->chain), 1, 1e-6);  // of the curve meant
+}
+
+struct Known {
+  core::Point3 end;
+  core::Vector3 tangent;
+  SpaceRhythm rhythm;
+};
+
+// Curves of length 1 by scipy (DOP853, 1e-11). Their torsion is small beside the rate that omega
+// gives it, next to where it would be infinite, so that steps in torsion itself led nowhere.
+TEST(SolveCompoundSpace, IsFoundWhereTorsionIsSmallBesideItsRate) {
+  const std::array<Known, 2> all{
+      {{{0.9780412781878557, 0.1743312049923727, 0.00036515859583354193},
+        {0.9235187152244164, 0.38355319218488565, 0.0003624845205892353},
+        {{1.987506651811687, -2}, {1, -2}, 397.6087759371874, 0.2014517986858677}},
+       {{0.99271477553997, 0.10753014164202336, 6.409572567806464e-06},
+        {0.9816587866017562, 0.1906463391160765, 8.32111454060011e-06},
+        {{3, 1.2338936242859937},
+         {1, -1.003538828249052},
+         22744.486248734258,
+         0.16245968802446945}}}};
+  for (const Known& known : all) {
+    SCOPED_TRACE(known.rhythm.omega);
+    const auto solved =
+        solve_compound_space({{}, known.end, {1, 0, 0}, known.tangent}, known.rhythm);
+    ASSERT_TRUE(solved) << solved.error().hint;
+    const SpaceFrame end = frame_at(solved->chain, 1);
+    EXPECT_LT(distance(end.position, known.end), 1e-11);
+    EXPECT_LT(norm(end.tangent - known.tangent), 1e-11);
+    EXPECT_NEAR(arc_length(solved->chain), 1, 1e-6);
+    EXPECT_LT(largest_joint_gap(solved->chain).torsion, 1e-15);
+  }
 }
 
 TEST(SolveCompoundSpace, MistakesAreNamed) {

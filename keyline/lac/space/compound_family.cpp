@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
-#include "keyline/lac/chain/extend.h"
 #include "keyline/lac/segment/piece_shape.h"
+#include "keyline/lac/space/two_slopes.h"
 
 namespace keyline::lac::detail::space {
 namespace {
@@ -15,32 +15,7 @@ constexpr double kLeast = 1e-4;    // of rates but 0
 constexpr double kGreatest = 1e8;  // an inflection lies so close to the joint
 constexpr double kFall = 700;      // of the logarithm of what is left up to a bound
 
-struct Side {
-  double alpha = 0, length = 0;
-  double bound() const { return 1 / (alpha * length); }
-};
-
-/// Curvatures over that at the joint where it has grown to and where it has fallen to.
-struct Ends {
-  double high = 1, low = 1;
-};
-
-std::optional<Ends> ends_of(const Side& grows, const Side& falls, double rate) {
-  Ends ends;
-  double true_rate = rate;
-  if (grows.alpha > 0) {
-    true_rate = -grows.bound() * std::expm1(-rate / grows.bound());
-    ends.high = std::exp(rate * grows.length);
-  } else {
-    const auto high = curvature_continued(grows.alpha, 1, rate, grows.length);
-    if (!high) return std::nullopt;
-    ends.high = *high;
-  }
-  const auto low = curvature_continued(falls.alpha, 1, -true_rate, falls.length);
-  if (!low) return std::nullopt;
-  ends.low = *low;
-  return ends;
-}
+TwoSlopes law_of(const PlaneRhythm& r) { return {{r.alpha0, r.alpha1}, r.length_share}; }
 
 }  // namespace
 
@@ -50,14 +25,12 @@ double Family::least_turning() const {
 }
 
 std::optional<Chain> Family::chain(const Member& m) const {
-  const Side first{r_.alpha0, r_.length_share}, second{r_.alpha1, 1 - r_.length_share};
-  const bool rises = m.rate >= 0;
-  const auto ends = ends_of(rises ? second : first, rises ? first : second, std::abs(m.rate));
+  const TwoSlopes law = law_of(r_);
+  const auto ends = law.ends(m.rate);
   if (!ends) return std::nullopt;
-  const double k0 = rises ? ends->low : ends->high, k1 = rises ? ends->high : ends->low;
   Chain c{{},
-          {{first.alpha, first.length, m.size * k0, m.size},
-           {second.alpha, second.length, m.size, m.size * k1}}};
+          {{r_.alpha0, law.length(0), m.size * (*ends)[0], m.size},
+           {r_.alpha1, law.length(1), m.size, m.size * (*ends)[1]}}};
   return validate(c) ? std::optional(std::move(c)) : std::nullopt;
 }
 
@@ -82,14 +55,14 @@ std::optional<Off> Family::off(const Member& m) const {
 
 std::vector<double> Family::rates() const {
   std::vector<double> all{0};
-  for (const auto& [way, grows] : {std::pair{-1.0, Side{r_.alpha0, r_.length_share}},
-                                   {1.0, Side{r_.alpha1, 1 - r_.length_share}}}) {
+  const TwoSlopes law = law_of(r_);
+  for (const int grows : {0, 1}) {
     const double greatest =
-        grows.alpha > 0 ? std::min(kGreatest, kFall * grows.bound()) : kGreatest;
+        law.slope[grows] > 0 ? std::min(kGreatest, kFall * law.bound(grows)) : kGreatest;
     for (int i = 0;; ++i) {
       const double rate = kLeast * std::pow(10.0, i / kSteps);
       if (rate > greatest) break;
-      all.push_back(way * rate);
+      all.push_back(grows == 0 ? -rate : rate);
     }
   }
   std::ranges::sort(all);

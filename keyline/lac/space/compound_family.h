@@ -15,10 +15,7 @@ struct PlaneRhythm {
 };
 
 /// One of the curves of a rhythm with length 1: `size` is curvature at the joint, `rate` tells that
-/// of curvature there over curvature. Where the piece into which curvature grows has a slope above
-/// 0 it bears rates up to a bound only, next to which a rate would keep no digits of what is left:
-/// there `rate` is the logarithm of what curvature grows to in that piece, over the piece's share,
-/// which goes on without bound. The two agree next to 0.
+/// of curvature there over curvature, drawn out (two_slopes.h).
 struct Member {
   double rate = 0, size = 0;
 };

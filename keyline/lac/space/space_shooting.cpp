@@ -5,18 +5,10 @@
 #include <vector>
 
 #include "keyline/lac/space/space_stretch.h"
-#include "keyline/numeric/quadrature.h"
 #include "keyline/numeric/roots.h"
 
 namespace keyline::lac::detail {
 namespace {
-
-using core::Vector3;
-
-/// Of a stretch that is all, next to a zero, or one of several.
-int steps_of(const Stretch& stretch, std::size_t of) {
-  return stretch.power != 1 ? 24 : of == 1 ? 32 : 12;
-}
 
 /// Curvature and torsion times length over the fraction of the length.
 struct Laws {
@@ -29,72 +21,8 @@ struct Laws {
   double torsion(double t) const { return carried(start_torsion, beta, torsion_rate * t); }
 };
 
-/// A place of the curve and its frame.
-struct Motion {
-  Vector3 at;
-  Vector3 tangent{1, 0, 0};
-  Vector3 normal{0, 1, 0};
-  Vector3 binormal{0, 0, 1};
-
-  Vector3 turned(Vector3 v) const { return v.x * tangent + v.y * normal + v.z * binormal; }
-};
-
-/// The motion after exp of the twist (turn, shift), both in the moving frame.
-Motion moved(const Motion& m, Vector3 turn, Vector3 shift) {
-  const double square = dot(turn, turn);
-  const double angle = std::sqrt(square);
-  const bool tiny = angle < 1e-3;
-  const double s = tiny ? 1 - square / 6 : std::sin(angle) / angle;
-  const double c = tiny ? 0.5 - square / 24 : (1 - std::cos(angle)) / square;
-  const double v = tiny ? 1.0 / 6 - square / 120 : (1 - s) / square;
-  const auto rotated = [&](Vector3 a) {
-    const Vector3 once = cross(turn, a);
-    return a + s * once + c * cross(turn, once);
-  };
-  const Vector3 once = cross(turn, shift);
-  Motion next;
-  next.at = m.at + m.turned(shift + c * once + v * cross(turn, once));
-  next.tangent = m.turned(rotated({1, 0, 0}));
-  next.normal = m.turned(rotated({0, 1, 0}));
-  next.binormal = cross(next.tangent, next.normal);
-  return next;
-}
-
-/// One step of Magnus' method with Gauss' two nodes.
-Motion stepped(const Laws& laws, const Motion& m, const Stretch& stretch, double from, double h) {
-  constexpr const auto& kPlaces = numeric::gauss_legendre<2>.nodes;
-  std::array<Vector3, 2> turn;
-  std::array<double, 2> speed;
-  for (int i = 0; i < 2; ++i) {
-    const double s = from + h * kPlaces[i];
-    const double t = stretch.place(s);
-    speed[i] = stretch.rate(s);
-    turn[i] = speed[i] * Vector3{laws.torsion(t), 0, laws.curvature(t)};
-  }
-  const double bracket = h * h * (kPlaces[1] - kPlaces[0]) / 4;
-  const Vector3 forward{1, 0, 0};
-  return moved(m, h / 2 * (turn[0] + turn[1]) + bracket * cross(turn[0], turn[1]),
-               h / 2 * (speed[0] + speed[1]) * forward +
-                   bracket * cross(speed[1] * turn[0] - speed[0] * turn[1], forward));
-}
-
-/// Places of the steps' ends, with weights of Simpson's rule over the length.
-struct Node {
-  double place = 0;
-  double weight = 0;
-};
-
-/// How curvature and torsion at one place change with the three unknowns.
-struct Change {
-  std::array<double, 3> curvature{};
-  std::array<double, 3> torsion{};
-};
-
-/// x^e, kept finite where x vanishes and e < 0.
-double bounded_power(double x, double e) { return std::pow(std::max(std::abs(x), 1e-9), e); }
-
-void find_changes(const Laws& laws, double omega, std::span<const Node> nodes,
-                  std::span<Change> change) {
+void find_changes(const Laws& laws, double omega, std::span<const RideNode> nodes,
+                  std::span<Change<3>> change) {
   const double by_length =
       omega == 0 ? 0.0 : omega * (1 - laws.beta) * std::pow(laws.length, -laws.beta);
   const bool none = laws.start_torsion == 0 && laws.beta >= 0;
@@ -159,35 +87,11 @@ std::optional<SpaceShot> shoot_space(const SpaceStandardForm& form, const SpaceU
   const Laws laws{form.alpha, form.beta, x.bend,
                   x.length,   *torsion,  unit_rate(form.beta, form.omega, x.length)};
   if (!std::isfinite(laws.curvature(1)) || !std::isfinite(laws.torsion(1))) return std::nullopt;
-  std::vector<Motion> motion;
-  std::vector<Node> node;
-  Motion end;
   const std::vector<Stretch> stretches = stretches_of(laws);
-  for (const Stretch& stretch : stretches) {
-    const int steps = steps_of(stretch, stretches.size());
-    for (int i = 0; i <= steps; ++i) {
-      const double s = i / double(steps);
-      const double simpson = (i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2) / (3.0 * steps);
-      if (i > 0) end = stepped(laws, end, stretch, (i - 1) / double(steps), 1.0 / steps);
-      motion.push_back(end);
-      node.push_back({stretch.place(s), simpson * stretch.rate(s)});
-    }
-  }
-  const std::size_t count = node.size();
-  std::vector<Change> change(count);
-  find_changes(laws, form.omega, node, change);
-  SpaceShot shot{end.at, end.tangent, {}, {}};
-  for (int unknown = 0; unknown < 3; ++unknown) {
-    Vector3 turned;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vector3 turn = node[i].weight * (change[i].torsion[unknown] * motion[i].tangent +
-                                             change[i].curvature[unknown] * motion[i].binormal);
-      turned = turned + turn;
-      shot.chord_by[unknown] = shot.chord_by[unknown] + cross(turn, end.at - motion[i].at);
-    }
-    shot.tangent_by[unknown] = cross(turned, end.tangent);
-  }
-  return shot;
+  const Ride ride = ride_along(laws, std::span<const Stretch>(stretches));
+  std::vector<Change<3>> change(ride.nodes.size());
+  find_changes(laws, form.omega, ride.nodes, change);
+  return ride.shot<3>(std::span<const Change<3>>(change));
 }
 
 }  // namespace keyline::lac::detail

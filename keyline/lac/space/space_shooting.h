@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <optional>
 
-#include "keyline/core/point.h"
 #include "keyline/lac/space/space.h"
+#include "keyline/lac/space/space_ride.h"
 #include "keyline/numeric/power_mean.h"
 
 /// Internals of the space Hermite solver: a quick integration of a log-aesthetic space curve, with
@@ -43,14 +42,8 @@ struct SpaceUnknowns {
 /// curve of this slope and rate has as much.
 std::optional<double> start_torsion(double beta, double omega, const SpaceUnknowns& x);
 
-/// Both ends of the curve of unit length in its standard frame, with derivatives by bend, twist and
-/// length.
-struct SpaceShot {
-  core::Vector3 chord;
-  core::Vector3 tangent;  ///< at the end
-  std::array<core::Vector3, 3> chord_by;
-  std::array<core::Vector3, 3> tangent_by;
-};
+/// By bend, twist and length.
+using SpaceShot = Shot<3>;
 
 /// Of form only alpha, beta and omega count. Magnus' method of order 4 on the group of motions, in
 /// 32 steps, more towards ends that are sharp: about 1e-7 per radian of turning, 1e-5 where a law

@@ -115,14 +115,10 @@ bool reasonable(double alpha, const SpaceUnknowns& x) {
 }
 
 std::optional<Miss> newton_step(const SpaceShot& shot, const Miss& at, const Invariants& wanted) {
-  constexpr double kSize = 1e-6;
+  const auto by = slopes_of(shot, wanted);
   std::array<std::array<double, 3>, 3> slope{};
-  const Miss base = miss_of(shot.chord, shot.tangent, wanted);
-  for (int i = 0; i < 3; ++i) {
-    const Miss near = miss_of(shot.chord + kSize * shot.chord_by[i],
-                              shot.tangent + kSize * shot.tangent_by[i], wanted);
-    for (int row = 0; row < 3; ++row) slope[row][i] = (near[row] - base[row]) / kSize;
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t row = 0; row < 3; ++row) slope[row][i] = by[i][row];
   Miss step = at;
   if (!solve_small(slope, step)) return std::nullopt;
   return size_of(step) < 1e6 ? std::optional(step) : std::nullopt;

@@ -61,6 +61,20 @@ Miss miss_of(core::Vector3 chord, core::Vector3 tangent, const Invariants& wante
 /// Turns and twists by less than 4 pi in all, and is longer than 1e-6.
 bool reasonable(double alpha, const SpaceUnknowns& x);
 
+/// How the miss of a shot changes with each unknown.
+template <std::size_t N>
+std::array<Miss, N> slopes_of(const Shot<N>& shot, const Invariants& wanted) {
+  constexpr double kSize = 1e-6;
+  std::array<Miss, N> slopes{};
+  const Miss base = miss_of(shot.chord, shot.tangent, wanted);
+  for (std::size_t i = 0; i < N; ++i) {
+    const Miss near = miss_of(shot.chord + kSize * shot.chord_by[i],
+                              shot.tangent + kSize * shot.tangent_by[i], wanted);
+    for (std::size_t row = 0; row < 3; ++row) slopes[i][row] = (near[row] - base[row]) / kSize;
+  }
+  return slopes;
+}
+
 /// Newton's step for a miss, with the derivatives of a shot; empty where the matrix is singular.
 std::optional<Miss> newton_step(const SpaceShot& shot, const Miss& at, const Invariants& wanted);
 SpaceUnknowns moved(const SpaceUnknowns& x, const Miss& step, double share);
