@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/second_moments.h"
 #include "keyline/sketch/dash_row.h"
 
 namespace keyline::sketch {
@@ -21,7 +23,9 @@ constexpr double kWidestGap = 18 * kEven;
 /// Gaps: a dash between two gaps is no longer. The longest that drawings have are eight times as
 /// long as their gaps ([ISO 128-20], long dashes); half as much again as gaps of a row may differ.
 constexpr double kLongDash = 8 * kEven;
-constexpr double kDot = 3;  ///< pixels: what is shorter has no direction
+constexpr double kDot = 3;        ///< pixels: what is shorter has no direction
+constexpr double kArm = 10;       ///< pixels of a dash that tell which way it goes, and
+constexpr double kArmWidths = 2;  ///< so many of its widths at least
 
 /// Of a line's ink.
 struct Box {
@@ -151,18 +155,48 @@ class Bridges {
   /// Of the ink, along the line that ends there.
   double dash(int b) const { return length_of(edge_of(b)) + width(b); }
 
+  /// Where the last part of a dash lies and which way it goes. It is read as a straight line, half
+  /// way along: the direction at an end itself is known four times less well, and an arc meets the
+  /// chord between any two of its places at equal angles.
+  struct Way {
+    Point2 middle;
+    Vector2 outward{1, 0};
+  };
+  Way way_of(int end) {
+    const std::vector<Point2> arm =
+        arm_of(graph_, at(end), std::max(kArm, kArmWidths * width(end)));
+    Vector2 sum{};
+    for (const Point2 p : arm) sum = sum + (p - arm.front());
+    const Point2 middle = arm.front() + sum / static_cast<double>(arm.size());
+    core::SecondMoments spread;
+    for (const Point2 p : arm) spread.add(p - middle);
+    const Vector2 along = spread.direction();
+    return {middle, dot(along, arm.front() - arm.back()) < 0 ? -along : along};
+  }
+
+  /// As bend_between of branches; of the turn from one middle to the other the gap has its share.
+  static double row_bend(const Way& a, const Way& b, double gap) {
+    const Vector2 chord = b.middle - a.middle;
+    const double first = core::angle_between(a.outward, chord);
+    const double second = core::angle_between(chord, -b.outward);
+    return 0.5 * std::abs(first + second) * gap / core::norm(chord) + std::abs(first - second);
+  }
+
   void find_nearest() {
     nearest_.assign(branches_.size(), {});
     std::vector<double> reach(branches_.size(), 0);
-    for (const int end : ends_)
+    std::vector<Way> ways(branches_.size());
+    for (const int end : ends_) {
       reach[index(end)] = std::min(kRowGap * dash(end), kWidestGap * width(end));
+      ways[index(end)] = way_of(end);
+    }
     visit_pairs(std::ranges::max(reach), [&](int a, int b, double gap) {
       if (a / 2 == b / 2 || gap > std::min(reach[index(a)], reach[index(b)])) return;
       const double first = length_of(edge_of(a));
       const double second = length_of(edge_of(b));
       if (std::min(first, second) < kDot) return;
       const double unsure = kGrid / first + kGrid / second;
-      const double turn = bend_between(at(a), at(b));
+      const double turn = row_bend(ways[index(a)], ways[index(b)], gap);
       if (turn > kRowTurn + unsure) return;
       const Pair pair{gap / std::min(dash(a), dash(b)) + turn, gap, a, b};
       if (pair.cost < nearest_[index(a)].cost) nearest_[index(a)] = pair;

@@ -108,5 +108,27 @@ TEST(BridgeGaps, OtherInkInEveryGapIsNoRowOfDashes) {
   }
 }
 
+// The pixels at the end of a short dash tell its direction badly, those of all of it well: a row
+// along an arc is one line in whatever direction it goes.
+TEST(BridgeGaps, ShortDashesGoOnInAnyDirection) {
+  for (int k = 0; k < 4; ++k) {
+    const double start = 0.39 * k;
+    const double radius = 150;
+    const auto at = [&](double way) {
+      const double turn = start + way / radius;
+      return core::Point2{40 + radius * (std::sin(turn) - std::sin(start)),
+                          40 + radius * (std::cos(start) - std::cos(turn))};
+    };
+    Image page = blank_page(230, 230);
+    for (double way = 0; way < 170; way += 32) {
+      draw_line(page, at(way), at(way + 9), 2);
+      draw_line(page, at(way + 9), at(way + 18), 2);
+    }
+    const auto result = trace(page);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->strokes.size(), 1U) << "first direction " << start;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::sketch
