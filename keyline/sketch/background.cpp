@@ -9,6 +9,7 @@
 #include "keyline/core/quantile.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/sketch/rows.h"
+#include "keyline/sketch/shadow_edge.h"
 
 namespace keyline::sketch {
 namespace {
@@ -69,18 +70,15 @@ cv::Mat paper_of_blocks(const Gray& level) {
     const auto r = static_cast<int>(row);
     std::vector<std::uint16_t> scratch;
     for (int c = 0; c < columns; ++c) {
-      const auto cut = [](int size, int parts, int i) {
-        return static_cast<int>(static_cast<long>(size) * i / parts);
-      };
-      sample_box(level, cut(level.width, columns, c), cut(level.height, rows, r),
-                 cut(level.width, columns, c + 1), cut(level.height, rows, r + 1), scratch);
+      sample_box(level, part_start(level.width, columns, c), part_start(level.height, rows, r),
+                 part_start(level.width, columns, c + 1), part_start(level.height, rows, r + 1),
+                 scratch);
       paper.at<float>(r, c) = percentile_of(scratch, kPaperShare);
     }
   });
   paper = with_rim(paper);
   const cv::Mat square = cv::Mat::ones(5, 5, CV_8U);
   cv::morphologyEx(paper, paper, cv::MORPH_CLOSE, square, {-1, -1}, 1, cv::BORDER_REPLICATE);
-  cv::GaussianBlur(paper, paper, {5, 5}, 1.0, 1.0, cv::BORDER_REPLICATE);
   return paper;
 }
 
@@ -132,16 +130,22 @@ bool is_light_on_dark(const Image& image) {
   return std::accumulate(lighter.begin(), lighter.end(), 0.0) > 0;
 }
 
-bool flatten_background(Gray& level, Flatten flatten) {
+bool flatten_background(Gray& level, double gain, Flatten flatten) {
   if (flatten == Flatten::off) return false;
-  const cv::Mat paper = paper_of_blocks(level);
+  const cv::Mat blocks = paper_of_blocks(level);
+  cv::Mat paper;
+  cv::GaussianBlur(blocks, paper, {5, 5}, 1.0, 1.0, cv::BORDER_REPLICATE);
   double low = 0;
   double high = 0;
   cv::minMaxLoc(paper, &low, &high);
   const double slack = 0.003 * Tone::kWhite;
   if (flatten == Flatten::automatic && high - low < slack && std::abs(high - Tone::kWhite) < slack)
     return false;
+  const std::vector<SteppedBox> stepped = flat_at_steps(level, blocks, kRim, gain);
   subtract(level, paper);
+  cv::Mat all(level.height, level.width, CV_16U, level.data.data());
+  for (const SteppedBox& box : stepped)
+    box.flat.copyTo(all(cv::Rect({box.x, box.y}, box.flat.size())));
   return true;
 }
 

@@ -133,7 +133,7 @@ Tone transform_intensity(Image image, const ToneOptions& options) {
   tone.gain = options.gain.value_or(1 / std::log(paper));
   look_up(tone.level, tones(tone.gain), tone.level);
   tone.shaded = share_below(tone.level, 1 + tone.gain * std::log(2.0 / 3));
-  tone.flattened = flatten_background(tone.level, options.flatten);
+  tone.flattened = flatten_background(tone.level, tone.gain, options.flatten);
   tone.noise = noise_of(tone.level);
   return tone;
 }
