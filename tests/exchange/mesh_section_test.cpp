@@ -166,6 +166,17 @@ TEST(Section, TellsWhatOfAMeshCouldNotBeRead) {
 }
 
 // Coordinates are known by their names, whatever stands between them.
+// Of a mesh with decimal commas no vertex is left; the plane is not at fault.
+TEST(Section, TellsWhatWasSkippedWhereNothingIsMet) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-comma-" + std::to_string(::getpid()) + ".obj");
+  std::ofstream(file) << "v 0,5 0 0\nv 1,5 0 1\nv 0,5 1 1\nf 1 2 3\n";
+  const auto cut = section_of_file(file, parse_section("z=0.5").value());
+  std::filesystem::remove(file);
+  ASSERT_FALSE(cut);
+  EXPECT_THAT(cut.error().message, testing::HasSubstr("\"0,5\" is no number and others"));
+}
+
 TEST(StreamPoints, PropertiesMayStandInAnyOrder) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("keyline-stream-" + std::to_string(::getpid()) + ".ply");

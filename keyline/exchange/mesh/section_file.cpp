@@ -88,9 +88,12 @@ Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request
     result.curves.push_back(std::move(curve));
     result.closed.push_back(line.closed);
   }
-  if (result.curves.empty())
-    return core::fail(ErrorCode::bad_input, "the plane does not meet the mesh", "move it",
-                      "--section");
+  if (result.curves.empty()) {
+    std::string what = "the plane does not meet the mesh";
+    if (!mesh.skipped.empty()) what += "; skipped: " + mesh.skipped.front();
+    if (mesh.skipped.size() > 1) what += " and others";
+    return core::fail(ErrorCode::bad_input, what, "move it", "--section");
+  }
   return result;
 }
 
