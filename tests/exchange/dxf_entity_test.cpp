@@ -103,6 +103,8 @@ TEST(DxfEntity, EllipsesHaveTheirRatioAndParameters) {
   EXPECT_NEAR(whole.minor.y, 2, 1e-15);
   EXPECT_NEAR(whole.to - whole.from, 2 * kPi, 1e-15);
   EXPECT_TRUE(dxf_curve_of(entity("ELLIPSE", {tag(11, "4")}))->closed);
+  const EllipseArc back = arc_of(entity("ELLIPSE", {tag(11, "4"), tag(40, "-0.5")}));
+  EXPECT_NEAR(back.minor.y, -2, 1e-15);  // it runs clockwise
   const auto part = dxf_curve_of(entity("ELLIPSE", {tag(11, "4"), tag(41, "5"), tag(42, "1")}));
   EXPECT_FALSE(part->closed);
   EXPECT_NEAR(std::get<EllipseArc>(part->shape).to, 1 + 2 * kPi, 1e-12);
@@ -159,6 +161,35 @@ TEST(DxfEntity, OldPolylinesHaveFlags) {
   EXPECT_TRUE(of("1")->closed);
   EXPECT_FALSE(of("16"));
   EXPECT_FALSE(of("64"));
+}
+
+// Points of a polyline in space are the world's, and its edges straight, whatever else stands
+// there.
+TEST(DxfEntity, PolylinesInSpaceHaveNeitherBulgesNorAPlane) {
+  const auto of = [](const char* flags, const char* bulge) {
+    DxfEntity e = entity("POLYLINE", {tag(70, flags), tag(230, "-1")});
+    e.vertices = {{tag(10, "0"), tag(42, bulge)}, {tag(10, "1"), tag(30, "2")}};
+    return dxf_curve_of(e);
+  };
+  for (const char* bulge : {"0", "0.5"}) {
+    const auto space = of("8", bulge);
+    ASSERT_TRUE(space) << bulge;
+    const auto* line = std::get_if<curve::Polyline3>(&space->shape);
+    ASSERT_TRUE(line) << bulge;
+    EXPECT_EQ(line->points, (std::vector<Point3>{{0, 0, 0}, {1, 0, 2}}));
+  }
+  EXPECT_EQ(std::get<curve::Polyline3>(of("0", "0")->shape).points[1].x, -1);  // seen from below
+  EXPECT_FALSE(std::holds_alternative<curve::Polyline3>(of("0", "0.5")->shape));
+}
+
+// Four points and eight knots make a cubic.
+TEST(DxfEntity, SplinesWithoutADegreeAreCubic) {
+  std::vector<DxfTag> tags;
+  for (const char* knot : {"0", "0", "0", "0", "1", "1", "1", "1"}) tags.push_back(tag(40, knot));
+  for (const char* x : {"0", "1", "2", "3"}) tags.push_back(tag(10, x));
+  const auto spline = dxf_curve_of(entity("SPLINE", tags));
+  ASSERT_TRUE(spline) << spline.error().message;
+  EXPECT_EQ(std::get<curve::BSpline3>(spline->shape).degree, 3);
 }
 
 TEST(DxfEntity, SplinesHaveKnotsAndWeights) {

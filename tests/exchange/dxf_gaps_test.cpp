@@ -61,6 +61,9 @@ TEST(DxfArc, TurnsAtMostOnceAround) {
                         {"-400", "400", 80},
                         {"90", "90", 360},
                         {"10", "9", 359},
+                        {"10", "10.0001", 0.0001},     // a short arc
+                        {"10", "10.0000000001", 360},  // rounding of a whole one
+                        {"10", "9.9999999999", 360},
                         {"-350", "340", 330}}) {
     const auto [start, turn] = arc_of(c.from, c.to);
     EXPECT_NEAR(turn, c.turn, 1e-12) << c.from << ' ' << c.to;

@@ -141,6 +141,18 @@ void expect_smooth(const Bezier3& a, const Bezier3& b) {
   EXPECT_LT(norm(second(a, true, h) - second(b, false, k)), 1e-9);
 }
 
+// What drawings call a donut.
+TEST(PolylineShape, TwoVerticesWithHalfCirclesMakeAWholeOne) {
+  const Point3 a{0, 0, 0};
+  const Point3 b{2, 0, 0};
+  const auto round = std::get<std::vector<Bezier3>>(polyline_shape({{a, 1}, {b, 1}}, true));
+  ASSERT_EQ(round.size(), 4U);
+  EXPECT_EQ(round[1].control.back(), b);
+  EXPECT_EQ(round[3].control.back(), a);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(distance(evaluate(round[i], 0.3), Point3{1, 0, 0}), 1, 1e-15) << i;
+}
+
 TEST(FitPointSpline, IsTheCubicSplineByChordLength) {
   const auto p = spiral(9);
   for (const bool given : {false, true}) {
@@ -221,6 +233,43 @@ TEST(AddShape, IsAPathInThePlaneAndASpaceCurveElsewhere) {
   ASSERT_EQ(chain->pieces.size(), 1u);
   EXPECT_NEAR(chain->pieces[0].curvature_start, 1.0 / 3, 1e-15);
   EXPECT_NEAR(chain->pieces[0].length, 3, 1e-15);
+}
+
+TEST(AddShape, HeightsOfRoundingAreNone) {
+  document::Document d;
+  for (const double z : {7e-12, 9e-12})  // 1e-12 of the size
+    for (const Point3 end : {Point3{8, 0, z}, Point3{0, -8, z}})
+      ASSERT_TRUE(add_shape(d, curve::Polyline3{{{0, 0, 0}, end}}, false, {}));
+  EXPECT_EQ(d.paths.size(), 2U);
+  EXPECT_EQ(d.space_curves.size(), 2U);
+}
+
+// Both rules are free of units: rounding makes no ellipse of a large circle, nor a skewed ellipse a
+// circle because it is small.
+TEST(AddShape, CirclesAreToldFromEllipsesInAnySize) {
+  for (const double r : {1e-6, 1.0, 1e6})
+    for (const double skew : {0.0, 1e-10}) {
+      const double t = 0.7 + core::kPi / 2 + skew;
+      document::Document d;
+      const EllipseArc e{{},
+                         {r * std::cos(0.7), r * std::sin(0.7), 0},
+                         {r * std::cos(t), r * std::sin(t), 0},
+                         0,
+                         2};
+      ASSERT_TRUE(add_shape(d, e, false, {}));
+      const auto& first = d.paths.at(0).path.curves.at(0).value;
+      EXPECT_EQ(std::holds_alternative<lac::Chain>(first), skew == 0) << r << ' ' << skew;
+    }
+}
+
+TEST(AddShape, AWholeEllipseEndsExactlyWhereItStarts) {
+  document::Document d;
+  const EllipseArc whole{{0.1, 0.2, 0}, {3, 1, 0}, {-0.5, 1.5, 0}, 0.3, 0.3 + 2 * core::kPi};
+  ASSERT_TRUE(add_shape(d, whole, true, {}));
+  const auto& curves = d.paths.at(0).path.curves;
+  ASSERT_EQ(curves.size(), 4U);
+  EXPECT_EQ(std::get<curve::Bezier2>(curves.back().value).control.back(),
+            std::get<curve::Bezier2>(curves.front().value).control.front());
 }
 
 TEST(DxfShape, IsFiniteWhereEveryNumberIs) {
