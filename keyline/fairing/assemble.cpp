@@ -94,8 +94,8 @@ std::vector<PointPlace> place_points(const RunResult& result, const Run& run) {
   return places;
 }
 
-void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,
-              const RunOptions& options) {
+void add_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,
+             const std::vector<int>& asked) {
   const std::vector<PointPlace> places = place_points(solved, run);
   std::vector<int> count(solved.chain.pieces.size(), 0);
   std::vector<double> deviation(solved.chain.pieces.size(), 0);
@@ -113,7 +113,7 @@ void read_run(FairResult& result, const RunResult& solved, const Run& run, int c
   }
   const double rms = std::sqrt(square / static_cast<double>(measured));
   std::vector<FairPiece> pieces =
-      read_pieces(solved.chain, std::max(result.noise, rms), count, options);
+      pieces_of(solved.chain, std::max(result.noise, rms), count, asked);
   for (FairPiece& piece : pieces) {
     piece.curve = curve;
     piece.start += start;

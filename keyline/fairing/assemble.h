@@ -21,9 +21,9 @@ struct RegionPoints {
 RegionPoints points_in_region(const std::vector<core::Point2>& points, bool closed,
                               core::Interval region, const curve::BSpline2& spline);
 
-/// Adds a run's pieces and its points' offsets.
-void read_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,
-              const RunOptions& options);
+/// Adds a run's pieces, of which some read as `asked`, and its points' offsets.
+void add_run(FairResult& result, const RunResult& solved, const Run& run, int curve, double start,
+             const std::vector<int>& asked);
 
 /// Largest and mean square deviation of the offsets collected, and whether they pass.
 void measure_deviation(FairResult& result);

@@ -102,7 +102,6 @@ class Job {
             .max_rate = options_.max_rate,
             .slopes = options_.slopes,
             .joints = options_.joints,
-            .asked = asked_.empty() ? std::vector<int>{} : asked_[k],
             .before = found_,
             .threads = options_.threads,
             .progress = core::part_of(whole, 0.4, 1)};
@@ -255,7 +254,7 @@ class Job {
   }
 
   Result<FairResult> finish() {
-    read_all();
+    measure_all();
     if (auto done = reinterpret(); !done) return std::unexpected(done.error());
     note_outside();
     if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
@@ -324,13 +323,14 @@ class Job {
   }
 
   /// Pieces, offsets and the deviation from the solved runs as they stand.
-  void read_all() {
+  void measure_all() {
     result_.pieces.clear();
     result_.offsets.assign(line_.points.size(), 0);
     result_.within_tolerance = true;
     double start = 0;
     for (std::size_t k = 0; k < solved_.size(); ++k) {
-      detail::read_run(result_, solved_[k], runs_[k], static_cast<int>(k), start, run_options(k));
+      detail::add_run(result_, solved_[k], runs_[k], static_cast<int>(k), start,
+                      asked_.empty() ? std::vector<int>{} : asked_[k]);
       start += lac::arc_length(solved_[k].chain);
     }
     detail::measure_deviation(result_);
@@ -355,7 +355,7 @@ class Job {
       if (!wishes[k].empty())
         asked_[k] =
             detail::apply_wishes(solved_[k], runs_[k], wishes[k], run_options(k), result_.notes);
-    read_all();
+    measure_all();
     return {};
   }
 
@@ -388,9 +388,12 @@ Result<FairResult> fair(const acquire::KeyLine& line, const FairOptions& options
     return result;
   }
   detail::FoundBefore found;
-  return detail::until_fair(line, options, [&](const FairOptions& o, const FairResult* before) {
-    return Job(line, o, &found, before).run();
-  });
+  auto result =
+      detail::until_fair(line, options, [&](const FairOptions& o, const FairResult* before) {
+        return Job(line, o, &found, before).run();
+      });
+  if (result) detail::read_pieces(*result, options.threads, options.progress);
+  return result;
 }
 
 }  // namespace keyline::fairing

@@ -177,6 +177,8 @@ struct FairPiece {
   double deviation = 0;                                   ///< largest distance of its points
   std::vector<analysis::Interpretation> interpretations;  ///< of the points' spline, best first
   bool overridden = false;
+  int points = 0;    ///< that are nearest to it
+  double noise = 0;  ///< theirs, or how far they lie off where that is more
   bool told = true;  ///< whether the points tell the slope
   bool seen = true;  ///< whether the piece is long enough to be seen as something of its own
   static constexpr auto describe() {

@@ -16,26 +16,12 @@ constexpr double kToldSlope = 1;  // standard deviation: a slope less known migh
 constexpr double kSeen = 0.02;    // of the whole: a centimetre of a drawing half a metre long
 constexpr int kProfileSamples = 101;  // of a piece at equal steps of its length
 
-std::vector<analysis::Interpretation> readings_of(const lac::Chain& piece, double noise,
-                                                  int points) {
-  const auto& p = piece.pieces.front();
-  if (p.curvature_start * p.curvature_end < 0) return {};  // an S has one reading
-  if (points < kTelling) return {};
-  analysis::RhythmOptions options;
-  options.noise = noise;
-  options.observations = points;
-  const auto reading =
-      analysis::classify_rhythm(analysis::curvature_profile(piece, kProfileSamples), options);
-  if (!reading) return {};
-  return reading->interpretations;
-}
+bool is_flat(const lac::Piece& p) { return p.curvature_start == p.curvature_end; }
+bool is_s(const lac::Piece& p) { return p.curvature_start * p.curvature_end < 0; }
 
 /// The most plausible reading is the piece's: its own slope where that is the same rhythm. Points
 /// that a line or an arc would do for do not tell how a piece bends that its neighbours make bend.
-void take_reading(FairPiece& piece, const lac::Piece& shape, int points) {
-  const bool flat = shape.curvature_start == shape.curvature_end;
-  piece.told = flat || points >= kTelling;
-  if (piece.interpretations.empty() || flat) return;
+void take_reading(FairPiece& piece) {
   const analysis::Interpretation& best = piece.interpretations.front();
   const auto sure = [](double error) { return error <= kToldSlope; };
   piece.told = !best.slopes.empty() && std::ranges::all_of(best.slope_errors, sure);
@@ -54,9 +40,9 @@ analysis::Rhythm rhythm_of(const lac::Piece& piece) {
   return piece.alpha < 0 ? Rhythm::minus : Rhythm::plus;
 }
 
-std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
-                                   const std::vector<int>& points_per_piece,
-                                   const RunOptions& options) {
+std::vector<FairPiece> pieces_of(const lac::Chain& chain, double noise,
+                                 const std::vector<int>& points_per_piece,
+                                 const std::vector<int>& asked) {
   std::vector<FairPiece> pieces;
   double start = 0;
   const std::vector<lac::Segment> segments = lac::segments(chain);
@@ -69,17 +55,37 @@ std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
     if (piece.rhythm != analysis::Rhythm::straight && piece.rhythm != analysis::Rhythm::arc)
       piece.slopes = {segments[i].alpha};
     piece.volume = analysis::volume(lac::chain_of(segments[i]));
+    piece.points = points_per_piece[i];
+    piece.noise = noise;
+    piece.overridden = std::ranges::count(asked, piece.piece) > 0;
+    piece.told = piece.overridden || is_flat(chain.pieces[i]) || piece.points >= kTelling;
     start += piece.length;
     pieces.push_back(std::move(piece));
   }
-  numeric::parallel_for(pieces.size(), options.threads, [&](std::size_t i) {
-    if (options.progress.stop_requested()) return;
-    pieces[i].interpretations = readings_of(lac::chain_of(segments[i]), noise, points_per_piece[i]);
-    pieces[i].overridden = std::ranges::count(options.asked, static_cast<int>(i)) > 0;
-    if (!pieces[i].overridden) take_reading(pieces[i], chain.pieces[i], points_per_piece[i]);
-    pieces[i].seen = pieces[i].length >= kSeen * start;
-  });
+  for (FairPiece& piece : pieces) piece.seen = piece.length >= kSeen * start;
   return pieces;
+}
+
+void read_piece(FairPiece& piece, const lac::Chain& chain) {
+  const auto i = static_cast<std::size_t>(piece.piece);
+  if (is_s(chain.pieces[i]) || piece.points < kTelling) return;
+  analysis::RhythmOptions options;
+  options.noise = piece.noise;
+  options.observations = piece.points;
+  const lac::Chain alone = lac::chain_of(lac::segments(chain)[i]);
+  const auto reading =
+      analysis::classify_rhythm(analysis::curvature_profile(alone, kProfileSamples), options);
+  if (!reading) return;
+  piece.interpretations = reading->interpretations;
+  if (!piece.overridden && !is_flat(chain.pieces[i])) take_reading(piece);
+}
+
+void read_pieces(FairResult& result, int threads, const core::Progress& progress) {
+  numeric::parallel_for(result.pieces.size(), threads, [&](std::size_t i) {
+    if (progress.stop_requested()) return;
+    FairPiece& piece = result.pieces[i];
+    read_piece(piece, std::get<lac::Chain>(result.curves[static_cast<std::size_t>(piece.curve)]));
+  });
 }
 
 core::Result<PieceWish> wish_for(const InterpretationOverride& asked, int piece_in_chain) {

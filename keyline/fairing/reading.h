@@ -10,11 +10,18 @@ namespace keyline::fairing::detail {
 /// What a piece of a chain is, by its own numbers: one of straight, arc, minus, zero, plus.
 analysis::Rhythm rhythm_of(const lac::Piece& piece);
 
-/// The pieces of a chain as they read: own rhythm and slope, volume, and the readings that the
-/// points would also allow, given their noise and number. Cancelled work leaves the readings out.
-std::vector<FairPiece> read_pieces(const lac::Chain& chain, double noise,
-                                   const std::vector<int>& points_per_piece,
-                                   const RunOptions& options);
+/// The pieces of a chain by their own numbers: rhythm, slope and volume, and what tells how they
+/// read: the noise and number of their points. Those in `asked` are as somebody wants them.
+std::vector<FairPiece> pieces_of(const lac::Chain& chain, double noise,
+                                 const std::vector<int>& points_per_piece,
+                                 const std::vector<int>& asked);
+
+/// Adds the readings that the points of a piece of the chain would also allow; the best one is the
+/// piece's, unless it was asked for.
+void read_piece(FairPiece& piece, const lac::Chain& chain);
+
+/// All pieces of an answer. Cancelled work leaves readings out.
+void read_pieces(FairResult& result, int threads, const core::Progress& progress);
 
 /// Slope range and kind that a reading asks for; bad_input for "arcs", which no G2 chain can be.
 core::Result<PieceWish> wish_for(const InterpretationOverride& asked, int piece_in_chain);

@@ -50,7 +50,6 @@ struct RunOptions {
   std::optional<double> max_rate;      ///< of curvature along the chain, in the points' unit
   core::Interval slopes{-3, 3};        ///< of the calmest chain's pieces
   JointOrder joints = JointOrder::g2;  ///< see FairOptions
-  std::vector<int> asked;              ///< pieces whose reading was asked for
   FoundBefore* before = nullptr;       ///< with other smoothnesses, see shortest_run.h
   int threads = 0;
   core::Progress progress;

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/fairing/reading.h"
+
 /// The answer put together.
 namespace keyline::fairing::detail {
 namespace {
@@ -104,12 +106,12 @@ TEST(PlacePoints, OfReversedRunsFeetStartFromTheOtherEnd) {
   EXPECT_EQ(places[2].piece, 1);
 }
 
-TEST(ReadRun, AddsPiecesAndOffsets) {
+TEST(AddRun, AddsPiecesAndOffsets) {
   Solved s = solved();
   FairResult result;
   result.offsets.assign(9, 0);
   result.offsets[4] = -0.7;  // a corner's point, farther from the chain before
-  read_run(result, s.result, s.run, 2, 100, {});
+  add_run(result, s.result, s.run, 2, 100, {});
   ASSERT_EQ(result.pieces.size(), 2U);
   EXPECT_EQ(result.pieces[0].curve, 2);
   EXPECT_EQ(result.pieces[0].start, 100);
@@ -227,13 +229,14 @@ Solved bow(int points, double off) {
 
 // Errors of 0.01 do not tell the slope, whether they are known or the offsets show them; nor do
 // four points.
-TEST(ReadRun, PiecesAreReadWithTheErrorsThatThereAre) {
+TEST(AddRun, PiecesAreReadWithTheErrorsThatThereAre) {
   const auto told = [](int points, double off, double noise) {
     const Solved s = bow(points, off);
     FairResult result;
     result.noise = noise;
     result.offsets.assign(s.run.points.size(), 0);
-    read_run(result, s.result, s.run, 0, 0, {});
+    add_run(result, s.result, s.run, 0, 0, {});
+    read_piece(result.pieces[0], s.result.chain);
     return result.pieces[0].told;
   };
   EXPECT_TRUE(told(20, 1e-6, 1e-6));

@@ -9,12 +9,20 @@ namespace {
 
 using analysis::Rhythm;
 
+std::vector<FairPiece> read_all(const lac::Chain& chain, double noise,
+                                const std::vector<int>& points,
+                                const std::vector<int>& asked = {}) {
+  std::vector<FairPiece> pieces = pieces_of(chain, noise, points, asked);
+  for (FairPiece& piece : pieces) read_piece(piece, chain);
+  return pieces;
+}
+
 // A clothoid of many exact points is read as what it is made of, slope -1; points that are few, or
 // a piece that bends both ways, have no reading beside the piece's own.
 TEST(ReadPieces, ReadsWhatBendsOneWay) {
   const lac::Chain chain{
       {{3, 4}, 0.5}, {{-1, 2, 0, 0.5}, {-1, 3, 0.5, 2}, {-1, 1, 2, -1}, {-1, 2, -1, -1}}, false};
-  const auto pieces = read_pieces(chain, 1e-6, {4, 200, 200, 200}, {});
+  const auto pieces = read_all(chain, 1e-6, {4, 200, 200, 200});
   ASSERT_EQ(pieces.size(), 4U);
   EXPECT_TRUE(pieces[0].interpretations.empty());
   EXPECT_FALSE(pieces[0].told);
@@ -36,8 +44,8 @@ TEST(ReadPieces, ReadsWhatBendsOneWay) {
 // is, and the arc is the simpler.
 TEST(ReadPieces, WhatAnArcWouldDoForIsNotTold) {
   const lac::Chain chain{{}, {{-1, 1, 0.5, 0.7}}, false};
-  EXPECT_TRUE(read_pieces(chain, 1e-6, {20}, {}).front().told);
-  const FairPiece unsure = read_pieces(chain, 1e-2, {20}, {}).front();
+  EXPECT_TRUE(read_all(chain, 1e-6, {20}).front().told);
+  const FairPiece unsure = read_all(chain, 1e-2, {20}).front();
   EXPECT_EQ(unsure.interpretations.front().rhythm, Rhythm::arc);
   EXPECT_FALSE(unsure.told);
 }
@@ -45,7 +53,7 @@ TEST(ReadPieces, WhatAnArcWouldDoForIsNotTold) {
 // A fiftieth of the whole is seen, what is shorter is not.
 TEST(ReadPieces, TellsWhichAreLongEnoughToBeSeen) {
   const lac::Chain chain{{}, {{-1, 1, 0, 0}, {-1, 0.021, 0, 0}, {-1, 0.019, 0, 0}}, false};
-  const auto pieces = read_pieces(chain, 0, {9, 9, 9}, {});
+  const auto pieces = read_all(chain, 0, {9, 9, 9});
   ASSERT_EQ(pieces.size(), 3U);
   EXPECT_TRUE(pieces[1].seen);
   EXPECT_FALSE(pieces[2].seen);
@@ -111,17 +119,15 @@ TEST(WishFor, SlopesGoFromMinusTwelveToTwelve) {
 // Of five points on a clothoid its slope is told, of four it is not; an arc is told by any.
 TEST(ReadPieces, FivePointsTellASlope) {
   const lac::Chain clothoid{{}, {{-1, 1, 0.5, 3}}, false};
-  EXPECT_TRUE(read_pieces(clothoid, 1e-9, {5}, {}).front().told);
-  EXPECT_FALSE(read_pieces(clothoid, 1e-9, {4}, {}).front().told);
-  EXPECT_TRUE(read_pieces({{}, {{-1, 1, 2, 2}}, false}, 1e-9, {0}, {}).front().told);
+  EXPECT_TRUE(read_all(clothoid, 1e-9, {5}).front().told);
+  EXPECT_FALSE(read_all(clothoid, 1e-9, {4}).front().told);
+  EXPECT_TRUE(read_all({{}, {{-1, 1, 2, 2}}, false}, 1e-9, {0}).front().told);
 }
 
 // What was asked for stays as the piece is, however the points would read.
 TEST(ReadPieces, WhatWasAskedForIsNotReadOtherwise) {
   const lac::Chain chain{{}, {{-1, 1, 0.5, 0.7}, {-1, 1, 0.7, 0.9}}, false};
-  RunOptions options;
-  options.asked = {1};
-  const auto pieces = read_pieces(chain, 1e-2, {20, 20}, options);
+  const auto pieces = read_all(chain, 1e-2, {20, 20}, {1});
   EXPECT_FALSE(pieces[0].overridden);
   EXPECT_EQ(pieces[0].rhythm, Rhythm::minus);
   EXPECT_FALSE(pieces[0].told);
