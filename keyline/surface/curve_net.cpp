@@ -18,6 +18,21 @@ constexpr int kLooks = 128;        ///< places of a curve that are looked at fir
 constexpr double kFinest = 1e-13;  ///< share of the length that a crossing is found to
 constexpr double kLength = 1e-10;  ///< relative, of arc lengths
 
+/// From the place to those looked at beside it.
+double spacing(const std::vector<Point3>& places, std::size_t i) {
+  double most = 0;
+  if (i > 0) most = core::distance(places[i - 1], places[i]);
+  if (i + 1 < places.size()) most = std::max(most, core::distance(places[i], places[i + 1]));
+  return most;
+}
+
+/// Steps of the longer curve over those of the other, a power of two: where they were as large a
+/// share of it, those of the other could not be seen until they were as small in length.
+double share_ratio(double longer, double other) {
+  const double ratio = longer / other;
+  return ratio > 1 && std::isfinite(ratio) ? std::exp2(-std::round(std::log2(ratio))) : 1;
+}
+
 /// The nearest of places beside each other, closer and closer.
 Crossing crossing(const Thread& u, const Thread& v, const std::vector<Point3>& on_u,
                   const std::vector<Point3>& on_v) {
@@ -30,11 +45,15 @@ Crossing crossing(const Thread& u, const Thread& v, const std::vector<Point3>& o
         least = d, best_i = i, best_j = j;
   double s = static_cast<double>(best_i) / kLooks;
   double t = static_cast<double>(best_j) / kLooks;
-  for (double step = 1.0 / kLooks; step > kFinest;) {
+  const double space_u = spacing(on_u, best_i), space_v = spacing(on_v, best_j);
+  const double of_u = share_ratio(space_u, space_v), of_v = share_ratio(space_v, space_u);
+  for (double step = 1 / (kLooks * of_u * of_v); step > kFinest;) {
     double next_s = s;
     double next_t = t;
-    for (const double ds : {-step, 0.0, step})
-      for (const double dt : {-step, 0.0, step}) {
+    const double step_s = std::min(1.0 / kLooks, step * of_u);
+    const double step_t = std::min(1.0 / kLooks, step * of_v);
+    for (const double ds : {-step_s, 0.0, step_s})
+      for (const double dt : {-step_t, 0.0, step_t}) {
         const double a = std::clamp(s + ds, 0.0, 1.0);
         const double b = std::clamp(t + dt, 0.0, 1.0);
         if (const double d = core::distance(u.at(a), v.at(b)); d < least)

@@ -285,7 +285,8 @@ Result<BSplineSurface> revolve(const BSpline3& profile, const Axis3& axis, doubl
     return fail(ErrorCode::bad_input, "the angle is out of range",
                 "give radians from -2 pi to 2 pi, not 0", "angle");
   const Vector3 direction = axis.direction / length;
-  const int arcs = static_cast<int>(std::ceil(std::abs(angle) / (core::kPi / 2) - 1e-9));
+  const int arcs =
+      std::max(1, static_cast<int>(std::ceil(std::abs(angle) / (core::kPi / 2) - 1e-9)));
   std::vector<double> knots{0, 0, 0};
   for (int i = 1; i < arcs; ++i) knots.insert(knots.end(), 2, static_cast<double>(i) / arcs);
   knots.insert(knots.end(), 3, 1.0);

@@ -158,6 +158,18 @@ TEST(Gordon, OrderAndDirectionOfCurvesDoNotMatter) {
     }
 }
 
+// Places along both curves were looked at in equal shares: along the shorter ones, step by step of
+// a share as small as the longer ones ask for, for minutes.
+TEST(Gordon, CurvesAMillionTimesAsLongAsTheOthersAreCrossed) {
+  const auto line = [](Point3 a, Point3 b) { return BSpline3{1, {0, 0, 1, 1}, {a, b}, {}}; };
+  const auto made = gordon_surface(
+      {line({-2e8, 0, 0}, {7e8, 0, 0}), line({-2e8, 1, 0}, {7e8, 1, 0})},
+      {line({0, -0.3, 0}, {0, 1.6, 0}), line({1, -0.3, 0}, {1, 1.6, 0})}, {1e-3, 1e-3});
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_LT(made->gap, 1e-6);  // the digits of places at 7e8
+  EXPECT_LT(distance(evaluate(made->surface, 0.5, 0.5), {0.5, 0.5, 0}), 1e-5);
+}
+
 TEST(Gordon, CurvesThatMakeNoNetAreNamed) {
   auto u = parallels(3);
   const auto v = meridians(2);

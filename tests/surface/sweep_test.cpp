@@ -67,7 +67,7 @@ TEST(Sweep, ExtrusionAndTranslationAreExact) {
 TEST(Sweep, RevolutionIsExactForAnyAngle) {
   const BSpline3 profile = wavy_curve();
   const Axis3 axis{{0, 0, 0}, {0, 0, 2}};
-  for (const double angle : {0.4, -1.9, core::kPi, 2 * core::kPi}) {
+  for (const double angle : {1e-10, 0.4, -1.9, core::kPi, 2 * core::kPi}) {
     const auto s = revolve(profile, axis, angle);
     ASSERT_TRUE(s);
     ASSERT_TRUE(validate(*s));
