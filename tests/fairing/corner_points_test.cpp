@@ -65,6 +65,32 @@ TEST(CornerPoints, AreLeftToTheSideWhoseCurveTheyLieOn) {
   EXPECT_NEAR(other[0].points.back().y, 4, 1e-3);
 }
 
+// What a run holds beside its points goes along: the place that lies beyond an end has that end's
+// weight, points to be passed keep their places, and the length grows as the polygon does.
+TEST(CornerPoints, TakeAlongWhatTheRunHolds) {
+  acquire::KeyLine back = two_arcs(1.13, 0.87);
+  std::ranges::reverse(back.points);
+  back.corners = {21};
+  for (const bool start : {false, true}) {
+    auto runs = runs_of(start ? back : two_arcs(1.13, 0.87), {});
+    auto& run = runs[start ? 1 : 0];
+    run.weights.assign(run.points.size(), 1);
+    run.weights.front() = 2;
+    run.weights.back() = 3;
+    run.must_pass = {5};
+    const core::Point2 fifth = run.points[5];
+    const double share = run.length / core::polygon_length(run.points, false);
+    meet_between_points(runs, 0.01, false);
+    ASSERT_EQ(run.points.size(), 22U);
+    ASSERT_EQ(run.weights.size(), 22U);
+    EXPECT_EQ(start ? run.weights[0] : run.weights[21], start ? 2 : 3);
+    EXPECT_EQ(start ? run.weights[1] : run.weights[20], start ? 2 : 3);
+    ASSERT_EQ(run.must_pass.size(), 1U);
+    EXPECT_EQ(run.points[run.must_pass[0]], fifth);
+    EXPECT_NEAR(run.length / core::polygon_length(run.points, false), share, 1e-12 * share);
+  }
+}
+
 TEST(CornerPoints, StayWithBothWhereTheyAreTheCorner) {
   const auto runs = met(two_arcs(0, 0));
   EXPECT_EQ(runs[0].points.size() + runs[1].points.size(), 42U);
@@ -74,6 +100,29 @@ TEST(CornerPoints, StayWithBothWhereTheyAreTheCorner) {
   passing.must_pass = {20};
   const auto held = met(two_arcs(1.13, 0.87), passing);
   EXPECT_EQ(held[0].points.size() + held[1].points.size(), 43U);
+}
+
+// One of two runs holds the point they share: it has to be passed there.
+TEST(CornerPoints, StayWhereEitherRunHasToPassThem) {
+  for (const std::size_t holder : {0U, 1U}) {
+    auto runs = runs_of(two_arcs(1.13, 0.87), {});
+    runs[holder].must_pass = {holder == 0 ? runs[0].points.size() - 1 : 0};
+    meet_between_points(runs, 0.01, false);
+    EXPECT_EQ(runs[0].points.size() + runs[1].points.size(), 43U) << holder;
+    EXPECT_EQ(std::ranges::count(runs[0].index, Run::none), 0) << holder;
+  }
+}
+
+// The corner's point lies 0.02 within the first circle and some 0.09 beside the second: it is the
+// first run's where that much is allowed.
+TEST(CornerPoints, AreOfASideThatPassesThemWithinTheTolerance) {
+  acquire::KeyLine line = two_arcs(1.13, 0.87);
+  line.points[20] = on_circle({-3, 0}, 4.98, kMeet - 1.13);
+  for (const double tolerance : {0.0195, 0.0205}) {
+    auto runs = runs_of(line, {});
+    meet_between_points(runs, tolerance, false);
+    EXPECT_EQ(std::ranges::count(runs[0].index, Run::none), tolerance > 0.02 ? 1 : 0) << tolerance;
+  }
 }
 
 // A drop: two arcs of 5 about (-3, 0) and (3, 0) from (0, 4) to (0, -4) whose points leave out the
@@ -101,6 +150,10 @@ TEST(CornerPoints, OneCornerOfAClosedOutlineIsWhereBothItsEndsGoOnTo) {
   EXPECT_EQ(runs[0].index.back(), Run::none);
   EXPECT_NEAR(runs[0].points.front().x, 0, 1e-3);
   EXPECT_NEAR(runs[0].points.front().y, 4, 1e-3);
+  auto smooth = runs_of(line, {});
+  smooth[0].closed = true;  // it has no ends that could meet
+  meet_between_points(smooth, 0.01, true);
+  EXPECT_EQ(smooth[0].points, runs_of(line, {})[0].points);
 }
 
 // Asked to come to the first side's last point as well, the second arc would begin with a hook.

@@ -55,6 +55,9 @@ TEST(WithLines, EndsOfAnOpenCurveAreNotShortened) {
   const DenseCurve seam = with_lines(closed, {{0, 5}}, 0);
   EXPECT_EQ(seam.value.front(), 0);
   EXPECT_EQ(seam.value.back(), 0);
+  const DenseCurve other_side = with_lines(closed, {{5, 10}}, 0);
+  EXPECT_EQ(other_side.value.front(), 0);
+  EXPECT_EQ(other_side.value.back(), 0);
 }
 
 TEST(WithLines, SeveralAndNone) {
@@ -117,6 +120,17 @@ TEST(StraightStretches, StandOutAgainstWhatIsAround) {
       straight_stretches(bent_line(1e-4, 0.5).curve, bent_line(1e-4, 0.5).points, 1e-4).size(), 1U);
   EXPECT_TRUE(
       straight_stretches(bent_line(1e-4, 0.1).curve, bent_line(1e-4, 0.1).points, 1e-4).empty());
+}
+
+// Between sharp bends the stretch is 0.40 to 0.42 long, so that 60 of noise are a curvature of 0.27
+// to 0.30 where a quarter of that lies beyond.
+TEST(StraightStretches, BowBySixtyTimesTheNoise) {
+  for (const double around : {0.26, 0.31}) {
+    Given g = bent_line(1e-4, 6);
+    for (std::size_t i = 0; i < g.curve.at.size(); ++i)
+      if (std::abs(g.curve.at[i] - 0.5) > 0.25) g.curve.joints[i].curvature = around;
+    EXPECT_EQ(straight_stretches(g.curve, g.points, 1e-4).size(), around > 0.3 ? 1U : 0U) << around;
+  }
 }
 
 // Where a quarter of its length leads out of an open curve nothing is around, however bent its end.
