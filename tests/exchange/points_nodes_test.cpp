@@ -67,6 +67,13 @@ TEST(Nodes, OtherRowsOfWholeNumbersArePoints) {
   EXPECT_EQ(read("8 3 0 0\n7 0 0 0\n2 2 0 0\n")->at(0).points.size(), 3u);
 }
 
+// Nodes have one mark or none.
+TEST(Nodes, OfTwoMarksAreNone) {
+  const auto rows = read("3 2 0 2\n1 0 0 5 6\n2 2 0 5 6\n3 2 2 5 6\n");
+  ASSERT_TRUE(rows) << rows.error().message;
+  EXPECT_EQ(rows->at(0).points[1], (Point3{2, 2, 0}));
+}
+
 // Tecplot's data format guide: variables by name, zones one behind the other.
 TEST(Tecplot, VariablesNameTheColumnsAndZonesTheCurves) {
   const std::string rows = "0 0 1\n1 0.5 2\n2 0.7 3\n3 0.6 4\n";

@@ -194,5 +194,29 @@ TEST(PointsBlocks, MeanNothingElsewhere) {
   EXPECT_EQ(names_of(curves_of("0 0 1\n1 1 1\n\n0 0 9\n1 1 9\n", cloud)), ":4z ");
 }
 
+// A block that goes back from its first point is no continuation, however near it starts.
+TEST(PointsBlocks, ThatGoBackAreOthers) {
+  EXPECT_EQ(names_of(curves_of("0 0\n1 0\n2 0\n\n2.9 0\n1.5 0.5\n0 1\n")), ":3 :3 ");
+  EXPECT_EQ(names_of(curves_of("0 0\n1 0\n2 0\n\n2.9 0\n4 0.5\n5 1\n")), ":6 ");
+}
+
+// The blank lines of Lednicer's order stand before each side.
+TEST(PointsBlocks, OfLednicersOrderAreOneCurve) {
+  const auto curves = curves_of("3. 3.\n\n0 0\n0.5 0.1\n1 0\n\n0 0\n0.5 -0.1\n1 0\n");
+  ASSERT_EQ(names_of(curves), ":6 ");
+  EXPECT_TRUE(curves[0].left_out.empty());
+}
+
+TEST(PointsParts, TwoNamedPointsAreOneCurveToo) {
+  EXPECT_EQ(names_of(curves_of("A,0,0\nB,1,2\n")), ":2 ");
+}
+
+// Below names of columns every row is a point.
+TEST(PointsParts, MarksPartNothingBelowAHeader) {
+  const char* rows = "0,0\n1,0.1\n999,999\n0,1\n1,1\n";
+  EXPECT_EQ(names_of(curves_of(std::string("x,y\n") + rows)), ":5 ");
+  EXPECT_EQ(names_of(curves_of(rows)), ":2 :2 ");
+}
+
 }  // namespace
 }  // namespace keyline::exchange

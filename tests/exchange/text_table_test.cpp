@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/exchange/text/header_unit.h"
+
 namespace keyline::exchange::detail {
 namespace {
 
@@ -40,6 +42,17 @@ TEST(Split, AnEndMarkPartsNoNumber) {
                             "0.\x1a"
                             "7"}));
   EXPECT_FALSE(parse_number(fields.back(), spaces));
+}
+
+TEST(HeaderUnit, StandsBehindAName) {
+  EXPECT_EQ(start_of_unit("x_mm"), 1U);
+  EXPECT_EQ(start_of_unit("_mm"), std::string_view::npos);
+  EXPECT_EQ(unit_of("x [mm]").known, "mm");
+  EXPECT_EQ(unit_of("x [chord]").unknown, "chord");
+  for (const char* none : {"x [1]", "x [-]", "x []", "x (chord)"}) {
+    EXPECT_EQ(unit_of(none).known, "") << none;
+    EXPECT_EQ(unit_of(none).unknown, "") << none;
+  }
 }
 
 }  // namespace

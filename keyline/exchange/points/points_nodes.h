@@ -34,8 +34,7 @@ std::vector<double> numbers_of(const std::vector<std::string_view>& fields,
                                const TableStyle& style);
 
 /// Whether a first row counts nodes, dimensions (2 or 3), attributes and marks, and the second is
-/// such a node, numbered 0 or 1.
-/// Source: Shewchuk, Triangle, "node files"; TetGen's are the same in space.
+/// such a node, numbered 0 or 1: as the node files of Triangle, and of TetGen in space.
 std::optional<NodeCounts> node_counts(const std::vector<double>& first,
                                       const std::vector<std::string_view>& second,
                                       const TableStyle& style);
