@@ -254,6 +254,27 @@ TEST(SolveG1Space, InAPlaneTheStartMayHaveNoCurvature) {
     }
 }
 
+// Refused while the family was searched from its start alone.
+TEST(SolveG1Space, IsLookedForFromItsMiddleToo) {
+  const SpaceHermite data{{0, 0, 0},
+                          {2, 0, 0},
+                          {1, -2.2988160359368996, -1.4265061407389164},
+                          {1, -0.8903829229156368, 1.2374649508116708}};
+  const auto solved =
+      solve_g1_space(data, 2.9955466280861103, 1.7906078543740485, 28.102008015773656);
+  ASSERT_TRUE(solved) << solved.error().hint;
+  ASSERT_EQ(solved->chain.pieces.size(), 1U);
+  const SpacePiece& p = solved->chain.pieces[0];
+  const SpaceFrame end = frame_at(solved->chain, 1);
+  EXPECT_LT(distance(end.position, data.end), 1e-11);
+  EXPECT_LT(norm(cross(end.tangent, data.end_tangent)), 1e-11);
+  // tau^-beta grows by beta omega s, both in units of the radius at the start
+  const auto mu = [&](double tau) { return std::pow(std::abs(tau) / p.curvature_start, -p.beta); };
+  EXPECT_NEAR(mu(p.torsion_end) - mu(p.torsion_start),
+              p.beta * 28.102008015773656 * p.length * p.curvature_start, 1e-9);
+  EXPECT_NEAR(solved->nu, p.torsion_start / p.curvature_start, 1e-12);
+}
+
 TEST(SolveG1Space, BadInputIsNormalInput) {
   const SpaceHermite good{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}};
   EXPECT_EQ(solve_g1_space(good, NAN, 1, 1).error().path, "alpha");

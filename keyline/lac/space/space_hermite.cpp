@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/lac/hermite/hermite.h"
 #include "keyline/lac/segment/piece_shape.h"
+#include "keyline/lac/space/compound_steer.h"
 #include "keyline/lac/space/space_plane.h"
 #include "keyline/lac/space/space_steer.h"
 
@@ -25,6 +26,7 @@ using detail::space::ChordFrame;
 using detail::space::directions_in;
 using detail::space::in_plane;
 using detail::space::Invariants;
+using detail::space::JointFamily;
 using detail::space::Miss;
 using detail::space::miss_of;
 using detail::space::moved;
@@ -33,6 +35,7 @@ using detail::space::plane_of;
 using detail::space::reasonable;
 using detail::space::Setting;
 using detail::space::steer;
+using detail::space::turning_of;
 
 /// A curve of the family in the standard frame, integrated exactly.
 struct Member {
@@ -157,6 +160,39 @@ std::vector<Way> ways(const Invariants& wanted, double alpha) {
   return all;
 }
 
+/// From places all over the family, told by their start.
+std::optional<Member> from_start(const SpaceStandardForm& form, const Invariants& wanted,
+                                 int& iterations) {
+  for (const SpaceUnknowns& x : detail::space::search_family(form, wanted, iterations))
+    if (auto m = polished(form, wanted, x, iterations)) return m;
+  return std::nullopt;
+}
+
+/// The same told by their middle, as curves of two slopes that are one.
+std::optional<Member> from_middle(const SpaceStandardForm& form, const Invariants& wanted,
+                                  int& iterations) {
+  const JointFamily family({{form.alpha, form.alpha}, {form.beta, form.beta}, form.omega, 0.5});
+  const auto x = family.search(wanted, iterations);
+  if (!x) return std::nullopt;
+  const SpaceChain halves = *family.chain(*x);
+  const SpacePiece &first = halves.pieces[0], &last = halves.pieces[1];
+  const double unit = first.curvature_start;
+  const SpacePiece whole{form.alpha,
+                         form.beta,
+                         arc_length(halves) * unit,
+                         1,
+                         last.curvature_end / unit,
+                         first.torsion_start / unit,
+                         last.torsion_end / unit};
+  Member m{form, {{}, {whole}}, {}};
+  m.form.lambda = -curvature_rate(curvature_law(whole), 0);
+  m.form.nu = whole.torsion_start;
+  if (!validate(m.chain)) return std::nullopt;
+  m.end = frame_at(m.chain, 1);
+  const Miss miss = miss_of(m.end.position - Point3{}, m.end.tangent, wanted);
+  return size_of(miss) <= 1e-12 ? std::optional(std::move(m)) : std::nullopt;
+}
+
 struct Search {
   std::optional<Member> found;
   double furthest = 0;
@@ -165,7 +201,8 @@ struct Search {
 
 enum class Reach { ways, family };
 
-/// By the ways from known curves; where none leads there, from places all over the family.
+/// By the ways from known curves; where none leads there, from places all over the family: either
+/// search finds curves that the other does not, and of both the one that turns less is taken.
 Search find_member(const SpaceStandardForm& form, const Invariants& wanted, Reach reach) {
   Search s;
   for (const Way& way : ways(wanted, form.alpha)) {
@@ -176,10 +213,10 @@ Search find_member(const SpaceStandardForm& form, const Invariants& wanted, Reac
     if (s.found) return s;
   }
   if (reach == Reach::ways) return s;
-  for (const SpaceUnknowns& x : detail::space::search_family(form, wanted, s.iterations)) {
-    s.found = polished(form, wanted, x, s.iterations);
-    if (s.found) return s;
-  }
+  s.found = from_start(form, wanted, s.iterations);
+  auto other = from_middle(form, wanted, s.iterations);
+  if (other && !(s.found && turning_of(s.found->chain) < 1.001 * turning_of(other->chain)))
+    s.found = std::move(other);
   return s;
 }
 

@@ -37,7 +37,7 @@ struct SpaceSolution {
 /// get the mirror image of what the mirrored data get, nu and torsion with the other sign. So for
 /// a slope beta below 0, whose torsion may pass through zero, |torsion| runs the same way in both.
 ///
-/// Where no way leads from a known curve to the data the whole family is searched (up to 0.5 s).
+/// Where no way leads from a known curve to the data the whole family is searched (up to 1 s).
 /// Where ends and tangents lie in one plane (within 1e-12) the answer is the plane curve of
 /// solve_g1_directions, whatever beta and omega: a plane curve has no torsion to have a slope.
 /// Accuracy: ends to rounding, tangents 1e-12 rad. One to three milliseconds.
