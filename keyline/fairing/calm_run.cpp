@@ -36,8 +36,7 @@ constexpr int kPulls = 6;        // sixty-four times as strong: what leans then,
 constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
 constexpr double kFirstLoss = 1.6;     // what cutting may lose at first, in energies: solved for
                                        // again, pieces win most of it back; halved so many times,
-constexpr int kRefinements = 7;        // which leaves bows of a third of the tolerance;
-constexpr int kRefinementsOfMeans = 10;   // means of many points tell the curve nearer than that
+constexpr int kRefinements = 10;       // which leaves bows of a tenth of the tolerance
 constexpr double kLeastRefinement = 0.1;  // of a loss at once, where offsets are far too large
 
 void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
@@ -92,7 +91,7 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
   const double most_rms =
       std::max(options.residuals.most(kErrorsOfPieces), kPieceRms * run.band.rms);
   const bool means = options.residuals.scatter > 0;
-  const double least = std::ldexp(kFirstLoss, means ? -kRefinementsOfMeans : -kRefinements);
+  const double least = std::ldexp(kFirstLoss, -kRefinements);
   PieceChoice choice(run, seen_waves(run.curve));
   double finer = 0.5;
   std::vector<int> last;
