@@ -27,20 +27,19 @@ constexpr double kBroadestBlur = 2;
 /// Pieces of fewer pixels are dirt, beside lines of that width.
 int specks_of(double width) { return static_cast<int>(std::lround(6 + 1.5 * width * width)); }
 
-/// Smooths the ink's edges and takes dirt out; what tells grain.
-struct Cleaned {
-  long ragged = 0;   ///< pixels smoothed
-  int pinholes = 0;  ///< filled
-};
-Cleaned clean(Ink& ink, const TraceOptions& options) {
-  Cleaned done;
+/// Smooths the ink's edges and takes dirt out; how many pixels were smoothed.
+long clean(Ink& ink, const TraceOptions& options) {
+  long ragged = 0;
   if (options.smoothing_by == Smoothing::pixels)
     smooth_pixels(ink.picture, options.smoothing);
   else
-    done.ragged = smooth_edges(ink.picture, options.smoothing);
+    ragged = smooth_edges(ink.picture, options.smoothing);
   const int pinholes = static_cast<int>(std::lround(1 + ink.width));
-  done.pinholes = remove_specks(ink.picture, ink.specks, pinholes).pinholes;
-  return done;
+  const Removed gone = remove_specks(ink.picture, ink.specks, pinholes);
+  ink.dirt.specks += gone.specks;
+  ink.dirt.pixels += gone.pixels;
+  ink.dirt.pinholes += gone.pinholes;
+  return ragged;
 }
 
 Ink ink_of(const Tone& tone, const TraceOptions& options) {
@@ -50,9 +49,9 @@ Ink ink_of(const Tone& tone, const TraceOptions& options) {
   const InkMeasure measured = measure_ink(ink.picture);
   ink.width = measured.width;
   ink.specks = options.specks.value_or(specks_of(ink.width));
-  const Cleaned cleaned = clean(ink, options);
-  ink.grainy = cleaned.pinholes > kGrainHoles * measured.border &&
-               static_cast<double>(cleaned.ragged) > kGrainRagged * measured.border;
+  const long ragged = clean(ink, options);
+  ink.grainy = ink.dirt.pinholes > kGrainHoles * measured.border &&
+               static_cast<double>(ragged) > kGrainRagged * measured.border;
   return ink;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "keyline/sketch/faint_ink.h"
+#include "keyline/sketch/morphology.h"
 #include "keyline/sketch/thinning.h"
 #include "keyline/sketch/tone.h"
 #include "keyline/sketch/trace.h"
@@ -12,6 +13,7 @@ struct Ink {
   Binary picture;
   FaintPixels faint;    ///< darker than paper, but no ink
   int specks = 0;       ///< pieces of fewer pixels were taken for dirt
+  Removed dirt{};       ///< what was
   double width = 1;     ///< of its lines
   bool grainy = false;  ///< full of pinholes and ragged, as pencil on rough paper leaves it
 };

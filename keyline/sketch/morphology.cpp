@@ -196,16 +196,16 @@ void put_back(Binary& ink, std::span<const std::size_t> pixels) {
   for (const std::size_t i : pixels) ink.data[i] = 1;
 }
 
-/// Of pieces that went, dashes in rows are ink again. Returns how many stay away.
-int put_back_rows(Binary& ink, const InkPieces& gone) {
+/// Of pieces that went, dashes in rows are ink again. The others are counted.
+void put_back_rows(Binary& ink, const InkPieces& gone, Removed& removed) {
   const std::vector<bool> in_row = dashes_in_rows(gone, ink.width);
-  int away = 0;
   for (std::size_t i = 0; i < gone.size(); ++i)
-    if (in_row[i])
+    if (in_row[i]) {
       put_back(ink, gone[i]);
-    else
-      ++away;
-  return away;
+    } else {
+      ++removed.specks;
+      removed.pixels += gone[i].size();
+    }
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ Removed remove_specks(Binary& ink, int specks, int pinholes) {
     flip_small(ink, 1, specks / 2, true, pieces);
     if (2 * (gone - count_pixels(pieces)) <= all) flip_small(ink, 1, specks, true, pieces);
   }
-  removed.specks = put_back_rows(ink, pieces);
+  put_back_rows(ink, pieces, removed);
   return removed;
 }
 

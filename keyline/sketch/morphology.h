@@ -22,9 +22,10 @@ long smooth_edges(Binary& ink, int times);
 /// Pieces of ink (8-connected) of fewer than `specks` pixels become paper, holes (4-connected) of
 /// fewer than `pinholes` pixels ink. Where more than half of the ink lies in pieces between that
 /// size and half of it they are what was drawn (fine dashes), and only smaller ones go; dashes of a
-/// row (dash_row.h) stay in any case. Returns how many pieces and holes went.
+/// row (dash_row.h) stay in any case. Returns how many pieces, of how much ink, and holes went.
 struct Removed {
   int specks = 0;
+  std::size_t pixels = 0;  ///< of the specks
   int pinholes = 0;
 };
 Removed remove_specks(Binary& ink, int specks, int pinholes);

@@ -26,6 +26,7 @@
 #include "keyline/sketch/refine_stroke.h"
 #include "keyline/sketch/straighten.h"
 #include "keyline/sketch/stroke_graph.h"
+#include "keyline/sketch/tell_picture.h"
 #include "keyline/sketch/thinning.h"
 
 namespace keyline::sketch {
@@ -41,8 +42,7 @@ constexpr double kPictureApart = 3.5;
 constexpr double kStub = 1.2;
 constexpr double kLongestStub = 5;
 
-constexpr double kEnoughExplained = 0.97;  ///< of ink or strokes
-constexpr double kManyPasses = 0.75;       ///< lines per stroke from which passes are told
+constexpr double kManyPasses = 0.75;  ///< lines per stroke from which passes are told
 
 constexpr std::size_t kAtOnce = 32;  ///< lines fitted between two reports of progress
 
@@ -202,52 +202,6 @@ core::Result<void> add_curves(const std::vector<FineStroke>& lines, const TraceO
   return {};
 }
 
-/// Margins that were left out are told.
-void tell_margins(const Margins& margins, TraceResult& result) {
-  if (!margins.any()) return;
-  static constexpr std::array kSides = {"left", "upper", "right", "lower"};
-  std::string sides;
-  for (std::size_t k = 0; k < kSides.size(); ++k) {
-    const int deep = margins.deepest[k];
-    if (deep == 0) continue;
-    sides += (sides.empty() ? "" : ", ") + std::string(kSides[k]) + " " + std::to_string(deep);
-  }
-  result.notes.push_back("dark margins, as a scanner leaves them, are left out; pixels: " + sides);
-}
-
-/// What was made of the paper is told.
-void tell_ground(const Tone& tone, bool on_black, TraceResult& result) {
-  tell_margins(tone.margins, result);
-  if (tone.light_on_dark)
-    result.notes.push_back(on_black ? "light lines on transparent ground"
-                                    : "light lines on dark ground");
-  if (tone.flattened) result.notes.push_back("the paper's shades were taken out");
-}
-
-/// What was made of light parts among dark ones is told, from a hundredth of all on.
-void tell_light(const LightShare& light, TraceResult& result) {
-  const auto tell = [&](double share, const std::string& what) {
-    if (share >= 0.01)
-      result.notes.push_back(std::to_string(std::lround(100 * share)) +
-                             " % of what is drawn on the transparent ground is " + what);
-  };
-  tell(light.lines, "light lines: traced like dark ones (polarity dark leaves them out)");
-  tell(light.rest, "light areas or rims of dark lines: left out, as paper");
-}
-
-/// A picture of which much is dark, or ink in broad areas, may be no drawing. One in shade is where
-/// lines explain its ink.
-void warn_of_photograph(const Tone& tone, const Ink& found, Edge edge, TraceResult& result) {
-  const Binary& ink = found.picture;
-  const auto dark = static_cast<double>(count_ink(ink.data.data(), ink.data.size()));
-  const double share = dark / static_cast<double>(ink.data.size());
-  const bool in_shade = edge == Edge::center && result.explained >= kEnoughExplained;
-  const double most = in_shade ? share : std::max(share, tone.shaded);
-  if (most > (is_broad(found.width, ink.width, ink.height) ? 0.15 : 0.25))
-    result.notes.push_back("warning: " + std::to_string(std::lround(100 * most)) +
-                           " % of the picture is dark; is it a drawing?");
-}
-
 /// Drawn strokes with as many points as those of pictures have; the numbers of those left over.
 core::Result<std::vector<FineStroke>> lines_of(const std::vector<DrawnStroke>& strokes,
                                                double width, std::vector<std::size_t>& left_over) {
@@ -324,6 +278,7 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   tell_ground(tone, on_black, result);
   options.progress.report(0.2, "telling ink from paper");
   Ink found = find_ink(tone, options);
+  tell_dirt(found, result);
   const Binary& ink = found.picture;
   const double width = found.width;
   if (options.stage) show_stage(options, "edges", laplacian_edges(ink));
