@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "keyline/surface/closest_point.h"
@@ -83,15 +84,15 @@ class Places {
 /// Close to the nearest point of the patch to p, from (u, v): any point makes a sound bound.
 SurfacePoint foot(Places& s, const Point3& p, double u, double v) {
   constexpr int kSteps = 6;
-  SurfacePoint at{u, v, s.point(u, v), 0};
-  at.distance = distance(at.point, p);
+  SurfaceJet j = s.jet(u, v);
+  SurfacePoint at{u, v, j.point, distance(j.point, p)};
   for (int i = 0; i < kSteps; ++i) {
-    const SurfaceJet j = s.jet(at.u, at.v);
     const auto [du, dv] = foot_step(j, j.point - p, at.u, at.v);
     SurfacePoint next;
     next.u = std::clamp(at.u + du, 0.0, 1.0);
     next.v = std::clamp(at.v + dv, 0.0, 1.0);
-    next.point = s.point(next.u, next.v);
+    j = s.jet(next.u, next.v);
+    next.point = j.point;
     next.distance = distance(next.point, p);
     if (!(next.distance < at.distance)) break;
     const bool settled = next.distance > 0.9999 * at.distance;
@@ -155,10 +156,13 @@ class OneWay {
   }
 
  private:
+  /// Cells side by side share it.
   SurfacePoint foot_at(double u, double v) {
-    const SurfacePoint p = foot(there_, here_.point(u, v), u, v);
-    farthest_ = std::max(farthest_, p.distance);
-    return p;
+    const int place = static_cast<int>(kFinest * u) * (kFinest + 1) + static_cast<int>(kFinest * v);
+    const auto [known, is_new] = feet_.try_emplace(place);
+    if (is_new) known->second = foot(there_, here_.point(u, v), u, v);
+    farthest_ = std::max(farthest_, known->second.distance);
+    return known->second;
   }
 
   Cell cell(int cells, int i, int j, const std::array<SurfacePoint, 4>& feet) const {
@@ -200,7 +204,8 @@ class OneWay {
 
   Places here_, there_;
   DerivativeBounds onto_bounds_, apart_;
-  double farthest_ = 0;  ///< of the feet found
+  std::unordered_map<int, SurfacePoint> feet_;  ///< by place, in finest cells
+  double farthest_ = 0;                         ///< of the feet found
 };
 
 }  // namespace
