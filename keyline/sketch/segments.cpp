@@ -21,6 +21,10 @@ constexpr double kOnLine = 1;  ///< pixels about a line's points: its ink is the
 /// of soft ink half, and to a round end nothing.
 constexpr double kTowards = 1.0 / 3;
 
+/// Widths over which a corner is rounded: at least, and where it is as sharp as corners are (29°).
+constexpr double kRounded = 0.6;
+constexpr double kSharpest = 2;
+
 /// Points by running index; closed ones come round again.
 struct Line {
   const std::vector<Point2>& points;
@@ -99,7 +103,7 @@ Point2 meeting(const Axis& a, const Axis& b, Point2 between, double reach) {
 
 SegmentRun make_run(const std::vector<Point2>& points, std::size_t first, std::size_t last,
                     bool closed, double tolerance) {
-  SegmentRun run{first, last, closed, {}, {}};
+  SegmentRun run{.first = first, .last = last, .closed = closed, .axes = {}, .vertices = {}};
   std::vector<Point2> p;
   for (std::size_t i = first; i <= last; ++i) p.push_back(points[i % points.size()]);
   if (closed) p.push_back(p.front());
@@ -122,8 +126,18 @@ SegmentRun make_run(const std::vector<Point2>& points, std::size_t first, std::s
   return run;
 }
 
-/// How far from the line the arms of a corner may meet.
-double corner_reach(const SegmentOptions& options) { return 2 + 0.6 * options.width; }
+/// How far from the line the arms of a corner may meet. In ink the two sides of a corner of angle a
+/// are one line up to w / (2 sin(a / 2)) from its tip.
+double corner_reach(const Line& line, long i, const Arms& a, const SegmentOptions& options) {
+  const Vector2 before = line.at(i - a.arm) - line.at(i - a.gap);
+  const Vector2 after = line.at(i + a.arm) - line.at(i + a.gap);
+  double widths = kRounded;
+  if (options.ink && norm(before) > 0 && norm(after) > 0) {
+    const double sine = 0.5 * norm(before / norm(before) - after / norm(after));
+    widths = std::clamp(0.5 / sine, kRounded, kSharpest);
+  }
+  return 2 + widths * options.width;
+}
 
 /// Where the lines on both sides of a corner meet, found from the arms clear of its rounding; the
 /// point itself where they meet too far away.
@@ -137,6 +151,17 @@ Point2 corner_place(const Line& line, long i, const Arms& a, double reach) {
   const auto x = intersection(principal_axis(before, 0, before.size() - 1),
                               principal_axis(after, 0, after.size() - 1));
   return x && distance(*x, line.at(i)) <= reach ? *x : line.at(i);
+}
+
+/// The same of arms that meet on ink; where they meet on paper, no more than at a blunt corner.
+double inked_reach(const Line& line, long i, const Arms& a, const SegmentOptions& options) {
+  const double blunt = 2 + kRounded * options.width;
+  const double reach = corner_reach(line, i, a, options);
+  const Vector2 way = corner_place(line, i, a, reach) - line.at(i);
+  const double far = norm(way);
+  if (far <= blunt) return blunt;
+  const auto end = options.ink(line.at(i), way / far, far);
+  return end && *end < far ? blunt : reach;
 }
 
 /// Half the width of the ink along the arms of a corner, on its outer side.
@@ -160,7 +185,7 @@ std::optional<double> outer_half_width(const Line& line, long i, const Arms& a, 
 bool is_round(const Line& line, long i, const Arms& a, const SegmentOptions& options) {
   if (!options.ink) return false;
   const Point2 from = line.at(i);
-  const Vector2 way = corner_place(line, i, a, corner_reach(options)) - from;
+  const Vector2 way = corner_place(line, i, a, corner_reach(line, i, a, options)) - from;
   const double far = norm(way);
   if (!(far > 0)) return false;
   const auto end = options.ink(from, way / far, far);
@@ -238,10 +263,11 @@ std::vector<SegmentRun> fit_segments(const std::vector<Point2>& points, bool clo
     runs.push_back(make_run(points, cuts[k], cuts[k + 1], false, options.straightness));
   const Line line{points, closed};
   const auto meet = [&](SegmentRun& before, SegmentRun& after) {
-    const Point2 x =
-        corner_place(line, static_cast<long>(after.first), arms_of(options), corner_reach(options));
-    before.vertices.back() = x;
-    after.vertices.front() = x;
+    const auto i = static_cast<long>(after.first);
+    const double reach = inked_reach(line, i, arms_of(options), options);
+    before.vertices.back() = after.vertices.front() =
+        corner_place(line, i, arms_of(options), reach);
+    before.round_last = after.round_first = reach;
   };
   for (std::size_t k = 0; k + 1 < runs.size(); ++k) meet(runs[k], runs[k + 1]);
   if (closed) meet(runs.back(), runs.front());

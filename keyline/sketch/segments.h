@@ -24,6 +24,8 @@ struct SegmentRun {
   std::size_t first = 0;  ///< indices of its points; a run over the seam of a closed stroke has
   std::size_t last = 0;   ///< last beyond the number of points
   bool closed = false;
+  double round_first = 0;  ///< how far from a corner at its first point the ink rounds the line
+  double round_last = 0;
   std::vector<Axis> axes;  ///< one per group of points
   std::vector<core::Point2>
       vertices;  ///< the concatenated line segments; closed: first not repeated

@@ -30,11 +30,10 @@ std::vector<Point2> points_of(const SegmentRun& run, const FineStroke& fine) {
   std::vector<Point2> part;
   for (std::size_t i = run.first; i <= run.last; ++i) part.push_back(fine.points[i % n]);
   if (run.closed) return part;
-  const double rounding = 2 + 0.6 * fine.width;
   const bool corner_first = fine.closed || run.first > 0;
   const bool corner_last = fine.closed || run.last + 1 < n;
-  const double at_start = corner_first ? rounding : 0.5;
-  const double at_end = corner_last ? rounding : 0.5;
+  const double at_start = corner_first ? run.round_first : 0.5;
+  const double at_end = corner_last ? run.round_last : 0.5;
   if (corner_first) part.front() = run.vertices.front();
   if (corner_last) part.back() = run.vertices.back();
   const auto near = [](Point2 p, Point2 end, double reach) {

@@ -1,11 +1,19 @@
 #include "keyline/sketch/segments.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
 #include "keyline/curve/jet.h"
 #include "keyline/sketch/quintics.h"
+#include "keyline/sketch/trace.h"
+
+#include "page.h"
 
 namespace keyline::sketch {
 namespace {
@@ -53,6 +61,31 @@ TEST(Segments, CornersAreFoundAndMeetExactly) {
   EXPECT_EQ(runs[0].vertices.back(), runs[1].vertices.front());
   EXPECT_LT(core::distance(runs[0].vertices.back(), {0, 0}), 0.5);
   EXPECT_TRUE(find_corners(arc(30, 0, 5), false, {}).empty()) << "a tight arc is no corner";
+}
+
+// The ink of both arms is one up to two pens from the tip of a sharp corner: the line went round
+// there, up to 7 pixels before the tip. It comes to within a pixel of it.
+TEST(Segments, SharpCornersOfThickPensReachTheirTips) {
+  for (const auto& [degrees, width] : {std::pair{33.0, 8.0}, {40.0, 6.0}, {55.0, 9.0}, {90.0, 5.0}})
+    for (const double axis : {0.2, 2.5}) {
+      SCOPED_TRACE(std::to_string(degrees) + " degrees along " + std::to_string(axis));
+      const Point2 tip{100 - 40 * std::cos(axis), 100 - 40 * std::sin(axis)};
+      Image page = testing::blank_page(200, 200);
+      for (const double side : {-0.5, 0.5}) {
+        const double along = axis + side * degrees * std::numbers::pi / 180;
+        testing::draw_line(page, tip, tip + 90 * core::unit_vector(along), width);
+      }
+      const auto result = trace(page);
+      ASSERT_TRUE(result) << result.error().message;
+      double nearest = HUGE_VAL;
+      for (const Stroke& stroke : result->strokes)
+        for (const curve::Bezier2& piece : stroke.curve)
+          for (const double t : {0.0, 1.0}) {
+            const Point2 p = evaluate(piece, t);
+            nearest = std::min(nearest, core::distance({p.x, 200 - p.y}, tip));
+          }
+      EXPECT_LT(nearest, 1);
+    }
 }
 
 TEST(Quintics, KeepTheQuadraticsAndBecomeG2) {
