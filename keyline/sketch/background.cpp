@@ -141,11 +141,13 @@ bool flatten_background(Gray& level, double gain, Flatten flatten) {
   const double slack = 0.003 * Tone::kWhite;
   if (flatten == Flatten::automatic && high - low < slack && std::abs(high - Tone::kWhite) < slack)
     return false;
-  const std::vector<SteppedBox> stepped = flat_at_steps(level, blocks, kRim, gain);
+  Raster<float> of_blocks(blocks.cols, blocks.rows);
+  blocks.copyTo(cv::Mat(blocks.rows, blocks.cols, CV_32F, of_blocks.data.data()));
+  const std::vector<SteppedBox> stepped = flat_at_steps(level, of_blocks, kRim, gain);
   subtract(level, paper);
-  cv::Mat all(level.height, level.width, CV_16U, level.data.data());
   for (const SteppedBox& box : stepped)
-    box.flat.copyTo(all(cv::Rect({box.x, box.y}, box.flat.size())));
+    for (int y = 0; y < box.flat.height; ++y)
+      std::copy_n(&box.flat.at(0, y), box.flat.width, &level.at(box.x, box.y + y));
   return true;
 }
 

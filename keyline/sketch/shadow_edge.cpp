@@ -72,26 +72,28 @@ SteppedBox flat_box(const cv::Mat& level, cv::Rect box, const Bounds& bounds) {
   cv::Mat flat;
   level(box).convertTo(flat, CV_32F);
   flat += Tone::kWhite - paper;
-  SteppedBox result{.x = box.x, .y = box.y, .flat = {}};
-  flat.convertTo(result.flat, CV_16U);
+  SteppedBox result{.x = box.x, .y = box.y, .flat = {box.width, box.height}};
+  cv::Mat whole(box.height, box.width, CV_16U, result.flat.data.data());
+  flat.convertTo(whole, CV_16U);
   return result;
 }
 
 }  // namespace
 
-std::vector<SteppedBox> flat_at_steps(const Raster<std::uint16_t>& level, const cv::Mat& paper,
-                                      int rim, double gain) {
-  const int columns = paper.cols - 2 * rim;
-  const int rows = paper.rows - 2 * rim;
+std::vector<SteppedBox> flat_at_steps(const Raster<std::uint16_t>& level,
+                                      const Raster<float>& paper, int rim, double gain) {
+  const int columns = paper.width - 2 * rim;
+  const int rows = paper.height - 2 * rim;
   const double step = -gain * std::log(1 - kStep) * Tone::kWhite;
   const cv::Mat all(level.height, level.width, CV_16U,
                     const_cast<std::uint16_t*>(level.data.data()));  // only read
+  const cv::Mat blocks(paper.height, paper.width, CV_32F, const_cast<float*>(paper.data.data()));
   std::vector<std::optional<SteppedBox>> found(static_cast<std::size_t>(rows * columns));
   numeric::parallel_for(found.size(), 0, [&](std::size_t k) {
     const auto at = static_cast<int>(k);
     const int r = at / columns;
     const int c = at % columns;
-    const Bounds bounds = paper_near(paper, r + rim, c + rim);
+    const Bounds bounds = paper_near(blocks, r + rim, c + rim);
     if (bounds.high - bounds.low <= step) return;
     const cv::Point first(part_start(level.width, columns, c), part_start(level.height, rows, r));
     const cv::Point last(part_start(level.width, columns, c + 1),

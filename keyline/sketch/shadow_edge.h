@@ -1,6 +1,6 @@
 #pragma once
 
-#include <opencv2/core.hpp>
+#include <cstdint>
 #include <vector>
 
 #include "keyline/sketch/image.h"
@@ -16,7 +16,7 @@ inline int part_start(int length, int parts, int one) {
 struct SteppedBox {
   int x = 0;
   int y = 0;
-  cv::Mat flat;  ///< 16 bits
+  Raster<std::uint16_t> flat;
 };
 
 /// Paper at the hard edges of shadows, which blocks are too coarse for. Where the paper of blocks
@@ -24,7 +24,7 @@ struct SteppedBox {
 /// two blocks, it is the median of the pixels about each place, which follows an edge and leaves
 /// lines out, as far as that lies between the darkest and the lightest of those blocks. `gain` is
 /// the a of y = a·log x.
-std::vector<SteppedBox> flat_at_steps(const Raster<std::uint16_t>& level, const cv::Mat& paper,
-                                      int rim, double gain);
+std::vector<SteppedBox> flat_at_steps(const Raster<std::uint16_t>& level,
+                                      const Raster<float>& paper, int rim, double gain);
 
 }  // namespace keyline::sketch
