@@ -170,7 +170,9 @@ TEST(Glif, StraightCurvesAreLinesBetweenTheirTurns) {
     const auto& last = std::get<Bezier2>(read->paths[k].path.curves.back().value);
     EXPECT_EQ(last.control.size(), 2U) << k;
     EXPECT_EQ(last.control.back(), at(1)) << k;
-    if (k > 0) EXPECT_EQ(read->paths[k].path.curves.size(), 1U) << k;
+    if (k > 0) {
+      EXPECT_EQ(read->paths[k].path.curves.size(), 1U) << k;
+    }
   }
 }
 
