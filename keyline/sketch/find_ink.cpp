@@ -55,6 +55,22 @@ Ink ink_of(const Tone& tone, const TraceOptions& options) {
   return ink;
 }
 
+/// Blurs the grain of ink away. False, and the ink is not grainy, where none would be left: thin
+/// lines beside what is broad and ragged, as a table about a sheet.
+bool blur_grain(Tone& tone, Ink& ink, const TraceOptions& options) {
+  Tone soft = tone;
+  blur_levels(soft, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
+  Ink found = ink_of(soft, options);
+  if (std::ranges::none_of(found.picture.data, [](auto pixel) { return pixel != 0; })) {
+    ink.grainy = false;
+    return false;
+  }
+  tone = std::move(soft);
+  ink = std::move(found);
+  ink.grainy = true;
+  return true;
+}
+
 }  // namespace
 
 FaintLine faint_line(double width, int specks) {
@@ -82,11 +98,8 @@ void show_stage(const TraceOptions& options, const char* name, const Binary& bin
 
 Ink find_ink(Tone& tone, const TraceOptions& options) {
   Ink ink = ink_of(tone, options);
-  if (ink.grainy && !options.binarize.threshold) {
-    blur_levels(tone, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
-    ink = ink_of(tone, options);
-    ink.grainy = true;
-  } else if (options.binarize.regions.empty()) {
+  const bool blurred = ink.grainy && !options.binarize.threshold && blur_grain(tone, ink, options);
+  if (!blurred && options.binarize.regions.empty()) {
     const FaintLine line = faint_line(ink.width, std::max(ink.specks, specks_of(ink.width)));
     if (tone.flattened) drop_shade(ink.picture, tone, line.broadest);
     if (ink_lines(ink.faint, ink.picture, tone, line) > 0) clean(ink, options);
