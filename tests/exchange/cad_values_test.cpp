@@ -67,6 +67,17 @@ TEST_F(CadValues, ColoursThatAreNoneAreToldAndNotGuessed) {
   }
 }
 
+// Printed by programs that do not know ISO 10303-21, 6.4.2, which wants a point and a large E.
+TEST_F(CadValues, NumbersWithPowersOfTenAreReadHoweverTheyAreWritten) {
+  const std::string file = sound(".step", kArch);
+  for (const char* x : {"e1", "00E-1", ".0e+01", "0.0e0", ".E1", "E+1"}) {
+    const auto read = with(file, ".step", "CARTESIAN_POINT('',(1", ',', x);
+    ASSERT_TRUE(read) << "1" << x << ": " << read.error().message;
+    const auto& arch = std::get<curve::BSpline2>(read->paths.at(0).path.curves.at(0).value);
+    EXPECT_EQ(arch.control.at(1), kArch.control.at(1)) << "1" << x;
+  }
+}
+
 // ISO 10303-42: a spline has nine parameters, a degree and multiplicities that are whole numbers;
 // OCCT takes 0 for others, or breaks down.
 TEST_F(CadValues, GeometryOfOtherParametersIsRefused) {

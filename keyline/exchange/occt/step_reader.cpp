@@ -28,6 +28,7 @@
 #include <gp_XYZ.hxx>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "keyline/exchange/dxf/dxf_color.h"
@@ -226,10 +227,12 @@ void note_distorted(document::Document& document, const Handle(Interface_Interfa
 }  // namespace
 
 document::Document read_step(const std::string& file) {
-  if (const std::string bad = bad_step_value(text_of(file)); !bad.empty())
-    throw std::runtime_error(bad + "; mend the file");
+  const StepCheck values = check_step_values(text_of(file));
+  if (!values.bad.empty()) throw std::runtime_error(values.bad + "; mend the file");
   STEPControl_Reader reader;
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
+  std::istringstream mended(values.mended);
+  if ((values.mended.empty() ? reader.ReadFile(file.c_str())
+                             : reader.ReadStream(file.c_str(), mended)) != IFSelect_RetDone)
     throw std::runtime_error("this is no STEP file that can be read; check that it is complete");
   document::Document document;
   const Entities unsound_entities = unsound(reader.WS()->Model(), document);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "keyline/core/leading_number.h"
@@ -42,6 +43,7 @@ class StepValues {
         const std::size_t from = at_;
         const std::string_view value = word();
         if (!is_value(value)) return told(line_of(from), value);
+        if (depth_ > 0 && is_loose(value)) loose_.push_back(from);
         if (is_fourth(value))
           return "line " + std::to_string(line_of(from)) +
                  ": a point or direction of more than three coordinates";
@@ -54,6 +56,21 @@ class StepValues {
       }
     }
     return {};
+  }
+
+  /// The text with the loose numbers that were met as they are to be written; empty where none was.
+  std::string mended() const {
+    std::string text;
+    if (loose_.empty()) return text;
+    std::size_t done = 0;
+    for (const std::size_t from : loose_) {
+      const std::size_t power = text_.find_first_of("eE", from);
+      text += text_.substr(done, power - done);
+      if (text_.substr(from, power - from).find('.') == text_.npos) text += '.';
+      text += 'E';
+      done = power + 1;
+    }
+    return text += text_.substr(done);
   }
 
  private:
@@ -91,6 +108,14 @@ class StepValues {
     return next < text_.size() && text_[next] == '(';
   }
 
+  /// A number with a small e, or a power of ten without a point: OCCT takes it for 0.
+  static bool is_loose(std::string_view word) {
+    if (is_letter(word.front()) || word.front() == '#') return false;
+    const std::size_t power = word.find_first_of("eE");
+    if (power == word.npos || word.ends_with('.')) return false;
+    return word[power] == 'e' || word.substr(0, power).find('.') == word.npos;
+  }
+
   /// A number behind the third of a point's or direction's, as a decimal comma makes it.
   bool is_fourth(std::string_view word) {
     if (word == "CARTESIAN_POINT" || word == "DIRECTION") {
@@ -106,6 +131,7 @@ class StepValues {
   }
 
   std::string_view text_;
+  std::vector<std::size_t> loose_;  ///< where such numbers begin
   std::size_t at_ = 0;
   int depth_ = 0;
   int listed_ = 0;  ///< depth of the coordinates of the point or direction last met
@@ -219,7 +245,12 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string bad_step_value(std::string_view text) { return StepValues(text).bad(); }
+StepCheck check_step_values(std::string_view text) {
+  StepValues values(text);
+  std::string bad = values.bad();
+  if (!bad.empty()) return {.bad = std::move(bad), .mended = {}};
+  return {.bad = {}, .mended = values.mended()};
+}
 
 std::string missing_iges_end(std::string_view text) {
   std::size_t parameters = 0;
