@@ -203,6 +203,24 @@ TEST(SolveG1, MovesTurnsScalesAndMirrorsWithItsHandles) {
   }
 }
 
+// The circle's involute, slope 2, from its cusp on: its handles stand on the region's border, to
+// rounding of their coordinates.
+TEST(SolveG1, DrawsInvolutesFromTheirCusp) {
+  for (int i = 1; i <= 1000; ++i) {
+    const double t = 1 + 2e-3 * i, c = std::cos(t), s = std::sin(t), size = std::exp(0.01 * i);
+    const Point2 end{c + t * s - 1, s - t * c};
+    const core::Vector2 x = size * core::unit_vector(i), y = core::perpendicular_left(x);
+    const Point2 handle = Point2{} + (end.x - end.y * c / s) * x;
+    const Point2 last = Point2{} + end.x * x + end.y * y;
+    SCOPED_TRACE(i);
+    const auto forth = solve_g1({}, handle, last, 2), back = solve_g1(last, handle, {}, 2);
+    ASSERT_TRUE(forth && back);
+    EXPECT_NEAR(forth->segment.length / (size * t * t / 2), 1, 1e-13);
+    EXPECT_NEAR(forth->segment.curvature_end * size * t, 1, 1e-13);
+    EXPECT_NEAR(back->segment.length / forth->segment.length, 1, 1e-13);
+  }
+}
+
 TEST(SolveG1, RadiusGrowsUnlessReversed) {
   const auto growing = solve_g1({0, 0}, {0.4, 0.3}, {1, 0.25}, -1);
   ASSERT_TRUE(growing);

@@ -44,6 +44,10 @@ inline double secant(const SearchSetup& setup, const ChordSample& s, const Chord
   return 1 / (from + share * (to - from)) - 1;
 }
 
+/// The miss, times the chord's length, up to which the limit is the curve wanted: rounding of the
+/// handles of a curve that ends in an inflection or a cusp puts their chord as far outside.
+inline constexpr double kAtLimit = 2e-15;
+
 /// What the limit says to a chord angle that no q tried so far has reached; `limit` is the sample
 /// at the end of the range.
 template <class F>
@@ -56,7 +60,7 @@ ChordStatus verdict_at_limit(const SearchSetup& setup, F&& at, ChordSample& limi
     return setup.inside ? ChordStatus::beyond_precision : ChordStatus::beyond_region;
   }
   const ChordSample end = resolved ? limit : at(infinity);
-  if (std::abs(end.miss) < 4e-16) {
+  if (std::abs(end.miss) * end.length < kAtLimit) {
     limit = end;
     return ChordStatus::solved;
   }
