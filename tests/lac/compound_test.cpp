@@ -1,7 +1,9 @@
 #include "keyline/lac/hermite/compound.h"
 
 #include <cmath>
+#include <cstdio>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -217,6 +219,31 @@ TEST(SolveCompound, BadInputAndUndrawable) {
   ASSERT_TRUE(line);
   EXPECT_EQ(arc_length(line->chain), 2);
   EXPECT_THROW(drawable_region(CompoundRhythm{1, 1, 2}, 1), core::InvalidInput);
+}
+
+// Slopes are told with nine digits: so many hold the angle, also beside the slopes that hold all.
+TEST(SolveCompound, ARefusalNamesSlopesThatServe) {
+  int refused = 0;
+  for (const double alpha0 : {-1.0, 0.3, 1.00002, 3.0})
+    for (const double alpha1 : {-2.0, -0.05, -3e-6, 1.00003, 1.07, 4.0})
+      for (double theta = 0.3; theta < 3; theta += 0.3)
+        for (const double out : {0.05, 0.5, 0.9, 0.999}) {
+          const CompoundRhythm asked{alpha0, alpha1, 0.3};
+          const HandleAngles angles =
+              angles_of(theta, std::lerp(drawable_region(asked, theta).high, theta, out));
+          const auto none = solve_compound(angles, asked);
+          if (none) continue;
+          ++refused;
+          SCOPED_TRACE(none.error().message + ": " + none.error().hint);
+          CompoundRhythm told{0, 0, 0.3};
+          const std::size_t at = none.error().hint.find("slopes ");
+          ASSERT_NE(at, std::string::npos);
+          ASSERT_EQ(std::sscanf(none.error().hint.c_str() + at, "slopes %lf, %lf", &told.alpha0,
+                                &told.alpha1),
+                    2);
+          EXPECT_TRUE(solve_compound(angles, told));
+        }
+  EXPECT_GT(refused, 300);
 }
 
 TEST(SolveCompound, OfOneSlopeIsTheSegment) {

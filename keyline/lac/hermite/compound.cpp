@@ -27,16 +27,19 @@ std::string number(double x) { return core::number_text(x, 9); }
 /// The rhythm on the way from the given one to a full region (sharp slope at most 1, flat one in
 /// [0, 1]) that first holds the chord angle psi >= theta/2.
 CompoundRhythm nearest_rhythm(const CompoundRhythm& r, double theta, double psi) {
+  const double by0 = std::min(r.alpha0, 1.0) - r.alpha0;
+  const double by1 = std::clamp(r.alpha1, 0.0, 1.0) - r.alpha1;
   const auto moved = [&](double way) {
-    return CompoundRhythm{r.alpha0 + way * (std::min(r.alpha0, 1.0) - r.alpha0),
-                          r.alpha1 + way * (std::clamp(r.alpha1, 0.0, 1.0) - r.alpha1),
-                          r.turning_share};
+    return CompoundRhythm{r.alpha0 + way * by0, r.alpha1 + way * by1, r.turning_share};
   };
   const auto excess = [&](double way) {
     return CompoundFamily(moved(way), theta).limit_chord_angle() - psi;
   };
-  const auto root = numeric::bracketed_root(excess, 0, 0.97, 1e-9);
-  return moved(root ? *root + 1e-6 * (1 - *root) : 1);
+  // As of one slope: next to the full region borders are reached only in the limit.
+  const double last = 1 - 1.0 / 16 / std::max(std::abs(by0), std::abs(by1));
+  if (!(last > 0 && excess(last) > 0)) return moved(1);
+  const auto root = numeric::bracketed_root(excess, 0, last, 1e-9);
+  return moved(root ? *root + 1e-6 * (1 - *root) : last);
 }
 
 std::unexpected<core::Failure> undrawable(const CompoundRhythm& r, double theta, double psi) {
