@@ -113,6 +113,31 @@ void put_in_order(std::vector<Thread>& rows, std::vector<Thread>& columns, Cross
   }
 }
 
+/// What lies between the outermost columns.
+Thread inner_part(Thread row, const std::vector<Crossing>& crossings) {
+  const auto [first, last] = std::ranges::minmax(crossings, {}, &Crossing::along_u);
+  if (first.along_u < last.along_u) row.cut(first.along_u, last.along_u);
+  return row;
+}
+
+/// Fails where rows meet each other: what is between them is no patch.
+Result<void> keep_apart(const std::vector<Thread>& rows, const Crossings& crossings, double gap,
+                        const std::string& name) {
+  std::vector<Thread> inner;
+  std::vector<std::vector<Point3>> places;
+  const auto called = [&](std::size_t i) { return name + "[" + std::to_string(i) + "]"; };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    inner.push_back(inner_part(rows[i], crossings[i]));
+    places.push_back(looked_at(inner[i]));
+    for (std::size_t k = 0; k < i; ++k)
+      if (crossing(inner[k], inner[i], places[k], places[i]).gap <= gap)
+        return core::fail(ErrorCode::bad_input,
+                          "the curve meets " + called(k) + ", of its own direction",
+                          "leave one of the two out; the borders of a network are four", called(i));
+  }
+  return {};
+}
+
 /// Cuts rows at their first and last column; shares are those of what is left.
 bool cut_rows(std::vector<Thread>& rows, Crossings& crossings) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -175,8 +200,13 @@ Result<CurveNet> net_of_curves(const std::vector<curve::BSpline3>& along_u,
                           "let every curve along u meet every curve along v, or give a larger gap",
                           "along_u[" + std::to_string(i) + "]");
     }
-  put_in_order(net.u, net.v, net.crossings);
   Crossings other = transposed(net.crossings);
+  if (auto sound = keep_apart(net.u, net.crossings, gap, "along_u"); !sound)
+    return std::unexpected(sound.error());
+  if (auto sound = keep_apart(net.v, other, gap, "along_v"); !sound)
+    return std::unexpected(sound.error());
+  put_in_order(net.u, net.v, net.crossings);
+  other = transposed(net.crossings);
   put_in_order(net.v, net.u, other);
   net.crossings = transposed(other);
   const bool u_sound = cut_rows(net.u, net.crossings);

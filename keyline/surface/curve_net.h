@@ -50,7 +50,8 @@ struct CurveNet {
 
 /// Puts curves in order, whatever order and direction they were given in.
 ///
-/// Fails: bad_input with a path for curves that miss each other by more than `gap`, or cross in
+/// Fails: bad_input with a path for curves that miss each other by more than `gap`, that come as
+/// near as that to one of their own direction between the outermost of the others, or cross in
 /// different orders.
 core::Result<CurveNet> net_of_curves(const std::vector<curve::BSpline3>& along_u,
                                      const std::vector<curve::BSpline3>& along_v, Measure measure,

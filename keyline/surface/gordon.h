@@ -31,8 +31,9 @@ struct GordonSurface {
 /// spans are halved until the curves lie on it within the tolerance: its Bezier patches join with
 /// equal curvature (C2).
 ///
-/// Fails: bad_input for fewer than two curves either way, for curves that miss each other or cross
-/// in different orders; not_converged where 128 spans are not enough (a curve has a corner).
+/// Fails: bad_input for fewer than two curves either way, for curves that miss each other, meet one
+///        of their own direction or cross in different orders; not_converged where 128 spans are
+///        not enough (a curve has a corner).
 /// Source: [Gordon 1969], the Boolean sum of the interpolations in u and v; with two curves each
 ///         way [Coons 1967].
 core::Result<GordonSurface> gordon_surface(const std::vector<curve::BSpline3>& along_u,

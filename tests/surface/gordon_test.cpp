@@ -170,6 +170,32 @@ TEST(Gordon, CurvesAMillionTimesAsLongAsTheOthersAreCrossed) {
   EXPECT_LT(distance(evaluate(made->surface, 0.5, 0.5), {0.5, 0.5, 0}), 1e-5);
 }
 
+// Two sections in one place, borders that meet in a corner, and diagonals in place of borders,
+// whose patch would be a bow tie: no order of such curves makes a patch of each mesh.
+TEST(Gordon, CurvesThatMeetOthersOfTheirDirectionAreNamed) {
+  const auto line = [](Point3 a, Point3 b) { return BSpline3{1, {0, 0, 1, 1}, {a, b}, {}}; };
+  const BSpline3 low = line({0, 0, 0}, {3, 0, 0}), middle = line({0, 1, 0}, {3, 1, 0}),
+                 high = line({0, 2, 0}, {3, 2, 0});
+  const BSpline3 left = line({0, 0, 0}, {0, 2, 0}), right = line({3, 0, 0}, {3, 2, 0});
+  const BSpline3 rising = line({0, 0, 0}, {3, 2, 0}), falling = line({0, 2, 0}, {3, 0, 0});
+  struct Case {
+    const char* path;
+    std::vector<BSpline3> u, v;
+  };
+  for (const Case& c : {Case{"along_u[2]", {low, middle, middle, high}, {left, right}},
+                        Case{"along_v[1]", {low, high}, {left, rising}},
+                        Case{"along_v[1]", {low, high}, {rising, falling}}}) {
+    const auto refused = gordon_surface(c.u, c.v);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, core::ErrorCode::bad_input);
+    EXPECT_EQ(refused.error().path, c.path);
+    EXPECT_NE(refused.error().message.find("of its own direction"), std::string::npos);
+  }
+  // beyond the outermost of the others they may meet
+  EXPECT_TRUE(gordon_surface({line({-3, -1, 0}, {3, 1, 0}), line({-3, 1, 0}, {3, -1, 0})},
+                             {line({1, -2, 0}, {1, 2, 0}), line({2, -2, 0}, {2, 2, 0})}));
+}
+
 TEST(Gordon, CurvesThatMakeNoNetAreNamed) {
   auto u = parallels(3);
   const auto v = meridians(2);
