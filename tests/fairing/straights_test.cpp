@@ -1,5 +1,6 @@
 #include "keyline/fairing/straights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -58,6 +59,12 @@ TEST(WithLines, EndsOfAnOpenCurveAreNotShortened) {
   const DenseCurve other_side = with_lines(closed, {{5, 10}}, 0);
   EXPECT_EQ(other_side.value.front(), 0);
   EXPECT_EQ(other_side.value.back(), 0);
+}
+
+// However large the share, two cells are left of a line.
+TEST(WithLines, KeepTwoCells) {
+  EXPECT_EQ(with_lines(ten(), {{2, 5}}, 0.4).cut,
+            (std::vector<int>{0, 1, 2, 3, 5, 6, 7, 8, 9, 10}));
 }
 
 TEST(WithLines, SeveralAndNone) {
@@ -125,12 +132,27 @@ TEST(StraightStretches, StandOutAgainstWhatIsAround) {
 // Between sharp bends the stretch is 0.40 to 0.42 long, so that 60 of noise are a curvature of 0.27
 // to 0.30 where a quarter of that lies beyond.
 TEST(StraightStretches, BowBySixtyTimesTheNoise) {
-  for (const double around : {0.26, 0.31}) {
-    Given g = bent_line(1e-4, 6);
-    for (std::size_t i = 0; i < g.curve.at.size(); ++i)
-      if (std::abs(g.curve.at[i] - 0.5) > 0.25) g.curve.joints[i].curvature = around;
-    EXPECT_EQ(straight_stretches(g.curve, g.points, 1e-4).size(), around > 0.3 ? 1U : 0U) << around;
-  }
+  for (const double size : {1.0, 10.0})
+    for (const double around : {0.26, 0.31}) {
+      Given g = bent_line(1e-4, 6);
+      for (std::size_t i = 0; i < g.curve.at.size(); ++i)
+        if (std::abs(g.curve.at[i] - 0.5) > 0.25) g.curve.joints[i].curvature = around;
+      g.curve.length = size;
+      for (FitPoint& p : g.points) p.position = {size * p.position.x, size * p.position.y};
+      EXPECT_EQ(straight_stretches(g.curve, g.points, 1e-4 * size).size(), around > 0.3 ? 1U : 0U)
+          << around;
+    }
+}
+
+// Where things lie says nothing of how straight they are.
+TEST(StraightStretches, AreFoundFarFromTheOriginToo) {
+  Given g = bent_line(1e-4, 6);
+  const auto near = straight_stretches(g.curve, g.points, 1e-4);
+  for (FitPoint& p : g.points) p.position = p.position + core::Vector2{1e5, -2e5};
+  const auto far = straight_stretches(g.curve, g.points, 1e-4);
+  ASSERT_EQ(far.size(), near.size());
+  EXPECT_EQ(far.at(0).first, near.at(0).first);
+  EXPECT_EQ(far.at(0).last, near.at(0).last);
 }
 
 // Where a quarter of its length leads out of an open curve nothing is around, however bent its end.
@@ -139,6 +161,85 @@ TEST(StraightStretches, BeyondTheEndsOfAnOpenCurveNothingIsBent) {
   EXPECT_TRUE(straight_stretches(weak.curve, weak.points, 1e-4).empty());
   const Given strong = bent_line(1e-4, 6, 0.05, 0.5);
   EXPECT_EQ(straight_stretches(strong.curve, strong.points, 1e-4).size(), 1U);
+}
+
+/// The same from its other end.
+Given reversed(const Given& g) {
+  Given back = g;
+  const std::size_t n = g.curve.at.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    back.curve.joints[i] = g.curve.joints[n - 1 - i];
+    back.curve.joints[i].curvature *= -1;
+  }
+  std::ranges::reverse(back.points);
+  return back;
+}
+
+// A quarter of its length beyond either end tells a stretch, also in the first and last tenth of an
+// open curve: the stretch from 0.2 to 0.7 by a bend at 0.075.
+TEST(StraightStretches, EitherSideTellsThem) {
+  const Given one = bent_line(1e-4, 6, 0.2, 0.05), other = reversed(one);
+  EXPECT_EQ(straight_stretches(one.curve, one.points, 1e-4).size(), 1U);
+  EXPECT_EQ(straight_stretches(other.curve, other.points, 1e-4).size(), 1U);
+}
+
+// From 0.1 to 0.7, a quarter of its length before a stretch of a closed curve is 0.95.
+TEST(StraightStretches, OfClosedCurvesAreToldAcrossTheSeam) {
+  for (const bool bent : {true, false}) {
+    Given g = bent_line(1e-4, 6, 0.1, 6);
+    g.curve.closed = true;
+    for (std::size_t i = 0; i < g.curve.at.size(); ++i)
+      g.curve.joints[i].curvature = bent && std::abs(g.curve.at[i] - 0.945) < 0.03 ? 6 : 0;
+    EXPECT_EQ(straight_stretches(g.curve, g.points, 1e-4).size(), bent ? 1U : 0U);
+  }
+}
+
+// The whole of an open curve is told by nothing else; what closes on itself is no line.
+TEST(StraightStretches, TheWholeOfAClosedCurveIsNone) {
+  Given g = bent_line(1e-4, 0);
+  EXPECT_EQ(straight_stretches(g.curve, g.points, 1.5e-4).size(), 1U);
+  g.curve.closed = true;
+  EXPECT_TRUE(straight_stretches(g.curve, g.points, 1.5e-4).empty());
+}
+
+// Five points and twenty on the legs of an L: two lines in their order, whichever is longer.
+TEST(StraightStretches, OfFivePointsAreFoundBesideLongerOnes) {
+  for (const int corner : {5, 20}) {
+    Given g;
+    for (int i = 0; i < 25; ++i) {
+      const bool up = i >= corner;
+      g.curve.at.push_back(i / 24.0);
+      g.curve.joints.push_back({{}, 0, 50});
+      g.curve.feet.push_back({std::min(i, 23), i == 24 ? 1.0 : 0.0});
+      g.points.push_back(
+          {.position = {(up ? corner : i) / 24.0, (up ? i + 1 - corner : 0) / 24.0}});
+    }
+    set_free(g.curve);
+    const auto found = straight_stretches(g.curve, g.points, 1e-6);
+    ASSERT_EQ(found.size(), 2U) << corner;
+    EXPECT_EQ(found[0].first, 0);
+    EXPECT_EQ(found[0].last, corner - 1);
+    EXPECT_EQ(found[1].first, corner);
+    EXPECT_EQ(found[1].last, 24);
+  }
+}
+
+// Of the ten cells of a curve a line may take two.
+TEST(StraightStretches, MayBeTwoCellsLong) {
+  const Given fine = bent_line(0, 6, 0.5);
+  Given g;
+  for (int i = 0; i <= 10; ++i) {
+    g.curve.at.push_back(fine.curve.at[20 * i]);
+    g.curve.joints.push_back(fine.curve.joints[20 * i]);
+  }
+  set_free(g.curve);
+  g.points = fine.points;
+  for (int i = 0; i <= 100; ++i)
+    g.curve.feet.push_back({std::min(i / 10, 9), i == 100 ? 1.0 : i % 10 / 10.0});
+  const auto found = straight_stretches(g.curve, g.points, 1e-6);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].first, 5);
+  EXPECT_EQ(found[0].last, 7);
 }
 
 // 101 points by turns s to either side of a line have a mean square of s^2 * 101 / 99 about it, for
