@@ -295,5 +295,28 @@ TEST(Calm, TheLowerWaveGoesFirst) {
   }
 }
 
+// A circle with a low bump and a high one opposite: wherever its points begin, the low one goes and
+// the circle's own two waves stay, four turns.
+TEST(Calm, WhereAClosedCurveBeginsTellsNothing) {
+  for (const int start : {0, 20, 30, 60}) {
+    Given g;
+    for (int i = 0; i < 120; ++i) {
+      const double angle = 2 * core::kPi * ((i + start) % 120) / 120;
+      const auto bump = [angle](double at, double height) {
+        return height * std::exp(-std::pow((angle - at) / 0.5, 2));
+      };
+      const double r = 0.159 + bump(0.5 * core::kPi, 3e-4) + bump(1.5 * core::kPi, 1e-2);
+      g.points.push_back({.position = {r * std::cos(angle), r * std::sin(angle)}});
+    }
+    g.curve = dense_curve(g.points, true, 120);
+    CalmOptions options;
+    options.band.tolerance = 1e-3;
+    options.worth = 2;
+    const Calmed calmed = calm(g.curve, g.points, options);
+    EXPECT_TRUE(calmed.band.within);
+    EXPECT_EQ(calmed.waves.turns, 4) << start;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
