@@ -92,6 +92,82 @@ TEST_F(CadValues, GeometryOfOtherParametersIsRefused) {
   EXPECT_THAT(read.error().message, HasSubstr("not a Real"));
 }
 
+/// The place of the first parameter line that begins with that type.
+std::size_t parameters_of(const std::string& file, const std::string& type) {
+  const std::size_t at = file.find("\n" + type + ",");
+  return at == std::string::npos ? at : at + 1;
+}
+
+// IGES 5.3, 4.23 and 4.4: a spline's numbers are counted by its index and degree, a composite's
+// curves by their own count; with a count less there is more than it counts, as with a comma more.
+TEST_F(CadValues, EntitiesOfMoreNumbersThanTheyCountAreRefused) {
+  document::Document d;
+  d.unit = "mm";
+  const curve::Bezier2 on{{{40, 20}, {60, 20}}, {}};
+  d.paths.push_back({{"a", "", ""}, {{{kArch}, {on}}, false}, 0});
+  const std::string file = format_document(d, ".iges").value().content;
+  const auto name = folder_ / "d.iges";
+  for (const char* type : {"126", "102"}) {
+    const std::size_t at = parameters_of(file, type);
+    ASSERT_NE(at, std::string::npos) << type;
+    std::string fewer = file;
+    --fewer[fewer.find(',', at + 4) - 1];
+    std::ofstream(name, std::ios::binary) << fewer;
+    const auto read = read_document(name);
+    ASSERT_FALSE(read) << type;
+    EXPECT_THAT(read.error().message,
+                HasSubstr("more numbers than an entity of type " + std::string(type) + " has"));
+  }
+  std::ofstream(name, std::ios::binary) << file;
+  EXPECT_TRUE(read_document(name));
+}
+
+// "12,5" in place of "12.5" leaves a coordinate over: where that is 0, it is no list of no
+// pointers.
+TEST_F(CadValues, ANumberLeftOverIsNoCount) {
+  document::Document d;
+  d.unit = "mm";
+  d.paths.push_back({{}, {{{kLine}}, false}, 0});
+  std::string file = format_document(d, ".iges").value().content;
+  const std::size_t first = parameters_of(file, "110");
+  std::string record = "110,0,0,0,12.5,3,0;";
+  const auto text = [&] {
+    return file.substr(0, first) + record + std::string(64 - record.size(), ' ') +
+           " 0000001P0000001\nS      1G      3D      2P      1" + std::string(40, ' ') +
+           "T0000001\n";
+  };
+  const auto name = folder_ / "d.iges";
+  std::ofstream(name, std::ios::binary) << text();
+  const auto read = read_document(name);
+  ASSERT_TRUE(read) << read.error().message << text();
+  EXPECT_EQ(evaluate(read->paths.at(0).path, 1), (core::Point2{12.5, 3}));
+  record[12] = ',';
+  std::ofstream(name, std::ios::binary) << text();
+  const auto comma = read_document(name);
+  ASSERT_FALSE(comma);
+  EXPECT_THAT(comma.error().message, HasSubstr("more numbers than an entity of type 110 has"));
+}
+
+// A line of the file that stands twice or at another's place moves numbers to others', though every
+// entity has as many as before.
+TEST_F(CadValues, LinesOfIgesHaveToStandInTheirOrder) {
+  const std::string file = sound(".iges", kArch);
+  const std::size_t first = file.find('\n', parameters_of(file, "126")) + 1;
+  const std::size_t second = file.find('\n', first) + 1, third = file.find('\n', second) + 1;
+  const std::string one = file.substr(first, second - first);
+  const std::string two = file.substr(second, third - second);
+  const std::size_t name = parameters_of(file, "406");
+  const std::string line = file.substr(name, file.find('\n', name) + 1 - name);
+  const auto path = folder_ / "d.iges";
+  for (const std::string& text : {file.substr(0, first) + two + one + file.substr(third),
+                                  file.substr(0, name) + line + file.substr(name)}) {
+    std::ofstream(path, std::ios::binary) << text;
+    const auto read = read_document(path);
+    ASSERT_FALSE(read) << text;
+    EXPECT_THAT(read.error().message, HasSubstr("of section P should stand here"));
+  }
+}
+
 // IGES 5.3, 4.13: a line has six numbers; a decimal comma makes a seventh, and another end.
 TEST_F(CadValues, ALineOfMoreNumbersThanSixIsRefused) {
   const std::string file = sound(".iges", kLine);

@@ -115,8 +115,10 @@ void note_unread(IGESControl_Reader& reader, document::Document& document) {
 
 document::Document read_iges(const std::string& file) {
   const std::string text = text_of(file);
-  if (const std::string bad = bad_iges_value(text); !bad.empty())
-    throw std::runtime_error(bad + "; mend the file");
+  std::string bad = bad_iges_value(text);
+  const std::string odd = odd_iges_line(text);
+  if (bad.empty() && odd.empty()) bad = unordered_iges_line(text);
+  if (!bad.empty()) throw std::runtime_error(bad + "; mend the file");
   IGESControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone)
     throw std::runtime_error("this is no IGES file that can be read; check that it is complete");
@@ -140,8 +142,8 @@ document::Document read_iges(const std::string& file) {
   ShapeWalk walk(document, labels);
   for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
-  for (std::string lost : {odd_iges_line(text), missing_iges_end(text)})
-    if (!lost.empty()) document.skipped.push_back(std::move(lost));
+  for (const std::string& lost : {odd, missing_iges_end(text)})
+    if (!lost.empty()) document.skipped.push_back(lost);
   return document;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -169,25 +170,52 @@ Words words_of(std::string_view text) {
   return words;
 }
 
-/// How many parameters an arc, a line, a point or a list of points has, its type among them (IGES
-/// 5.3, 4.3, 4.13, 4.16, 4.6); none of others.
+/// A count among the parameters: 0 where it is left out, none where it is no count.
+std::optional<std::size_t> count_at(const Words& words, std::size_t place) {
+  if (place >= words.size() || words[place].empty()) return 0;
+  const auto count = core::parse_whole<std::size_t>(words[place]);
+  return count && *count <= words.size() ? count : std::nullopt;
+}
+
+/// How many parameters an entity of fixed length has, its type among them (IGES 5.3, 4.3 to 4.36).
+std::optional<std::size_t> fixed_count_of(int type) {
+  static const std::map<int, std::size_t> kCounts = {
+      {100, 8}, {104, 12}, {108, 10}, {110, 7}, {116, 5},  {118, 5}, {120, 5},
+      {122, 5}, {123, 4},  {124, 13}, {125, 7}, {130, 15}, {140, 6}, {142, 6}};
+  const auto found = kCounts.find(type);
+  return found == kCounts.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// How many parameters an entity has by the counts it tells, its type among them (IGES 5.3, 4.4,
+/// 4.6, 4.14, 4.23, 4.24, 4.33, 4.34); none of types without.
 std::optional<std::size_t> count_of(int type, const Words& words) {
-  if (type == 100) return 8;
-  if (type == 110) return 7;
-  if (type == 116) return 5;
-  if (type != 106 || words.size() < 3) return std::nullopt;
-  const auto kind = core::parse_whole<int>(words[1]);
-  const auto points = core::parse_whole<std::size_t>(words[2]);
-  if (!kind || *kind < 1 || *kind > 3 || !points || *points > words.size()) return std::nullopt;
-  return *kind == 1 ? 4 + 2 * *points : 3 + (*kind == 2 ? 3 : 6) * *points;
+  if (const auto fixed = fixed_count_of(type)) return fixed;
+  const auto a = count_at(words, 1), b = count_at(words, 2), c = count_at(words, 3),
+             d = count_at(words, 4);
+  if (!a || !b) return std::nullopt;
+  if (type == 102) return 2 + *a;
+  if (type == 106 && *a >= 1 && *a <= 3) return *a == 1 ? 4 + 2 * *b : 3 + (*a == 2 ? 3 : 6) * *b;
+  if (type == 126) return 18 + 5 * *a + *b;  // of index a and degree b
+  if (type == 144) return 5 + *b;
+  if (!c || !d) return std::nullopt;
+  if (type == 112) return 18 + 13 * *d;
+  if (type == 128) return 18 + *a + *b + *c + *d + 4 * (*a + 1) * (*b + 1);
+  if (type == 143) return 4 + *c;
+  return std::nullopt;
 }
 
 /// What may stand behind an entity's own parameters: twice a count and so many pointers (IGES 5.3,
-/// 2.2.4.5.2).
+/// 2.2.4.5.2) to first lines of the directory, which have odd numbers. No writer ends with a count
+/// of none by itself: what a decimal comma leaves over may look like one.
 bool are_pointers(std::span<const std::string_view> words) {
+  if (words.size() == 1) return words[0].empty();
+  const auto is_pointer = [](std::string_view word) {
+    return core::parse_whole<std::size_t>(word).value_or(0) % 2 == 1;
+  };
   for (int list = 0; list < 2 && !words.empty(); ++list) {
     const auto count = words[0].empty() ? 0 : core::parse_whole<std::size_t>(words[0]);
     if (!count || *count >= words.size()) return false;
+    if (!std::ranges::all_of(words.subspan(1, *count), is_pointer)) return false;
     words = words.subspan(1 + *count);
   }
   return words.empty();
@@ -280,6 +308,23 @@ std::string odd_iges_line(std::string_view text) {
     if (std::string_view("SGDP").find(section) == std::string_view::npos)
       return lines.place() +
              ": it has no letter of a section in column 73; it and what belongs to it";
+  }
+  return {};
+}
+
+std::string unordered_iges_line(std::string_view text) {
+  constexpr std::size_t kNumber = kSection + 1;
+  std::map<char, std::size_t> last;  // number of every section
+  detail::ByteLines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (is_blank(line)) continue;
+    const char section = section_of(line);
+    if (section == 'T') break;
+    const auto number = core::parse_whole<std::size_t>(
+        detail::trimmed(line.substr(std::min(kNumber, line.size()))));
+    if (number != ++last[section])
+      return lines.place() + ": line " + std::to_string(last[section]) + " of section " + section +
+             " should stand here";
   }
   return {};
 }

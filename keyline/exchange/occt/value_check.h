@@ -20,13 +20,17 @@ struct StepCheck {
 StepCheck check_step_values(std::string_view text);
 
 /// The first value that is written like none in an IGES file's directory and the parameters of its
-/// geometry (types 100 to 199; IGES 5.3, 2.2.2 and 2.2.4.4), and arcs, lines, points and lists of
-/// points that have more than theirs, as decimal commas make them.
+/// geometry (types 100 to 199; IGES 5.3, 2.2.2 and 2.2.4.4), and entities whose count of parameters
+/// is known that have more than theirs, as decimal commas make them.
 std::string bad_iges_value(std::string_view text);
 
 /// The first line of an IGES file that belongs to no section, as one with a column more or less
 /// does (IGES 5.3, 2.2.1), as what is not read of it; empty where there is none.
 std::string odd_iges_line(std::string_view text);
+
+/// The first line of an IGES file whose number is not the next of its section (IGES 5.3, 2.2.1):
+/// one before it is lost, stands twice or elsewhere; empty where there is none.
+std::string unordered_iges_line(std::string_view text);
 
 /// What an IGES file lacks at its end, in words: its last line, or parameter lines that the last
 /// one counts (IGES 5.3, 2.2.4.6); empty where it is whole. OCCT reads what is there.
