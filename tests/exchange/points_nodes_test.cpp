@@ -89,6 +89,39 @@ TEST(Tecplot, VariablesNameTheColumnsAndZonesTheCurves) {
   EXPECT_EQ(read("variables = x y z\nzone i=4\n" + rows)->at(0).points[3], (Point3{3, 0.6, 4}));
 }
 
+// The guide's own examples name one variable to a line, and go on with a zone in further lines.
+TEST(Tecplot, RecordsGoOnInTheLinesBehind) {
+  const std::string rows = "0 0 1\n1 0.5 2\n2 0.7 3\n3 0.6 4\n";
+  for (const char* names : {"VARIABLES = \"P\"\n\"X\"\n\"Y\"\n", "VARIABLES = \"P\" \"X\"\n\"Y\"\n",
+                            "VARIABLES=\"P\"\n\"X\", \"Y\"\n"}) {
+    const auto wing =
+        read(std::string("TITLE = \"a wing\"\n") + names +
+             "ZONE T=\"upper side\"\n STRANDID=0, SOLUTIONTIME=0\n I=4, DATAPACKING=POINT\n "
+             "DT=(SINGLE SINGLE SINGLE )\n" +
+             rows + "ZONE T=\"lower side\"\n I=4\n" + rows);
+    ASSERT_TRUE(wing) << names << wing.error().message;
+    ASSERT_EQ(wing->size(), 2u);
+    EXPECT_EQ(wing->at(0).id, "upper side");
+    EXPECT_EQ(wing->at(1).id, "lower side");
+    EXPECT_THAT(wing->at(1).points, ElementsAre(Point3{0, 1, 0}, Point3{0.5, 2, 0},
+                                                Point3{0.7, 3, 0}, Point3{0.6, 4, 0}));
+    EXPECT_THAT(wing->at(0).left_out, Contains("columns beside: p"));
+    EXPECT_THAT(wing->at(0).left_out, Contains("line 1: TITLE = \"a wing\""));
+  }
+  EXPECT_THAT(
+      why_not("VARIABLES = \"X\", \"Y\"\nZONE T=\"a\"\n I=2\n DATAPACKING=BLOCK\n0 1\n2 3\n"),
+      HasSubstr("no list of points"));
+}
+
+TEST(Tecplot, TitlesAreWhatStandsInQuotes) {
+  EXPECT_EQ(read("TITLE = \"a wing\"\nVARIABLES = \"X\" \"Y\"\n0 1\n1 2\n2 2\n")->at(0).id,
+            "a wing");
+  const auto unnamed = read("VARIABLES = \"alpha\" \"cl\"\n0 1\n1 2\n2 2\n");
+  EXPECT_EQ(unnamed->at(0).id, "");
+  EXPECT_THAT(unnamed->at(0).left_out,
+              Contains("VARIABLES = \"alpha\", \"cl\": names no x and y: the first columns taken"));
+}
+
 TEST(Tecplot, ZonesOfBlocksAndElementsAreRefused) {
   const std::string rows = "0 1 2 3\n0 0.5 0.7 0.6\n";
   for (const char* zone :

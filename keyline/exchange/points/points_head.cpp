@@ -14,12 +14,16 @@ namespace {
 using core::ErrorCode;
 using Fields = std::vector<std::string_view>;
 
+/// The first of them is the title, but for a zone's.
 void remember_title(PointsHead& head, std::string_view line, int number) {
   constexpr std::size_t kMostKept = 100;
+  const std::string said = tecplot_title(line);
+  const bool first = head.titles.empty() || (is_tecplot_zone(line) && !said.empty());
   if (head.titles.size() < kMostKept)
-    head.titles.push_back("line " + std::to_string(number) + ": " + shortened(line));
-  if (head.first_text.empty()) head.first_text = shortened(line);
-  head.last_text = std::string(line.substr(0, 4096));
+    head.titles.insert(first ? head.titles.begin() : head.titles.end(),
+                       "line " + std::to_string(number) + ": " + shortened(line));
+  if (first) head.first_text = shortened(said.empty() ? line : said);
+  head.last_text = is_tecplot_zone(line) ? "" : std::string(line.substr(0, 4096));
   ++head.text_lines;
 }
 
@@ -105,14 +109,34 @@ void name_the_mark(PointsHead& head) {
   }
 }
 
+/// Names in quotes with commas between; other text as it is.
+std::string listed(std::string_view text) {
+  std::string list;
+  for (std::size_t at = text.find('"'); at != text.npos;) {
+    const std::size_t end = std::min(text.find('"', at + 1), text.size() - 1);
+    list.append(list.empty() ? "" : ", ").append(text.substr(at, end + 1 - at));
+    at = text.find('"', end + 1);
+  }
+  return list.empty() ? std::string(text) : list;
+}
+
+/// Whether the line names variables of Tecplot, or further ones.
+bool take_variables(PointsHead& head, const PointsOptions& options, std::string_view line,
+                    int number) {
+  const auto variables = tecplot_variables(line);
+  if (!variables && (head.variables.empty() || !line.starts_with('"'))) return false;
+  head.variables = variables ? listed(*variables) : head.variables + ", " + listed(line);
+  take_header(head, options, head.variables, number, false);
+  return true;
+}
+
 }  // namespace
 
 core::Result<bool> is_first_row(PointsHead& head, const PointsOptions& options,
                                 std::string_view line, int number, const std::string& place) {
   const bool comment = is_comment(line);
-  const auto variables = tecplot_variables(line);
-  const std::string_view text = variables ? *variables : comment ? comment_text(line) : line;
-  if (variables && take_header(head, options, text, number, false)) return false;
+  if (take_variables(head, options, line, number)) return false;
+  const std::string_view text = comment ? comment_text(line) : line;
   if (is_tecplot_zone(line)) {
     remember_title(head, line, number);
     return false;
@@ -187,6 +211,17 @@ core::Result<std::string> unit_below(const PointsHead& head, const PointsColumns
     unit = known;
   }
   return unit.empty() ? head.said_unit : unit;
+}
+
+std::vector<std::string> left_out_above(const PointsHead& head) {
+  constexpr const char* kFirst = ": names no x and y: the first columns taken";
+  std::vector<std::string> lines;
+  if (!head.titles.empty()) lines.assign(head.titles.begin() + 1, head.titles.end());
+  if (head.unknown && head.titles.size() > 1) lines.back() += kFirst;
+  if (head.unknown && head.titles.size() == 1) lines.push_back(head.titles.front() + kFirst);
+  if (head.names.empty() && !head.variables.empty())
+    lines.push_back("VARIABLES = " + shortened(head.variables) + kFirst);
+  return lines;
 }
 
 }  // namespace keyline::exchange::detail

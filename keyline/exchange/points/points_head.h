@@ -27,6 +27,7 @@ struct PointsHead {
   char separator = 0;             ///< of the header
   bool counts = false;            ///< it is a comment: its mark may stand for a number of the point
   int line = 0;
+  std::string variables;            ///< of Tecplot, as far as they have been read
   std::vector<std::string> titles;  ///< lines of text, the first some of them
   std::size_t text_lines = 0;       ///< all of them
   std::string first_text;           ///< shortened
@@ -54,5 +55,9 @@ core::Result<PointsColumns> columns_below(PointsHead& head, const PointsOptions&
 /// Fails: bad_input where it gives them two.
 core::Result<std::string> unit_below(const PointsHead& head, const PointsColumns& columns,
                                      const std::string& place, std::vector<std::string>& left_out);
+
+/// Of the lines before the rows: titles behind the first, and names of columns that are not looked
+/// for.
+std::vector<std::string> left_out_above(const PointsHead& head);
 
 }  // namespace keyline::exchange::detail

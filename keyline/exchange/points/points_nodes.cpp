@@ -1,6 +1,7 @@
 #include "keyline/exchange/points/points_nodes.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -19,6 +20,20 @@ std::optional<std::string_view> behind(std::string_view line, std::string_view k
   if (line.empty() || (kBlanks.find(line[0]) == kBlanks.npos && line[0] != '='))
     return std::nullopt;
   return trimmed(line);
+}
+
+/// Whether one of the pairs KEY=value outside quotes is it; of a value all that is behind it, too.
+template <class Is>
+bool any_value(std::string_view line, Is is) {
+  bool quoted = false;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    quoted = quoted != (line[at] == '"');
+    if (quoted || line[at] != '=') continue;
+    const std::string_view before = trimmed(line.substr(0, at));
+    const std::string_view key = before.substr(before.find_last_of(", \t") + 1);
+    if (is(key, trimmed(line.substr(at + 1)))) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -78,20 +93,31 @@ bool is_tecplot_zone(std::string_view line) {
   return rest && rest->find('=') != rest->npos;
 }
 
+bool goes_on_with_zone(std::string_view line) {
+  line = trimmed(line);
+  const bool word = !line.empty() && std::isalpha(static_cast<unsigned char>(line[0]));
+  return word && line.find('=') != line.npos && !is_tecplot_zone(line);
+}
+
 bool is_zone_of_blocks(std::string_view line) {
   const std::string text = lower_case(line);
-  bool quoted = false;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    quoted = quoted != (text[at] == '"');
-    if (quoted || text[at] != '=') continue;
-    const std::string_view before = trimmed(std::string_view(text).substr(0, at));
-    const std::string_view key = before.substr(before.find_last_of(", \t") + 1);
-    const std::string_view value = trimmed(std::string_view(text).substr(at + 1));
+  return any_value(text, [](std::string_view key, std::string_view value) {
     const bool layout = key == "f" || key == "datapacking" || key == "zonetype";
-    if (key == "et" || (layout && (value.starts_with("block") || value.starts_with("fe"))))
-      return true;
-  }
-  return false;
+    return key == "et" || (layout && (value.starts_with("block") || value.starts_with("fe")));
+  });
+}
+
+std::string tecplot_title(std::string_view line) {
+  std::string title;
+  const bool zone = is_tecplot_zone(line);
+  if (!zone && !behind(line, "title")) return title;
+  any_value(line, [&](std::string_view key, std::string_view value) {
+    const std::string_view name = value.substr(0, value.find('"', 1) + 1);
+    const bool meant = lower_case(key) == (zone ? "t" : "title") && value.starts_with('"');
+    if (meant) title = unquoted(name);
+    return meant;
+  });
+  return title;
 }
 
 }  // namespace keyline::exchange::detail

@@ -39,14 +39,22 @@ std::optional<NodeCounts> node_counts(const std::vector<double>& first,
                                       const std::vector<std::string_view>& second,
                                       const TableStyle& style);
 
-/// What the rest of a line is that names the variables of a file of Tecplot: VARIABLES = "X", "Y".
+/// What the rest of a line is that names the variables of a file of Tecplot: VARIABLES = "X", "Y";
+/// further ones may stand in the lines behind it, in quotes.
 std::optional<std::string_view> tecplot_variables(std::string_view line);
 
 /// Whether a line is the head of a zone of Tecplot: ZONE T="wing", I=80.
 bool is_tecplot_zone(std::string_view line);
 
-/// Whether the numbers of that zone are other than one point in each row: variable by variable, or
-/// with elements behind them.
+/// Whether a line behind that one, or behind such a line, still belongs to it: I=80, F=POINT.
+bool goes_on_with_zone(std::string_view line);
+
+/// What a line of Tecplot calls the file or a zone: TITLE = "wing", ZONE T="upper"; empty where it
+/// does not.
+std::string tecplot_title(std::string_view line);
+
+/// Whether a line of that zone says that its numbers are other than one point in each row: variable
+/// by variable, or with elements behind them.
 bool is_zone_of_blocks(std::string_view line);
 
 }  // namespace keyline::exchange::detail

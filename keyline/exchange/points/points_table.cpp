@@ -27,9 +27,12 @@ core::Result<void> PointsTable::take(std::string_view line, int number, const st
     return {};
   }
   if (!is_comment(line)) line = without_remark(line);
-  if (is_tecplot_zone(line) && is_zone_of_blocks(line))
+  const bool within = zone_ && goes_on_with_zone(line);
+  zone_ = within || is_tecplot_zone(line);
+  if (zone_ && is_zone_of_blocks(line))
     return core::fail(ErrorCode::bad_input, "a zone of Tecplot that is no list of points",
                       "write its points one to a row (DATAPACKING=POINT)", place);
+  if (within) return {};
   if (!started_) return before_data(line, number, place);
   if (is_comment(line) || is_behind_nodes(number)) return {};
   return among_data(line, number, place);
@@ -229,7 +232,8 @@ core::Result<void> PointsTable::take_up_again() {
   run_ = 0;
   current_ = curves_.size();
   RawCurve curve;
-  if (!count_) curve.id = remark_text_;
+  const std::string title = tecplot_title(remark_text_);
+  if (!count_) curve.id = title.empty() ? remark_text_ : title;
   curve.has_z = columns_.z != PointsColumns::kNone;
   curves_.push_back(std::move(curve));
   return {};
@@ -339,25 +343,13 @@ void PointsTable::name_curves() {
   }
 }
 
-/// Of the lines before the rows: names of columns that are not looked for, and titles behind the
-/// first.
-void PointsTable::tell_titles() {
-  if (head_.titles.empty()) return;
-  if (head_.unknown) {
-    left_out_.insert(left_out_.begin(),
-                     head_.titles.back() + ": names no x and y: the first columns taken");
-    head_.titles.pop_back();
-  }
-  if (head_.titles.size() > 1)
-    left_out_.insert(left_out_.begin(), head_.titles.begin() + 1, head_.titles.end());
-}
-
 void PointsTable::tell_left_out() {
   if (!head_.has_no_title())
     for (RawCurve& curve : curves_)
       curve.notes.push_back(core::counted(head_.text_lines, "title line") + " before the points");
   tell_columns();
-  tell_titles();
+  const std::vector<std::string> above = left_out_above(head_);
+  left_out_.insert(left_out_.begin(), above.begin(), above.end());
   left_out_ = core::told_in_part(std::move(left_out_), "further line");
   for (RawCurve& curve : curves_) curve.left_out = left_out_;
 }

@@ -62,7 +62,6 @@ class PointsTable {
   bool title_counts(double number) const;
   void name_curves();
   void tell_columns();
-  void tell_titles();
   void tell_left_out();
 
   const PointsOptions& options_;
@@ -82,6 +81,7 @@ class PointsTable {
   std::optional<NodeCounts> nodes_;        // where the first line has them
   std::vector<double> first_row_;          // its numbers, -1 for what is none
   bool told_behind_ = false;
+  bool zone_ = false;           // the line before is of Tecplot's head of a zone
   std::optional<Count> count_;  // of the rows since the last such line
   std::string remark_text_;
   bool like_row_ = false;  // the remark is rather a row with a mistake in it: it names no curve
