@@ -112,13 +112,40 @@ TEST(DxfReader, MissingCoordinatesAreSaid) {
         {"0 LWPOLYLINE 8 0 90 3 70 0 10 1 20 2 10 3 10 5 20 6", 20},
         {"0 POLYLINE 8 0 66 1 70 0 0 VERTEX 8 0 10 1 20 2 0 VERTEX 8 0 10 3 0 SEQEND", 20},
         {"0 SPLINE 8 0 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 10 5", 20},
-        {"0 SPLINE 8 0 70 8 71 3 11 0 21 0 11 5 11 6 21 1", 21}}) {
+        {"0 SPLINE 8 0 70 8 71 3 11 0 21 0 11 5 11 6 21 1", 21},
+        {"0 LINE 8 0 10 1 20 2 30 5 11 3 21 4", 31},
+        {"0 LINE 8 0 10 1 20 2 11 3 21 4 31 5", 30},
+        {"0 SPLINE 8 0 70 8 71 1 40 0 40 0 40 1 40 1 10 0 20 0 30 7 10 5 20 5", 30},
+        {"0 SPLINE 8 0 70 8 71 3 11 0 21 0 31 7 11 5 21 5 11 6 21 1 31 7", 31}}) {
     const Document d = read(line + entity);
     EXPECT_EQ(d.paths.size() + d.space_curves.size(), 1U) << entity;
     EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("group " + std::to_string(group) + " is missing")))
         << entity;
   }
   EXPECT_TRUE(read(line).skipped.empty());
+}
+
+// Of two values of what an entity has one of, neither is known to be meant.
+TEST(DxfReader, GroupsWithTwoValuesAreSaid) {
+  const std::string line = "0 LINE 8 0 10 1 20 2 11 3 21 4 ";
+  for (const auto& [entity, group] :
+       {std::pair{"0 LINE 8 0 10 1 20 2 11 3 21 4 11 5", 11},
+        {"0 CIRCLE 8 0 10 1 20 2 40 3 40 4", 40},
+        {"0 ARC 8 0 10 1 20 2 40 3 50 10 50 20 51 90", 50},
+        {"0 ELLIPSE 8 0 10 1 20 2 11 3 21 0 40 0.5 42 3 42 4", 42},
+        {"0 INSERT 8 0 2 none 10 1 20 2 20 3", 20},
+        {"0 LWPOLYLINE 8 0 90 2 70 0 70 1 10 1 20 2 10 3 20 0", 70},
+        {"0 POLYLINE 8 0 66 1 70 0 0 VERTEX 8 0 10 1 20 2 0 VERTEX 8 0 10 3 20 1 10 4 0 SEQEND",
+         10},
+        {"0 SPLINE 8 0 70 8 71 1 71 2 40 0 40 0 40 1 40 1 10 0 20 0 10 5 20 5", 71}}) {
+    const Document d = read(line + entity);
+    EXPECT_EQ(d.paths.size() + d.space_curves.size(), 1U) << entity;
+    EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("group " + std::to_string(group) + " has two")))
+        << entity;
+  }
+  const Document same = read("0 LINE 8 0 10 1 20 2 11 3 11 3.0 21 4");
+  EXPECT_EQ(same.paths.size(), 1U);
+  EXPECT_TRUE(same.skipped.empty());
 }
 
 TEST(DxfReader, FitPointsThatAreAnnouncedHaveToBeThere) {

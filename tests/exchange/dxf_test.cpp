@@ -49,7 +49,7 @@ TEST(DxfReader, ArcsAndCirclesStayExact) {
       read(drawing("0 ARC 8 body 10 3 20 4 40 5 50 350 51 20 0 CIRCLE 8 0 10 1 20 2 40 7"));
   ASSERT_EQ(d.paths.size(), 2U);
   EXPECT_EQ(d.paths[0].label.layer, "body");
-  EXPECT_EQ(d.paths[0].label.name, "arc-1");
+  EXPECT_EQ(d.paths[0].label.name, "");
   const auto arc = arc_of(only(d));
   EXPECT_NEAR(distance(arc.center, Point2{3, 4}), 0, 1e-14);
   EXPECT_NEAR(arc.radius, 5, 1e-14);
@@ -114,7 +114,7 @@ TEST(DxfReader, NestedInsertsTurnScaleAndMirror) {
   const Document d = read(drawing("0 INSERT 8 wall 62 1 2 outer 10 100 20 0 41 -1", blocks));
   ASSERT_EQ(d.paths.size(), 1U);
   EXPECT_EQ(d.paths[0].label.layer, "wall");
-  EXPECT_EQ(d.paths[0].label.name, "insert-2/insert-1/line-1");
+  EXPECT_EQ(d.paths[0].label.name, "outer/inner");
   // inner: (1,0)-(2,0) less its base, doubled, turned up, at (5,0); then mirrored at x = 0.
   EXPECT_NEAR(distance(evaluate(only(d), 0), Point2{95, 0}), 0, 1e-13);
   EXPECT_NEAR(distance(evaluate(only(d), 1), Point2{95, 2}), 0, 1e-13);
@@ -158,9 +158,9 @@ TEST(DxfReader, NamesAreOursAlone) {
       line + "1001 OTHER 1000 theirs " + line + "1001 KEYLINE 1000 roof 1001 OTHER 1000 theirs " +
       line + "1000 nobodys " + line + "1001 OTHER 1000 x 1001 KEYLINE 1000 sill"));
   ASSERT_EQ(d.paths.size(), 4U);
-  EXPECT_EQ(d.paths[0].label.name, "line-1");
+  EXPECT_EQ(d.paths[0].label.name, "");
   EXPECT_EQ(d.paths[1].label.name, "roof");
-  EXPECT_EQ(d.paths[2].label.name, "line-3");
+  EXPECT_EQ(d.paths[2].label.name, "");
   EXPECT_EQ(d.paths[3].label.name, "sill");
 }
 

@@ -221,6 +221,27 @@ const Codes& needed_groups(std::string_view type) {
   return found == kNeeded.end() ? kNone : found->second;
 }
 
+/// Groups that stand in an entity of this type as often as it has points, knots or weights.
+const Codes& listed_groups(std::string_view type) {
+  static const Codes kVertices = {10, 20, 40, 41, 42, 91};
+  static const Codes kSpline = {10, 20, 30, 11, 21, 31, 40, 41};
+  static const Codes kNone;
+  if (type == "LWPOLYLINE") return kVertices;
+  return type == "SPLINE" || type == "HELIX" ? kSpline : kNone;
+}
+
+/// The first group of the geometry, but for those listed, that stands there with two values.
+std::optional<int> ambiguous(const Tags& tags, const Codes& listed) {
+  std::map<int, double> known;
+  for (const DxfTag& tag : tags) {
+    if (tag.code == 100 && tag.text == "AcDbHelix") break;
+    if (!is_geometry(tag.code) || std::ranges::find(listed, tag.code) != listed.end()) continue;
+    const double value = number_of(tag).value_or(0);
+    if (known.emplace(tag.code, value).first->second != value) return tag.code;
+  }
+  return std::nullopt;
+}
+
 /// As many second coordinates as first ones, each behind its own.
 bool in_pairs(const Tags& tags, int code) {
   bool open = false;
@@ -230,6 +251,17 @@ bool in_pairs(const Tags& tags, int code) {
     if (tag.code == code + 10 && !std::exchange(open, false)) return false;
   }
   return !open;
+}
+
+/// Third coordinates are those of all points, or of none: then they are 0.
+std::optional<int> missing_height(const DxfEntity& entity) {
+  const Tags& tags = entity.tags;
+  if (entity.type == "LINE" && !find(tags, 30) != !find(tags, 31)) return find(tags, 30) ? 31 : 30;
+  if (entity.type != "SPLINE" && entity.type != "HELIX") return std::nullopt;
+  const auto count = [&](int code) { return std::ranges::count(tags, code, &DxfTag::code); };
+  for (const int code : {30, 31})
+    if (count(code) > 0 && count(code) != count(code - 20)) return code;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -247,10 +279,18 @@ std::optional<int> missing_group(const DxfEntity& entity) {
   if (entity.type == "LWPOLYLINE" || entity.type == "SPLINE" || entity.type == "HELIX")
     for (const int code : {10, 11})
       if (!in_pairs(entity.tags, code)) return code + 10;
+  if (const auto height = missing_height(entity)) return height;
   for (const Tags& vertex : entity.vertices)
     for (const int code : {10, 20})
       if (!find(vertex, code)) return code;
   return std::nullopt;
+}
+
+std::optional<int> ambiguous_group(const DxfEntity& entity) {
+  auto found = ambiguous(entity.tags, listed_groups(entity.type));
+  for (const Tags& vertex : entity.vertices)
+    if (!found) found = ambiguous(vertex, {});
+  return found;
 }
 
 double real(const Tags& tags, int code, double fallback) {

@@ -26,6 +26,10 @@ const DxfTag* unreadable(const DxfEntity& entity);
 /// coordinates of its points, radii, angles. Empty where all are.
 std::optional<int> missing_group(const DxfEntity& entity);
 
+/// The code of a group of the geometry that stands there twice, with different values, where there
+/// can be one; empty where none does.
+std::optional<int> ambiguous_group(const DxfEntity& entity);
+
 /// First value of a code; the fallback where it is absent or no number.
 double real(const std::vector<DxfTag>& tags, int code, double fallback = 0);
 int integer(const std::vector<DxfTag>& tags, int code, int fallback = 0);

@@ -1,7 +1,7 @@
 #include "keyline/exchange/dxf/dxf_reader.h"
 
 #include <algorithm>
-#include <map>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -16,7 +16,6 @@
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
 #include "keyline/exchange/dxf/dxf_units.h"
-#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange {
 namespace {
@@ -29,7 +28,9 @@ using document::Document;
 
 /// One thing of a block or of the drawing, not yet placed.
 struct Item {
-  std::string name;
+  std::string_view type;
+  std::uint32_t place = 0;
+  std::string name;  ///< ours; of an insert, else, its block's
   std::string layer;
   int color = 256;    ///< index; 0: of the insert, 256: of the layer
   std::string exact;  ///< true colour; empty: by index
@@ -216,6 +217,7 @@ class DxfReader {
     Item item = labelled(entity);
     if (insert) {
       item.block = detail::text(entity.tags, 2);
+      if (item.name.empty()) item.name = item.block;
       item.places = places_of(entity);
     } else {
       auto curve = detail::dxf_curve_of(entity);
@@ -230,16 +232,19 @@ class DxfReader {
     place(item, Outer{});
   }
 
-  /// False, and said, where a number of its geometry cannot be read or is not there.
+  /// False, and said, where a number of its geometry cannot be read, is not there or is two.
   bool is_readable(const DxfEntity& entity) {
-    const DxfTag* tag = detail::unreadable(entity);
-    const auto missing = tag ? std::nullopt : detail::missing_group(entity);
-    if (tag)
-      problem(describe(entity) + ": \"" +
-              std::string(core::whole_characters(detail::text_of(*tag), 40)) + "\" at " +
-              tags_.place(*tag) + " is no number");
-    if (missing) problem(describe(entity) + ": group " + std::to_string(*missing) + " is missing");
-    return !tag && !missing;
+    std::string wrong;
+    if (const DxfTag* tag = detail::unreadable(entity))
+      wrong = '"' + std::string(core::whole_characters(detail::text_of(*tag), 40)) + "\" at " +
+              tags_.place(*tag) + " is no number";
+    else if (const auto missing = detail::missing_group(entity))
+      wrong = "group " + std::to_string(*missing) + " is missing";
+    else if (const auto twice = detail::ambiguous_group(entity))
+      wrong = "group " + std::to_string(*twice) + " has two values";
+    if (wrong.empty()) return true;
+    problem(describe(entity) + ": " + wrong);
+    return false;
   }
 
   /// A colour as it is written; what cannot be read is said and counts as absent.
@@ -253,25 +258,25 @@ class DxfReader {
     return absent;
   }
 
-  std::string describe(const DxfEntity& entity) const {
-    return tags_.place({.place = entity.place}) + ": " + std::string(entity.type);
+  /// Of an entity or an item.
+  std::string describe(const auto& thing) const {
+    return tags_.place({.place = thing.place}) + ": " + std::string(thing.type);
   }
 
   Item labelled(const DxfEntity& entity) {
     Item item;
+    item.type = entity.type;
+    item.place = entity.place;
     item.layer = detail::text(entity.tags, 8);
     item.color = color_number(entity, 62, 256);
     const int exact = color_number(entity, 420, -1);
     if (exact >= 0) item.exact = detail::true_color(exact);
     bool ours = false;
     for (const DxfTag& tag : entity.tags) {
-      if (tag.code == 8) check_letters(tag);
+      if (tag.code == 8 || tag.code == 2) check_letters(tag);
       if (tag.code == 1001) ours = tag.text == "KEYLINE";
       if (tag.code == 1000 && ours) item.name = detail::text_of(tag);
     }
-    const int number = ++numbers_[std::string(entity.type)];
-    if (item.name.empty())
-      item.name = detail::lower_case(entity.type) + "-" + std::to_string(number);
     return item;
   }
 
@@ -320,7 +325,8 @@ class DxfReader {
     const bool inherits = item.layer == "0" && outer.depth > 0;
     const std::string& layer = inherits ? outer.layer : item.layer;
     const std::string color = color_of(item, outer, layer);
-    const std::string name = outer.name.empty() ? item.name : outer.name + "/" + item.name;
+    const bool both = !outer.name.empty() && !item.name.empty();
+    const std::string name = outer.name + (both ? "/" : "") + item.name;
     if (!item.curve) return place_block(item, outer, layer, color, name);
     const detail::DxfShape shape =
         outer.depth == 0 ? item.curve->shape : detail::mapped(item.curve->shape, outer.map);
@@ -329,19 +335,20 @@ class DxfReader {
       full_ = true;
       return problem("the rest of the drawing: its inserts make too many curves");
     }
-    if (!detail::is_finite(shape)) return problem(name + ": its numbers are too large");
+    if (!detail::is_finite(shape)) return problem(describe(item) + ": its numbers are too large");
     const auto added =
         detail::add_shape(document_, shape, item.curve->closed, {name, layer, color});
-    if (!added) problem(name + ": " + added.error().message);
+    if (!added) problem(describe(item) + ": " + added.error().message);
   }
 
   void place_block(const Item& item, const Outer& outer, const std::string& layer,
                    const std::string& color, const std::string& name) {
     const auto block = blocks_.find(item.block);
-    if (block == blocks_.end()) return problem(name + ": there is no block \"" + item.block + "\"");
+    if (block == blocks_.end())
+      return problem(describe(item) + ": there is no block \"" + item.block + "\"");
     if (outer.depth >= limits_.depth)
-      return problem(name + ": blocks within blocks, deeper than " + std::to_string(limits_.depth) +
-                     " or without end");
+      return problem(describe(item) + ": blocks within blocks, deeper than " +
+                     std::to_string(limits_.depth) + " or without end");
     for (const Affine3& cell : item.places) {
       Outer inner{detail::combined(outer.map, cell), layer, color, name, outer.depth + 1};
       const core::Point3 base = block->second.base;
@@ -374,7 +381,6 @@ class DxfReader {
   Block* block_ = nullptr;
   std::vector<Item> items_;
   std::unordered_map<std::string, std::string> layer_colors_;
-  std::map<std::string, int> numbers_;
   detail::DxfBeside beside_;
   std::vector<std::string> problems_;
   std::size_t made_points_ = 0;

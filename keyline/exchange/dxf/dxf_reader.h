@@ -20,7 +20,8 @@ struct DxfReadLimits {
 /// (rational; from fit points where there are no control points, as AutoCAD interpolates them) and
 /// INSERT with nested blocks, arrays, any scale and extrusion.
 ///
-/// Names:   those our own writer stored, else type and running number ("spline-3").
+/// Names:   those our own writer stored, else of an insert that of its block ("wheel/hub"); others
+///          have none.
 /// Layers:  of the entity; of the insert for what lies on layer 0 of a block. Colours by entity,
 ///          layer or block, from AutoCAD's palette or true colour.
 /// Exact:   arcs and circles in the plane become one log-aesthetic piece, bulges and ellipses
