@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "keyline/acquire/acquire.h"
 #include "keyline/analysis/comb_figures.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
+#include "keyline/curve/bspline.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/operations/amount.h"
 #include "keyline/operations/ends.h"
@@ -55,6 +58,39 @@ Result<acquire::KeyLine> acquired(const std::vector<core::Point2>& points, const
   return line;
 }
 
+/// The speed of a rational curve goes by 1 / weight^2. Where weights rise far above those of its
+/// ends, parts of it pass in less of the parameter than the panels of its length see. With weights
+/// up to 1e4 apart the lengths of 240 random curves were right to 1e-8; up to 1e6, six of 40 wrong.
+bool runs_unseen(const curve::Bezier2& c) {
+  constexpr double kRise = 1e4;
+  if (!curve::is_rational(c)) return false;
+  return std::ranges::max(c.weights) > kRise * std::min(c.weights.front(), c.weights.back());
+}
+
+/// Of a curve that runs so, the weights; else null.
+const std::vector<double>* hiding_weights(const document::PlanarCurve& c) {
+  if (const auto* bezier = std::get_if<curve::Bezier2>(&c.value))
+    return runs_unseen(*bezier) ? &bezier->weights : nullptr;
+  const auto* spline = std::get_if<curve::BSpline2>(&c.value);
+  if (!spline || !curve::is_rational(*spline)) return nullptr;
+  return std::ranges::any_of(curve::to_beziers(*spline), runs_unseen) ? &spline->weights : nullptr;
+}
+
+Result<void> check_weights(const document::Path& path) {
+  for (std::size_t i = 0; i < path.curves.size(); ++i) {
+    const std::vector<double>* weights = hiding_weights(path.curves[i]);
+    if (!weights) continue;
+    const auto largest = std::ranges::max_element(*weights) - weights->begin();
+    const std::string of = path.curves.size() == 1 ? "" : ".curves[" + std::to_string(i) + "]";
+    return fail(ErrorCode::bad_input,
+                "the weight is more than 10000 times that of an end of its span: much of the curve "
+                "lies in too little of its parameter",
+                "give weights nearer to each other",
+                "curve" + of + ".weights[" + std::to_string(largest) + "]");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_extent(const document::Path& path) {
@@ -68,7 +104,7 @@ Result<void> check_extent(const document::Path& path) {
     if (const auto* spline = std::get_if<curve::BSpline2>(&c.value)) return stays(spline->control);
     return false;  // pieces have a length
   });
-  if (!still) return {};
+  if (!still) return check_weights(path);
   return fail(ErrorCode::bad_input, "the curve has no length", "give it two different points",
               "curve");
 }

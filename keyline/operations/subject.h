@@ -38,7 +38,8 @@ struct Acquiring {
   }
 };
 
-/// bad_input for a curve that is one point, with "curve" as path.
+/// bad_input for a curve that is one point, with "curve" as path, and for one whose weights are too
+/// far apart for its length to be measured, with the largest of them.
 core::Result<void> check_extent(const document::Path& path);
 
 acquire::AcquireOptions acquire_options(const Acquiring& told,
