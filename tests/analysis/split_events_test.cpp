@@ -166,7 +166,7 @@ TEST(SplitEvents, CuspsAtAnEndAreNoTurns) {
 }
 
 TEST(SplitEvents, StretchesGetSixteenSamples) {
-  EXPECT_EQ(split_monotone(testing::wavy(2, 2, 1, 1.0 / 3, 1), {.samples = 4}).extrema.size(), 5U);
+  EXPECT_EQ(split_monotone(testing::wavy(2, 2, 1, 1.0 / 6, 1), {.samples = 4}).extrema.size(), 11U);
 }
 
 /// An arc, then curvature that swings about 0 by that height.

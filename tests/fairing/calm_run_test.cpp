@@ -174,5 +174,49 @@ TEST(HoldEnds, EndsComeToWhereTheyAreHeld) {
     }
 }
 
+// A sliding end keeps its own x, wherever that of what holds it is.
+TEST(HoldEnds, SlidingEndsMoveAlongTheirLine) {
+  for (const bool at_start : {false, true}) {
+    Clothoid c;
+    const FitJoint own = at_start ? c.curve.joints.front() : c.curve.joints.back();
+    HeldEnd held{Hold::position, own, true};
+    held.joint.position = own.position + core::Vector2{0.5, 2e-4};
+    const BandReport found = hold_ends(c.curve, c.points, 1e-3, 0, at_start ? held : HeldEnd{},
+                                       at_start ? HeldEnd{} : held);
+    EXPECT_TRUE(found.within);
+    const FitChain chain = chain_of(c.curve);
+    const FitJoint& now = at_start ? chain.joints.front() : chain.joints.back();
+    EXPECT_NEAR(now.position.x, own.position.x, 0.1);
+    EXPECT_NEAR(now.position.y, own.position.y + 2e-4, 1e-12);
+  }
+}
+
+// Means that are off the curve by turns, of two points beside each, before and behind it along the
+// curve: the spread is theirs from the mean, at right angles to the curve.
+TEST(CalmRun, SpreadIsThatOfThePointsBesideTheirMean) {
+  const lac::Chain chain{{{0, 0}, 0.3}, {{-1, 1, 0.5, 2.5}}, false};
+  std::vector<FitPoint> points;
+  CalmRunOptions options;
+  options.tolerance = 4e-3;
+  for (int i = 0; i <= 40; ++i) {
+    const double t = i / 40.0, off = i % 2 == 0 ? 5e-4 : -5e-4;
+    const auto beside = [&](double place, double left) {
+      place = std::clamp(place, 0.0, 1.0);
+      const double angle = lac::tangent_angle(chain, place) + core::kPi / 2;
+      return lac::evaluate(chain, place) + (off + left) * core::unit_vector(angle);
+    };
+    points.push_back({.position = beside(t, 0), .low = -3e-3, .high = 3e-3, .count = 2});
+    for (const double side : {1.0, -1.0}) {
+      options.members.points.push_back(beside(t + 0.03 * side, side > 0 ? 2e-3 : -1e-3));
+      options.members.fitted.push_back(points.size() - 1);
+    }
+  }
+  solve_calm(points, false, options);
+  for (std::size_t f = 4; f + 4 < points.size(); ++f) {
+    EXPECT_NEAR(points[f].low, -1e-3, 2e-4) << f;
+    EXPECT_NEAR(points[f].high, 2e-3, 2e-4) << f;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
