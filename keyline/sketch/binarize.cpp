@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
-#include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "keyline/sketch/dark_rows.h"
+#include "keyline/sketch/line_border.h"
 #include "keyline/sketch/rows.h"
 
 namespace keyline::sketch {
@@ -19,8 +20,6 @@ constexpr int kBins = 256;            ///< of darkness
 constexpr double kFaintest = 0.05;    ///< least darkness of ink whatever the noise
 constexpr double kNoiseFactor = 4.5;  ///< ink is this many standard deviations off paper
 constexpr double kWeakShare = 0.5;    ///< of the threshold: what may hang on to ink
-constexpr double kLocalShare = 0.45;  ///< of the deepest pixel nearby: the edge of a line
-constexpr int kLocalRadius = DarkRows::kMargin;
 constexpr double kBlotShare = 0.2;    ///< of the strongest region's contrast: less is no ink
 constexpr double kBlur = 0.5;         ///< pixels: closes the grain of a pencil
 constexpr double kNoisy = 0.02;       ///< noise in darkness from which more blur helps
@@ -219,42 +218,28 @@ constexpr std::uint8_t kPaper = 0;
 constexpr std::uint8_t kWeak = 2;
 constexpr std::uint8_t kStrong = 1;
 
-/// Whether some pixel within kLocalRadius is so much darker that a faint one is its line's edge.
-class Nearby {
- public:
-  explicit Nearby(std::ptrdiff_t stride) {
-    const int size = 2 * kLocalRadius + 1;
-    const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x)
-        if (disc.at<std::uint8_t>(y, x))
-          away_.push_back((y - kLocalRadius) * stride + x - kLocalRadius);
-  }
-
-  bool has_darker(const std::uint16_t* here, double than) const {
-    if (!(than < 65535)) return false;  // nothing is
-    return std::ranges::any_of(away_, [&](std::ptrdiff_t step) { return here[step] > than; });
-  }
-
- private:
-  std::vector<std::ptrdiff_t> away_;  ///< in the row of all pixels
+/// What is marked beside what passes the threshold.
+struct Marked {
+  std::vector<std::size_t> weak;  ///< may hang on to it
+  /// May be a border, or go on at the second pixel: a pale line's beside a darker one.
+  std::vector<std::pair<std::size_t, std::size_t>> beside;
 };
 
-/// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak); where the latter
-/// is comes back. What else is darker than paper, and no line's border, becomes faint.
-std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const Regions& regions,
-                              double faintest, Binarized& result) {
+/// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak). What else is
+/// darker than paper, and no line's border, becomes faint.
+Marked mark(const Tone& tone, const DarknessTable& dark, const Regions& regions, double faintest,
+            Binarized& result) {
   Binary& marks = result.ink;
   const int least = static_cast<int>(std::floor(faintest * kBlack));
   const double sigma = tone.noise / tone.gain > kNoisy ? kStrongBlur : kBlur;
   std::mutex adding;
-  std::vector<std::size_t> weak;
+  Marked marked;
   for_rows(0, marks.height, [&](int first, int last) {
     DarkRows rows(tone.level, dark, sigma, least);
     rows.read(first, last);
-    const Nearby nearby(rows.stride());
+    const LineBorder border(rows.stride());
     Blend threshold(regions, marks.width, marks.height);
-    std::vector<std::size_t> found;
+    Marked found;
     for (int y = first; y < last; ++y) {
       threshold.set_row(y);
       const std::uint16_t* row = rows.row(y);
@@ -263,19 +248,38 @@ std::vector<std::size_t> mark(const Tone& tone, const DarknessTable& dark, const
         const double here = row[x] / kBlack;
         if (here < faintest) return;
         const double strong = std::max(threshold(x), faintest);
-        if (nearby.has_darker(row + x, row[x] / kLocalShare)) return;  // a border
-        if (here < std::max(kWeakShare * strong, faintest)) {
+        const bool fades = here < std::max(kWeakShare * strong, faintest);
+        if (border.has_darker(row + x)) {
+          if (fades) return;
+          border.visit_beyond(row + x, [&](int across, int down) {
+            if (marks.contains(x + across, y + down))
+              found.beside.emplace_back(marks.index(x, y), marks.index(x + across, y + down));
+          });
+          return;
+        }
+        if (fades) {
           result.faint.set(x, y);
           return;
         }
         marks.at(x, y) = here >= strong ? kStrong : kWeak;
-        if (here < strong) found.push_back(marks.index(x, y));
+        if (here < strong) found.weak.push_back(marks.index(x, y));
       });
     }
     const std::scoped_lock lock(adding);  // their order does not matter
-    weak.insert(weak.end(), found.begin(), found.end());
+    marked.weak.insert(marked.weak.end(), found.weak.begin(), found.weak.end());
+    marked.beside.insert(marked.beside.end(), found.beside.begin(), found.beside.end());
   });
-  return weak;
+  return marked;
+}
+
+/// What goes on at what is marked is no border: it may hang on to ink, too.
+void mark_beside(Marked& marked, Binary& marks) {
+  std::erase_if(marked.beside, [&](const auto& b) { return marks.data[b.second] == kPaper; });
+  for (const auto& [pixel, beyond] : marked.beside) {
+    if (marks.data[pixel] != kPaper) continue;
+    marks.data[pixel] = kWeak;
+    marked.weak.push_back(pixel);
+  }
 }
 
 /// Weak pixels connected to strong ones become ink, the others faint.
@@ -334,7 +338,7 @@ void plain_threshold(const Gray& level, double threshold, Binary& ink) {
 
 }  // namespace
 
-Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
+Binarized binarize(const Tone& tone, const BinarizeOptions& options, bool grainy) {
   Binarized result;
   result.ink = Binary(tone.level.width, tone.level.height);
   if (options.threshold) {
@@ -348,7 +352,9 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options) {
   Regions regions = automatic_regions(tone.level, dark, faintest);
   apply_given(options, tone.gain, result, regions);
   result.faint = FaintPixels(result.ink.width, result.ink.height);
-  keep_connected(mark(tone, dark, regions, faintest, result), result);
+  Marked marked = mark(tone, dark, regions, faintest, result);
+  if (!grainy) mark_beside(marked, result.ink);
+  keep_connected(marked.weak, result);
   return result;
 }
 

@@ -38,7 +38,9 @@ struct Binarized {
 /// thresholds work with hysteresis: a fainter line counts where it hangs together with what passes
 /// the threshold; and a pixel is ink only if it is about half as dark as the darkest within a few
 /// pixels, which keeps faint and dark lines alike at their width.
+/// That would part a pale line beside a darker one that crosses it: a pixel is ink, too, where
+/// something as faint goes on away from what is darker, which a border does not. (Grain does.)
 /// Given thresholds are used as they are.
-Binarized binarize(const Tone& tone, const BinarizeOptions& options = {});
+Binarized binarize(const Tone& tone, const BinarizeOptions& options = {}, bool grainy = false);
 
 }  // namespace keyline::sketch

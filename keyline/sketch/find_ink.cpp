@@ -42,8 +42,8 @@ long clean(Ink& ink, const TraceOptions& options) {
   return ragged;
 }
 
-Ink ink_of(const Tone& tone, const TraceOptions& options) {
-  Binarized told = binarize(tone, options.binarize);
+Ink ink_of(const Tone& tone, const TraceOptions& options, bool grainy = false) {
+  Binarized told = binarize(tone, options.binarize, grainy);
   Ink ink{.picture = std::move(told.ink), .faint = std::move(told.faint)};
   show_stage(options, "binary", ink.picture);
   const InkMeasure measured = measure_ink(ink.picture);
@@ -60,7 +60,7 @@ Ink ink_of(const Tone& tone, const TraceOptions& options) {
 bool blur_grain(Tone& tone, Ink& ink, const TraceOptions& options) {
   Tone soft = tone;
   blur_levels(soft, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
-  Ink found = ink_of(soft, options);
+  Ink found = ink_of(soft, options, true);
   if (std::ranges::none_of(found.picture.data, [](auto pixel) { return pixel != 0; })) {
     ink.grainy = false;
     return false;

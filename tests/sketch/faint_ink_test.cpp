@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -185,6 +187,36 @@ TEST(FaintInk, OfBluePencilIsTraced) {
   EXPECT_GT(result->explained, 0.98);
   const auto& pencil = result->strokes.back().points;  // straight through the crossing
   EXPECT_NEAR(core::distance(pencil.front(), pencil.back()), std::hypot(45, 195), 4);
+}
+
+/// A pale level line across the page from x = 60 to 260, crossed by dark ones; how far the traced
+/// one strays from it, or nothing unless each line comes as one.
+std::optional<double> stray_of_pale(double width, double dark_width, double degrees, int count) {
+  Image page = blank_page(320, 240);
+  draw_line(page, {60, 120}, {260, 120}, width, 0.3);
+  const double angle = degrees * std::numbers::pi / 180;
+  const core::Vector2 half = 45 * core::Vector2{std::cos(angle), std::sin(angle)};
+  for (int k = 1; k <= count; ++k) {
+    const core::Point2 middle{60 + 200.0 * k / (count + 1), 120};
+    draw_line(page, middle - half, middle + half, dark_width, 0.9);
+  }
+  const auto result = trace(page);
+  if (!result || result->strokes.size() != static_cast<std::size_t>(count) + 1) return {};
+  const auto& pale = result->strokes.front().points;
+  if (std::abs(core::distance(pale.front(), pale.back()) - 200) > width) return {};
+  double stray = 0;
+  for (const core::Point2 p : pale) stray = std::max(stray, std::abs(p.y - 120));
+  return stray;
+}
+
+// Its pieces were cut off three pixels beside the dark lines and left out, some as dirt.
+TEST(FaintInk, OfPaleLinesGoesThroughBroadDarkOnes) {
+  for (const double width : {3.0, 5.0}) {
+    SCOPED_TRACE(width);
+    const auto stray = stray_of_pale(width, 8, 55, 4);
+    ASSERT_TRUE(stray);
+    EXPECT_LT(*stray, 0.5 * width) << "off its ink";
+  }
 }
 
 }  // namespace
