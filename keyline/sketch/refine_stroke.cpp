@@ -44,17 +44,18 @@ Vector2 tangent_at(const std::vector<Point2>& p, std::size_t i, long reach, bool
   return length > 0 ? d / length : Vector2{1, 0};
 }
 
-/// Median of the radii over some forty points around each.
-std::vector<double> usual_radii(const RawStroke& raw) {
-  const std::size_t n = raw.radii.size();
+/// Median over some forty points around each.
+template <class Values>
+std::vector<double> usual_of(const Values& values) {
+  const std::size_t n = values.size();
   std::vector<double> usual(n);
   constexpr std::size_t kBlock = 16;  // points that share one median
   std::vector<double> scratch;
   for (std::size_t start = 0; start < n; start += kBlock) {
     const std::size_t low = start > 16 ? start - 16 : 0;
     const std::size_t high = std::min(n, start + kBlock + 16);
-    scratch.assign(raw.radii.begin() + static_cast<long>(low),
-                   raw.radii.begin() + static_cast<long>(high));
+    scratch.assign(values.begin() + static_cast<long>(low),
+                   values.begin() + static_cast<long>(high));
     const double m = core::quantile(scratch);
     for (std::size_t i = start; i < std::min(n, start + kBlock); ++i) usual[i] = m;
   }
@@ -195,9 +196,9 @@ Refiner::Profile Refiner::profile_along(Values&& at, int reach, double half_widt
     if (at(k) > at(top) + 1e-9) top = k;
   const double peak = at(top);
   if (peak < 0.02) return {};
-  // flanks: where the profile falls to half, on either side
+  // flanks: where the profile falls to half, on either side, before it comes to a darker line
   const auto flank = [&](int step, double& where) {
-    for (int k = top; std::abs(k + step) <= reach; k += step)
+    for (int k = top; std::abs(k + step) <= reach && 0.5 * at(k + step) <= peak; k += step)
       if (at(k + step) < 0.5 * peak) {
         const double u = (at(k) - 0.5 * peak) / (at(k) - at(k + step));
         where = (k + step * u) * kStep;
@@ -208,7 +209,7 @@ Refiner::Profile Refiner::profile_along(Values&& at, int reach, double half_widt
   double low = 0;
   double high = 0;
   if (!flank(-1, low) || !flank(1, high)) return {};
-  Profile result{true, 0.5 * (low + high), high - low};
+  Profile result{true, 0.5 * (low + high), high - low, peak};
   if (result.width < 4) {  // thin: the centre of gravity uses every grey value
     double sum = 0;
     double moment = 0;
@@ -310,7 +311,8 @@ void Refiner::trim_end(std::vector<Point2>& points, std::vector<double>& widths,
 std::size_t Refiner::read_centres(const RawStroke& raw, const std::vector<double>& usual,
                                   const std::vector<Point2>& line, Centres& read) const {
   const std::size_t n = raw.points.size();
-  std::size_t good = 0;
+  std::vector<std::size_t> good;
+  std::vector<double> peaks;
   for (std::size_t i = 0; i < n; ++i) {
     read.weights[i] = 0;
     read.widths[i] = 2 * std::max<double>(usual[i], raw.radii[i]);
@@ -328,15 +330,18 @@ std::size_t Refiner::read_centres(const RawStroke& raw, const std::vector<double
     read.places[i] = line[i] + found.centre * normal;
     // of a grainy line, the ink's
     read.widths[i] = std::max({found.width, 2 * usual[i], 2.0 * raw.radii[i] - 1});
-    read.weights[i] = 1;
-    ++good;
+    good.push_back(i);
+    peaks.push_back(found.peak);
   }
-  return good;
+  const std::vector<double> dark = usual_of(peaks);
+  for (std::size_t k = 0; k < good.size(); ++k)
+    read.weights[good[k]] = 0.5 * peaks[k] > dark[k] ? 0 : 1;  // a darker line's
+  return good.size();
 }
 
 FineStroke Refiner::refine(const RawStroke& raw) const {
   const std::size_t n = raw.points.size();
-  const std::vector<double> usual = usual_radii(raw);
+  const std::vector<double> usual = usual_of(raw.radii);
   const double half = core::quantile(usual);
   const double wave = 5 + 1.2 * half;
   Centres read{raw.points, usual, std::vector<double>(n, 1)};

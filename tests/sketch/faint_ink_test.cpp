@@ -219,5 +219,15 @@ TEST(FaintInk, OfPaleLinesGoesThroughBroadDarkOnes) {
   }
 }
 
+// Beside thin dark lines the middle of a broad pale one was read off these.
+TEST(FaintInk, OfBroadPaleLinesIsNotReadOffThinDarkOnes) {
+  for (const double degrees : {35.0, 42.0, 60.0}) {
+    SCOPED_TRACE(degrees);
+    const auto stray = stray_of_pale(5.4, 2.4, degrees, 3);
+    ASSERT_TRUE(stray);
+    EXPECT_LT(*stray, 2.7) << "off its ink";
+  }
+}
+
 }  // namespace
 }  // namespace keyline::sketch
