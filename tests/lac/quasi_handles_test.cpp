@@ -131,6 +131,24 @@ TEST(Quasi, TaylorFormsFindALambdaWhereThereIsOne) {
   }
 }
 
+// Where the best expansion of the target leads to nothing over the handles, others do: this one was
+// refused, although any point of expansion serves.
+TEST(Quasi, AnExpansionOfItsOwnChoiceIsOneThatServes) {
+  const core::Point2 p0{0.08354943088761276, 0.0885385150329242},
+      p1{10.861064534516899, -9.586302205071386}, p2{1.0433018304986965, 11.253444128568367};
+  const double alpha = 1.000806783401752;
+  const auto chosen =
+      quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::taylor_angle, 5, {}, true});
+  ASSERT_TRUE(chosen);
+  EXPECT_LE(sampled_deviation(chosen->target, chosen->curve), chosen->deviation);
+  for (const double about : {0.0, 0.5, 1.0}) {
+    const auto given =
+        quasi_log_aesthetic(p0, p1, p2, alpha, {QuasiForm::taylor_angle, 5, about, false});
+    ASSERT_TRUE(given);
+    EXPECT_LE(chosen->deviation, given->deviation);
+  }
+}
+
 // Such pieces turn 49 and 900,000 radians, all but the polygon's turning within half an edge; they
 // were refused beyond 6.2. By mpmath, 50 digits: the edge's length and the control point b4.
 TEST(Quasi, PolygonsAreFoundHoweverFarTheirPieceTurns) {

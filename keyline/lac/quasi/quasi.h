@@ -43,6 +43,7 @@ struct QuasiOptions {
   std::optional<double> about = {};
   /// Taylor forms: the point of expansion, and the better of tangent angle and arc length, by the
   /// least error at the ends; `about` and which of the two forms is asked for do not matter then.
+  /// Where that leads to nothing over handles: the closest expanded at eighths, of both variables.
   bool automatic = false;
 };
 

@@ -87,6 +87,21 @@ class OverHandles {
     return closest;
   }
 
+  /// The same of options whose expansion is chosen: as it is best for the target, else, where that
+  /// has none over the handles, the closest expanded at eighths of the interval.
+  std::optional<QuasiResult> closest_expanded(const QuasiOptions& options,
+                                              const QuasiOptions& best) const {
+    std::optional<QuasiResult> all = closest(best);
+    if (all || !options.automatic) return all;
+    for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc})
+      for (int i = 0; i <= 8; ++i) {
+        const auto at = settled({form, options.degree, i / 8.0, false});
+        auto r = at ? closest(*at) : std::nullopt;
+        if (r && !(all && all->deviation <= r->deviation)) all = std::move(r);
+      }
+    return all;
+  }
+
   /// Of all forms that give up end curvatures.
   std::optional<detail::Approximation> closest_form(int degree) const {
     std::optional<detail::Approximation> all;
@@ -192,7 +207,7 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   }
   const auto settled = forms.settled(options);
   if (!settled) return std::unexpected(settled.error());
-  auto closest = forms.closest(*settled);
+  auto closest = forms.closest_expanded(options, *settled);
   if (!closest)
     return core::fail(
         ErrorCode::undrawable,
