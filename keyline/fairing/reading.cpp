@@ -30,6 +30,18 @@ void take_reading(FairPiece& piece) {
   piece.slopes = best.slopes;
 }
 
+void read_piece(FairPiece& piece, const lac::Piece& shape, const lac::Segment& segment) {
+  if (is_s(shape) || piece.points < kTelling) return;
+  analysis::RhythmOptions options;
+  options.noise = piece.noise;
+  options.observations = piece.points;
+  const auto profile = analysis::curvature_profile(lac::chain_of(segment), kProfileSamples);
+  const auto reading = analysis::classify_rhythm(profile, options);
+  if (!reading) return;
+  piece.interpretations = reading->interpretations;
+  if (!piece.overridden && !is_flat(shape)) take_reading(piece);
+}
+
 }  // namespace
 
 analysis::Rhythm rhythm_of(const lac::Piece& piece) {
@@ -66,26 +78,22 @@ std::vector<FairPiece> pieces_of(const lac::Chain& chain, double noise,
   return pieces;
 }
 
-void read_piece(FairPiece& piece, const lac::Chain& chain) {
-  const auto i = static_cast<std::size_t>(piece.piece);
-  if (is_s(chain.pieces[i]) || piece.points < kTelling) return;
-  analysis::RhythmOptions options;
-  options.noise = piece.noise;
-  options.observations = piece.points;
-  const lac::Chain alone = lac::chain_of(lac::segments(chain)[i]);
-  const auto reading =
-      analysis::classify_rhythm(analysis::curvature_profile(alone, kProfileSamples), options);
-  if (!reading) return;
-  piece.interpretations = reading->interpretations;
-  if (!piece.overridden && !is_flat(chain.pieces[i])) take_reading(piece);
+void read_pieces(std::span<FairPiece> pieces, const lac::Chain& chain, int threads,
+                 const core::Progress& progress) {
+  const std::vector<lac::Segment> segments = lac::segments(chain);
+  numeric::parallel_for(pieces.size(), threads, [&](std::size_t i) {
+    if (!progress.stop_requested()) read_piece(pieces[i], chain.pieces[i], segments[i]);
+  });
 }
 
 void read_pieces(FairResult& result, int threads, const core::Progress& progress) {
-  numeric::parallel_for(result.pieces.size(), threads, [&](std::size_t i) {
-    if (progress.stop_requested()) return;
-    FairPiece& piece = result.pieces[i];
-    read_piece(piece, std::get<lac::Chain>(result.curves[static_cast<std::size_t>(piece.curve)]));
-  });
+  for (auto first = result.pieces.begin(); first != result.pieces.end();) {
+    const auto last = std::find_if(first, result.pieces.end(),
+                                   [&](const FairPiece& p) { return p.curve != first->curve; });
+    const auto& curve = result.curves[static_cast<std::size_t>(first->curve)];
+    read_pieces({first, last}, std::get<lac::Chain>(curve), threads, progress);
+    first = last;
+  }
 }
 
 core::Result<PieceWish> wish_for(const InterpretationOverride& asked, int piece_in_chain) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "keyline/core/error.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/run.h"
@@ -16,11 +19,12 @@ std::vector<FairPiece> pieces_of(const lac::Chain& chain, double noise,
                                  const std::vector<int>& points_per_piece,
                                  const std::vector<int>& asked);
 
-/// Adds the readings that the points of a piece of the chain would also allow; the best one is the
-/// piece's, unless it was asked for.
-void read_piece(FairPiece& piece, const lac::Chain& chain);
+/// Adds the readings that the points of a chain's pieces would also allow; the best one is the
+/// piece's, unless it was asked for. Cancelled work leaves readings out.
+void read_pieces(std::span<FairPiece> pieces, const lac::Chain& chain, int threads = 0,
+                 const core::Progress& progress = {});
 
-/// All pieces of an answer. Cancelled work leaves readings out.
+/// The same of all pieces of an answer.
 void read_pieces(FairResult& result, int threads, const core::Progress& progress);
 
 /// Slope range and kind that a reading asks for; bad_input for "arcs", which no G2 chain can be.

@@ -236,7 +236,7 @@ TEST(AddRun, PiecesAreReadWithTheErrorsThatThereAre) {
     result.noise = noise;
     result.offsets.assign(s.run.points.size(), 0);
     add_run(result, s.result, s.run, 0, 0, {});
-    read_piece(result.pieces[0], s.result.chain);
+    read_pieces(result.pieces, s.result.chain);
     return result.pieces[0].told;
   };
   EXPECT_TRUE(told(20, 1e-6, 1e-6));

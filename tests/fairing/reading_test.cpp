@@ -13,7 +13,7 @@ std::vector<FairPiece> read_all(const lac::Chain& chain, double noise,
                                 const std::vector<int>& points,
                                 const std::vector<int>& asked = {}) {
   std::vector<FairPiece> pieces = pieces_of(chain, noise, points, asked);
-  for (FairPiece& piece : pieces) read_piece(piece, chain);
+  read_pieces(pieces, chain);
   return pieces;
 }
 
