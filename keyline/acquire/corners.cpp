@@ -32,7 +32,7 @@ constexpr double kUnsampled = 0.5 * std::numbers::pi;  // a bend turns by less a
 constexpr double kGrowth = 2;        // least growth from one turn to the next
 constexpr double kMostGrowth = 4.3;  // growth beyond this says nothing about the tip
 constexpr double kTip = 1.25;      // 5.3 / 4.3, rounded up: how much faster the last step may grow
-constexpr double kEdgeTip = 1.45;  // the same where the tip lies half way between two points
+constexpr double kEdgeTip = 1.45;  // the same at each of two points with the tip half way between
 constexpr double kSure = 3;        // standard errors by which what is seen is no noise
 constexpr std::ptrdiff_t kApart = 2;  // vertices between corners at least
 // A corner in the edge between two points.
@@ -228,7 +228,7 @@ bool meet_in(const Ring& ring, const std::vector<bool>& cornered, Place edge, do
   const core::Vector2 chord = other.back() - one.back();
   const double depth = std::abs(core::cross(chord, *place - one.back())) / core::norm(chord);
   const auto holds = [&](std::span<const core::Point2> side) {
-    const auto off = distance_beyond(side.first(side.size() - 1), side.back());
+    const auto off = distance_of_last(side);
     return off && *off <= std::max(kSure * noise, kHolds * depth);
   };
   return holds(one) && holds(other);

@@ -71,6 +71,10 @@ std::optional<double> distance_beyond(std::span<const core::Point2> points, core
   return least;
 }
 
+std::optional<double> distance_of_last(std::span<const core::Point2> points) {
+  return distance_beyond(points.first(points.size() - 1), points.back());
+}
+
 std::optional<core::Point2> corner_beyond(std::span<const core::Point2> one,
                                           std::span<const core::Point2> other) {
   const auto before = going_on(one);

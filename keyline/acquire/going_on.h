@@ -14,6 +14,9 @@ namespace keyline::acquire {
 /// polynomials.
 std::optional<double> distance_beyond(std::span<const core::Point2> points, core::Point2 p);
 
+/// The same of the last of the points and those before it.
+std::optional<double> distance_of_last(std::span<const core::Point2> points);
+
 /// Where curves through the points of two sides, either in order towards a corner that lies beyond
 /// its last point, meet: lines through the last six points, or parabolas where the points tell
 /// their bend. Nothing for fewer points, or where they do not meet ahead of both sides, at most

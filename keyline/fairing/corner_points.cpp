@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 
 #include "keyline/acquire/going_on.h"
 #include "keyline/core/polygon.h"
@@ -40,11 +39,6 @@ void end_at(Run& run, bool start, core::Point2 place, bool beyond) {
   run.length *= core::polygon_length(run.points, false) / before;
 }
 
-/// By how much a side, going on, passes its last point.
-std::optional<double> off_last(std::span<const core::Point2> side) {
-  return acquire::distance_beyond(side.first(side.size() - 1), side.back());
-}
-
 }  // namespace
 
 void meet_between_points(std::vector<Run>& runs, double tolerance, bool round) {
@@ -56,8 +50,8 @@ void meet_between_points(std::vector<Run>& runs, double tolerance, bool round) {
     if (must_pass(before, before.points.size() - 1) || must_pass(after, 0)) continue;
     auto one = towards(before, false);
     auto other = towards(after, true);
-    const auto off_one = off_last(one);
-    const auto off_other = off_last(other);
+    const auto off_one = acquire::distance_of_last(one);
+    const auto off_other = acquire::distance_of_last(other);
     if (!off_one || !off_other) continue;
     const bool of_one = *off_one <= tolerance;
     if (of_one == (*off_other <= tolerance)) continue;  // both sides' point, or neither's
