@@ -66,9 +66,7 @@ struct Box {
 };
 
 Box region_box(const Gray& g, int index) {
-  const auto cut = [](int size, int i) {
-    return static_cast<int>(static_cast<long>(size) * i / kRegions);
-  };
+  const auto cut = [](int size, int i) { return part_start(size, kRegions, i); };
   const int r = index / kRegions;
   const int c = index % kRegions;
   return {cut(g.width, c), cut(g.height, r), cut(g.width, c + 1), cut(g.height, r + 1)};

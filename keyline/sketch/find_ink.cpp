@@ -7,6 +7,7 @@
 #include "keyline/sketch/binarize.h"
 #include "keyline/sketch/ink_measure.h"
 #include "keyline/sketch/morphology.h"
+#include "keyline/sketch/pixel_words.h"
 
 namespace keyline::sketch {
 namespace {
@@ -61,7 +62,7 @@ bool blur_grain(Tone& tone, Ink& ink, const TraceOptions& options) {
   Tone soft = tone;
   blur_levels(soft, std::clamp(kGrainBlur * ink.width, 1.0, 6.0));
   Ink found = ink_of(soft, options, true);
-  if (std::ranges::none_of(found.picture.data, [](auto pixel) { return pixel != 0; })) {
+  if (count_ink(found.picture.data.data(), found.picture.data.size()) == 0) {
     ink.grainy = false;
     return false;
   }

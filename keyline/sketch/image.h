@@ -28,6 +28,11 @@ struct Raster {
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
 };
 
+/// Where the one of `parts` about equal parts of a picture's side begins.
+inline int part_start(int length, int parts, int one) {
+  return static_cast<int>(static_cast<long>(length) * one / parts);
+}
+
 /// Most pixels an image may have: 64 megapixels.
 inline constexpr std::int64_t kMaxPixels = 64LL << 20;
 

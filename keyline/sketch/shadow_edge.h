@@ -7,11 +7,6 @@
 
 namespace keyline::sketch {
 
-/// Where the one of `parts` about equal parts of a length begins.
-inline int part_start(int length, int parts, int one) {
-  return static_cast<int>(static_cast<long>(length) * one / parts);
-}
-
 /// A box of the picture across which the paper steps, with its levels made flat.
 struct SteppedBox {
   int x = 0;
