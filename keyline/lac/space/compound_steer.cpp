@@ -91,10 +91,13 @@ std::optional<JointFamily::Laws> JointFamily::laws(const Joint& x) const {
 
 std::optional<SpaceChain> JointFamily::chain(const Joint& x) const {
   const auto l = laws(x);
-  if (!l) return std::nullopt;
-  const auto& [k0, k1] = l->bend_ends;
-  const auto& [w0, w1] = l->twist_ends;
-  const double k = k0 < 0 ? -l->size : l->size, w = l->torsion_size;
+  return l ? chain(*l) : std::nullopt;
+}
+
+std::optional<SpaceChain> JointFamily::chain(const Laws& l) const {
+  const auto& [k0, k1] = l.bend_ends;
+  const auto& [w0, w1] = l.twist_ends;
+  const double k = k0 < 0 ? -l.size : l.size, w = l.torsion_size;
   SpaceChain chain{{},
                    {{r_.alpha[0], r_.beta[0], bend_.length(0), k * k0, k, w * w0, w},
                     {r_.alpha[1], r_.beta[1], bend_.length(1), k, k * k1, w, w * w1}}};
@@ -102,26 +105,28 @@ std::optional<SpaceChain> JointFamily::chain(const Joint& x) const {
   return chain;
 }
 
-/// torsion' = -omega torsion^(beta + 1), both in units of the radius of curvature at the start.
 std::optional<double> JointFamily::omega_miss(const Joint& x) const {
-  if (r_.omega == 0) return 0.0;
   const auto l = laws(x);
-  if (!l) return std::nullopt;
-  const double start = x.size + std::log(std::abs(l->bend_ends[0]));
-  return std::log(std::abs(l->twist_rate)) - std::log(std::abs(r_.omega)) -
+  return l ? std::optional(omega_miss(*l, x)) : std::nullopt;
+}
+
+/// torsion' = -omega torsion^(beta + 1), both in units of the radius of curvature at the start.
+double JointFamily::omega_miss(const Laws& l, const Joint& x) const {
+  if (r_.omega == 0) return 0;
+  const double start = x.size + std::log(std::abs(l.bend_ends[0]));
+  return std::log(std::abs(l.twist_rate)) - std::log(std::abs(r_.omega)) -
          (1 - r_.beta[0]) * start - r_.beta[0] * x.twist;
 }
 
 std::optional<JointFamily::Aimed> JointFamily::aim(const Invariants& wanted, const Joint& x) const {
-  const auto omega = omega_miss(x);
-  if (!omega || !chain(x)) return std::nullopt;
-  const Laws l = *laws(x);
-  const std::vector<Stretch> stretches = l.stretches();
-  Aimed aimed{l, ride_along(l, std::span<const Stretch>(stretches)), {}};
+  const auto l = laws(x);
+  if (!l || !chain(*l)) return std::nullopt;
+  const std::vector<Stretch> stretches = l->stretches();
+  Aimed aimed{*l, ride_along(*l, std::span<const Stretch>(stretches)), {}};
   const Motion& end = aimed.ride.end();
   if (!(norm(end.at) > 1e-3)) return std::nullopt;
   const Miss miss = miss_of(end.at, end.tangent, wanted);
-  aimed.miss = {miss[0], miss[1], miss[2], *omega};
+  aimed.miss = {miss[0], miss[1], miss[2], omega_miss(*l, x)};
   return aimed;
 }
 

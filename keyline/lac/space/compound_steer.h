@@ -47,6 +47,8 @@ class JointFamily {
   struct Laws;
   struct Aimed;
   std::optional<Laws> laws(const Joint& x) const;
+  std::optional<SpaceChain> chain(const Laws& l) const;
+  double omega_miss(const Laws& l, const Joint& x) const;
   std::optional<Aimed> aim(const Invariants& wanted, const Joint& x) const;
   std::optional<JointMiss> step(const Aimed& at, const JointMiss& miss,
                                 const Invariants& wanted) const;
