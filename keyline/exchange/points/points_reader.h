@@ -39,9 +39,8 @@ struct PointsFile {
 ///   `left_out`; Lednicer files (counts of both sides first, maybe off) become one curve from
 ///   trailing edge over the nose to trailing edge; points (999, 999) part elements.
 /// - Lists of nodes (.node and .poly of Triangle and TetGen): the first line's counts and the
-/// nodes'
-///   numbers are no points, what follows the nodes is `left_out`, and fewer or others are a
-///   failure. Files of Tecplot: VARIABLES is the header, a ZONE starts a curve, and one whose
+///   numbers of nodes are no points, what follows the nodes is `left_out`, and fewer or others are
+///   a failure. Files of Tecplot: VARIABLES is the header, a ZONE starts a curve, and one whose
 ///   numbers are no list of points is a failure.
 /// - A line of text between rows starts a curve of that name where three or more rows stand on both
 ///   sides of it, and is a failure elsewhere; likewise a number by itself that counts the rows
