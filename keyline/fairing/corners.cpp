@@ -49,7 +49,7 @@ class Tying {
 
   void run() {
     for (std::size_t k = 0; k < runs_.size(); ++k)
-      if (corner_after(k)) meet(k, kMeetings.front());
+      if (corner_after(k)) meet(k, first_share(k));
     for_tied([&](std::size_t k) { tried(k); });
     for (std::size_t k = 0; k < runs_.size(); ++k)
       if (!reaches(k)) find_place(k);
@@ -79,6 +79,12 @@ class Tying {
     return k < splines_.size() ? splines_[k] : curve::BSpline2{};
   }
 
+  /// A chain that reproduces its points stays where it ends.
+  double first_share(std::size_t k) const {
+    if (solved_[k].exact) return 0;
+    return solved_[next(k)].exact ? 1 : kMeetings.front();
+  }
+
   void meet(std::size_t k, double share) {
     runs_[k].tie_end = runs_[next(k)].tie_start =
         meeting(runs_[k], solved_[k], solved_[next(k)], share, options_(k).tolerance);
@@ -103,8 +109,8 @@ class Tying {
     return !trial || (trial->within_tolerance && waves_of({*trial}) <= waves_of({solved_[k]}));
   }
 
-  /// Another place at one of the run's corners to which both its chains come; half way where there
-  /// is none.
+  /// Another place at one of the run's corners to which both its chains come; the first one where
+  /// there is none.
   void find_place(std::size_t k) {
     const std::size_t before = (k + runs_.size() - 1) % runs_.size();
     for (const std::size_t corner : {k, before}) {
@@ -114,7 +120,7 @@ class Tying {
         meet(corner, kMeetings[i]);
         if (reaches(corner) && reaches(next(corner))) return;
       }
-      meet(corner, kMeetings.front());
+      meet(corner, first_share(corner));
     }
   }
 
