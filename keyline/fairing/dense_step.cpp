@@ -6,7 +6,9 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kSide = 0.8;  // of a curvature that may go in a step
+constexpr double kSide = 0.8;       // of a curvature that may go in a step
+constexpr int kHeldRounds = 3;      // of pulls at an end until it comes to where it is held…
+constexpr double kGivenWay = 1e-2;  // …but for what counts so much in the merit
 
 bool line(const DenseCurve& curve, std::size_t p) {
   return !curve.kind.empty() && curve.kind[p] == PieceKind::line;
@@ -103,6 +105,20 @@ DenseBoundary boundary_of(const DenseCurve& curve, const Vector6& seam, const Ve
       b.end_hessian(k, k) = k == 3 ? 1e-2 * weight : weight;
   b.end_gradient = b.end_hessian * seam + multiplier;
   return b;
+}
+
+DenseStep solve_held(const std::vector<Cell>& cells, DenseBoundary boundary, const Vector6& seam) {
+  DenseStep step = solve_cells(cells, boundary);
+  for (int round = 0; round < kHeldRounds && step.sound; ++round) {
+    Vector6 left = seam + step.state.back();
+    if (boundary.closed) left -= step.state.front();
+    const Vector6 pull = boundary.end_hessian * left;
+    const double given = left.head<3>().cwiseProduct(pull.head<3>().cwiseSign()).sum();
+    if (gap_price(step) * given <= kGivenWay) break;
+    boundary.end_gradient += pull;
+    step = solve_cells(cells, boundary);
+  }
+  return step;
 }
 
 bool end_of_line(const DenseCurve& curve, std::size_t cut) {

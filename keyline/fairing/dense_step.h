@@ -39,4 +39,11 @@ bool end_of_line(const DenseCurve& curve, std::size_t cut);
 DenseBoundary boundary_of(const DenseCurve& curve, const Vector6& seam, const Vector6& multiplier,
                           double weight);
 
+/// What gaps are worth in the merit, for a step to close them: twice the most that any pulls with.
+inline double gap_price(const DenseStep& step) { return 2 * step.largest_costate; }
+
+/// The model's least, whose ends come to where they are held: the boundary's weights alone give way
+/// where much pulls at them. Source: the method of multipliers, [Nocedal 2006], section 17.3.
+DenseStep solve_held(const std::vector<Cell>& cells, DenseBoundary boundary, const Vector6& seam);
+
 }  // namespace keyline::fairing::detail

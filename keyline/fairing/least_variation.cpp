@@ -155,20 +155,17 @@ class Search {
     }
   }
 
-  bool pinned(std::size_t j) const { return !curve_.closed && (j == 0 || j + 1 == points_.size()); }
-
-  /// Whether the end that the point is pinned to stands on a line and slides along it.
-  bool slides(std::size_t j) const { return j == 0 ? curve_.slides_start : curve_.slides_end; }
+  /// Whether an end that nothing holds is to come to stand beside that point, its last one.
+  bool pinned(std::size_t j) const {
+    if (curve_.closed || (j > 0 && j + 1 < points_.size())) return false;
+    return (j == 0 ? curve_.hold_start : curve_.hold_end) == Hold::free;
+  }
 
   double merit(const DenseCurve& curve, const Spots& spots, double gaps, double share) const {
     double sum = variation(curve) / energy_unit_ + limits_->merit(spots.offset, share);
     if (rises_) sum += rises_->merit(curve);
-    if (!curve.closed)
-      for (const std::size_t j : {std::size_t{0}, points_.size() - 1}) {
-        if (slides(j)) continue;
-        const double a = along(spots, points_, j) / unit_;
-        sum += 0.5 * kReach * a * a;
-      }
+    for (const std::size_t j : {std::size_t{0}, points_.size() - 1})
+      if (pinned(j)) sum += 0.5 * kReach * std::pow(along(spots, points_, j) / unit_, 2);
     return sum + gap_price_ * gaps;
   }
 
@@ -208,7 +205,7 @@ class Search {
     const CellPlace& s = spots_.place[j];
     const Pull pull = limits_->pull(j);
     add(cells[cell], by_offset(j), pull.weight, pull.slope);
-    if (!pinned(j) || slides(j)) return;
+    if (!pinned(j)) return;
     const double w = kReach / (unit_ * unit_);
     add(cells[cell], derivative(curve_, s, cell, s.tangent), w, w * along(spots_, points_, j));
   }
@@ -222,6 +219,10 @@ class Search {
 
   DenseBoundary boundary(const Vector6& seam) const {
     return boundary_of(curve_, seam, multiplier_, kHeld / (unit_ * unit_));
+  }
+
+  DenseStep solve(const std::vector<Cell>& cells, const Vector6& seam) const {
+    return solve_held(cells, boundary(seam), seam);
   }
 
   std::vector<double> meant(const DenseStep& step) const {
@@ -243,13 +244,13 @@ class Search {
     if (!refused_) cells_ = model();
     std::vector<Cell> cells = cells_;
     damp(cells, curve_, damping_);
-    DenseStep step = solve_cells(cells, boundary(gaps_.seam));
+    DenseStep step = solve(cells, gaps_.seam);
     if (!step.sound) {
       refuse();
       return;
     }
     const double price = gap_price_;
-    gap_price_ = std::max(2 * step.largest_costate, 0.5 * gap_price_);
+    gap_price_ = std::max(gap_price(step), 0.5 * gap_price_);
     if (refused_ && alike(step, *refused_, kAlike) &&
         std::abs(gap_price_ - price) < kAlike * price) {
       refuse();
@@ -299,7 +300,7 @@ class Search {
   DenseStep closing(double share, std::vector<Cell>& cells) const {
     for (std::size_t i = 0; i < cells.size(); ++i)
       cells[i].gap = share * gaps_.cell[i] + opened_.cell[i];
-    return solve_cells(cells, boundary(share * gaps_.seam + opened_.seam));
+    return solve(cells, share * gaps_.seam + opened_.seam);
   }
 
   /// Goes that share of the step where this keeps inside the band and lowers the merit.

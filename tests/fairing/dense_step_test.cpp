@@ -158,6 +158,25 @@ TEST(DenseStep, EndsAreDrawnToWhereTheyBelong) {
   EXPECT_TRUE(end().closed);
 }
 
+// One cell whose end goes where its start does, pulled along x with 1000 against a weight of 10,000
+// that wants it at -0.2: alone that gives way by (1000 - 0.2) / 10001.
+TEST(DenseStep, HeldEndsComeToWhereTheyAreHeldWhateverPulls) {
+  Cell cell;
+  cell.hessian = Matrix6::Identity();
+  cell.gradient(0) = 1000;
+  cell.step.leftCols<3>() = Eigen::Matrix3d::Identity();
+  cell.passage.ends_piece = cell.passage.ends_curve = true;
+  DenseBoundary boundary;
+  boundary.end_hessian(0, 0) = 1e4;
+  Vector6 seam = Vector6::Zero();
+  seam(0) = 0.2;
+  boundary.end_gradient = boundary.end_hessian * seam;
+  EXPECT_NEAR(solve_cells({cell}, boundary).state.back()(0), -0.2 - 999.8 / 10001, 1e-9);
+  EXPECT_NEAR(solve_held({cell}, boundary, seam).state.back()(0), -0.2, 1e-5);
+  boundary.closed = true;  // then the end's way from the start, which is none, counts
+  EXPECT_NEAR(solve_held({cell}, boundary, seam).state.back()(0), -1000, 1e-6);
+}
+
 // What is missing behind a cell and how that moves with the state before it, against differences.
 TEST(DenseStep, StepsOfACellAreThoseOfItsEnd) {
   DenseCurve curve = three();

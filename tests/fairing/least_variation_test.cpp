@@ -173,6 +173,29 @@ TEST(LeastVariation, HeldEndsAndPointsToPassAreKept) {
     EXPECT_LE(std::abs(result.offsets[j]), 0.05 * result.tolerance);
 }
 
+// A straight side that turns aside to its tip. Held a third of the tolerance beyond its last point
+// it ends as if that were there.
+TEST(LeastVariation, AnEndHeldBesideItsLastPointIsNotDrawnBackToIt) {
+  constexpr double kTolerance = 1e-4;
+  std::vector<core::Point2> side;
+  for (int i = 0; i <= 100; ++i) side.push_back({0.01 * i, 0});
+  side.push_back({1.0007, -4e-4});
+  const auto energy = [&](double beyond) {
+    const std::vector<FitPoint> points = fit_points(side);
+    DenseCurve curve = detail::dense_curve(points, false, 240);
+    const core::Point2 tip = side.back();
+    curve.hold_end = Hold::position;
+    curve.held_end = {{tip.x + 0.87 * beyond, tip.y - 0.5 * beyond}, 0, 0};
+    curve.joints.back().position = curve.held_end.position;
+    const BandReport found =
+        detail::least_variation(curve, points, {.tolerance = kTolerance, .progress = {}});
+    EXPECT_TRUE(found.within && found.converged) << beyond;
+    return found.energy;
+  };
+  const double there = energy(0);
+  EXPECT_NEAR(energy(0.33 * kTolerance), there, 0.3 * there);
+}
+
 /// The symmetric aerofoil NACA 00xx, from tail to tail.
 std::vector<core::Point2> naca(double thickness) {
   std::vector<core::Point2> points;
