@@ -23,6 +23,9 @@ std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extre
 /// Waves that are seen in the curve's comb (see analysis::comb_figures).
 int seen_waves(const DenseCurve& curve);
 
+/// What a wave less may cost, times the energy: waves come first.
+inline constexpr double kWaveWorth = 2;
+
 struct CalmOptions {
   BandOptions band;
   double most_rms = HUGE_VAL;  ///< a wave stays where the offsets without it are larger

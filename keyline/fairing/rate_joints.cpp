@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "keyline/fairing/calm.h"
 #include "keyline/fairing/piece_energy.h"
 #include "keyline/fairing/rate_descent.h"
 #include "keyline/lac/segment/segment.h"
@@ -33,8 +34,7 @@ constexpr double kNear = 1e-2;         // of the other end's curvature: an infle
 constexpr double kFlattest = -0.3;     // slopes of pieces through or into an inflection
 constexpr double kMet = 1;             // tolerances of gaps from which the last digits are closed
 constexpr double kLastDigits = 1e-6;   // tolerances: gaps that are left count as closed
-constexpr double kWorth = 2;      // times the G2 chain's variation: as much as a wave less is worth
-constexpr double kUntied = 0.05;  // of the ties that go at once
+constexpr double kUntied = 0.05;       // of the ties that go at once
 
 /// How much jumps of the rate count beside the variation, growing, and which are even.
 struct Stiffness {
@@ -231,7 +231,7 @@ class Joining {
     if (!(found.max_offset <= 1 && found.gaps <= kMet)) return RateLoss::tolerance;
     const RateModel closed(close_rates(chain_, problem_), problem_);
     if (!(closed.gaps <= kLastDigits) || !(closed.max_offset <= 1)) return RateLoss::tolerance;
-    if (!(closed.variation <= kWorth)) return RateLoss::variation;
+    if (!(closed.variation <= kWaveWorth)) return RateLoss::variation;
     for (const RateLimit& limit : closed.limits)
       if (!(limit.room >= 0)) return RateLoss::slopes;
     if (const auto lost = options_.loses ? options_.loses(closed.chain) : std::nullopt) return lost;

@@ -11,6 +11,7 @@
 #include "keyline/fairing/calm_run.h"
 #include "keyline/fairing/condense.h"
 #include "keyline/fairing/exact_chain.h"
+#include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/guides.h"
 #include "keyline/fairing/residuals.h"
 #include "keyline/fairing/run_again.h"
@@ -275,6 +276,31 @@ RunResult fair_run(const Run& run, const curve::BSpline2& spline, const RunOptio
   return largest_offset(again, run) < most ? again : result;
 }
 
+namespace {
+
+/// Whether pieces that were chosen for free ends are calm no longer where these are tied.
+bool strained(const RunResult& tied, const RunResult& loose) {
+  const double unseen = unseen_energy(loose.dense.length, loose.accept.tolerance);
+  return variation(tied.dense) > kWaveWorth * std::max(variation(loose.dense), unseen);
+}
+
+bool calmer(const RunResult& a, const RunResult& b) {
+  const int more = seen_waves(a.dense) - seen_waves(b.dense);
+  return variation(a.dense) * std::pow(kWaveWorth, more) < variation(b.dense);
+}
+
+/// Other pieces for the tied ends where these are calmer; whether they are taken.
+bool choose_anew(RunResult& result, const Run& run, const curve::BSpline2& spline,
+                 const RunOptions& options) {
+  RunResult other = fair_run(run, spline, options);
+  if (other.dense.joints.empty() || !other.within_tolerance || winds(other, run)) return false;
+  if (!calmer(other, result)) return false;
+  result = std::move(other);
+  return true;
+}
+
+}  // namespace
+
 void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
               const curve::BSpline2& spline, const RunOptions& options) {
   const RunFrame frame = make_frame(run);
@@ -294,6 +320,7 @@ void tie_ends(RunResult& result, const RunResult* moved, const Run& run,
       if (winds(result, run)) result = loose;
       return;
     }
+    if (strained(result, loose) && choose_anew(result, run, spline, options)) return;
     keep_tolerance(result, run, spline, options);
     return;
   }
