@@ -313,17 +313,18 @@ std::string odd_iges_line(std::string_view text) {
 }
 
 std::string unordered_iges_line(std::string_view text) {
-  constexpr std::size_t kNumber = kSection + 1;
+  constexpr std::size_t kNumber = kSection + 1, kDigits = 7;
   std::map<char, std::size_t> last;  // number of every section
   detail::ByteLines lines(text);
   for (std::string_view line; lines.next(line);) {
     if (is_blank(line)) continue;
     const char section = section_of(line);
     if (section == 'T') break;
-    const auto number = core::parse_whole<std::size_t>(
-        detail::trimmed(line.substr(std::min(kNumber, line.size()))));
-    if (number != ++last[section])
-      return lines.place() + ": line " + std::to_string(last[section]) + " of section " + section +
+    const std::string_view number =
+        detail::trimmed(line.substr(std::min(kNumber, line.size()), kDigits));
+    const std::size_t next = ++last[section];
+    if (!number.empty() && core::parse_whole<std::size_t>(number) != next)
+      return lines.place() + ": line " + std::to_string(next) + " of section " + section +
              " should stand here";
   }
   return {};

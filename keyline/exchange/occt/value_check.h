@@ -29,7 +29,8 @@ std::string bad_iges_value(std::string_view text);
 std::string odd_iges_line(std::string_view text);
 
 /// The first line of an IGES file whose number is not the next of its section (IGES 5.3, 2.2.1):
-/// one before it is lost, stands twice or elsewhere; empty where there is none.
+/// one before it is lost, stands twice or elsewhere; empty where there is none. Lines without a
+/// number are taken as they come.
 std::string unordered_iges_line(std::string_view text);
 
 /// What an IGES file lacks at its end, in words: its last line, or parameter lines that the last
