@@ -87,12 +87,15 @@ void read_pieces(std::span<FairPiece> pieces, const lac::Chain& chain, int threa
 }
 
 void read_pieces(FairResult& result, int threads, const core::Progress& progress) {
-  for (auto first = result.pieces.begin(); first != result.pieces.end();) {
-    const auto last = std::find_if(first, result.pieces.end(),
-                                   [&](const FairPiece& p) { return p.curve != first->curve; });
-    const auto& curve = result.curves[static_cast<std::size_t>(first->curve)];
-    read_pieces({first, last}, std::get<lac::Chain>(curve), threads, progress);
-    first = last;
+  for (std::span<FairPiece> rest = result.pieces; !rest.empty();) {
+    const int curve = rest.front().curve;
+    const auto last = std::find_if(rest.begin(), rest.end(),
+                                   [&](const FairPiece& p) { return p.curve != curve; });
+    const auto count = static_cast<std::size_t>(last - rest.begin());
+    read_pieces(rest.first(count),
+                std::get<lac::Chain>(result.curves[static_cast<std::size_t>(curve)]), threads,
+                progress);
+    rest = rest.subspan(count);
   }
 }
 
