@@ -115,9 +115,10 @@ class Tying {
     const std::size_t before = (k + runs_.size() - 1) % runs_.size();
     for (const std::size_t corner : {k, before}) {
       if (!corner_after(corner)) continue;
-      for (std::size_t i = 1; i < kMeetings.size(); ++i) {
+      for (const double share : kMeetings) {
         if (options_(k).progress.stop_requested()) return;
-        meet(corner, kMeetings[i]);
+        if (share == first_share(corner)) continue;
+        meet(corner, share);
         if (reaches(corner) && reaches(next(corner))) return;
       }
       meet(corner, first_share(corner));

@@ -284,6 +284,7 @@ bool strained(const RunResult& tied, const RunResult& loose) {
   return variation(tied.dense) > kWaveWorth * std::max(variation(loose.dense), unseen);
 }
 
+/// A wave more has to take off what it is worth.
 bool calmer(const RunResult& a, const RunResult& b) {
   const int more = seen_waves(a.dense) - seen_waves(b.dense);
   return variation(a.dense) * std::pow(kWaveWorth, more) < variation(b.dense);
