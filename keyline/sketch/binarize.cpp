@@ -224,9 +224,9 @@ struct Marked {
 };
 
 /// Marks what passes the threshold (kStrong) and what may hang on to it (kWeak). What else is
-/// darker than paper, and no line's border, becomes faint.
+/// darker than paper, and no line's border, becomes faint. In grain every border may be one.
 Marked mark(const Tone& tone, const DarknessTable& dark, const Regions& regions, double faintest,
-            Binarized& result) {
+            bool grainy, Binarized& result) {
   Binary& marks = result.ink;
   const int least = static_cast<int>(std::floor(faintest * kBlack));
   const double sigma = tone.noise / tone.gain > kNoisy ? kStrongBlur : kBlur;
@@ -248,7 +248,7 @@ Marked mark(const Tone& tone, const DarknessTable& dark, const Regions& regions,
         const double strong = std::max(threshold(x), faintest);
         const bool fades = here < std::max(kWeakShare * strong, faintest);
         if (border.has_darker(row + x)) {
-          if (fades) return;
+          if (fades || grainy) return;
           border.visit_beyond(row + x, [&](int across, int down) {
             if (marks.contains(x + across, y + down))
               found.beside.emplace_back(marks.index(x, y), marks.index(x + across, y + down));
@@ -350,8 +350,8 @@ Binarized binarize(const Tone& tone, const BinarizeOptions& options, bool grainy
   Regions regions = automatic_regions(tone.level, dark, faintest);
   apply_given(options, tone.gain, result, regions);
   result.faint = FaintPixels(result.ink.width, result.ink.height);
-  Marked marked = mark(tone, dark, regions, faintest, result);
-  if (!grainy) mark_beside(marked, result.ink);
+  Marked marked = mark(tone, dark, regions, faintest, grainy, result);
+  mark_beside(marked, result.ink);
   keep_connected(marked.weak, result);
   return result;
 }

@@ -30,8 +30,8 @@ class Refiner {
   /// Along the normal of every sure point the ink's profile is read from the grey values; the
   /// middle between its flanks is the centre. Points in junctions, gaps and where the profile is
   /// not that of one line, shows another twice as dark or reaches out of the picture, are
-  /// interpolated. Free ends reach to
-  /// where the ink ends less half the width (the pen was round), or to the picture's rim.
+  /// interpolated. Free ends reach to where the ink ends less half the width (the pen was round),
+  /// or to the picture's rim.
   ///
   /// Accuracy: a few hundredths of a pixel on clean lines 2 to 12 pixels wide, away from junctions.
   FineStroke refine(const RawStroke& raw) const;
