@@ -29,6 +29,8 @@ constexpr std::array<Entry, 8> kEntries = {{
 }};
 
 constexpr double kUndetermined = 1000;  // error of a slope that the piece does not determine
+constexpr double kExact = 1e-9;         // a deviation that rounding makes
+constexpr double kSeenScore = 0.02;     // changes a plausibility by a hundredth
 
 using detail::ArcsFit;
 using detail::LineFit;
@@ -43,6 +45,7 @@ class Reader {
     const double resolution = std::max(options.resolution, 1e-12);
     sigma_ = std::hypot(std::max(options.noise, 0.0) / frame_.length(), resolution);
     observations_ = std::max(options.observations, 2.0);
+    seen_ = std::max(kExact, sigma_ * std::sqrt(kSeenScore / observations_));
   }
 
   Interpretation straight() const {
@@ -71,7 +74,7 @@ class Reader {
 
   /// parameters: 3 with the slope free, 2 with it given.
   Interpretation one_line(Rhythm rhythm, double low, double high) const {
-    const LineFit fit = detail::fit_one_line(frame_, low, high);
+    const LineFit fit = detail::fit_one_line(frame_, low, high, seen_);
     Interpretation i = start(rhythm, high > low ? 3 : 2);
     i.slopes = {fit.model.slope0};
     i.slope_errors = {error_of(fit.slope_error0)};
@@ -99,7 +102,7 @@ class Reader {
     if (rhythm == Rhythm::plus) bounds = {0, limit, 0, limit};
     if (rhythm == Rhythm::plus_minus) bounds = {band, limit, -limit, -band};
     if (rhythm == Rhythm::minus_plus) bounds = {-limit, -band, band, limit};
-    const LineFit fit = detail::fit_two_lines(frame_, bounds, line());
+    const LineFit fit = detail::fit_two_lines(frame_, bounds, line(), seen_);
     const LineModel& m = fit.model;
     Interpretation i = start(rhythm, 5);
     i.slopes = {m.slope0, m.slope1};
@@ -141,7 +144,7 @@ class Reader {
   LineModel line() const {
     if (!line_) {
       const double limit = options_.slope_limit;
-      line_ = detail::fit_one_line(frame_.coarse(), -limit, limit).model;
+      line_ = detail::fit_one_line(frame_.coarse(), -limit, limit, seen_).model;
     }
     return *line_;
   }
@@ -169,6 +172,7 @@ class Reader {
   RhythmOptions options_;
   double sigma_ = 1;
   double observations_ = 100;
+  double seen_ = kExact;  ///< a deviation that no other start of a fit will better
   mutable std::optional<LineModel> line_;
 };
 

@@ -16,7 +16,6 @@
 namespace keyline::analysis::detail {
 namespace {
 
-constexpr double kExact = 1e-9;  // a deviation that no other start will better
 constexpr core::Interval kAnchors{0.05, 0.95};
 
 LineFit straight_line(const PieceFrame& frame, double slope0, double slope1) {
@@ -88,7 +87,7 @@ LineModel two_lines(const Eigen::VectorXd& x, const SlopeBounds& b) {
 
 }  // namespace
 
-LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
+LineFit fit_one_line(const PieceFrame& frame, double low, double high, double seen) {
   if (is_straight(frame)) {
     LineFit fit = straight_line(frame, (low + high) / 2, (low + high) / 2);
     if (!(high > low)) fit.slope_error0 = fit.slope_error1 = 0;
@@ -103,7 +102,7 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high) {
   double last = std::numeric_limits<double>::quiet_NaN();
   for (double wish : {-3.0, -0.5, 0.5, 3.0}) {
     const double start = std::clamp(wish, low + width / 50, high - width / 50);
-    if (start == last || least < kExact) continue;
+    if (start == last || least < seen) continue;
     last = start;
     const LineModel guess = first_guess(frame, start);
     Eigen::VectorXd x(3);
@@ -148,7 +147,8 @@ Eigen::VectorXd two_lines_guess(const LineModel& m, const SlopeBounds& b, double
 
 }  // namespace
 
-LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start) {
+LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start,
+                      double seen) {
   if (is_straight(frame))
     return straight_line(frame, (bounds.low0 + bounds.high0) / 2, (bounds.low1 + bounds.high1) / 2);
   const LineModels lines{
@@ -160,7 +160,7 @@ LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const 
   double least = std::numeric_limits<double>::infinity();
   for (double anchor : {0.25, 0.5, 0.75}) {
     for (const auto& [step0, step1] : {std::pair{0.7, -0.7}, {2.0, -0.2}, {0.2, -2.0}}) {
-      if (least < kExact) break;
+      if (least < seen) break;
       Eigen::VectorXd x = two_lines_guess(start, bounds, anchor, way * step0, way * step1);
       const double deviation = settle_at_last_rate(few, lines, fit(few, lines, x, 80), x);
       if (!(deviation < least)) continue;

@@ -18,10 +18,12 @@ struct LineFit {
   double slope_error1 = 0;
 };
 
-/// Least-squares fit of one line, slope within [low, high] (low == high: given).
-LineFit fit_one_line(const PieceFrame& frame, double low, double high);
+/// Least-squares fit of one line, slope within [low, high] (low == high: given). `seen`: a
+/// deviation so small that a smaller one would say no more; no other start is tried then.
+LineFit fit_one_line(const PieceFrame& frame, double low, double high, double seen);
 
 /// Least-squares fit of two lines with slopes within the bounds, starting from one line.
-LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start);
+LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start,
+                      double seen);
 
 }  // namespace keyline::analysis::detail

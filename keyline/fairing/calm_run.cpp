@@ -22,7 +22,6 @@ constexpr double kForPieces = 0.05;  // of the energy, given for having few piec
 // at a rougher comb. A line is a claim of its own and has to be as near as the noise.
 constexpr double kErrorsOfWaves = 4;
 constexpr double kErrorsOfPieces = 5;
-constexpr double kPieceRms = 1.05;  // of the calm curve's, where that was asked to depart farther
 constexpr double kErrorsOfLines = 2.5;
 constexpr double kPieceGap = 0.03;  // of the energy: accuracy while pieces are being chosen
 // Of the tolerance for the calm curve: the rest is for its pieces; the first that they fit into.
@@ -30,9 +29,11 @@ constexpr std::array kRooms{0.9, 0.8, 0.65};
 constexpr double kLeastNoise = 1e-3;  // of the tolerance: what points are taken to err by at least
 constexpr int kPieceSteps = 40;       // of a solve while pieces are being chosen
 constexpr int kFootSteps = 4;         // Newton steps of a foot, which starts from a neighbour's
-constexpr int kStiffenings = 3;  // of the springs, until the mean square is as small as asked for
-constexpr int kPulls = 6;        // sixty-four times as strong: what leans then, other limits hold
-constexpr double kSpringPower = 0.25;  // of the springs that the root of the mean square falls with
+constexpr int kStiffenings = 3;   // of the springs, until the mean square is as small as asked for
+constexpr double kStiffest = 64;  // times at once
+constexpr double kSpringAim = 0.99;  // of that mean square's root: a hair above it is not below
+constexpr int kPulls = 6;  // sixty-four times as strong: what leans then, other limits hold
+constexpr double kSpringPower = 0.25;  // of the springs the root falls with, until it is measured
 constexpr double kFirstLoss = 1.6;     // what cutting may lose at first, in energies: solved for
                                        // again, pieces win most of it back; halved so many times,
 constexpr int kRefinements = 10;       // which leaves bows of a tenth of the tolerance
@@ -57,13 +58,23 @@ void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
   joint.curvature = value;
 }
 
-/// Pieces that leave the mean square too large hang on stiffer springs.
+/// Pieces that leave the mean square too large hang on stiffer springs, by the secant of
+/// logarithms, while they may still be calm enough: springs only add to the energy.
 BandReport solve_pieces(DenseCurve& curve, const std::vector<FitPoint>& points, BandOptions band,
-                        double most_rms) {
+                        double most_rms, double most_energy) {
   BandReport found = least_variation(curve, points, band);
-  for (int i = 0; i < kStiffenings && found.within && found.rms > most_rms; ++i) {
-    band.spring *= std::pow(found.rms / most_rms, 1 / kSpringPower);
-    found = least_variation(curve, points, band);
+  double power = kSpringPower;
+  for (int i = 0; i < kStiffenings; ++i) {
+    if (!found.within || found.rms <= most_rms || found.energy > most_energy) break;
+    const double by = std::log(found.rms / (kSpringAim * most_rms)) / power;
+    if (by > std::log(kStiffest)) break;
+    band.spring *= std::exp(by);
+    DenseCurve stiffer = curve;
+    const BandReport next = least_variation(stiffer, points, band);
+    if (!next.within || next.rms >= found.rms) break;
+    power = std::log(found.rms / next.rms) / by;
+    found = next;
+    curve = std::move(stiffer);
   }
   return found;
 }
@@ -79,16 +90,18 @@ BandOptions piece_band(const CalmRun& run, const CalmRunOptions& options) {
 
 /// Pieces for a calm curve, solved for: as few as lose little of its energy and its place, fewer
 /// and nearer until the points stay in the tolerance and the whole is as calm. A swing of the calm
-/// curve that is too low to be seen may grow in them: then more are tried.
-void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
+/// curve that is too low to be seen may grow in them: then more are tried. The calm curve had that
+/// share of their tolerance: where it was asked to depart farther than the noise, they may as much
+/// farther than it.
+void choose_pieces(CalmRun& run, double room, const std::vector<FitPoint>& points,
                    const CalmRunOptions& options) {
   const double energy =
       std::max(run.calm_energy, unseen_energy(run.curve.length, options.tolerance));
   const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes, energy,
                           options.tolerance);
+  const double most_energy = (1 + kForPieces) * energy;
   const BandOptions band = piece_band(run, options);
-  const double most_rms =
-      std::max(options.residuals.most(kErrorsOfPieces), kPieceRms * run.band.rms);
+  const double most_rms = std::max(options.residuals.most(kErrorsOfPieces), run.band.rms / room);
   const bool means = options.residuals.scatter > 0;
   const double least = std::ldexp(kFirstLoss, -kRefinements);
   PieceChoice choice(run, seen_waves(run.curve));
@@ -102,8 +115,8 @@ void choose_pieces(CalmRun& run, const std::vector<FitPoint>& points,
     refine_cells(trial);
     last = std::move(count);
     most = 2 * static_cast<int>(trial.alpha.size());
-    const BandReport found = solve_pieces(trial, points, band, most_rms);
-    const double lost = found.energy / ((1 + kForPieces) * energy);
+    const BandReport found = solve_pieces(trial, points, band, most_rms, most_energy);
+    const double lost = found.energy / most_energy;
     choice.offer(trial, found, std::max(lost, found.rms > 0 ? found.rms / most_rms : 0));
     if (options.progress.stop_requested() || choice.done()) return;
     // The loss goes with the square of a bow.
@@ -202,7 +215,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   run.calm_energy = run.band.energy;
   run.waves.turns = static_cast<int>(turns_of(run.curve).size());
   run.curve.sense.clear();
-  choose_pieces(run, points, options);
+  choose_pieces(run, room, points, options);
   flat.band.spring = run.band.spring;
   flat.most_rms = rms_of_lines();
   flat.worth = 1 + kForPieces;
