@@ -137,6 +137,7 @@ class Search {
       for (Strand& s : system_.strands()) firm = std::exchange(s.firm, false) || firm;
       if (weight > 0 && round > 0) return false;
       if (!firm) give_up_worst(left, worst);
+      if (count_asked() == 0) return false;
     }
     return false;
   }

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
-
-#include "keyline/numeric/solve.h"
 
 namespace keyline::surface::detail {
 namespace {
@@ -177,6 +176,15 @@ void put_shape(Rows& rows, const Strand& s, const MatrixX3d& x, const MatrixX3d&
   }
 }
 
+bool same_places(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix<double>& b) {
+  const auto same = [](const int* one, const int* other, Index count) {
+    return std::equal(one, one + count, other);
+  };
+  return a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         same(a.outerIndexPtr(), b.outerIndexPtr(), a.cols()) &&
+         same(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros());
+}
+
 void put_growth(Rows& rows, const Strand& s, const MatrixX3d& x, double misfit, double weight) {
   const double w = std::sqrt(weight);
   const auto n = s.points.size();
@@ -241,8 +249,18 @@ double StrandSystem::growth(const Strand& s, const MatrixX3d& x) const {
          static_cast<double>(n - 2);
 }
 
+/// Of steps that ask for the same the places of the factor's numbers stay.
+void StrandSystem::factor(Eigen::SparseMatrix<double> normal) {
+  const bool same = factor_ && same_places(normal, normal_);
+  normal_ = std::move(normal);
+  if (same)
+    factor_->renew(normal_);
+  else
+    factor_.emplace(normal_);
+}
+
 Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& home, double homing,
-                                         const StrandWeights& weights) const {
+                                         const StrandWeights& weights) {
   Rows rows(column_);
   for (const Form& form : joints_) put_joint(rows, form, x, given_);
   for (std::size_t i = 0; i < strands_.size(); ++i) {
@@ -259,9 +277,8 @@ Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& ho
       rows.close(std::sqrt(h) * (x(point, k) - home(point, k)));
     }
   const Eigen::SparseMatrix<double> j = rows.matrix(unknowns_);
-  const Eigen::SparseMatrix<double> normal = j.transpose() * j;
-  const numeric::SparseSymmetric solver(normal);
-  return -solver.solve(Eigen::VectorXd(j.transpose() * rows.residuals()));
+  factor(j.transpose() * j);
+  return -factor_->solve(Eigen::VectorXd(j.transpose() * rows.residuals()));
 }
 
 RowVector3d StrandSystem::moved(Index point, const Eigen::VectorXd& dx) const {
@@ -281,7 +298,7 @@ double StrandSystem::share_of(const MatrixX3d& x, const Eigen::VectorXd& dx) con
 }
 
 double StrandSystem::step(MatrixX3d& x, const MatrixX3d& home, double homing,
-                          const StrandWeights& weights) const {
+                          const StrandWeights& weights) {
   if (unknowns_ == 0) return 0;
   const Eigen::VectorXd dx = whole_step(x, home, homing, weights);
   if (!dx.allFinite()) return 0;

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
+#include "keyline/numeric/solve.h"
 #include "keyline/surface/joint_conditions.h"
 #include "keyline/surface/network.h"
 
@@ -55,12 +57,13 @@ class StrandSystem {
   /// strands as unit. No edge changes by more than a quarter of itself. Returns how far the
   /// farthest coordinate went, in that unit.
   double step(Eigen::MatrixX3d& x, const Eigen::MatrixX3d& home, double homing,
-              const StrandWeights& weights) const;
+              const StrandWeights& weights);
 
  private:
   void add_strands(const Net& net, std::size_t patch, Eigen::Index base);
   Eigen::VectorXd whole_step(const Eigen::MatrixX3d& x, const Eigen::MatrixX3d& home, double homing,
-                             const StrandWeights& weights) const;
+                             const StrandWeights& weights);
+  void factor(Eigen::SparseMatrix<double> normal);
   double share_of(const Eigen::MatrixX3d& x, const Eigen::VectorXd& dx) const;
   Eigen::RowVector3d moved(Eigen::Index point, const Eigen::VectorXd& dx) const;
 
@@ -70,6 +73,8 @@ class StrandSystem {
   Eigen::Index unknowns_ = 0;
   double size_ = 1;  ///< mean length of the strands
   std::vector<Form> joints_;
+  Eigen::SparseMatrix<double> normal_;  ///< of the last step
+  std::optional<numeric::SparseSymmetric> factor_;
 };
 
 }  // namespace keyline::surface::detail
