@@ -64,6 +64,23 @@ TEST(HullTable, MistakesHaveTheirPlace) {
   EXPECT_EQ(line(hull_document(*table), "waterline-2").points[1], (Point3{5, 2, 2}));
 }
 
+// Cells that are not there are outside the hull, as empty ones are; that is told.
+TEST(HullCsv, RowsCutShortAndRepeatedAreTold) {
+  const auto told = [](const std::string& text) {
+    const auto table = read_hull_csv(text);
+    if (!table) return table.error().path + ": " + table.error().message;
+    return table->left_out.empty() ? std::string() : table->left_out.front();
+  };
+  EXPECT_EQ(told("waterline,0,10,20\n0,1,,\n1,1,2,3\n"), "");
+  EXPECT_EQ(told("waterline,0,10,20\n0,1\n1,1,2,3\n"),
+            "line 2: 2 cells fewer than in the first line: outside the hull");
+  EXPECT_EQ(told("waterline,0,10,20\n"), "line 1: the table has no rows");
+  EXPECT_EQ(told("waterline,0,10,20\n0,1,2,3\n1,1,2,3\n0,1,2,4\n"),
+            "line 4: a waterline stands twice");
+  EXPECT_EQ(told("# yacht\nwaterline,0,10,0\n0,1,2,3\n"), "line 2: a station stands twice");
+  EXPECT_EQ(told("station,0,10\n5,1,2\n5,1,2\n"), "line 3: a station stands twice");
+}
+
 // The names of waterlines or stations before their numbers: read, and told.
 TEST(HullCsv, NumbersMayStandBehindNames) {
   const std::string named = "station [m],WL 0,WL 0.5,wl1\nSt 0,0,0.2,0.4\n2.5,0.1,0.6,0.9\n";

@@ -113,6 +113,24 @@ TEST(Tecplot, RecordsGoOnInTheLinesBehind) {
       HasSubstr("no list of points"));
 }
 
+// The data format guide: an ordered zone has I times J times K points.
+TEST(Tecplot, ZonesHaveThePointsTheyTell) {
+  const std::string head = "VARIABLES = \"X\", \"Y\"\n", four = "0 0\n1 1\n2 1.5\n3 1\n";
+  const auto why = [&](const std::string& first, const std::string& second) {
+    const auto curves = read(head + first + "\n" + four + second + "\n" + four);
+    return curves ? std::string() : curves.error().path + ": " + curves.error().message;
+  };
+  EXPECT_EQ(why("ZONE T=\"a\", I=4", "ZONE T=\"b\" I=4, J=1, K=1"), "");
+  EXPECT_EQ(why("ZONE I=2, J=2", "ZONE T=\"b\""), "");
+  EXPECT_EQ(why("ZONE T=\"I=9\", I=4", "zone t=\"b\"\n i = 4"), "");
+  EXPECT_EQ(why("ZONE T=\"a\", I=5", "ZONE T=\"b\", I=4"),
+            "a:2: a zone of 5 points (I, J, K), and 4 rows behind it");
+  EXPECT_EQ(why("ZONE T=\"a\", I=4", "ZONE T=\"b\"\n I=2, J=3"),
+            "a:7: a zone of 6 points (I, J, K), and 4 rows behind it");
+  EXPECT_EQ(why("ZONE T=\"a\", I=3", "ZONE T=\"b\", I=4"),
+            "a:2: a zone of 3 points (I, J, K), and 4 rows behind it");
+}
+
 TEST(Tecplot, TitlesAreWhatStandsInQuotes) {
   EXPECT_EQ(read("TITLE = \"a wing\"\nVARIABLES = \"X\" \"Y\"\n0 1\n1 2\n2 2\n")->at(0).id,
             "a wing");

@@ -43,6 +43,13 @@ TEST(ScapReader, OtherLinesAreNamed) {
   EXPECT_EQ(place("{\n1 2 0.5\n}\n{\n3 4\n5 6\n}\n"), "read");
   EXPECT_EQ(place("{\n1 2 x\n}\n"), "line 2");
   EXPECT_EQ(place("{\n1 2\n}\n{\n3 4\n"), "line 5");  // cut off
+  // More than belongs there is a line lost or broken.
+  EXPECT_EQ(place("{ 1 2\n3 4\n}\n"), "line 1");
+  EXPECT_EQ(place("{\n1 2\n} {\n3 4\n}\n"), "line 3");
+  EXPECT_EQ(place("{\n#1 2 3\n1 2\n}\n"), "line 2");
+  EXPECT_EQ(place("#800 600 2\n{\n1 2\n}\n"), "line 1");
+  EXPECT_EQ(place("@2 5\n{\n1 2\n}\n"), "line 1");
+  EXPECT_EQ(place("{\n1 2\n}\n#1 [0, 2) --> #3\n"), "read");
   EXPECT_EQ(place(""), "");
   EXPECT_EQ(place("{\n}\n"), "");
 }
@@ -63,6 +70,21 @@ TEST(LatticeReader, TakesItsShapeFromTheFirstLineOrFromBlankOnes) {
   EXPECT_EQ(parted->rows, 3U);
   EXPECT_EQ(parted->columns, 2U);
   EXPECT_EQ(parted->points[2], (core::Point3{1, 0, 3}));
+}
+
+// A decimal comma makes two of a number; blank lines may part other rows than the first line tells.
+TEST(LatticeReader, HasThePointsAndRowsItTells) {
+  const auto why = [](const char* text) {
+    const auto read = lattice(text);
+    return read ? std::string() : read.error().path + ": " + read.error().message;
+  };
+  EXPECT_EQ(why("2 2\n0,0,1\n0,1,2\n1,0,3\n1,1,4\n"), "");
+  EXPECT_EQ(why("2 2\n0,0,1\n0,1,2\n1,0,3,5\n1,1,4\n"),
+            "file:4: three numbers (x y z) are needed here, not 4");
+  const std::string rows = "0 0 1\n0 1 2\n0 2 3\n\n1 0 4\n1 1 5\n1 2 6\n";
+  EXPECT_EQ(why(("2 3\n" + rows).c_str()), "");
+  EXPECT_EQ(why(("3 2\n" + rows).c_str()),
+            "file: blank lines part the points into other rows than the 3 of 2 announced");
 }
 
 TEST(LatticeReader, SaysWhatIsNoLattice) {

@@ -24,17 +24,19 @@ struct Mesh {
 };
 
 /// Wavefront OBJ: v, f (polygons as fans, indices from the front or the back), l; line
-/// continuations, UTF-8 or UTF-16. Other statements are let pass; faces that name no vertex are
-/// skipped and reported.
+/// continuations, UTF-8 or UTF-16. Other statements are let pass; faces that name no vertex, and
+/// numbers without a statement's name, are skipped and reported.
 /// Fails: bad_input with "line N" where a coordinate is no number.
 core::Result<Mesh> read_obj(std::string_view bytes);
 
 /// STL, ASCII with any number of solids or binary; vertices of equal coordinates become one.
-/// Fails: bad_input with "line N" or "byte N" where triangles are incomplete.
+/// Fails: bad_input with "line N" or "byte N" where triangles are incomplete. Skipped: what is
+/// behind the triangles that a binary file counts.
 core::Result<Mesh> read_stl(std::string_view bytes);
 
 /// PLY, ASCII or binary of either byte order, with any further properties and elements.
-/// Fails: bad_input with "line N" (header, ASCII) or "byte N" where the file is none or ends early.
+/// Fails: bad_input with "line N" (header, ASCII) or "byte N" where the file is none or ends early,
+/// or its vertices have not x, y and z, each once. Skipped: what is behind the last element.
 core::Result<Mesh> read_ply(std::string_view bytes);
 
 /// The mesh of a file by its extension (.obj, .stl, .ply).
@@ -55,7 +57,8 @@ std::vector<SectionLine> section(const Mesh& mesh, const acquire::Plane& plane);
 /// with the file. Text (XYZ, PTS, CSV: the first three numbers of a line; a count or header before
 /// the points is let pass) or PLY.
 /// Returns: what in it is no point, in words: text behind the points, points without all
-/// coordinates. Fails: io; bad_input with "line N" or "byte N".
+/// coordinates, counts of others than the points behind them. Fails: io; bad_input with "line N" or
+/// "byte N".
 core::Result<std::vector<std::string>> stream_points(const std::filesystem::path& file,
                                                      const std::function<void(core::Point3)>& take);
 

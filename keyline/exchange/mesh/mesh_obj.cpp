@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "keyline/core/text.h"
@@ -35,6 +36,7 @@ class ObjReader {
       if (auto done = statement(line); !done) return std::unexpected(done.error());
       joined.clear();
     }
+    if (auto done = statement(joined); !done) return std::unexpected(done.error());
     return std::move(mesh_);
   }
 
@@ -43,6 +45,7 @@ class ObjReader {
     const std::string_view keyword = detail::take_word(line);
     if (keyword == "v") return vertex(line);
     if (keyword == "f" || keyword == "l") element(line, keyword == "f");
+    if (core::parse_number(keyword)) note("numbers without a statement's name");
     if (keyword == "curv" || keyword == "surf") note("free-form " + std::string(keyword));
     return {};
   }
@@ -72,7 +75,7 @@ class ObjReader {
       const auto number = core::parse_number(word.substr(0, word.find('/')));
       const double count = static_cast<double>(mesh_.points.size());
       const double index = !number ? -1 : *number < 0 ? count + *number : *number - 1;
-      if (!(index >= 0 && index < count))
+      if (!(index >= 0 && index < count && index == std::floor(index)))
         return note("\"" + std::string(core::whole_characters(word, 30)) +
                     "\" is none of the vertices");
       indices_.push_back(static_cast<std::uint32_t>(index));

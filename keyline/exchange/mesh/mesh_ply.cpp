@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "keyline/core/text.h"
@@ -25,7 +26,7 @@ class PlyReader {
     if (bad_points_ > 0)
       mesh_.skipped.push_back(core::counted(bad_points_, "vertex that is", "vertices that are") +
                               " not finite");
-    if (!header_.binary && values_.more())
+    if (values_.more())
       mesh_.skipped.push_back(
           "what stands behind the last element its header tells of: check that no number is "
           "missing");
@@ -64,16 +65,17 @@ class PlyReader {
   }
 
   Result<void> read_list(const PlyProperty& property, bool faces) {
-    const auto count = values_.next(*property.count);
+    const auto count = values_.next_count(*property.count);
     if (!count) return std::unexpected(count.error());
     const bool wanted =
         faces && (property.name == "vertex_indices" || property.name == "vertex_index");
     corners_.clear();
     bool known = true;
-    for (double i = 0; i < *count; ++i) {
+    for (std::size_t i = 0; i < *count; ++i) {
       const auto index = values_.next(property.type);
       if (!index) return std::unexpected(index.error());
-      known = known && *index >= 0 && *index < static_cast<double>(mesh_.points.size());
+      known = known && *index >= 0 && *index < static_cast<double>(mesh_.points.size()) &&
+              *index == std::floor(*index);
       if (wanted && known) corners_.push_back(static_cast<std::uint32_t>(*index));
     }
     if (!wanted) return {};
@@ -107,6 +109,7 @@ class PlyReader {
 Result<Mesh> read_ply(std::string_view bytes) {
   const auto header = detail::read_ply_header(bytes);
   if (!header) return std::unexpected(header.error());
+  if (auto sound = detail::check_vertices(*header); !sound) return std::unexpected(sound.error());
   return PlyReader(bytes, *header).read();
 }
 

@@ -1,5 +1,6 @@
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <unordered_map>
 
 #include "keyline/core/text.h"
@@ -83,7 +84,22 @@ Result<Mesh> read_binary(std::string_view bytes) {
   if (bad > 0)
     vertices.mesh().skipped.push_back(core::counted(bad, "triangle that is", "triangles that are") +
                                       " not finite");
+  if (const std::size_t rest = bytes.size() - kHeader - kTriangle * count; rest > 0)
+    vertices.mesh().skipped.push_back(core::counted(rest, "byte") + " behind the " +
+                                      core::counted(count, "triangle") + " that the file counts");
   return vertices.take();
+}
+
+/// Three numbers with nothing behind them.
+std::optional<Point3> corner_of(std::string_view line) {
+  double c[3] = {};
+  for (double& value : c) {
+    const auto number = core::parse_number(detail::take_word(line));
+    if (!number) return std::nullopt;
+    value = *number;
+  }
+  if (!detail::take_word(line).empty()) return std::nullopt;
+  return Point3{c[0], c[1], c[2]};
 }
 
 Result<Mesh> read_text(std::string_view bytes) {
@@ -95,25 +111,24 @@ Result<Mesh> read_text(std::string_view bytes) {
   for (std::string_view line; lines.next(line);) {
     const std::string word = detail::lower_case(detail::take_word(line));
     if (word == "solid" || word == "endsolid") open = word == "solid";
-    if (word == "endloop" || word == "facet") {
-      if (word == "endloop" && have != 3)
-        return core::fail(ErrorCode::bad_input, "a triangle has three vertices", "mend the file",
-                          lines.place());
-      if (word == "endloop") vertices.add(corners);
+    const bool ends = word == "endloop";
+    if (ends || word == "facet" || word == "endfacet" || word == "endsolid") {
+      if (have != (ends ? 3 : 0))
+        return core::fail(ErrorCode::bad_input,
+                          ends ? "a triangle has three vertices"
+                               : "the vertices before this line have no endloop",
+                          "mend the file", lines.place());
+      if (ends) vertices.add(corners);
       have = 0;
     }
     if (word != "vertex") continue;
-    double c[3] = {};
-    for (double& value : c) {
-      const auto number = core::parse_number(detail::take_word(line));
-      if (!number || have == 3)
-        return core::fail(
-            ErrorCode::bad_input,
-            have == 3 ? "a triangle has three vertices" : "a vertex needs three numbers",
-            "mend the line", lines.place());
-      value = *number;
-    }
-    corners[have++] = {c[0], c[1], c[2]};
+    const auto corner = corner_of(line);
+    if (have == 3 || !corner)
+      return core::fail(
+          ErrorCode::bad_input,
+          have == 3 ? "a triangle has three vertices" : "a vertex needs three numbers",
+          "mend the line", lines.place());
+    corners[have++] = *corner;
   }
   if (vertices.mesh().triangles.empty())
     return core::fail(ErrorCode::bad_input, "there is no triangle in it", "give an STL file",

@@ -1,5 +1,6 @@
 #include "keyline/exchange/mesh/ply_header.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -55,16 +56,19 @@ bool add_property(PlyHeader& header, std::string_view line) {
   return header.elements.back().properties.size() <= 1000;
 }
 
+bool is_count(double v) { return v >= 0 && v == std::floor(v); }
+
 bool add_element(PlyHeader& header, std::string_view line) {
   const std::string_view name = take_word(line);
   const auto count = core::parse_number(take_word(line));
-  if (!count || *count < 0 || *count > 4e9 || header.elements.size() > 100) return false;
+  if (!is_count(count.value_or(-1)) || *count > 4e9 || header.elements.size() > 100) return false;
   header.elements.push_back({std::string(name), static_cast<std::size_t>(*count), {}});
   return true;
 }
 
 bool add_format(PlyHeader& header, std::string_view line) {
   const std::string_view name = take_word(line);
+  header.formatted = true;
   header.binary = name != "ascii";
   header.big_endian = name == "binary_big_endian";
   return name == "ascii" || name == "binary_little_endian" || header.big_endian;
@@ -112,6 +116,24 @@ Result<PlyHeader> read_ply_header(std::string_view bytes) {
                     "check that the file is complete", lines.place());
 }
 
+Result<void> check_vertices(const PlyHeader& header) {
+  const auto failure = [&](const std::string& what) {
+    return core::fail(core::ErrorCode::bad_input, what, "mend the header",
+                      "line " + std::to_string(header.lines));
+  };
+  if (!header.formatted) return failure("the header names no format");
+  const auto is_vertex = [](const PlyElement& e) { return e.name == "vertex"; };
+  const auto vertex = std::ranges::find_if(header.elements, is_vertex);
+  if (std::ranges::count_if(header.elements, is_vertex) != 1)
+    return failure("the header needs one element of vertices");
+  for (const char* name : {"x", "y", "z"})
+    if (std::ranges::count_if(vertex->properties, [name](const PlyProperty& p) {
+          return p.name == name && !p.count;
+        }) != 1)
+      return failure(std::string("the vertices need ") + name + " as a property, once");
+  return {};
+}
+
 PlyValues::PlyValues(std::string_view bytes, const PlyHeader& header)
     : bytes_(bytes), header_(header), position_(header.size), line_(header.lines + 1) {}
 
@@ -135,6 +157,13 @@ Result<double> PlyValues::word() {
 
 bool PlyValues::more() const {
   return bytes_.find_first_not_of(" \t\r\n\f\v", position_) != std::string_view::npos;
+}
+
+Result<std::size_t> PlyValues::next_count(PlyType type) {
+  const auto value = next(type);
+  if (!value) return std::unexpected(value.error());
+  if (!is_count(*value)) return failure("the length of a list is expected here");
+  return static_cast<std::size_t>(*value);
 }
 
 Result<double> PlyValues::next(PlyType type) {

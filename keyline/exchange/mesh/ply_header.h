@@ -25,6 +25,7 @@ struct PlyElement {
 };
 
 struct PlyHeader {
+  bool formatted = false;  ///< a line tells the format
   bool binary = false;
   bool big_endian = false;
   std::vector<PlyElement> elements;
@@ -37,6 +38,10 @@ std::size_t size_of(PlyType type);
 /// Fails: bad_input with "line N".
 core::Result<PlyHeader> read_ply_header(std::string_view bytes);
 
+/// Fails: bad_input unless the header tells its format and one element of vertices that have x, y
+/// and z, each once.
+core::Result<void> check_vertices(const PlyHeader& header);
+
 /// Reads values one after the other, binary or as words. Past the end it gives failures with the
 /// place: "byte N" or "line N".
 class PlyValues {
@@ -44,9 +49,11 @@ class PlyValues {
   PlyValues(std::string_view bytes, const PlyHeader& header);
 
   core::Result<double> next(PlyType type);
+  /// The next value as the length of a list; a failure, too, where it is none.
+  core::Result<std::size_t> next_count(PlyType type);
   /// Where the next value stands, from the start of `bytes`.
   std::size_t position() const { return position_; }
-  /// Whether words are left.
+  /// Whether anything but white space is left.
   bool more() const;
 
  private:

@@ -40,6 +40,7 @@ class TextPoints {
     if (!started_)
       return core::fail(ErrorCode::bad_input, "there are no points in it",
                         "give x, y and z on each line", name_);
+    check_count();
     if (missing_ > 0)
       left_.push_back(core::counted(missing_, "point") + " without all coordinates");
     if (lines_.ended_early())
@@ -62,7 +63,8 @@ class TextPoints {
         c[k] = *value;
         continue;
       }
-      if (!value && (!started_ || fields.size() == 1)) return {};  // header, count of a part
+      if (!value && k > 0 && fields.size() == 1) return take_count(c[0]), core::Result<void>{};
+      if (!value && !started_) return {};  // header
       const core::Failure why{ErrorCode::bad_input, "three numbers (x y z) are needed here",
                               "give every point all its coordinates", lines_.place()};
       if (value || !detail::is_remark(fields, style, 0, 3)) return std::unexpected(why);
@@ -72,6 +74,7 @@ class TextPoints {
     }
     if (remark_) return std::unexpected(*remark_);
     started_ = true;
+    ++behind_count_;
     const Point3 p{c[0], c[1], c[2]};
     if (core::is_finite(p))
       take_(p);
@@ -80,12 +83,34 @@ class TextPoints {
     return {};
   }
 
+  /// A number by itself counts the points behind it.
+  void take_count(double count) {
+    check_count();
+    count_ = Count{count, lines_.number()};
+    behind_count_ = 0;
+  }
+
+  void check_count() {
+    if (count_ && count_->points != static_cast<double>(behind_count_))
+      left_.push_back("line " + std::to_string(count_->line) + ": the number " +
+                      core::number_text(count_->points, 12) + ", which is not that of the " +
+                      core::counted(behind_count_, "point") + " behind it");
+    count_.reset();
+  }
+
+  struct Count {
+    double points = 0;
+    int line = 0;
+  };
+
   LineReader lines_;
   const std::string& name_;
   const Take& take_;
   bool started_ = false;
   std::optional<core::Failure> remark_;  ///< of the first line of text behind points
   std::size_t missing_ = 0;
+  std::optional<Count> count_;  ///< the last that was met
+  std::size_t behind_count_ = 0;
   Left left_;
 };
 
@@ -144,6 +169,7 @@ Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, con
   head.resize(static_cast<std::size_t>(in.gcount()));
   const auto header = detail::read_ply_header(head);
   if (!header) return std::unexpected(header.error());
+  if (auto sound = detail::check_vertices(*header); !sound) return std::unexpected(sound.error());
   const auto& elements = header->elements;
   const bool plain =
       header->binary && !elements.empty() && elements.front().name == "vertex" &&

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "keyline/core/coordinate.h"
 #include "keyline/core/leading_number.h"
@@ -106,6 +107,7 @@ class HullCsv {
     std::vector<double> down;
     std::vector<std::vector<double>> rows;
     std::string_view line;
+    std::set<double> seen;
     std::string remark;  // the place of text behind rows
     while (lines_.next(line)) {
       if (detail::trimmed(line).empty() || detail::is_comment(line)) continue;
@@ -125,14 +127,32 @@ class HullCsv {
       if (!at || !std::isfinite(*at) || row->size() > across->size())
         return fail(ErrorCode::bad_input, "this row does not fit the first line", "mend it",
                     lines_.place());
+      if (!seen.insert(*at).second) return stands_twice(by_station_);
+      tell_missing(line, across->size());
       row->resize(across->size(), kOutside);
       down.push_back(*at);
       rows.push_back(std::move(*row));
     }
+    if (rows.empty())
+      return fail(ErrorCode::bad_input, "the table has no rows", "give some", lines_.place());
     return table(*across, down, rows);
   }
 
  private:
+  std::unexpected<core::Failure> stands_twice(bool station) const {
+    return fail(ErrorCode::bad_input,
+                station ? "a station stands twice" : "a waterline stands twice", "leave one out",
+                lines_.place());
+  }
+
+  /// Cells that a line has fewer behind its first than it should, empty ones at its end among them.
+  void tell_missing(std::string_view line, std::size_t cells) {
+    const auto there = static_cast<std::size_t>(std::ranges::count(line, style_.separator));
+    if (there < cells)
+      left_out_.push_back(lines_.place() + ": " + core::counted(cells - there, "cell") +
+                          " fewer than in the first line: outside the hull");
+  }
+
   bool is_axis(std::string_view cell) {
     const std::string name = detail::plain_name(cell);
     const auto starts = [&name](std::string_view word) {
@@ -179,9 +199,11 @@ class HullCsv {
   /// The numbers of the first line; those behind names are told, as they might only count.
   Result<std::vector<double>> axis_across() {
     std::vector<double> values;
+    std::set<double> seen;
     for (std::size_t k = 1; k < header_.size(); ++k) {
       const auto value = at_axis(header_[k], !by_station_);
       if (!value || std::abs(*value) > core::kLargestCoordinate) return misplaced(k);
+      if (std::isfinite(*value) && !seen.insert(*value).second) return stands_twice(!by_station_);
       values.push_back(*value);
     }
     if (header_.size() > 1 && !number(header_[1]))
@@ -208,24 +230,19 @@ class HullCsv {
     return values;
   }
 
-  /// Indices that put the values in order; empty where one stands twice.
+  /// Indices that put the values in order.
   static std::vector<std::size_t> order_of(const std::vector<double>& values) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    for (std::size_t i = 1; i < order.size(); ++i)
-      if (values[order[i]] == values[order[i - 1]]) return {};
     return order;
   }
 
-  Result<HullTable> table(const std::vector<double>& across, const std::vector<double>& down,
-                          const std::vector<std::vector<double>>& rows) const {
+  HullTable table(const std::vector<double>& across, const std::vector<double>& down,
+                  const std::vector<std::vector<double>>& rows) const {
     const auto columns = order_of(across);
     const auto order = order_of(down);
-    if (columns.size() != across.size() || order.size() != down.size())
-      return fail(ErrorCode::bad_input, "a station or a waterline stands twice", "leave one out",
-                  "line 1");
     HullTable made;
     made.unit = unit_;
     made.left_out = left_out_;

@@ -17,7 +17,7 @@ struct HullTable {
   std::vector<double> stations;
   std::vector<double> half_breadth;
   std::string unit = {};                   ///< as of documents; empty where none is stated
-  std::vector<std::string> left_out = {};  ///< lines of text behind the rows
+  std::vector<std::string> left_out = {};  ///< lines of text behind the rows, rows cut short
 };
 
 /// Text parted by commas, semicolons or tabs: after comments and lines of one or two cells (the
@@ -26,7 +26,9 @@ struct HullTable {
 /// dashes outside the hull. Or "station" ("ST") first and the two exchanged. Heights and stations
 /// may have their names before them ("WL 0.5"), which is told. Rows and columns in any order.
 /// Numbers plain, as fractions (3 1/2) or, in feet, as feet-inches-eighths (2-3-4, and 2-3-4+ for a
-/// sixteenth more). Text behind the rows is `left_out`. Fails: bad_input with "line N".
+/// sixteenth more). Text behind the rows is `left_out`, and cells that a row has fewer than the
+/// first line, which are outside the hull. Fails: bad_input with "line N", also where a station or
+/// a waterline stands twice.
 core::Result<HullTable> read_hull_csv(std::string_view text);
 bool is_hull_csv(std::string_view head);
 

@@ -1,5 +1,6 @@
 #include "keyline/exchange/points/lattice_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -35,6 +36,10 @@ std::optional<Shape> shape_line(std::string_view line) {
   return Shape{static_cast<std::size_t>(*rows), static_cast<std::size_t>(*columns)};
 }
 
+bool are_all(const std::vector<std::size_t>& lengths, std::size_t length) {
+  return std::ranges::all_of(lengths, [=](std::size_t n) { return n == length; });
+}
+
 core::Result<acquire::Lattice> shaped(std::vector<core::Point3> points,
                                       const std::optional<Shape>& given,
                                       const std::vector<std::size_t>& lengths,
@@ -49,6 +54,12 @@ core::Result<acquire::Lattice> shaped(std::vector<core::Point3> points,
                             " points announced, " + std::to_string(points.size()) + " found",
                         "correct the first line", name);
     }
+    if (lengths.size() > 1 && !are_all(lengths, lattice.columns))
+      return core::fail(ErrorCode::bad_input,
+                        "blank lines part the points into other rows than the " +
+                            std::to_string(given->rows) + " of " + std::to_string(given->columns) +
+                            " announced",
+                        "correct the first line, or leave it out", name);
   } else {
     lattice.rows = lengths.size();
     lattice.columns = lengths.empty() ? 0 : lengths[0];
@@ -70,6 +81,10 @@ core::Result<acquire::Lattice> shaped(std::vector<core::Point3> points,
 
 core::Result<core::Point3> point_of(const std::vector<std::string_view>& fields,
                                     const detail::TableStyle& style, const std::string& place) {
+  if (fields.size() > 3)
+    return core::fail(ErrorCode::bad_input,
+                      "three numbers (x y z) are needed here, not " + std::to_string(fields.size()),
+                      "where numbers have a decimal comma, separate columns by ; or blanks", place);
   double value[3] = {0, 0, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = k < fields.size() ? detail::parse_number(fields[k], style) : std::nullopt;

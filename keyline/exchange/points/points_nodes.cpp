@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/text/ascii.h"
 
@@ -105,6 +106,25 @@ bool is_zone_of_blocks(std::string_view line) {
     const bool layout = key == "f" || key == "datapacking" || key == "zonetype";
     return key == "et" || (layout && (value.starts_with("block") || value.starts_with("fe")));
   });
+}
+
+void ZoneCount::take(std::string_view line) {
+  any_value(line, [this](std::string_view key, std::string_view value) {
+    const std::string name = lower_case(key);
+    const auto count = core::take_whole<std::size_t>(value);
+    if (count && (name == "i" || name == "j" || name == "k"))
+      points = points.value_or(1) * static_cast<double>(*count);
+    return false;
+  });
+}
+
+core::Result<void> ZoneCount::check(std::size_t rows) const {
+  const std::size_t read = rows - before;
+  if (!points || *points == static_cast<double>(read)) return {};
+  return core::fail(core::ErrorCode::bad_input,
+                    "a zone of " + core::number_text(*points, 12) + " points (I, J, K), and " +
+                        core::counted(read, "row") + " behind it",
+                    "check that the file is complete, or mend the zone", place);
 }
 
 std::string tecplot_title(std::string_view line) {

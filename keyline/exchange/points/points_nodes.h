@@ -49,6 +49,17 @@ bool is_tecplot_zone(std::string_view line);
 /// Whether a line behind that one, or behind such a line, still belongs to it: I=80, F=POINT.
 bool goes_on_with_zone(std::string_view line);
 
+/// How many points a zone of Tecplot tells of, I times J times K, in one or several lines.
+struct ZoneCount {
+  std::size_t before = 0;        ///< rows that stand before the zone
+  std::string place;             ///< of its first line
+  std::optional<double> points;  ///< none where none of the three is told
+
+  void take(std::string_view line);
+  /// Fails: bad_input where others than its points stand up to the row of that number.
+  core::Result<void> check(std::size_t rows) const;
+};
+
 /// What a line of Tecplot calls the file or a zone: TITLE = "wing", ZONE T="upper"; empty where it
 /// does not.
 std::string tecplot_title(std::string_view line);

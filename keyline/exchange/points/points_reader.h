@@ -41,7 +41,7 @@ struct PointsFile {
 /// - Lists of nodes (.node and .poly of Triangle and TetGen): the first line's counts and the
 ///   numbers of nodes are no points, what follows the nodes is `left_out`, and fewer or others are
 ///   a failure. Files of Tecplot: VARIABLES is the header, a ZONE starts a curve, and one whose
-///   numbers are no list of points is a failure.
+///   numbers are no list of points, or not as many as its I, J and K tell, is a failure.
 /// - A line of text between rows starts a curve of that name where three or more rows stand on both
 ///   sides of it, and is a failure elsewhere; likewise a number by itself that counts the rows
 ///   behind it. Where no rows follow, it is `left_out`.

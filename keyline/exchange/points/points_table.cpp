@@ -32,6 +32,11 @@ core::Result<void> PointsTable::take(std::string_view line, int number, const st
   if (zone_ && is_zone_of_blocks(line))
     return core::fail(ErrorCode::bad_input, "a zone of Tecplot that is no list of points",
                       "write its points one to a row (DATAPACKING=POINT)", place);
+  if (zone_ && !within) {
+    if (auto all = zone_count_.check(rows_); !all) return all;
+    zone_count_ = {rows_, place, {}};
+  }
+  if (zone_) zone_count_.take(line);
   if (within) return {};
   if (!started_) return before_data(line, number, place);
   if (is_comment(line) || is_behind_nodes(number)) return {};
@@ -359,6 +364,7 @@ core::Result<PointsTable::Curves> PointsTable::finish(const std::string& name) {
   if (nodes_ && rows_ < nodes_->nodes) return std::unexpected(nodes_->too_few(rows_, name));
   if (remark_ && rows_ < 2) return std::unexpected(*remark_);  // what is no row hides them
   if (auto all = meet_count(); !all) return std::unexpected(all.error());
+  if (auto all = zone_count_.check(rows_); !all) return std::unexpected(all.error());
   if (misfit_ && !nodes_ && rows_ < kFewest) return std::unexpected(*misfit_);
   if (curves_.empty()) {
     const bool empty = head_.text_lines == 0 && head_.names.empty();

@@ -82,6 +82,7 @@ class PointsTable {
   std::vector<double> first_row_;          // its numbers, -1 for what is none
   bool told_behind_ = false;
   bool zone_ = false;           // the line before is of Tecplot's head of a zone
+  ZoneCount zone_count_;        // of the last zone
   std::optional<Count> count_;  // of the rows since the last such line
   std::string remark_text_;
   bool like_row_ = false;  // the remark is rather a row with a mistake in it: it names no curve

@@ -54,7 +54,7 @@ class Reader {
   bool take(const std::vector<std::string_view>& words) {
     if (words.empty()) return true;
     if (words[0] == "{") {
-      if (inside_) return false;
+      if (inside_ || words.size() > 1) return false;
       drawing_.strokes.emplace_back();
       columns_ = 0;
       return inside_ = true;
@@ -62,19 +62,19 @@ class Reader {
     if (words[0] == "}") {
       const bool was = inside_;
       inside_ = false;
-      return was;
+      return was && words.size() == 1;
     }
     double a = 0;
     double b = 0;
     if (words[0][0] == '@') {
-      if (!parse(words[0].substr(1), a) || a <= 0) return false;
+      if (words.size() > 1 || !parse(words[0].substr(1), a) || a <= 0) return false;
       if (!inside_) drawing_.pen = a;
       return true;
     }
     const bool head = words[0][0] == '#';
     if (head && !inside_ && !drawing_.strokes.empty()) return true;  // notes on the strokes
-    if (words.size() < 2 || !parse(words[0].substr(head ? 1 : 0), a) || !parse(words[1], b))
-      return false;
+    if (words.size() < 2 || (head && words.size() > 2)) return false;
+    if (!parse(words[0].substr(head ? 1 : 0), a) || !parse(words[1], b)) return false;
     if (!head) {
       if (!inside_ || !is_row(words)) return false;
       auto& points = drawing_.strokes.back().points;

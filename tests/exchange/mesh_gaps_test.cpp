@@ -1,0 +1,130 @@
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/exchange/mesh/mesh.h"
+
+/// Meshes and clouds with something missing or too much: refused, or told.
+namespace keyline::exchange {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Where a file fails, or what of it is skipped.
+std::string told(const core::Result<Mesh>& mesh) {
+  if (!mesh) return mesh.error().path + ": " + mesh.error().message;
+  std::string all;
+  for (const std::string& what : mesh->skipped) all += what + "\n";
+  return all;
+}
+
+std::string ply(const std::string& vertex, const std::string& data,
+                const std::string& format = "format ascii 1.0\n") {
+  return "ply\n" + format + vertex +
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + data;
+}
+
+const std::string kVertex =
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string kCorners = "0 0 0\n1 0 0\n0 1 0\n";
+
+// Each would otherwise lie in the plane z = 0, or be read from another's numbers.
+TEST(MeshGaps, PlyNeedsAFormatAndEveryCoordinateOnce) {
+  EXPECT_EQ(told(read_ply(ply(kVertex, kCorners + "3 0 1 2\n"))), "");
+  EXPECT_THAT(told(read_ply(ply(kVertex, kCorners + "3 0 1 2\n", ""))),
+              HasSubstr("line 8: the header names no format"));
+  const std::string x = "property float x\n", y = "property float y\n", z = "property float z\n";
+  for (const std::string& properties :
+       {x + y, x + z, y + z, x + y + z + z, x + y + "property list uchar float z\n", std::string()})
+    EXPECT_THAT(told(read_ply(ply("element vertex 3\n" + properties, kCorners + "3 0 1 2\n"))),
+                HasSubstr("as a property, once"))
+        << properties;
+  EXPECT_THAT(told(read_ply(ply(kVertex + kVertex, kCorners + kCorners + "3 0 1 2\n"))),
+              HasSubstr("one element of vertices"));
+  EXPECT_THAT(told(read_ply(ply("", "3 0 1 2\n"))), HasSubstr("one element of vertices"));
+}
+
+TEST(MeshGaps, PlyCountsInWholeNumbers) {
+  EXPECT_THAT(told(read_ply(ply("element vertex 3.5\nproperty float x\n", ""))),
+              HasSubstr("line 3: "));
+  for (const char* count : {"2.5", "-1"})
+    EXPECT_THAT(told(read_ply(ply(kVertex, kCorners + count + " 0 1 2\n"))),
+                HasSubstr("line 13: the length of a list"))
+        << count;
+  EXPECT_THAT(told(read_ply(ply(kVertex, kCorners + "3 0 1 1.5\n"))),
+              HasSubstr("1 face that names no vertices"));
+}
+
+// A header that counts fewer vertices than the file has; of binary files, too.
+TEST(MeshGaps, PlyOfMoreBytesThanItsHeaderTellsSo) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty uchar x\n"
+      "property uchar y\nproperty uchar z\nend_header\n";
+  EXPECT_EQ(told(read_ply(header + "abc")), "");
+  EXPECT_THAT(told(read_ply(header + "abcdef")), HasSubstr("behind the last element"));
+}
+
+const std::string kFacet = "facet normal 0 0 1\nouter loop\n";
+const std::string kThree = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+
+TEST(MeshGaps, StlLosesNoTriangleWithoutItsEnd) {
+  const std::string whole = kFacet + kThree + "endloop\nendfacet\n";
+  EXPECT_EQ(told(read_stl("solid\n" + whole + whole + "endsolid\n")), "");
+  for (const char* ends : {"endfacet\n", "", "endsolid\n"})
+    EXPECT_THAT(told(read_stl("solid\n" + kFacet + kThree + ends + whole + "endsolid\n")),
+                HasSubstr("line 7: the vertices before this line have no endloop"))
+        << ends;
+  EXPECT_THAT(told(read_stl("solid\n" + kFacet + "vertex 0 0 0 5\n" + whole)),
+              HasSubstr("line 4: a vertex needs three numbers"));
+  EXPECT_THAT(told(read_stl("solid\n" + kFacet + "vertex 0,5 0 0\n" + whole)),
+              HasSubstr("line 4: a vertex needs three numbers"));
+}
+
+TEST(MeshGaps, StlOfMoreTrianglesThanItCountsTellsSo) {
+  std::string one(84 + 50, '\0');
+  one[80] = 1;
+  EXPECT_EQ(told(read_stl(one)), "");
+  EXPECT_THAT(told(read_stl(one + std::string(50, '\0'))),
+              HasSubstr("50 bytes behind the 1 triangle"));
+}
+
+// A vertex without its "v" would give all behind it another number.
+TEST(MeshGaps, ObjTellsWhatItTakesForNothing) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_EQ(told(read_obj("vt 0 0\ng a\n" + corners + "f 1 2 3\n")), "");
+  EXPECT_THAT(told(read_obj("1 2 3\n" + corners + "f 1 2 3\n")), HasSubstr("line 1: numbers"));
+  EXPECT_THAT(told(read_obj(corners + "f 1 2 2.5\n")), HasSubstr("none of the vertices"));
+  const auto cut = read_obj(corners + "f 1 2 \\\n3 \\");  // goes on, but the file ends
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->triangles.size(), 1U);
+}
+
+/// What a cloud of that text leaves out.
+std::vector<std::string> left_out(const std::string& text) {
+  const fs::path file =
+      fs::temp_directory_path() / ("keyline-gaps-" + std::to_string(::getpid()) + ".xyz");
+  std::ofstream(file) << text;
+  const auto left = stream_points(file, [](core::Point3) {});
+  fs::remove(file);
+  return left ? *left : std::vector<std::string>{left.error().path + ": " + left.error().message};
+}
+
+TEST(MeshGaps, CloudsHaveThePointsTheyCount) {
+  EXPECT_THAT(left_out("3\n0 0 0\n1 0 0\n0 1 0\n1\n5 5 5\n"), IsEmpty());
+  EXPECT_THAT(left_out("4\n0 0 0\n1 0 0\n0 1 0\n1\n5 5 5\n"), ElementsAre(HasSubstr("line 1: ")));
+  EXPECT_THAT(left_out("3\n0 0 0\n1 0 0\n0 1 0\n2\n5 5 5\n"), ElementsAre(HasSubstr("line 5: ")));
+  EXPECT_THAT(left_out("0 0 0\n1 0 0\nabc\n0 1 0\n"), ElementsAre(HasSubstr("three numbers")));
+}
+
+}  // namespace
+}  // namespace keyline::exchange
