@@ -158,18 +158,22 @@ void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& name
 }
 
 void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
-  ++edges_;
-  if (label.name.empty() || label.name.back() == '/')
-    label.name += "edge-" + std::to_string(edges_);
+  const std::string name = number_edge(label);
   try {
     double first = 0;
     double last = 0;
     const Handle(Geom_Curve) c = BRep_Tool::Curve(TopoDS::Edge(shape), first, last);
-    if (c.IsNull()) return skip(label.name, "an edge without curve");
+    if (c.IsNull()) return skip(name, "an edge without curve");
     add_curve(document_, c, first, last, label);
   } catch (const Standard_Failure& failure) {
-    skip(label.name, failure.GetMessageString());
+    skip(name, failure.GetMessageString());
   }
+}
+
+std::string ShapeWalk::number_edge(Label& label) {
+  const std::string number = "edge-" + std::to_string(++edges_);
+  if (label.name.ends_with('/')) label.name += number;
+  return label.name.empty() ? number : label.name;
 }
 
 namespace {
@@ -223,14 +227,13 @@ void ShapeWalk::add_wire(const TopoDS_Shape& shape, Label label) {
     return add_edges(shape, label);
   }
   auto path = chained(parts);
-  const bool named = !label.name.empty() && label.name.back() != '/';
-  const std::string name = named ? label.name : label.name + "edge-" + std::to_string(edges_ + 1);
   if (!path) {
-    skip(name, path.error().message + "; its curves stand by themselves");
+    Label first = label;
+    skip(number_edge(first), path.error().message + "; its curves stand by themselves");
+    --edges_;
     return add_edges(shape, label);
   }
-  ++edges_;
-  label.name = name;
+  number_edge(label);
   document_.paths.push_back({std::move(label), std::move(*path), 0});
 }
 

@@ -12,8 +12,8 @@ namespace keyline::exchange::occt {
 
 /// Goes through a shape and adds its faces and free edges to a document, in place. Labels are
 /// handed down to parts that have none of their own; a part of several in something named is
-/// "name/face-1", one in something unnamed "face-1". The colour of a placement goes over those of
-/// the part placed.
+/// "name/face-1" or "name/edge-1"; in something unnamed a face is "face-1", and a curve has no
+/// name. The colour of a placement goes over those of the part placed.
 class ShapeWalk {
  public:
   ShapeWalk(document::Document& document, const PartLabels& labels)
@@ -34,6 +34,9 @@ class ShapeWalk {
   void add_face(const TopoDS_Shape& shape, document::Label label);
   void add_edge(const TopoDS_Shape& shape, document::Label label);
   void add_wire(const TopoDS_Shape& shape, document::Label label);
+  /// Counts one more and gives it its number where its label is that of several.
+  /// Returns: what it is called in what is told.
+  std::string number_edge(document::Label& label);
   void add_edges(const TopoDS_Shape& wire, const document::Label& label);
   void add_trims(const TopoDS_Shape& face, document::NamedSurface& named);
   void skip(const std::string& name, const std::string& why);

@@ -68,6 +68,11 @@ void for_each_shape(const document::Document& document, Add&& add) {
   for (const auto& named : document.surfaces) add(face_of(named.surface), named.label);
 }
 
+/// In what is told.
+std::string called(const document::Label& label) {
+  return label.name.empty() ? "a thing without a name" : "\"" + label.name + "\"";
+}
+
 Handle(TCollection_HAsciiString) one_line(const std::string& text) {
   return new TCollection_HAsciiString(core::on_one_line(text).c_str());
 }
@@ -112,7 +117,7 @@ Handle(StepRepr_RepresentationItem)
   return {};
 }
 
-/// OCCT numbers the products it makes; here every thing has its own name.
+/// OCCT numbers the products it makes; here every thing has its own name, or none.
 void name_products(const Handle(Interface_InterfaceModel) & model, int before,
                    const std::string& name) {
   for (int i = before + 1; i <= model->NbEntities(); ++i)
@@ -230,18 +235,17 @@ std::string write_step(const document::Document& document) {
   STEPControl_Writer writer;
   StepLooks looks(writer);
   for_each_shape(document, [&](const TopoDS_Shape& shape, const document::Label& label) {
-    const std::string name = label.name.empty() ? "keyline" : label.name;
     const int before = writer.Model()->NbEntities();
     const bool wire = shape.ShapeType() == TopAbs_WIRE;
     const auto mode =
         wire || shape.ShapeType() == TopAbs_EDGE ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
     // Without the graph of the whole model, which nobody asks: it would be made anew every time.
     if (writer.Transfer(shape, mode, Standard_False) != IFSelect_RetDone)
-      throw std::runtime_error("\"" + name + "\" cannot be written as STEP");
+      throw std::runtime_error(called(label) + " cannot be written as STEP");
     const auto item =
         wire ? composite(writer.Model(), before, shape.Closed()) : item_of(writer, shape);
-    if (!item.IsNull()) item->SetName(one_line(name));
-    name_products(writer.Model(), before, name);
+    if (!item.IsNull()) item->SetName(one_line(label.name));
+    name_products(writer.Model(), before, label.name);
     looks.add(shape, item, label);
   });
   looks.finish();
@@ -342,7 +346,7 @@ std::string write_iges(const document::Document& document) {
   for_each_shape(document, [&](const TopoDS_Shape& shape, const document::Label& label) {
     const int before = writer.Model()->NbEntities();
     if (!writer.AddShape(shape))
-      throw std::runtime_error("\"" + label.name + "\" cannot be written as IGES");
+      throw std::runtime_error(called(label) + " cannot be written as IGES");
     looks.add(before, label);
   });
   looks.finish();
