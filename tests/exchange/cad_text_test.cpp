@@ -120,8 +120,23 @@ TEST_F(CadText, IgesLevelsAreTheLayers) {
   Document numbers;
   numbers.unit = "mm";
   add_arch(numbers, {"", "7", ""});
+  add_arch(numbers, {"", "1000", ""});
   EXPECT_THAT(text_of(numbers, ".iges"), Not(HasSubstr("1H7;")));
+  EXPECT_THAT(text_of(numbers, ".iges"), Not(HasSubstr("4H1000;")));
   EXPECT_THAT(text_of(d, ".iges"), HasSubstr("4Hbody;"));
+}
+
+// IGES 5.3, 4.21: level and colour are no fields of a matrix, such as an arc to the right has.
+TEST_F(CadText, IgesMatricesHaveNeitherLevelNorColour) {
+  Document d;
+  d.unit = "mm";
+  const lac::Chain arc{{{0, 0}, 1}, {{-1, 2, -0.7, -0.7}}, false};
+  d.paths.push_back({{"a", "7", "#336699"}, {{{arc}}, false}, 0});
+  const std::string text = text_of(d, ".iges");
+  const std::size_t first = text.find("\n     124") + 1, second = text.find('\n', first) + 1;
+  ASSERT_NE(first, 0U) << text;
+  EXPECT_EQ(text.substr(first + 32, 8), "       0");
+  EXPECT_EQ(text.substr(second + 16, 8), "       0");
 }
 
 // A file without a unit is in mm, whatever the numbers stand for.

@@ -237,8 +237,7 @@ std::string write_step(const document::Document& document) {
   for_each_shape(document, [&](const TopoDS_Shape& shape, const document::Label& label) {
     const int before = writer.Model()->NbEntities();
     const bool wire = shape.ShapeType() == TopAbs_WIRE;
-    const auto mode =
-        wire || shape.ShapeType() == TopAbs_EDGE ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
+    const auto mode = wire ? STEPControl_GeometricCurveSet : STEPControl_AsIs;
     // Without the graph of the whole model, which nobody asks: it would be made anew every time.
     if (writer.Transfer(shape, mode, Standard_False) != IFSelect_RetDone)
       throw std::runtime_error(called(label) + " cannot be written as STEP");
