@@ -9,6 +9,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/quantile.h"
+#include "keyline/core/second_moments.h"
 #include "keyline/numeric/solve.h"
 
 namespace keyline::sketch {
@@ -17,6 +18,9 @@ namespace {
 using core::distance;
 using core::Point2;
 using core::Vector2;
+
+constexpr double kEndArm = 10;       ///< pixels of a line that tell which way its end goes, and
+constexpr double kEndArmWidths = 2;  ///< so many of its widths at least
 
 /// Half the usual width of an edge.
 double half_width(const GraphEdge& e) { return core::quantile(e.radii); }
@@ -109,6 +113,18 @@ std::vector<Point2> arm_of(const StrokeGraph& graph, const Branch& branch, doubl
     run += distance(line.points[i], line.points[branch.at_end ? i - 1 : i + 1]);
   }
   return points;
+}
+
+Way way_of(const StrokeGraph& graph, const Branch& end) {
+  const double width = 2 * half_width(graph.edges[static_cast<std::size_t>(end.edge)]);
+  const std::vector<Point2> arm = arm_of(graph, end, std::max(kEndArm, kEndArmWidths * width));
+  Vector2 sum{};
+  for (const Point2 p : arm) sum = sum + (p - arm.front());
+  const Point2 middle = arm.front() + sum / static_cast<double>(arm.size());
+  core::SecondMoments spread;
+  for (const Point2 p : arm) spread.add(p - middle);
+  const Vector2 along = spread.direction();
+  return {middle, dot(along, arm.front() - arm.back()) < 0 ? -along : along};
 }
 
 Vector2 direction_of(const std::vector<Point2>& points) {

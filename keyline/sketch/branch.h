@@ -28,6 +28,15 @@ Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip)
 /// The edge's points from where it is clear of the junction, up to `reach` out.
 std::vector<core::Point2> arm_of(const StrokeGraph& graph, const Branch& branch, double reach);
 
+/// Where the last part of a line lies and which way it goes. It is read as a straight line, half
+/// way along: the direction at an end itself is known four times less well, and an arc meets the
+/// chord between any two of its places at equal angles.
+struct Way {
+  core::Point2 middle;
+  core::Vector2 outward{1, 0};  ///< towards the end
+};
+Way way_of(const StrokeGraph& graph, const Branch& end);
+
 /// The way a line of points leaves its first one: that of the parabola through them all.
 core::Vector2 direction_of(const std::vector<core::Point2>& points);
 

@@ -7,7 +7,6 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/quantile.h"
-#include "keyline/core/second_moments.h"
 #include "keyline/sketch/dash_row.h"
 
 namespace keyline::sketch {
@@ -23,9 +22,7 @@ constexpr double kWidestGap = 18 * kEven;
 /// Gaps: a dash between two gaps is no longer. The longest that drawings have are eight times as
 /// long as their gaps ([ISO 128-20], long dashes); half as much again as gaps of a row may differ.
 constexpr double kLongDash = 8 * kEven;
-constexpr double kDot = 3;        ///< pixels: what is shorter has no direction
-constexpr double kArm = 10;       ///< pixels of a dash that tell which way it goes, and
-constexpr double kArmWidths = 2;  ///< so many of its widths at least
+constexpr double kDot = 3;  ///< pixels: what is shorter has no direction
 
 /// Of a line's ink.
 struct Box {
@@ -155,25 +152,6 @@ class Bridges {
   /// Of the ink, along the line that ends there.
   double dash(int b) const { return length_of(edge_of(b)) + width(b); }
 
-  /// Where the last part of a dash lies and which way it goes. It is read as a straight line, half
-  /// way along: the direction at an end itself is known four times less well, and an arc meets the
-  /// chord between any two of its places at equal angles.
-  struct Way {
-    Point2 middle;
-    Vector2 outward{1, 0};
-  };
-  Way way_of(int end) {
-    const std::vector<Point2> arm =
-        arm_of(graph_, at(end), std::max(kArm, kArmWidths * width(end)));
-    Vector2 sum{};
-    for (const Point2 p : arm) sum = sum + (p - arm.front());
-    const Point2 middle = arm.front() + sum / static_cast<double>(arm.size());
-    core::SecondMoments spread;
-    for (const Point2 p : arm) spread.add(p - middle);
-    const Vector2 along = spread.direction();
-    return {middle, dot(along, arm.front() - arm.back()) < 0 ? -along : along};
-  }
-
   /// As bend_between of branches; of the turn from one middle to the other the gap has its share.
   static double row_bend(const Way& a, const Way& b, double gap) {
     const Vector2 chord = b.middle - a.middle;
@@ -188,7 +166,7 @@ class Bridges {
     std::vector<Way> ways(branches_.size());
     for (const int end : ends_) {
       reach[index(end)] = std::min(kRowGap * dash(end), kWidestGap * width(end));
-      ways[index(end)] = way_of(end);
+      ways[index(end)] = way_of(graph_, at(end));
     }
     visit_pairs(std::ranges::max(reach), [&](int a, int b, double gap) {
       if (a / 2 == b / 2 || gap > std::min(reach[index(a)], reach[index(b)])) return;

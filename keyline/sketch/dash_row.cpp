@@ -16,38 +16,6 @@ using core::Vector2;
 
 constexpr double kSlender = 6 / kEven;  ///< lengths of a dash, in its widths
 
-/// A slender piece of ink.
-struct Dash {
-  std::size_t piece = 0;
-  double length = 0;
-  std::array<Point2, 2> end{};
-  Vector2 along{};  ///< from the first end to the second
-};
-
-/// The piece's mean, its principal axis, and how far it goes along that.
-Dash dash_of(std::span<const std::size_t> piece, std::size_t number, std::size_t width) {
-  const auto place = [width](std::size_t i) {
-    return Point2{static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5};
-  };
-  const auto count = static_cast<double>(piece.size());
-  Vector2 sum{};
-  for (const std::size_t i : piece) sum = sum + (place(i) - Point2{});
-  const Point2 mean = Point2{} + sum / count;
-  core::SecondMoments moments;
-  for (const std::size_t i : piece) moments.add(place(i) - mean);
-  Dash dash{.piece = number, .along = moments.direction()};
-  double low = 0;
-  double high = 0;
-  for (const std::size_t i : piece) {
-    const double way = core::dot(place(i) - mean, dash.along);
-    low = std::min(low, way - 0.5);
-    high = std::max(high, way + 0.5);
-  }
-  dash.length = high - low;
-  dash.end = {mean + low * dash.along, mean + high * dash.along};
-  return dash;
-}
-
 /// Of an end of a dash, the nearest other end ahead.
 struct Next {
   double gap = HUGE_VAL;
@@ -88,6 +56,29 @@ std::vector<std::array<Next, 2>> nearest_of(const std::vector<Dash>& dashes) {
 }
 
 }  // namespace
+
+Dash dash_of(std::span<const std::size_t> piece, std::size_t number, std::size_t width) {
+  const auto place = [width](std::size_t i) {
+    return Point2{static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5};
+  };
+  const auto count = static_cast<double>(piece.size());
+  Vector2 sum{};
+  for (const std::size_t i : piece) sum = sum + (place(i) - Point2{});
+  const Point2 mean = Point2{} + sum / count;
+  core::SecondMoments moments;
+  for (const std::size_t i : piece) moments.add(place(i) - mean);
+  Dash dash{.piece = number, .middle = mean, .along = moments.direction()};
+  double low = 0;
+  double high = 0;
+  for (const std::size_t i : piece) {
+    const double way = core::dot(place(i) - mean, dash.along);
+    low = std::min(low, way - 0.5);
+    high = std::max(high, way + 0.5);
+  }
+  dash.length = high - low;
+  dash.end = {mean + low * dash.along, mean + high * dash.along};
+  return dash;
+}
 
 bool is_even(double gap, double other) {
   return std::max(gap, other) < kEven * std::min(gap, other) + 2 * kGrid;

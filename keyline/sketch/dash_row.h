@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "keyline/core/point.h"
 
 namespace keyline::sketch {
 
@@ -29,7 +32,23 @@ struct InkPieces {
     pixels.insert(pixels.end(), piece.begin(), piece.end());
     ends.push_back(pixels.size());
   }
+  void add(const InkPieces& others) {
+    for (std::size_t k = 0; k < others.size(); ++k) add(others[k]);
+  }
 };
+
+/// A piece of ink as a straight line.
+struct Dash {
+  std::size_t piece = 0;
+  double length = 0;
+  core::Point2 middle{};
+  std::array<core::Point2, 2> end{};
+  core::Vector2 along{};  ///< from the first end to the second
+};
+
+/// The piece's mean, its principal axis, and how far it goes along that; of a picture with rows of
+/// `width` pixels.
+Dash dash_of(std::span<const std::size_t> piece, std::size_t number, std::size_t width);
 
 /// Which pieces of a picture with rows of `width` pixels are dashes: at least four times as long as
 /// broad (drawings have six, [ISO 128-20], half as much again as gaps of a row may differ), and one

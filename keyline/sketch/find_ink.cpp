@@ -33,12 +33,14 @@ long clean(Ink& ink, const TraceOptions& options) {
   long ragged = 0;
   if (options.smoothing_by == Smoothing::pixels)
     smooth_pixels(ink.picture, options.smoothing);
-  else
-    ragged = smooth_edges(ink.picture, options.smoothing);
+  else {
+    const Smoothed smoothed = smooth_edges(ink.picture, options.smoothing);
+    ragged = smoothed.changed;
+    ink.lost.add(smoothed.lost);
+  }
   const int pinholes = static_cast<int>(std::lround(1 + ink.width));
   const Removed gone = remove_specks(ink.picture, ink.specks, pinholes);
-  ink.dirt.specks += gone.specks;
-  ink.dirt.pixels += gone.pixels;
+  ink.dirt.specks.add(gone.specks);
   ink.dirt.pinholes += gone.pinholes;
   return ragged;
 }
@@ -72,6 +74,31 @@ bool blur_grain(Tone& tone, Ink& ink, const TraceOptions& options) {
   return true;
 }
 
+/// Pieces that lines lead over are ink again, the others stay in the list.
+void put_back_drawn(const std::vector<FineStroke>& lines, InkPieces& pieces, Binary& ink) {
+  std::vector<std::pair<std::size_t, std::size_t>> piece_of;  // by pixel
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const std::size_t i : pieces[k]) piece_of.emplace_back(i, k);
+  std::ranges::sort(piece_of);
+  std::vector<bool> drawn(pieces.size());
+  for (const FineStroke& line : lines)
+    for (const core::Point2 p : line.points) {
+      const int x = static_cast<int>(std::floor(p.x));
+      const int y = static_cast<int>(std::floor(p.y));
+      if (piece_of.empty() || !ink.contains(x, y)) continue;
+      const std::size_t i = ink.index(x, y);
+      const auto at = std::ranges::lower_bound(piece_of, std::pair{i, std::size_t{0}});
+      if (at != piece_of.end() && at->first == i) drawn[at->second] = true;
+    }
+  InkPieces rest;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (!drawn[k]) rest.add(pieces[k]);
+    for (const std::size_t i : pieces[k])
+      if (drawn[k]) ink.data[i] = 1;
+  }
+  pieces = std::move(rest);
+}
+
 }  // namespace
 
 FaintLine faint_line(double width, int specks) {
@@ -95,6 +122,11 @@ void show_stage(const TraceOptions& options, const char* name, const Binary& bin
   for (std::size_t i = 0; i < binary.data.size(); ++i)
     stage.picture.data[i] = binary.data[i] ? 0 : 255;
   options.stage(stage);
+}
+
+void put_back_drawn(const std::vector<FineStroke>& lines, Ink& ink) {
+  put_back_drawn(lines, ink.dirt.specks, ink.picture);
+  put_back_drawn(lines, ink.lost, ink.picture);
 }
 
 Ink find_ink(Tone& tone, const TraceOptions& options) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "keyline/sketch/faint_ink.h"
 #include "keyline/sketch/morphology.h"
+#include "keyline/sketch/refine_stroke.h"
 #include "keyline/sketch/thinning.h"
 #include "keyline/sketch/tone.h"
 #include "keyline/sketch/trace.h"
@@ -13,7 +16,8 @@ struct Ink {
   Binary picture;
   FaintPixels faint;    ///< darker than paper, but no ink
   int specks = 0;       ///< pieces of fewer pixels were taken for dirt
-  Removed dirt{};       ///< what was
+  Removed dirt{};       ///< these, and pinholes
+  InkPieces lost{};     ///< what smoothing left nothing of
   double width = 1;     ///< of its lines
   bool grainy = false;  ///< full of pinholes and ragged, as pencil on rough paper leaves it
 };
@@ -22,6 +26,9 @@ struct Ink {
 /// is what follows (`tone` is blurred). In other pictures lines too faint beside darker ones (blue
 /// pencil under ink) are ink as well.
 Ink find_ink(Tone& tone, const TraceOptions& options);
+
+/// What was taken for dirt, or lost, and lies on a line after all (dots of a row) is ink again.
+void put_back_drawn(const std::vector<FineStroke>& lines, Ink& ink);
 
 /// A faint line beside lines of that width: farther from ink than the darkness of their border
 /// reaches, in pieces of so many pixels at least.

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/disjoint_sets.h"
@@ -13,6 +14,7 @@
 #include "keyline/core/quantile.h"
 #include "keyline/sketch/branch.h"
 #include "keyline/sketch/bridge_gaps.h"
+#include "keyline/sketch/dot_rows.h"
 #include "keyline/sketch/knot.h"
 #include "keyline/sketch/shared_stretch.h"
 #include "keyline/sketch/spurs.h"
@@ -43,10 +45,13 @@ double hook_of(const GraphEdge& line, bool at_end) {
 
 class Joiner {
  public:
-  Joiner(const StrokeGraph& graph, const JoinOptions& options) : graph_(graph), options_(options) {
+  Joiner(StrokeGraph graph, const JoinOptions& options)
+      : graph_(std::move(graph)), options_(options) {
     make_clusters();
     make_branches();
     for (std::size_t c = 0; c < members_.size(); ++c) match(members_[c], shared_[c]);
+    if (options_.rows) join_rows_of_dots(graph_, branches_);
+    bridge_.resize(graph_.edges.size());
     bridge_gaps(graph_, options_, branches_);
   }
 
@@ -56,13 +61,14 @@ class Joiner {
     for (const bool cycles : {false, true})
       for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
         const GraphEdge& edge = graph_.edges[e];
-        if (!edge.alive || used[e] || bridge_[e] || edge.points.size() < 2) continue;
+        const int start = branch_of(static_cast<int>(e), false);
+        if (!edge.alive || used[e] || bridge_[e]) continue;
+        if (edge.points.size() < 2 && at(start).edge < 0) continue;  // a dot of no row
         if (edge.from < 0) {
           used[e] = true;
           all.push_back(whole(edge, true));
           continue;
         }
-        const int start = branch_of(static_cast<int>(e), false);
         const int end = branch_of(static_cast<int>(e), true);
         if (at(start).mate < 0 || (cycles && at(end).mate >= 0)) {
           all.push_back(walk(start, used));
@@ -310,9 +316,11 @@ class Joiner {
     const long last =
         out.free && out.mate < 0 ? (out.at_end ? n - 1 : 0) : static_cast<long>(out.anchor);
     const long step = in.at_end ? -1 : 1;
+    // beside the last dot of a row nothing tells its direction: it stays where it is
+    const bool sure = n > 1 || (in.mate >= 0 && out.mate >= 0);
     for (long i = first; step > 0 ? i <= last : i >= last; i += step)
       add_point(s, line.points[static_cast<std::size_t>(i)],
-                line.radii[static_cast<std::size_t>(i)], true);
+                line.radii[static_cast<std::size_t>(i)], sure);
   }
 
   RawStroke walk(int start, std::vector<bool>& used) {
@@ -345,7 +353,7 @@ class Joiner {
     }
   }
 
-  const StrokeGraph& graph_;
+  StrokeGraph graph_;
   JoinOptions options_;
   core::DisjointSets clusters_;
   std::vector<bool> bridge_;
@@ -357,8 +365,8 @@ class Joiner {
 
 }  // namespace
 
-std::vector<RawStroke> join_strokes(const StrokeGraph& graph, const JoinOptions& options) {
-  return Joiner(graph, options).strokes();
+std::vector<RawStroke> join_strokes(StrokeGraph graph, const JoinOptions& options) {
+  return Joiner(std::move(graph), options).strokes();
 }
 
 }  // namespace keyline::sketch

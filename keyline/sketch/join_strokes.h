@@ -30,7 +30,7 @@ struct JoinOptions {
 /// of turns over all ways to pair them, a line left over counting half `turn`). Junctions closer to
 /// each other than the lines are wide are one, and so are the two ends of the stretch that lines
 /// crossing at a small angle share. Free ends that face each other over at most `gap` are joined,
-/// and dashes in a row (bridge_gaps.h).
-std::vector<RawStroke> join_strokes(const StrokeGraph& graph, const JoinOptions& options);
+/// and dashes and dots in a row (bridge_gaps.h, dot_rows.h).
+std::vector<RawStroke> join_strokes(StrokeGraph graph, const JoinOptions& options);
 
 }  // namespace keyline::sketch

@@ -89,9 +89,9 @@ void visit_chosen(const Binary& ink, int first, int last, std::uint8_t value, co
   }
 }
 
-/// Flips pixels of the given colour that are features; `value` 1: bumps of ink, 0: dents. Returns
-/// how many.
-long flip_features(Binary& ink, std::uint8_t value) {
+/// Flips pixels of the given colour that are features; `value` 1: bumps of ink, 0: dents. Adds them
+/// to a list.
+void flip_features(Binary& ink, std::uint8_t value, std::vector<std::size_t>& flipped) {
   static const Rules kRules;
   const int rows = ink.height - 2;  // the first and the last have none
   std::vector<std::vector<std::size_t>> flips(
@@ -114,12 +114,46 @@ long flip_features(Binary& ink, std::uint8_t value) {
         [](const Around& p) { return ~(p.left & p.right & p.above & p.below); },
         [&](int x, int y) { look(x, y, found); });
   });
-  long count = 0;
   for (const auto& band : flips) {
     for (const std::size_t i : band) ink.data[i] = static_cast<std::uint8_t>(1 - value);
-    count += static_cast<long>(band.size());
+    flipped.insert(flipped.end(), band.begin(), band.end());
   }
-  return count;
+}
+
+/// Of pixels that went, in order, those that hang together and have no ink beside them; pieces of
+/// fewer than three have no size.
+InkPieces lost_pieces(const Binary& ink, const std::vector<std::size_t>& gone) {
+  constexpr std::size_t kFewest = 3;
+  InkPieces lost;
+  std::vector<bool> seen(gone.size());
+  const auto place = [&](std::size_t i) {
+    return std::array{static_cast<int>(i % static_cast<std::size_t>(ink.width)),
+                      static_cast<int>(i / static_cast<std::size_t>(ink.width))};
+  };
+  const auto stands_alone = [&](std::size_t i) {
+    const auto [x, y] = place(i);
+    return neighbours_of(ink, x, y) == 0;
+  };
+  for (std::size_t k = 0; k < gone.size(); ++k) {
+    if (seen[k] || !stands_alone(gone[k])) continue;
+    seen[k] = true;
+    std::vector<std::size_t> piece = {gone[k]};
+    bool whole = true;
+    for (std::size_t n = 0; n < piece.size(); ++n) {
+      const auto [x, y] = place(piece[n]);
+      whole = whole && stands_alone(piece[n]);
+      for (const int dy : {-1, 0, 1})
+        for (const int dx : {-1, 0, 1}) {
+          if (!ink.contains(x + dx, y + dy)) continue;
+          const auto at = std::ranges::lower_bound(gone, ink.index(x + dx, y + dy));
+          if (at == gone.end() || *at != ink.index(x + dx, y + dy)) continue;
+          const auto m = static_cast<std::size_t>(at - gone.begin());
+          if (!seen[m]) seen[m] = true, piece.push_back(*at);
+        }
+    }
+    if (whole && piece.size() >= kFewest) lost.add(piece);
+  }
+  return lost;
 }
 
 /// Sets every pixel beside which one of the given value lies to that value.
@@ -196,15 +230,14 @@ void put_back(Binary& ink, std::span<const std::size_t> pixels) {
   for (const std::size_t i : pixels) ink.data[i] = 1;
 }
 
-/// Of pieces that went, dashes in rows are ink again. The others are counted.
+/// Of pieces that went, dashes in rows are ink again. The others are kept apart.
 void put_back_rows(Binary& ink, const InkPieces& gone, Removed& removed) {
   const std::vector<bool> in_row = dashes_in_rows(gone, ink.width);
   for (std::size_t i = 0; i < gone.size(); ++i)
     if (in_row[i]) {
       put_back(ink, gone[i]);
     } else {
-      ++removed.specks;
-      removed.pixels += gone[i].size();
+      removed.specks.add(gone[i]);
     }
 }
 
@@ -219,16 +252,25 @@ void smooth_pixels(Binary& ink, int times) {
   for (int i = 0; i < times; ++i) erode(ink);
 }
 
-long smooth_edges(Binary& ink, int times) {
-  long changed = 0;
-  for (int i = 0; i < times; ++i) changed += flip_features(ink, 1) + flip_features(ink, 0);
-  return changed;
+Smoothed smooth_edges(Binary& ink, int times) {
+  std::vector<std::size_t> bumps;
+  std::vector<std::size_t> dents;
+  for (int i = 0; i < times; ++i) {
+    flip_features(ink, 1, bumps);
+    flip_features(ink, 0, dents);
+  }
+  const auto changed = static_cast<long>(bumps.size() + dents.size());
+  std::ranges::sort(bumps);
+  bumps.erase(std::ranges::unique(bumps).begin(), bumps.end());
+  std::erase_if(bumps, [&](std::size_t i) { return ink.data[i] != 0; });
+  return {changed, lost_pieces(ink, bumps)};
 }
 
 Removed remove_specks(Binary& ink, int specks, int pinholes) {
   InkPieces pieces;
   flip_small(ink, 0, pinholes, false, pieces);
-  Removed removed{.pinholes = static_cast<int>(pieces.size())};
+  Removed removed;
+  removed.pinholes = static_cast<int>(pieces.size());
   pieces = {};
   flip_small(ink, 1, specks, true, pieces);
   const std::int64_t gone = count_pixels(pieces);

@@ -24,10 +24,18 @@ struct GraphEdge {
   bool alive = true;
 };
 
+/// A piece of ink hardly longer than broad.
+struct GraphDot {
+  core::Point2 at;         ///< its middle
+  double radius = 0;       ///< of a disc as large
+  std::vector<int> edges;  ///< what thinning made of it; none of what was left out
+};
+
 /// The lines of a thinned picture as a graph.
 struct StrokeGraph {
   std::vector<GraphNode> nodes;
   std::vector<GraphEdge> edges;
+  std::vector<GraphDot> dots{};  ///< as far as they were looked for (find_dots.h)
 };
 
 /// The graph of `lines`, thinned from `ink`. Single pixels and blobs whose line is shorter than

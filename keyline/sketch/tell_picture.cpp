@@ -38,13 +38,14 @@ void tell_ground(const Tone& tone, bool on_black, TraceResult& result) {
 }
 
 void tell_dirt(const Ink& found, TraceResult& result) {
-  const auto ink = static_cast<double>(
-      count_ink(found.picture.data.data(), found.picture.data.size()) + found.dirt.pixels);
-  const double share = static_cast<double>(found.dirt.pixels) / std::max(ink, 1.0);
+  const auto ink =
+      static_cast<double>(count_ink(found.picture.data.data(), found.picture.data.size()) +
+                          found.dirt.specks.pixels.size());
+  const double share = static_cast<double>(found.dirt.specks.pixels.size()) / std::max(ink, 1.0);
   if (share < kTold) return;
   result.notes.push_back(std::to_string(std::lround(100 * share)) + " % of the ink, " +
-                         core::counted(static_cast<std::size_t>(found.dirt.specks), "piece") +
-                         " of fewer than " + std::to_string(found.specks) +
+                         core::counted(found.dirt.specks.size(), "piece") + " of fewer than " +
+                         std::to_string(found.specks) +
                          " pixels, is left out as dirt (specks 0 keeps it)");
 }
 

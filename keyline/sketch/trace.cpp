@@ -13,6 +13,7 @@
 #include "keyline/numeric/parallel.h"
 #include "keyline/sketch/enlargement.h"
 #include "keyline/sketch/explained.h"
+#include "keyline/sketch/find_dots.h"
 #include "keyline/sketch/find_ink.h"
 #include "keyline/sketch/ink_measure.h"
 #include "keyline/sketch/join_strokes.h"
@@ -81,11 +82,14 @@ std::vector<FineStroke> center_lines(const Ink& found, const Refiner& refiner,
   const double width = found.width;
   const Binary thinned = thin(ink);
   show_stage(options, "lines", thinned);
-  const StrokeGraph graph = build_graph(thinned, ink, found.grainy);
+  StrokeGraph graph = build_graph(thinned, ink, found.grainy);
+  InkPieces left_out = found.dirt.specks;
+  left_out.add(found.lost);
+  find_dots(ink, left_out, graph);
   options.progress.report(0.6, "following lines");
   std::vector<FineStroke> strokes;
-  std::vector<RawStroke> lines =
-      join_strokes(graph, {.gap = options.gap.value_or(2.5 * width + 3), .rows = !options.gap});
+  std::vector<RawStroke> lines = join_strokes(
+      std::move(graph), {.gap = options.gap.value_or(2.5 * width + 3), .rows = !options.gap});
   std::erase_if(lines, [&](const RawStroke& line) {
     return core::polygon_length(line.points, line.closed) < std::max(2.0, 0.5 * width);
   });
@@ -278,7 +282,6 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   tell_ground(tone, on_black, result);
   options.progress.report(0.2, "telling ink from paper");
   Ink found = find_ink(tone, options);
-  tell_dirt(found, result);
   const Binary& ink = found.picture;
   const double width = found.width;
   if (options.stage) show_stage(options, "edges", laplacian_edges(ink));
@@ -286,6 +289,8 @@ core::Result<TraceResult> trace_grey(Image image, const TraceOptions& options) {
   const Refiner refiner(tone);
   std::vector<FineStroke> lines =
       options.edge == Edge::outer ? outlines(ink, tone) : center_lines(found, refiner, options);
+  put_back_drawn(lines, found);
+  tell_dirt(found, result);
   const ConsolidateOptions passes{
       .width = width, .measured = true, .apart = kPictureApart, .hand = 0};
   Merged merged;

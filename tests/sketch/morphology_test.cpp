@@ -102,7 +102,7 @@ TEST(Morphology, SpecksAndPinholesGoBySize) {
   picture.at(6, 6) = 0;
   picture.at(15, 15) = picture.at(16, 16) = 1;
   const Removed removed = remove_specks(picture, 3, 2);
-  EXPECT_EQ(removed.specks, 1);
+  EXPECT_EQ(removed.specks.size(), 1U);
   EXPECT_EQ(removed.pinholes, 1);
   EXPECT_EQ(std::count(picture.data.begin(), picture.data.end(), 1), 100);
 }
@@ -112,7 +112,7 @@ TEST(Morphology, SmallPiecesStayWhereTheyAreTheDrawing) {
   for (int x = 0; x < 56; ++x) dashes.at(x, 5) = x % 8 < 6 ? 1 : 0;
   dashes.at(20, 12) = 1;  // dirt
   const auto drawn = std::count(dashes.data.begin(), dashes.data.end(), 1) - 1;
-  EXPECT_EQ(remove_specks(dashes, 10, 1).specks, 1);
+  EXPECT_EQ(remove_specks(dashes, 10, 1).specks.size(), 1U);
   EXPECT_EQ(std::count(dashes.data.begin(), dashes.data.end(), 1), drawn);
 }
 
