@@ -139,6 +139,31 @@ TEST_F(CadText, IgesMatricesHaveNeitherLevelNorColour) {
   EXPECT_EQ(text.substr(second + 16, 8), "       0");
 }
 
+// By hand: a parabola's middle, the corners of a polygon with a point twice, the ends of a
+// quadratic spline with knots 0, 1 ... 5, midway between its control points.
+TEST_F(CadText, SpaceCurvesComeBackAsTheyWere) {
+  Document d;
+  d.unit = "mm";
+  d.space_curves.push_back({{}, {curve::Bezier3{{{0, 0, 0}, {1, 2, 3}, {4, 4, 5}}, {}}}});
+  d.space_curves.push_back({{}, {curve::Polyline3{{{0, 0, 0}, {3, 4, 0}, {3, 4, 0}, {3, 4, 12}}}}});
+  d.space_curves.push_back(
+      {{}, {curve::BSpline3{2, {0, 1, 2, 3, 4, 5}, {{0, 0, 1}, {2, 0, 0}, {2, 2, 0}}, {}}}});
+  for (const char* name : {"a.step", "a.iges"}) {
+    SCOPED_TRACE(name);
+    const Document read = read_back(d, name);
+    ASSERT_EQ(read.space_curves.size(), 3U);
+    const auto spline = [&](std::size_t i) {
+      return std::get<curve::BSpline3>(read.space_curves[i].curve.value);
+    };
+    EXPECT_EQ(spline(0).knots, (std::vector<double>{0, 0, 0, 1, 1, 1}));
+    EXPECT_LT(distance(evaluate(spline(0), 0.5), {1.5, 2, 2.75}), 1e-14);
+    EXPECT_EQ(spline(1).control, (std::vector<core::Point3>{{0, 0, 0}, {3, 4, 0}, {3, 4, 12}}));
+    EXPECT_EQ(spline(1).knots, (std::vector<double>{0, 0, 5, 17, 17}));
+    EXPECT_LT(distance(spline(2).control.front(), {1, 0, 0.5}), 1e-14);
+    EXPECT_LT(distance(spline(2).control.back(), {2, 1, 0}), 1e-14);
+  }
+}
+
 // A file without a unit is in mm, whatever the numbers stand for.
 TEST_F(CadText, NumbersWithoutAUnitStayWhatTheyAre) {
   Document d;
