@@ -106,6 +106,23 @@ TEST(Chain, DerivativesAreByTheShareOfTheWhole) {
   EXPECT_EQ(placed.length(), 4);
 }
 
+// A circle by its closed form, and the walk along each piece, which no table goes into.
+TEST(Chain, PlacedPiecesOfManyTurnsStandWhereTheyAre) {
+  const Chain c{{{3, -2}, 0.4}, {{0.7, 900, 0.2, 2}, {-0.5, 2000, 2, -1}, {3, 700, -1, -1}}, false};
+  const PlacedChain placed(c);
+  const double whole = arc_length(c);
+  for (double t = 0; t <= 1; t += 0.0371) {
+    const core::Point2 here = evaluate(placed, t);
+    EXPECT_LT(core::distance(here, evaluate(c, t)), 5e-15 * whole) << t;
+    EXPECT_EQ(jet(placed, t).point, here);
+    EXPECT_EQ(jet(placed, t).third, jet(c, t).third);
+  }
+  const core::Pose2 joint = segment_at(c, 2).start;
+  const core::Point2 centre =
+      joint.position - core::perpendicular_left(core::unit_vector(joint.direction));
+  EXPECT_NEAR(core::distance(evaluate(placed, 0.95), centre), 1, 5e-15 * whole);
+}
+
 TEST(Chain, BreakpointsAreJointsAndInflections) {
   const Chain c = three();
   const auto at = breakpoints(c);

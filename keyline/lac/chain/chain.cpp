@@ -13,10 +13,9 @@ namespace {
 using core::Point2;
 using core::Pose2;
 
-/// The derivatives of a chain of that length at t of one of its segments.
-curve::Jet2 jet_within(const Segment& segment, double t, double whole) {
+/// The derivatives of a chain of that length, by those of one of its segments.
+curve::Jet2 jet_within(const Segment& segment, curve::Jet2 result, double whole) {
   const double ratio = whole / segment.length;
-  curve::Jet2 result = jet(segment, t);
   result.first = ratio * result.first;
   result.second = ratio * ratio * result.second;
   result.third = ratio * ratio * ratio * result.third;
@@ -160,13 +159,26 @@ Point2 evaluate(const Chain& chain, double t) {
 
 curve::Jet2 jet(const Chain& chain, double t) {
   const ChainLocation at = locate(chain, t);
-  return jet_within(segment_at(chain, at.piece), at.t, arc_length(chain));
+  const Segment segment = segment_at(chain, at.piece);
+  return jet_within(segment, jet(segment, at.t), arc_length(chain));
 }
 
-Point2 evaluate(const PlacedChain& placed, double t) {
-  const ChainLocation at = locate(placed, t);
-  return evaluate(placed.segments()[at.piece], at.t);
+PlacedChain::PlacedChain(Chain chain)
+    : chain_(std::move(chain)),
+      segments_(lac::segments(chain_)),
+      joint_lengths_(lac::joint_lengths(chain_)) {
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    if (std::abs(total_turning(segments_[i])) > kTabled)
+      tables_.emplace(i, std::make_shared<const SegmentTable>(segments_[i]));
+  }
 }
+
+Point2 PlacedChain::point(const ChainLocation& at) const {
+  const auto table = tables_.find(at.piece);
+  return table == tables_.end() ? evaluate(segments_[at.piece], at.t) : table->second->point(at.t);
+}
+
+Point2 evaluate(const PlacedChain& placed, double t) { return placed.point(locate(placed, t)); }
 
 double curvature(const PlacedChain& placed, double t) {
   const ChainLocation at = locate(placed, t);
@@ -175,7 +187,8 @@ double curvature(const PlacedChain& placed, double t) {
 
 curve::Jet2 jet(const PlacedChain& placed, double t) {
   const ChainLocation at = locate(placed, t);
-  return jet_within(placed.segments()[at.piece], at.t, placed.length());
+  const Segment& segment = placed.segments()[at.piece];
+  return jet_within(segment, jet_from(segment, at.t, placed.point(at)), placed.length());
 }
 
 std::vector<double> breakpoints(const Chain& chain) {

@@ -195,13 +195,15 @@ Point2 evaluate(const Segment& s, double t) {
   return from_local(s.start, {v.x, v.y});
 }
 
-curve::Jet2 jet(const Segment& s, double t) {
+curve::Jet2 jet(const Segment& s, double t) { return jet_from(s, t, evaluate(s, t)); }
+
+curve::Jet2 jet_from(const Segment& s, double t, Point2 point) {
   const auto finite_or_zero = [](double x) { return std::isfinite(x) ? x : 0.0; };
   const Vector2 tangent = core::unit_vector(tangent_angle(s, t));
   const Vector2 normal = core::perpendicular_left(tangent);
   const double kappa = finite_or_zero(curvature(s, t)) * s.length;
   const double rate = finite_or_zero(curvature_rate(s, t)) * s.length * s.length;
-  return {evaluate(s, t), s.length * tangent, s.length * kappa * normal,
+  return {point, s.length * tangent, s.length * kappa * normal,
           s.length * (rate * normal - kappa * kappa * tangent)};
 }
 

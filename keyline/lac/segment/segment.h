@@ -93,6 +93,8 @@ inline double arc_length(const Segment& segment) { return segment.length; }
 core::Point2 evaluate(const Segment& segment, double t);
 /// Derivatives in t. Where curvature or its rate is infinite, the terms holding it are left out.
 curve::Jet2 jet(const Segment& segment, double t);
+/// The same about a point that is known.
+curve::Jet2 jet_from(const Segment& segment, double t, core::Point2 point);
 /// {0, 1}, with the inflection between them if there is one.
 std::vector<double> breakpoints(const Segment& segment);
 core::Pose2 end_pose(const Segment& segment);
