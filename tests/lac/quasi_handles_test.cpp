@@ -1,6 +1,8 @@
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -233,6 +235,24 @@ TEST(Quasi, TaylorFormsAreFoundWhereverTheyAre) {
     const double lambda = std::abs(rate) * std::exp(-power * std::min(c.growth, 0.0));
     EXPECT_NEAR(r->lambda, lambda, 1e-9 * lambda);
   }
+}
+
+// Next to the border end curvatures are farther apart than edges of equal length bear.
+TEST(Quasi, TheNearestThatIsToldIsOfTheFormBest) {
+  const auto ask = [](double psi, double alpha, QuasiForm form) {
+    const auto [p0, p1, p2] = handles_of(1.6, psi);
+    return quasi_log_aesthetic(p0, p1, p2, alpha, {form, 5, {}, false});
+  };
+  const auto refused = ask(0.4, -2.2, QuasiForm::discrete_arc);
+  ASSERT_FALSE(refused);
+  double psi = 0, alpha = 0;
+  const std::string& hint = refused.error().hint;
+  ASSERT_EQ(std::sscanf(hint.c_str(), "nearest chord angle %lf rad, or slope %lf", &psi, &alpha),
+            2);
+  EXPECT_TRUE(hint.ends_with(", with the form best")) << hint;
+  EXPECT_TRUE(ask(psi, -2.2, QuasiForm::best));
+  EXPECT_FALSE(ask(psi, -2.2, QuasiForm::discrete_arc));
+  EXPECT_EQ(ask(0.4, -2.2, QuasiForm::best).error().hint.find("best"), std::string::npos);
 }
 
 }  // namespace

@@ -87,9 +87,9 @@ core::Result<QuasiResult> quasi_log_aesthetic(double alpha, double lambda,
 /// for on the Bézier (two unknowns, Newton from the log-aesthetic solution, then from every place
 /// that bounds do not rule out, of pieces of less than a whole turn), so its Lambda differs from
 /// that of `target`, the log-aesthetic segment through the same handles: a little where the series
-/// serves, much where it is at its end. Fails as solve_g1, as above, and undrawable where no Lambda
-/// serves at this degree, or but with an end edge below 1e-8 of the size, whose direction rounding
-/// would lose.
+/// serves, much where it is at its end. Fails as solve_g1, whose hint names what the form best
+/// bears, not always the others; as above; and undrawable where no Lambda serves at this degree, or
+/// but with an end edge below 1e-8 of the size, whose direction rounding would lose.
 core::Result<QuasiResult> quasi_log_aesthetic(core::Point2 p0, core::Point2 p1, core::Point2 p2,
                                               double alpha, const QuasiOptions& options);
 

@@ -190,6 +190,14 @@ Result<QuasiResult> fitted(const OverHandles& forms, const Segment& target,
                              [&](int degree) { return forms.closest_form(degree); });
 }
 
+/// Why there is no target. What the hint advises leads to one next to the border of what can be
+/// drawn, where its end curvatures are far apart: the form best bears that, others need not.
+std::unexpected<core::Failure> no_target(core::Failure failure, QuasiForm form) {
+  if (failure.code == ErrorCode::undrawable && form != QuasiForm::best)
+    failure.hint += ", with the form best";
+  return std::unexpected(std::move(failure));
+}
+
 bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == QuasiForm::best; }
 
 }  // namespace
@@ -197,7 +205,7 @@ bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == Qua
 Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double alpha,
                                         const QuasiOptions& options) {
   const auto solution = solve_g1(p0, p1, p2, alpha);
-  if (!solution) return std::unexpected(solution.error());
+  if (!solution) return no_target(solution.error(), options.form);
   if (solution->turning == 0) return quasi_log_aesthetic(solution->segment, options);
   const OverHandles forms(solution->segment, alpha, {p0, p1, p2});
   if (keeps_ends(options.form)) {
