@@ -56,12 +56,36 @@ std::optional<Member> member(SpaceStandardForm form, const SpaceUnknowns& x) {
   return m;
 }
 
-/// From six digits to all of them: exact misses, the derivatives of quick shots.
+/// Newton's step with the derivatives of exact misses, by central differences: where the miss
+/// hardly depends on one of the unknowns, those of quick shots lead nowhere.
+std::optional<Miss> exact_step(const SpaceStandardForm& form, const Invariants& wanted,
+                               const SpaceUnknowns& x, const Miss& miss) {
+  constexpr double kShare = 1e-4;
+  const Miss by{kShare * (1e-3 + std::abs(x.bend)), kShare * (1e-3 + std::abs(x.twist)),
+                kShare * x.length};
+  std::array<Miss, 3> slope{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Miss one{};
+    one[i] = by[i];
+    const auto up = member(form, moved(x, one, -1)), down = member(form, moved(x, one, 1));
+    if (!up || !down) return std::nullopt;
+    const Miss above = miss_of(up->end.position - Point3{}, up->end.tangent, wanted);
+    const Miss below = miss_of(down->end.position - Point3{}, down->end.tangent, wanted);
+    for (std::size_t row = 0; row < 3; ++row)
+      slope[row][i] = (above[row] - below[row]) / (2 * by[i]);
+  }
+  Miss step = miss;
+  return detail::solve_small(slope, step) ? std::optional(step) : std::nullopt;
+}
+
+/// From six digits to all of them: exact misses, the derivatives of quick shots as long as they
+/// halve the miss.
 std::optional<Member> polished(const SpaceStandardForm& form, const Invariants& wanted,
                                SpaceUnknowns x, int& iterations) {
   std::optional<Member> best;
   double least = 1e-12;
   double before = 1e300;
+  bool quick = true;
   for (int i = 0; i < 30; ++i) {
     auto m = member(form, x);
     if (!m) break;
@@ -72,9 +96,10 @@ std::optional<Member> polished(const SpaceStandardForm& form, const Invariants& 
       best = std::move(m);
     }
     if (size <= 4e-14 || (best && size > 0.5 * before)) break;
+    quick = quick && size < 0.5 * before;
     before = size;
-    const auto shot = detail::shoot_space(form, x);
-    const auto step = shot ? newton_step(*shot, miss, wanted) : std::nullopt;
+    const auto shot = quick ? detail::shoot_space(form, x) : std::nullopt;
+    const auto step = shot ? newton_step(*shot, miss, wanted) : exact_step(form, wanted, x, miss);
     if (!step) break;
     ++iterations;
     x = moved(x, *step, 1);

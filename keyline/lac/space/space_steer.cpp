@@ -187,6 +187,12 @@ std::optional<Aimed> aim(const SpaceStandardForm& form, const SpaceUnknowns& x,
   return Aimed{*shot, miss_of(shot->chord, shot->tangent, wanted)};
 }
 
+/// What quick shots to such data are off by, and more: a miss below it that no step lessens is
+/// theirs.
+double shot_error(const Invariants& wanted) {
+  return std::min(1e-7, 1e-5 * (wanted.first + wanted.last));
+}
+
 }  // namespace
 
 bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enough, SpaceUnknowns& x,
@@ -200,7 +206,7 @@ bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enoug
     ++iterations;
     double share = 1;
     for (;; share /= 2) {
-      if (share < 0.02) return false;
+      if (share < 0.02) return size <= shot_error(wanted);
       const SpaceUnknowns next = moved_within(form, x, *step, share);
       const auto there = aim(form, next, wanted);
       if (!there || !(size_of(there->miss) < (1 - 0.1 * share) * size)) continue;

@@ -86,7 +86,8 @@ double most_twist(const SpaceStandardForm& form, double length);
 SpaceUnknowns moved_within(const SpaceStandardForm& form, const SpaceUnknowns& x, const Miss& step,
                            double share);
 
-/// Newton's method on quick shots, with steps shortened until the miss falls.
+/// Newton's method on quick shots, with steps shortened until the miss falls: to `enough`, or to
+/// what quick shots are off by (1e-7 at most) where no step lessens it any more.
 bool steer(const SpaceStandardForm& form, const Invariants& wanted, double enough, SpaceUnknowns& x,
            int& iterations);
 
