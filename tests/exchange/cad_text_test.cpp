@@ -1,4 +1,5 @@
-#include <fstream>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -161,6 +162,28 @@ TEST_F(CadText, SpaceCurvesComeBackAsTheyWere) {
     EXPECT_EQ(spline(1).knots, (std::vector<double>{0, 0, 5, 17, 17}));
     EXPECT_LT(distance(spline(2).control.front(), {1, 0, 0.5}), 1e-14);
     EXPECT_LT(distance(spline(2).control.back(), {2, 1, 0}), 1e-14);
+  }
+}
+
+// By hand: on a circle of radius 2 four radians to the right and to the left of (2, 0).
+TEST_F(CadText, LinesAndArcsEndWhereTheyDid) {
+  Document d;
+  d.unit = "mm";
+  const auto add = [&d](const document::PlanarCurve& c) {
+    d.paths.push_back({{}, {{c}, false}, 0});
+  };
+  const double quarter = std::numbers::pi / 2;
+  add({lac::Chain{{{2, 0}, -quarter}, {{-1, 8, -0.5, -0.5}}, false}});
+  add({lac::Chain{{{2, 0}, quarter}, {{-1, 8, 0.5, 0.5}}, false}});
+  add({curve::Bezier2{{{0, 0}, {12.5, 3.75}}, {}}});
+  for (const char* name : {"a.step", "a.iges"}) {
+    SCOPED_TRACE(name);
+    const Document read = read_back(d, name);
+    ASSERT_EQ(read.paths.size(), 3U);
+    const core::Point2 right{2 * std::cos(4.0), -2 * std::sin(4.0)}, left{right.x, -right.y};
+    EXPECT_LT(distance(evaluate(read.paths[0].path, 1), right), 1e-14);
+    EXPECT_LT(distance(evaluate(read.paths[1].path, 1), left), 1e-14);
+    EXPECT_LT(distance(evaluate(read.paths[2].path, 1), {12.5, 3.75}), 1e-14);
   }
 }
 
