@@ -48,16 +48,22 @@ class Stretch {
     return turn;
   }
 
-  /// What the variation of the piece is more than the curve's.
+  /// What the variation of the piece is more than the curve's, as it stands or once the others have
+  /// given way to it: to first order the square of what it is off, which is the least it can cost.
   double excess(double alpha) {
     take(alpha);
-    double excess = 0;
-    double last = 0;
+    double square = 0;
+    double along = 0;
+    double off = 0;
+    double value = start_;
     for (std::size_t i = 0; i < off_.size(); ++i) {
-      excess += (off_[i] - last) * (off_[i] - last) / step_[i];
-      last = off_[i];
+      const double more = off_[i] - off;
+      square += more * more / step_[i];
+      along += 2 * more * (value_[i] - value) / step_[i];
+      off = off_[i];
+      value = value_[i];
     }
-    return excess;
+    return square + std::max(along, 0.0);
   }
 
   /// How far it bows from the curve, about.
@@ -200,10 +206,14 @@ core::Interval GraphPieces::slopes_of(int from, int to) const {
 GraphPieces::Fit GraphPieces::best_fit(int from, int to) const {
   const core::Interval range = slopes_of(from, to);
   Stretch stretch(curve_, from, to);
-  const double alpha =
-      to - from < 2 ? std::clamp(-1.0, range.low, range.high) : best_slope(stretch, range);
-  const double excess = stretch.excess(alpha) / energy_;
-  return {alpha, excess + kBowPrice * std::pow(stretch.bow(alpha) / tolerance_, 2)};
+  const auto fit = [&](double alpha) {
+    const double bow = kBowPrice * std::pow(stretch.bow(alpha) / tolerance_, 2);
+    return Fit{alpha, stretch.excess(alpha) / energy_ + bow};
+  };
+  const Fit even = fit(std::clamp(-1.0, range.low, range.high));
+  if (to - from < 2) return even;
+  const Fit matching = fit(best_slope(stretch, range));
+  return matching.loss < even.loss ? matching : even;
 }
 
 void GraphPieces::tabulate(Run& run) const {

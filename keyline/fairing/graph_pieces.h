@@ -12,7 +12,8 @@ namespace keyline::fairing::detail {
 /// follow the bending of the graph.
 ///
 /// To first order the excess is what the variation rises by when the pieces stand in for a curve
-/// of least variation, for there its own first derivative vanishes.
+/// of least variation, for there its own first derivative vanishes; where the tolerance holds the
+/// curve it does not, and what the variation rises by as the pieces stand counts too.
 class GraphPieces {
  public:
   /// curve: of least variation, free but for its lines, which stay. turns: nodes where curvature
