@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -283,6 +284,12 @@ Removed remove_specks(Binary& ink, int specks, int pinholes) {
   }
   put_back_rows(ink, pieces, removed);
   return removed;
+}
+
+InkPieces take_pieces(Binary& ink) {
+  InkPieces pieces;
+  flip_small(ink, 1, std::numeric_limits<int>::max(), true, pieces);
+  return pieces;
 }
 
 }  // namespace keyline::sketch

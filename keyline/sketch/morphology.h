@@ -34,4 +34,7 @@ struct Removed {
 };
 Removed remove_specks(Binary& ink, int specks, int pinholes);
 
+/// All pieces of ink (8-connected); the picture is empty then.
+InkPieces take_pieces(Binary& ink);
+
 }  // namespace keyline::sketch

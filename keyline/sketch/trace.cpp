@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/polygon.h"
 #include "keyline/core/text.h"
 #include "keyline/numeric/parallel.h"
@@ -157,6 +158,18 @@ void tell_explained(const std::string& of_what, TraceResult& result) {
                            of_what);
 }
 
+/// What is left of the ink in pieces as large as a dot of the pen: eyes, blots, missed strokes.
+std::string tell_places(Binary rest, double width) {
+  const InkPieces pieces = take_pieces(rest);
+  int large = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (static_cast<double>(pieces[i].size()) >= 0.25 * core::kPi * width * width) ++large;
+  if (large == 0) return "";
+  const std::string have = large == 1 ? " place as large as a dot of the pen has"
+                                      : " places as large as a dot of the pen have";
+  return "; " + std::to_string(large) + have + " no line (the overlay shows where)";
+}
+
 /// Finds and tells the share of all ink, the faint that was lost included, that lines explain.
 void find_explained(Ink& found, const Tone& tone, const Merged& merged, TraceResult& result) {
   const double ink =
@@ -171,7 +184,9 @@ void find_explained(Ink& found, const Tone& tone, const Merged& merged, TraceRes
   const long far_share = std::lround(100 * far * of_all);
   const std::string in_far =
       std::to_string(far_share) + " % is passes farther than a pen and a half from their line";
-  tell_explained(far_share > 0 ? "ink; " + in_far : "ink", result);
+  if (result.explained >= kEnoughExplained) return;
+  tell_explained(
+      (far_share > 0 ? "ink; " + in_far : "ink") + tell_places(found.picture, found.width), result);
 }
 
 /// How curves are fitted: they may pass grainy lines farther off.
