@@ -150,24 +150,23 @@ core::Result<Merged> merge_traced(std::vector<FineStroke>& lines, const Consolid
   return merge(lines, passes.width, passes, wishes, result.notes);
 }
 
-/// What little is explained is told.
-void tell_explained(const std::string& of_what, TraceResult& result) {
-  if (result.explained < kEnoughExplained)
-    result.notes.push_back("warning: the lines explain " +
-                           std::to_string(std::lround(100 * result.explained)) + " % of the " +
-                           of_what);
+void warn_of_little(const std::string& of_what, TraceResult& result) {
+  result.notes.push_back("warning: the lines explain " +
+                         std::to_string(std::lround(100 * result.explained)) + " % of the " +
+                         of_what);
 }
 
 /// What is left of the ink in pieces as large as a dot of the pen: eyes, blots, missed strokes.
 std::string tell_places(Binary rest, double width) {
   const InkPieces pieces = take_pieces(rest);
-  int large = 0;
+  std::size_t large = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i)
     if (static_cast<double>(pieces[i].size()) >= 0.25 * core::kPi * width * width) ++large;
   if (large == 0) return "";
-  const std::string have = large == 1 ? " place as large as a dot of the pen has"
-                                      : " places as large as a dot of the pen have";
-  return "; " + std::to_string(large) + have + " no line (the overlay shows where)";
+  return "; " +
+         core::counted(large, "place as large as a dot of the pen has",
+                       "places as large as a dot of the pen have") +
+         " no line (the overlay shows where)";
 }
 
 /// Finds and tells the share of all ink, the faint that was lost included, that lines explain.
@@ -185,7 +184,7 @@ void find_explained(Ink& found, const Tone& tone, const Merged& merged, TraceRes
   const std::string in_far =
       std::to_string(far_share) + " % is passes farther than a pen and a half from their line";
   if (result.explained >= kEnoughExplained) return;
-  tell_explained(
+  warn_of_little(
       (far_share > 0 ? "ink; " + in_far : "ink") + tell_places(found.picture, found.width), result);
 }
 
@@ -356,7 +355,7 @@ core::Result<TraceResult> trace_strokes(const std::vector<DrawnStroke>& strokes,
   else
     tell_passes(lines, {.width = width}, result);
   result.explained = std::min(1.0, explained / drawn);
-  tell_explained("strokes", result);
+  if (result.explained < kEnoughExplained) warn_of_little("strokes", result);
   // what counts pixels in pictures counts steps between points here, so that no unit matters
   const double unit = kStrokeStep * width;
   for (FineStroke& line : lines) reduce(line, unit);
