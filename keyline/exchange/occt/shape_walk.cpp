@@ -170,10 +170,16 @@ void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
   }
 }
 
+std::string ShapeWalk::next_edge(const Label& label) const {
+  const bool named = !label.name.empty() && !label.name.ends_with('/');
+  return named ? label.name : label.name + "edge-" + std::to_string(edges_ + 1);
+}
+
 std::string ShapeWalk::number_edge(Label& label) {
-  const std::string number = "edge-" + std::to_string(++edges_);
-  if (label.name.ends_with('/')) label.name += number;
-  return label.name.empty() ? number : label.name;
+  std::string name = next_edge(label);
+  ++edges_;
+  if (!label.name.empty()) label.name = name;
+  return name;
 }
 
 namespace {
@@ -228,9 +234,7 @@ void ShapeWalk::add_wire(const TopoDS_Shape& shape, Label label) {
   }
   auto path = chained(parts);
   if (!path) {
-    Label first = label;
-    skip(number_edge(first), path.error().message + "; its curves stand by themselves");
-    --edges_;
+    skip(next_edge(label), path.error().message + "; its curves stand by themselves");
     return add_edges(shape, label);
   }
   number_edge(label);

@@ -34,6 +34,8 @@ class ShapeWalk {
   void add_face(const TopoDS_Shape& shape, document::Label label);
   void add_edge(const TopoDS_Shape& shape, document::Label label);
   void add_wire(const TopoDS_Shape& shape, document::Label label);
+  /// What the next edge is called in what is told.
+  std::string next_edge(const document::Label& label) const;
   /// Counts one more and gives it its number where its label is that of several.
   /// Returns: what it is called in what is told.
   std::string number_edge(document::Label& label);
