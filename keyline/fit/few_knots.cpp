@@ -8,6 +8,7 @@
 
 #include "keyline/curve/spline_graph.h"
 #include "keyline/fit/jump_spline.h"
+#include "keyline/fit/spline_band.h"
 #include "keyline/numeric/halving.h"
 
 namespace keyline::fit {
@@ -23,7 +24,6 @@ constexpr std::size_t kAtOnce = 20;  // so many knots allow for one more before 
 constexpr int kHalvings = 24;
 constexpr double kStiffest = 12;  // decimal logarithms of the penalty that are searched; jumps grow
 constexpr double kSoftest = -36;  // with the fifth power of how near knots are
-constexpr int kSteps = 4;         // of Newton's to a point's foot
 
 /// By chord lengths; points that repeat the one before are left out.
 PlacedPoints placed(std::span<const core::Point2> points, bool closed) {
@@ -96,44 +96,31 @@ Knots with_more(const Knots& knots, const JumpSpline& spline, const PlacedPoints
   return found;
 }
 
-/// Whether a point is farther than that from the spline near its parameter.
-bool farther(const JumpSpline& spline, const PlacedPoints& data, std::size_t i, double tolerance) {
-  if (norm(spline.offset(i)) <= tolerance) return false;
-  double t = data.at[i];
-  for (int step = 0; step < kSteps; ++step) {
-    const curve::Jet2 here = jet(spline.spline(), t);
-    t += dot(data.points[i] - here.point, here.first) / dot(here.first, here.first);
-    if (data.closed) t -= std::floor(t);
-    t = std::clamp(t, 0.0, 1.0);
-    if (core::distance(evaluate(spline.spline(), t), data.points[i]) <= tolerance) return false;
-  }
-  return true;
-}
-
-/// Asks whether a spline keeps the tolerance, first at the point that did not last: the likeliest
-/// to be outside again.
-class Band {
+/// Asks whether a spline keeps the tolerance.
+class BandOfPoints {
  public:
-  Band(const PlacedPoints& data, double tolerance) : data_(data), tolerance_(tolerance) {}
+  BandOfPoints(const PlacedPoints& data, double tolerance) : data_(data), tolerance_(tolerance) {}
 
   bool holds(const JumpSpline& spline) {
-    if (farther(spline, data_, outside_, tolerance_)) return false;
-    for (std::size_t i = 0; i < data_.points.size(); ++i)
-      if (farther(spline, data_, i, tolerance_)) {
-        outside_ = i;
-        return false;
-      }
-    return true;
+    return band_.holds(data_.points.size(), [&](std::size_t i) { return farther(spline, i); });
   }
 
  private:
+  bool farther(const JumpSpline& spline, std::size_t i) const {
+    const core::Point2 p = data_.points[i];
+    return detail::farther_than(
+        tolerance_, p, data_.at[i], p + spline.offset(i), {.end = 1, .closed = data_.closed},
+        [&](double t) { return evaluate(spline.spline(), t); },
+        [&](double t) { return jet(spline.spline(), t).first; });
+  }
+
   const PlacedPoints& data_;
   double tolerance_;
-  std::size_t outside_ = 0;
+  detail::Band band_;
 };
 
 /// The spline of the largest penalty that keeps the tolerance, as that of none does.
-curve::BSpline2 most_penalised(JumpSpline& spline, Band& band) {
+curve::BSpline2 most_penalised(JumpSpline& spline, BandOfPoints& band) {
   curve::BSpline2 smoothest = spline.spline();
   const auto is_kept = [&](double logarithm) {
     const bool kept = spline.solve(std::pow(10, logarithm)) && band.holds(spline);
@@ -154,7 +141,7 @@ std::optional<curve::CurvatureGraph> few_knots_curvature(std::span<const core::P
   if (count < kFewest) return std::nullopt;
   Knots knots{0, closed ? count : count - 1};
   if (closed) knots.insert(knots.begin() + 1, count / 2);
-  Band band(data, tolerance);
+  BandOfPoints band(data, tolerance);
   for (;;) {
     JumpSpline spline(data, knots);
     if (!spline.solve(0)) return std::nullopt;

@@ -101,12 +101,9 @@ void JumpSpline::penalise() {
 
 bool JumpSpline::solve(double penalty) {
   const Eigen::SparseMatrix<double> matrix = squares_ + penalty * jumps_;
-  if (factor_)
-    factor_->renew(matrix);
-  else
-    factor_.emplace(matrix);
-  if (!*factor_) return false;
-  const Eigen::MatrixXd found = factor_->solve(right_);
+  factor_.renew(matrix);
+  if (!factor_) return false;
+  const Eigen::MatrixXd found = factor_.solve(right_);
   for (std::size_t j = 0; j < spline_.control.size(); ++j) {
     const int i = unknown(static_cast<int>(j));
     spline_.control[j] = {found(i, 0), found(i, 1)};

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -67,7 +66,7 @@ class JumpSpline {
   Eigen::SparseMatrix<double> squares_;
   Eigen::SparseMatrix<double> jumps_;
   Eigen::MatrixXd right_;
-  std::optional<numeric::SparseSymmetric> factor_;
+  numeric::SparseSymmetric factor_;
   curve::BSpline2 spline_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "keyline/fit/spline_band.h"
 #include "keyline/numeric/halving.h"
 #include "keyline/numeric/parallel.h"
 #include "keyline/numeric/solve.h"
@@ -66,14 +67,8 @@ class Smoother {
   bool sound() const { return total_ > 0; }
 
   bool within(double penalty, double tolerance) {
-    if (!solve(penalty)) return false;
-    if (farther(outside_, tolerance)) return false;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if (farther(i, tolerance)) {
-        outside_ = i;
-        return false;
-      }
-    return true;
+    return solve(penalty) &&
+           band_.holds(points_.size(), [&](std::size_t i) { return farther(i, tolerance); });
   }
 
   /// The coefficients as they stand are those of the graph.
@@ -122,20 +117,15 @@ class Smoother {
 
   double place(std::size_t i) const { return at_[i] / total_ * spans_; }
 
-  /// Whether a point is farther than that from the curve near its parameter.
   bool farther(std::size_t i, double tolerance) const {
-    double t = place(i);
-    core::Point2 p = sum_of(span(t), basis_[i]);
-    for (int step = 0; step < 4; ++step) {
-      if (core::distance(p, points_[i]) <= tolerance) return false;
-      const auto [dx, dy] = at(t, 1);
-      const double along = (points_[i].x - p.x) * dx + (points_[i].y - p.y) * dy;
-      t += along / (dx * dx + dy * dy);
-      if (closed_) t -= spans_ * std::floor(t / spans_);
-      t = std::clamp(t, 0.0, static_cast<double>(spans_));
-      p = at(t, 0);
-    }
-    return !(core::distance(p, points_[i]) <= tolerance);
+    const double t = place(i);
+    return detail::farther_than(
+        tolerance, points_[i], t, sum_of(span(t), basis_[i]),
+        {.end = static_cast<double>(spans_), .closed = closed_}, [&](double u) { return at(u, 0); },
+        [&](double u) {
+          const auto [dx, dy] = at(u, 1);
+          return core::Vector2{dx, dy};
+        });
   }
 
   /// What the points ask of the coefficients, whatever the penalty.
@@ -162,13 +152,10 @@ class Smoother {
     auto place = penalised_.begin();
     each_penalised(
         [&](int, int, double a, double b) { matrix_.valuePtr()[*place++] += penalty * a * b; });
-    if (factor_)
-      factor_->renew(matrix_);
-    else
-      factor_.emplace(matrix_);
-    if (!*factor_) return false;
-    x_ = factor_->solve(right_x_);
-    y_ = factor_->solve(right_y_);
+    factor_.renew(matrix_);
+    if (!factor_) return false;
+    x_ = factor_.solve(right_x_);
+    y_ = factor_.solve(right_y_);
     return x_.allFinite() && y_.allFinite();
   }
 
@@ -213,8 +200,8 @@ class Smoother {
   Eigen::VectorXd y_;
   Eigen::VectorXd kept_x_;
   Eigen::VectorXd kept_y_;
-  std::optional<numeric::SparseSymmetric> factor_;
-  std::size_t outside_ = 0;  ///< the point that was found outside last: the likeliest to be again
+  numeric::SparseSymmetric factor_;
+  detail::Band band_;
 };
 
 /// The smoothest with that parameter.

@@ -1,5 +1,8 @@
 #include "keyline/numeric/solve.h"
 
+#include <utility>
+#include <vector>
+
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
@@ -31,20 +34,44 @@ std::optional<MatrixXd> inverse(const MatrixXd& a) {
 }
 
 struct SparseSymmetric::Factor {
+  /// Whether `a` has numbers at the places of the last matrix; they are kept.
+  bool same_places(const Eigen::SparseMatrix<double>& a) {
+    const std::vector<int> last = std::exchange(places, places_of(a));
+    return places == last;
+  }
+
+  static std::vector<int> places_of(const Eigen::SparseMatrix<double>& a) {
+    std::vector<int> places{static_cast<int>(a.cols())};
+    for (int k = 0; k < a.outerSize(); ++k) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(a, k); it; ++it)
+        places.push_back(static_cast<int>(it.row()));
+      places.push_back(-1);
+    }
+    return places;
+  }
+
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
+  std::vector<int> places;  ///< rows of every column's numbers, columns parted by -1
 };
 
-SparseSymmetric::SparseSymmetric(const Eigen::SparseMatrix<double>& a)
-    : factor_(std::make_unique<Factor>()) {
-  factor_->ldlt.compute(a);
+SparseSymmetric::SparseSymmetric() : factor_(std::make_unique<Factor>()) {}
+SparseSymmetric::SparseSymmetric(const Eigen::SparseMatrix<double>& a) : SparseSymmetric() {
+  renew(a);
 }
 SparseSymmetric::SparseSymmetric(SparseSymmetric&&) noexcept = default;
 SparseSymmetric& SparseSymmetric::operator=(SparseSymmetric&&) noexcept = default;
 SparseSymmetric::~SparseSymmetric() = default;
 
-void SparseSymmetric::renew(const Eigen::SparseMatrix<double>& a) { factor_->ldlt.factorize(a); }
+void SparseSymmetric::renew(const Eigen::SparseMatrix<double>& a) {
+  if (factor_->same_places(a))
+    factor_->ldlt.factorize(a);
+  else
+    factor_->ldlt.compute(a);
+}
 
-SparseSymmetric::operator bool() const { return factor_->ldlt.info() == Eigen::Success; }
+SparseSymmetric::operator bool() const {
+  return !factor_->places.empty() && factor_->ldlt.info() == Eigen::Success;
+}
 
 VectorXd SparseSymmetric::solve(const VectorXd& b) const { return factor_->ldlt.solve(b); }
 

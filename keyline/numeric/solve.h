@@ -29,15 +29,17 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd&
 std::optional<Eigen::MatrixXd> inverse(const Eigen::MatrixXd& a);
 
 /// A sparse, symmetric, definite matrix made ready to be solved with, of which the lower half is
-/// read.
+/// read. Made of nothing it has no solution.
 class SparseSymmetric {
  public:
+  SparseSymmetric();
   explicit SparseSymmetric(const Eigen::SparseMatrix<double>& a);
   SparseSymmetric(SparseSymmetric&&) noexcept;
   SparseSymmetric& operator=(SparseSymmetric&&) noexcept;
   ~SparseSymmetric();
 
-  /// Other numbers at the same places.
+  /// Another matrix. Where its numbers stand at the places of the last one's, the order in which
+  /// unknowns are eliminated is kept, which is about half of the work.
   void renew(const Eigen::SparseMatrix<double>& a);
 
   /// Whether there is a solution; solve() may be called only then.

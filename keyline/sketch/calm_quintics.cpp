@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -52,7 +51,6 @@ class Smoother {
       given_(i, 0) = points[static_cast<std::size_t>(i)].x;
       given_(i, 1) = points[static_cast<std::size_t>(i)].y;
     }
-    solver_.emplace(system(1));
   }
 
   /// Third differences that are wanted, from the first point on; 0 unless set.
@@ -66,9 +64,9 @@ class Smoother {
   /// Waves of that many points are halved.
   std::vector<Point2> smooth(double wavelength) {
     const double lambda = std::pow(wavelength / (2 * std::numbers::pi), 6);
-    solver_->renew(system(lambda));
+    solver_.renew(system(lambda));
     const Eigen::MatrixXd z =
-        solver_->solve(Eigen::MatrixXd(weight_.asDiagonal() * given_ + lambda * pull_));
+        solver_.solve(Eigen::MatrixXd(weight_.asDiagonal() * given_ + lambda * pull_));
     std::vector<Point2> points;
     for (Index i = 0; i < n_; ++i) points.push_back({z(i, 0), z(i, 1)});
     return points;
@@ -88,7 +86,7 @@ class Smoother {
   Eigen::MatrixX2d pull_;
   Eigen::VectorXd weight_;
   Eigen::MatrixX2d given_;
-  std::optional<numeric::SparseSymmetric> solver_;
+  numeric::SparseSymmetric solver_;
 };
 
 double largest_move(const std::vector<Point2>& a, const std::vector<Point2>& b) {

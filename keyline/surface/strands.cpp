@@ -176,15 +176,6 @@ void put_shape(Rows& rows, const Strand& s, const MatrixX3d& x, const MatrixX3d&
   }
 }
 
-bool same_places(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix<double>& b) {
-  const auto same = [](const int* one, const int* other, Index count) {
-    return std::equal(one, one + count, other);
-  };
-  return a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
-         same(a.outerIndexPtr(), b.outerIndexPtr(), a.cols()) &&
-         same(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros());
-}
-
 void put_growth(Rows& rows, const Strand& s, const MatrixX3d& x, double misfit, double weight) {
   const double w = std::sqrt(weight);
   const auto n = s.points.size();
@@ -249,16 +240,6 @@ double StrandSystem::growth(const Strand& s, const MatrixX3d& x) const {
          static_cast<double>(n - 2);
 }
 
-/// Of steps that ask for the same the places of the factor's numbers stay.
-void StrandSystem::factor(Eigen::SparseMatrix<double> normal) {
-  const bool same = factor_ && same_places(normal, normal_);
-  normal_ = std::move(normal);
-  if (same)
-    factor_->renew(normal_);
-  else
-    factor_.emplace(normal_);
-}
-
 Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& home, double homing,
                                          const StrandWeights& weights) {
   Rows rows(column_);
@@ -277,8 +258,8 @@ Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& ho
       rows.close(std::sqrt(h) * (x(point, k) - home(point, k)));
     }
   const Eigen::SparseMatrix<double> j = rows.matrix(unknowns_);
-  factor(j.transpose() * j);
-  return -factor_->solve(Eigen::VectorXd(j.transpose() * rows.residuals()));
+  factor_.renew(j.transpose() * j);
+  return -factor_.solve(Eigen::VectorXd(j.transpose() * rows.residuals()));
 }
 
 RowVector3d StrandSystem::moved(Index point, const Eigen::VectorXd& dx) const {

@@ -63,7 +63,6 @@ class StrandSystem {
   void add_strands(const Net& net, std::size_t patch, Eigen::Index base);
   Eigen::VectorXd whole_step(const Eigen::MatrixX3d& x, const Eigen::MatrixX3d& home, double homing,
                              const StrandWeights& weights);
-  void factor(Eigen::SparseMatrix<double> normal);
   double share_of(const Eigen::MatrixX3d& x, const Eigen::VectorXd& dx) const;
   Eigen::RowVector3d moved(Eigen::Index point, const Eigen::VectorXd& dx) const;
 
@@ -73,8 +72,7 @@ class StrandSystem {
   Eigen::Index unknowns_ = 0;
   double size_ = 1;  ///< mean length of the strands
   std::vector<Form> joints_;
-  Eigen::SparseMatrix<double> normal_;  ///< of the last step
-  std::optional<numeric::SparseSymmetric> factor_;
+  numeric::SparseSymmetric factor_;
 };
 
 }  // namespace keyline::surface::detail

@@ -81,5 +81,25 @@ TEST(Solve, SparseSymmetric) {
   EXPECT_FALSE(SparseSymmetric(none));
 }
 
+// Every matrix is solved with, whether or not it has its numbers where the one before had them.
+TEST(Solve, SparseSymmetricOfOtherPlaces) {
+  const auto arrow = [](int tip) {  // ones on the diagonal and, of one row and column, a half
+    Eigen::SparseMatrix<double> m(3, 3);
+    for (int i = 0; i < 3; ++i) m.insert(i, i) = 1;
+    for (int i = 0; i < 3; ++i)
+      if (i != tip) m.insert(std::max(i, tip), std::min(i, tip)) = 0.5;
+    return m;
+  };
+  SparseSymmetric factor;
+  EXPECT_FALSE(factor);
+  for (const int tip : {0, 2, 1, 1, 0}) {
+    factor.renew(arrow(tip));
+    ASSERT_TRUE(factor);
+    VectorXd right = column({1.5, 1.5, 1.5});  // of ones at the tip's sides, and the tip's: 2
+    right[tip] = 2;
+    EXPECT_LT((factor.solve(right) - VectorXd::Ones(3)).norm(), 1e-14) << tip;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::numeric
