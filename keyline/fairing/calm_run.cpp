@@ -10,6 +10,7 @@
 #include "keyline/fairing/leaning_ends.h"
 #include "keyline/fairing/piece_choice.h"
 #include "keyline/fairing/settle.h"
+#include "keyline/fairing/spring_power.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -33,10 +34,9 @@ constexpr int kStiffenings = 3;   // of the springs, until the mean square is as
 constexpr double kStiffest = 64;  // times at once
 constexpr double kSpringAim = 0.99;  // of that mean square's root: a hair above it is not below
 constexpr int kPulls = 6;  // sixty-four times as strong: what leans then, other limits hold
-constexpr double kSpringPower = 0.25;  // of the springs the root falls with, until it is measured
-constexpr double kFirstLoss = 1.6;     // what cutting may lose at first, in energies: solved for
-                                       // again, pieces win most of it back; halved so many times,
-constexpr int kRefinements = 10;       // which leaves bows of a tenth of the tolerance
+constexpr double kFirstLoss = 1.6;  // what cutting may lose at first, in energies: solved for
+                                    // again, pieces win most of it back; halved so many times,
+constexpr int kRefinements = 10;    // which leaves bows of a tenth of the tolerance
 constexpr double kLeastRefinement = 0.1;  // of a loss at once, where offsets are far too large
 
 void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
@@ -63,16 +63,16 @@ void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
 BandReport solve_pieces(DenseCurve& curve, const std::vector<FitPoint>& points, BandOptions band,
                         double most_rms, double most_energy) {
   BandReport found = least_variation(curve, points, band);
-  double power = kSpringPower;
+  SpringPower power;
   for (int i = 0; i < kStiffenings; ++i) {
     if (!found.within || found.rms <= most_rms || found.energy > most_energy) break;
-    const double by = std::log(found.rms / (kSpringAim * most_rms)) / power;
+    const double by = power.growth(found.rms, kSpringAim * most_rms);
     if (by > std::log(kStiffest)) break;
     band.spring *= std::exp(by);
     DenseCurve stiffer = curve;
     const BandReport next = least_variation(stiffer, points, band);
     if (!next.within || next.rms >= found.rms) break;
-    power = std::log(found.rms / next.rms) / by;
+    power.learn(by, found.rms, next.rms);
     found = next;
     curve = std::move(stiffer);
   }

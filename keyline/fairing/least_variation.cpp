@@ -9,6 +9,7 @@
 #include "keyline/fairing/dense_riccati.h"
 #include "keyline/fairing/dense_step.h"
 #include "keyline/fairing/rise_barrier.h"
+#include "keyline/fairing/spring_power.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -30,7 +31,6 @@ constexpr double kFollowed = 0.5;       // of the tolerance: a first curve so ne
 constexpr double kFollowGain = 1e-2;    // of what a step lowers: one that gains less is the last
 constexpr int kLoosenings = 12;         // secant steps to the weight of the springs
 constexpr double kMeanSquareGap = 0.02;  // of the rms asked for
-constexpr double kFirstPower = -0.25;    // of the weight that the rms goes with, as a first guess
 constexpr int kRateRounds = 4;           // of limiting rates, each about the curve of the last
 constexpr double kAsFast = 1 + 1e-6;     // times the fastest rate allowed
 constexpr double kMostLoosening = 4.6;   // a hundredfold at once
@@ -111,15 +111,15 @@ class Search {
   /// The softest springs that keep the mean square, by the secant of logarithms: it grows with a
   /// power of the weight. The curve stays the softest that lies inside the tolerance.
   void loosen(double weight) {
-    double power = kFirstPower;
+    SpringPower power;
     double before = rms();
     for (int round = 0; round < kLoosenings; ++round) {
-      const double miss = std::log(options_.rms / before);
-      if (std::abs(miss) < kMeanSquareGap) break;
-      const double by = std::clamp(miss / power, -kMostLoosening, kMostLoosening);
+      if (std::abs(std::log(options_.rms / before)) < kMeanSquareGap) break;
+      const double by =
+          std::clamp(power.growth(before, options_.rms), -kMostLoosening, kMostLoosening);
       weight *= std::exp(by);
       const double now = hang_on(weight);
-      if (std::log(now / before) / by < 0) power = std::log(now / before) / by;
+      power.learn(by, before, now);
       before = now;
     }
     spring_ = weight;
