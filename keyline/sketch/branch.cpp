@@ -102,6 +102,13 @@ Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip)
   return b;
 }
 
+LineEnd line_end(const StrokeGraph& graph, const Branch& end) {
+  const GraphEdge& line = graph.edges[static_cast<std::size_t>(end.edge)];
+  const Point2 last = end.at_end ? line.points.back() : line.points.front();
+  const double radius = end.at_end ? line.radii.back() : line.radii.front();
+  return {end.place + dot(last - end.place, end.outward) * end.outward, radius + 0.5};
+}
+
 std::vector<Point2> arm_of(const StrokeGraph& graph, const Branch& branch, double reach) {
   const GraphEdge& line = graph.edges[static_cast<std::size_t>(branch.edge)];
   const std::size_t n = line.points.size();

@@ -25,6 +25,14 @@ struct Branch {
 /// edge); its direction is that of a parabola through the next few widths of line.
 Branch make_branch(const StrokeGraph& graph, int edge, bool at_end, double skip);
 
+/// Where a line ends: as far along its direction as its last point, which may lie in a corner, and
+/// how far the ink goes on beyond that, with what thinning took.
+struct LineEnd {
+  core::Point2 at;
+  double radius = 0;
+};
+LineEnd line_end(const StrokeGraph& graph, const Branch& end);
+
 /// The edge's points from where it is clear of the junction, up to `reach` out.
 std::vector<core::Point2> arm_of(const StrokeGraph& graph, const Branch& branch, double reach);
 

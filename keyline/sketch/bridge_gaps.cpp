@@ -54,8 +54,8 @@ class Bridges {
     for (std::size_t i = 0; i < branches.size(); ++i)
       if (branches[i].edge >= 0 && branches[i].mate < 0) ends_.push_back(static_cast<int>(i));
     std::sort(ends_.begin(), ends_.end(),
-              [&](int a, int b) { return end_point(a).x < end_point(b).x; });
-    for (const int end : ends_) largest_ = std::max(largest_, end_radius(end));
+              [&](int a, int b) { return end_of(a).at.x < end_of(b).at.x; });
+    for (const int end : ends_) largest_ = std::max(largest_, end_of(end).radius);
     if (ends_.empty()) return;
     for (const GraphEdge& line : graph_.edges) {
       boxes_.push_back(box_of(line));
@@ -111,27 +111,16 @@ class Bridges {
   Branch& at(int b) { return branches_[index(b)]; }
   const GraphEdge& edge_of(int b) const { return graph_.edges[index(b / 2)]; }
 
-  /// Where the line ends: as far along its direction as its last point, which may lie in a corner.
-  Point2 end_point(int b) {
-    const GraphEdge& line = edge_of(b);
-    const Point2 last = at(b).at_end ? line.points.back() : line.points.front();
-    return at(b).place + dot(last - at(b).place, at(b).outward) * at(b).outward;
-  }
-
-  /// How far the ink goes on beyond that, and what thinning took.
-  double end_radius(int b) {
-    const GraphEdge& line = edge_of(b);
-    return (at(b).at_end ? line.radii.back() : line.radii.front()) + 0.5;
-  }
+  LineEnd end_of(int b) const { return line_end(graph_, branches_[index(b)]); }
 
   /// Calls see(a, b, gap) for ends not much farther apart than `most`.
   template <class See>
   void visit_pairs(double most, const See& see) {
     for (std::size_t i = 0; i < ends_.size(); ++i)
       for (std::size_t j = i + 1; j < ends_.size(); ++j) {
-        const Vector2 d = end_point(ends_[j]) - end_point(ends_[i]);
+        const Vector2 d = end_of(ends_[j]).at - end_of(ends_[i]).at;
         if (d.x > most + 2 * largest_) break;
-        see(ends_[i], ends_[j], core::norm(d) - end_radius(ends_[i]) - end_radius(ends_[j]));
+        see(ends_[i], ends_[j], core::norm(d) - end_of(ends_[i]).radius - end_of(ends_[j]).radius);
       }
   }
 
@@ -198,12 +187,12 @@ class Bridges {
 
   /// How much of the gap between two ends other lines' ink covers.
   double ink_between(int a, int b) {
-    const Point2 from = end_point(a);
-    const Vector2 across = end_point(b) - from;
+    const Point2 from = end_of(a).at;
+    const Vector2 across = end_of(b).at - from;
     const double length = core::norm(across);
     const Vector2 along = across / length;
-    const double first = end_radius(a);
-    const double last = length - end_radius(b);
+    const double first = end_of(a).radius;
+    const double last = length - end_of(b).radius;
     std::vector<std::pair<double, double>> covered;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       const GraphEdge& line = graph_.edges[e];

@@ -84,10 +84,9 @@ class DotRows {
       const Branch& end = branches_[i];
       if (end.edge < 0 || !end.free || end.mate >= 0 || of_dot[i / 2]) continue;
       const GraphEdge& line = graph_.edges[i / 2];
-      const Point2 last = end.at_end ? line.points.back() : line.points.front();
-      const double radius = (end.at_end ? line.radii.back() : line.radii.front()) + 0.5;
-      places_.push_back({end.place + dot(last - end.place, end.outward) * end.outward,
-                         radius,
+      const LineEnd last = line_end(graph_, end);
+      places_.push_back({last.at,
+                         last.radius,
                          core::quantile(line.radii),
                          {static_cast<int>(i)},
                          false,

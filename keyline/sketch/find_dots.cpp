@@ -11,6 +11,7 @@
 
 #include "keyline/core/disjoint_sets.h"
 #include "keyline/core/point.h"
+#include "keyline/sketch/ink_piece.h"
 
 namespace keyline::sketch {
 namespace {
@@ -54,22 +55,14 @@ std::vector<std::size_t> ink_about(const Binary& ink, Point2 at, int most) {
   std::vector<std::size_t> piece;
   bool inside = true;
   const auto take = [&](int x, int y) {
-    if (!ink.contains(x, y) || !ink.at(x, y)) return;
-    if (!seen.contains(x - left, y - top)) {
-      inside = false;
-      return;
-    }
-    if (seen.at(x - left, y - top)) return;
-    seen.at(x - left, y - top) = 1;
-    piece.push_back(ink.index(x, y));
+    if (!ink.at(x, y)) return false;
+    inside = inside && seen.contains(x - left, y - top);
+    return inside && std::exchange(seen.at(x - left, y - top), 1) == 0;
   };
-  take(left + most, top + most);
-  for (std::size_t k = 0; k < piece.size() && inside; ++k) {
-    const int x = static_cast<int>(piece[k] % static_cast<std::size_t>(ink.width));
-    const int y = static_cast<int>(piece[k] / static_cast<std::size_t>(ink.width));
-    for (const int dy : {-1, 0, 1})
-      for (const int dx : {-1, 0, 1}) take(x + dx, y + dy);
-  }
+  const int x = left + most;
+  const int y = top + most;
+  if (ink.contains(x, y) && take(x, y)) piece.push_back(ink.index(x, y));
+  follow_piece(ink, true, piece, take, [&](int, int) { return inside; });
   if (!inside) piece.clear();
   return piece;
 }

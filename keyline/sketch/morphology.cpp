@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "keyline/sketch/dash_row.h"
+#include "keyline/sketch/ink_piece.h"
 #include "keyline/sketch/pixel_words.h"
 #include "keyline/sketch/rows.h"
 
@@ -127,32 +128,28 @@ InkPieces lost_pieces(const Binary& ink, const std::vector<std::size_t>& gone) {
   constexpr std::size_t kFewest = 3;
   InkPieces lost;
   std::vector<bool> seen(gone.size());
-  const auto place = [&](std::size_t i) {
-    return std::array{static_cast<int>(i % static_cast<std::size_t>(ink.width)),
-                      static_cast<int>(i / static_cast<std::size_t>(ink.width))};
-  };
-  const auto stands_alone = [&](std::size_t i) {
-    const auto [x, y] = place(i);
-    return neighbours_of(ink, x, y) == 0;
-  };
-  for (std::size_t k = 0; k < gone.size(); ++k) {
-    if (seen[k] || !stands_alone(gone[k])) continue;
+  const auto take = [&](int x, int y) {
+    const auto at = std::ranges::lower_bound(gone, ink.index(x, y));
+    if (at == gone.end() || *at != ink.index(x, y)) return false;
+    const auto k = static_cast<std::size_t>(at - gone.begin());
+    const bool first = !seen[k];
     seen[k] = true;
-    std::vector<std::size_t> piece = {gone[k]};
-    bool whole = true;
-    for (std::size_t n = 0; n < piece.size(); ++n) {
-      const auto [x, y] = place(piece[n]);
-      whole = whole && stands_alone(piece[n]);
-      for (const int dy : {-1, 0, 1})
-        for (const int dx : {-1, 0, 1}) {
-          if (!ink.contains(x + dx, y + dy)) continue;
-          const auto at = std::ranges::lower_bound(gone, ink.index(x + dx, y + dy));
-          if (at == gone.end() || *at != ink.index(x + dx, y + dy)) continue;
-          const auto m = static_cast<std::size_t>(at - gone.begin());
-          if (!seen[m]) seen[m] = true, piece.push_back(*at);
-        }
-    }
-    if (whole && piece.size() >= kFewest) lost.add(piece);
+    return first;
+  };
+  const auto stands_alone = [&](int x, int y) { return neighbours_of(ink, x, y) == 0; };
+  const auto width = static_cast<std::size_t>(ink.width);
+  for (std::size_t k = 0; k < gone.size(); ++k) {
+    const std::size_t i = gone[k];
+    if (seen[k] || !stands_alone(static_cast<int>(i % width), static_cast<int>(i / width)))
+      continue;
+    seen[k] = true;
+    std::vector<std::size_t> piece = {i};
+    bool alone = true;
+    follow_piece(ink, true, piece, take, [&](int x, int y) {
+      alone = alone && stands_alone(x, y);
+      return true;
+    });
+    if (alone && piece.size() >= kFewest) lost.add(piece);
   }
   return lost;
 }
@@ -179,24 +176,20 @@ constexpr std::uint8_t kSeen = 2;
 bool is_small(Binary& ink, std::size_t start, bool diagonal, std::size_t least,
               std::vector<std::size_t>& piece) {
   const std::uint8_t value = ink.data[start];
-  const auto w = static_cast<std::size_t>(ink.width);
   piece.assign(1, start);
   ink.data[start] |= kSeen;
   bool large = false;
-  for (std::size_t k = 0; k < piece.size() && !large; ++k) {
-    const int x = static_cast<int>(piece[k] % w);
-    const int y = static_cast<int>(piece[k] / w);
-    large = value == 0 && (x == 0 || y == 0 || x + 1 == ink.width || y + 1 == ink.height);
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        if ((!diagonal && dx != 0 && dy != 0) || !ink.contains(x + dx, y + dy)) continue;
-        const std::size_t j = ink.index(x + dx, y + dy);
-        if (ink.data[j] != value) continue;
-        ink.data[j] |= kSeen;
-        piece.push_back(j);
-      }
-    large = large || piece.size() >= least;
-  }
+  const auto take = [&](int x, int y) {
+    std::uint8_t& pixel = ink.data[ink.index(x, y)];
+    if (pixel != value) return false;
+    pixel |= kSeen;
+    return true;
+  };
+  follow_piece(ink, diagonal, piece, take, [&](int x, int y) {
+    large = piece.size() >= least ||
+            (value == 0 && (x == 0 || y == 0 || x + 1 == ink.width || y + 1 == ink.height));
+    return !large;
+  });
   for (const std::size_t i : piece) ink.data[i] = value;
   return !large;
 }
