@@ -32,6 +32,7 @@
 #include "keyline/exchange/step/cad_file.h"
 #include "keyline/exchange/svg/svg_document.h"
 #include "keyline/exchange/svg/svg_text.h"
+#include "keyline/exchange/too_large.h"
 
 namespace keyline::exchange {
 namespace {
@@ -84,6 +85,7 @@ Result<Document> strokes_document(std::string_view text) {
   const auto drawing = read_scap(text);
   if (!drawing) return std::unexpected(drawing.error());
   Document document;
+  document.skipped = drawing->left_out;
   std::size_t dots = 0;
   for (const ScapStroke& stroke : drawing->strokes) {
     curve::Polyline2 line{upright(*drawing, stroke)};
@@ -114,11 +116,12 @@ Result<Document> mesh_document(const fs::path& file) {
     }
     document.space_curves.push_back({{name, {}, {}}, {std::move(line)}});
   }
-  if (document.space_curves.empty())
-    return fail(ErrorCode::bad_input,
-                "a mesh or cloud of " + core::counted(mesh->points.size(), "point") + " and " +
-                    core::counted(mesh->triangles.size(), "triangle") + " is no curve",
-                "cut it: --section y=0, or --section auto");
+  if (mesh->lines.empty()) {
+    std::string what = "a mesh or cloud of " + core::counted(mesh->points.size(), "point") +
+                       " and " + core::counted(mesh->triangles.size(), "triangle") + " is no curve";
+    if (!mesh->skipped.empty()) what += "; skipped: " + mesh->skipped.front();
+    return fail(ErrorCode::bad_input, what, "cut it: --section y=0, or --section auto");
+  }
   if (!mesh->triangles.empty())
     document.skipped.push_back(core::counted(mesh->triangles.size(), "triangle"));
   return document;
@@ -181,6 +184,7 @@ Result<Document> read_document(const fs::path& file, const ReadOptions& options)
   if (!head) return std::unexpected(head.error());
   auto document = document_of(format_of(file, *head), file, options);
   if (!document) return std::unexpected(in_file(document.error(), file.string()));
+  leave_out_too_large(*document);
   if (size(*document) == 0) {
     std::string what = "the file holds no curve";
     constexpr std::size_t kMost = 3;

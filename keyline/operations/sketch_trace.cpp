@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/document_file.h"
 #include "keyline/exchange/image/image_reader.h"
 #include "keyline/exchange/input_file.h"
@@ -52,11 +53,23 @@ std::vector<sketch::DrawnStroke> strokes_of(const document::Document& document, 
   return strokes;
 }
 
+/// What of a document is no stroke.
+std::vector<std::string> left_out_of(const document::Document& document) {
+  std::vector<std::string> left_out = document.skipped;
+  if (!document.space_curves.empty())
+    left_out.push_back(core::counted(document.space_curves.size(), "curve") + " in space");
+  if (!document.surfaces.empty())
+    left_out.push_back(core::counted(document.surfaces.size(), "surface"));
+  return left_out;
+}
+
 /// The strokes of a file of vectors and the width of their pen.
-Result<std::vector<sketch::DrawnStroke>> drawn_strokes(const std::string& file, double& pen) {
+Result<std::vector<sketch::DrawnStroke>> drawn_strokes(const std::string& file, double& pen,
+                                                       std::vector<std::string>& left_out) {
   if (exchange::extension_of(file) != ".scap") {
     const auto document = exchange::read_document(file);
     if (!document) return std::unexpected(document.error());
+    left_out = left_out_of(*document);
     return strokes_of(*document, pen);
   }
   const auto text = exchange::read_file(file);
@@ -64,6 +77,7 @@ Result<std::vector<sketch::DrawnStroke>> drawn_strokes(const std::string& file, 
   const auto drawing = exchange::read_scap(*text);
   if (!drawing) return std::unexpected(exchange::in_file(drawing.error(), file));
   pen = drawing->pen;
+  left_out = drawing->left_out;
   std::vector<sketch::DrawnStroke> strokes;
   for (const exchange::ScapStroke& s : drawing->strokes) {
     sketch::DrawnStroke stroke;
@@ -109,10 +123,16 @@ void set_tolerance(const SketchRequest& request, double one, sketch::TraceOption
 Result<sketch::TraceResult> trace_vectors(const SketchRequest& request,
                                           sketch::TraceOptions options) {
   double pen = 0;
-  const auto strokes = drawn_strokes(request.file, pen);
+  std::vector<std::string> left_out;
+  const auto strokes = drawn_strokes(request.file, pen, left_out);
   if (!strokes) return std::unexpected(strokes.error());
   set_tolerance(request, pen, options);
-  return trace_drawn(*strokes, pen, options);
+  auto traced = trace_drawn(*strokes, pen, options);
+  if (traced)
+    for (std::string& told :
+         core::told_in_part(std::move(left_out), "further thing", "further things"))
+      traced->notes.push_back("left out: " + std::move(told));
+  return traced;
 }
 
 /// The drawing traced: a picture, or pen strokes of a file of vectors, which can be opened again.

@@ -211,6 +211,21 @@ TEST(Sketch, TakesVectorStrokesAndOutlinesAndTargets) {
   }
 }
 
+TEST(Sketch, TellsWhatOfADrawingIsNoStroke) {
+  const Scratch s;
+  const std::string stroke = "{\n#1 1\n10 10\n30 12\n60 10\n}\n";
+  EXPECT_EQ(run_keyline("sketch " + s.write("a.scap", "#100 100\n" + stroke)).err.find("left out"),
+            std::string::npos);
+  const Outcome empty = run_keyline("sketch " + s.write("b.scap", "#100 100\n{\n}\n" + stroke));
+  EXPECT_NE(empty.err.find("left out: line 2: a stroke without points"), std::string::npos)
+      << empty.err;
+  const Outcome text = run_keyline(
+      "sketch " + s.write("a.svg",
+                          "<svg xmlns='http://www.w3.org/2000/svg' width='99mm' height='99mm'>\n"
+                          "<text>A</text><path d='M0 0C9 9 20 9 40 0' stroke='black'/></svg>"));
+  EXPECT_NE(text.err.find("left out: line 2: text: 1 element"), std::string::npos) << text.err;
+}
+
 /// The guide's example: four passes of a shoulder, three of an arch, a sill, as its generator says.
 /// The passes cross each other, so that all ink lies near the lines: there is nothing to warn of.
 TEST(Sketch, MakesOneLineOfThePassesOfTheExample) {

@@ -228,8 +228,8 @@ TEST(SvgDocument, AChangedDrawingCounts) {
 }
 
 TEST_F(Files, OfPenStrokesAreLinesUpright) {
-  const auto read = read_document(
-      file("a.scap", "#80 60\n@2.5\n{\n\t#7\t3\n\t@9\n\t1\t2\t0\n\t3\t4\t9\n}\n{\n#8 3\n5 6\n}\n"));
+  const auto read = read_document(file(
+      "a.scap", "#80 60\n@2.5\n{\n\t#7\t3\n\t@9\n\t1 2\t0\n\t3 4\t9\n}\n{\n#8 3\n5 6\n}\n{\n}\n"));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_TRUE(read->space_curves.empty());  // the third column is no place
   ASSERT_EQ(read->paths.size(), 1U);
@@ -238,7 +238,8 @@ TEST_F(Files, OfPenStrokesAreLinesUpright) {
   EXPECT_EQ(read->paths[0].stroke_width, 2.5);
   const auto& line = std::get<curve::Polyline2>(read->paths[0].path.curves.front().value);
   EXPECT_EQ(line.points, (std::vector<core::Point2>{{1, 58}, {3, 56}}));
-  EXPECT_THAT(read->skipped, testing::ElementsAre("1 dot of the pen"));
+  EXPECT_THAT(read->skipped,
+              testing::ElementsAre("line 13: a stroke without points", "1 dot of the pen"));
 }
 
 TEST_F(Files, TheExtensionChoosesTheFormat) {

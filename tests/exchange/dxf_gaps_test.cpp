@@ -45,6 +45,41 @@ TEST(DxfGaps, TheUnitMayStandBehindItsSection) {
             "mm");
 }
 
+TEST(DxfGaps, AUnitGivenTwiceIsTold) {
+  const auto with = [](const std::string& unit) {
+    return read("0 LINE 8 0 10 0 20 0 11 1 21 0",
+                "0 SECTION 2 HEADER 9 $INSUNITS 70 4 9 $INSUNITS 70 " + unit + " 0 ENDSEC");
+  };
+  EXPECT_THAT(with("4").skipped, IsEmpty());
+  EXPECT_EQ(with("1").unit, "in");
+  EXPECT_THAT(
+      with("1").skipped,
+      ElementsAre("an earlier unit of the drawing: $INSUNITS has another value at line 12"));
+}
+
+// An insert shows one of them: which is not the drawing's to say.
+TEST(DxfGaps, BlocksOfOneNameAreTold) {
+  const auto block = [](const std::string& name, const std::string& end) {
+    return " 0 BLOCK 2 " + name + " 10 0 20 0 0 LINE 8 0 10 0 20 0 11 " + end + " 21 0 0 ENDBLK";
+  };
+  const auto with = [&](const std::string& second) {
+    return read("0 INSERT 8 0 2 a 10 0 20 0",
+                "0 SECTION 2 BLOCKS" + block("a", "1") + block(second, "5") + " 0 ENDSEC");
+  };
+  EXPECT_THAT(with("b").skipped, IsEmpty());
+  EXPECT_THAT(with("a").skipped,
+              ElementsAre("line 28: BLOCK: an earlier block of its name, \"a\""));
+}
+
+TEST(DxfGaps, APolylineThatDoesNotEndIsTold) {
+  const std::string polyline = "0 POLYLINE 8 0 66 1 0 VERTEX 8 0 10 0 20 0 0 VERTEX 8 0 10 1 20 0 ";
+  const std::string line = "0 LINE 8 0 10 0 20 0 11 1 21 0";
+  EXPECT_THAT(read(polyline + "0 SEQEND 8 0 " + line).skipped, IsEmpty());
+  for (const std::string& behind : {line, polyline + "0 SEQEND"})
+    EXPECT_THAT(read(polyline + behind).skipped,
+                ElementsAre("line 6: POLYLINE: it has no SEQEND, maybe not all its vertices"));
+}
+
 // An arc turns counterclockwise from one angle to the other, at most once around, however the
 // angles are counted.
 TEST(DxfArc, TurnsAtMostOnceAround) {

@@ -102,6 +102,23 @@ TEST(Glif, OddContoursAreTold) {
   EXPECT_EQ(image.value().skipped, std::vector<std::string>{"an image"});
 }
 
+// The glyph that is read is the first outline of the first element, as UFO 3 has it.
+TEST(Glif, WhatIsBesideTheOutlineIsTold) {
+  const std::string contour =
+      "<contour><point x='0' y='0' type='line'/><point x='9' y='0' type='line'/>"
+      "<point x='9' y='9' type='line'/></contour>";
+  const std::string outline = "<outline>" + contour + "</outline>\n";
+  const auto told = [](const std::string& text) { return read_glif(text).value().skipped; };
+  using Lines = std::vector<std::string>;
+  for (const char* format : {"", " format='1'", " format='2'"})
+    EXPECT_EQ(told("<glyph" + std::string(format) + ">\n" + outline + "</glyph>"), Lines{});
+  EXPECT_EQ(told("<glyph format='3'>\n" + outline + "</glyph>"),
+            Lines{"line 1: what is new in format 3 of glyphs, read as format 2"});
+  EXPECT_EQ(told("<glyph>\n" + outline + outline + "</glyph>"), Lines{"line 3: a second outline"});
+  EXPECT_EQ(told("<glyph>\n" + outline + "</glyph>\n<glyph>" + outline + "</glyph>"),
+            Lines{"line 4: what stands behind the end of <glyph>"});
+}
+
 TEST(Glif, BadGlyphsAreFailuresWithTheLine) {
   EXPECT_THAT(read_glif("<glyph>\n<outline>").error().path, HasSubstr("line "));
   EXPECT_EQ(read_glif("<glyph><outline><contour>\n<point x='1'/></contour></outline></glyph>")

@@ -61,6 +61,12 @@ TEST(HullTable, MistakesHaveTheirPlace) {
   j["halfBreadths"]["table"][1] = {0, 1, 0.5};
   const auto table = hull_from_json(j);
   ASSERT_TRUE(table);
+  auto wrong = j;
+  wrong["halfBreadths"]["table"][0] = {0, 1, -1e-9};
+  EXPECT_EQ(hull_from_json(wrong).error().path, "halfBreadths.table[0][2]");
+  wrong["halfBreadths"]["table"][0] = {0, 1e300, 0};
+  wrong["attributes"]["BOA"] = 1e300;  // their product is no number
+  EXPECT_EQ(hull_from_json(wrong).error().path, "halfBreadths.table[0][1]");
   EXPECT_EQ(line(hull_document(*table), "waterline-2").points[1], (Point3{5, 2, 2}));
 }
 
@@ -123,6 +129,27 @@ TEST(HullCsv, ReadsShipyardsTables) {
   EXPECT_FALSE(is_hull_csv("1,2\n3,4\n"));
   EXPECT_FALSE(is_hull_csv(";\n1;2\n"));
   EXPECT_TRUE(read_hull_csv(";\nwaterline;0;10\n1;2;3\n2;3;4\n"));
+}
+
+TEST(HullCsv, AreInOneUnit) {
+  const auto unit = [](const std::string& text) {
+    const auto table = read_hull_csv(text + ",0,10\n0,1,2\n1,2,3\n");
+    return table ? table->unit : table.error().path + ": " + table.error().message;
+  };
+  EXPECT_EQ(unit("unit,m\nwaterline [m]"), "m");
+  EXPECT_EQ(unit("unit,ft\nwaterline [m]"), "line 2: the table is in two units, one of them m");
+}
+
+// What lies beyond the centre plane is no half-breadth; below the base line there is hull.
+TEST(HullCsv, HalfBreadthsAreNotNegative) {
+  const auto why = [](const std::string& cell) {
+    const auto table = read_hull_csv("waterline,-1,1\n-0.5,1,2\n1,0," + cell + "\n");
+    return table ? "" : table.error().path + ": " + table.error().message;
+  };
+  EXPECT_EQ(why("0"), "");
+  EXPECT_EQ(why("-"), "");
+  EXPECT_EQ(why("-0"), "");
+  EXPECT_EQ(why("-0.001"), "line 3: the half-breadth in column 3 is negative");
 }
 
 // Twelve inches are a foot and eight eighths an inch: who writes them means something else.

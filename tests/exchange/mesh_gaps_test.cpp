@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "keyline/exchange/document_file.h"
 #include "keyline/exchange/mesh/mesh.h"
 
 /// Meshes and clouds with something missing or too much: refused, or told.
@@ -74,6 +75,22 @@ TEST(MeshGaps, PlyOfMoreBytesThanItsHeaderTellsSo) {
   EXPECT_THAT(told(read_ply(header + "abcdef")), HasSubstr("behind the last element"));
 }
 
+// Edges, strips and faces under another name are lines and triangles that are not there.
+TEST(MeshGaps, PlyTellsElementsItDoesNotRead) {
+  const auto with = [](const std::string& element) {
+    return told(read_ply("ply\nformat ascii 1.0\n" + kVertex + element + "end_header\n" + kCorners +
+                         "3 0 1 2\n"));
+  };
+  EXPECT_EQ(with("element face 1\nproperty list uchar int vertex_index\n"), "");
+  EXPECT_EQ(with("element edge 1\nproperty list uchar int vertex_indices\n"),
+            "1 element of the name \"edge\"\n");
+  EXPECT_EQ(with("element face 1\nproperty list uchar int vertices\n"),
+            "1 element of the name \"face\": the header gives them no vertex_indices\n");
+  EXPECT_EQ(with("element edge 0\nproperty int vertex1\n"
+                 "element face 1\nproperty list uchar int vertex_index\n"),
+            "");
+}
+
 const std::string kFacet = "facet normal 0 0 1\nouter loop\n";
 const std::string kThree = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
 
@@ -90,6 +107,15 @@ TEST(MeshGaps, StlLosesNoTriangleWithoutItsEnd) {
               HasSubstr("line 4: a vertex needs three numbers"));
 }
 
+TEST(MeshGaps, StlTellsWhatIsNoStatement) {
+  const auto with = [](const std::string& line) {
+    return told(read_stl("solid a b\n" + kFacet + line + kThree + "endloop\nendfacet\nendsolid\n"));
+  };
+  EXPECT_EQ(with(""), "");
+  EXPECT_EQ(with("\n  \n"), "");
+  EXPECT_EQ(with("vertx 5 5 5\n"), "line 4: \"vertx\" is no statement of STL\n");
+}
+
 TEST(MeshGaps, StlOfMoreTrianglesThanItCountsTellsSo) {
   std::string one(84 + 50, '\0');
   one[80] = 1;
@@ -102,11 +128,32 @@ TEST(MeshGaps, StlOfMoreTrianglesThanItCountsTellsSo) {
 TEST(MeshGaps, ObjTellsWhatItTakesForNothing) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(told(read_obj("vt 0 0\ng a\n" + corners + "f 1 2 3\n")), "");
+  EXPECT_EQ(told(read_obj("# v\n#v 1\n\nmtllib a.mtl\nusemtl b\no c\ns off\nvn 0 0 1\n" + corners)),
+            "");
+  EXPECT_EQ(told(read_obj(corners + "vv 1 2 3\nF 1 2 3\np 1\ncall b.obj\n")),
+            "line 4: \"vv\" is no statement of OBJ\nline 5: \"F\" is no statement of OBJ\n"
+            "line 6: points by themselves\nline 7: what another file holds\n");
+  EXPECT_EQ(told(read_obj("\xef\xbb\xbf" + corners)), "");
+  EXPECT_EQ(read_obj(corners + "fo 1 2 3\n")->triangles.size(), 1U);
   EXPECT_THAT(told(read_obj("1 2 3\n" + corners + "f 1 2 3\n")), HasSubstr("line 1: numbers"));
   EXPECT_THAT(told(read_obj(corners + "f 1 2 2.5\n")), HasSubstr("none of the vertices"));
   const auto cut = read_obj(corners + "f 1 2 \\\n3 \\");  // goes on, but the file ends
   ASSERT_TRUE(cut);
   EXPECT_EQ(cut->triangles.size(), 1U);
+}
+
+TEST(MeshGaps, MeshesWithoutLinesSayWhatIsLost) {
+  const fs::path file =
+      fs::temp_directory_path() / ("keyline-gaps-" + std::to_string(::getpid()) + ".obj");
+  const auto why = [&](const std::string& text) {
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\n" << text;
+    return read_document(file).error().message;
+  };
+  EXPECT_EQ(why("f 1 2 2\n"), "a mesh or cloud of 2 points and 1 triangle is no curve");
+  EXPECT_EQ(why("l 1 3\n"),
+            "a mesh or cloud of 2 points and 0 triangles is no curve; skipped: line 3: \"3\" is "
+            "none of the vertices");
+  fs::remove(file);
 }
 
 /// What a cloud of that text leaves out.

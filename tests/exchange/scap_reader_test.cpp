@@ -23,6 +23,16 @@ TEST(ScapReader, ReadsCanvasPenAndStrokes) {
   EXPECT_EQ(found->strokes[0].group, 3);
   EXPECT_EQ(found->strokes[0].points, (std::vector<core::Point2>{{1, 2}, {3, 4}}));
   EXPECT_EQ(found->strokes[1].id, 8);
+  EXPECT_EQ(found->left_out, (std::vector<std::string>{"line 10: a stroke without points"}));
+}
+
+TEST(ScapReader, LinesMayEndAsTheyDo) {
+  for (const char* text : {"\xef\xbb\xbf#800 600\n{\n#1 2\n1 2\n3 4\n}\n",
+                           "#800 600\r{\r#1 2\r1 2\r3 4\r}\r", "#800 600\n{\n#1 2\n1 2\n3 4\n}"}) {
+    const auto found = read_scap(text);
+    ASSERT_TRUE(found) << found.error().path;
+    EXPECT_EQ(found->strokes.at(0).points, (std::vector<core::Point2>{{1, 2}, {3, 4}}));
+  }
 }
 
 TEST(ScapReader, OtherLinesAreNamed) {
@@ -47,6 +57,9 @@ TEST(ScapReader, OtherLinesAreNamed) {
   EXPECT_EQ(place("{ 1 2\n3 4\n}\n"), "line 1");
   EXPECT_EQ(place("{\n1 2\n} {\n3 4\n}\n"), "line 3");
   EXPECT_EQ(place("{\n#1 2 3\n1 2\n}\n"), "line 2");
+  EXPECT_EQ(place("{\n#1 2\n1 2\n#3 2\n}\n"), "line 4");  // two strokes without a } between them
+  EXPECT_EQ(place("{\n#1.5 2\n1 2\n}\n"), "line 2");
+  EXPECT_EQ(place("{\n#1 0.5\n1 2\n}\n"), "line 2");
   EXPECT_EQ(place("#800 600 2\n{\n1 2\n}\n"), "line 1");
   EXPECT_EQ(place("@2 5\n{\n1 2\n}\n"), "line 1");
   EXPECT_EQ(place("{\n1 2\n}\n#1 [0, 2) --> #3\n"), "read");

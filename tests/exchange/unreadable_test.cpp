@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,23 @@ TEST_F(Unreadable, NumbersAreNeverTakenForOthers) {
       const auto document = read(file, number);
       if (!document) continue;
       EXPECT_GT(document->skipped.size(), sound->skipped.size());
+    }
+  }
+}
+
+// What lies beyond 1e100 has lengths and sections that are no numbers.
+TEST_F(Unreadable, CoordinatesTooLargeAreTold) {
+  const std::set<std::string> no_coordinates = {
+      // an angle, a weight, a direction, sizes
+      "arc.dxf", "bulge.dxf", "weight.dxf", "extrusion.dxf", "round.svg", "page.svg", "box.svg"};
+  for (const TextFile& file : files()) {
+    SCOPED_TRACE(file.name);
+    if (no_coordinates.contains(file.name)) continue;
+    const auto sound = read(file, "1");
+    ASSERT_TRUE(sound) << sound.error().message;
+    for (const std::string number : {"1e150", "-1.1e100", "1e300"}) {
+      const auto document = read(file, number);
+      EXPECT_TRUE(!document || document->skipped.size() > sound->skipped.size()) << number;
     }
   }
 }

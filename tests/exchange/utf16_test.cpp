@@ -30,6 +30,19 @@ TEST(Utf16, HalvesAreOneCharacter) {
   EXPECT_EQ(from_utf16("\xe0\x00\0a"sv, true), "\uE000a");
 }
 
+TEST(Utf16, MarksAreLeftOut) {
+  EXPECT_EQ(without_mark("\xef\xbb\xbf"
+                         "a"),
+            "a");
+  EXPECT_EQ(without_mark("a\xef\xbb\xbf"), "a\xef\xbb\xbf");
+  EXPECT_EQ(in_utf8("\xef\xbb\xbf"
+                    "a"),
+            "a");
+  EXPECT_EQ(in_utf8(std::string("\xff\xfe"
+                                "a\0"sv)),
+            "a");
+}
+
 TEST(Utf16, IsWrittenInDigits) {
   EXPECT_EQ(utf16_digits(0x41, "\\U+"), "\\U+0041");
   EXPECT_EQ(utf16_digits(0xFFFF), "FFFF");

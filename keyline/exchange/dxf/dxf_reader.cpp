@@ -15,7 +15,7 @@
 #include "keyline/exchange/dxf/dxf_beside.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
-#include "keyline/exchange/dxf/dxf_units.h"
+#include "keyline/exchange/dxf/dxf_header.h"
 
 namespace keyline::exchange {
 namespace {
@@ -109,7 +109,8 @@ class DxfReader {
     for (const Item& item : items_) place(item, Outer{});
     beside_.tell(problems_);
     document_.skipped = std::move(problems_);
-    if (scale_ != 1) return document::scaled(std::move(document_), scale_);
+    document_.unit = header_.unit();
+    if (header_.scale() != 1) return document::scaled(std::move(document_), header_.scale());
     return std::move(document_);
   }
 
@@ -133,6 +134,7 @@ class DxfReader {
       polyline_->vertices.emplace_back();
       return;
     }
+    if (polyline_) problem(describe(*polyline_) + ": it has no SEQEND, maybe not all its vertices");
     close_polyline();
     entity_ = DxfEntity{tag.text, tag.place, {}, {}};
   }
@@ -142,25 +144,14 @@ class DxfReader {
       section_ = std::string(tag.text);
       naming_section_ = false;
     } else if (section_ == "HEADER" || (section_.empty() && seen_section_)) {
-      take_header(tag);
+      if (auto wrong = header_.take(tag, tags_.place(tag)); !wrong.empty())
+        problem(std::move(wrong));
     } else if (polyline_) {
       auto& vertices = polyline_->vertices;
       (vertices.empty() ? polyline_->tags : vertices.back()).push_back(tag);
     } else if (entity_) {
       entity_->tags.push_back(tag);
     }
-  }
-
-  void take_header(const DxfTag& tag) {
-    if (tag.code == 9) variable_ = std::string(tag.text);
-    if (variable_ == "$DWGCODEPAGE" && tag.code == 3) code_page_ = std::string(tag.text);
-    if (variable_ != "$INSUNITS" || tag.code != 70) return;
-    const auto given = detail::integer_of(tag);
-    if (!given) problem("the unit of the drawing: it is no number (" + tags_.place(tag) + ")");
-    const detail::DxfUnit* unit = detail::dxf_unit_of(given.value_or(0));
-    if (!unit) problem("the unit of the drawing ($INSUNITS " + std::to_string(*given) + ")");
-    document_.unit = unit ? unit->name : "";
-    scale_ = unit ? unit->factor : 1;
   }
 
   void close_polyline() {
@@ -189,7 +180,10 @@ class DxfReader {
         block_ = nullptr;
         return;
       }
-      block_ = &blocks_[detail::text(entity.tags, 2)];
+      const std::string name = detail::text(entity.tags, 2);
+      if (blocks_.contains(name))
+        problem(describe(entity) + ": an earlier block of its name, \"" + name + '"');
+      block_ = &blocks_[name];
       *block_ = Block{detail::point(entity.tags, 10), {}};
       return;
     }
@@ -282,9 +276,10 @@ class DxfReader {
 
   /// Says once that letters beyond ASCII are of a code page that is not known here.
   void check_letters(const DxfTag& name) {
-    const bool known = code_page_.empty() || code_page_ == "ANSI_1252";
+    const bool known = header_.code_page().empty() || header_.code_page() == "ANSI_1252";
     if (known || core::is_utf8(name.text) || std::exchange(said_letters_, true)) return;
-    problem("letters of names beyond ASCII, which are in " + code_page_ + ": they come out wrong");
+    problem("letters of names beyond ASCII, which are in " + header_.code_page() +
+            ": they come out wrong");
   }
 
   /// One map for every cell of an insert's array: block coordinates less base to outer ones.
@@ -368,10 +363,8 @@ class DxfReader {
   DxfReadLimits limits_;
   std::size_t most_points_;
   Document document_;
-  double scale_ = 1;  ///< from the drawing's unit to ours
   std::string section_;
-  std::string variable_;
-  std::string code_page_;
+  detail::DxfHeader header_;
   bool said_letters_ = false;
   bool naming_section_ = false;
   bool seen_section_ = false;

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "keyline/core/text.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/font/glif.h"
 #include "keyline/exchange/svg/svg_transform.h"
+#include "keyline/exchange/svg/xml_oddities.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/byte_lines.h"
 
@@ -131,12 +133,28 @@ class GlifReader {
     if (auto done = add(*glyph, bytes, {}, 0); !done) return std::unexpected(done.error());
     tell_odd();
     if (glyph->child("image")) document_.skipped.emplace_back("an image");
+    tell_unread(*glyph, bytes);
     if (anchors_ > 0)
       document_.skipped.insert(document_.skipped.begin(), core::counted(anchors_, "anchor"));
     return std::move(document_);
   }
 
  private:
+  void tell_unread(const pugi::xml_node& glyph, std::string_view bytes) {
+    const auto tell = [&](const pugi::xml_node& node, const std::string& what) {
+      const int line =
+          static_cast<int>(detail::line_of(bytes, static_cast<std::size_t>(node.offset_debug())));
+      document_.skipped.push_back("line " + std::to_string(line) + ": " + what);
+    };
+    for (const auto& [node, what] : detail::xml_oddities(glyph)) tell(node, what);
+    if (const auto second = glyph.child("outline").next_sibling("outline"))
+      tell(second, "a second outline");
+    const std::string_view format = glyph.attribute("format").value();
+    if (!format.empty() && format != "1" && format != "2")
+      tell(glyph, "what is new in format " + std::string(core::whole_characters(format, 30)) +
+                      " of glyphs, read as format 2");
+  }
+
   void tell_odd() {
     const auto tell = [this](std::size_t count, const char* one, const char* many,
                              const char* what) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/json/json_parts.h"
 
@@ -61,7 +62,13 @@ Result<void> add_row(HullTable& hull, const json& row, double unit, const std::s
     }
     const auto value = number_from_json(row[k], in(where, k));
     if (!value) return std::unexpected(value.error());
-    hull.half_breadth.push_back(*value * unit);
+    if (*value < 0)
+      return fail(ErrorCode::bad_input, "a half-breadth is negative",
+                  "correct it, or give null outside the hull", in(where, k));
+    const double half_breadth = *value * unit;
+    if (!(half_breadth <= core::kLargestCoordinate))
+      return core::coordinate_too_large(in(where, k));
+    hull.half_breadth.push_back(half_breadth);
   }
   return {};
 }

@@ -24,19 +24,21 @@ struct Mesh {
 };
 
 /// Wavefront OBJ: v, f (polygons as fans, indices from the front or the back), l; line
-/// continuations, UTF-8 or UTF-16. Other statements are let pass; faces that name no vertex, and
-/// numbers without a statement's name, are skipped and reported.
+/// continuations, UTF-8 or UTF-16. Other statements of the format are let pass; faces that name no
+/// vertex, numbers without a statement's name and names that the format has not are skipped and
+/// reported.
 /// Fails: bad_input with "line N" where a coordinate is no number.
 core::Result<Mesh> read_obj(std::string_view bytes);
 
 /// STL, ASCII with any number of solids or binary; vertices of equal coordinates become one.
 /// Fails: bad_input with "line N" or "byte N" where triangles are incomplete. Skipped: what is
-/// behind the triangles that a binary file counts.
+/// behind the triangles that a binary file counts, lines that are no statement.
 core::Result<Mesh> read_stl(std::string_view bytes);
 
 /// PLY, ASCII or binary of either byte order, with any further properties and elements.
 /// Fails: bad_input with "line N" (header, ASCII) or "byte N" where the file is none or ends early,
-/// or its vertices have not x, y and z, each once. Skipped: what is behind the last element.
+/// or its vertices have not x, y and z, each once. Skipped: elements of other
+/// names, and what is behind the last.
 core::Result<Mesh> read_ply(std::string_view bytes);
 
 /// The mesh of a file by its extension (.obj, .stl, .ply).

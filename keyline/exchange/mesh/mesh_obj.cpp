@@ -16,6 +16,15 @@ using core::Result;
 
 constexpr std::size_t kMostNotes = 1000;
 
+/// Statements of the format that no vertex, face or line depends on, those of free-form geometry
+/// (told by their "curv" and "surf") and those that were superseded among them.
+constexpr std::string_view kUnused[] = {
+    "vt",     "vn",         "vp",        "g",      "s",     "mg",       "o",
+    "usemtl", "mtllib",     "usemap",    "maplib", "bevel", "c_interp", "d_interp",
+    "lod",    "shadow_obj", "trace_obj", "ctech",  "stech", "cstype",   "deg",
+    "bmat",   "step",       "parm",      "trim",   "hole",  "scrv",     "sp",
+    "end",    "con",        "curv2",     "res",    "csh"};
+
 class ObjReader {
  public:
   explicit ObjReader(std::string_view bytes) : lines_(bytes) {}
@@ -44,9 +53,18 @@ class ObjReader {
   Result<void> statement(std::string_view line) {
     const std::string_view keyword = detail::take_word(line);
     if (keyword == "v") return vertex(line);
-    if (keyword == "f" || keyword == "l") element(line, keyword == "f");
-    if (core::parse_number(keyword)) note("numbers without a statement's name");
-    if (keyword == "curv" || keyword == "surf") note("free-form " + std::string(keyword));
+    if (keyword.empty() || keyword.front() == '#') return {};
+    const bool face = keyword == "f" || keyword == "fo";  // "fo": as older programs write faces
+    if (face || keyword == "l")
+      element(line, face);
+    else if (core::parse_number(keyword))
+      note("numbers without a statement's name");
+    else if (keyword == "curv" || keyword == "surf")
+      note("free-form " + std::string(keyword));
+    else if (keyword == "p" || keyword == "call")
+      note(keyword == "p" ? "points by themselves" : "what another file holds");
+    else if (std::ranges::find(kUnused, keyword) == std::end(kUnused))
+      note("\"" + std::string(core::whole_characters(keyword, 30)) + "\" is no statement of OBJ");
     return {};
   }
 
@@ -102,7 +120,7 @@ class ObjReader {
 }  // namespace
 
 Result<Mesh> read_obj(std::string_view bytes) {
-  if (!detail::starts_as_utf16(bytes)) return ObjReader(bytes).read();
+  if (!detail::starts_as_utf16(bytes)) return ObjReader(detail::without_mark(bytes)).read();
   return ObjReader(detail::in_utf8(std::string(bytes))).read();
 }
 

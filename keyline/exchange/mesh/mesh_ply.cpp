@@ -23,6 +23,7 @@ class PlyReader {
   Result<Mesh> read() {
     for (const PlyElement& element : header_.elements)
       if (auto done = read(element); !done) return std::unexpected(done.error());
+    mesh_.skipped = detail::other_elements(header_);
     if (bad_points_ > 0)
       mesh_.skipped.push_back(core::counted(bad_points_, "vertex that is", "vertices that are") +
                               " not finite");
@@ -67,8 +68,7 @@ class PlyReader {
   Result<void> read_list(const PlyProperty& property, bool faces) {
     const auto count = values_.next_count(*property.count);
     if (!count) return std::unexpected(count.error());
-    const bool wanted =
-        faces && (property.name == "vertex_indices" || property.name == "vertex_index");
+    const bool wanted = faces && detail::is_vertex_list(property);
     corners_.clear();
     bool known = true;
     for (std::size_t i = 0; i < *count; ++i) {

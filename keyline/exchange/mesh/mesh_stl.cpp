@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <unordered_map>
 
 #include "keyline/core/text.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/byte_lines.h"
@@ -18,6 +21,9 @@ using core::Result;
 
 constexpr std::size_t kHeader = 84;
 constexpr std::size_t kTriangle = 50;
+constexpr std::size_t kMostNotes = 1000;
+constexpr std::string_view kStatements[] = {"solid",   "facet",    "outer",   "vertex",
+                                            "endloop", "endfacet", "endsolid"};
 
 /// Equal corners of triangles as one vertex.
 class Vertices {
@@ -111,6 +117,13 @@ Result<Mesh> read_text(std::string_view bytes) {
   for (std::string_view line; lines.next(line);) {
     const std::string word = detail::lower_case(detail::take_word(line));
     if (word == "solid" || word == "endsolid") open = word == "solid";
+    if (!word.empty() && std::ranges::find(kStatements, word) == std::end(kStatements)) {
+      auto& skipped = vertices.mesh().skipped;
+      if (skipped.size() < kMostNotes)
+        skipped.push_back(lines.place() + ": \"" + std::string(core::whole_characters(word, 30)) +
+                          "\" is no statement of STL");
+      continue;
+    }
     const bool ends = word == "endloop";
     if (ends || word == "facet" || word == "endfacet" || word == "endsolid") {
       if (have != (ends ? 3 : 0))

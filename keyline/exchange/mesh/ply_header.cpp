@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "keyline/core/text.h"
+#include "keyline/core/utf8.h"
 #include "keyline/exchange/text/byte_lines.h"
 
 namespace keyline::exchange::detail {
@@ -132,6 +133,23 @@ Result<void> check_vertices(const PlyHeader& header) {
         }) != 1)
       return failure(std::string("the vertices need ") + name + " as a property, once");
   return {};
+}
+
+bool is_vertex_list(const PlyProperty& property) {
+  return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+std::vector<std::string> other_elements(const PlyHeader& header) {
+  std::vector<std::string> others;
+  for (const PlyElement& e : header.elements) {
+    if (e.count == 0 || e.name == "vertex") continue;
+    const bool face = e.name == "face";
+    if (face && std::ranges::any_of(e.properties, is_vertex_list)) continue;
+    const std::string name(core::whole_characters(e.name, 30));
+    others.push_back(core::counted(e.count, "element") + " of the name \"" + name + '"' +
+                     (face ? ": the header gives them no vertex_indices" : ""));
+  }
+  return others;
 }
 
 PlyValues::PlyValues(std::string_view bytes, const PlyHeader& header)

@@ -42,6 +42,12 @@ core::Result<PlyHeader> read_ply_header(std::string_view bytes);
 /// and z, each once.
 core::Result<void> check_vertices(const PlyHeader& header);
 
+/// In words, what of the file is no vertex and no face with a list of vertices.
+std::vector<std::string> other_elements(const PlyHeader& header);
+
+/// True for the list of a face's vertices.
+bool is_vertex_list(const PlyProperty& property);
+
 /// Reads values one after the other, binary or as words. Past the end it gives failures with the
 /// place: "byte N" or "line N".
 class PlyValues {

@@ -159,8 +159,9 @@ Result<Left> stream_vertices(std::istream& in, const detail::PlyHeader& header,
         ++missing;
     }
   }
-  if (missing == 0) return Left{};
-  return Left{core::counted(missing, "point") + " that are not finite"};
+  Left left = detail::other_elements(header);
+  if (missing > 0) left.push_back(core::counted(missing, "point") + " that are not finite");
+  return left;
 }
 
 Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, const Take& take) {

@@ -16,6 +16,7 @@
 #include "keyline/exchange/text/byte_lines.h"
 #include "keyline/exchange/text/header_unit.h"
 #include "keyline/exchange/text/text_table.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
 namespace {
@@ -99,6 +100,9 @@ class HullCsv {
   }
 
   Result<HullTable> read() {
+    if (!other_unit_.empty())
+      return fail(ErrorCode::bad_input, "the table is in two units, one of them " + other_unit_,
+                  "give one", lines_.place());
     const auto across = axis_across();
     if (!across) return std::unexpected(across.error());
     if (!std::all_of(across->begin(), across->end(), [](double v) { return std::isfinite(v); }))
@@ -171,7 +175,9 @@ class HullCsv {
   void take_unit(std::string_view text) {
     const std::string unit =
         detail::unit_in_words(text.substr(text.find(':') == text.npos ? 0 : text.find(':') + 1));
-    if (!unit.empty()) unit_ = unit;
+    if (unit.empty()) return;
+    if (!unit_.empty() && unit_ != unit) other_unit_ = unit;
+    unit_ = unit;
   }
 
   std::optional<double> number(std::string_view field) {
@@ -225,6 +231,10 @@ class HullCsv {
     for (std::size_t k = 1; k < fields.size(); ++k) {
       const auto value = number(fields[k]);
       if (!value || std::abs(*value) > core::kLargestCoordinate) return misplaced(k);
+      if (*value < 0)
+        return fail(ErrorCode::bad_input,
+                    "the half-breadth in column " + std::to_string(k + 1) + " is negative",
+                    "mend it, or leave it empty outside the hull", lines_.place());
       values.push_back(*value);
     }
     return values;
@@ -260,24 +270,20 @@ class HullCsv {
   detail::TableStyle style_;
   std::vector<std::string_view> header_;
   std::string unit_;
+  std::string other_unit_;  ///< that differs from the one before it
   std::vector<std::string> left_out_;
   bool by_station_ = false;
 };
 
-std::string_view without_mark(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return text;
-}
-
 }  // namespace
 
 bool is_hull_csv(std::string_view head) {
-  HullCsv csv(without_mark(head));
+  HullCsv csv(detail::without_mark(head));
   return csv.find_header() && csv.is_table();
 }
 
 Result<HullTable> read_hull_csv(std::string_view text) {
-  HullCsv csv(without_mark(text));
+  HullCsv csv(detail::without_mark(text));
   if (!csv.find_header())
     return fail(ErrorCode::bad_input, "this is no table of offsets",
                 "start it with \"waterline\" and the stations", "line 1");

@@ -28,7 +28,7 @@ struct HullTable {
 /// Numbers plain, as fractions (3 1/2) or, in feet, as feet-inches-eighths (2-3-4, and 2-3-4+ for a
 /// sixteenth more). Text behind the rows is `left_out`, and cells that a row has fewer than the
 /// first line, which are outside the hull. Fails: bad_input with "line N", also where a station or
-/// a waterline stands twice.
+/// a waterline stands twice or a half-breadth is negative.
 core::Result<HullTable> read_hull_csv(std::string_view text);
 bool is_hull_csv(std::string_view head);
 

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "keyline/core/text.h"
+#include "keyline/exchange/text/byte_lines.h"
+#include "keyline/exchange/text/utf16.h"
 
 namespace keyline::exchange {
 namespace {
@@ -14,13 +17,8 @@ using core::Result;
 
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
-  constexpr std::string_view kBlank = " \t\r";
-  for (std::size_t at = line.find_first_not_of(kBlank); at != std::string_view::npos;
-       at = line.find_first_not_of(kBlank, at)) {
-    const std::size_t end = std::min(line.find_first_of(kBlank, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
+  for (auto word = detail::take_word(line); !word.empty(); word = detail::take_word(line))
+    words.push_back(word);
   return words;
 }
 
@@ -33,18 +31,16 @@ bool parse(std::string_view text, double& value) {
 class Reader {
  public:
   Result<ScapDrawing> read(std::string_view text) {
-    while (!text.empty()) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      ++line_;
-      if (!take(words_of(text.substr(0, end))))
+    detail::ByteLines lines(detail::without_mark(text));
+    for (std::string_view line; lines.next(line);) {
+      place_ = lines.place();
+      if (!take(words_of(line)))
         return core::fail(core::ErrorCode::bad_input, "is no line of a .scap file",
-                          "strokes are { #id group, x y … }", "line " + std::to_string(line_));
-      text.remove_prefix(std::min(end + 1, text.size()));
+                          "strokes are { #id group, x y … }", place_);
     }
     if (inside_)
       return core::fail(core::ErrorCode::bad_input, "the file ends within a stroke",
-                        "check that it is complete", "line " + std::to_string(line_));
-    std::erase_if(drawing_.strokes, [](const ScapStroke& s) { return s.points.empty(); });
+                        "check that it is complete", place_);
     if (drawing_.strokes.empty())
       return core::fail(core::ErrorCode::bad_input, "holds no stroke", "give a .scap drawing");
     return std::move(drawing_);
@@ -56,13 +52,13 @@ class Reader {
     if (words[0] == "{") {
       if (inside_ || words.size() > 1) return false;
       drawing_.strokes.emplace_back();
+      begin_ = place_;
       columns_ = 0;
+      numbered_ = false;
       return inside_ = true;
     }
     if (words[0] == "}") {
-      const bool was = inside_;
-      inside_ = false;
-      return was && words.size() == 1;
+      return std::exchange(inside_, false) && words.size() == 1 && keep_stroke();
     }
     double a = 0;
     double b = 0;
@@ -80,12 +76,21 @@ class Reader {
       auto& points = drawing_.strokes.back().points;
       if (points.empty() || points.back() != core::Point2{a, b}) points.push_back({a, b});
     } else if (inside_) {
+      if (numbered_ || a != std::floor(a) || b != std::floor(b)) return false;
+      numbered_ = true;
       drawing_.strokes.back().id = static_cast<int>(a);
       drawing_.strokes.back().group = static_cast<int>(b);
     } else {
       drawing_.width = a;
       drawing_.height = b;
     }
+    return true;
+  }
+
+  bool keep_stroke() {
+    if (!drawing_.strokes.back().points.empty()) return true;
+    drawing_.strokes.pop_back();
+    drawing_.left_out.push_back(begin_ + ": a stroke without points");
     return true;
   }
 
@@ -100,7 +105,9 @@ class Reader {
 
   ScapDrawing drawing_;
   std::size_t columns_ = 0;
-  int line_ = 0;
+  std::string place_;      ///< of the line being read
+  std::string begin_;      ///< of the last stroke's {
+  bool numbered_ = false;  ///< that stroke has its "#id group"
   bool inside_ = false;
 };
 

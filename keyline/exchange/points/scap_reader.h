@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct ScapStroke {
 struct ScapDrawing {
   double width = 0;  ///< of the canvas
   double height = 0;
-  double pen = 1;                   ///< width of the pen
-  std::vector<ScapStroke> strokes;  ///< y as in the file, downwards
+  double pen = 1;                          ///< width of the pen
+  std::vector<ScapStroke> strokes;         ///< y as in the file, downwards; each has a point
+  std::vector<std::string> left_out = {};  ///< strokes without points, with their lines
 };
 
 /// A stroke's points with y upwards, from the canvas's lower side.
@@ -28,7 +30,8 @@ std::vector<core::Point2> upright(const ScapDrawing& drawing, const ScapStroke& 
 /// Reads "#width height", "@pen" and blocks { #id group, x y … }; what stands behind the blocks in
 /// lines that start with # is skipped.
 /// Fails: bad_input with "line N" for anything else, numbers that are not finite, rows of more or
-/// fewer numbers than their stroke's first, a stroke that does not end, or no stroke.
+/// fewer numbers than their stroke's first, numbers of strokes and groups that are not whole or
+/// given twice, a stroke that does not end, or no stroke.
 core::Result<ScapDrawing> read_scap(std::string_view text);
 
 }  // namespace keyline::exchange

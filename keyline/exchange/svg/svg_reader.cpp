@@ -16,6 +16,7 @@
 #include "keyline/exchange/svg/svg_text.h"
 #include "keyline/exchange/svg/svg_transform.h"
 #include "keyline/exchange/svg/svg_unseen.h"
+#include "keyline/exchange/svg/xml_oddities.h"
 #include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange {
@@ -61,6 +62,7 @@ class SvgReader {
                            " of its style sheets: only plain selectors are followed");
     if (!full_)
       for (auto& [node, what] : unseen_.told(root)) skip(line(node), std::move(what));
+    for (auto& [node, what] : detail::xml_oddities(root)) skip(line(node), std::move(what));
     sort_skipped();
     return std::move(contents_);
   }

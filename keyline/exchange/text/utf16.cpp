@@ -53,8 +53,15 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return text;
 }
 
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
 std::string in_utf8(std::string bytes) {
-  return starts_as_utf16(bytes) ? from_utf16(bytes, bytes[0] == '\xfe') : std::move(bytes);
+  if (starts_as_utf16(bytes)) return from_utf16(bytes, bytes[0] == '\xfe');
+  bytes.erase(0, bytes.size() - without_mark(bytes).size());
+  return bytes;
 }
 
 std::string Utf16Decoder::next(std::string_view bytes) {

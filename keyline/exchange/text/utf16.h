@@ -18,7 +18,10 @@ std::string utf16_digits(unsigned code, std::string_view mark = "");
 /// UTF-16 as UTF-8, without byte order marks; half a character at the end is left out.
 std::string from_utf16(std::string_view bytes, bool big_endian);
 
-/// A text that starts_as_utf16() as UTF-8, anything else as it is.
+/// Without the byte order mark that some editors put before UTF-8.
+std::string_view without_mark(std::string_view text);
+
+/// A text that starts_as_utf16() as UTF-8, anything else as it is; without a byte order mark.
 std::string in_utf8(std::string bytes);
 
 /// The same a piece at a time.
