@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
-#include "keyline/analysis/comb_figures.h"
+#include "keyline/fairing/turns.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kTurn = 1e-3;   // of the range: what counts as a turn at all
-constexpr double kLevel = 0.01;  // of the range over the length: rates that count as none
 constexpr int kRounds = 4;       // in which an extremum may move on
 constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
 constexpr int kTrialSteps = 40;  // of a trial: one that does not come within the band by then fails
@@ -25,161 +22,6 @@ constexpr int kPatience = 4;  // steps: what is possible at all takes back its e
 // on any: more have only curves that follow their points' errors.
 constexpr int kInRow = 24;
 constexpr int kTries = 100;
-
-std::vector<double> curvatures(const DenseCurve& curve) {
-  std::vector<double> k;
-  for (const FitJoint& joint : curve.joints) k.push_back(joint.curvature);
-  return k;
-}
-
-double range_of(const DenseCurve& curve) {
-  const std::vector<double> k = curvatures(curve);
-  const auto [low, high] = std::minmax_element(k.begin(), k.end());
-  return *high - *low;
-}
-
-/// A swing of curvature that may go: which extrema bound it.
-struct Removal {
-  double sideways = HUGE_VAL;  ///< how far a wave of this swing and width departs from its middle
-  double share = 0;            ///< of the length
-  std::size_t first = 0;
-  std::size_t count = 0;  ///< 1 at an end, else 2
-};
-
-/// Amplitude of a wave whose curvature swings by so much over half a wave's length: of
-/// swing/2 * sin(pi s / half), integrated twice.
-double sideways(double swing, double half) {
-  return 0.5 * std::abs(swing) * half * half / (std::numbers::pi * std::numbers::pi);
-}
-
-std::vector<Removal> removals(const DenseCurve& curve, const std::vector<int>& extrema) {
-  std::vector<Removal> all;
-  const std::size_t n = extrema.size();
-  const auto add = [&](int a, int b, double lap, std::size_t first, std::size_t count) {
-    const double swing = (curve.joints[b].curvature - curve.joints[a].curvature) / curve.length;
-    const double half = std::abs(curve.at[b] - curve.at[a] + lap) * curve.length;
-    all.push_back({sideways(swing, half), half / curve.length, first, count});
-  };
-  for (std::size_t i = 0; i + 1 < n; ++i) add(extrema[i], extrema[i + 1], 0, i, 2);
-  if (curve.closed) {
-    if (n > 2) add(extrema[n - 1], extrema[0], 1, n - 1, 2);
-  } else if (n > 0) {
-    add(0, extrema[0], 0, 0, 1);
-    add(extrema[n - 1], static_cast<int>(curve.joints.size()) - 1, 0, n - 1, 1);
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Removal& a, const Removal& b) { return a.sideways < b.sideways; });
-  return all;
-}
-
-std::vector<int> without(const std::vector<int>& extrema, const std::vector<Removal>& gone) {
-  std::vector<char> stays(extrema.size(), 1);
-  for (const Removal& r : gone)
-    for (std::size_t i = 0; i < r.count; ++i) stays[(r.first + i) % extrema.size()] = 0;
-  std::vector<int> left;
-  for (std::size_t i = 0; i < extrema.size(); ++i)
-    if (stays[i]) left.push_back(extrema[i]);
-  return left;
-}
-
-/// Senses of the cells for extrema at these nodes, alternately as the curve has them.
-void set_senses(DenseCurve& curve, const std::vector<int>& extrema) {
-  const std::size_t cells = curve.joints.size() - 1;
-  curve.sense.assign(cells, 0);
-  const auto k = [&](int node) { return curve.joints[node].curvature; };
-  const auto mark = [&](int from, int to, double rise) {
-    for (int c = from; c < to; ++c) curve.sense[c] = rise < 0 ? -1 : 1;
-  };
-  const int last = static_cast<int>(cells);
-  if (extrema.empty()) {
-    if (!curve.closed) mark(0, last, k(last) - k(0));
-    return;
-  }
-  for (std::size_t i = 0; i + 1 < extrema.size(); ++i)
-    mark(extrema[i], extrema[i + 1], k(extrema[i + 1]) - k(extrema[i]));
-  if (extrema.size() == 1) {
-    // One turn: up to it what is lower, or down to it what is higher, than the ends' mean.
-    const double ends = 0.5 * (k(0) + k(last));
-    mark(0, extrema[0], k(extrema[0]) - ends);
-    mark(extrema[0], last, ends - k(extrema[0]));
-    return;
-  }
-  const double first = k(extrema[1]) - k(extrema[0]);
-  const double end = k(extrema.back()) - k(extrema[extrema.size() - 2]);
-  mark(0, extrema.front(), -first);
-  mark(extrema.back(), last, -end);
-}
-
-/// Cells beside an extremum along which curvature stays as it is, `way` from it, up to `most`.
-int level_cells(const DenseCurve& curve, int node, int way, int most, double least_rate) {
-  int count = 0;
-  for (; count < most; ++count) {
-    const int c = way > 0 ? node + count : node - count - 1;
-    const double rise = curve.joints[c + 1].curvature - curve.joints[c].curvature;
-    if (std::abs(rise) > least_rate * (curve.at[c + 1] - curve.at[c])) break;
-  }
-  return count;
-}
-
-}  // namespace
-
-std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extrema) {
-  std::vector<int> now = extrema;
-  const double least_rate = kLevel * range_of(curve);
-  const int last = static_cast<int>(curve.joints.size()) - 1;
-  for (std::size_t i = 0; i < extrema.size(); ++i) {
-    const int before = i == 0 ? 0 : extrema[i - 1];
-    const int after = i + 1 == extrema.size() ? last : extrema[i + 1];
-    const int back = level_cells(curve, extrema[i], -1, extrema[i] - before - 1, least_rate);
-    const int on = level_cells(curve, extrema[i], 1, after - extrema[i] - 1, least_rate);
-    if (back == 0 && on > 0) now[i] += on;
-    if (on == 0 && back > 0) now[i] -= back;
-  }
-  return now;
-}
-
-std::vector<int> extrema_of(const DenseCurve& curve, double least) {
-  const std::vector<double> k = curvatures(curve);
-  const int n = static_cast<int>(k.size());
-  std::vector<int> found;
-  // A closed curve is read from its highest node on.
-  const int start =
-      curve.closed ? static_cast<int>(std::max_element(k.begin(), k.end()) - k.begin()) : 0;
-  const auto node = [&](int i) { return curve.closed ? (start + i) % (n - 1) : i; };
-  int low = node(0);
-  int high = node(0);
-  int way = curve.closed ? -1 : 0;
-  if (curve.closed) found.push_back(node(0));
-  for (int i = 0; i < n; ++i) {
-    const int at = node(i);
-    if (k[at] < k[low]) low = at;
-    if (k[at] > k[high]) high = at;
-    if (way >= 0 && k[at] < k[high] - least) {
-      if (way > 0) found.push_back(high);
-      way = -1;
-      low = at;
-    } else if (way <= 0 && k[at] > k[low] + least) {
-      if (way < 0) found.push_back(low);
-      way = 1;
-      high = at;
-    }
-    if (way > 0) low = at;
-    if (way < 0) high = at;
-  }
-  if (curve.closed && found.size() == 1) found.clear();
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-std::vector<int> turns_of(const DenseCurve& curve) {
-  return extrema_of(curve, kTurn * range_of(curve));
-}
-
-int seen_waves(const DenseCurve& curve) {
-  return analysis::comb_figures({curve.at, curvatures(curve)}).waves;
-}
-
-namespace {
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
                          std::vector<int> extrema, double spring, const CalmOptions& options) {
@@ -216,7 +58,7 @@ class Calming {
 
  private:
   void take_waves() {
-    take(extrema_of(curve_, analysis::kSeenWave * range_of(curve_)), true);
+    take(seen_turns_of(curve_), true);
     while (!options_.band.progress.stop_requested() && (together() || single()));
     if (options_.most_turns) keep_to(*options_.most_turns);
   }

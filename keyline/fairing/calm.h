@@ -8,21 +8,6 @@
 
 namespace keyline::fairing::detail {
 
-/// Nodes of the curve where curvature turns, alternately highest and lowest, every swing between
-/// neighbours (and to the ends of an open curve) at least `least`.
-std::vector<int> extrema_of(const DenseCurve& curve, double least);
-
-/// The same where a thousandth of the curvature's range counts as a swing: its turns.
-std::vector<int> turns_of(const DenseCurve& curve);
-
-/// Extrema of a solved curve moved on: where curvature is kept from running on beyond one, it is
-/// level on that side alone (its rate below a hundredth of its range over the length), and the
-/// extremum belongs to the other end of what is level, short of the next one.
-std::vector<int> moved_on(const DenseCurve& curve, const std::vector<int>& extrema);
-
-/// Waves that are seen in the curve's comb (see analysis::comb_figures).
-int seen_waves(const DenseCurve& curve);
-
 /// What a wave less may cost, times the energy: waves come first.
 inline constexpr double kWaveWorth = 2;
 

@@ -11,6 +11,7 @@
 #include "keyline/fairing/piece_choice.h"
 #include "keyline/fairing/settle.h"
 #include "keyline/fairing/spring_power.h"
+#include "keyline/fairing/turns.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -194,7 +195,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   calm_options.worth = kWaveWorth;
   calm_options.most_turns = options.most_turns;
   calm_options.threads = options.threads;
-  calm_options.band.progress = core::part_of(options.progress, 0, 0.7);
+  calm_options.band.progress = options.progress;
   const Calmed calmed = calm_curve(run.curve, points, closed, options, calm_options);
   run.band = calmed.band;
   run.waves = calmed.waves;

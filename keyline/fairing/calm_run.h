@@ -33,7 +33,7 @@ struct CalmRun {
 /// calmed, its straight stretches laid as lines, its graph of curvature cut into as few
 /// log-aesthetic pieces as lose little, the pieces solved for again in the tolerance, of which the
 /// calm curve leaves them a tenth, or else a fifth or a third; where they cannot keep it, the mean
-/// square or a fifth more than the energy, they are cut with half the loss.
+/// square or a twentieth more than the energy, they are cut with half the loss.
 ///
 /// Where fitted points are means, their spread is measured again about the calm curve.
 ///

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "keyline/fairing/calm.h"
 #include "keyline/fairing/straights.h"
+#include "keyline/fairing/turns.h"
 
 namespace keyline::fairing::detail {
 namespace {

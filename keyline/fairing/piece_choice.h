@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "keyline/fairing/calm.h"
 #include "keyline/fairing/calm_run.h"
+#include "keyline/fairing/turns.h"
 
 namespace keyline::fairing::detail {
 

@@ -21,6 +21,7 @@
 #include "keyline/fairing/shortest_run.h"
 #include "keyline/fairing/straight_run.h"
 #include "keyline/fairing/stretches.h"
+#include "keyline/fairing/turns.h"
 
 namespace keyline::fairing::detail {
 namespace {

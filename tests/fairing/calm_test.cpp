@@ -8,85 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/fairing/turns.h"
 
-/// Turns of curvature.
+/// Waves of curvature taken out.
 namespace keyline::fairing::detail {
 namespace {
-
-DenseCurve of(const std::vector<double>& curvatures, bool closed = false) {
-  DenseCurve curve;
-  curve.closed = closed;
-  for (std::size_t i = 0; i < curvatures.size(); ++i) {
-    curve.at.push_back(double(i) / double(curvatures.size() - 1));
-    curve.joints.push_back({{}, 0, curvatures[i]});
-  }
-  return curve;
-}
-
-using Nodes = std::vector<int>;
-
-TEST(Extrema, AreWhereCurvatureTurnsByEnough) {
-  const DenseCurve wave = of({0, 1, 3, 2, 2.5, 0, 1});
-  EXPECT_EQ(extrema_of(wave, 0.6), (Nodes{2, 5}));
-  EXPECT_EQ(extrema_of(wave, 0.4), (Nodes{2, 3, 4, 5}));
-  EXPECT_EQ(extrema_of(wave, 2.9), Nodes{2});
-  EXPECT_EQ(extrema_of(wave, 3.1), Nodes{});
-}
-
-// A swing of exactly the least is none; the last way is to be gone as far as all others.
-TEST(Extrema, SwingsAreLargerThanTheLeast) {
-  EXPECT_EQ(extrema_of(of({0, 1, 0}), 1), Nodes{});
-  EXPECT_EQ(extrema_of(of({0, 1, 0}), 0.99), Nodes{1});
-  EXPECT_EQ(extrema_of(of({1, 0, 1}), 0.99), Nodes{1});
-  EXPECT_EQ(extrema_of(of({1, 0, 0.5}), 0.6), Nodes{});
-}
-
-TEST(Extrema, OfMonotoneCurvatureAreNone) {
-  EXPECT_EQ(extrema_of(of({0, 1, 2, 3}), 0.1), Nodes{});
-  EXPECT_EQ(extrema_of(of({3, 2, 1, 0}), 0.1), Nodes{});
-  EXPECT_EQ(extrema_of(of({1, 1, 1}), 0.1), Nodes{});
-}
-
-// Of equal ones the first.
-TEST(Extrema, StandAtTheFirstOfEquals) {
-  EXPECT_EQ(extrema_of(of({0, 2, 2, 0}), 0.5), Nodes{1});
-  EXPECT_EQ(extrema_of(of({2, 0, 0, 2}), 0.5), Nodes{1});
-}
-
-// Of a closed curve the highest node is one, and they come in pairs.
-TEST(Extrema, OfClosedCurvesGoRound) {
-  EXPECT_EQ(extrema_of(of({1, 3, 1, -1, 1}, true), 0.5), (Nodes{1, 3}));
-  EXPECT_EQ(extrema_of(of({3, 1, 2, 0, 3}, true), 0.5), (Nodes{0, 1, 2, 3}));
-  EXPECT_EQ(extrema_of(of({1, 2, 0, 3, 1}, true), 0.5), (Nodes{0, 1, 2, 3}));
-  EXPECT_EQ(extrema_of(of({1, 1, 1, 1}, true), 0.5), Nodes{});
-}
-
-TEST(Turns, CountFromAThousandthOfTheRange) {
-  EXPECT_EQ(turns_of(of({0, 10, 9.989, 10, 0})).size(), 3U);
-  EXPECT_EQ(turns_of(of({0, 10, 9.991, 10, 0})).size(), 1U);
-}
-
-TEST(MovedOn, ExtremaStandAtTheFarEndOfWhatIsLevel) {
-  const DenseCurve hill = of({0, 5, 10, 10, 10, 5, 0, 0, 0, 0, 0});
-  EXPECT_EQ(moved_on(hill, {2}), Nodes{4});
-  EXPECT_EQ(moved_on(hill, {4}), Nodes{2});
-  EXPECT_EQ(moved_on(hill, {3}), Nodes{3});          // level on both sides
-  EXPECT_EQ(moved_on(hill, {5}), Nodes{5});          // on neither
-  EXPECT_EQ(moved_on(hill, {2, 6}), (Nodes{4, 9}));  // short of the end
-  EXPECT_EQ(moved_on(hill, {2, 3}), (Nodes{2, 4}));  // and of each other
-  EXPECT_EQ(moved_on(hill, {2, 9}), (Nodes{4, 6}));
-  EXPECT_EQ(moved_on(hill, {}), Nodes{});
-}
-
-// A range of 10 over the length: of a tenth of it a hundredth is 0.01.
-TEST(MovedOn, LevelIsAHundredthOfTheRange) {
-  const auto moved = [](double next) {
-    return moved_on(of({0, 5, 10, next, 5, 0, 1, 2, 3, 4, 5}), {2});
-  };
-  EXPECT_EQ(moved(9.9901), Nodes{3});
-  EXPECT_EQ(moved(9.9899), Nodes{2});
-  EXPECT_EQ(moved_on(of({0, -5, -10, -9.9901, -5, 0, 1, 2, 3, 4, 0}, true), {2}), Nodes{3});
-}
 
 /// A wave along points of a line, as high as given, in the middle of the length.
 struct Given {
@@ -316,6 +242,129 @@ TEST(Calm, WhereAClosedCurveBeginsTellsNothing) {
     EXPECT_TRUE(calmed.band.within);
     EXPECT_EQ(calmed.waves.turns, 4) << start;
   }
+}
+
+/// Points of a curve whose curvature swings to and fro with so many turns, ever more.
+Given swinging(int turns, double by = 40) {
+  const int n = 4 * (turns + 1);
+  return of_curvature(
+      [turns, by](double t) {
+        return 1 - by * (1 + 0.5 * t) * std::cos(core::kPi * (turns + 1) * t);
+      },
+      n);
+}
+
+// None may go, for the mean square is kept as it is, and no two are alike: 24 in a row are tried,
+// the swings beside 23 turns. One more is told, on any number of threads.
+TEST(Calm, TwentyFourWavesThatStayAreTriedInARow) {
+  for (const int threads : {1, 3})
+    for (const int turns : {23, 24}) {
+      Given g = swinging(turns);
+      CalmOptions options;
+      options.band.tolerance = 2e-2;
+      options.band.rms = 1e-6;
+      options.most_rms = 2e-6;
+      options.threads = threads;
+      const Calmed calmed = calm(g.curve, g.points, options);
+      EXPECT_EQ(calmed.waves.turns, turns) << threads;
+      EXPECT_EQ(calmed.waves.untried, turns > 23) << threads;
+    }
+}
+
+// A swing that is wider than four tolerances cannot go, so that it need not be tried; what is left
+// untried is told only of those that might.
+TEST(Calm, WavesWiderThanTheBandAreNotMissed) {
+  Given g = swinging(30);
+  CalmOptions options;
+  options.band.tolerance = 1e-4;
+  const Calmed calmed = calm(g.curve, g.points, options);
+  EXPECT_EQ(calmed.waves.turns, 30);
+  EXPECT_FALSE(calmed.waves.untried);
+}
+
+// As few turns as asked for, and no fewer than one more wave taken makes them, two.
+TEST(Calm, KeepsToTheTurnsAskedFor) {
+  for (const int asked : {6, 5, 4, 3, 2, 1}) {
+    Given g = swinging(6, 4);
+    CalmOptions options;
+    options.band.tolerance = 5e-2;
+    options.band.rms = 1e-6;
+    options.most_rms = 2e-6;
+    options.most_turns = asked;
+    const Calmed calmed = calm(g.curve, g.points, options);
+    EXPECT_TRUE(calmed.band.within) << asked;
+    EXPECT_EQ(calmed.waves.turns, static_cast<int>(turns_of(g.curve).size()));
+    EXPECT_LE(calmed.waves.turns, asked);
+    EXPECT_GE(calmed.waves.turns, asked - 1);
+  }
+}
+
+// A roof whose ridge stands elsewhere on the curve at hand than along the points: it moves there,
+// and the variation is the least that any curve in the tolerance has, to what a trial may be off.
+// With the ridge where it was it is a twentieth more.
+TEST(Calm, TurnsMoveToWhereThePointsHaveThem) {
+  const auto roof = [](double ridge) {
+    return of_curvature([ridge](double t) { return 3 - 8 * std::abs(t - ridge); }, 100);
+  };
+  const Given g = roof(0.5);
+  CalmOptions options;
+  options.band.tolerance = 1e-5;
+  DenseCurve least = g.curve;
+  const double energy =
+      least_variation(least, g.points, {.tolerance = 1e-5, .gap = 1e-4, .progress = {}}).energy;
+  for (const double ridge : {0.47, 0.53}) {
+    const DenseCurve elsewhere = roof(ridge).curve;
+    DenseCurve curve = g.curve;
+    for (std::size_t i = 0; i < curve.joints.size(); ++i)
+      curve.joints[i].curvature = elsewhere.joints[i].curvature;
+    set_free(curve);
+    const BandReport found = calm_again(curve, g.points, 0, options);
+    EXPECT_TRUE(found.within) << ridge;
+    EXPECT_GE(found.energy, energy * (1 - 1e-3)) << ridge;
+    EXPECT_LE(found.energy, energy * 1.03) << ridge;
+  }
+}
+
+/// Whether a curve with these turns alone would have been better, by the rule.
+bool worth_it(const Given& g, const std::vector<int>& extrema, const BandReport& now,
+              const CalmOptions& options) {
+  DenseCurve trial = g.curve;
+  set_senses(trial, extrema);
+  const BandReport found = least_variation(trial, g.points,
+                                           {.tolerance = options.band.tolerance,
+                                            .gap = 0.03,
+                                            .warm = true,
+                                            .spring = now.spring,
+                                            .progress = {}});
+  return found.within && found.rms <= options.most_rms &&
+         found.energy <= options.worth * now.energy &&
+         turns_of(trial).size() < turns_of(g.curve).size();
+}
+
+// By the definition: the curve has no swing left without which it would keep the tolerance and the
+// mean square and cost no more than it may.
+TEST(Calm, LeavesNoWaveThatMightGo) {
+  int left = 0;
+  for (const double height : {1e-3, 3e-3, 1e-2})
+    for (const double rms : {2e-4, 4e-4}) {
+      Given g = wavy(height, 80);
+      for (std::size_t j = 0; j < g.points.size(); ++j)
+        g.points[j].position.y += 3e-4 * std::sin(1.7 * static_cast<double>(j * j));
+      g.curve = dense_curve(g.points, false, 120);
+      CalmOptions options;
+      options.band.tolerance = 1e-3;
+      options.band.rms = rms;
+      options.most_rms = 1.2 * rms;
+      options.worth = 2;
+      const Calmed calmed = calm(g.curve, g.points, options);
+      EXPECT_TRUE(calmed.band.within);
+      const std::vector<int> turns = turns_of(g.curve);
+      for (const Removal& swing : removals(g.curve, turns))
+        EXPECT_FALSE(worth_it(g, without(turns, {swing}), calmed.band, options))
+            << height << ", " << rms << ": " << swing.first << " of " << turns.size();
+      left += static_cast<int>(turns.size());
+    }
+  EXPECT_GT(left, 6);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "keyline/fairing/calm_run.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/graph_pieces.h"
+#include "keyline/fairing/turns.h"
 #include "keyline/lac/chain/chain.h"
 
 #include "truth.h"

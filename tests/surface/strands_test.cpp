@@ -1,5 +1,6 @@
 #include "keyline/surface/strands.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -77,6 +78,34 @@ TEST(StrandSystem, StraightStrandsKeepTheirRatios) {
   for (int i = 0; i < 3; ++i) g.system.step(x, home, 1, {some, none});
   EXPECT_GT((x.row(12) - g.system.given().row(12)).norm(), 0.01);
   EXPECT_LT((x.row(12) - 2 * x.row(8) + x.row(4)).norm(), 1e-6);
+}
+
+// Steps that ask for the same as the one before, for the same with other weights, and for as much
+// of another row or of more: each is the step that a system makes which has made none before.
+TEST(StrandSystem, StepsDoNotDependOnThoseBefore) {
+  const std::vector<std::vector<std::size_t>> asked{{0}, {0}, {0},          {1},         {0, 1, 5},
+                                                    {1}, {},  {0, 1, 2, 3}, {4, 5, 6, 7}};
+  Given used;
+  Eigen::MatrixX3d x = used.system.given();
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    x.row(i) += 0.05 * Eigen::RowVector3d{std::sin(i), std::cos(2.0 * i), std::sin(3.0 * i)};
+  const Eigen::MatrixX3d home = x;
+  double most = 0;
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    Given fresh;
+    for (Given* g : {&used, &fresh}) {
+      for (Strand& s : g->system.strands()) s.asked = Asked::nothing;
+      for (const std::size_t i : asked[k]) g->system.strands()[i].asked = Asked::one_matrix;
+    }
+    const std::vector<double> shape(used.system.strands().size(), k == 2 ? 30 : 1);
+    const std::vector<double> none(shape.size(), 0);
+    Eigen::MatrixX3d expected = x;
+    const double way = fresh.system.step(expected, home, 1, {shape, none});
+    most = std::max(most, way);
+    EXPECT_NEAR(used.system.step(x, home, 1, {shape, none}), way, 1e-12) << k;
+    EXPECT_LT((x - expected).norm(), 1e-12) << k;
+  }
+  EXPECT_GT(most, 0.01);
 }
 
 }  // namespace
