@@ -57,6 +57,10 @@ TEST_F(CadValues, ColoursThatAreNoneAreToldAndNotGuessed) {
   ASSERT_TRUE(green) << green.error().message;
   EXPECT_EQ(green->paths.at(0).label.color, "#339900");
   EXPECT_THAT(green->skipped, IsEmpty());
+  const auto bounds = with_color("1.,1,0");
+  ASSERT_TRUE(bounds) << bounds.error().message;
+  EXPECT_EQ(bounds->paths.at(0).label.color, "#ffff00");
+  EXPECT_THAT(bounds->skipped, IsEmpty());
   for (const char* none : {"0.2,0.4", "$,0.4,0.6", "-0.2,0.4,0.6", "0.2,0.4,1.001"}) {
     const auto read = with_color(none);
     ASSERT_TRUE(read) << none << ": " << read.error().message;

@@ -192,15 +192,15 @@ std::optional<std::size_t> count_of(int type, const Words& words) {
   if (const auto fixed = fixed_count_of(type)) return fixed;
   const auto a = count_at(words, 1), b = count_at(words, 2), c = count_at(words, 3),
              d = count_at(words, 4);
+  if (type == 102 && a) return 2 + *a;
+  if (type == 143 && c) return 4 + *c;
+  if (type == 144 && c) return 5 + *c;
   if (!a || !b) return std::nullopt;
-  if (type == 102) return 2 + *a;
   if (type == 106 && *a >= 1 && *a <= 3) return *a == 1 ? 4 + 2 * *b : 3 + (*a == 2 ? 3 : 6) * *b;
   if (type == 126) return 18 + 5 * *a + *b;  // of index a and degree b
-  if (type == 144) return 5 + *b;
   if (!c || !d) return std::nullopt;
   if (type == 112) return 18 + 13 * *d;
   if (type == 128) return 18 + *a + *b + *c + *d + 4 * (*a + 1) * (*b + 1);
-  if (type == 143) return 4 + *c;
   return std::nullopt;
 }
 

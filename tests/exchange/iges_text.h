@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace keyline::exchange {
+
+/// An entity of an IGES file by what stands in it: its parameters, the type first, and some fields
+/// of its directory (IGES 5.3, 2.2.4.4).
+struct IgesEntity {
+  std::string parameters;
+  int level = 0;
+  int matrix = 0;  ///< line of the directory
+  int color = 0;
+  int form = 0;
+  std::string status = "00000000";
+  std::string label = {};
+  std::string subscript = {};
+};
+
+namespace iges_text {
+
+inline std::string in_columns(const std::string& value, std::size_t width) {
+  return std::string(width - std::min(width, value.size()), ' ') + value;
+}
+
+/// A line of 72 columns and its section's letter and number.
+inline std::string line(std::string text, char section, std::size_t number) {
+  text.resize(72, ' ');
+  return text + section + std::string(7 - std::to_string(number).size(), '0') +
+         std::to_string(number) + '\n';
+}
+
+}  // namespace iges_text
+
+/// A file of these in a unit (2: mm; 1 to 10), written by hand after IGES 5.3, 2.2.4.
+inline std::string iges_file(const std::vector<IgesEntity>& entities, int unit = 2) {
+  using iges_text::in_columns;
+  std::string directory, parameters;
+  std::size_t first = 1;  // parameter line
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    const IgesEntity& e = entities[i];
+    std::string own = e.parameters + ';';
+    const std::size_t lines = (own.size() + 63) / 64;
+    const std::string type = own.substr(0, own.find_first_of(",;"));
+    const auto row = [&](const std::vector<std::string>& fields, std::size_t number) {
+      std::string text;
+      for (const std::string& field : fields) text += in_columns(field, 8);
+      directory += iges_text::line(text, 'D', number);
+    };
+    const auto of = [](auto value) { return std::to_string(value); };
+    row({type, of(first), "0", "0", of(e.level), "0", of(e.matrix), "0", e.status}, 2 * i + 1);
+    row({type, "0", of(e.color), of(lines), of(e.form), "", "", e.label, e.subscript}, 2 * i + 2);
+    for (std::size_t k = 0; k < lines; ++k) {
+      std::string text = own.substr(64 * k, 64);
+      text.resize(64, ' ');
+      parameters += iges_text::line(text + in_columns(of(2 * i + 1), 8), 'P', first++);
+    }
+  }
+  const std::string global =
+      "1H,,1H;,1Ha,1Ha,1Ha,1H1,32,38,6,38,15,1Ha,1.," + std::to_string(unit) + ",1Hu,1,0.01,";
+  const std::string rest = "15H20260101.000000,1E-07,100.,1Ha,1Ha,11,0,15H20260101.000000;";
+  const auto counted = [](char section, std::size_t count) {
+    return section + in_columns(std::to_string(count), 7);
+  };
+  const std::string counts = counted('S', 1) + counted('G', 2) + counted('D', 2 * entities.size()) +
+                             counted('P', first - 1);
+  return iges_text::line("a", 'S', 1) + iges_text::line(global, 'G', 1) +
+         iges_text::line(rest, 'G', 2) + directory + parameters + iges_text::line(counts, 'T', 1);
+}
+
+}  // namespace keyline::exchange
