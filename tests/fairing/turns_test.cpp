@@ -43,6 +43,12 @@ TEST(Extrema, SwingsAreLargerThanTheLeast) {
   EXPECT_EQ(extrema_of(of({2, 0, 1}), 1), Nodes{});
 }
 
+// However slowly curvature comes to them: each step is less than what counts.
+TEST(Extrema, AreSeenFromGentleSlopesToo) {
+  EXPECT_EQ(extrema_of(of({3, 2.5, 2, 1.5, 1, 1.5, 2, 2.5}), 1), Nodes{4});
+  EXPECT_EQ(extrema_of(of({0, 0.5, 1, 1.5, 2, 1.5, 1, 0.5}), 1), Nodes{4});
+}
+
 TEST(Extrema, OfMonotoneCurvatureAreNone) {
   EXPECT_EQ(extrema_of(of({0, 1, 2, 3}), 0.1), Nodes{});
   EXPECT_EQ(extrema_of(of({3, 2, 1, 0}), 0.1), Nodes{});
