@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -6,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
 #include "keyline/lac/hermite/hermite.h"
 #include "keyline/lac/quasi/quasi.h"
+#include "keyline/lac/quasi/quasi_search.h"
 
 #include "quasi_samples.h"
 
@@ -235,6 +238,33 @@ TEST(Quasi, TaylorFormsAreFoundWhereverTheyAre) {
     const double lambda = std::abs(rate) * std::exp(-power * std::min(c.growth, 0.0));
     EXPECT_NEAR(r->lambda, lambda, 1e-9 * lambda);
   }
+}
+
+// Of a unit that is not their own turning, squares beside the straight line told nothing of them.
+TEST(Quasi, PlacesOfNearlyStraightSeriesAreWithinTheirOwnSize) {
+  for (const double turning : {1e-2, 1e-4, 1e-6}) {
+    const Piece planted{1.5, 1, turning, 0.7 * turning};
+    const detail::TaylorSeries series =
+        taylor_series(detail::unit_piece(planted), detail::SeriesVariable::arc_length, 0.5, 6);
+    const detail::EndEdges edges = taylor_end_edges(series);
+    const auto places = detail::series_places({series.variable, planted.alpha, 0.5, 6,
+                                               core::angle_between(edges.first, edges.last),
+                                               core::angle_between(edges.first, edges.chord)});
+    const bool near = std::ranges::any_of(places, [&](const detail::SeriesPlace& p) {
+      return std::abs(p.value - series.value) < 0.01 * series.value &&
+             std::abs(p.log_rate - series.log_rate) < 0.01;
+    });
+    EXPECT_TRUE(near) << turning;
+  }
+}
+
+// Coefficients grow by 1e40: rounding hides all in some charts, and all of them was looked at.
+TEST(Quasi, HighDegreesOfSteepSlopesAreFoundInTime) {
+  const auto r = quasi_log_aesthetic(
+      {0, 0}, {0.027058328028803338, 0}, {0.054694859590574386, -2.4968441648876576e-06},
+      -46.79722830289703, {QuasiForm::taylor_arc, 27, 0.7470702009230887, false});
+  ASSERT_TRUE(r) << r.error().message;
+  EXPECT_LE(sampled_deviation(r->target, r->curve), r->deviation);
 }
 
 // Next to the border end curvatures are farther apart than edges of equal length bear.

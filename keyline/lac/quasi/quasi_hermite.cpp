@@ -74,15 +74,15 @@ class OverHandles {
                unit_.turning};
     detail::HandleSearch search(angles_, alpha_, settled);
     if (search.solve(x)) {
-      QuasiResult r = laid(x, settled);
-      r.iterations = search.iterations;
-      if (holds_tangents(r.curve)) return r;
+      if (auto r = laid(x, settled)) {
+        r->iterations = search.iterations;
+        return r;
+      }
     }
     std::optional<QuasiResult> closest;
     for (const Unknowns& found : search.all()) {
-      QuasiResult r = laid(found, settled);
-      if (!holds_tangents(r.curve)) continue;
-      if (!closest || r.deviation < closest->deviation) closest = std::move(r);
+      auto r = laid(found, settled);
+      if (r && !(closest && closest->deviation <= r->deviation)) closest = std::move(r);
     }
     return closest;
   }
@@ -158,8 +158,9 @@ class OverHandles {
     return edge > detail::kShortestHandle * extent;
   }
 
-  /// The curve of solved unknowns, with its deviation and nothing else measured.
-  QuasiResult laid(const Unknowns& x, const QuasiOptions& settled) const {
+  /// The curve of solved unknowns, with its deviation and nothing else measured; nothing where it
+  /// does not hold its tangents.
+  std::optional<QuasiResult> laid(const Unknowns& x, const QuasiOptions& settled) const {
     const UnitPiece solved = detail::piece_from(alpha_, x);
     const detail::Drawn drawn = detail::draw_form(solved, settled);
     QuasiResult r;
@@ -168,6 +169,7 @@ class OverHandles {
     r.about = settled.about.value_or(0);
     r.lambda = lambda_of(solved.piece);
     r.curve = laid_over(drawn, handles_[0], handles_[1], handles_[2], unit_.mirror);
+    if (!holds_tangents(r.curve)) return std::nullopt;
     const double chord = norm(drawn.polygon.back() - drawn.polygon.front());
     r.series_bound = distance(handles_[0], handles_[2]) / chord * drawn.series_bound;
     r.deviation = deviation_bound(target_, r.curve);

@@ -1,5 +1,6 @@
 #include "keyline/lac/quasi/quasi_places.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -14,6 +15,10 @@ using core::Vector2;
 namespace {
 
 constexpr int kDepth = 9;  // of quarters: squares a 512th wide
+/// Looked at in a chart. Along a line of it curves are straight and nothing is told apart, which
+/// takes some 4,000. More than twice as many only where rounding hides all, as where coefficients
+/// of a high degree grow by 1e40.
+constexpr int kMostSquares = 8192;
 
 /// Bernstein coefficients of a polynomial over the unit square, of one degree in either variable.
 class Net {
@@ -88,12 +93,12 @@ Directions directions(const Net& net) {
           direction + core::angle_between(middle, high)};
 }
 
-/// Whether one of `to` may lie by the angle, or by whole turns more, beyond one of `from`.
-bool may_differ(const Directions& from, const Directions& to, double angle) {
-  constexpr double kRounding = 1e-9;
+/// Whether one of `to` may lie by the angle, or by whole turns more, beyond one of `from`, but for
+/// rounding.
+bool may_differ(const Directions& from, const Directions& to, double angle, double rounding) {
   const double low = to.low - from.high - angle, high = to.high - from.low - angle;
   return !std::isfinite(high - low) ||
-         std::abs(core::wrap_angle(0.5 * (low + high))) <= 0.5 * (high - low) + kRounding;
+         std::abs(core::wrap_angle(0.5 * (low + high))) <= 0.5 * (high - low) + rounding;
 }
 
 /// One of the squares that cover the half plane: of value, rate of the given sign and scale one is
@@ -111,7 +116,7 @@ struct Chart {
   }
 };
 
-/// Terms of velocity, coefficient k of which is the sum over j of terms[k][j] (i value)^j
+/// Terms of velocity, coefficient k of which is the sum over j of terms[k][j] (i value / unit)^j
 /// rate^{k-j}.
 using Terms = std::array<std::array<double, kMaxTaylorDegree>, kMaxTaylorDegree>;
 
@@ -131,7 +136,7 @@ struct Square {
 
 class Search {
  public:
-  explicit Search(const SeriesWanted& wanted) : wanted_(wanted) {
+  Search(const SeriesWanted& wanted, double unit) : wanted_(wanted), unit_(unit) {
     const double decay =
         wanted.variable == SeriesVariable::arc_length ? wanted.alpha : 1 - wanted.alpha;
     std::array<double, kMaxTaylorDegree> law{1};
@@ -140,13 +145,16 @@ class Search {
       arc_terms(law);
     else
       angle_terms(law);
+    double power = 1;
+    for (int j = 0; j < wanted.degree; ++j, power *= unit_)
+      for (int k = j; k < wanted.degree; ++k) terms_[k][j] *= power;
   }
 
   std::vector<SeriesPlace> places() {
     for (const int fixed : {0, 1, 2})
       for (const double sign : {-1.0, 1.0}) {
         chart_ = {fixed, sign};
-        quarter(whole(), kDepth);
+        search_chart();
       }
     return std::move(places_);
   }
@@ -195,33 +203,50 @@ class Search {
   }
 
   bool may_hold(const Square& s) const {
+    const double rounding = 1e-9 * unit_;
     const Directions first = directions(s.first), last = directions(s.last);
-    if (!may_differ(first, last, wanted_.turning)) return false;
+    if (!may_differ(first, last, wanted_.turning, rounding)) return false;
     const Directions chord = directions(s.chord);
-    return may_differ(first, chord, wanted_.chord_angle) &&
-           may_differ(chord, last, wanted_.turning - wanted_.chord_angle);
+    return may_differ(first, chord, wanted_.chord_angle, rounding) &&
+           may_differ(chord, last, wanted_.turning - wanted_.chord_angle, rounding);
   }
 
-  void quarter(const Square& s, int depth) {
-    if (!may_hold(s)) return;
+  void search_chart() {
+    const std::size_t before = places_.size();
+    squares_ = 0;
+    if (!quarter(whole(), kDepth)) places_.resize(before);
+  }
+
+  /// False where the squares become too many.
+  bool quarter(const Square& s, int depth) {
+    if (++squares_ > kMostSquares) return false;
+    if (!may_hold(s)) return true;
     if (depth > 0) {
-      for (const Square& q : s.quarters()) quarter(q, depth - 1);
-      return;
+      for (const Square& q : s.quarters())
+        if (!quarter(q, depth - 1)) return false;
+      return true;
     }
     const auto [value, rate, scale] = chart_.homogeneous(s.x + 0.5 * s.width, s.y + 0.5 * s.width);
-    places_.push_back({value / scale, rate / scale});
+    places_.push_back({unit_ * value / scale, rate / scale});
+    return true;
   }
 
   SeriesWanted wanted_;
+  double unit_ = 1;  ///< of value
   Terms terms_{};
   Chart chart_;
   std::vector<SeriesPlace> places_;
+  int squares_ = 0;
 };
 
 }  // namespace
 
 std::vector<SeriesPlace> series_places(const SeriesWanted& wanted) {
-  return Search(wanted).places();
+  std::vector<SeriesPlace> places = Search(wanted, 1).places();
+  if (!(wanted.turning < 1)) return places;
+  // What turns little is near a line of those charts; there its own turning is the unit.
+  for (const SeriesPlace& p : Search(wanted, wanted.turning).places()) places.push_back(p);
+  return places;
 }
 
 }  // namespace keyline::lac::detail

@@ -28,7 +28,8 @@ struct SeriesWanted {
 ///
 /// Both end edges and the chord are polynomials of both unknowns. In homogeneous coordinates the
 /// half plane of positive values is covered by unit squares; one is left out when the directions of
-/// its Bernstein coefficients cannot differ as wanted, else quartered.
+/// its Bernstein coefficients cannot differ as wanted, else quartered. Of a degree or slope so high
+/// that rounding hides the directions there may be places that are not found.
 std::vector<SeriesPlace> series_places(const SeriesWanted& wanted);
 
 }  // namespace keyline::lac::detail
