@@ -73,6 +73,16 @@ TEST(SolveG2, GivesBackASinglePiece) {
   }
 }
 
+// Its end curvature moves by 6e-9 of itself with rounding of the ends.
+TEST(SolveG2, GivesBackASinglePieceOfASteepSlope) {
+  const auto solution = solve_g2(
+      element(0, 0, -1.141428809551464, -0.20553739380426572),
+      element(0.3122628834857598, -0.8971053364368451, -1.323974022288521, -0.0531213596297699),
+      -14.072797117751868);
+  ASSERT_TRUE(solution) << solution.error().message;
+  EXPECT_EQ(solution->chain.pieces.size(), 1u);
+}
+
 TEST(SolveG2, FindsTwoPiecesWhereTwoWereLaid) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(0, 1);

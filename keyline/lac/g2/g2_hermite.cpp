@@ -236,15 +236,19 @@ void search_bridge(const UnitG2& request, Best& best) {
   }
 }
 
-/// The single piece, where it happens to have the curvatures asked for.
+/// The single piece, where with the curvatures asked for it meets the end as nearly as chains have
+/// to: data that come from a piece give it back, however much its curvatures move with rounding.
 std::optional<G2Solution> single(const UnitG2& request, const Best& best) {
   if (!best.one) return std::nullopt;
-  const Piece piece = piece_of(*best.one);
-  const double k = std::max(std::abs(piece.curvature_start), std::abs(piece.curvature_end));
-  const double miss = std::max(std::abs(piece.curvature_start - request.curvature_start),
-                               std::abs(piece.curvature_end - request.curvature_end));
-  if (!(miss <= 1e-12 * k)) return std::nullopt;
-  return measured(best, Chain{{{}, request.from}, {piece}, false}, 0);
+  const Piece found = piece_of(*best.one);
+  const Piece piece{found.alpha, found.length, request.curvature_start, request.curvature_end};
+  const Chain chain{{{}, request.from}, {piece}, false};
+  if (!validate(chain)) return std::nullopt;
+  const core::Pose2 end = end_pose(chain);
+  const double miss = std::max(distance(end.position, {1, 0}),
+                               std::abs(core::wrap_angle(end.direction - request.to)));
+  if (!(miss <= 1e-12)) return std::nullopt;
+  return measured(best, chain, miss);
 }
 
 Best search(UnitG2 request) {
