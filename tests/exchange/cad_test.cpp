@@ -133,15 +133,22 @@ TEST_F(Cad, WhatBreaksTheReaderIsAFailureOfTheFile) {
     ::setenv("KEYLINE_CAD", program.c_str(), 1);
     const auto read = read_cad("/dev/null", CadFormat::step, limits);
     EXPECT_FALSE(read);
-    return read ? std::string() : read.error().message;
+    if (read) return std::string();
+    const core::Failure& why = read.error();
+    return why.path + (why.path.empty() ? "" : ": ") + why.message + " | " + why.hint;
   };
   EXPECT_THAT(answer("kill -SEGV $$"), HasSubstr("broke down"));
   EXPECT_THAT(answer("exec sleep 60", {.seconds = 0.2}), HasSubstr("too long"));
-  EXPECT_EQ(answer("echo 'no good; mend it' >&2; exit 1"), "no good");
+  EXPECT_EQ(answer("echo 'no good; mend it' >&2; exit 1"), "no good | mend it");
+  EXPECT_EQ(answer("echo 'line 7: no good; mend it' >&2; echo more >&2; exit 1"),
+            "line 7: no good | mend it");
+  EXPECT_EQ(answer("echo 'no good' >&2; echo more >&2; exit 1"), "no good | check the file");
+  EXPECT_THAT(answer("exit 1"), HasSubstr("the reader of STEP files gave up"));
   EXPECT_THAT(answer("echo '{'"), HasSubstr("not JSON"));
   ::setenv("KEYLINE_CAD", (folder_ / "none").c_str(), 1);
   EXPECT_EQ(read_cad("/dev/null", CadFormat::step, ChildLimits{}).error().code,
             core::ErrorCode::unsupported);
+  EXPECT_EQ(read_cad(folder_ / "missing.step", CadFormat::step).error().code, core::ErrorCode::io);
 }
 
 // Without the last line, section T, or without parameter lines that it counts, the file says so.
