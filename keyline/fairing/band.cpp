@@ -184,6 +184,22 @@ void Band::move(const std::vector<double>& offsets, const std::vector<double>& m
   set_price();
 }
 
+void Band::rest(const std::vector<double>& offsets) {
+  const double enough = kFirstRoom * tolerance_;
+  const auto widen = [enough](Side& side, double before, double room) {
+    if (room >= before)
+      side.extra = std::max(0.0, side.extra + before - room);
+    else
+      side.extra = std::max(side.extra, std::min(before + side.extra, enough) - room);
+  };
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    auto& [high, low] = pair_[j];
+    widen(high, room_high(j, offset_[j]), room_high(j, offsets[j]));
+    widen(low, room_low(j, offset_[j]), room_low(j, offsets[j]));
+  }
+  offset_ = offsets;
+}
+
 void Band::rescale(double by) {
   price_ *= by;
   for (double& w : spring_) w *= by;

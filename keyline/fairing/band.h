@@ -28,6 +28,8 @@ class Limits {
   /// Moves on: new offsets by a step of that share, and the changes Newton's whole step meant.
   virtual void move(const std::vector<double>& offsets, const std::vector<double>& meant,
                     double share) = 0;
+  /// Other offsets of the same curve, whose points have found other places on it.
+  virtual void rest(const std::vector<double>& offsets) = 0;
   /// The energy's unit has been changed: what is counted in it follows.
   virtual void rescale(double by) = 0;
 };
@@ -56,6 +58,7 @@ class Springs : public Limits {
   bool allows(const std::vector<double>&, double) const override { return true; }
   double merit(const std::vector<double>& offsets, double share) const override;
   void move(const std::vector<double>& offsets, const std::vector<double>&, double) override;
+  void rest(const std::vector<double>& offsets) override { offset_ = offsets; }
   void rescale(double) override {}
 
  private:
@@ -85,6 +88,8 @@ class Band : public Limits {
   /// Multipliers go as far as none loses its sign.
   void move(const std::vector<double>& offsets, const std::vector<double>& meant,
             double share) override;
+  /// No slack shrinks below half of the tolerance: what is missing counts as extra width.
+  void rest(const std::vector<double>& offsets) override;
   void rescale(double by) override;
 
   void set_barrier(double barrier) { barrier_ = barrier; }

@@ -49,6 +49,39 @@ Spots spots_of(const DenseCurve& curve, const Shapes& shapes, const std::vector<
   return spots;
 }
 
+namespace {
+
+/// What the curve jumps by on the way from one cell to another, the shorter one where it is closed.
+core::Vector2 jump_between(int from, int to, const DenseCurve& curve, const Gaps& gaps) {
+  const int count = static_cast<int>(gaps.cell.size());
+  int steps = to - from;
+  if (curve.closed && std::abs(steps) > count / 2) steps -= steps > 0 ? count : -count;
+  const int first = steps > 0 ? from : to;
+  core::Vector2 jump{0, 0};
+  for (int k = 0; k < std::abs(steps); ++k) {
+    const int i = (first + k) % count;
+    jump = jump + core::Vector2{gaps.cell[i](0), gaps.cell[i](1)};
+    if (i + 1 == count) jump = jump + core::Vector2{gaps.seam(0), gaps.seam(1)};
+  }
+  return steps > 0 ? jump : -jump;
+}
+
+}  // namespace
+
+std::vector<double> without_gaps(const Spots& spots, const std::vector<Foot>& before,
+                                 const DenseCurve& curve, const Gaps& gaps,
+                                 const std::vector<FitPoint>& points) {
+  std::vector<double> offset = spots.offset;
+  for (std::size_t j = 0; j < offset.size(); ++j) {
+    const int from = before[j].piece;
+    const int to = curve.feet[j].piece;
+    if (from == to) continue;
+    const core::Vector2 jump = jump_between(from, to, curve, gaps);
+    offset[j] -= points[j].share * core::cross(spots.place[j].tangent, jump);
+  }
+  return offset;
+}
+
 double along(const Spots& spots, const std::vector<FitPoint>& points, std::size_t j) {
   return core::dot(spots.place[j].at - points[j].position, spots.place[j].tangent);
 }
@@ -60,6 +93,14 @@ Vector6 derivative(const DenseCurve& curve, const CellPlace& place, int cell,
   d << direction.x, direction.y, core::cross(arm, direction), core::dot(place.by_start, direction),
       core::dot(place.by_end, direction), core::dot(arm, direction) / curve.length;
   return d;
+}
+
+// The offset is what the point lies left of the curve: the curve's own move, reversed.
+Vector6 by_offset(const DenseCurve& curve, const Spots& spots, const std::vector<FitPoint>& points,
+                  std::size_t j) {
+  const CellPlace& s = spots.place[j];
+  return -points[j].share *
+         derivative(curve, s, curve.feet[j].piece, core::perpendicular_left(s.tangent));
 }
 
 }  // namespace keyline::fairing::detail

@@ -24,11 +24,19 @@ struct Spots {
   std::vector<double> offset;
 };
 Spots spots_of(const DenseCurve& curve, const Shapes& shapes, const std::vector<FitPoint>& points);
+/// The offsets without the gaps between their places and those that the feet had before: a foot
+/// that goes over a joint changes its offset by the gap there, however short the step.
+std::vector<double> without_gaps(const Spots& spots, const std::vector<Foot>& before,
+                                 const DenseCurve& curve, const Gaps& gaps,
+                                 const std::vector<FitPoint>& points);
 /// How far the end lies before or beyond the last point (or the start, the first), along it.
 double along(const Spots& spots, const std::vector<FitPoint>& points, std::size_t j);
 
 /// What the state before a cell moves a place in it by, in a direction.
 Vector6 derivative(const DenseCurve& curve, const CellPlace& place, int cell,
                    core::Vector2 direction);
+/// How a point's offset changes with the state before its foot's cell.
+Vector6 by_offset(const DenseCurve& curve, const Spots& spots, const std::vector<FitPoint>& points,
+                  std::size_t j);
 
 }  // namespace keyline::fairing::detail

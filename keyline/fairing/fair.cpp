@@ -128,12 +128,6 @@ class Job {
       result_.spline_bic += one.bic;
       split(one.spline, k);
       solved_.push_back(std::move(one.chain));
-      detail::note_run(result_, solved_.back(), k, runs_.size());
-      note_pieces(k);
-      if (options_.waves && solved_.back().waves.turns > *options_.waves)
-        note_of_run(k, fmt::format("{} wanted, {} stay: fewer leave the tolerance",
-                                   core::counted(std::size_t(*options_.waves), "wave"),
-                                   solved_.back().waves.turns));
       result_.splines.push_back(std::move(one.spline));
     }
     return {};
@@ -143,12 +137,18 @@ class Job {
     detail::note_of_run(result_, k, runs_.size(), text);
   }
 
-  void note_pieces(std::size_t k) {
-    const int wanted = run_options(k).pieces;
-    const std::size_t found = solved_.back().chain.pieces.size();
-    if (wanted > 0 && found != static_cast<std::size_t>(wanted))
-      note_of_run(k, fmt::format("{} wanted, {} found",
-                                 core::counted(static_cast<std::size_t>(wanted), "piece"), found));
+  /// What came of every run in the end: where ends were tied, pieces may be others than at first.
+  void note_runs() {
+    for (std::size_t k = 0; k < solved_.size(); ++k) {
+      detail::note_run(result_, solved_[k], k, solved_.size());
+      const auto wanted = static_cast<std::size_t>(run_options(k).pieces);
+      const std::size_t found = solved_[k].chain.pieces.size();
+      if (wanted > 0 && found != wanted)
+        note_of_run(k, fmt::format("{} wanted, {} found", core::counted(wanted, "piece"), found));
+      if (const int stay = solved_[k].waves.turns; options_.waves && stay > *options_.waves)
+        note_of_run(k, fmt::format("{} wanted, {} stay: fewer leave the tolerance",
+                                   core::counted(std::size_t(*options_.waves), "wave"), stay));
+    }
   }
 
   void split(const curve::BSpline2& spline, std::size_t k) {
@@ -254,6 +254,7 @@ class Job {
   }
 
   Result<FairResult> finish() {
+    note_runs();
     measure_all();
     if (auto done = reinterpret(); !done) return std::unexpected(done.error());
     note_outside();

@@ -161,8 +161,9 @@ class Search {
     return (j == 0 ? curve_.hold_start : curve_.hold_end) == Hold::free;
   }
 
-  double merit(const DenseCurve& curve, const Spots& spots, double gaps, double share) const {
-    double sum = variation(curve) / energy_unit_ + limits_->merit(spots.offset, share);
+  double merit(const DenseCurve& curve, const Spots& spots, const std::vector<double>& offset,
+               double gaps, double share) const {
+    double sum = variation(curve) / energy_unit_ + limits_->merit(offset, share);
     if (rises_) sum += rises_->merit(curve);
     for (const std::size_t j : {std::size_t{0}, points_.size() - 1})
       if (pinned(j)) sum += 0.5 * kReach * std::pow(along(spots, points_, j) / unit_, 2);
@@ -204,17 +205,10 @@ class Search {
     const int cell = curve_.feet[j].piece;
     const CellPlace& s = spots_.place[j];
     const Pull pull = limits_->pull(j);
-    add(cells[cell], by_offset(j), pull.weight, pull.slope);
+    add(cells[cell], by_offset(curve_, spots_, points_, j), pull.weight, pull.slope);
     if (!pinned(j)) return;
     const double w = kReach / (unit_ * unit_);
     add(cells[cell], derivative(curve_, s, cell, s.tangent), w, w * along(spots_, points_, j));
-  }
-
-  /// The point's offset is what it lies left of the curve: the curve's own move, reversed.
-  Vector6 by_offset(std::size_t j) const {
-    const CellPlace& s = spots_.place[j];
-    return -points_[j].share *
-           derivative(curve_, s, curve_.feet[j].piece, core::perpendicular_left(s.tangent));
   }
 
   DenseBoundary boundary(const Vector6& seam) const {
@@ -228,7 +222,7 @@ class Search {
   std::vector<double> meant(const DenseStep& step) const {
     std::vector<double> change(points_.size());
     for (std::size_t j = 0; j < points_.size(); ++j)
-      change[j] = by_offset(j).dot(step.state[curve_.feet[j].piece]);
+      change[j] = by_offset(curve_, spots_, points_, j).dot(step.state[curve_.feet[j].piece]);
     return change;
   }
 
@@ -277,7 +271,7 @@ class Search {
   bool go(const DenseStep& step, int halvings, std::vector<Cell>& cells) {
     const std::vector<double> planned = meant(step);
     const std::vector<double> rises = meant_rises(curve_, step);
-    const double before = merit(curve_, spots_, gaps_.sum, 0);
+    const double before = merit(curve_, spots_, spots_.offset, gaps_.sum, 0);
     double share = std::min(limits_->longest(planned), keeps_side(curve_, step));
     if (rises_) share = std::min(share, rises_->longest(rises));
     for (int h = 0; h <= halvings; ++h, share *= 0.5) {
@@ -312,11 +306,14 @@ class Search {
     Shapes shapes = shapes_of(trial);
     settle_feet(trial, shapes, 2);
     Spots spots = spots_of(trial, shapes, points_);
-    if (!limits_->allows(spots.offset, share)) return false;
-    opened_ = gaps_of(trial, shapes);
-    const double after = merit(trial, spots, opened_.sum, share);
+    Gaps gaps = gaps_of(trial, shapes);
+    const std::vector<double> offset = without_gaps(spots, curve_.feet, trial, gaps, points_);
+    if (!limits_->allows(offset, share)) return false;
+    opened_ = std::move(gaps);
+    const double after = merit(trial, spots, offset, opened_.sum, share);
     if (!(after < before + 1e-10 * std::abs(before))) return false;
-    limits_->move(spots.offset, planned, share);
+    limits_->move(offset, planned, share);
+    limits_->rest(spots.offset);
     curve_ = std::move(trial);
     shapes_ = std::move(shapes);
     spots_ = std::move(spots);

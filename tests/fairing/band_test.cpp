@@ -57,6 +57,25 @@ TEST(Band, LimitsAreCountedFromARunsEnds) {
   EXPECT_NEAR(band.pull(2).slope, mu / (0.6 - 0.1) - mu / (0.5 + 0.1), 1e-12);
 }
 
+// Offsets that change without a step: a slack that would shrink below half of the tolerance gets
+// extra width for it, which goes again where the offset goes back.
+TEST(Band, ExtraWidthIsWhatOffsetsComeTooNearByThemselves) {
+  const auto given = points(2);
+  Band band(given, 1.0, 0);
+  const double mu = 0.1;
+  band.start({0.3, -0.2}, mu);
+  band.rest({0.45, -0.3});
+  EXPECT_EQ(band.extra(), 0);  // 0.55 and 0.7 are left
+  EXPECT_NEAR(band.pull(0).slope, mu / 0.55 - mu / 1.45, 1e-12);
+  band.rest({0.95, -0.7});
+  EXPECT_NEAR(band.extra(), 0.45, 1e-15);
+  // Slacks 0.5 and 1.95, 1.7 and 0.5; multipliers as at the start, what is extra taken back.
+  EXPECT_NEAR(band.pull(0).slope, (mu + mu / 0.7 * 0.45) / 0.5 - mu / 1.95, 1e-12);
+  EXPECT_NEAR(band.pull(1).slope, mu / 1.7 - (mu + mu / 0.8 * 0.2) / 0.5, 1e-12);
+  band.rest({0.4, -0.2});
+  EXPECT_EQ(band.extra(), 0);
+}
+
 // A limit that is passed by e: its slack s is e short, and Newton's step is to give that back:
 // slope (mu + lambda e) / s with lambda = mu / s.
 TEST(Band, WhatIsPassedIsTakenBack) {

@@ -83,6 +83,47 @@ TEST(Spots, AreFeetAndOffsets) {
   EXPECT_NEAR(along(spots, points, 1), -0.4, 1e-14);
 }
 
+// Two straight cells, the second a tenth to the left: a foot that has gone over finds its point a
+// tenth nearer, which is the gap's doing.
+TEST(Spots, WithoutGapsAreThoseOfACurveInOnePiece) {
+  DenseCurve curve = line();
+  curve.joints[1].position = {1.05, 0.1};
+  const std::vector<FitPoint> points{
+      {.position = {1.4, 0.3}, .share = 2}, {.position = {0.7, 0.3}}, {.position = {0.2, 0.3}}};
+  curve.feet = {{1, 0.7}, {0, 0.7}, {0, 0.2}};
+  const Shapes shapes = shapes_of(curve);
+  const Gaps gaps = gaps_of(curve, shapes);
+  const Spots spots = spots_of(curve, shapes, points);
+  const std::vector<Foot> before{{0, 1}, {1, 0}, {0, 0.1}};
+  const std::vector<double> offset = without_gaps(spots, before, curve, gaps, points);
+  EXPECT_NEAR(spots.offset[0], 2 * 0.2, 1e-14);
+  EXPECT_NEAR(offset[0], 2 * 0.3, 1e-14);  // as from the first cell, where it was
+  EXPECT_NEAR(spots.offset[1], 0.3, 1e-14);
+  EXPECT_NEAR(offset[1], 0.2, 1e-14);  // as from the second
+  EXPECT_NEAR(offset[2], 0.3, 1e-14);
+}
+
+// Three cells around a square's corner and back over the seam: over the seam is the shorter way.
+TEST(Spots, WithoutGapsGoOverTheSeamWhereThatIsShorter) {
+  DenseCurve curve = line();
+  curve.closed = true;
+  curve.at = {0, 0.25, 0.5, 0.75, 1};
+  curve.joints.assign(5, {});
+  for (int i = 0; i < 5; ++i) curve.joints[static_cast<std::size_t>(i)].position = {0.5 * i, 0};
+  set_free(curve);
+  curve.joints[4].position.y = 0.1;  // the end of the last cell lies 0.1 beside it
+  const std::vector<FitPoint> points{{.position = {0, 0.3}}, {.position = {2, 0.3}}};
+  curve.feet = {{0, 0}, {3, 1}};
+  const Shapes shapes = shapes_of(curve);
+  const Spots spots = spots_of(curve, shapes, points);
+  Gaps gaps = gaps_of(curve, shapes);
+  gaps.seam(1) = 0.25;  // of the last joint beside the first
+  const std::vector<Foot> before{{3, 1}, {0, 0}};
+  const std::vector<double> offset = without_gaps(spots, before, curve, gaps, points);
+  EXPECT_NEAR(offset[0], 0.3 - (0.25 - 0.1), 1e-14);
+  EXPECT_NEAR(offset[1], 0.3 + (0.25 - 0.1), 1e-14);
+}
+
 // What a state (place, direction, the piece's end curvatures, length) moves a place by, against
 // differences.
 TEST(Derivative, IsThatOfThePlace) {
