@@ -14,7 +14,7 @@ bool has_attribute_twice(const pugi::xml_node& node, std::vector<std::string_vie
   names.clear();
   for (const pugi::xml_attribute& attribute : node.attributes()) names.push_back(attribute.name());
   std::ranges::sort(names);
-  return std::ranges::adjacent_find(names) != names.end();
+  return std::adjacent_find(names.begin(), names.end()) != names.end();
 }
 
 }  // namespace
