@@ -10,18 +10,13 @@
 #include "keyline/fairing/fair.h"
 #include "keyline/lac/chain/chain.h"
 
+#include "fit_points.h"
 #include "truth.h"
 
 /// What the whole way of a run has to keep, whatever it is given: the tolerance, the mean square,
 /// the energy, and where those leave no choice.
 namespace keyline::fairing::detail {
 namespace {
-
-std::vector<FitPoint> fit_points(const std::vector<core::Point2>& points) {
-  std::vector<FitPoint> all;
-  for (const core::Point2 p : points) all.push_back({.position = p});
-  return all;
-}
 
 /// 80 points of a random chain with errors of `noise`, the length as the unit.
 std::vector<FitPoint> measured(int seed, double noise) {

@@ -11,17 +11,12 @@
 #include "keyline/fairing/fair.h"
 #include "keyline/lac/chain/chain.h"
 
+#include "fit_points.h"
 #include "truth.h"
 
 /// The whole way of a run.
 namespace keyline::fairing::detail {
 namespace {
-
-std::vector<FitPoint> fit_points(const std::vector<core::Point2>& points) {
-  std::vector<FitPoint> all;
-  for (const core::Point2 p : points) all.push_back({.position = p});
-  return all;
-}
 
 // Points of one clothoid: the cells that it is followed in are never its pieces.
 TEST(CalmRun, StoppedAtItsStartIsOfFewPiecesToo) {

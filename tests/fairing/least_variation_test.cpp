@@ -11,6 +11,7 @@
 #include "keyline/fairing/turns.h"
 #include "keyline/lac/chain/chain.h"
 
+#include "fit_points.h"
 #include "truth.h"
 
 /// The curve of least variation of curvature in the band of the points' tolerance.
@@ -19,12 +20,7 @@ namespace {
 
 using detail::BandReport;
 using detail::DenseCurve;
-
-std::vector<FitPoint> fit_points(const std::vector<core::Point2>& points) {
-  std::vector<FitPoint> all;
-  for (const core::Point2 p : points) all.push_back({.position = p});
-  return all;
-}
+using detail::fit_points;
 
 /// L^3 * integral of (d curvature / ds)^2 by differences over many places of each piece.
 double sampled_variation(const lac::Chain& chain) {
