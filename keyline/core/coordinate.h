@@ -19,6 +19,7 @@ inline constexpr double kLargestCoordinate = 1e100;
 inline bool is_too_large(double coordinate) {
   return std::isfinite(coordinate) && std::abs(coordinate) > kLargestCoordinate;
 }
+inline bool is_too_large(Point2 p) { return is_too_large(p.x) || is_too_large(p.y); }
 inline bool is_too_large(Point3 p) {
   return is_too_large(p.x) || is_too_large(p.y) || is_too_large(p.z);
 }

@@ -12,7 +12,6 @@ namespace keyline::exchange {
 namespace {
 
 using core::is_too_large;
-bool is_too_large(core::Point2 p) { return is_too_large(p.x) || is_too_large(p.y); }
 
 template <class Points>
 bool is_any_too_large(const Points& points) {

@@ -93,8 +93,8 @@ DxfTags::DxfTags(std::string_view bytes) : bytes_(bytes) {
     position_ = kSentinel.size();
     // The first group is "0 SECTION": a second zero byte belongs to a two-byte code.
     short_codes_ = bytes_.size() > position_ + 1 && bytes_[position_ + 1] != '\0';
-  } else if (bytes_.starts_with("\xef\xbb\xbf")) {
-    position_ = 3;
+  } else {
+    position_ = bytes_.size() - detail::without_mark(bytes_).size();
   }
 }
 

@@ -43,7 +43,7 @@ std::optional<Format> known(const std::string& extension) {
 
 /// The first bytes without a byte order mark and white space.
 std::string_view start_of(std::string_view head) {
-  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  head = detail::without_mark(head);
   const std::size_t at = head.find_first_not_of(" \t\r\n");
   return at == std::string_view::npos ? std::string_view{} : head.substr(at);
 }

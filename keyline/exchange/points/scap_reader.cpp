@@ -58,7 +58,9 @@ class Reader {
       return inside_ = true;
     }
     if (words[0] == "}") {
-      return std::exchange(inside_, false) && words.size() == 1 && keep_stroke();
+      if (!std::exchange(inside_, false) || words.size() > 1) return false;
+      end_stroke();
+      return true;
     }
     double a = 0;
     double b = 0;
@@ -87,11 +89,10 @@ class Reader {
     return true;
   }
 
-  bool keep_stroke() {
-    if (!drawing_.strokes.back().points.empty()) return true;
+  void end_stroke() {
+    if (!drawing_.strokes.back().points.empty()) return;
     drawing_.strokes.pop_back();
     drawing_.left_out.push_back(begin_ + ": a stroke without points");
-    return true;
   }
 
   /// Whether these are numbers, as many as in the stroke's first row: x, y and what else was

@@ -37,7 +37,7 @@ bool LineReader::fill() {
     filled_ = buffer_.size();
     if (std::exchange(started_, true)) continue;
     foreign_ = detail::foreign_format(buffer_);
-    if (buffer_.starts_with("\xef\xbb\xbf")) position_ = 3;
+    position_ = buffer_.size() - detail::without_mark(buffer_).size();
   }
   return filled_ > 0;
 }
