@@ -144,6 +144,38 @@ TEST(Spline, DoesNotDependOnPlaceScaleOrSense) {
   }
 }
 
+/// With another point named first, and travelled the other way: the same pieces and the same spans
+/// overridden, and each span between its points.
+void expect_same_from_any_point(std::vector<Point2> points, std::vector<double> alpha) {
+  SplineOptions options;
+  options.closed = true;
+  options.alpha = alpha;
+  const auto first = solve_spline(points, options);
+  ASSERT_TRUE(first) << first.error().message;
+  for (std::size_t turned = 1; turned < points.size(); ++turned) {
+    std::rotate(points.begin(), points.begin() + 1, points.end());
+    std::rotate(options.alpha.begin(), options.alpha.begin() + 1, options.alpha.end());
+    auto round = points;
+    auto back = options;
+    for (const bool reversed : {false, true}) {
+      if (reversed) {
+        std::reverse(round.begin() + 1, round.end());
+        std::reverse(back.alpha.begin(), back.alpha.end());
+      }
+      const auto s = solve_spline(round, back);
+      ASSERT_TRUE(s) << s.error().message;
+      EXPECT_NEAR(arc_length(s->chain), arc_length(first->chain), 1e-9);
+      EXPECT_EQ(s->overridden.size(), first->overridden.size());
+      EXPECT_LT(misses(*s, round), 1e-10);
+      ASSERT_EQ(s->span.size(), s->chain.pieces.size());
+      for (std::size_t k = 0; k < s->span.size(); ++k) {
+        const bool kept = std::ranges::find(s->overridden, s->span[k]) == s->overridden.end();
+        EXPECT_EQ(s->chain.pieces[k].alpha, kept ? back.alpha[s->span[k]] : -1);
+      }
+    }
+  }
+}
+
 // Several splines pass these points; laid out straight from either end, one or another was reached.
 TEST(Spline, OfSeveralEitherEndNamesOne) {
   const std::vector<Point2> open{
@@ -164,6 +196,22 @@ TEST(Spline, OfSeveralEitherEndNamesOne) {
     ASSERT_TRUE(there && back);
     EXPECT_NEAR(arc_length(there->chain), arc_length(back->chain), 1e-9);
   }
+}
+
+// Several splines pass these points too: which of them was found turned on the point named first.
+TEST(Spline, OfSeveralClosedOnesAnyPointNamesOne) {
+  const std::vector<Point2> six{
+      {0.41442451883910536, 0.0015847499555259326}, {0.5401095570883858, 0.7864443854425286},
+      {0.33113745196273026, 0.5998551847634835},    {0.8045694845140354, 0.6353710903019552},
+      {0.5507562651072507, 0.18078399346030394},    {0.09160140751629275, 0.5510291367552992}};
+  const std::vector<Point2> seven{
+      {0.2875376255881232, 0.008798105242628085}, {1.3113301132878434, 1.0646736802591503},
+      {2.324201657390655, 2.153113272443876},     {3.467542421665706, 1.8345769811329196},
+      {4.718327337309688, 1.8719336589378437},    {5.394161641524038, 1.8644208507171156},
+      {6.512284320396211, 1.621863586658351}};
+  for (const auto& [points, alpha] : {std::pair{six, -3.7403269504460797}, std::pair{seven, -2.0}})
+    expect_same_from_any_point(points, std::vector<double>(points.size(), alpha));
+  expect_same_from_any_point(seven, {2, 2, -1, 0, 1, 0.5, -3});
 }
 
 // Chords and turns are the same from either end; only the end condition tells them apart.

@@ -1,97 +1,97 @@
 #include "keyline/lac/g2/spline.h"
 
-#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "keyline/core/angle.h"
 #include "keyline/lac/g2/spline_forward.h"
 #include "keyline/lac/g2/spline_local.h"
+#include "keyline/lac/segment/slope.h"
 
 namespace keyline::lac {
 namespace {
 
+using core::ErrorCode;
 using core::Point2;
+using detail::SplineStart;
 
-/// Travelled the other way; closed from the same point.
-std::vector<Point2> turned_round(std::span<const Point2> points, bool closed) {
-  std::vector<Point2> turned(points.rbegin(), points.rend());
-  if (closed) std::rotate(turned.begin(), turned.end() - 1, turned.end());
-  return turned;
+std::string item(const char* list, std::size_t i) {
+  return std::string(list) + "[" + std::to_string(i) + "]";
 }
 
-SplineEnd turned_round(const SplineEnd& end) {
-  SplineEnd turned = end;
-  if (end.direction) turned.direction = core::wrap_angle(*end.direction + core::kPi);
-  if (end.curvature) turned.curvature = -*end.curvature;
-  return turned;
-}
-
-SplineOptions turned_round(const SplineOptions& options) {
-  SplineOptions turned = options;
-  std::ranges::reverse(turned.alpha);
-  turned.start = turned_round(options.end);
-  turned.end = turned_round(options.start);
-  return turned;
-}
-
-SplineSolution turned_round(const SplineSolution& solution, std::size_t spans) {
-  SplineSolution turned = solution;
-  turned.chain = reverse(solution.chain);
-  for (auto* list : {&turned.span, &turned.overridden}) {
-    std::ranges::reverse(*list);
-    for (std::size_t& span : *list) span = spans - 1 - span;
+core::Result<void> check_points(std::span<const Point2> points, bool closed) {
+  const std::size_t least = closed ? 3 : 2;
+  if (points.size() < least) {
+    return core::fail(ErrorCode::bad_input,
+                      closed ? "a closed spline needs at least three points"
+                             : "a spline needs at least two points",
+                      {}, "points");
   }
-  return turned;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_finite(points[i])) {
+      return core::fail(ErrorCode::bad_input, "a coordinate is not finite", {}, item("points", i));
+    }
+    const bool wraps = i + 1 == points.size();
+    if (wraps && !closed) break;
+    const double chord = distance(points[i], points[wraps ? 0 : i + 1]);
+    if (!(chord > 0) || std::isinf(chord)) {
+      return core::fail(ErrorCode::bad_input, "neighbouring points coincide or lie too far apart",
+                        "remove one of them", item("points", wraps ? 0 : i + 1));
+    }
+  }
+  return {};
 }
 
-/// What tells the ends apart, neither turned nor mirrored: chords, turns at the points, slopes, and
-/// what is wanted at the start. Angles count from 1, so that rounding of none tells nothing.
-std::vector<double> marks(std::span<const Point2> points, const SplineOptions& options,
-                          std::size_t spans) {
-  const auto chord = [&](std::size_t i) { return points[(i + 1) % points.size()] - points[i]; };
-  std::vector<double> all;
-  for (std::size_t i = 0; i < spans; ++i) all.push_back(norm(chord(i)));
-  for (std::size_t i = 1; i < spans; ++i)
-    all.push_back(1 + std::abs(core::angle_between(chord(i - 1), chord(i))));
-  if (options.alpha.size() == spans)
-    all.insert(all.end(), options.alpha.begin(), options.alpha.end());
-  const auto& [direction, curvature] = options.start;
-  const double first = core::direction_of(chord(0));
-  all.push_back(direction ? 1 + std::abs(core::wrap_angle(*direction - first)) : 0);
-  all.push_back(curvature ? std::abs(*curvature) : -1);
-  return all;
+core::Result<void> check_options(const SplineOptions& options, std::size_t spans) {
+  if (options.alpha.size() > 1 && options.alpha.size() != spans) {
+    return core::fail(ErrorCode::bad_input,
+                      "give one slope, or one for each span: " + std::to_string(spans), {},
+                      "alpha");
+  }
+  for (std::size_t i = 0; i < options.alpha.size(); ++i) {
+    if (!is_slope(options.alpha[i])) {
+      return core::fail(ErrorCode::bad_input, kSlopeRule, {},
+                        options.alpha.size() > 1 ? item("alpha", i) : "alpha");
+    }
+  }
+  for (const SplineEnd* end : {&options.start, &options.end}) {
+    if (options.closed && (end->direction || end->curvature)) {
+      return core::fail(ErrorCode::bad_input, "a closed spline has no ends to set conditions at",
+                        "leave out the end directions and curvatures");
+    }
+    if (!std::isfinite(end->direction.value_or(0)) || !std::isfinite(end->curvature.value_or(0))) {
+      return core::fail(ErrorCode::bad_input, "an end direction or curvature is not finite");
+    }
+  }
+  return {};
 }
 
-/// Told by the first mark that differs from the other end's by more than rounding.
-bool sets_out_from_the_end(std::span<const Point2> points, const SplineOptions& options,
-                           std::size_t spans) {
-  constexpr double kRounding = 1e-9;
-  if (spans == 0) return false;
-  const auto here = marks(points, options, spans);
-  const auto there = marks(turned_round(points, options.closed), turned_round(options), spans);
-  for (std::size_t i = 0; i < here.size(); ++i)
-    if (std::abs(here[i] - there[i]) > kRounding * (std::abs(here[i]) + std::abs(there[i])))
-      return there[i] > here[i];
-  return false;
+core::Result<SplineSolution> solve_on(std::span<const Point2> points, const SplineOptions& options,
+                                      const SplineStart& way) {
+  const auto found =
+      detail::solve_spline_forward(travelled(points, way), travelled(options, way), way);
+  if (!found || (!way.backwards && way.point == 0)) return found;
+  SplineSolution solution = as_asked(*found, way);
+  detail::put_at(points[0], core::direction_of(points[1] - points[0]), solution);
+  solution.deviation = detail::deviation_of(points, solution);
+  return solution;
 }
 
 }  // namespace
 
 core::Result<SplineSolution> solve_spline(std::span<const Point2> points,
                                           const SplineOptions& options) {
-  using detail::solve_spline_forward;
   if (options.closed && points.size() > 1 && points.front() == points.back())
     points = points.first(points.size() - 1);
-  const std::size_t spans = options.closed || points.empty() ? points.size() : points.size() - 1;
-  if (!sets_out_from_the_end(points, options, spans)) return solve_spline_forward(points, options);
-  const auto back =
-      solve_spline_forward(turned_round(points, options.closed), turned_round(options));
-  if (!back)
-    return solve_spline_forward(points, options);  // whose reason names the points as given
-  SplineSolution solution = turned_round(*back, spans);
-  solution.chain.start.position = points.front();
-  solution.deviation = detail::deviation_of(points, solution);
-  return solution;
+  if (const auto ok = check_points(points, options.closed); !ok) return std::unexpected(ok.error());
+  const std::size_t spans = options.closed ? points.size() : points.size() - 1;
+  if (const auto ok = check_options(options, spans); !ok) return std::unexpected(ok.error());
+  const SplineStart way = detail::spline_start(points, options);
+  auto solution = solve_on(points, options, way);
+  if (solution) return solution;
+  auto other = solve_on(points, options, way.other_way(options.closed));
+  // Of two reasons the one found in the direction of travel.
+  return other || way.backwards ? other : solution;
 }
 
 }  // namespace keyline::lac

@@ -41,10 +41,9 @@ struct SplineSolution {
 /// The chain through the points in order with continuous direction and curvature, one piece per
 /// span. Of the curves that do this the one reached without a jump from the straight line when its
 /// points are laid out straight and folded back, as far as the fast way does not find one that
-/// turns by less than pi in every span. Which end is laid out first the chords, turns, slopes
-/// and end conditions tell: where there are several splines the one found is the same whichever end
-/// is named first, in a mirror and of another size (a closed one: whichever way it is travelled
-/// from the same point).
+/// turns by less than pi in every span. Where it sets out and which way chords, turns, slopes and
+/// end conditions tell: where there are several splines the one found is the same whichever end, or
+/// point of a closed one, is named first, in a mirror and of another size.
 ///
 /// Points on a circle give the circle; with its end directions, points of one log-aesthetic segment
 /// give the segment. A closed spline may repeat its first point at the end. Cost: linear in points.

@@ -19,60 +19,10 @@ using core::ErrorCode;
 using core::Point2;
 using core::Vector2;
 using detail::SplineProblem;
+using detail::SplineStart;
 using detail::SplineState;
 
 std::string number(double x) { return core::number_text(x, 6); }
-
-std::string item(const char* list, std::size_t i) {
-  return std::string(list) + "[" + std::to_string(i) + "]";
-}
-
-core::Result<void> check_points(std::span<const Point2> points, bool closed) {
-  const std::size_t least = closed ? 3 : 2;
-  if (points.size() < least) {
-    return core::fail(ErrorCode::bad_input,
-                      closed ? "a closed spline needs at least three points"
-                             : "a spline needs at least two points",
-                      {}, "points");
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_finite(points[i])) {
-      return core::fail(ErrorCode::bad_input, "a coordinate is not finite", {}, item("points", i));
-    }
-    const bool wraps = i + 1 == points.size();
-    if (wraps && !closed) break;
-    const double chord = distance(points[i], points[wraps ? 0 : i + 1]);
-    if (!(chord > 0) || std::isinf(chord)) {
-      return core::fail(ErrorCode::bad_input, "neighbouring points coincide or lie too far apart",
-                        "remove one of them", item("points", wraps ? 0 : i + 1));
-    }
-  }
-  return {};
-}
-
-core::Result<void> check_options(const SplineOptions& options, std::size_t spans) {
-  if (options.alpha.size() > 1 && options.alpha.size() != spans) {
-    return core::fail(ErrorCode::bad_input,
-                      "give one slope, or one for each span: " + std::to_string(spans), {},
-                      "alpha");
-  }
-  for (std::size_t i = 0; i < options.alpha.size(); ++i) {
-    if (!is_slope(options.alpha[i])) {
-      return core::fail(ErrorCode::bad_input, kSlopeRule, {},
-                        options.alpha.size() > 1 ? item("alpha", i) : "alpha");
-    }
-  }
-  for (const SplineEnd* end : {&options.start, &options.end}) {
-    if (options.closed && (end->direction || end->curvature)) {
-      return core::fail(ErrorCode::bad_input, "a closed spline has no ends to set conditions at",
-                        "leave out the end directions and curvatures");
-    }
-    if (!std::isfinite(end->direction.value_or(0)) || !std::isfinite(end->curvature.value_or(0))) {
-      return core::fail(ErrorCode::bad_input, "an end direction or curvature is not finite");
-    }
-  }
-  return {};
-}
 
 /// The request with its place and size taken away.
 struct Prepared {
@@ -167,7 +117,8 @@ bool fold_up(SplineProblem problem, SplineState& state, int& iterations, double&
 }
 
 /// The clothoid spline: the fast way where it leads to a calm curve, else by folding.
-core::Result<SplineState> clothoid_spline(const SplineProblem& problem, int& iterations) {
+core::Result<SplineState> clothoid_spline(const SplineProblem& problem, const SplineStart& asked,
+                                          int& iterations) {
   SplineState state = detail::guessed_state(problem);
   const bool fast = solve_spline_newton(problem, state, iterations);
   const Calm calm = calm_of(problem, state);
@@ -176,12 +127,12 @@ core::Result<SplineState> clothoid_spline(const SplineProblem& problem, int& ite
   double share = 0;
   if (fold_up(problem, folded, iterations, share)) return folded;
   if (fast && calm.calm) return state;
-  const Calm worst = calm_of(problem, folded);
+  const std::string worst = std::to_string(asked.span(calm_of(problem, folded).span));
   return core::fail(ErrorCode::not_converged,
-                    "the curve through these points becomes wild near span " +
-                        std::to_string(worst.span) + ": it was found only while all turns were " +
-                        number(share) + " of what they are",
-                    "add a point there, or move the points next to it", item("points", worst.span));
+                    "the curve through these points becomes wild near span " + worst +
+                        ": it was found only while all turns were " + number(share) +
+                        " of what they are",
+                    "add a point there, or move the points next to it", "points[" + worst + "]");
 }
 
 double curvature_after(const SplineState& state, std::size_t i) {
@@ -252,7 +203,7 @@ bool give_way_at_inflections(const SplineProblem& problem, const SplineState& st
 /// from 0 on), then, as long as no curve is found, those in which it is nearest to vanishing keep
 /// -1: `wanted` becomes what was reached.
 core::Result<void> reach_slopes(SplineProblem& problem, std::vector<double>& wanted,
-                                SplineState& state, int& iterations) {
+                                const SplineStart& asked, SplineState& state, int& iterations) {
   const SplineState clothoids = state;
   give_way_at_inflections(problem, clothoids, wanted);
   double share = 0;
@@ -267,7 +218,7 @@ core::Result<void> reach_slopes(SplineProblem& problem, std::vector<double>& wan
   const auto far = std::max_element(wanted.begin(), wanted.end(), [](double a, double b) {
     return std::abs(a + 1) < std::abs(b + 1);
   });
-  const auto at = static_cast<std::size_t>(far - wanted.begin());
+  const std::size_t at = asked.span(static_cast<std::size_t>(far - wanted.begin()));
   return core::fail(ErrorCode::not_converged,
                     "no curve of these slopes was found; on the way from slope -1 the last was " +
                         number(-1 + share * (*far + 1)) + " in span " + std::to_string(at),
@@ -310,13 +261,7 @@ SplineSolution assembled(std::span<const Point2> points, const Prepared& prepare
     }
   }
   solution.chain.closed = problem.closed;
-  // The start tangent: the first chord turned back by the chord's angle in the first span.
-  core::Pose2 end;
-  for (std::size_t k = 0; k < solution.span.size() && solution.span[k] == 0; ++k) {
-    end = after_piece(end, solution.chain.pieces[k]);
-  }
-  solution.chain.start = {points[0],
-                          prepared.direction - core::direction_of(end.position - Point2{})};
+  detail::put_at(points[0], prepared.direction, solution);
   solution.deviation = deviation_of(points, solution);
   return solution;
 }
@@ -344,25 +289,26 @@ bool is_straight(const SplineProblem& problem, const SplineState& state) {
 
 }  // namespace
 
+void detail::put_at(const Point2& first, double direction, SplineSolution& solution) {
+  core::Pose2 end;
+  for (std::size_t k = 0; k < solution.span.size() && solution.span[k] == 0; ++k)
+    end = after_piece(end, solution.chain.pieces[k]);
+  solution.chain.start = {first, direction - core::direction_of(end.position - Point2{})};
+}
+
 core::Result<SplineSolution> detail::solve_spline_forward(std::span<const Point2> points,
-                                                          const SplineOptions& options) {
-  if (options.closed && points.size() > 1 && points.front() == points.back()) {
-    points = points.first(points.size() - 1);
-  }
-  if (const auto ok = check_points(points, options.closed); !ok) {
-    return std::unexpected(ok.error());
-  }
+                                                          const SplineOptions& options,
+                                                          const SplineStart& asked) {
   const std::size_t spans = options.closed ? points.size() : points.size() - 1;
-  if (const auto ok = check_options(options, spans); !ok) return std::unexpected(ok.error());
   Prepared prepared = prepare(points, options);
   SplineProblem& problem = prepared.problem;
   if (spans == 1 && problem.start.both() && problem.end.both()) {
     return single_span(points, options, prepared.wanted[0]);
   }
   int iterations = 0;
-  auto state = clothoid_spline(problem, iterations);
+  auto state = clothoid_spline(problem, asked, iterations);
   if (!state) {
-    auto local = detail::solve_spline_span_by_span(points, options, prepared.wanted);
+    auto local = detail::solve_spline_span_by_span(points, options, prepared.wanted, asked);
     return local ? local : std::unexpected(state.error());
   }
   std::vector<double> reached = prepared.wanted;
@@ -370,7 +316,7 @@ core::Result<SplineSolution> detail::solve_spline_forward(std::span<const Point2
     std::fill(state->curvature.begin(), state->curvature.end(), 0.0);
     problem.alpha = reached;
   } else if (std::any_of(reached.begin(), reached.end(), [](double a) { return a != -1; })) {
-    const auto ok = reach_slopes(problem, reached, *state, iterations);
+    const auto ok = reach_slopes(problem, reached, asked, *state, iterations);
     if (!ok) return std::unexpected(ok.error());
   }
   SplineSolution solution = assembled(points, prepared, *state);

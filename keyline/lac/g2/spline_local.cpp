@@ -77,7 +77,8 @@ std::vector<double> curvatures(std::span<const Point2> points, const SplineOptio
 core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
                                          const std::vector<double>& wanted,
                                          const std::vector<double>& direction,
-                                         const std::vector<double>& curvature) {
+                                         const std::vector<double>& curvature,
+                                         const SplineStart& asked) {
   SplineSolution solution;
   solution.span_by_span = true;
   solution.chain.start = {points[0], direction[0]};
@@ -87,9 +88,10 @@ core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
     const CurvatureElement end{{points[j], direction[j]}, curvature[j]};
     const auto part = solve_span(start, end, wanted[i]);
     if (!part) {
+      const std::string at = std::to_string(asked.span(i));
       return core::fail(core::ErrorCode::not_converged,
-                        "no curve without loops was found in span " + std::to_string(i),
-                        "add a point there", "points[" + std::to_string(i) + "]");
+                        "no curve without loops was found in span " + at, "add a point there",
+                        "points[" + at + "]");
     }
     if (part->overridden) solution.overridden.push_back(i);
     for (const Piece& piece : part->chain.pieces) {
@@ -124,7 +126,8 @@ double deviation_of(std::span<const Point2> points, const SplineSolution& soluti
 
 core::Result<SplineSolution> solve_spline_span_by_span(std::span<const Point2> points,
                                                        const SplineOptions& options,
-                                                       const std::vector<double>& wanted) {
+                                                       const std::vector<double>& wanted,
+                                                       const SplineStart& asked) {
   const auto direction = directions(points, options);
   const auto curvature = curvatures(points, options, direction);
   core::Result<SplineSolution> solution;
@@ -134,7 +137,7 @@ core::Result<SplineSolution> solve_spline_span_by_span(std::span<const Point2> p
     for (double& k : softened) k *= share;
     if (options.start.curvature) softened.front() = *options.start.curvature;
     if (options.end.curvature) softened.back() = *options.end.curvature;
-    solution = solve_spans(points, wanted, direction, softened);
+    solution = solve_spans(points, wanted, direction, softened, asked);
     if (solution) break;
   }
   if (!solution) return solution;
