@@ -292,13 +292,57 @@ TEST(Quasi, RefusesWhatThereIsNot) {
   EXPECT_EQ(code(plain, {QuasiForm::taylor_arc, 6, NAN}), ErrorCode::bad_input);
   EXPECT_EQ(code(s_shaped, {QuasiForm::taylor_angle, 6}), ErrorCode::unsupported);
   EXPECT_EQ(code(s_shaped, {QuasiForm::rational_cubic}), ErrorCode::unsupported);
-  EXPECT_EQ(code(cusp, {QuasiForm::best, 6}), ErrorCode::unsupported);
   EXPECT_EQ(code(cusp, {QuasiForm::taylor_angle, 6, 0.0}), ErrorCode::unsupported);
   EXPECT_EQ(code(s_shaped, {QuasiForm::taylor_arc, 9}), ErrorCode::internal);
   EXPECT_EQ(code(s_shaped, {QuasiForm::best, 9}), ErrorCode::internal);
   const auto region = quasi_log_aesthetic({0, 0}, {1, 0}, {1.05, 3}, -1, {});
   ASSERT_FALSE(region);
   EXPECT_EQ(region.error().code, ErrorCode::undrawable);
+}
+
+// At a cusp the curvature to hold is infinite, beside one it asks for a handle that rounding loses.
+TEST(Quasi, BestServesAtACuspNoWorseThanAnyForm) {
+  struct Case {
+    double alpha, lambda, beside, turning;
+    int degree;
+  };
+  for (const Case& c : {Case{3, 1, 0, 0.74, 10}, Case{4, 0.5, 0, 2.5, 6}, Case{2, 0.35, 1e-9, 2, 6},
+                        Case{1.5, 1.9, 1e-6, 1.7, 10}, Case{1.2, 1.02, 0, 0.45, 5}}) {
+    const double cusp = -1 / ((c.alpha - 1) * c.lambda);
+    const core::Interval angles{cusp + c.beside, cusp + c.turning};
+    SCOPED_TRACE(c.alpha);
+    const auto best = quasi_log_aesthetic(c.alpha, c.lambda, angles, {QuasiForm::best, c.degree});
+    ASSERT_TRUE(best) << best.error().message;
+    int others = 0;
+    for (const QuasiForm form : kForms) {
+      const auto other = quasi_log_aesthetic(c.alpha, c.lambda, angles, {form, c.degree});
+      if (!other) continue;
+      ++others;
+      EXPECT_LE(best->deviation, other->deviation * (1 + 1e-9));
+    }
+    EXPECT_GE(others, 4);
+    const auto& control = best->curve.control;
+    const Segment& target = best->target;
+    const core::Pose2 end = end_pose(target);
+    EXPECT_LT(distance(control.front(), target.start.position), 1e-14 * target.length);
+    EXPECT_LT(distance(control.back(), end.position), 1e-14 * target.length);
+    const auto expect_direction = [&](const core::Point2& from, const core::Point2& to, double d) {
+      const double rounding = 1e-15 * (std::abs(to.x) + std::abs(to.y)) / distance(from, to);
+      EXPECT_NEAR(core::wrap_angle(core::direction_of(to - from) - d), 0, 1e-14 + rounding);
+    };
+    expect_direction(control[0], control[1], angles.low);
+    expect_direction(control[c.degree - 1], control[c.degree], angles.high);
+    if (c.beside == 0 && c.alpha > 2) {
+      EXPECT_NEAR(curvature(jet(best->curve, 1.0)) / target.curvature_end, 1, 1e-11);
+    }
+  }
+}
+
+TEST(Quasi, BestServesBeyondAFullTurn) {
+  const auto best = quasi_log_aesthetic(-1, 0.02, {0, 7}, {QuasiForm::best, 10});
+  ASSERT_TRUE(best);
+  EXPECT_LT(best->deviation,
+            0.1 * quasi_log_aesthetic(-1, 0.02, {0, 7}, {QuasiForm::discrete_arc, 10})->deviation);
 }
 
 TEST(Quasi, StraightLinesAndScales) {

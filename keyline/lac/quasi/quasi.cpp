@@ -68,10 +68,6 @@ Result<void> check_ends(const UnitPiece& u, const QuasiOptions& o) {
     return unsupported("the rational cubic needs end curvatures of one sign, finite and not zero");
   if (o.form == QuasiForm::rational_cubic && !(u.turning < 4))
     return unsupported("the rational cubic reaches turnings up to 4 radians", "split the curve");
-  if (o.form == QuasiForm::best && infinite)
-    return unsupported("the best form needs finite end curvatures", "use a Taylor form");
-  if (o.form == QuasiForm::best && !(u.turning < core::kPi * 2))
-    return unsupported("the best form reaches turnings up to a full turn", "split the curve");
   return {};
 }
 

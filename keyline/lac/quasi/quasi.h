@@ -19,10 +19,12 @@ enum class QuasiForm {
   discrete_angle,  ///< control edges along the tangents at the middle of equal parts of angle
   discrete_arc,    ///< the same for equal parts of arc length, edges of equal length
   rational_cubic,  ///< positions, tangents and end curvatures exact, then least LCG variance
-  /// Positions, tangents and end curvatures exact, then least deviation; the raised rational cubic,
-  /// or over handles any other form or a cubic with its control points on them, where that is
-  /// closer (its end curvatures are then as near as its deviation lets them be): never worse than
-  /// any other form of the degree or a lower one.
+  /// Positions, tangents and finite end curvatures exact, then least deviation; the raised rational
+  /// cubic, or over handles any other form or a cubic with its control points on them, where that
+  /// is closer (its end curvatures are then as near as its deviation lets them be). Of a segment
+  /// end curvatures are given up likewise where another form, which misses the ends, is closer.
+  /// Never refused where another form serves; never worse than any other form of the degree or a
+  /// lower one, of a segment up to a full turn and radii up to 1e4 apart.
   best,
 };
 constexpr auto choices(const QuasiForm*) {
@@ -74,7 +76,7 @@ core::Result<Segment> standard_segment(double alpha, double lambda, const core::
 /// tangent where they are expanded, the discretisations the start point alone, the others as said.
 /// Fails: bad_input (segment, degree, about); unsupported where the form does not exist: tangent
 /// angle across an inflection or from an end without curvature or radius, end curvatures that are
-/// zero or infinite for the rational cubic, infinite for best.
+/// zero or infinite for the rational cubic.
 core::Result<QuasiResult> quasi_log_aesthetic(const Segment& segment, const QuasiOptions& options);
 
 /// From the standard form.

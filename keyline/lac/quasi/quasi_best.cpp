@@ -106,7 +106,7 @@ class Fit {
   /// Of a parameter's speed at an end, in reach of the end's curvature: a handle as long as the
   /// radius bends the polygon by about a radian.
   double handle(double speed, double curvature) const {
-    if (!search_.curvatures_held) return speed / degree_;
+    if (!search_.curvatures_held || std::isinf(curvature)) return speed / degree_;
     return std::min(speed / degree_, 1 / std::abs(curvature));
   }
 

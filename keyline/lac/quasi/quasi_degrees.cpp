@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "keyline/core/angle.h"
+#include "keyline/lac/quasi/quasi_family.h"
 #include "keyline/lac/quasi/quasi_forms.h"
 #include "keyline/lac/quasi/quasi_hermite.h"
 #include "keyline/lac/segment/deviation.h"
@@ -62,7 +63,11 @@ class Degrees {
     raise_to(degree);
     if (degree == kLeast) offer(rational(degree));
     offer(fitted(degree, {.thorough = true, .from = start(nearest_.curve)}));
-    if (!others_ || nearer_than(kGood)) return;
+    if (nearer_than(kGood)) return;
+    others_ ? take_over_handles(degree) : take_drawn(degree);
+  }
+
+  void take_over_handles(int degree) {
     for (int d = degree == kLeast ? kLeastOther : degree; d <= degree; ++d) {
       auto other = others_(d);
       if (!other) continue;
@@ -70,11 +75,28 @@ class Degrees {
       offer(fitted(degree, {.from = start(other->curve)}));
       offer(std::move(other));
     }
-    if (!found() || (nearest_.curvatures_held && nearest_.curve.weights.empty())) return;
     // Where no polynomial was found that holds the end curvatures, or one that does not is nearer,
     // they may as well be given up for the best.
+    if (found() && nearest_.curvatures_held && nearest_.curve.weights.empty()) return;
     offer(fitted(degree,
                  {.thorough = true, .curvatures_held = false, .from = start(nearest_.curve)}));
+  }
+
+  /// The other forms of the piece miss its ends. Where one is nearer than what holds the end
+  /// curvatures, it is begun from and these are given up.
+  void take_drawn(int degree) {
+    for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc,
+                                 QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
+      const auto options = settled(unit_, {form, degree, {}, false});
+      if (!options) continue;
+      const Approximation drawn =
+          measured({in_place(segment_, unit_, draw_form(unit_, *options)), 0, false});
+      if (!(drawn.deviation < nearest_.deviation)) continue;
+      const BestSearch search{
+          .thorough = true, .curvatures_held = false, .from = start(drawn.curve)};
+      offer(laid(moved_to_ends(unit_, search.from), search));
+      offer(fitted(degree, search));
+    }
   }
 
   void offer(std::optional<Approximation> a) {

@@ -21,13 +21,14 @@ struct Basis {
 core::Vector2 combine(const Basis::Row& weights, const ControlPolygon& b);
 
 /// Bézier polygons of one degree with the ends and tangents of a unit piece, and its end curvatures
-/// where these are held. Unknowns: handle length and far handle's offset along the tangent at
-/// either end, the inner points, then, of curvatures not held, the far handles' offsets across.
+/// where these are held: none that is infinite (at a cusp) is. Unknowns: handle length and far
+/// handle's offset along the tangent at either end, the inner points, then, of each curvature not
+/// held, the far handle's offset across.
 class Family {
  public:
   Family(const UnitPiece& unit, int degree, bool curvatures_held);
 
-  int unknowns() const { return inner_end() + (held_ ? 0 : 2); }
+  int unknowns() const { return last_across() + (last_held_ ? 0 : 1); }
   ControlPolygon polygon(const Eigen::VectorXd& x) const;
 
   /// d(combination of the polygon) / dx_k.
@@ -43,12 +44,17 @@ class Family {
                         const std::vector<core::Vector2>& points, double& miss) const;
 
  private:
-  int inner_end() const { return 4 + 2 * (n_ - 5); }
+  int first_across() const { return 4 + 2 * (n_ - 5); }
+  int last_across() const { return first_across() + (first_held_ ? 0 : 1); }
 
   const UnitPiece& unit_;
   int n_;
-  bool held_;
+  bool first_held_, last_held_;
   core::Vector2 end_, end_tangent_;
 };
+
+/// A polygon of degree >= 5 with its ends and end tangents where those of the piece are; empty
+/// where an end edge is too short for that.
+ControlPolygon moved_to_ends(const UnitPiece& unit, const ControlPolygon& polygon);
 
 }  // namespace keyline::lac::detail
