@@ -116,6 +116,21 @@ TEST(MeshGaps, StlTellsWhatIsNoStatement) {
   EXPECT_EQ(with("vertx 5 5 5\n"), "line 4: \"vertx\" is no statement of STL\n");
 }
 
+// The first thousand, in their order; words of the file are cut where they fill a line.
+TEST(MeshGaps, NoMoreThanAThousandLinesAreTold) {
+  std::string lines;
+  for (int i = 0; i < 1200; ++i) lines += "what" + std::string(40, 'x') + "\n";
+  const auto check = [](const core::Result<Mesh>& mesh, const std::string& format) {
+    ASSERT_TRUE(mesh);
+    ASSERT_EQ(mesh->skipped.size(), 1000U);
+    const std::string told = ": \"what" + std::string(26, 'x') + "\" is no statement of " + format;
+    EXPECT_EQ(mesh->skipped.front(), "line 2" + told);
+    EXPECT_EQ(mesh->skipped.back(), "line 1001" + told);
+  };
+  check(read_obj("#\n" + lines + "v 0 0 0\n"), "OBJ");
+  check(read_stl("solid\n" + lines + kFacet + kThree + "endloop\nendfacet\nendsolid\n"), "STL");
+}
+
 TEST(MeshGaps, StlOfMoreTrianglesThanItCountsTellsSo) {
   std::string one(84 + 50, '\0');
   one[80] = 1;

@@ -20,7 +20,8 @@ struct Mesh {
   std::vector<core::Point3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::vector<std::uint32_t>> lines;  ///< OBJ's "l"
-  std::vector<std::string> skipped;               ///< what could not be read, with its line or byte
+  /// What could not be read, with its line or byte; of OBJ and STL the first thousand lines.
+  std::vector<std::string> skipped;
 };
 
 /// Wavefront OBJ: v, f (polygons as fans, indices from the front or the back), l; line

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "keyline/core/text.h"
-#include "keyline/core/utf8.h"
 #include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/mesh_notes.h"
 #include "keyline/exchange/text/byte_lines.h"
 #include "keyline/exchange/text/utf16.h"
 
@@ -13,8 +13,6 @@ namespace {
 
 using core::ErrorCode;
 using core::Result;
-
-constexpr std::size_t kMostNotes = 1000;
 
 /// Statements of the format that no vertex, face or line depends on, those of free-form geometry
 /// (told by their "curv" and "surf") and those that were superseded among them.
@@ -64,7 +62,7 @@ class ObjReader {
     else if (keyword == "p" || keyword == "call")
       note(keyword == "p" ? "points by themselves" : "what another file holds");
     else if (std::ranges::find(kUnused, keyword) == std::end(kUnused))
-      note("\"" + std::string(core::whole_characters(keyword, 30)) + "\" is no statement of OBJ");
+      note(detail::no_statement(keyword, "OBJ"));
     return {};
   }
 
@@ -76,8 +74,7 @@ class ObjReader {
       if (!number && word.find_first_of("0123456789") == word.npos)
         return core::fail(ErrorCode::bad_input, "a vertex needs three numbers", "mend the line",
                           lines_.place());
-      if (!number)
-        note("the vertex: \"" + std::string(core::whole_characters(word, 30)) + "\" is no number");
+      if (!number) note("the vertex: " + detail::quoted(word) + " is no number");
       value = number.value_or(std::numeric_limits<double>::quiet_NaN());
     }
     if (mesh_.points.size() >= std::numeric_limits<std::uint32_t>::max() / 2)
@@ -94,8 +91,7 @@ class ObjReader {
       const double count = static_cast<double>(mesh_.points.size());
       const double index = !number ? -1 : *number < 0 ? count + *number : *number - 1;
       if (!(index >= 0 && index < count && index == std::floor(index)))
-        return note("\"" + std::string(core::whole_characters(word, 30)) +
-                    "\" is none of the vertices");
+        return note(detail::quoted(word) + " is none of the vertices");
       indices_.push_back(static_cast<std::uint32_t>(index));
     }
     if (indices_.size() < (face ? 3 : 2)) return note("too few vertices");
@@ -107,10 +103,7 @@ class ObjReader {
       mesh_.triangles.push_back({indices_[0], indices_[i - 1], indices_[i]});
   }
 
-  void note(std::string what) {
-    if (mesh_.skipped.size() < kMostNotes)
-      mesh_.skipped.push_back(lines_.place() + ": " + std::move(what));
-  }
+  void note(std::string_view what) { detail::note(mesh_, lines_.place(), what); }
 
   detail::ByteLines lines_;
   Mesh mesh_;

@@ -6,8 +6,8 @@
 #include <unordered_map>
 
 #include "keyline/core/text.h"
-#include "keyline/core/utf8.h"
 #include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/mesh_notes.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/byte_lines.h"
 #include "keyline/exchange/text/text_table.h"
@@ -21,7 +21,6 @@ using core::Result;
 
 constexpr std::size_t kHeader = 84;
 constexpr std::size_t kTriangle = 50;
-constexpr std::size_t kMostNotes = 1000;
 constexpr std::string_view kStatements[] = {"solid",   "facet",    "outer",   "vertex",
                                             "endloop", "endfacet", "endsolid"};
 
@@ -118,10 +117,7 @@ Result<Mesh> read_text(std::string_view bytes) {
     const std::string word = detail::lower_case(detail::take_word(line));
     if (word == "solid" || word == "endsolid") open = word == "solid";
     if (!word.empty() && std::ranges::find(kStatements, word) == std::end(kStatements)) {
-      auto& skipped = vertices.mesh().skipped;
-      if (skipped.size() < kMostNotes)
-        skipped.push_back(lines.place() + ": \"" + std::string(core::whole_characters(word, 30)) +
-                          "\" is no statement of STL");
+      detail::note(vertices.mesh(), lines.place(), detail::no_statement(word, "STL"));
       continue;
     }
     const bool ends = word == "endloop";
