@@ -37,24 +37,6 @@ class CadShapes : public CadTest {
   }
 };
 
-std::string digits_of(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << std::showpoint << value;
-  return text.str();
-}
-
-/// Entity n: a curve between two of its parameters.
-std::string trimmed_text(int n, const std::string& curve, double from, double to) {
-  return '#' + std::to_string(n) + "=TRIMMED_CURVE(''," + curve + ",(PARAMETER_VALUE(" +
-         digits_of(from) + ")),(PARAMETER_VALUE(" + digits_of(to) + ")),.T.,.PARAMETER.);\n";
-}
-
-std::string point_text(Point3 p) {
-  return "CARTESIAN_POINT('',(" + digits_of(p.x) + ',' + digits_of(p.y) + ',' + digits_of(p.z) +
-         "));\n";
-}
-
 // 4.4.26: c + r (cos u x + sin u y); about -z, y is z x x = (0, -1, 0).
 TEST_F(CadShapes, ArcsTurnAboutTheirAxis) {
   const std::string circles =
@@ -80,6 +62,8 @@ TEST_F(CadShapes, EllipsesStartWhereTheyDo) {
   const double turn = 2 * std::numbers::pi;
   for (const auto& [from, to] : {std::pair{0.0, 1.0},
                                  {5.5, 7.0},
+                                 {7.0, 8.5},
+                                 {-7.0, -6.0},
                                  {-1.0, 0.5},
                                  {0.0, turn},
                                  {turn - 1e-12, 2 * turn - 1e-12},
@@ -166,12 +150,6 @@ std::string face_text(int n, const std::string& surface, const std::vector<Point
   return name(n) + "=ADVANCED_FACE('',(" + name(n + 1) + ")," + surface + ",.T.);\n" + name(n + 1) +
          "=FACE_OUTER_BOUND(''," + name(n + 2) + ",.T.);\n" + name(n + 2) + "=EDGE_LOOP('',(" +
          loop + "));\n" + text;
-}
-
-std::string shell_text(const std::string& faces, const std::string& body) {
-  return step_file(
-      "MANIFOLD_SURFACE_SHAPE", "#20",
-      "#20=SHELL_BASED_SURFACE_MODEL('',(#21));\n#21=OPEN_SHELL('',(" + faces + "));\n" + body);
 }
 
 /// The loop's corners, where each of its curves goes on from the one before.

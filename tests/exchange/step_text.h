@@ -1,8 +1,23 @@
 #pragma once
 
+#include <sstream>
 #include <string>
 
+#include "keyline/core/point.h"
+
 namespace keyline::exchange {
+
+inline std::string digits_of(double value) {
+  std::ostringstream text;
+  text.precision(17);
+  text << std::showpoint << value;
+  return text.str();
+}
+
+inline std::string point_text(core::Point3 p) {
+  return "CARTESIAN_POINT('',(" + digits_of(p.x) + ',' + digits_of(p.y) + ',' + digits_of(p.z) +
+         "));\n";
+}
 
 /// A STEP file in mm, written by hand after ISO 10303-21, -41 and -42: one product "part" whose
 /// representation of that kind (without "_REPRESENTATION") holds these items. Entities from #20 on
@@ -34,6 +49,19 @@ inline std::string step_file(const std::string& kind, const std::string& items,
 inline std::string step_curves(const std::string& curves, const std::string& body) {
   return step_file("GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE", "#20",
                    "#20=GEOMETRIC_CURVE_SET('',(" + curves + "));\n" + body);
+}
+
+/// Entity n: a curve between two of its parameters.
+inline std::string trimmed_text(int n, const std::string& curve, double from, double to) {
+  return '#' + std::to_string(n) + "=TRIMMED_CURVE(''," + curve + ",(PARAMETER_VALUE(" +
+         digits_of(from) + ")),(PARAMETER_VALUE(" + digits_of(to) + ")),.T.,.PARAMETER.);\n";
+}
+
+/// The same of faces.
+inline std::string shell_text(const std::string& faces, const std::string& body) {
+  return step_file(
+      "MANIFOLD_SURFACE_SHAPE", "#20",
+      "#20=SHELL_BASED_SURFACE_MODEL('',(#21));\n#21=OPEN_SHELL('',(" + faces + "));\n" + body);
 }
 
 }  // namespace keyline::exchange

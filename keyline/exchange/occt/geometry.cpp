@@ -1,6 +1,7 @@
 #include "keyline/exchange/occt/geometry.h"
 
 #include <GeomConvert.hxx>
+#include <GeomConvert_ApproxCurve.hxx>
 #include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -8,8 +9,13 @@
 #include <Geom_Circle.hxx>
 #include <Geom_ElementarySurface.hxx>
 #include <Geom_Line.hxx>
+#include <Geom_OffsetCurve.hxx>
+#include <Geom_OffsetSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SweptSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <Precision.hxx>
+#include <Standard_ConstructionError.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <algorithm>
@@ -32,15 +38,19 @@ using core::Point3;
 using curve::BSpline3;
 using detail::are_flat;
 using detail::flat;
+using detail::kFlat;
 using document::Label;
 
+// Of what has no exact form.
 constexpr double kTolerance = 1e-7;
+constexpr int kDegree = 8;
+constexpr int kMostSpans = 100;
 
 Point3 point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 void add_path(document::Document& document, document::PlanarCurve c, bool closed,
               const Label& label) {
-  document.paths.push_back({label, {{std::move(c)}, closed}, 0});
+  document.paths.push_back({label, {{std::move(c)}, closed}});
 }
 
 std::vector<double> full_knots(const TColStd_Array1OfReal& knots,
@@ -69,8 +79,8 @@ bool add_arc(document::Document& document, const Handle(Geom_Curve) & c, double 
   const gp_Circ circ = circle->Circ();
   const gp_Dir axis = circ.Axis().Direction();
   const Point3 center = point(circ.Location());
-  const bool level = std::abs(axis.X()) < 1e-12 && std::abs(axis.Y()) < 1e-12;
-  if (!level || std::abs(center.z) > 1e-12 * circ.Radius()) return false;
+  const bool level = std::hypot(axis.X(), axis.Y()) <= kFlat;
+  if (!level || std::abs(center.z) > kFlat * circ.Radius()) return false;
   const gp_Dir x = circ.XAxis().Direction();
   const double side = axis.Z() > 0 ? 1 : -1;
   const document::Arc arc{{center.x, center.y},
@@ -88,21 +98,36 @@ Handle(Geom_Curve) basis_of(Handle(Geom_Curve) c) {
   return c;
 }
 
+bool is_offset(const Handle(Geom_Curve) & c) {
+  return !Handle(Geom_OffsetCurve)::DownCast(basis_of(c)).IsNull();
+}
+
 /// A stretch of a period, from within [0, period) and of no more than one. What is left of a whole
-/// one by rounding (Precision::PConfusion) counts as whole: OCCT makes a sliver of what is too much
-/// and fails close to minus one period.
+/// one by rounding counts as whole: OCCT makes a sliver of what is too much and fails close to
+/// minus one period.
 void normalize(double& first, double& last, double period) {
-  constexpr double kReach = 1e-9;
-  const double length = last - first > period - kReach ? period : last - first;
+  const double reach = Precision::PConfusion();
+  const double length = last - first > period - reach ? period : last - first;
   first -= std::floor(first / period) * period;
-  if (first < kReach || first > period - kReach) first = 0;
+  if (first < reach || first > period - reach) first = 0;
   last = first + length;
 }
 
-BSpline3 spline_of(const Handle(Geom_Curve) & c, double first, double last) {
+/// Exactly, or within `deviation` where there is no exact form: OCCT's own one of an offset curve
+/// is within 1e-4 of whatever unit and does not say so.
+Handle(Geom_BSplineCurve)
+    converted(const Handle(Geom_Curve) & c, double first, double last, double& deviation) {
+  const Handle(Geom_TrimmedCurve) part = new Geom_TrimmedCurve(c, first, last);
+  if (!is_offset(c)) return GeomConvert::CurveToBSplineCurve(part);
+  GeomConvert_ApproxCurve near(part, kTolerance, GeomAbs_C1, kMostSpans, kDegree);
+  if (!near.HasResult()) throw Standard_ConstructionError("an offset curve has no form");
+  deviation = std::max(deviation, near.MaxError());
+  return near.Curve();
+}
+
+BSpline3 spline_of(const Handle(Geom_Curve) & c, double first, double last, double& deviation) {
   if (c->IsPeriodic()) normalize(first, last, c->Period());
-  const Handle(Geom_BSplineCurve) spline =
-      GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(c, first, last));
+  const Handle(Geom_BSplineCurve) spline = converted(c, first, last, deviation);
   if (spline->IsPeriodic()) spline->SetNotPeriodic();
   BSpline3 made;
   made.degree = spline->Degree();
@@ -116,18 +141,18 @@ BSpline3 spline_of(const Handle(Geom_Curve) & c, double first, double last) {
 }  // namespace
 
 document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& whole, double first,
-                                    double last) {
+                                    double last, double& deviation) {
   const Handle(Geom_Curve) c = basis_of(whole);
   if (!Handle(Geom_Line)::DownCast(c).IsNull())
     return {curve::Bezier3{{point(c->Value(first)), point(c->Value(last))}, {}}};
-  return {spline_of(c, first, last)};
+  return {spline_of(c, first, last, deviation)};
 }
 
 void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& whole,
-               double first, double last, const Label& label) {
+               double first, double last, const Label& label, double& deviation) {
   const Handle(Geom_Curve) c = basis_of(whole);
   if (add_line(document, c, first, last, label) || add_arc(document, c, first, last, label)) return;
-  BSpline3 made = spline_of(c, first, last);
+  BSpline3 made = spline_of(c, first, last, deviation);
   if (!are_flat(made.control)) {
     document.space_curves.push_back({label, {std::move(made)}});
     return;
@@ -136,7 +161,7 @@ void add_curve(document::Document& document, const opencascade::handle<Geom_Curv
       distance(made.control.front(), made.control.back()) <= kMeeting * core::reach(made.control);
   const curve::BSpline2 planar{made.degree, std::move(made.knots), flat(made.control),
                                std::move(made.weights)};
-  document.paths.push_back({label, {detail::parted_at_corners(planar), closed}, 0});
+  document.paths.push_back({label, {detail::parted_at_corners(planar), closed}});
 }
 
 namespace {
@@ -162,16 +187,26 @@ Handle(Geom_Surface) trimmed(Handle(Geom_Surface) s, double u1, double u2, doubl
   return new Geom_RectangularTrimmedSurface(s, u1, u2, v1, v2);
 }
 
-/// Exactly, or within `deviation` where OCCT knows no exact form.
-Handle(Geom_BSplineSurface) converted(const Handle(Geom_Surface) & s, double& deviation) {
-  try {
-    return GeomConvert::SurfaceToBSplineSurface(s);
-  } catch (const Standard_Failure&) {
-    GeomConvert_ApproxSurface near(s, kTolerance, GeomAbs_C1, GeomAbs_C1, 8, 8, 100, 1);
-    if (!near.HasResult()) throw;
-    deviation = near.MaxError();
-    return near.Surface();
-  }
+/// Whether its B-spline form is exact: offsets have one where they are of the same kind again.
+bool has_exact_form(const Handle(Geom_Surface) & s) {
+  if (const auto offset = Handle(Geom_OffsetSurface)::DownCast(s); !offset.IsNull())
+    return !offset->Surface().IsNull();
+  const auto swept = Handle(Geom_SweptSurface)::DownCast(s);
+  return swept.IsNull() || !is_offset(swept->BasisCurve());
+}
+
+/// Exactly, or within `deviation` where there is no exact form.
+Handle(Geom_BSplineSurface)
+    converted(const Handle(Geom_Surface) & s, bool exact, double& deviation) {
+  if (exact) try {
+      return GeomConvert::SurfaceToBSplineSurface(s);
+    } catch (const Standard_Failure&) {  // of a form that OCCT does not know
+    }
+  GeomConvert_ApproxSurface near(s, kTolerance, GeomAbs_C1, GeomAbs_C1, kDegree, kDegree,
+                                 kMostSpans, 1);
+  if (!near.HasResult()) throw Standard_ConstructionError("a surface has no form");
+  deviation = near.MaxError();
+  return near.Surface();
 }
 
 }  // namespace
@@ -184,8 +219,9 @@ surface::Surface surface_of(const opencascade::handle<Geom_Surface>& whole, doub
     s = trimmed->BasisSurface();
   const bool free_form = !Handle(Geom_BSplineSurface)::DownCast(s).IsNull() ||
                          !Handle(Geom_BezierSurface)::DownCast(s).IsNull();
+  const bool exact = has_exact_form(s);
   if (!free_form) s = trimmed(s, u1, u2, v1, v2);
-  Handle(Geom_BSplineSurface) spline = converted(s, deviation);
+  Handle(Geom_BSplineSurface) spline = converted(s, exact, deviation);
   spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
   if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
   if (spline->IsVPeriodic()) spline->SetVNotPeriodic();

@@ -10,20 +10,23 @@ class handle;
 class Geom_Curve;
 class Geom_Surface;
 
-/// Curves and surfaces of OCCT as Keyline's, exactly. Only keyline-cad uses this folder.
+/// Curves and surfaces of OCCT as Keyline's, exactly where they have a B-spline form. Only
+/// keyline-cad uses this folder.
 namespace keyline::exchange::occt {
 
 /// Of a curve's size: ends no farther apart are one point, as what writes files rounds.
 inline constexpr double kMeeting = 1e-7;
 
 /// A planar path (z = 0) or a space curve from the part of a curve between two parameters: lines,
-/// circular arcs in z = 0, else B-splines. Throws Standard_Failure for what OCCT cannot convert.
+/// circular arcs in z = 0, else B-splines. deviation: raised to the largest distance from it where
+/// it has no exact form. Throws Standard_Failure for what OCCT cannot convert.
 void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& curve,
-               double first, double last, const document::Label& label);
+               double first, double last, const document::Label& label, double& deviation);
 
-/// The part of a curve between two parameters: a straight Bézier or a B-spline. Throws as above.
+/// The part of a curve between two parameters: a straight Bézier or a B-spline. deviation, throws:
+/// as above.
 document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& curve, double first,
-                                    double last);
+                                    double last, double& deviation);
 
 /// The B-spline form of the part of a surface in a box of parameters; B-spline and Bézier surfaces
 /// whole. deviation: largest distance from it, 0 where the form is exact. Throws as above.

@@ -77,6 +77,12 @@ void ShapeWalk::skip(const std::string& name, const std::string& why) {
   if (document_.skipped.size() < kMost) document_.skipped.push_back(name + ": " + why);
 }
 
+void ShapeWalk::tell_deviation(const std::string& name, const char* what, double deviation) {
+  if (deviation > 0)
+    skip(name, "its exact form; " + std::string(what) + " within " +
+                   core::number_text(deviation, 2) + " of it is here");
+}
+
 void ShapeWalk::add(const TopoDS_Shape& shape) { add(shape, TopLoc_Location(), {}); }
 
 void ShapeWalk::add(const TopoDS_Shape& shape, const TopLoc_Location& location, Outer outer) {
@@ -120,9 +126,7 @@ void ShapeWalk::add_face(const TopoDS_Shape& shape, Label label) {
     const Bounds b = bounds_of(face, s);
     double deviation = 0;
     document::NamedSurface named{label, surface_of(s, b.u1, b.u2, b.v1, b.v2, deviation), 0};
-    if (deviation > 0)
-      skip(label.name, "its exact form; a surface within " + core::number_text(deviation, 2) +
-                           " of it is here");
+    tell_deviation(label.name, "a surface", deviation);
     if (auto sound = validate(named.surface); !sound)
       return skip(label.name, sound.error().message);
     for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
@@ -136,6 +140,7 @@ void ShapeWalk::add_face(const TopoDS_Shape& shape, Label label) {
 
 /// The whole border, loop by loop, where a part of it is no border of the surface.
 void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& named) {
+  double deviation = 0;
   for (TopoDS_Iterator part(face); part.More(); part.Next()) {
     if (part.Value().ShapeType() != TopAbs_WIRE) continue;
     std::vector<document::SpaceCurve> loop;
@@ -145,7 +150,7 @@ void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& name
         double last = 0;
         const Handle(Geom_Curve) c = BRep_Tool::Curve(edge.Current(), first, last);
         if (c.IsNull()) continue;
-        document::SpaceCurve curve = space_curve_of(c, first, last);
+        document::SpaceCurve curve = space_curve_of(c, first, last, deviation);
         const bool back = edge.Current().Orientation() == TopAbs_REVERSED;
         if (validate(curve)) loop.push_back(back ? reverse(curve) : std::move(curve));
       } catch (const Standard_Failure& failure) {  // the surface is there all the same
@@ -153,6 +158,7 @@ void ShapeWalk::add_trims(const TopoDS_Shape& face, document::NamedSurface& name
       }
     if (!loop.empty()) named.trim_loops.push_back(std::move(loop));
   }
+  tell_deviation(named.label.name, "a border", deviation);
   skip(named.label.name, "trimmed by " + core::counted(named.trims, "edge") +
                              ": the whole underlying surface is here");
 }
@@ -164,7 +170,9 @@ void ShapeWalk::add_edge(const TopoDS_Shape& shape, Label label) {
     double last = 0;
     const Handle(Geom_Curve) c = BRep_Tool::Curve(TopoDS::Edge(shape), first, last);
     if (c.IsNull()) return skip(name, "an edge without curve");
-    add_curve(document_, c, first, last, label);
+    double deviation = 0;
+    add_curve(document_, c, first, last, label, deviation);
+    tell_deviation(name, "a curve", deviation);
   } catch (const Standard_Failure& failure) {
     skip(name, failure.GetMessageString());
   }
@@ -215,13 +223,14 @@ core::Result<document::Path> chained(const document::Document& parts) {
 void ShapeWalk::add_wire(const TopoDS_Shape& shape, Label label) {
   document::Document parts;
   std::string failed;
+  double deviation = 0;
   for (TopoDS_Iterator part(shape); part.More(); part.Next()) try {
       double first = 0;
       double last = 0;
       const TopoDS_Edge edge = TopoDS::Edge(part.Value());
       const Handle(Geom_Curve) c = BRep_Tool::Curve(edge, first, last);
       if (c.IsNull()) continue;
-      add_curve(parts, c, first, last, {});
+      add_curve(parts, c, first, last, {}, deviation);
       if (edge.Orientation() != TopAbs_REVERSED) continue;
       if (!parts.paths.empty()) parts.paths.back().path = reverse(parts.paths.back().path);
     } catch (const Standard_Failure& failure) {
@@ -237,8 +246,8 @@ void ShapeWalk::add_wire(const TopoDS_Shape& shape, Label label) {
     skip(next_edge(label), path.error().message + "; its curves stand by themselves");
     return add_edges(shape, label);
   }
-  number_edge(label);
-  document_.paths.push_back({std::move(label), std::move(*path), 0});
+  tell_deviation(number_edge(label), "a chain", deviation);
+  document_.paths.push_back({std::move(label), std::move(*path)});
 }
 
 void ShapeWalk::add_edges(const TopoDS_Shape& wire, const Label& label) {

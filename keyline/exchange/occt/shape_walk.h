@@ -42,6 +42,7 @@ class ShapeWalk {
   void add_edges(const TopoDS_Shape& wire, const document::Label& label);
   void add_trims(const TopoDS_Shape& face, document::NamedSurface& named);
   void skip(const std::string& name, const std::string& why);
+  void tell_deviation(const std::string& name, const char* what, double deviation);
 
   document::Document& document_;
   const PartLabels& labels_;

@@ -95,10 +95,10 @@ Result<Document> simplified(const Document& document, double tolerance, double& 
     if (!parts) return std::unexpected(parts.error());
     deviation = std::max(deviation, parts->deviation);
     // The helper makes one thing of every path: parts that do not meet are paths of their own.
-    const bool whole = is_chain(*parts) || parts->parts.size() == 1;
+    const bool whole = is_chain(*parts);
     for (const CadPart& part : parts->parts) {
       if (!whole || &part == &parts->parts.front())
-        result.paths.push_back({named.label, {{}, named.path.closed}, 0});
+        result.paths.push_back({named.label, {{}, named.path.closed}});
       result.paths.back().path.curves.push_back(curve_of(part));
     }
   }
@@ -110,7 +110,7 @@ Result<Document> simplified(const Document& document, double tolerance, double& 
     }
     const auto quintics = lac::approximate_by_quintics(*chain, tolerance);
     deviation = std::max(deviation, quintics.deviation);
-    result.space_curves.push_back({named.label, {curve::to_bspline(quintics.pieces, 0).value()}});
+    result.space_curves.push_back({named.label, {curve::to_bspline(quintics.pieces).value()}});
   }
   return result;
 }
