@@ -7,21 +7,16 @@
 #include <utility>
 
 #include "keyline/fairing/turns.h"
+#include "keyline/fairing/wave_choice.h"
 #include "keyline/numeric/parallel.h"
 
 namespace keyline::fairing::detail {
 namespace {
 
 constexpr int kRounds = 4;       // in which an extremum may move on
-constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
 constexpr int kTrialSteps = 40;  // of a trial: one that does not come within the band by then fails
 constexpr double kTrialGap = 0.03;  // of the energy, all of which a wave less may cost again
 constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
-// Single waves that are tried. In a row that all stay, least first, twice as many as stood before
-// one that went on any measured profile: wider ones stay too. Of one curve, three times as many as
-// on any: more have only curves that follow their points' errors.
-constexpr int kInRow = 24;
-constexpr int kTries = 100;
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
                          std::vector<int> extrema, double spring, const CalmOptions& options) {
@@ -110,84 +105,38 @@ class Calming {
     return trial.has_value();
   }
 
-  /// As many waves at once as should fit into the band and the mean square; where that fails, half
-  /// as many, and where it succeeds, twice as many the next time.
+  /// As many waves at once as should fit into the band and the mean square.
   bool together() {
     const std::vector<int> extrema = turns_of(curve_);
-    std::vector<Removal> small = hopeful(extrema);
-    small.resize(std::min(small.size(), most_at_once_));
-    while (small.size() > 1) {
-      if (take(without(extrema, small))) {
-        most_at_once_ = 2 * small.size();
-        return true;
-      }
-      small.resize(small.size() / 2);
-      most_at_once_ = small.size();
-    }
-    return false;
-  }
-
-  /// Waves that share no extremum, least first, until their departures fill what is left.
-  std::vector<Removal> hopeful(const std::vector<int>& extrema) const {
-    std::vector<char> gone(extrema.size(), 0);
-    std::vector<Removal> small;
     const double spare = std::pow(options_.most_rms, 2) - std::pow(report_.rms, 2);
-    double sum = 0;
-    for (const Removal& r : removals(curve_, extrema)) {
-      sum += 0.5 * r.sideways * r.sideways * r.share;
-      if (r.sideways > options_.band.tolerance || sum > spare) break;
-      const std::size_t next = (r.first + r.count - 1) % extrema.size();
-      if (gone[r.first] || gone[next] || refused(r)) continue;
-      gone[r.first] = gone[next] = 1;
-      small.push_back(r);
-    }
-    return small;
+    std::vector<Removal> small = small_waves(removals(curve_, extrema), extrema.size(),
+                                             options_.band.tolerance, spare, refusals_);
+    return at_once_.try_together(small.size(), [&](std::size_t n) {
+      small.resize(n);
+      return take(without(extrema, small));
+    });
   }
 
   /// The least wave that is worth it; as many as there are threads are tried at a time.
   bool single() {
     const std::vector<int> extrema = turns_of(curve_);
-    const std::vector<Removal> all = removals(curve_, extrema);
-    int in_row = 0;
+    const auto most = static_cast<std::size_t>(numeric::thread_count(options_.threads));
+    SingleWaves waves(removals(curve_, extrema), options_.band.tolerance, tries_, refusals_);
     untried_ = false;
-    for (std::size_t next = 0;;) {
-      const std::vector<Removal> few = following(all, next, in_row);
-      if (few.empty()) return false;
+    for (auto few = waves.next(most); !few.empty(); few = waves.next(most)) {
       std::vector<std::optional<Trial>> trials = attempts(extrema, few);
       for (std::size_t i = 0; i < few.size(); ++i) {
-        ++in_row;
         ++tries_;
         if (trials[i]) {
           accept(std::move(*trials[i]));
-          untried_ = false;
-          most_at_once_ = std::max<std::size_t>(most_at_once_, 2);
+          at_once_.one_went();
           return true;
         }
-        refusals_.push_back(few[i].sideways);
+        refusals_.add(few[i]);
       }
     }
-  }
-
-  /// The next ones to be tried, as if each of them were refused.
-  std::vector<Removal> following(const std::vector<Removal>& all, std::size_t& next, int in_row) {
-    const auto most = static_cast<std::size_t>(numeric::thread_count(options_.threads));
-    const std::size_t refused_before = refusals_.size();
-    std::vector<Removal> few;
-    for (; next < all.size() && few.size() < most; ++next) {
-      const Removal& r = all[next];
-      const int tried = static_cast<int>(few.size());
-      const bool hopeless = r.sideways > kHopeless * options_.band.tolerance;
-      if (!hopeless && refused(r)) continue;
-      untried_ = !hopeless && (in_row + tried == kInRow || tries_ + tried == kTries);
-      if (hopeless || untried_) {
-        next = all.size();
-        break;
-      }
-      few.push_back(r);
-      refusals_.push_back(r.sideways);
-    }
-    refusals_.resize(refused_before);
-    return few;
+    untried_ = waves.too_many();
+    return false;
   }
 
   /// With each of them gone; those after the first that is worth it may be left out.
@@ -208,19 +157,13 @@ class Calming {
     return trials;
   }
 
-  /// The same swing again: it was tried and is not worth it.
-  bool refused(const Removal& r) const {
-    return std::any_of(refusals_.begin(), refusals_.end(),
-                       [&](double s) { return std::abs(s - r.sideways) < 1e-3 * s; });
-  }
-
   DenseCurve& curve_;
   const std::vector<FitPoint>& points_;
   CalmOptions options_;
   BandReport report_;
-  std::vector<double> refusals_;
+  Refusals refusals_;
   std::vector<std::vector<int>> in_vain_;  ///< extrema that were tried with the curve as it is
-  std::size_t most_at_once_ = 1'000'000;
+  AtOnce at_once_;
   int tries_ = 0;  ///< of single waves
   bool untried_ = false;
 };

@@ -137,7 +137,8 @@ TEST(ChainOf, ClosedCurvesAreNotPinned) {
 struct Clothoid {
   DenseCurve curve;
   std::vector<FitPoint> points;
-  lac::Chain chain{{{0.4, -0.3}, 0.3}, {{-1, 1, 0.5, 2.5}}, false};
+  lac::Chain chain{{{0.4, -0.3}, 0.3}, {{-1, 0.8, 0.5, 2.5}}, false};
+
   Clothoid() {
     for (int i = 0; i <= 40; ++i) {
       const double t = i / 40.0;
@@ -147,6 +148,7 @@ struct Clothoid {
       points.push_back({.position = curve.joints.back().position});
       curve.feet.push_back(i < 40 ? Foot{i, 0} : Foot{39, 1});
     }
+    curve.length = lac::arc_length(chain);
     set_free(curve);
   }
 };
@@ -173,6 +175,12 @@ TEST(HoldEnds, EndsComeToWhereTheyAreHeld) {
       const double bend = std::abs(now.curvature - joint.curvature);
       EXPECT_EQ(turn < 1e-12, hold >= Hold::direction) << turn;
       EXPECT_EQ(bend < 1e-12, hold >= Hold::curvature) << bend;
+      // So does the curve it is made of, which was solved for.
+      const FitJoint& own = at_start ? c.curve.joints.front() : c.curve.joints.back();
+      const double value = at_start ? c.curve.value.front() : c.curve.value.back();
+      EXPECT_NEAR(core::distance(own.position, joint.position), 0, 1e-9);
+      EXPECT_EQ(std::abs(own.direction - joint.direction) < 1e-9, hold >= Hold::direction);
+      EXPECT_EQ(std::abs(value / c.curve.length - joint.curvature) < 1e-3, hold >= Hold::curvature);
       const FitJoint& other = at_start ? c.curve.joints.back() : c.curve.joints.front();
       EXPECT_LT(core::distance(other.position,
                                at_start ? c.points.back().position : c.points.front().position),
@@ -194,6 +202,8 @@ TEST(HoldEnds, SlidingEndsMoveAlongTheirLine) {
     const FitJoint& now = at_start ? chain.joints.front() : chain.joints.back();
     EXPECT_NEAR(now.position.x, own.position.x, 0.1);
     EXPECT_NEAR(now.position.y, own.position.y + 2e-4, 1e-12);
+    const FitJoint& dense = at_start ? c.curve.joints.front() : c.curve.joints.back();
+    EXPECT_NEAR(dense.position.y, own.position.y + 2e-4, 1e-9);
   }
 }
 
@@ -224,10 +234,12 @@ TEST(CalmRun, SpreadIsThatOfThePointsBesideTheirMean) {
   solve_calm(points, false, options);
   EXPECT_EQ(points[20].low, -1e-5);
   EXPECT_EQ(points[20].high, 1e-5);
-  for (std::size_t f = 4; f + 4 < points.size(); ++f) {
+  for (std::size_t f = 0; f < points.size(); ++f) {
     if (f == 20) continue;
-    EXPECT_NEAR(points[f].low, -1e-3, 2e-4) << f;
-    EXPECT_NEAR(points[f].high, 2e-3, 2e-4) << f;
+    const double beside =
+        f < 4 || f + 4 >= points.size() ? 4e-4 : 2e-4;  // the curve is freer there
+    EXPECT_NEAR(points[f].low, -1e-3, beside) << f;
+    EXPECT_NEAR(points[f].high, 2e-3, beside) << f;
   }
 }
 

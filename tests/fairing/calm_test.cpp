@@ -257,18 +257,17 @@ Given swinging(int turns, double by = 40) {
 // None may go, for the mean square is kept as it is, and no two are alike: 24 in a row are tried,
 // the swings beside 23 turns. One more is told, on any number of threads.
 TEST(Calm, TwentyFourWavesThatStayAreTriedInARow) {
-  for (const int threads : {1, 3})
-    for (const int turns : {23, 24}) {
-      Given g = swinging(turns);
-      CalmOptions options;
-      options.band.tolerance = 2e-2;
-      options.band.rms = 1e-6;
-      options.most_rms = 2e-6;
-      options.threads = threads;
-      const Calmed calmed = calm(g.curve, g.points, options);
-      EXPECT_EQ(calmed.waves.turns, turns) << threads;
-      EXPECT_EQ(calmed.waves.untried, turns > 23) << threads;
-    }
+  for (const auto& [threads, turns] : {std::pair{1, 23}, {3, 24}}) {
+    Given g = swinging(turns);
+    CalmOptions options;
+    options.band.tolerance = 2e-2;
+    options.band.rms = 1e-6;
+    options.most_rms = 2e-6;
+    options.threads = threads;
+    const Calmed calmed = calm(g.curve, g.points, options);
+    EXPECT_EQ(calmed.waves.turns, turns);
+    EXPECT_EQ(calmed.waves.untried, turns > 23);
+  }
 }
 
 // A swing that is wider than four tolerances cannot go, so that it need not be tried; what is left

@@ -1,0 +1,59 @@
+#include "keyline/fairing/wave_choice.h"
+
+#include <cmath>
+
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kSame = 1e-3;   // of a swing: no more than that is another trial's doing
+constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
+// Single waves that are tried. In a row that all stay, least first, twice as many as stood before
+// one that went on any measured profile: wider ones stay too. Of one curve, three times as many as
+// on any: more have only curves that follow their points' errors.
+constexpr int kInRow = 24;
+constexpr int kTries = 100;
+
+}  // namespace
+
+bool Refusals::hold(const Removal& swing) const {
+  return std::ranges::any_of(sideways_,
+                             [&](double s) { return std::abs(s - swing.sideways) < kSame * s; });
+}
+
+std::vector<Removal> small_waves(const std::vector<Removal>& all, std::size_t extrema,
+                                 double tolerance, double spare, const Refusals& refusals) {
+  std::vector<bool> gone(extrema);
+  std::vector<Removal> small;
+  double sum = 0;
+  for (const Removal& r : all) {
+    sum += 0.5 * r.sideways * r.sideways * r.share;
+    if (r.sideways > tolerance || sum > spare) break;
+    const std::size_t last = (r.first + r.count - 1) % extrema;
+    if (gone[r.first] || gone[last] || refusals.hold(r)) continue;
+    gone[r.first] = gone[last] = true;
+    small.push_back(r);
+  }
+  return small;
+}
+
+std::vector<Removal> SingleWaves::next(std::size_t most) {
+  Refusals refused = refusals_;
+  std::vector<Removal> few;
+  for (; at_ < all_.size() && few.size() < most; ++at_) {
+    const Removal& r = all_[at_];
+    const bool hopeless = r.sideways > kHopeless * tolerance_;
+    if (!hopeless && refused.hold(r)) continue;
+    too_many_ = !hopeless && (in_row_ == kInRow || tries_ == kTries);
+    if (hopeless || too_many_) {
+      at_ = all_.size();
+      break;
+    }
+    few.push_back(r);
+    refused.add(r);
+    ++in_row_;
+    ++tries_;
+  }
+  return few;
+}
+
+}  // namespace keyline::fairing::detail
