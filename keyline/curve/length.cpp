@@ -1,8 +1,11 @@
 #include "keyline/curve/length.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "keyline/numeric/newton_bracket.h"
 #include "keyline/numeric/quadrature.h"
@@ -45,24 +48,46 @@ double gauss_of_part(const SpeedView& v, double low, double high, double width) 
   return panel_length(v, low, high);
 }
 
-/// Calls accept(low, high, length) for panels from low to high in order; `whole` is their rule.
-/// No more than `halvings` are made: a curve far from the origin for its size has a speed of
-/// rounded numbers, which no panel is narrow enough for.
-template <class F>
-void refine(const SpeedView& v, double low, double high, double whole, double allowed, int depth,
-            int& halvings, F&& accept) {
-  const double middle = 0.5 * (low + high);
-  const double left = panel_length(v, low, middle);
-  const double right = panel_length(v, middle, high);
-  const double difference = std::abs(left + right - whole);
-  if (!(difference > std::max(allowed, 4e-16 * whole)) || depth >= kMaxDepth || --halvings < 0 ||
-      !(low < middle && middle < high)) {
-    accept(low, middle, left);
-    accept(middle, high, right);
-    return;
+struct Panel {
+  double low, high;
+  double length;   ///< by its rule
+  double allowed;  ///< by which its halves may differ from it
+  bool settled = false;
+};
+
+/// A panel's halves; settled where they agree with it or it cannot be halved again.
+std::array<Panel, 2> halves(const SpeedView& v, const Panel& p) {
+  const double middle = 0.5 * (p.low + p.high);
+  const double left = panel_length(v, p.low, middle);
+  const double right = panel_length(v, middle, p.high);
+  const double difference = std::abs(left + right - p.length);
+  const bool settled =
+      !(difference > std::max(p.allowed, 4e-16 * p.length)) || !(p.low < middle && middle < p.high);
+  return {{{p.low, middle, left, 0.5 * p.allowed, settled},
+           {middle, p.high, right, 0.5 * p.allowed, settled}}};
+}
+
+/// Halves panels until they are settled, the widest first and no more than `halvings` of those that
+/// are not: a curve far from the origin for its size has a speed of rounded numbers, which no panel
+/// is narrow enough for. All its panels are narrow then, and none is left as wide as it was.
+std::vector<Panel> refined(const SpeedView& v, std::vector<Panel> panels, int halvings) {
+  const auto open = [](const Panel& p) { return !p.settled; };
+  for (int depth = 0; depth <= kMaxDepth && halvings >= 0 && std::ranges::any_of(panels, open);
+       ++depth) {
+    std::vector<Panel> narrower;
+    narrower.reserve(panels.size() + 2);
+    for (const Panel& p : panels) {
+      if (p.settled) {
+        narrower.push_back(p);
+        continue;
+      }
+      const auto both = halves(v, p);
+      if (!both[0].settled) --halvings;
+      narrower.insert(narrower.end(), both.begin(), both.end());
+    }
+    panels = std::move(narrower);
   }
-  refine(v, low, middle, left, 0.5 * allowed, depth + 1, halvings, accept);
-  refine(v, middle, high, right, 0.5 * allowed, depth + 1, halvings, accept);
+  return panels;
 }
 
 std::vector<double> cut(const std::vector<double>& breaks, double t0, double t1) {
@@ -73,18 +98,18 @@ std::vector<double> cut(const std::vector<double>& breaks, double t0, double t1)
   return ends;
 }
 
-template <class F>
-void integrate(const SpeedView& v, const std::vector<double>& ends, double tolerance, F&& accept) {
-  std::vector<double> whole;
+/// The panels of the curve between the ends, in order.
+std::vector<Panel> panels_between(const SpeedView& v, const std::vector<double>& ends,
+                                  double tolerance) {
+  std::vector<Panel> panels;
   double total = 0;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    whole.push_back(panel_length(v, ends[i], ends[i + 1]));
-    total += whole.back();
+    panels.push_back({ends[i], ends[i + 1], panel_length(v, ends[i], ends[i + 1]), 0});
+    total += panels.back().length;
   }
-  int halvings = 10'000 + 50 * static_cast<int>(whole.size());
-  const double allowed = tolerance * total / static_cast<double>(whole.size());
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-    refine(v, ends[i], ends[i + 1], whole[i], allowed, 0, halvings, accept);
+  for (Panel& p : panels) p.allowed = tolerance * total / static_cast<double>(panels.size());
+  const int halvings = 10'000 + 50 * static_cast<int>(panels.size());
+  return refined(v, std::move(panels), halvings);
 }
 
 /// Whether the speed of a panel of that length is the same to rounding at all nodes of the rule
@@ -106,17 +131,17 @@ double integrate_speed(const SpeedView& v, const std::vector<double>& breaks, do
   t1 = std::clamp(t1, 0.0, 1.0);
   if (!(t0 < t1)) return 0;
   double sum = 0;
-  integrate(v, cut(breaks, t0, t1), tolerance, [&](double, double, double s) { sum += s; });
+  for (const Panel& p : panels_between(v, cut(breaks, t0, t1), tolerance)) sum += p.length;
   return sum;
 }
 
 ArcLengthMap map_lengths(const SpeedView& v, const std::vector<double>& breaks, double tolerance) {
   ArcLengthMap map{{0.0}, {0.0}, {}};
-  integrate(v, cut(breaks, 0, 1), tolerance, [&](double low, double high, double s) {
-    map.even.push_back(is_even(v, low, high, s));
-    map.t.push_back(high);
-    map.s.push_back(map.s.back() + s);
-  });
+  for (const Panel& p : panels_between(v, cut(breaks, 0, 1), tolerance)) {
+    map.even.push_back(is_even(v, p.low, p.high, p.length));
+    map.t.push_back(p.high);
+    map.s.push_back(map.s.back() + p.length);
+  }
   return map;
 }
 

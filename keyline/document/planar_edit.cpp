@@ -28,6 +28,8 @@ template <class Curve>
 Curve part_of(const Curve& c, const core::Interval& t) {
   if constexpr (std::is_same_v<Curve, lac::Chain>) {
     return lac::part(c, t.low, t.high);
+  } else if constexpr (std::is_same_v<Curve, curve::Polyline2>) {
+    return subcurve(c, t.low, t.high);  // what is left has fewer edges, each as long in parameter
   } else {
     Curve rest = t.high < 1 ? split(c, t.high).first : c;
     return t.low > 0 ? split(rest, t.low / t.high).second : rest;

@@ -89,6 +89,16 @@ TEST(ArcLength, HasNoSizeOfItsOwn) {
   }
 }
 
+// Coordinates are sixteenths, so that both are the same curve. Its speed is rounded to 1e-10 of
+// itself there: the beginning must not be looked at so closely that no time is left for the end.
+TEST(ArcLength, IsTheSameFarFromTheOrigin) {
+  const Bezier2 near{{{0, 0}, {3.5, 0.5}, {-2, 0.25}, {3, 1.75}, {0.0625, -1}, {1, 2}}, {}};
+  Bezier2 far = near;
+  for (core::Point2& p : far.control) p = p + core::Vector2{1e6, -1e6};
+  EXPECT_NEAR(arc_length(far), arc_length(near), 1e-9);
+  EXPECT_NEAR(arc_length(far, 0.5, 1), arc_length(near, 0.5, 1), 1e-9);
+}
+
 TEST(ArcLength, EqualLengthParametersOfACircle) {
   const auto t = equal_length_parameters(quarter_circle(), 5);
   for (int i = 0; i < 5; ++i)

@@ -1,11 +1,30 @@
 #include "keyline/document/planar_edit.h"
 
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 namespace keyline::document {
 namespace {
+
+// Three edges: both cuts lie inside one, inside two, at a vertex.
+TEST(Part, OfAPolylineBeginsAndEndsWhereItIsCut) {
+  using Points = std::vector<core::Point2>;
+  const Path line{{{curve::Polyline2{{{0, 0}, {3, 0}, {3, 3}, {0, 3}}}}}, false};
+  const auto points = [&](double low, double high) {
+    return std::get<curve::Polyline2>(part(line, {low / 12, high / 12}).curves.at(0).value).points;
+  };
+  const auto expect = [&](double low, double high, const Points& wanted) {
+    const Points got = points(low, high);
+    ASSERT_EQ(got.size(), wanted.size());
+    for (std::size_t i = 0; i < got.size(); ++i) EXPECT_LT(distance(got[i], wanted[i]), 1e-14);
+  };
+  expect(1, 3, {{0.75, 0}, {2.25, 0}});
+  expect(2, 7, {{1.5, 0}, {3, 0}, {3, 2.25}});
+  expect(6, 11, {{3, 1.5}, {3, 3}, {0.75, 3}});
+  expect(4, 10, {{3, 0}, {3, 3}, {1.5, 3}});
+}
 
 // A circle of radius 2 from its lowest point on; from 0.8 to 0.3 of it are its half.
 TEST(PartOverSeam, OfACircleIsAnArcOfOneChain) {
