@@ -328,6 +328,14 @@ NearestEnd nearest_end(Point2 to, const std::vector<std::size_t>& left,
   return best;
 }
 
+/// Whether the first curve meets another one where it starts, and none where it ends.
+bool first_runs_backwards(const std::vector<std::size_t>& left, const std::vector<Ends>& ends,
+                          double gap) {
+  const auto& [start, end] = ends.front();
+  return !left.empty() && nearest_end(end, left, ends).away > gap &&
+         nearest_end(start, left, ends).away <= gap;
+}
+
 }  // namespace
 
 Result<Joined> joined(const std::vector<Path>& curves, double gap) {
@@ -338,6 +346,10 @@ Result<Joined> joined(const std::vector<Path>& curves, double gap) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (i > 0) left.push_back(i);
     ends.push_back({evaluate(curves[i], 0), evaluate(curves[i], 1)});
+  }
+  if (first_runs_backwards(left, ends, gap)) {
+    made.path = reverse(made.path);
+    made.reversed.push_back(0);
   }
   while (!left.empty()) {
     const Point2 end = evaluate(made.path, 1);
