@@ -243,5 +243,18 @@ TEST(CalmRun, SpreadIsThatOfThePointsBesideTheirMean) {
   }
 }
 
+// Whose members nobody gave keep the spread they came with.
+TEST(CalmRun, SpreadOfMeansWithoutMembersStays) {
+  auto points = fit_points(lac::sample(lac::Chain{{{0, 0}, 0.3}, {{-1, 1, 0.5, 2.5}}, false}, 40));
+  for (FitPoint& point : points) point.count = 2, point.low = -2e-4, point.high = 3e-4;
+  CalmRunOptions options;
+  options.tolerance = 1e-3;
+  EXPECT_TRUE(solve_calm(points, false, options).band.within);
+  for (const FitPoint& point : points) {
+    EXPECT_EQ(point.low, -2e-4);
+    EXPECT_EQ(point.high, 3e-4);
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fairing::detail
