@@ -102,6 +102,8 @@ TEST(ReadPoints, TheHeaderTellsTheUnit) {
   const auto two = parse("x [mm],y [in]\n" + rows);
   ASSERT_FALSE(two);
   EXPECT_EQ(two.error().path, "data.csv:2");
+  // A row of units has no more fields than the header has names.
+  EXPECT_EQ(file_of("x,y\nmm,mm,mm,mm,mm,mm,mm,mm\n" + rows)->unit, "");
   EXPECT_EQ(file_of("x [µm],y [µm]\n" + rows)->unit, "");
   const RawCurve unknown = only("x [µm],y [µm]\n" + rows);
   ASSERT_EQ(unknown.left_out.size(), 2U);

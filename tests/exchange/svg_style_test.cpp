@@ -113,6 +113,7 @@ constexpr PaintCase kPaints[] = {
     {".a{/**/stroke:lime/*;*/;fill:red}", "class='a'", "#00ff00", "#ff0000", 3},
     {".a{stroke:lime}/* .a{fill:red}", "class='a'", "#00ff00", "#ffffff", 3},
     {".x , .a,#i{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".x,.a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
     {".a{stroke:lime", "class='a'", "#000000", "#ffffff", 3},
     {".a{stroke:lime !important}", "class='a'", "#00ff00", "#ffffff", 3},
     // Selectors of more than one word are let pass.

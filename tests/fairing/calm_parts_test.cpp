@@ -155,7 +155,7 @@ TEST(Residuals, GrowWithToleranceAndSmoothness) {
 // difference of the powers times curvature to the power 1 + alpha over -alpha: fastest where that
 // is larger.
 TEST(TooFast, IsTheFastestRateOverTheOneAllowed) {
-  for (const double alpha : {-2.5, -0.5, 0.7})
+  for (const double alpha : {-2.5, -1.5, -0.5, 0.7})
     for (const auto& [a, b] : {std::pair{1.0, 4.0}, {3.0, 0.5}}) {
       DenseCurve curve;
       curve.at = {0, 0.5};
