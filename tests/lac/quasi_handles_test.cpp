@@ -250,7 +250,7 @@ TEST(Quasi, PlacesOfNearlyStraightSeriesAreWithinTheirOwnSize) {
     const auto places = detail::series_places({series.variable, planted.alpha, 0.5, 6,
                                                core::angle_between(edges.first, edges.last),
                                                core::angle_between(edges.first, edges.chord)});
-    const bool near = std::ranges::any_of(places, [&](const detail::SeriesPlace& p) {
+    const bool near = std::ranges::any_of(places.places, [&](const detail::SeriesPlace& p) {
       return std::abs(p.value - series.value) < 0.01 * series.value &&
              std::abs(p.log_rate - series.log_rate) < 0.01;
     });
@@ -265,6 +265,41 @@ TEST(Quasi, HighDegreesOfSteepSlopesAreFoundInTime) {
       -46.79722830289703, {QuasiForm::taylor_arc, 27, 0.7470702009230887, false});
   ASSERT_TRUE(r) << r.error().message;
   EXPECT_LE(sampled_deviation(r->target, r->curve), r->deviation);
+}
+
+// Where squares are too many those left are larger, and none is lost: a place is found within a
+// chart's quarter of every series that handles were laid over.
+TEST(Quasi, ASearchCutShortKeepsItsPlaces) {
+  int cut_short = 0;
+  for (const double growth : {-1.2, -0.6})
+    for (const double alpha : {-46.8, -20.0}) {
+      const Piece planted{alpha, 1, 0.05, 0.05 * std::exp(growth)};
+      const detail::TaylorSeries series =
+          taylor_series(detail::unit_piece(planted), detail::SeriesVariable::arc_length, 0.75, 27);
+      const detail::EndEdges edges = taylor_end_edges(series);
+      const auto found = detail::series_places({series.variable, alpha, 0.75, 27,
+                                                core::angle_between(edges.first, edges.last),
+                                                core::angle_between(edges.first, edges.chord)});
+      if (!found.complete) ++cut_short;
+      const double size = std::max({series.value, std::abs(series.log_rate), 1.0});
+      const bool near = std::ranges::any_of(found.places, [&](const detail::SeriesPlace& p) {
+        const double own = std::max({p.value, std::abs(p.log_rate), 1.0});
+        return std::abs(p.value / own - series.value / size) < 0.25 &&
+               std::abs(p.log_rate / own - series.log_rate / size) < 0.25 &&
+               std::abs(1 / own - 1 / size) < 0.25;
+      });
+      EXPECT_TRUE(near) << alpha << " " << growth;
+    }
+  EXPECT_GT(cut_short, 0);
+}
+
+TEST(Quasi, ASearchCutShortSaysSo) {
+  const auto r = quasi_log_aesthetic({0, 0}, {0.8029043071031476, -1.2005753014966728e-05}, {1, 0},
+                                     -0.2475383611328703,
+                                     {QuasiForm::taylor_angle, 19, 0.40825363441641127, false});
+  ASSERT_FALSE(r);
+  EXPECT_EQ(r.error().code, ErrorCode::not_converged);
+  EXPECT_NE(r.error().message.find("cut short"), std::string::npos);
 }
 
 // Next to the border end curvatures are farther apart than edges of equal length bear.

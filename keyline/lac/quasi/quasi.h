@@ -91,7 +91,8 @@ core::Result<QuasiResult> quasi_log_aesthetic(double alpha, double lambda,
 /// that of `target`, the log-aesthetic segment through the same handles: a little where the series
 /// serves, much where it is at its end. Fails as solve_g1, whose hint names what the form best
 /// bears, not always the others; as above; and undrawable where no Lambda serves at this degree, or
-/// but with an end edge below 1e-8 of the size, whose direction rounding would lose.
+/// but with an end edge below 1e-8 of the size, whose direction rounding would lose; not_converged
+/// where none was found and rounding hid part of the plane.
 core::Result<QuasiResult> quasi_log_aesthetic(core::Point2 p0, core::Point2 p1, core::Point2 p2,
                                               double alpha, const QuasiOptions& options);
 

@@ -68,8 +68,9 @@ class OverHandles {
     return detail::settled(unit_, options);
   }
 
-  /// Of the curves of settled options the closest to the target; nothing where there is none.
-  std::optional<QuasiResult> closest(const QuasiOptions& settled) const {
+  /// Of the curves of settled options the closest to the target; nothing where there is none, or,
+  /// cut_short is set then, where the search did not see all.
+  std::optional<QuasiResult> closest(const QuasiOptions& settled, bool& cut_short) const {
     Unknowns x{numeric::log_ratio(unit_.piece.curvature_end, unit_.piece.curvature_start),
                unit_.turning};
     detail::HandleSearch search(angles_, alpha_, settled);
@@ -84,19 +85,20 @@ class OverHandles {
       auto r = laid(found, settled);
       if (r && !(closest && closest->deviation <= r->deviation)) closest = std::move(r);
     }
+    cut_short = cut_short || search.cut_short;
     return closest;
   }
 
   /// The same of options whose expansion is chosen: as it is best for the target, else, where that
   /// has none over the handles, the closest expanded at eighths of the interval.
-  std::optional<QuasiResult> closest_expanded(const QuasiOptions& options,
-                                              const QuasiOptions& best) const {
-    std::optional<QuasiResult> all = closest(best);
+  std::optional<QuasiResult> closest_expanded(const QuasiOptions& options, const QuasiOptions& best,
+                                              bool& cut_short) const {
+    std::optional<QuasiResult> all = closest(best, cut_short);
     if (all || !options.automatic) return all;
     for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc})
       for (int i = 0; i <= 8; ++i) {
         const auto at = settled({form, options.degree, i / 8.0, false});
-        auto r = at ? closest(*at) : std::nullopt;
+        auto r = at ? closest(*at, cut_short) : std::nullopt;
         if (r && !(all && all->deviation <= r->deviation)) all = std::move(r);
       }
     return all;
@@ -105,12 +107,13 @@ class OverHandles {
   /// Of all forms that give up end curvatures.
   std::optional<detail::Approximation> closest_form(int degree) const {
     std::optional<detail::Approximation> all;
+    bool cut_short = false;  // there are others
     if (degree == 3) all = cubic_within();
     for (const QuasiForm form : {QuasiForm::taylor_angle, QuasiForm::taylor_arc,
                                  QuasiForm::discrete_angle, QuasiForm::discrete_arc}) {
       const auto options = settled({form, degree, {}, false});
       if (!options) continue;
-      auto r = closest(*options);
+      auto r = closest(*options, cut_short);
       if (r && !(all && all->deviation <= r->deviation))
         all = {std::move(r->curve), r->deviation, false};
     }
@@ -200,6 +203,20 @@ std::unexpected<core::Failure> no_target(core::Failure failure, QuasiForm form) 
   return std::unexpected(std::move(failure));
 }
 
+std::unexpected<core::Failure> no_lambda(bool cut_short) {
+  if (cut_short)
+    return core::fail(
+        ErrorCode::not_converged,
+        "no Lambda was found for these end tangents, and the search was cut short: at "
+        "this degree and slope rounding hides where it may lie",
+        "lower the degree, or take the form best or rational-cubic", "degree");
+  return core::fail(
+      ErrorCode::undrawable,
+      "no Lambda was found that gives a curve of this form and degree with these end tangents "
+      "whose end edges outlast rounding",
+      "raise the degree, or take the form best or rational-cubic");
+}
+
 bool keeps_ends(QuasiForm f) { return f == QuasiForm::rational_cubic || f == QuasiForm::best; }
 
 }  // namespace
@@ -217,13 +234,9 @@ Result<QuasiResult> quasi_log_aesthetic(Point2 p0, Point2 p1, Point2 p2, double 
   }
   const auto settled = forms.settled(options);
   if (!settled) return std::unexpected(settled.error());
-  auto closest = forms.closest_expanded(options, *settled);
-  if (!closest)
-    return core::fail(
-        ErrorCode::undrawable,
-        "no Lambda was found that gives a curve of this form and degree with these end tangents "
-        "whose end edges outlast rounding",
-        "raise the degree, or take the form best or rational-cubic");
+  bool cut_short = false;
+  auto closest = forms.closest_expanded(options, *settled, cut_short);
+  if (!closest) return no_lambda(cut_short);
   detail::measure(*closest);
   return *std::move(closest);
 }

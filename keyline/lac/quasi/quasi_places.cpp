@@ -17,8 +17,9 @@ namespace {
 constexpr int kDepth = 9;  // of quarters: squares a 512th wide
 /// Looked at in a chart. Along a line of it curves are straight and nothing is told apart, which
 /// takes some 4,000. More than twice as many only where rounding hides all, as where coefficients
-/// of a high degree grow by 1e40.
+/// of a high degree grow by 1e40: there squares are left larger, so that these are enough.
 constexpr int kMostSquares = 8192;
+constexpr int kMostLargerSquares = 512;
 
 /// Bernstein coefficients of a polynomial over the unit square, of one degree in either variable.
 class Net {
@@ -150,13 +151,13 @@ class Search {
       for (int k = j; k < wanted.degree; ++k) terms_[k][j] *= power;
   }
 
-  std::vector<SeriesPlace> places() {
+  SeriesPlaces places() {
     for (const int fixed : {0, 1, 2})
       for (const double sign : {-1.0, 1.0}) {
         chart_ = {fixed, sign};
         search_chart();
       }
-    return std::move(places_);
+    return std::move(found_);
   }
 
  private:
@@ -212,14 +213,18 @@ class Search {
   }
 
   void search_chart() {
-    const std::size_t before = places_.size();
-    squares_ = 0;
-    if (!quarter(whole(), kDepth)) places_.resize(before);
+    const std::size_t before = found_.places.size();
+    left_ = kMostSquares;
+    for (int depth = kDepth; !quarter(whole(), depth); --depth) {
+      found_.places.resize(before);
+      found_.complete = false;
+      left_ = kMostLargerSquares;
+    }
   }
 
   /// False where the squares become too many.
   bool quarter(const Square& s, int depth) {
-    if (++squares_ > kMostSquares) return false;
+    if (left_-- == 0) return false;
     if (!may_hold(s)) return true;
     if (depth > 0) {
       for (const Square& q : s.quarters())
@@ -227,7 +232,7 @@ class Search {
       return true;
     }
     const auto [value, rate, scale] = chart_.homogeneous(s.x + 0.5 * s.width, s.y + 0.5 * s.width);
-    places_.push_back({unit_ * value / scale, rate / scale});
+    found_.places.push_back({unit_ * value / scale, rate / scale});
     return true;
   }
 
@@ -235,18 +240,20 @@ class Search {
   double unit_ = 1;  ///< of value
   Terms terms_{};
   Chart chart_;
-  std::vector<SeriesPlace> places_;
-  int squares_ = 0;
+  SeriesPlaces found_;
+  int left_ = 0;
 };
 
 }  // namespace
 
-std::vector<SeriesPlace> series_places(const SeriesWanted& wanted) {
-  std::vector<SeriesPlace> places = Search(wanted, 1).places();
-  if (!(wanted.turning < 1)) return places;
+SeriesPlaces series_places(const SeriesWanted& wanted) {
+  SeriesPlaces found = Search(wanted, 1).places();
+  if (!(wanted.turning < 1)) return found;
   // What turns little is near a line of those charts; there its own turning is the unit.
-  for (const SeriesPlace& p : Search(wanted, wanted.turning).places()) places.push_back(p);
-  return places;
+  const SeriesPlaces little = Search(wanted, wanted.turning).places();
+  found.places.insert(found.places.end(), little.places.begin(), little.places.end());
+  found.complete = found.complete && little.complete;
+  return found;
 }
 
 }  // namespace keyline::lac::detail

@@ -24,12 +24,19 @@ struct SeriesWanted {
 };
 
 /// Places next to which both angles may be met, at least one within about 1e-3 of the size of every
-/// solution. All of the plane is looked at, whether there is a piece or not.
+/// solution where the search is complete.
+struct SeriesPlaces {
+  std::vector<SeriesPlace> places;
+  bool complete = true;
+};
+
+/// All of the plane is looked at, whether there is a piece or not.
 ///
 /// Both end edges and the chord are polynomials of both unknowns. In homogeneous coordinates the
 /// half plane of positive values is covered by unit squares; one is left out when the directions of
 /// its Bernstein coefficients cannot differ as wanted, else quartered. Of a degree or slope so high
-/// that rounding hides the directions there may be places that are not found.
-std::vector<SeriesPlace> series_places(const SeriesWanted& wanted);
+/// that rounding hides the directions too many squares are left: it ends at larger ones then, and
+/// is not complete.
+SeriesPlaces series_places(const SeriesWanted& wanted);
 
 }  // namespace keyline::lac::detail

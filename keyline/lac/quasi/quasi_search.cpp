@@ -153,8 +153,10 @@ Unknowns HandleSearch::turning_rightly(double log_ratio) const {
 
 std::vector<Unknowns> HandleSearch::series() {
   std::vector<Unknowns> found;
-  for (const SeriesPlace& place : series_places(
-           {variable(), alpha_, *options_.about, options_.degree, turning_, chord_angle_})) {
+  const SeriesPlaces looked_at =
+      series_places({variable(), alpha_, *options_.about, options_.degree, turning_, chord_angle_});
+  cut_short = !looked_at.complete;
+  for (const SeriesPlace& place : looked_at.places) {
     Unknowns x = unknowns_of(place);
     if (!solve(x)) continue;
     const bool known = std::any_of(found.begin(), found.end(), [&](const Unknowns& y) {

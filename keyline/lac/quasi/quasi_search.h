@@ -32,11 +32,13 @@ class HandleSearch {
   /// Newton's method with steps halved until they help.
   bool solve(Unknowns& x);
 
-  /// Every solution, each once: of polygons in the one unknown that is left, of the Taylor forms
-  /// in both (series_places), of pieces that turn by less than a whole turn.
+  /// Every solution, each once, unless it is cut short: of polygons in the one unknown that is
+  /// left, of the Taylor forms in both (series_places), of pieces that turn by less than a whole
+  /// turn.
   std::vector<Unknowns> all();
 
-  int iterations = 0;  ///< of the last solve
+  int iterations = 0;      ///< of the last solve
+  bool cut_short = false;  ///< all() may have missed some
 
  private:
   std::optional<Miss> at(const Unknowns& x) const;
