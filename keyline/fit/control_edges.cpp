@@ -104,13 +104,6 @@ FreeLengths::FreeLengths(std::vector<Edges> start, const Held& held) : start_(st
     for (std::size_t n = 0; n < kEdges; ++n) end_ = end_ + e.length[n] * e.direction[n];
 }
 
-Eigen::VectorXd FreeLengths::unknowns() const {
-  Eigen::VectorXd x(size());
-  for (Eigen::Index k = 0; k < size(); ++k)
-    x[k] = std::log(start_at(free_[static_cast<std::size_t>(k)]));
-  return x;
-}
-
 bool FreeLengths::expand(const Eigen::VectorXd& x, Eigen::VectorXd& a, RowMatrix* by_x) const {
   const auto all = static_cast<Eigen::Index>(role_.size());
   a.resize(all);
@@ -119,7 +112,7 @@ bool FreeLengths::expand(const Eigen::VectorXd& x, Eigen::VectorXd& a, RowMatrix
   for (Eigen::Index k = 0; k < size(); ++k) {
     const auto at = static_cast<Eigen::Index>(free_[static_cast<std::size_t>(k)]);
     if (!(std::abs(x[k]) < 600)) return false;
-    a[at] = std::exp(x[k]);
+    a[at] *= std::exp(x[k]);
     if (by_x) (*by_x)(at, k) = a[at];
   }
   for (const Joint& j : joints_) expand_joint(j, a, by_x);

@@ -34,7 +34,8 @@ curve::PiecewiseBezier chain_of(core::Point2 start, const std::vector<Edges>& ed
 /// Curvature at u, [Sketch] Eq. 8, and, where asked for, its derivatives by the five lengths.
 double curvature_with_gradient(const Edges& e, double u, std::array<double, kEdges>* gradient);
 
-/// The unknowns: logarithms of free lengths; the others follow from joints and a held end.
+/// The unknowns: logarithms of the factors by which free lengths change, which no unit is in; the
+/// others follow from joints and a held end.
 class FreeLengths {
  public:
   /// What does not change beside the directions.
@@ -49,7 +50,7 @@ class FreeLengths {
   bool can_hold() const { return !wants_pair_ || pair_found_; }
   Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()); }
   /// Their values in the start.
-  Eigen::VectorXd unknowns() const;
+  Eigen::VectorXd unknowns() const { return Eigen::VectorXd::Zero(size()); }
   /// All lengths, piece by piece, for the unknowns, with their derivatives where asked for; false
   /// where one would not be positive.
   bool expand(const Eigen::VectorXd& x, Eigen::VectorXd& lengths, RowMatrix* by_x) const;
