@@ -146,7 +146,8 @@ double limit_chord_angle(double alpha, double theta) {
   const double angle = core::direction_of(chord);
   const double from_heavy = angle < 0 ? angle + 2 * core::kPi : angle;
   const double limit = alpha < 0 ? from_heavy : theta - from_heavy;
-  return std::max(limit, theta / 2);  // slopes near 1e16: nothing but the circle's, and rounding
+  // Rounding: of slopes near 1e16, nothing but the circle's; of slopes near 0 and 1, all.
+  return std::clamp(limit, theta / 2, theta);
 }
 
 }  // namespace keyline::lac::detail

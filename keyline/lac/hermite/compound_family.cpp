@@ -214,10 +214,10 @@ double CompoundFamily::limit_chord_angle() const {
   if (limit_drawn()) {
     const Vector2 c = chord(kInfinity).chord;
     const double angle = core::direction_of(c);
-    return std::max(angle < 0 ? angle + 2 * core::kPi : angle, theta_ / 2);
+    return std::clamp(angle < 0 ? angle + 2 * core::kPi : angle, theta_ / 2, theta_);
   }
   if (flat_.alpha <= 1) return theta_;
-  return sharp_.theta + detail::limit_chord_angle(flat_.alpha, flat_.theta);
+  return std::min(sharp_.theta + detail::limit_chord_angle(flat_.alpha, flat_.theta), theta_);
 }
 
 CompoundPieces CompoundFamily::pieces(double q) const {
