@@ -30,13 +30,17 @@ constexpr double kGrowing[] = {0.03, 0.3, 3};  ///< weights of growth against ne
 class Search {
  public:
   explicit Search(const TogetherTask& task)
-      : task_(task), system_(task.given, task.joints, task.fixed), x_(system_.given()) {}
+      : task_(task),
+        system_(task.given, task.joints, task.fixed, task.multipliers),
+        x_(system_.given()) {}
 
   std::vector<TogetherNets> run() {
     ask();
-    if (count_asked() == 0) return {};
+    const std::size_t all = count_asked();
+    if (all == 0) return {};
     const std::vector<int> given = types();
     select();
+    if (task_.most_or_none && 2 * count_asked() < all) return {};
     bool met = false;
     for (int round = 0; round < kRestorings; ++round) {
       met = meet(0);
@@ -150,9 +154,10 @@ class Search {
       std::vector<double> left;
       for (const Strand& s : system_.strands()) left.push_back(system_.misfit(s, x_));
       const double worst = *std::max_element(left.begin(), left.end());
-      const bool stuck = i >= kAlways && worst > 0.9 * before;
-      if (worst < 1e-5 * kMet || stuck || i == kPolishing || stopped()) return left;
-      before = worst;
+      const double lacking = std::max(worst, system_.joint_misfit(x_));
+      const bool stuck = i >= kAlways && lacking > 0.9 * before;
+      if (lacking < 1e-5 * kMet || stuck || i == kPolishing || stopped()) return left;
+      before = lacking;
       const Eigen::MatrixX3d here = x_;
       system_.step(x_, here, kDamping, growing(0));
     }
@@ -203,14 +208,14 @@ class Search {
     constexpr int kAsked = 3;
     constexpr int kSteps = 4;
     const Eigen::MatrixX3d before = x_;
+    const std::vector<double> multipliers = system_.multipliers();
     for (int again = 0; again < kAsked; ++again) {
       wish_growth();
       for (int i = 0; i < kSteps; ++i) system_.step(x_, system_.given(), 1, growing(weight));
     }
-    if (meet(weight))
-      keep("towards least energy");
-    else
-      x_ = before;
+    if (meet(weight)) return keep("towards least energy");
+    x_ = before;
+    system_.set_multipliers(multipliers);
   }
 
   /// Asks anew where the minimum of each curve is.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "keyline/surface/edit.h"
-#include "keyline/surface/hold_joints.h"
+#include "keyline/surface/joint_rows.h"
 
 /// Internals of room surface: nets of several patches with held joints, as many of whose curves as
 /// can be have one matrix each.
@@ -16,6 +16,8 @@ struct TogetherTask {
   std::vector<std::vector<bool>> fixed;  ///< by patch and control point: those that do not move
   std::vector<bool> open;                ///< by patch: its curves may be changed
   EditOptions options;
+  JointMultipliers multipliers = JointMultipliers::given;
+  bool most_or_none = false;  ///< no nets where fewer than half of the curves can be served
 };
 
 struct TogetherNets {

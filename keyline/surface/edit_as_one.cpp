@@ -89,12 +89,9 @@ class AsOne {
   void run() {
     edit_in_rounds();
     if (options_.conditions.empty()) {
-      take_one_matrix(fixed_);
-      if (options_.keep == Keep::joints) {
-        auto loose = fixed_;
-        free_shared_corners(given_, joints_, loose);
-        take_one_matrix(loose);
-      }
+      // Part of the way would not hold the joints with other multipliers.
+      if (options_.amount == 1) take_one_matrix(JointMultipliers::open);
+      if (!(least_ < all_.sav_before)) take_one_matrix(JointMultipliers::given);
     }
     finish();
   }
@@ -128,13 +125,28 @@ class AsOne {
     }
   }
 
+  void take_one_matrix(JointMultipliers multipliers) {
+    take_one_matrix(fixed_, multipliers);
+    if (options_.keep != Keep::joints) return;
+    auto loose = fixed_;
+    free_shared_corners(given_, joints_, loose);
+    take_one_matrix(loose, multipliers);
+  }
+
   /// Nets of one matrix per curve; what does not come out sound is held still and all tried again.
-  void take_one_matrix(const std::vector<std::vector<bool>>& fixed) {
+  void take_one_matrix(const std::vector<std::vector<bool>>& fixed, JointMultipliers multipliers) {
     stiff_.assign(stiff_.size(), false);
     still_.assign(still_.size(), false);
     for (int attempt = 0; attempt < kAttempts && !options_.progress.stop_requested(); ++attempt) {
-      TogetherTask task{
-          {given_.begin(), given_.end()}, held_joints(), with_still(fixed), {}, options_};
+      // With open multipliers a step costs several times as much.
+      const bool most_or_none = multipliers == JointMultipliers::open && attempt == 0;
+      TogetherTask task{{given_.begin(), given_.end()},
+                        held_joints(),
+                        with_still(fixed),
+                        {},
+                        options_,
+                        multipliers,
+                        most_or_none};
       for (std::size_t p = 0; p < given_.size(); ++p)
         task.open.push_back(all_.patches[p].result && !still_[p]);
       bool again = false;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -47,6 +49,7 @@ Forms raised(const Forms& f, std::size_t degree) {
   return f.size() > degree ? f : product(Scalar(degree + 2 - f.size(), 1.0), f);
 }
 
+/// Empty: that of a constant is 0.
 Forms derivative(const Forms& f) {
   Forms d(f.size() - 1);
   const double n = static_cast<double>(f.size() - 1);
@@ -117,6 +120,13 @@ struct Side {
   Forms edge, first, second;
 };
 
+/// A polynomial of the Bernstein basis.
+Scalar basis(std::size_t count, std::size_t i) {
+  Scalar unit(count, 0);
+  unit[i] = 1;
+  return unit;
+}
+
 /// The polynomials f and g of degrees d and d + 1 that bring rest + f A + g B nearest to 0, and how
 /// near, of the size of A.
 struct Multipliers {
@@ -135,11 +145,8 @@ Multipliers fit(const Forms& rest, const Forms& a, const Forms& b, std::size_t d
   };
   Eigen::Index c = 0;
   for (const auto& [forms, count] : {std::pair{&a, degree + 1}, std::pair{&b, degree + 2}})
-    for (std::size_t k = 0; k < count; ++k) {
-      Scalar unit(count, 0);
-      unit[k] = 1;
-      matrix.col(c++) = column(product(unit, *forms));
-    }
+    for (std::size_t k = 0; k < count; ++k)
+      matrix.col(c++) = column(product(basis(count, k), *forms));
   const Eigen::VectorXd right = -column(rest);
   const Eigen::VectorXd x = numeric::least_norm(matrix, right);
   Multipliers m{Scalar(degree + 1), Scalar(degree + 2), 0};
@@ -150,50 +157,122 @@ Multipliers fit(const Forms& rest, const Forms& a, const Forms& b, std::size_t d
   return m;
 }
 
+/// Terms of a polynomial whose coefficients are to stay what they are.
+using Terms = std::vector<std::pair<Factors, Forms>>;
+
+/// Multipliers of one equation by their number among those of a joint: polynomials f and g.
+struct Numbers {
+  std::size_t first = 0;   ///< of f
+  std::size_t degree = 0;  ///< of f; that of g is one more
+
+  int f(std::size_t i) const { return static_cast<int>(first + i); }
+  int g(std::size_t i) const { return static_cast<int>(first + degree + 1 + i); }
+  std::size_t f_count() const { return degree + 1; }
+  std::size_t g_count() const { return degree + 2; }
+};
+
+/// f A + g B.
+void add_linear(Terms& terms, const Numbers& m, const Forms& a, const Forms& b) {
+  for (std::size_t i = 0; i < m.f_count(); ++i)
+    terms.push_back({{m.f(i), -1}, product(basis(m.f_count(), i), a)});
+  for (std::size_t i = 0; i < m.g_count(); ++i)
+    terms.push_back({{m.g(i), -1}, product(basis(m.g_count(), i), b)});
+}
+
+/// -(f f S + 2 f g T + g g C) for the second derivatives S, T, C.
+void add_squares(Terms& terms, const Numbers& m, const Forms& s, const Forms& t, const Forms& c) {
+  const auto add = [&](int i, int j, const Scalar& a, const Scalar& b, double weight,
+                       const Forms& forms) {
+    if (!forms.empty()) terms.push_back({{i, j}, sum({{weight, product(product(a, b), forms)}})});
+  };
+  for (std::size_t i = 0; i < m.f_count(); ++i) {
+    const Scalar fi = basis(m.f_count(), i);
+    for (std::size_t j = 0; j < m.f_count(); ++j)
+      add(m.f(i), m.f(j), fi, basis(m.f_count(), j), -1, s);
+    for (std::size_t j = 0; j < m.g_count(); ++j)
+      add(m.f(i), m.g(j), fi, basis(m.g_count(), j), -2, t);
+  }
+  for (std::size_t i = 0; i < m.g_count(); ++i)
+    for (std::size_t j = 0; j < m.g_count(); ++j)
+      add(m.g(i), m.g(j), basis(m.g_count(), i), basis(m.g_count(), j), -1, c);
+}
+
 /// The conditions of a joint as forms that keep their values.
 class Conditions {
  public:
   Conditions(const Points& points, const Eigen::MatrixX3d& given)
       : points_(points), given_(given) {}
 
-  Forms of(const HeldJoint& held) const {
+  JointEquations of(const HeldJoint& held) const {
     const PatchJoint& joint = held.joint;
     Side one = side(joint.first, joint.edges[0]);
     Side two = side(joint.second, joint.edges[1]);
     turn_alike(one, two);
-    Forms all;
-    const auto keep = [&](const Forms& forms) {
-      all.insert(all.end(), forms.begin(), forms.end());
-    };
+    JointEquations all;
     if (held.stiff) {
       for (const Side* s : {&one, &two}) {
-        keep(s->edge);
-        if (held.order >= 1) keep(s->first);
-        if (held.order >= 2) keep(s->second);
+        keep({{kNoFactor, s->edge}}, all);
+        if (held.order >= 1) keep({{kNoFactor, s->first}}, all);
+        if (held.order >= 2) keep({{kNoFactor, s->second}}, all);
       }
       return all;
     }
-    keep(sum({{1, one.edge}, {-1, two.edge}}));
-    if (held.order < 1) return all;
+    keep({{kNoFactor, sum({{1, one.edge}, {-1, two.edge}})}}, all);
+    if (held.order >= 1) keep_orders(held.order, one, two, all);
+    return all;
+  }
+
+ private:
+  static constexpr Factors kNoFactor{-1, -1};
+
+  /// The equation of a common tangent plane, and that of a common curvature.
+  void keep_orders(int order, const Side& one, const Side& two, JointEquations& all) const {
     const Forms along = derivative(one.edge);
     Multipliers m;
     for (std::size_t degree = 0; degree <= kMostRaised; ++degree) {
       m = fit(one.first, two.first, along, degree, given_);
       if (m.misfit < kGoodFit) break;
     }
-    keep(sum({{1, one.first}, {1, product(m.f, two.first)}, {1, product(m.g, along)}}));
-    if (held.order < 2 || along.size() < 2) return all;
-    const Forms rest = sum({{1, one.second},
-                            {-1, product(product(m.f, m.f), two.second)},
-                            {-2, product(product(m.f, m.g), derivative(two.first))},
-                            {-1, product(product(m.g, m.g), derivative(along))}});
-    const std::size_t degree = 2 * (m.f.size() - 1);
-    const Multipliers n = fit(rest, two.first, along, degree, given_);
-    keep(sum({{1, rest}, {1, product(n.f, two.first)}, {1, product(n.g, along)}}));
-    return all;
+    all.meets = m.misfit < kGoodFit;
+    const Numbers first = number(m, all);
+    Terms plane{{kNoFactor, one.first}};
+    add_linear(plane, first, two.first, along);
+    keep(plane, all);
+    if (order < 2) return;
+    Terms bend{{kNoFactor, one.second}};
+    add_squares(bend, first, two.second, derivative(two.first), derivative(along));
+    const Multipliers n =
+        fit(at(bend, all.multipliers), two.first, along, 2 * first.degree, given_);
+    add_linear(bend, number(n, all), two.first, along);
+    keep(bend, all);
   }
 
- private:
+  static Numbers number(const Multipliers& m, JointEquations& all) {
+    const Numbers numbers{all.multipliers.size(), m.f.size() - 1};
+    all.multipliers.insert(all.multipliers.end(), m.f.begin(), m.f.end());
+    all.multipliers.insert(all.multipliers.end(), m.g.begin(), m.g.end());
+    return numbers;
+  }
+
+  static Forms at(const Terms& terms, const std::vector<double>& multipliers) {
+    std::vector<std::pair<double, Forms>> weighted;
+    for (const auto& [factors, forms] : terms)
+      weighted.emplace_back(value_of(factors, multipliers), forms);
+    return sum(weighted);
+  }
+
+  /// Coefficient by coefficient, all terms of the highest degree.
+  static void keep(const Terms& terms, JointEquations& all) {
+    std::size_t count = 0;
+    for (const auto& [factors, forms] : terms) count = std::max(count, forms.size());
+    std::vector<JointForm> rows(count);
+    for (const auto& [factors, forms] : terms) {
+      const Forms up = raised(forms, count - 1);
+      for (std::size_t j = 0; j < count; ++j) rows[j].terms.emplace_back(factors, up[j]);
+    }
+    std::ranges::move(rows, std::back_inserter(all.forms));
+  }
+
   Side side(std::size_t patch, Edge edge) const {
     const int m = points_.degree_across(patch, edge);
     const Forms r0 = points_.row(patch, edge, 0);
@@ -243,16 +322,34 @@ std::vector<BezierSurface> with_coordinates(std::span<const BezierSurface> patch
   return moved;
 }
 
-std::vector<Form> joint_conditions(std::span<const BezierSurface> given,
-                                   std::span<const HeldJoint> joints) {
+double value_of(const Factors& factors, const std::vector<double>& multipliers) {
+  double value = 1;
+  for (const int i : factors)
+    if (i >= 0) value *= multipliers[static_cast<std::size_t>(i)];
+  return value;
+}
+
+Form JointForm::at(const std::vector<double>& multipliers) const {
+  Form all;
+  for (const auto& [factors, form] : terms) add(all, value_of(factors, multipliers), form);
+  return all;
+}
+
+std::vector<JointEquations> joint_equations(std::span<const BezierSurface> given,
+                                            std::span<const HeldJoint> joints) {
   const Points points(given);
   const Eigen::MatrixX3d before = coordinates(given);
   const Conditions conditions(points, before);
+  std::vector<JointEquations> all;
+  for (const HeldJoint& joint : joints) all.push_back(conditions.of(joint));
+  return all;
+}
+
+std::vector<Form> joint_conditions(std::span<const BezierSurface> given,
+                                   std::span<const HeldJoint> joints) {
   std::vector<Form> all;
-  for (const HeldJoint& joint : joints) {
-    const Forms own = conditions.of(joint);
-    all.insert(all.end(), own.begin(), own.end());
-  }
+  for (const JointEquations& own : joint_equations(given, joints))
+    for (const JointForm& form : own.forms) all.push_back(form.at(own.multipliers));
   return all;
 }
 

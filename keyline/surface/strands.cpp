@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kLongest = 0.25;   ///< change of an edge in one step, of the edge
 constexpr double kStraight = 1e-9;  ///< sine of a turn that is none
+constexpr double kSlack = 0.01;     ///< of steps of multipliers, against those of points
 
 using Edges = std::array<Vector3d, 3>;
 
@@ -73,6 +74,7 @@ class Rows {
     for (int k = 0; k < 3 && c >= 0; ++k)
       if (d[k] != 0) entries_.emplace_back(row, c + k, d[k]);
   }
+  void put_unknown(Index row, Index column, double d) { entries_.emplace_back(row, column, d); }
   void close(double residual) { right_.push_back(residual); }
 
   /// Residuals that depend on three edges from point i on, with their derivatives.
@@ -101,16 +103,14 @@ class Rows {
   std::vector<double> right_;
 };
 
-void put_joint(Rows& rows, const Form& form, const MatrixX3d& x, const MatrixX3d& given) {
+void put_joint(Rows& rows, const JointRow& joint, Index first_multiplier) {
   const double w = std::sqrt(kHolds);
   for (int k = 0; k < 3; ++k) {
     const Index row = rows.next();
-    double residual = 0;
-    for (const auto& [i, f] : form) {
-      residual += w * f * (x(i, k) - given(i, k));
-      rows.put(row, i, w * f * RowVector3d::Unit(k));
-    }
-    rows.close(residual);
+    for (const auto& [i, f] : joint.points) rows.put(row, i, w * f * RowVector3d::Unit(k));
+    for (const auto& [i, by] : joint.multipliers)
+      rows.put_unknown(row, first_multiplier + i, w * by[k]);
+    rows.close(w * joint.lacks[k]);
   }
 }
 
@@ -193,7 +193,8 @@ void put_growth(Rows& rows, const Strand& s, const MatrixX3d& x, double misfit, 
 
 StrandSystem::StrandSystem(std::span<const BezierSurface> patches,
                            std::span<const HeldJoint> joints,
-                           const std::vector<std::vector<bool>>& fixed)
+                           const std::vector<std::vector<bool>>& fixed,
+                           JointMultipliers multipliers)
     : given_(coordinates(patches)) {
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const auto base = static_cast<Index>(column_.size());
@@ -206,12 +207,7 @@ StrandSystem::StrandSystem(std::span<const BezierSurface> patches,
   double sum = 0;
   for (const Strand& s : strands_) sum += length_of(s, given_);
   size_ = sum / static_cast<double>(strands_.size());
-  for (Form form : joint_conditions(patches, joints)) {
-    double square = 0;
-    for (const auto& [i, w] : form) square += w * w;
-    for (auto& [i, w] : form) w /= std::sqrt(square) * size_;
-    joints_.push_back(std::move(form));
-  }
+  joints_.emplace(joint_equations(patches, joints), given_, size_, multipliers);
 }
 
 void StrandSystem::add_strands(const Net& net, std::size_t patch, Index base) {
@@ -243,7 +239,7 @@ double StrandSystem::growth(const Strand& s, const MatrixX3d& x) const {
 Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& home, double homing,
                                          const StrandWeights& weights) {
   Rows rows(column_);
-  for (const Form& form : joints_) put_joint(rows, form, x, given_);
+  for (std::size_t i = 0; i < joints_->count(); ++i) put_joint(rows, joints_->at(i, x), unknowns_);
   for (std::size_t i = 0; i < strands_.size(); ++i) {
     const Strand& s = strands_[i];
     put_shape(rows, s, x, given_, weights.shape[i]);
@@ -257,8 +253,13 @@ Eigen::VectorXd StrandSystem::whole_step(const MatrixX3d& x, const MatrixX3d& ho
       rows.put(rows.next(), point, std::sqrt(h) * RowVector3d::Unit(k));
       rows.close(std::sqrt(h) * (x(point, k) - home(point, k)));
     }
-  const Eigen::SparseMatrix<double> j = rows.matrix(unknowns_);
-  factor_.renew(j.transpose() * j);
+  for (std::size_t i = 0; i < multipliers().size(); ++i) {
+    rows.put_unknown(rows.next(), unknowns_ + static_cast<Index>(i),
+                     std::sqrt(homing) * kSlack * std::max(kSlack, joints_->weight(i)));
+    rows.close(0);
+  }
+  const Eigen::SparseMatrix<double> j = rows.matrix(all_unknowns());
+  if (!factor_.renew(j.transpose() * j)) return Eigen::VectorXd::Zero(all_unknowns());
   return -factor_.solve(Eigen::VectorXd(j.transpose() * rows.residuals()));
 }
 
@@ -285,7 +286,11 @@ double StrandSystem::step(MatrixX3d& x, const MatrixX3d& home, double homing,
   if (!dx.allFinite()) return 0;
   const double share = share_of(x, dx);
   for (Index p = 0; p < x.rows(); ++p) x.row(p) += share * moved(p, dx);
-  return share * dx.lpNorm<Eigen::Infinity>() / size_;
+  std::vector<double> now = multipliers();
+  for (std::size_t i = 0; i < now.size(); ++i)
+    now[i] += share * dx[unknowns_ + static_cast<Index>(i)];
+  set_multipliers(std::move(now));
+  return share * dx.head(unknowns_).lpNorm<Eigen::Infinity>() / size_;
 }
 
 }  // namespace keyline::surface::detail
