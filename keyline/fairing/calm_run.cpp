@@ -98,8 +98,7 @@ void choose_pieces(CalmRun& run, double room, const std::vector<FitPoint>& point
                    const CalmRunOptions& options) {
   const double energy =
       std::max(run.calm_energy, unseen_energy(run.curve.length, options.tolerance));
-  const GraphPieces graph(run.curve, turns_of(run.curve), options.slopes, energy,
-                          options.tolerance);
+  GraphPieces graph(run.curve, turns_of(run.curve), options.slopes, energy, options.tolerance);
   const double most_energy = (1 + kForPieces) * energy;
   const BandOptions band = piece_band(run, options);
   const double most_rms = std::max(options.residuals.most(kErrorsOfPieces), run.band.rms / room);

@@ -9,7 +9,9 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kPlaces = 40;               // of a run between which it may be cut, besides its ends
+constexpr int kPlaces = 40;  // of a run between which it may be cut, besides its ends, at first
+constexpr int kPlacesOfPiece = 4;  // at least: a piece that can end only at each third has to be
+                                   // short where one of the right length would do
 constexpr double kBendPower = 2.0 / 3;    // density of places for least squares of the rate
 constexpr double kInflectionLow = -1;     // slopes of pieces through or into an inflection, whose
 constexpr double kInflectionHigh = -0.3;  // variation is finite and whose rate is
@@ -154,14 +156,18 @@ GraphPieces::GraphPieces(const DenseCurve& curve, const std::vector<int>& turns,
 
 void GraphPieces::add_run(int from, int to, bool line) {
   if (line) {
-    runs_.push_back({{from, to}, {2, std::vector<Fit>(2)}, {0}, {{0, 0}}, true});
+    runs_.push_back({.place = {from, to},
+                     .fit = {2, std::vector<Fit>(2)},
+                     .loss = {0},
+                     .from = {{0, 0}},
+                     .line = true});
     return;
   }
-  runs_.push_back(make_run(from, to));
+  runs_.push_back(make_run(from, to, kPlaces));
   tabulate(runs_.back());
 }
 
-GraphPieces::Run GraphPieces::make_run(int from, int to) const {
+GraphPieces::Run GraphPieces::make_run(int from, int to, int places) const {
   std::vector<double> weight{0};
   double mean = 0;
   std::vector<double> bend;
@@ -180,12 +186,14 @@ GraphPieces::Run GraphPieces::make_run(int from, int to) const {
     const double width = 0.5 * (curve_.at[i + 1] - curve_.at[i - 1]);
     weight.push_back(weight.back() + bend[i - from - 1] + 0.25 * mean * width / length);
   }
-  Run run{{from}, {}, {}, {}, false};
-  double next = weight.back() / (kPlaces + 1);
+  Run run;
+  run.place = {from};
+  run.places = places;
+  double next = weight.back() / (places + 1);
   for (int i = from + 1; i < to; ++i) {
-    if (to - from - 1 > kPlaces && weight[i - from] < next) continue;
+    if (to - from - 1 > places && weight[i - from] < next) continue;
     run.place.push_back(i);
-    while (next <= weight[i - from]) next += weight.back() / (kPlaces + 1);
+    while (next <= weight[i - from]) next += weight.back() / (places + 1);
   }
   run.place.push_back(to);
   return run;
@@ -265,10 +273,27 @@ bool GraphPieces::add_piece(std::vector<int>& count) const {
   return true;
 }
 
-std::vector<int> GraphPieces::within(double loss, int most) const {
-  std::vector<int> count(runs_.size(), 1);
-  int pieces = static_cast<int>(runs_.size());
-  for (; pieces < most && total(count) > loss && add_piece(count); ++pieces);
+/// Runs with too few places for so many pieces get twice the places; false where none has.
+bool GraphPieces::refine(const std::vector<int>& count) {
+  bool refined = false;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    Run& run = runs_[r];
+    const int nodes = run.place.back() - run.place.front() - 1;
+    if (run.line || run.places >= nodes || run.places >= kPlacesOfPiece * count[r]) continue;
+    run = make_run(run.place.front(), run.place.back(), 2 * run.places);
+    tabulate(run);
+    refined = true;
+  }
+  return refined;
+}
+
+std::vector<int> GraphPieces::within(double loss, int most) {
+  std::vector<int> count;
+  do {
+    count.assign(runs_.size(), 1);
+    int pieces = static_cast<int>(runs_.size());
+    for (; pieces < most && total(count) > loss && add_piece(count); ++pieces);
+  } while (refine(count));
   return count;
 }
 

@@ -23,8 +23,8 @@ class GraphPieces {
               double energy, double tolerance);
 
   /// Numbers of pieces for every run: as few as keep the loss within this, and about so many at
-  /// most.
-  std::vector<int> within(double loss, int most) const;
+  /// most. Runs cut at most of their places get more.
+  std::vector<int> within(double loss, int most);
 
   DenseCurve cut_by(const std::vector<int>& count) const;
 
@@ -40,6 +40,7 @@ class GraphPieces {
     std::vector<std::vector<Fit>> fit;  ///< by first and last place
     std::vector<double> loss;           ///< by the number of pieces less one
     std::vector<std::vector<int>> from;
+    int places = 0;  ///< that were asked for, besides its ends
     bool line = false;
   };
   void add_run(int from, int to, bool line);
@@ -47,7 +48,8 @@ class GraphPieces {
   /// Slopes that a piece between two places may have: fewer where an inflection is near.
   core::Interval slopes_of(int from, int to) const;
   Fit best_fit(int from, int to) const;
-  Run make_run(int from, int to) const;
+  Run make_run(int from, int to, int places) const;
+  bool refine(const std::vector<int>& count);
   bool add_piece(std::vector<int>& count) const;
   double total(const std::vector<int>& count) const;
 

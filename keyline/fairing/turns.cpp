@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "keyline/analysis/comb_figures.h"
 
@@ -90,10 +91,14 @@ int seen_waves(const DenseCurve& curve) {
 std::vector<Removal> removals(const DenseCurve& curve, const std::vector<int>& extrema) {
   std::vector<Removal> all;
   const std::size_t n = extrema.size();
+  std::vector<std::size_t> before(curve.joints.size());  // feet in the cells before a node
+  for (const Foot& foot : curve.feet) ++before[foot.piece + 1];
+  std::partial_sum(before.begin(), before.end(), before.begin());
   const auto add = [&](int a, int b, double lap, std::size_t first, std::size_t count) {
     const double swing = (curve.joints[b].curvature - curve.joints[a].curvature) / curve.length;
     const double half = std::abs(curve.at[b] - curve.at[a] + lap) * curve.length;
-    all.push_back({sideways(swing, half), half / curve.length, first, count});
+    const std::size_t points = before[b] - before[a] + (lap > 0 ? before.back() : 0);
+    all.push_back({sideways(swing, half), half / curve.length, first, count, points});
   };
   for (std::size_t i = 0; i + 1 < n; ++i) add(extrema[i], extrema[i + 1], 0, i, 2);
   if (curve.closed) {

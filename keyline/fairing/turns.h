@@ -27,7 +27,8 @@ struct Removal {
   double sideways = HUGE_VAL;  ///< how far a wave of this swing and width departs from its middle
   double share = 0;            ///< of the length
   std::size_t first = 0;
-  std::size_t count = 0;  ///< 1 at an end, else 2
+  std::size_t count = 0;                              ///< 1 at an end, else 2
+  std::size_t points = static_cast<std::size_t>(-1);  ///< whose feet lie on it
 };
 
 /// The swings between neighbouring extrema and, of an open curve, from its ends to the next one;

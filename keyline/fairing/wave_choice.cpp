@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kSame = 1e-3;   // of a swing: no more than that is another trial's doing
 constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
+constexpr std::size_t kHeldBy = 4;  // points or more: so many tell a rate of curvature
 // Single waves that are tried. In a row that all stay, least first, twice as many as stood before
 // one that went on any measured profile: wider ones stay too. Of one curve, three times as many as
 // on any: more have only curves that follow their points' errors.
@@ -41,10 +42,10 @@ std::vector<Removal> SingleWaves::next(std::size_t most) {
   std::vector<Removal> few;
   for (; at_ < all_.size() && few.size() < most; ++at_) {
     const Removal& r = all_[at_];
-    const bool hopeless = r.sideways > kHopeless * tolerance_;
-    if (!hopeless && refused.hold(r)) continue;
-    too_many_ = !hopeless && (in_row_ == kInRow || tries_ == kTries);
-    if (hopeless || too_many_) {
+    const bool hopeless = r.points >= kHeldBy && r.sideways > kHopeless * tolerance_;
+    if (hopeless || refused.hold(r)) continue;
+    too_many_ = in_row_ == kInRow || tries_ == kTries;
+    if (too_many_) {
       at_ = all_.size();
       break;
     }

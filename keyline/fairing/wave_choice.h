@@ -52,8 +52,9 @@ class AtOnce {
   std::size_t most_ = static_cast<std::size_t>(-1);
 };
 
-/// Single waves in the order in which they are tried, least first, until one cannot be taken out
-/// whatever it costs, or there are too many.
+/// Single waves in the order in which they are tried, least first, until there are too many. One
+/// that is wider than the band and stands on points cannot be taken out whatever it costs; between
+/// points that stand apart nothing holds it.
 class SingleWaves {
  public:
   /// tries: so many were tried of the curve before. Refers to the refusals.

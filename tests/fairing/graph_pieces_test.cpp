@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,7 @@ TEST(GraphPieces, ReadsAPieceAsItself) {
       return std::pow((1 - t) * std::pow(2, -alpha) + t * std::pow(7, -alpha), -1 / alpha);
     };
     const DenseCurve curve = graph(k);
-    const GraphPieces pieces(curve, {}, kSlopes, 25, 1e-3);
+    GraphPieces pieces(curve, {}, kSlopes, 25, 1e-3);
     const auto count = pieces.within(0.02, 40);
     EXPECT_EQ(count, std::vector<int>{1}) << alpha;
     const DenseCurve cut = pieces.cut_by(count);
@@ -47,7 +48,7 @@ TEST(GraphPieces, ReadsAPieceAsItself) {
 // Through zero curvature runs as a clothoid's: of steeper slopes its variation has no bound.
 TEST(GraphPieces, ThroughAnInflectionSlopesAreFew) {
   const DenseCurve curve = graph([](double t) { return 5 * std::cbrt(t - 0.2); });
-  const GraphPieces pieces(curve, {}, kSlopes, 25, 1e-3);
+  GraphPieces pieces(curve, {}, kSlopes, 25, 1e-3);
   const DenseCurve cut = pieces.cut_by({1});
   EXPECT_EQ(cut.alpha[0], -1);  // of slope -3, which is not to be had there
   const DenseCurve falling = graph([](double t) { return 4 - 8 * t; });
@@ -65,11 +66,29 @@ TEST(GraphPieces, ThroughAnInflectionVariationTellsTheSlope) {
   EXPECT_NEAR(cut.alpha[0], -1, 0.2);
 }
 
+// Steps of random height and width, joined by ramps: as many pieces as there are steps and ramps.
+// Between the places that a run has at first, too far apart for so many, no pieces follow them.
+TEST(GraphPieces, MoreOfThemFindTheirPlaces) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> cells(2, 12);
+  std::uniform_real_distribution<double> power(0, 3);
+  std::vector<double> value{1};
+  int pieces = 0;
+  for (; value.size() < 230; ++pieces) {
+    const double rate = pieces % 2 == 0 ? 1e-3 : 1e-2 * std::pow(10, power(random));
+    for (int i = cells(random); i > 0; --i) value.push_back(value.back() + rate);
+  }
+  const int last = static_cast<int>(value.size()) - 1;
+  const DenseCurve curve = graph([&](double t) { return value[std::lround(t * last)]; }, last);
+  GraphPieces graph_pieces(curve, {}, {-1, -1}, variation(curve), 1e-4);
+  EXPECT_NEAR(graph_pieces.within(1e-4, last).front(), pieces, 2);
+}
+
 // Straight lines with a bend in the graph: two pieces, cut where it bends.
 TEST(GraphPieces, CutsWhereTheGraphBends) {
   const auto k = [](double t) { return t < 0.4 ? 1 + t : 1.4 + 20 * (t - 0.4); };
   const DenseCurve curve = graph(k);
-  const GraphPieces pieces(curve, {}, kSlopes, variation(curve), 1e-4);
+  GraphPieces pieces(curve, {}, kSlopes, variation(curve), 1e-4);
   const auto count = pieces.within(1e-3, 40);
   EXPECT_EQ(count, std::vector<int>{2});
   const DenseCurve cut = pieces.cut_by(count);
@@ -82,7 +101,7 @@ TEST(GraphPieces, CutsWhereTheGraphBends) {
 // Nothing runs on across a turn, and each run has its sense.
 TEST(GraphPieces, TurnsEndPieces) {
   const DenseCurve curve = graph([](double t) { return t < 0.5 ? 1 + 2 * t : 3 - 2 * t; });
-  const GraphPieces pieces(curve, {120}, kSlopes, variation(curve), 1e-4);
+  GraphPieces pieces(curve, {120}, kSlopes, variation(curve), 1e-4);
   const auto count = pieces.within(1e-3, 40);
   EXPECT_EQ(count, (std::vector<int>{1, 1}));
   const DenseCurve cut = pieces.cut_by(count);
@@ -109,7 +128,7 @@ TEST(GraphPieces, LinesStay) {
     curve.kind.push_back(PieceKind::curve);
     curve.value.push_back(curve.joints[i].curvature);
   }
-  const GraphPieces pieces(curve, {}, kSlopes, variation(curve), 1e-4);
+  GraphPieces pieces(curve, {}, kSlopes, variation(curve), 1e-4);
   const auto count = pieces.within(1e-3, 40);
   ASSERT_EQ(count, (std::vector<int>{1, 1}));
   const DenseCurve cut = pieces.cut_by(count);
@@ -122,7 +141,7 @@ TEST(GraphPieces, LinesStay) {
 TEST(GraphPieces, ClosedCurvesBeginAtATurn) {
   DenseCurve curve = graph([](double t) { return 5 + std::sin(2 * M_PI * t); }, 80);
   curve.closed = true;
-  const GraphPieces pieces(curve, {20, 60}, kSlopes, variation(curve), 1e-2);
+  GraphPieces pieces(curve, {20, 60}, kSlopes, variation(curve), 1e-2);
   const DenseCurve cut = pieces.cut_by({1, 1});
   EXPECT_NEAR(cut.value[0], 6, 1e-12);
   EXPECT_NEAR(cut.value[1], 4, 1e-12);
@@ -182,7 +201,7 @@ double cubic(double t) { return 1 + t + 6 * t * t * t; }
 TEST(GraphPieces, WhatAPieceLosesIsVariationAndBow) {
   const DenseCurve curve = graph(cubic, 60);
   for (const auto& [energy, tolerance] : {std::pair{20.0, 10.0}, {1e9, 1e-3}, {40.0, 5e-3}}) {
-    const GraphPieces pieces(curve, {}, kSlopes, energy, tolerance);
+    GraphPieces pieces(curve, {}, kSlopes, energy, tolerance);
     const double loss = own_loss(curve, 0, 60, energy, tolerance);
     EXPECT_EQ(pieces.within(1.03 * loss, 40), std::vector<int>{1}) << energy;
     EXPECT_GT(pieces.within(0.97 * loss, 40)[0], 1) << energy;
@@ -190,7 +209,7 @@ TEST(GraphPieces, WhatAPieceLosesIsVariationAndBow) {
   // A tolerance is of the length.
   DenseCurve longer = curve;
   longer.length = 3;
-  const GraphPieces pieces(longer, {}, kSlopes, 1e9, 3e-3);
+  GraphPieces pieces(longer, {}, kSlopes, 1e9, 3e-3);
   const double loss = own_loss(curve, 0, 60, 1e9, 1e-3);
   EXPECT_EQ(pieces.within(1.03 * loss, 40), std::vector<int>{1});
   EXPECT_GT(pieces.within(0.97 * loss, 40)[0], 1);
@@ -200,7 +219,7 @@ TEST(GraphPieces, WhatAPieceLosesIsVariationAndBow) {
 TEST(GraphPieces, CutsWhereTheLeastIsLost) {
   const DenseCurve curve = graph([](double t) { return 1 + 3 * std::pow(t, 5) + t; }, 30);
   const double energy = 20, tolerance = 5e-3;
-  const GraphPieces pieces(curve, {}, kSlopes, energy, tolerance);
+  GraphPieces pieces(curve, {}, kSlopes, energy, tolerance);
   const DenseCurve cut = pieces.cut_by({2});
   ASSERT_EQ(cut.cut.size(), 3U);
   double least = HUGE_VAL;
@@ -218,7 +237,7 @@ TEST(GraphPieces, CutsWhereTheLeastIsLost) {
 TEST(GraphPieces, PiecesGoWhereTheyHelp) {
   const DenseCurve curve =
       graph([](double t) { return t < 0.5 ? 4 - 2 * t : 3 + 40 * std::pow(t - 0.5, 3); }, 60);
-  const GraphPieces pieces(curve, {30}, kSlopes, 20, 1e-3);
+  GraphPieces pieces(curve, {30}, kSlopes, 20, 1e-3);
   const std::vector<int> count = pieces.within(1e-2, 40);
   ASSERT_EQ(count.size(), 2U);
   EXPECT_EQ(count[0], 1);

@@ -215,7 +215,7 @@ TEST(LeastVariation, PiecesOfANoseClose) {
   detail::CalmOptions calm;
   calm.band.tolerance = 0.9 * kTolerance;
   const double energy = detail::calm(curve, points, calm).band.energy;
-  const detail::GraphPieces graph(curve, detail::turns_of(curve), {-3, 3}, energy, kTolerance);
+  detail::GraphPieces graph(curve, detail::turns_of(curve), {-3, 3}, energy, kTolerance);
   for (const double loss : {0.2, 0.1, 0.05}) {
     DenseCurve pieces = graph.cut_by(graph.within(loss, 400));
     refine_cells(pieces);

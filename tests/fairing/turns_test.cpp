@@ -149,6 +149,20 @@ TEST(Removals, DepartAsFarAsAWaveOfTheirSwingAndWidth) {
 
 // Of a closed curve the last swing goes on over the seam; two extrema alone are not to go, for a
 // closed curve has two.
+TEST(Removals, KnowThePointsTheyStandOn) {
+  DenseCurve curve = of({1, 6, 4, 2, 3});
+  curve.at = {0, 0.1, 0.2, 0.5, 1};
+  for (const int cell : {0, 0, 1, 2, 3, 3, 3}) curve.feet.push_back({cell, 0.5});
+  std::vector<std::size_t> points(3);
+  for (const Removal& r : removals(curve, {1, 3}))
+    points[r.count == 2 ? 1 : 2 * r.first] = r.points;
+  EXPECT_EQ(points, (std::vector<std::size_t>{2, 2, 3}));
+  DenseCurve closed = of({3, 1, 2, 0.5, 2.5, 3}, true);
+  for (const int cell : {0, 1, 2, 2, 3, 4, 4}) closed.feet.push_back({cell, 0.5});
+  for (const Removal& r : removals(closed, {0, 1, 2, 3}))
+    EXPECT_EQ(r.points, (std::vector<std::size_t>{1, 1, 2, 3})[r.first]);
+}
+
 TEST(Removals, OfClosedCurvesGoOnOverTheSeam) {
   const DenseCurve curve = of({3, 1, 2, 0.5, 2.5, 3}, true);  // nodes a fifth of the length apart
   const std::vector<Removal> all = removals(curve, {0, 1, 2, 3});

@@ -191,6 +191,16 @@ TEST(SingleWaves, EndWhereNoneCanGo) {
   }
 }
 
+// Three points lie on an arc, so that they hold no rate of curvature; four do. Narrower ones after
+// it are tried all the same.
+TEST(SingleWaves, ThatStandOnFewPointsAreTriedHoweverWide) {
+  std::vector<Removal> all{swing(1, 0), swing(50, 1), swing(60, 2), swing(70, 3), swing(80, 4)};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].points = i;
+  all[1].points = 4;
+  for (const std::size_t most : {1U, 2U, 5U})
+    EXPECT_EQ(tried(all, 1, 0, most).waves, (Firsts{0, 2, 3})) << most;
+}
+
 // The same swing stands for itself: others of its size are refused with it.
 TEST(SingleWaves, AreTriedOnceOfASize) {
   const std::vector<Removal> all{swing(1, 0), swing(1.0005, 1), swing(2, 2), swing(2, 3),
