@@ -375,29 +375,5 @@ TEST(Spline, WorksAtExtremeScales) {
   }
 }
 
-// In the clothoid spline the curvature keeps its sign in a span, in that of the slopes wanted it
-// came to change it: 9 of 6,000 random requests had such a piece of slope from 0 on.
-TEST(SolveSpline, PiecesAreSoundWhereSlopesMoveAnInflection) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> unit(0, 1);
-  const double slopes[] = {1.0, 0.0, -0.01, -0.0001, 0.5, 2.0};
-  int solved = 0;
-  for (int n = 0; n < 1500; ++n) {
-    std::vector<core::Point2> points;
-    SplineOptions options;
-    const int count = 4 + static_cast<int>(random() % 5);
-    for (int i = 0; i < count; ++i) points.push_back({i + 0.8 * unit(random), 3 * unit(random)});
-    for (int i = 1; i < count; ++i) options.alpha.push_back(slopes[random() % 6]);
-    const auto spline = solve_spline(points, options);
-    if (!spline) continue;
-    ++solved;
-    const auto valid = validate(spline->chain);
-    ASSERT_TRUE(valid) << n << ": " << valid.error().message << ' ' << valid.error().path;
-    EXPECT_LE(largest_joint_gap(spline->chain).curvature, 0);
-    EXPECT_LE(spline->deviation, 1e-11);
-  }
-  EXPECT_GE(solved, 1400);
-}
-
 }  // namespace
 }  // namespace keyline::lac
