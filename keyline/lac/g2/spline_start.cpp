@@ -133,7 +133,7 @@ SplineStart spline_start(std::span<const Point2> points, const SplineOptions& op
       auto read = marks_on_way(marks, way, mirrored);
       if (options.closed) {
         const std::size_t first = greatest_rotation(read);
-        std::ranges::rotate(read, read.begin() + static_cast<std::ptrdiff_t>(first));
+        std::rotate(read.begin(), read.begin() + static_cast<std::ptrdiff_t>(first), read.end());
         way.point = way.at(first, points.size());
       }
       if (read <= most) continue;
@@ -174,8 +174,8 @@ SplineSolution as_asked(const SplineSolution& solution, const SplineStart& way) 
   std::ranges::sort(asked.overridden);
   auto& pieces = asked.chain.pieces;
   const auto first = std::ranges::min_element(asked.span) - asked.span.begin();
-  std::ranges::rotate(pieces, pieces.begin() + first);
-  std::ranges::rotate(asked.span, asked.span.begin() + first);
+  std::rotate(pieces.begin(), pieces.begin() + first, pieces.end());
+  std::rotate(asked.span.begin(), asked.span.begin() + first, asked.span.end());
   return asked;
 }
 
