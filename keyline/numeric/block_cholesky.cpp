@@ -109,7 +109,8 @@ bool BlockCholesky::renew(const SparseMatrix<double>& a) {
   if (!same_places(a)) analyze(a);
   SparseMatrix<double> lower(a.rows(), a.cols());
   lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(order_);
-  return std::ranges::all_of(blocks_, [&](Block& block) { return eliminate(block, lower); });
+  return std::all_of(blocks_.begin(), blocks_.end(),
+                     [&](Block& block) { return eliminate(block, lower); });
 }
 
 VectorXd BlockCholesky::solve(const VectorXd& b) const {
