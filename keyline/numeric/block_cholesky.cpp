@@ -21,15 +21,17 @@ bool BlockCholesky::same_places(const SparseMatrix<double>& a) const {
          std::equal(places_.begin(), places_.end(), a.innerIndexPtr());
 }
 
-void BlockCholesky::analyze(const SparseMatrix<double>& a) {
+/// The order of elimination.
+void BlockCholesky::arrange(const SparseMatrix<double>& a) {
   starts_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
   places_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   Eigen::PermutationMatrix<Eigen::Dynamic> back;
   Eigen::AMDOrdering<int>()(a.selfadjointView<Eigen::Lower>(), back);
   order_ = back.inverse();
-  SparseMatrix<double> lower(a.rows(), a.cols());
-  lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(order_);
-  const auto n = static_cast<std::size_t>(a.cols());
+}
+
+void BlockCholesky::analyze(const SparseMatrix<double>& lower) {
+  const auto n = static_cast<std::size_t>(lower.cols());
   std::vector<std::vector<Index>> rows(n);  // below the diagonal, by column of the factor
   std::vector<std::vector<std::size_t>> children(n);
   std::vector<Index> seen(n, -1);
@@ -106,9 +108,11 @@ bool BlockCholesky::eliminate(Block& block, const SparseMatrix<double>& lower) {
 }
 
 bool BlockCholesky::renew(const SparseMatrix<double>& a) {
-  if (!same_places(a)) analyze(a);
+  const bool known = same_places(a);
+  if (!known) arrange(a);
   SparseMatrix<double> lower(a.rows(), a.cols());
   lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(order_);
+  if (!known) analyze(lower);
   return std::all_of(blocks_.begin(), blocks_.end(),
                      [&](Block& block) { return eliminate(block, lower); });
 }

@@ -30,7 +30,8 @@ class BlockCholesky {
   };
 
   bool same_places(const Eigen::SparseMatrix<double>& a) const;
-  void analyze(const Eigen::SparseMatrix<double>& a);
+  void arrange(const Eigen::SparseMatrix<double>& a);
+  void analyze(const Eigen::SparseMatrix<double>& lower);
   void gather(const std::vector<std::vector<Eigen::Index>>& rows);
   bool eliminate(Block& block, const Eigen::SparseMatrix<double>& lower);
 

@@ -223,8 +223,6 @@ class Conditions {
   }
 
  private:
-  static constexpr Factors kNoFactor{-1, -1};
-
   /// The equation of a common tangent plane, and that of a common curvature.
   void keep_orders(int order, const Side& one, const Side& two, JointEquations& all) const {
     const Forms along = derivative(one.edge);

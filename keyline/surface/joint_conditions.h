@@ -18,6 +18,7 @@ using Form = std::map<Eigen::Index, double>;
 
 /// Numbers of the multipliers whose product a term has as a factor; -1: none.
 using Factors = std::array<int, 2>;
+inline constexpr Factors kNoFactor{-1, -1};
 double value_of(const Factors& factors, const std::vector<double>& multipliers);
 
 /// A weighted sum of control points whose weights depend on the multipliers of a joint.

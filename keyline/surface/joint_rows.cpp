@@ -23,7 +23,7 @@ JointRows::JointRows(std::span<const JointEquations> joints, const MatrixX3d& gi
       double square = 0;
       for (const auto& [i, w] : now) square += w * w;
       if (!(square > 0)) continue;
-      add(open ? form : JointForm{{{{-1, -1}, now}}}, first, std::sqrt(square) * unit, given);
+      add(open ? form : JointForm{{{kNoFactor, now}}}, first, std::sqrt(square) * unit, given);
     }
   }
   std::vector<double> squares(multipliers_.size(), 0);
