@@ -62,14 +62,14 @@ std::vector<document::PlanarCurve> curves_of(std::vector<curve::Bezier2> pieces)
     const auto end = std::find_if_not(at, pieces.end(), is_line);
     if (end - at < static_cast<std::ptrdiff_t>(kMany)) {
       const auto next = std::max(end, at + 1);
-      for (; at != next; ++at) curves.push_back({std::move(*at)});
+      for (; at != next; ++at) curves.emplace_back().value = std::move(*at);
       continue;
     }
     curve::Polyline2 line;
     line.points.reserve(static_cast<std::size_t>(end - at) + 1);
     line.points.push_back(at->control[0]);
     for (; at != end; ++at) line.points.push_back(at->control[1]);
-    curves.push_back({std::move(line)});
+    curves.emplace_back().value = std::move(line);
   }
   return curves;
 }
