@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -8,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "keyline/document/document.h"
-#include "keyline/exchange/document_file.h"
 
 #include "cad_fixture.h"
 #include "iges_text.h"
@@ -24,14 +22,9 @@ using testing::Not;
 
 class CadCount : public CadTest {
  protected:
-  core::Result<document::Document> read(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return read_document(folder_ / name);
-  }
-
   /// What a file of one entity with those parameters, its type first, is refused for.
   std::string why(const std::string& parameters) const {
-    const auto d = read("d.iges", iges_file({{.parameters = parameters}}));
+    const auto d = read_text("d.iges", iges_file({{.parameters = parameters}}));
     if (d) return {};
     const std::string& place = d.error().path;
     return place.substr(place.rfind(':') + 1) + ": " + d.error().message;
@@ -81,7 +74,8 @@ TEST_F(CadCount, ListsOfPointersMayStandBehind) {
 TEST_F(CadCount, NumbersOfIgesAreThoseOfFortran) {
   for (const char* end :
        {"12.5,3.75,0", "1.25D1,.375D+1,0.D0", "1.25d1,37.5d-1,0", "125E-1,3.75e0,0"}) {
-    const auto d = read("d.iges", iges_file({{.parameters = "110,0,0,0," + std::string(end)}}));
+    const auto d =
+        read_text("d.iges", iges_file({{.parameters = "110,0,0,0," + std::string(end)}}));
     ASSERT_TRUE(d) << d.error().message;
     EXPECT_LT(distance(evaluate(d->paths.at(0).path, 1), {12.5, 3.75}), 1e-14) << end;
   }
@@ -89,7 +83,7 @@ TEST_F(CadCount, NumbersOfIgesAreThoseOfFortran) {
   const std::size_t form = text.find("D0000002") - 72 + 32;
   ASSERT_EQ(text.substr(form, 8), "       0");
   text[form + 7] = 'x';
-  const auto bad = read("d.iges", text);
+  const auto bad = read_text("d.iges", text);
   ASSERT_FALSE(bad);
   EXPECT_THAT(bad.error().message, HasSubstr("\"x\" is no value"));
 }
@@ -108,12 +102,12 @@ std::string step_line(const std::string& end, const std::string& beside = {}) {
 TEST_F(CadCount, CommentsAndOwnKeywordsOfStepAreNoValues) {
   for (const char* beside : {"", "/* (1.,,x) it's */\n", "/**/", "#30=(A()!OWN_THING((1.)));\n",
                              "#30=!OWN_THING((.T.,.OTHER.),'a''b (1.,,2',$,*);\n"}) {
-    const auto d = read("d.step", step_line("0.6,0.8,0.", beside));
+    const auto d = read_text("d.step", step_line("0.6,0.8,0.", beside));
     ASSERT_TRUE(d) << beside << d.error().message;
     EXPECT_LT(distance(evaluate(d->paths.at(0).path, 1), {3, 4}), 1e-14) << beside;
   }
   for (const char* none : {"#30=A((.));\n", "#30=A((..));\n", "#30=A(OTHER);\n"}) {
-    const auto d = read("d.step", step_line("1.,0.,0.", none));
+    const auto d = read_text("d.step", step_line("1.,0.,0.", none));
     ASSERT_FALSE(d) << none;
     EXPECT_THAT(d.error().message, HasSubstr("is no value")) << none;
   }
@@ -121,8 +115,8 @@ TEST_F(CadCount, CommentsAndOwnKeywordsOfStepAreNoValues) {
 
 // A decimal comma makes a fourth number of a direction, too.
 TEST_F(CadCount, DirectionsOfStepHaveThreeNumbers) {
-  EXPECT_TRUE(read("d.step", step_line("0.6,0.8,0.")));
-  const auto comma = read("d.step", step_line("0,6,0.8,0."));
+  EXPECT_TRUE(read_text("d.step", step_line("0.6,0.8,0.")));
+  const auto comma = read_text("d.step", step_line("0,6,0.8,0."));
   ASSERT_FALSE(comma);
   EXPECT_THAT(comma.error().message, HasSubstr("more than three coordinates"));
 }

@@ -2,11 +2,14 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <unistd.h>
 
 #include <gtest/gtest.h>
+
+#include "keyline/exchange/document_file.h"
 
 namespace keyline::exchange {
 
@@ -26,6 +29,18 @@ class CadTest : public testing::Test {
   void TearDown() override {
     ::unsetenv("KEYLINE_CAD");
     if (!folder_.empty()) std::filesystem::remove_all(folder_);
+  }
+  /// What comes of a file of that name with that text.
+  core::Result<document::Document> read_text(const std::string& name,
+                                             const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return read_document(folder_ / name);
+  }
+  /// The same of a file that is sound.
+  document::Document read_sound(const std::string& name, const std::string& text) const {
+    const auto d = read_text(name, text);
+    EXPECT_TRUE(d) << d.error().message;
+    return d.value_or(document::Document{});
   }
   std::filesystem::path folder_;
 };

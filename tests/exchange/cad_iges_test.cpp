@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -7,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "keyline/document/document.h"
-#include "keyline/exchange/document_file.h"
 
 #include "cad_fixture.h"
 #include "iges_text.h"
@@ -24,10 +22,7 @@ using testing::IsEmpty;
 class CadIges : public CadTest {
  protected:
   Document read(const std::vector<IgesEntity>& entities, int unit = 2) const {
-    std::ofstream(folder_ / "d.iges", std::ios::binary) << iges_file(entities, unit);
-    const auto d = read_document(folder_ / "d.iges");
-    EXPECT_TRUE(d) << d.error().message;
-    return d.value_or(Document{});
+    return read_sound("d.iges", iges_file(entities, unit));
   }
 };
 

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -10,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "keyline/document/document.h"
-#include "keyline/exchange/document_file.h"
 
 #include "cad_fixture.h"
 #include "step_text.h"
@@ -26,12 +24,7 @@ using testing::IsEmpty;
 
 class CadPatches : public CadTest {
  protected:
-  Document read(const std::string& text) const {
-    std::ofstream(folder_ / "p.step", std::ios::binary) << text;
-    const auto d = read_document(folder_ / "p.step");
-    EXPECT_TRUE(d) << d.error().message;
-    return d.value_or(Document{});
-  }
+  Document read(const std::string& text) const { return read_sound("p.step", text); }
 };
 
 std::string name(int n) { return '#' + std::to_string(n); }

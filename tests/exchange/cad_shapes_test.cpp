@@ -1,6 +1,5 @@
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -10,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "keyline/document/document.h"
-#include "keyline/exchange/document_file.h"
 
 #include "cad_fixture.h"
 #include "step_text.h"
@@ -29,12 +27,7 @@ using testing::IsEmpty;
 
 class CadShapes : public CadTest {
  protected:
-  Document read(const std::string& text) const {
-    std::ofstream(folder_ / "d.step", std::ios::binary) << text;
-    const auto d = read_document(folder_ / "d.step");
-    EXPECT_TRUE(d) << d.error().message;
-    return d.value_or(Document{});
-  }
+  Document read(const std::string& text) const { return read_sound("d.step", text); }
 };
 
 // 4.4.26: c + r (cos u x + sin u y); about -z, y is z x x = (0, -1, 0).
