@@ -16,6 +16,7 @@
 #include "keyline/fit/chain_displacement.h"
 #include "keyline/fit/control_edges.h"
 #include "keyline/fit/drive_targets.h"
+#include "keyline/fit/standard_way.h"
 #include "keyline/numeric/halving.h"
 #include "keyline/numeric/levenberg_marquardt.h"
 
@@ -325,19 +326,36 @@ Result<CurvatureDrive> drive(const PiecewiseBezier& given, std::vector<Curvature
   return result;
 }
 
-}  // namespace
-
-Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
-                                       std::vector<CurvatureTarget> wanted,
-                                       const CurvatureDriveOptions& options) {
-  // Which steps are taken can hang on rounding, as where a certificate stands on its edge: so that
-  // a mirror's are the same, chains that turn right on the whole are driven in the mirror.
+Result<CurvatureDrive> drive_to_the_left(const PiecewiseBezier& given,
+                                         std::vector<CurvatureTarget> wanted,
+                                         const CurvatureDriveOptions& options) {
   if (!(turning(given) < 0)) return drive(given, std::move(wanted), options);
   auto result = drive(mirrored(given), mirrored(std::move(wanted)), options);
   if (!result) return result;
   result->chain = mirrored(std::move(result->chain));
   result->target = mirrored(std::move(result->target));
   return result;
+}
+
+}  // namespace
+
+Result<CurvatureDrive> drive_curvature(const PiecewiseBezier& given,
+                                       std::vector<CurvatureTarget> wanted,
+                                       const CurvatureDriveOptions& options) {
+  // Which steps are taken can hang on rounding, as where a certificate stands on its edge, and on
+  // which lengths a joint gives up: so that a mirror's and the way back's are the same, chains that
+  // turn right on the whole are driven in the mirror, those whose ends stay in the standard way.
+  const bool ends_stay = options.closed || options.hold_end;
+  if (ends_stay && detail::goes_back(given)) {
+    using detail::on_the_way_back;
+    auto result = drive_to_the_left(on_the_way_back(given), on_the_way_back(wanted), options);
+    if (result) {  // else the places its reason names are to be those given
+      result->chain = on_the_way_back(std::move(result->chain));
+      result->target = on_the_way_back(std::move(result->target));
+      return result;
+    }
+  }
+  return drive_to_the_left(given, std::move(wanted), options);
 }
 
 }  // namespace keyline::fit

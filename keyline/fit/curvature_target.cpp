@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "keyline/core/error.h"
 #include "keyline/curve/jet.h"
+#include "keyline/fit/standard_way.h"
 #include "keyline/numeric/power_mean.h"
 
 namespace keyline::fit {
 namespace {
 
-constexpr int kPerPiece = 64;  ///< samples of the profile
-constexpr int kTargets = 24;   ///< targets per piece
+constexpr int kTargets = 24;  ///< targets per piece
+constexpr int kPerPiece =
+    3 * kTargets;  ///< samples of the profile: a target in the middle of three
 
 /// Curvature at equal steps of t, with the arc length there.
 struct Profile {
@@ -98,11 +101,8 @@ double sigma_of(double cutoff) { return cutoff * std::sqrt(std::log(2.0) / 2) / 
 
 std::vector<CurvatureTarget> thinned(const Profile& p, const std::vector<double>& curvature) {
   std::vector<CurvatureTarget> targets;
-  const double step = static_cast<double>(kPerPiece) / kTargets;
-  for (double i = 0.5 * step; i < static_cast<double>(curvature.size()); i += step) {
-    const auto k = static_cast<std::size_t>(i);
+  for (std::size_t k = 1; k < curvature.size(); k += kPerPiece / kTargets)
     targets.push_back({p.t[k], curvature[k]});
-  }
   return targets;
 }
 
@@ -187,16 +187,7 @@ double best_slope(const Profile& p, const std::vector<double>& k, std::size_t fr
   return best;
 }
 
-}  // namespace
-
-std::vector<CurvatureTarget> smooth_target(const curve::PiecewiseBezier& chain, bool closed,
-                                           double cutoff) {
-  const Profile p = profile_of(chain);
-  const double wavelength = cutoff > 0 ? cutoff : automatic_cutoff(p, chain.pieces.size());
-  return thinned(p, low_pass(p, sigma_of(wavelength), closed));
-}
-
-RhythmTarget rhythm_target(const curve::PiecewiseBezier& chain, bool closed, WantedRhythm wanted) {
+RhythmTarget rhythm_along(const curve::PiecewiseBezier& chain, bool closed, WantedRhythm wanted) {
   const Profile p = profile_of(chain);
   const std::vector<double> smooth =
       low_pass(p, sigma_of(automatic_cutoff(p, chain.pieces.size())), closed);
@@ -223,6 +214,23 @@ RhythmTarget rhythm_target(const curve::PiecewiseBezier& chain, bool closed, Wan
     }
   }
   return {thinned(p, power), wanted == WantedRhythm::own ? 0 : straight_ended};
+}
+
+}  // namespace
+
+std::vector<CurvatureTarget> smooth_target(const curve::PiecewiseBezier& chain, bool closed,
+                                           double cutoff) {
+  const Profile p = profile_of(chain);
+  const double wavelength = cutoff > 0 ? cutoff : automatic_cutoff(p, chain.pieces.size());
+  return thinned(p, low_pass(p, sigma_of(wavelength), closed));
+}
+
+RhythmTarget rhythm_target(const curve::PiecewiseBezier& chain, bool closed, WantedRhythm wanted) {
+  // Of two samples beside a change of sign one is the mark: the same whichever way one travels.
+  if (!detail::goes_back(chain)) return rhythm_along(chain, closed, wanted);
+  RhythmTarget target = rhythm_along(detail::on_the_way_back(chain), closed, wanted);
+  target.places = detail::on_the_way_back(std::move(target.places));
+  return target;
 }
 
 }  // namespace keyline::fit

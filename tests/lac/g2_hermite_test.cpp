@@ -204,6 +204,27 @@ TEST(SolveG2, IsTheSameCurveTurnedScaledAndMirrored) {
   }
 }
 
+// Steep ends have several chains of three pieces; which was found first hung on the end set out
+// from.
+TEST(SolveG2, IsTheSameCurveOnTheWayBack) {
+  std::mt19937_64 random(29);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
+  for (int n = 0; n < 300; ++n) {
+    const double from = uniform(2.2, 2.9), to = -uniform(1.4, 2.9), alpha = uniform(-4, -0.3);
+    const double first = uniform(-1, 1), last = uniform(-1, 1);
+    const auto there = solve_g2(element(0, 0, from, first), element(3, 0, to, last), alpha);
+    const auto back = solve_g2(element(0, 0, to, -last), element(3, 0, from, -first), alpha);
+    ASSERT_EQ(there.has_value(), back.has_value());
+    if (!there) continue;
+    ASSERT_EQ(there->chain.pieces.size(), back->chain.pieces.size());
+    const Point2 p = evaluate(there->chain, 0.3), q = evaluate(back->chain, 0.7);
+    EXPECT_LT(std::hypot(3 - p.x - q.x, p.y + q.y), 1e-9 * arc_length(there->chain))
+        << from << ' ' << to << ' ' << first << ' ' << last << ' ' << alpha;
+  }
+}
+
 TEST(SolveG2, SaysWhyThereIsNoCurve) {
   const auto s = solve_g2(element(0, 0, 0.5, 1), element(1, 0, 0.5, -1), 1);
   ASSERT_FALSE(s);

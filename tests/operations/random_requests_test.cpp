@@ -181,6 +181,10 @@ TEST(RandomRequests, HermiteCurvesMeetBothDirections) {
     const json& pieces = answer["result"]["curve"]["pieces"];
     EXPECT_NEAR(pieces[0]["curvature"][0].get<double>(), request["curvatures"][0], 1e-12);
     EXPECT_NEAR(pieces.back()["curvature"][1].get<double>(), request["curvatures"][1], 1e-12);
+    json other = request;
+    std::swap(other["directions"][0], other["directions"][1]);
+    for (const int i : {0, 1}) other["curvatures"][i] = -request["curvatures"][1 - i].get<double>();
+    EXPECT_NEAR(own::walked(own::result_of(other)["curve"]).length / track.length, 1, 1e-9);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
@@ -251,7 +253,26 @@ std::optional<G2Solution> single(const UnitG2& request, const Best& best) {
   return measured(best, chain, miss);
 }
 
-Best search(UnitG2 request) {
+/// The same ends on the way back, turned half round: directions keep their angle with the chord.
+UnitG2 on_the_way_back(UnitG2 request) {
+  std::swap(request.from, request.to);
+  std::swap(request.curvature_start, request.curvature_end);
+  request.curvature_start *= -1;
+  request.curvature_end *= -1;
+  return request;
+}
+
+/// Whether the search travels from the end to the start: several chains may serve, and starts are
+/// laid out from one end, so that both ways, and a mirror's, must be searched from the same one.
+bool goes_back(const UnitG2& request) {
+  const UnitG2 back = on_the_way_back(request);
+  const auto way = [](const UnitG2& r) {
+    return std::tuple{std::abs(r.from), std::abs(r.curvature_start), r.from * r.curvature_start};
+  };
+  return way(back) > way(request);
+}
+
+Best search_forward(UnitG2 request) {
   Best best = best_for(request);
   if (auto one = single(request, best)) {
     best.offer(std::move(*one));
@@ -261,6 +282,13 @@ Best search(UnitG2 request) {
   if (!best.solution) search_three(request, best);
   if (!best.solution) search_by_following(request, best);
   if (!best.solution) search_bridge(request, best);
+  return best;
+}
+
+Best search(const UnitG2& request) {
+  if (!goes_back(request)) return search_forward(request);
+  Best best = search_forward(on_the_way_back(request));
+  if (best.solution) best.solution->chain = reverse(best.solution->chain);
   return best;
 }
 
