@@ -9,12 +9,13 @@ namespace keyline::fit::detail {
 namespace {
 
 /// Jumps at t[0] of the fifth derivatives, over 5!, of the seven quintic B-splines that have it as
-/// a knot: what the divided differences that they are have of (x - t[0])^5.
+/// a knot: what the divided differences that they are have of (x - t[0])^5. Of the first and the
+/// last the knot at the other end cancels: t[-5] … t[5] are read.
 std::array<double, 7> jumps_at(const double* t) {
   std::array<double, 7> jump;
   for (int j = 0; j < 7; ++j) {  // of knots t[j - 6] … t[j]
-    jump[j] = t[j] - t[j - 6];
-    for (int l = j - 6; l <= j; ++l)
+    jump[j] = j == 0 ? -1 : j == 6 ? 1 : t[j] - t[j - 6];
+    for (int l = std::max(j - 6, -5); l <= std::min(j, 5); ++l)
       if (l != 0) jump[j] /= t[l] - t[0];
   }
   return jump;
