@@ -66,12 +66,6 @@ TEST(JsonDocument, MayBeAnArrayOfCurvesAndSurfaces) {
   ASSERT_TRUE(listed) << listed.error().message;
   EXPECT_EQ(listed->surfaces.size(), 2U);
   ASSERT_TRUE(document_from_json({{"surface", patch}}));
-  json inches = line;
-  inches["unit"] = "in";
-  json other = line;
-  other["unit"] = "mm";
-  EXPECT_EQ(document_from_json(json::array({patch, inches, inches}))->unit, "in");
-  EXPECT_EQ(document_from_json(json::array({inches, other})).error().path, "[1].unit");
   const auto wrong = document_from_json(json::array({patch, 7}));
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().path, "[1]");
@@ -104,6 +98,31 @@ core::Result<Document> read(const std::string& text) {
 std::string path_of(const std::string& text) {
   const auto d = read(text);
   return d ? "fine" : d.error().path;
+}
+
+// A unit stands beside a document, a list or a thing of it: one of them is taken, two are refused.
+TEST(JsonDocument, HasOneUnitWhereverItIsNamed) {
+  const auto unit = [](std::string text) {
+    for (const auto& [name, given] : {std::pair{'I', "inch"}, std::pair{'M', "m"}})
+      for (std::size_t at; (at = text.find(name)) != std::string::npos;)
+        text.replace(at, 1,
+                     R"({"type": "polyline", "points": [[0, 0], [1, 2]], "unit": ")" +
+                         std::string(given) + "\"}");
+    const auto d = read(text);
+    if (!d) return d.error().path + ": " + d.error().message;
+    return d->unit + (d->skipped.empty() ? "" : ", " + d->skipped.front());
+  };
+  EXPECT_EQ(unit("[P, I, C, I]"), "in");
+  EXPECT_EQ(unit(R"({"curves": [C, I]})"), "in");
+  EXPECT_EQ(unit(R"({"unit": "in", "curves": [I, C]})"), "in");
+  EXPECT_EQ(unit(R"({"curves": [{"curve": C, "unit": "m"}, M]})"), "m");
+  EXPECT_EQ(unit(R"({"curves": [C], "surfaces": [{"surface": P, "unit": "m"}]})"), "m");
+  EXPECT_EQ(unit("[I, M]"), "[1].unit: two units, in and m");
+  EXPECT_EQ(unit(R"({"curves": [I, C, M]})"), "curves[2].unit: two units, in and m");
+  EXPECT_EQ(unit(R"({"curves": [M], "unit": "mm"})"), "curves[0].unit: two units, mm and m");
+  EXPECT_EQ(unit(R"({"curves": [I], "surfaces": [{"surface": P, "unit": "m"}]})"),
+            "surfaces[0].unit: two units, in and m");
+  EXPECT_EQ(path_of(R"({"curves": [{"curve": C, "unit": 2}]})"), "curves[0].unit");
 }
 
 TEST(JsonDocument, LinesHaveAWidthOfZeroOrMore) {

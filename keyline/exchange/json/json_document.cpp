@@ -174,36 +174,46 @@ Result<void> add_item(Document& document, const json& item, const std::string& w
                    std::move(*label), width);
 }
 
-/// Curves and surfaces one after the other, as they stand in either list. Those that name a unit
-/// name the same.
+/// The unit of a document and of each thing in it, where it names one: all the same.
+Result<void> take_unit(Document& document, const json& j, const std::string& where) {
+  auto unit = unit_of(j, where);
+  if (!unit) return std::unexpected(unit.error());
+  if (unit->empty() || *unit == document.unit) return {};
+  if (!document.unit.empty())
+    return fail(ErrorCode::bad_input, "two units, " + document.unit + " and " + *unit,
+                "give all in one", in(where, "unit"));
+  document.unit = std::move(*unit);
+  return {};
+}
+
+using AddItem = Result<void> (*)(Document&, const json&, const std::string&);
+
+Result<void> add_all(Document& document, const json& list, const std::string& key, AddItem add) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string where = in(key, i);
+    if (auto done = take_unit(document, list[i], where); !done) return done;
+    if (auto done = add(document, list[i], where); !done) return done;
+  }
+  return {};
+}
+
+/// Curves and surfaces one after the other, as they stand in either list.
 Result<Document> document_of_array(const json& j) {
   Document document;
-  for (std::size_t i = 0; i < j.size(); ++i) {
-    const std::string where = in("", i);
-    const auto unit = unit_of(j[i], where);
-    if (!unit) return std::unexpected(unit.error());
-    if (!unit->empty() && !document.unit.empty() && *unit != document.unit)
-      return fail(ErrorCode::bad_input, "two units, " + document.unit + " and " + *unit,
-                  "give all in one", in(where, "unit"));
-    if (!unit->empty()) document.unit = *unit;
-    if (auto done = add_item(document, j[i], where); !done) return std::unexpected(done.error());
-  }
+  if (auto done = add_all(document, j, "", add_item); !done) return std::unexpected(done.error());
   return document;
 }
 
 Result<Document> document_of_list(const json& j) {
   Document document;
-  auto unit = unit_of(j, "");
-  if (!unit) return std::unexpected(unit.error());
-  document.unit = std::move(*unit);
-  for (const auto& [key, add] : {std::pair{"curves", &add_item}, {"surfaces", &add_surface}}) {
+  if (auto done = take_unit(document, j, ""); !done) return std::unexpected(done.error());
+  for (const auto& [key, add] :
+       {std::pair<const char*, AddItem>{"curves", add_item}, {"surfaces", add_surface}}) {
     const auto list = j.find(key);
     if (list == j.end()) continue;
     if (!list->is_array())
       return fail(ErrorCode::bad_input, "a list is wanted here", "give [{…}, …]", key);
-    for (std::size_t i = 0; i < list->size(); ++i)
-      if (auto done = add(document, (*list)[i], in(key, i)); !done)
-        return std::unexpected(done.error());
+    if (auto done = add_all(document, *list, key, add); !done) return std::unexpected(done.error());
   }
   if (const auto skipped = j.find("skipped"); skipped != j.end() && skipped->is_array())
     for (const json& line : *skipped)
@@ -214,9 +224,7 @@ Result<Document> document_of_list(const json& j) {
 /// A value by itself, or the answer of an operation.
 Result<Document> document_of_one(const json& j) {
   Document document;
-  auto unit = unit_of(j, "");
-  if (!unit) return std::unexpected(unit.error());
-  document.unit = std::move(*unit);
+  if (auto done = take_unit(document, j, ""); !done) return std::unexpected(done.error());
   if (auto done = add_item(document, j, ""); !done) return std::unexpected(done.error());
   return document;
 }

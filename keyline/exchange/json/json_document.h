@@ -14,9 +14,10 @@
 ///  …], "surfaces":[{"name":…, "surface":{…}, "trims":n}, …], "skipped":["…"]}
 ///
 /// with everything but one of the lists optional. A surface of the list may stand by itself, as a
-/// curve may. An array of curves and surfaces, as they stand in either list, is read too, and so
-/// are the answer of an operation that returns one (`{"curve":{…}}`, `{"surface":{…}}`) and an
-/// offset table (hull_table.h). docs/formats/document.schema.json states it as JSON Schema.
+/// curve may. Things of a list may name the unit too; all that name one name the same. An array of
+/// curves and surfaces, as they stand in either list, is read too, and so are the answer of an
+/// operation that returns one (`{"curve":{…}}`, `{"surface":{…}}`) and an offset table
+/// (hull_table.h). docs/formats/document.schema.json states it as JSON Schema.
 namespace keyline::exchange {
 
 /// A document of one planar curve or surface without layer is its value, with name, colour and

@@ -48,8 +48,8 @@ const std::vector<Kind>& kinds() {
 }
 
 const Names kLabel{"name", "layer", "color"};
-const Names kOfItem{"name", "layer", "color", "stroke_width", "curve"};
-const Names kOfSurface{"name", "layer", "color", "trims", "trim_loops", "surface"};
+const Names kOfItem{"name", "layer", "color", "stroke_width", "unit", "curve"};
+const Names kOfSurface{"name", "layer", "color", "trims", "trim_loops", "unit", "surface"};
 const Names kOfDocument{"unit", "curves", "surfaces", "skipped"};
 const Names kOfForm{"deviation"};
 /// What a value by itself carries of its place in a document or in an answer.
