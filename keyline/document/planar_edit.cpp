@@ -180,13 +180,13 @@ void append_offset(const PlacedCurve& c, double distance, double tolerance, Offs
 }
 
 /// The arc about a corner from the end of one offset to the start of the next; nothing where there
-/// is no corner.
+/// is no corner, or only one that parts the offsets by no more than `slack`.
 Result<void> turn_corner(const PlanarCurve& before, const PlanarCurve& after, double distance,
-                         Offset& to) {
+                         double slack, Offset& to) {
   const double in = curve::tangent_angle(jet(before, 1));
   const double out = curve::tangent_angle(jet(after, 0));
   const double turn = core::wrap_angle(out - in);
-  if (std::abs(turn) < kCorner) return {};
+  if (std::abs(turn) < kCorner || std::abs(turn * distance) <= slack) return {};
   const Point2 corner = evaluate(after, 0);
   if (turn * distance > 0)
     return fail(ErrorCode::undrawable,
@@ -280,23 +280,26 @@ Path mirrored(const Path& path, const core::Pose2& axis) {
   return result;
 }
 
-Result<Offset> offset(const Path& path, double distance, double tolerance) {
+Result<Offset> offset(const Path& path, double distance, double tolerance, double one_end) {
   if (distance == 0) return Offset{path, 0, 0};
   const std::vector<PlanarCurve> members = smooth_members(path);
   Offset made;
-  made.path.closed = path.closed;
+  made.path.closed = path.closed || core::distance(evaluate(path, 0), evaluate(path, 1)) <= one_end;
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (i > 0)
-      if (auto done = turn_corner(members[i - 1], members[i], distance, made); !done)
+      if (auto done = turn_corner(members[i - 1], members[i], distance, 0, made); !done)
         return std::unexpected(done.error());
     const PlacedCurve member(members[i]);
     if (auto room = room_for(member, distance); !room) return std::unexpected(room.error());
     append_offset(member, distance, tolerance, made);
   }
-  const bool alone = members.size() == 1 && std::holds_alternative<lac::Chain>(members[0].value);
-  if (path.closed && !alone)
-    if (auto done = turn_corner(members.back(), members.front(), distance, made); !done)
+  if (made.path.closed)
+    if (auto done = turn_corner(members.back(), members.front(), distance, one_end, made); !done)
       return std::unexpected(done.error());
+  const bool alone = made.path.curves.size() == 1;
+  for (PlanarCurve& c : made.path.curves)
+    if (auto* chain = std::get_if<lac::Chain>(&c.value); chain)
+      chain->closed = alone && made.path.closed;
   return made;
 }
 

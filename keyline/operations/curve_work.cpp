@@ -208,7 +208,7 @@ Result<OffsetResult> run_offset(const OffsetRequest& request, const Context&) {
   if (auto extent = check_extent(request.curve); !extent) return std::unexpected(extent.error());
   const double length = Places(request.curve).length();
   auto made = document::offset(request.curve, request.distance,
-                               request.tolerance.value_or(kUsual * length));
+                               request.tolerance.value_or(kUsual * length), kOneEnd * length);
   if (!made) return std::unexpected(made.error());
   return OffsetResult{made_path(std::move(made->path)), made->deviation, made->arcs};
 }

@@ -1,6 +1,7 @@
 #include "keyline/document/planar_edit.h"
 
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -68,6 +69,68 @@ TEST(PartOverSeam, LeavesACornerAtTheSeam) {
   ASSERT_EQ(part.curves.size(), 2U);
   EXPECT_LT(distance(evaluate(part.curves[0], 1), {0, 0}), 1e-15);
   EXPECT_LT(distance(evaluate(part.curves[1], 0), {0, 0}), 1e-15);
+}
+
+/// Of one that comes back, a hundred-thousandth of an offset's length being no gap.
+core::Result<Offset> offset_of(const Path& path, double distance) {
+  return offset(path, distance, 1e-6, 1e-5);
+}
+
+// Steiner: outside a convex outline the offset is longer by the distance times one full turn,
+// whether or not the outline is called closed.
+TEST(Offset, RunsAroundACornerWhereTheCurveComesBack) {
+  const double turn = 1.5 * std::numbers::pi;
+  const PlanarCurve square{curve::Polyline2{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}}};
+  const PlanarCurve drop{lac::Chain{
+      {{0, 0}, -std::numbers::pi / 4}, {{-1, 1, 0, 0}, {-1, turn, 1, 1}, {-1, 1, 0, 0}}, false}};
+  PlanarCurve closed_drop = drop;
+  std::get<lac::Chain>(closed_drop.value).closed = true;
+  for (const bool closed : {false, true})
+    for (const auto& [outline, length, corners] :
+         {std::tuple{square, 4.0, 4}, {closed ? closed_drop : drop, 2 + turn, 1}}) {
+      const Path path{{outline}, closed};
+      const auto outside = offset_of(path, -0.3);
+      ASSERT_TRUE(outside) << outside.error().message;
+      EXPECT_EQ(outside->arcs, corners);
+      EXPECT_TRUE(outside->path.closed);
+      EXPECT_LT(distance(evaluate(outside->path, 0), evaluate(outside->path, 1)), 1e-14);
+      const double around = 0.6 * std::numbers::pi;
+      double all = 0;
+      for (const PlanarCurve& c : outside->path.curves)
+        if (const auto* chain = std::get_if<lac::Chain>(&c.value)) {
+          EXPECT_FALSE(chain->closed);
+          all += lac::arc_length(*chain);
+        } else {
+          all += distance(evaluate(c, 0), evaluate(c, 1));
+        }
+      EXPECT_NEAR(all, length + around, 1e-6);
+      EXPECT_FALSE(offset_of(path, 0.3));
+    }
+  const Path open{{{curve::Polyline2{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}}, false};
+  EXPECT_FALSE(offset_of(open, -0.3)->path.closed);
+}
+
+// A loop that leaves its start along x and comes back along y: on the inside its offset crosses
+// itself there, and so it does begun anywhere else.
+TEST(Offset, IsRefusedWhereACornerAtTheStartCloses) {
+  const curve::Bezier2 loop{{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}}, {}};
+  EXPECT_FALSE(offset_of({{{loop}}, false}, 0.2));
+  const auto [first, second] = split(loop, 0.5);
+  EXPECT_FALSE(offset_of({{{second}, {first}}, true}, 0.2));
+  const auto outside = offset_of({{{loop}}, false}, -0.2);
+  ASSERT_TRUE(outside);
+  EXPECT_EQ(outside->arcs, 1);
+}
+
+// A circle whose turning is a ten-millionth short of a full one: a circle, in one piece.
+TEST(Offset, TakesRoundingAtTheStartForNoCorner) {
+  const double length = 2 * std::numbers::pi * (1 - 1e-7);
+  const auto made =
+      offset_of({{{lac::Chain{{{0, -1}, 0}, {{-1, length, 1, 1}}, false}}}, false}, 0.5);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->arcs, 0);
+  ASSERT_EQ(made->path.curves.size(), 1U);
+  EXPECT_TRUE(std::get<lac::Chain>(made->path.curves[0].value).closed);
 }
 
 TEST(PartOverSeam, KeepsTheMembersOfAPath) {
