@@ -11,34 +11,39 @@
 namespace keyline::exchange {
 namespace {
 
-/// One layer per name, in the order of first appearance.
-class Layers {
- public:
-  SvgLayer& of(const document::NamedPath& named) {
-    const std::string own = named.label.name.empty() ? "key-line" : named.label.name;
-    const std::string& wanted = named.label.layer.empty() ? own : named.label.layer;
-    const auto [at, is_new] = index_.try_emplace(wanted, layers_.size());
-    if (is_new) layers_.push_back({.name = wanted});
-    return layers_[at->second];
-  }
-  std::vector<SvgLayer> take() { return std::move(layers_); }
-
- private:
-  std::vector<SvgLayer> layers_;
-  std::unordered_map<std::string, std::size_t> index_;
-};
+const std::string& layer_of(const document::Label& label) {
+  static const std::string kNameless = "key-line";
+  if (!label.layer.empty()) return label.layer;
+  return label.name.empty() ? kNameless : label.name;
+}
 
 }  // namespace
 
+std::vector<DrawnLayer> drawn_layers(const document::Document& document) {
+  std::vector<DrawnLayer> layers;
+  std::unordered_map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < document.paths.size(); ++i) {
+    const std::string& name = layer_of(document.paths[i].label);
+    const auto [at, is_new] = index.try_emplace(name, layers.size());
+    if (is_new) layers.push_back({.name = name});
+    layers[at->second].paths.push_back(i);
+  }
+  return layers;
+}
+
 std::vector<SvgLayer> drawing_layers(const document::Document& document, double tolerance,
                                      Written& written) {
-  Layers layers;
-  for (const document::NamedPath& named : document.paths) {
-    CubicPath cubics = cubic_path(named.path, named.label.name, tolerance);
-    written.deviation = std::max(written.deviation, cubics.deviation);
-    cubics.path.color = named.label.color;
-    cubics.path.width = named.stroke_width;
-    layers.of(named).paths.push_back(std::move(cubics.path));
+  std::vector<SvgLayer> layers;
+  for (DrawnLayer& drawn : drawn_layers(document)) {
+    SvgLayer& layer = layers.emplace_back(SvgLayer{.name = std::move(drawn.name)});
+    for (const std::size_t i : drawn.paths) {
+      const document::NamedPath& named = document.paths[i];
+      CubicPath cubics = cubic_path(named.path, named.label.name, tolerance);
+      written.deviation = std::max(written.deviation, cubics.deviation);
+      cubics.path.color = named.label.color;
+      cubics.path.width = named.stroke_width;
+      layer.paths.push_back(std::move(cubics.path));
+    }
   }
   if (!document.space_curves.empty())
     written.notes.push_back(
@@ -47,7 +52,7 @@ std::vector<SvgLayer> drawing_layers(const document::Document& document, double 
   if (!document.surfaces.empty())
     written.notes.push_back(core::counted(document.surfaces.size(), "surface is", "surfaces are") +
                             " not in the drawing");
-  return layers.take();
+  return layers;
 }
 
 SvgWriteOptions drawing_options(const document::Document& document, const Written& written) {

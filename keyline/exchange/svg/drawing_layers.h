@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "keyline/document/document.h"
@@ -8,9 +10,19 @@
 
 namespace keyline::exchange {
 
-/// What is drawn of a document: its paths as cubic Béziers within `tolerance` (> 0), one layer per
-/// layer of the document (paths without layer: one each under their own name), with colours and
-/// stroke widths. The deviation, and notes of what is left out, go into `written`.
+/// Which paths of a document stand in a layer of its drawing.
+struct DrawnLayer {
+  std::string name = {};
+  std::vector<std::size_t> paths = {};  ///< indices, in their order
+};
+
+/// One layer per layer of the document, in the order of first appearance; paths without layer one
+/// each under their own name.
+std::vector<DrawnLayer> drawn_layers(const document::Document& document);
+
+/// What is drawn of a document: its paths as cubic Béziers within `tolerance` (> 0), in those
+/// layers, with colours and stroke widths. The deviation, and notes of what is left out, go into
+/// `written`.
 std::vector<SvgLayer> drawing_layers(const document::Document& document, double tolerance,
                                      Written& written);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -20,36 +21,111 @@ using core::Result;
 using document::Document;
 using nlohmann::json;
 
-constexpr const char* kFingerprint = "drawing";
+// Members beside the document in the metadata, to tell a drawing that was changed.
+constexpr const char* kDrawing = "drawing";
+constexpr const char* kLabels = "labels";
 
-/// FNV-1a over the coordinates as they were read, to tell a drawing that was changed.
-std::string fingerprint(const SvgContents& svg) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto mix = [&hash](std::uint64_t value) {
+/// FNV-1a.
+class Fingerprint {
+ public:
+  void mix(std::uint64_t value) {
     for (int byte = 0; byte < 8; ++byte) {
-      hash = (hash ^ (value & 0xff)) * 1099511628211ULL;
+      hash_ = (hash_ ^ (value & 0xff)) * 1099511628211ULL;
       value >>= 8;
     }
-  };
+  }
+  void mix(double value) { mix(std::bit_cast<std::uint64_t>(value)); }
+  void mix(std::string_view text) {
+    mix(static_cast<std::uint64_t>(text.size()));
+    for (const char c : text) mix(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  }
+
+  std::string text() const {
+    static constexpr char kDigits[] = "0123456789abcdef";
+    std::string digits;
+    for (int shift = 60; shift >= 0; shift -= 4) digits += kDigits[(hash_ >> shift) & 15];
+    return digits;
+  }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+/// Of the coordinates as they were read.
+std::string drawing_fingerprint(const SvgContents& svg) {
+  Fingerprint print;
   for (const SvgCurve& curve : svg.curves) {
-    mix(curve.pieces.size());
+    print.mix(static_cast<std::uint64_t>(curve.pieces.size()));
     for (const curve::Bezier2& piece : curve.pieces)
       for (const core::Point2 p : piece.control) {
-        mix(std::bit_cast<std::uint64_t>(p.x));
-        mix(std::bit_cast<std::uint64_t>(p.y));
+        print.mix(p.x);
+        print.mix(p.y);
       }
   }
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash >> shift) & 15];
-  return text;
+  return print.text();
 }
 
-/// True for metadata that stand for the drawing as it is now.
-bool is_current(const json& metadata, const SvgContents& svg) {
+/// Of names and looks as they were read.
+std::string labels_fingerprint(const SvgContents& svg) {
+  Fingerprint print;
+  for (const SvgCurve& curve : svg.curves) {
+    print.mix(static_cast<std::uint64_t>(curve.subpath));
+    for (const std::string* text : {&curve.name, &curve.layer, &curve.color})
+      print.mix(std::string_view(*text));
+    print.mix(curve.stroke_width);
+  }
+  return print.text();
+}
+
+/// Whether metadata stand for the drawing as it is now, in one respect; true where they say nothing
+/// of the drawing.
+bool is_current(const json& metadata, const char* member, const std::string& now) {
   if (!metadata.is_object()) return false;
-  const auto stated = metadata.find(kFingerprint);
-  return stated == metadata.end() || *stated == fingerprint(svg);
+  const auto stated = metadata.find(member);
+  return stated == metadata.end() ? !metadata.contains(kDrawing) : *stated == now;
+}
+
+document::Label label_of(const SvgCurve& curve) { return {curve.name, curve.layer, curve.color}; }
+
+/// Gives the paths of a document the names and looks of the elements that its drawing shows them
+/// as. False where there are not as many.
+bool take_labels(Document& document, const SvgContents& svg, double scale) {
+  std::vector<const SvgCurve*> elements;
+  std::size_t last = 0;
+  for (const SvgCurve& curve : svg.curves) {
+    if (curve.subpath == 1 || curve.subpath <= last) elements.push_back(&curve);
+    last = curve.subpath;
+  }
+  if (elements.size() != document.paths.size()) return false;
+  auto element = elements.begin();
+  for (const DrawnLayer& layer : drawn_layers(document))
+    for (const std::size_t i : layer.paths) {
+      document.paths[i].label = label_of(**element);
+      document.paths[i].stroke_width = (*element++)->stroke_width * scale;
+    }
+  return true;
+}
+
+/// The document in the metadata, as the drawing shows it now; empty where that shows other curves.
+std::optional<Document> exact_document(const SvgContents& svg) {
+  auto metadata = parse_json(svg.metadata);
+  if (!metadata || !is_current(*metadata, kDrawing, drawing_fingerprint(svg))) return {};
+  const bool same_labels = is_current(*metadata, kLabels, labels_fingerprint(svg));
+  metadata->erase(kDrawing);
+  metadata->erase(kLabels);
+  auto exact = document_from_json(*metadata);
+  if (!exact) return {};
+  const double unit = document::millimetres(exact->unit);
+  const double scale = unit > 0 ? document::millimetres(svg.unit) / unit : 1;
+  const auto scaled = [scale](core::Point2 p) { return core::Point2{scale * p.x, scale * p.y}; };
+  if (svg.page) exact->page = curve::Box2{scaled(svg.page->low), scaled(svg.page->high)};
+  if (!same_labels && !take_labels(*exact, svg, scale)) return {};
+  return std::move(*exact);
+}
+
+void tell_skipped(const SvgContents& svg, Document& document) {
+  for (const SvgSkipped& skipped : svg.skipped)
+    document.skipped.push_back("line " + std::to_string(skipped.line) + ": " + skipped.what);
 }
 
 /// The pieces in their order; of many straight lines on end a polyline, which takes a tenth of the
@@ -79,13 +155,11 @@ Document document_of(SvgContents svg) {
   document.unit = svg.unit;
   document.page = svg.page;
   for (SvgCurve& curve : svg.curves) {
-    document::NamedPath named{
-        {curve.name, curve.layer, curve.color}, {{}, curve.closed}, curve.stroke_width};
+    document::NamedPath named{label_of(curve), {{}, curve.closed}, curve.stroke_width};
     named.path.curves = curves_of(std::exchange(curve.pieces, {}));
     if (!named.path.curves.empty()) document.paths.push_back(std::move(named));
   }
-  for (const SvgSkipped& skipped : svg.skipped)
-    document.skipped.push_back("line " + std::to_string(skipped.line) + ": " + skipped.what);
+  tell_skipped(svg, document);
   return document;
 }
 
@@ -95,14 +169,9 @@ Result<Document> read_svg_document(std::string_view bytes) {
   auto svg = read_svg(bytes);
   if (!svg) return std::unexpected(svg.error());
   if (svg->metadata.empty()) return document_of(std::move(*svg));
-  auto metadata = parse_json(svg->metadata);
-  if (metadata && is_current(*metadata, *svg)) {
-    metadata->erase(kFingerprint);
-    auto exact = document_from_json(*metadata);
-    if (exact) {
-      exact->page = svg->page;
-      return exact;
-    }
+  if (auto exact = exact_document(*svg)) {
+    tell_skipped(*svg, *exact);
+    return std::move(*exact);
   }
   Document document = document_of(std::move(*svg));
   document.skipped.push_back(
@@ -121,7 +190,8 @@ Result<Written> write_svg_document(const Document& document, double tolerance) {
   if (!plain) return std::unexpected(plain.error());
   const auto read = read_svg(*plain);
   if (!read) return std::unexpected(read.error());
-  options.metadata = json_text(document, -1, {{kFingerprint, fingerprint(*read)}});
+  options.metadata = json_text(
+      document, -1, {{kDrawing, drawing_fingerprint(*read)}, {kLabels, labels_fingerprint(*read)}});
   auto text = write_svg(layers, options);
   if (!text) return std::unexpected(text.error());
   written.content = std::move(*text);

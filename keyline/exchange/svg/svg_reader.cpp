@@ -20,7 +20,6 @@
 #include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange {
-
 namespace {
 
 using core::ErrorCode;
@@ -243,7 +242,8 @@ class SvgReader {
                      std::move(subpath.pieces),
                      subpath.closed,
                      place.paint.color(),
-                     place.paint.stroke.empty() ? 0 : place.paint.width * scale_of(place.map)};
+                     place.paint.stroke.empty() ? 0 : place.paint.width * scale_of(place.map),
+                     number};
       curve.pieces.shrink_to_fit();
       for (curve::Bezier2& piece : curve.pieces) piece = transformed(piece, place.map);
       keep(node, std::move(curve));

@@ -20,6 +20,7 @@ struct SvgCurve {
   bool closed = false;
   std::string color = {};   ///< "#rrggbb" of the stroke, else of the fill; empty: none stated
   double stroke_width = 0;  ///< in the unit of the coordinates; 0: no stroke
+  std::size_t subpath = 1;  ///< of its element, counted from 1
 };
 
 /// Something of the file that is not among the curves, or not all of it.
