@@ -1,16 +1,13 @@
 #include "keyline/document/planar_edit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/curve/view.h"
 #include "keyline/document/cusped.h"
-#include "keyline/document/path_gap.h"
 
 namespace keyline::document {
 namespace {
@@ -300,79 +297,6 @@ Result<Offset> offset(const Path& path, double distance, double tolerance, doubl
   for (PlanarCurve& c : made.path.curves)
     if (auto* chain = std::get_if<lac::Chain>(&c.value); chain)
       chain->closed = alone && made.path.closed;
-  return made;
-}
-
-namespace {
-
-/// The end of a curve nearest to a place: of curves left over, the first of those equally near.
-struct NearestEnd {
-  std::size_t at = 0;  ///< among those left over
-  bool backwards = false;
-  double away = 0;
-};
-
-using Ends = std::array<Point2, 2>;
-
-NearestEnd nearest_end(Point2 to, const std::vector<std::size_t>& left,
-                       const std::vector<Ends>& ends) {
-  NearestEnd best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < left.size(); ++k)
-    for (const bool turned : {false, true}) {
-      const core::Vector2 off = ends[left[k]][turned] - to;
-      const double away = dot(off, off);
-      if (!(away < least)) continue;
-      least = away;
-      best.at = k;
-      best.backwards = turned;
-    }
-  best.away = core::distance(to, ends[left[best.at]][best.backwards]);
-  return best;
-}
-
-/// Whether the first curve meets another one where it starts, and none where it ends.
-bool first_runs_backwards(const std::vector<std::size_t>& left, const std::vector<Ends>& ends,
-                          double gap) {
-  const auto& [start, end] = ends.front();
-  return !left.empty() && nearest_end(end, left, ends).away > gap &&
-         nearest_end(start, left, ends).away <= gap;
-}
-
-}  // namespace
-
-Result<Joined> joined(const std::vector<Path>& curves, double gap) {
-  Joined made;
-  made.path = curves.front();
-  std::vector<std::size_t> left;
-  std::vector<Ends> ends;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (i > 0) left.push_back(i);
-    ends.push_back({evaluate(curves[i], 0), evaluate(curves[i], 1)});
-  }
-  if (first_runs_backwards(left, ends, gap)) {
-    made.path = reverse(made.path);
-    made.reversed.push_back(0);
-  }
-  while (!left.empty()) {
-    const Point2 end = evaluate(made.path, 1);
-    const NearestEnd nearest = nearest_end(end, left, ends);
-    if (!(nearest.away <= gap))
-      return fail(ErrorCode::undrawable,
-                  "the nearest end is " + core::number_text(nearest.away, 6) + " away from (" +
-                      core::number_text(end.x, 6) + ", " + core::number_text(end.y, 6) + ")",
-                  "allow a larger gap with the tolerance, or blend the curves", "tolerance");
-    made.gap = std::max(made.gap, nearest.away);
-    const std::size_t i = left[nearest.at];
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(nearest.at));
-    if (nearest.backwards) made.reversed.push_back(i);
-    const Path next = nearest.backwards ? reverse(curves[i]) : curves[i];
-    made.path.curves.insert(made.path.curves.end(), next.curves.begin(), next.curves.end());
-  }
-  const double closing = core::distance(evaluate(made.path, 1), evaluate(made.path, 0));
-  made.path.closed = made.path.curves.size() > 1 && closing <= gap;
-  if (made.path.closed) made.gap = std::max(made.gap, closing);
-  close_gaps(made.path);
   return made;
 }
 

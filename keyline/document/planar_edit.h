@@ -1,13 +1,11 @@
 #pragma once
 
-#include <vector>
-
 #include "keyline/core/error.h"
 #include "keyline/core/interval.h"
 #include "keyline/core/pose.h"
 #include "keyline/document/planar_curve.h"
 
-/// Work on whole curves: parts, mirror images, offsets, paths of several.
+/// Work on whole curves: parts, mirror images, offsets.
 namespace keyline::document {
 
 /// The part of the curve between two parameters, each type as itself. Precondition:
@@ -37,16 +35,5 @@ struct Offset {
 /// Fails: undrawable where the distance reaches a radius of curvature (the offset would turn back),
 /// with that radius, and at a corner that closes.
 core::Result<Offset> offset(const Path& path, double distance, double tolerance, double one_end);
-
-struct Joined {
-  Path path;
-  double gap = 0;                     ///< largest between neighbours
-  std::vector<std::size_t> reversed;  ///< curves that run the other way in it
-};
-/// Curves end to end in one path: from the first on, each end goes on with the curve whose end is
-/// nearest. Closed where the last end meets the first start within `gap`. Gaps that first_gap()
-/// finds are closed by straight lines.
-/// Fails: undrawable where the nearest end is farther than `gap`, with how far.
-core::Result<Joined> joined(const std::vector<Path>& curves, double gap);
 
 }  // namespace keyline::document

@@ -2,6 +2,7 @@
 
 #include "keyline/analysis/continuity.h"
 #include "keyline/analysis/profile.h"
+#include "keyline/document/join.h"
 #include "keyline/document/planar_edit.h"
 #include "keyline/operations/ends.h"
 #include "keyline/operations/made_curve.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "keyline/document/planar_edit.h"
+#include "keyline/document/join.h"
 
 namespace keyline::document {
 namespace {

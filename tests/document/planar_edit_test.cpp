@@ -27,19 +27,6 @@ TEST(Part, OfAPolylineBeginsAndEndsWhereItIsCut) {
   expect(4, 10, {{3, 0}, {3, 3}, {1.5, 3}});
 }
 
-// Both begin at the origin: the path begins with the first of them, from its end.
-TEST(Joined, TurnsTheFirstRoundWhereItsStartMeetsAnother) {
-  const Path first{{{curve::Polyline2{{{0, 0}, {1, 0}}}}}, false};
-  const Path second{{{curve::Polyline2{{{0, 0}, {0, 2}}}}}, false};
-  const auto made = joined({first, second}, 1e-6);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->reversed, std::vector<std::size_t>{0});
-  EXPECT_EQ(evaluate(made->path, 0), (core::Point2{1, 0}));
-  EXPECT_EQ(evaluate(made->path, 0.5), (core::Point2{0, 0}));
-  EXPECT_EQ(evaluate(made->path, 1), (core::Point2{0, 2}));
-  EXPECT_FALSE(joined({first, {{{curve::Polyline2{{{3, 3}, {4, 4}}}}}, false}}, 1e-6));
-}
-
 // A circle of radius 2 from its lowest point on; from 0.8 to 0.3 of it are its half.
 TEST(PartOverSeam, OfACircleIsAnArcOfOneChain) {
   const double half = 2 * std::numbers::pi;
