@@ -35,11 +35,11 @@ analysis::CombFigures sum_of(const std::vector<analysis::CombFigures>& all) {
   return sum;
 }
 
+/// Whether a member was faired; others are kept as given.
+bool is_chain(const FairCurve& member) { return std::holds_alternative<lac::Chain>(member); }
+
 /// The points of each member of the answer; nothing where parts of a given curve are kept.
 std::vector<detail::Run> runs_of_members(const acquire::KeyLine& line, const FairResult& result) {
-  const auto is_chain = [](const FairCurve& member) {
-    return std::holds_alternative<lac::Chain>(member);
-  };
   if (result.curves.empty() || !std::ranges::all_of(result.curves, is_chain)) return {};
   const bool open = !std::get<lac::Chain>(result.curves.front()).closed;
   const bool cut = result.curves.size() > 1 || (line.closed && open);
@@ -68,6 +68,7 @@ FairFigures rivals_of(const acquire::KeyLine& line, const FairResult& result, in
   for (const curve::BSpline2& spline : result.splines)
     splines.push_back(analysis::comb_figures(graph_of(spline)));
   figures.spline = sum_of(splines);
+  if (!std::ranges::all_of(result.curves, is_chain)) figures.rivals = splines;
   std::vector<analysis::CombFigures> found;
   for (const detail::Run& run : runs_of_members(line, result)) {
     const auto smooth = smooth_rival(run, result.tolerance, threads);
@@ -99,7 +100,9 @@ FairFigures fair_figures(const acquire::KeyLine& line, const FairResult& result,
   std::vector<analysis::CombFigures> members;
   std::vector<double> unseen;  // energies
   for (const FairCurve& member : result.curves) {
-    const auto graph = std::visit([](const auto& c) { return graph_of(c); }, member);
+    const auto* chain = std::get_if<lac::Chain>(&member);
+    if (!chain) continue;
+    const curve::CurvatureGraph graph = graph_of(*chain);
     members.push_back(analysis::comb_figures(graph));
     unseen.push_back(detail::unseen_energy(graph.arc_length.back(), result.tolerance));
   }

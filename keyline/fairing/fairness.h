@@ -14,9 +14,10 @@ namespace keyline::fairing {
 struct FairResult;
 
 /// How fair an answer is: its comb in figures, beside what others make of the same points. Of
-/// several members waves are added up; of energy and jolt the worst counts.
+/// several members waves are added up; of energy and jolt the worst counts. Parts that are kept as
+/// given are not judged.
 struct FairFigures {
-  analysis::CombFigures answer;
+  analysis::CombFigures answer;  ///< of its faired parts
   analysis::CombFigures spline;  ///< of step 2
   /// Of the smoothest quintic splines within the tolerance, one for each member between corners,
   /// with no more waves than those of few knots; not where parts are kept as given.
@@ -28,7 +29,7 @@ struct FairFigures {
   bool fair = false;
   static constexpr auto describe() {
     return core::fields(
-        core::field<&FairFigures::answer>("of the answer's comb"),
+        core::field<&FairFigures::answer>("of the answer's comb, where it was faired"),
         core::field<&FairFigures::spline>("of the spline through the points"),
         core::field<&FairFigures::smoothing_spline>(
             "of the smoothest quintic splines within the tolerance, one between corners each; not "

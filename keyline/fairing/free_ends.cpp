@@ -117,18 +117,23 @@ void place_end(RunResult& result, const Run& run, const RunOptions& options, boo
   result.chain = lac::reverse(*moved);
 }
 
+/// Whether an end is held nowhere: neither by a clamp, a corner or an axis nor by its own point.
+bool is_free(const Run& run, bool end) {
+  const std::size_t point = end ? run.points.size() - 1 : 0;
+  return (end ? run.clamp_end : run.clamp_start) == Clamp::none &&
+         !(end ? run.tie_end : run.tie_start) &&
+         (end ? run.end_on_axis : run.start_on_axis) == HalfEnd::free &&
+         std::ranges::find(run.must_pass, point) == run.must_pass.end();
+}
+
 }  // namespace
 
 void place_free_ends(RunResult& result, const Run& run, const RunOptions& options) {
   // A longer end might leave what the run stays inside.
   if (run.closed || !run.inside.empty() || result.exact || !noisy(result.accept)) return;
   const std::vector<PointPlace> places = place_points(result, run);
-  const bool start_free =
-      run.clamp_start == Clamp::none && !run.tie_start && run.start_on_axis == HalfEnd::free;
-  const bool end_free =
-      run.clamp_end == Clamp::none && !run.tie_end && run.end_on_axis == HalfEnd::free;
-  if (start_free) place_end(result, run, options, false, places);
-  if (end_free) place_end(result, run, options, true, places);
+  for (const bool end : {false, true})
+    if (is_free(run, end)) place_end(result, run, options, end, places);
 }
 
 }  // namespace keyline::fairing::detail

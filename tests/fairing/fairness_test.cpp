@@ -146,6 +146,43 @@ TEST(FairFigures, EveryMemberIsHeldAgainstItsOwnRival) {
   EXPECT_FALSE(wild.fair);
 }
 
+/// y = height x^2 from 0 to 1.
+curve::BSpline2 parabola(double height) {
+  curve::BSpline2 spline;
+  spline.degree = 2;
+  spline.knots = {0, 0, 0, 1, 1, 1};
+  spline.control = {{0, 0}, {0.5, 0}, {1, height}};
+  return spline;
+}
+
+// Only a region was faired, in place of the parabola that folium_and_parabola has: the bend outside
+// it, with far more variation, is nobody's doing.
+TEST(FairFigures, PartsKeptAsGivenAreNotJudged) {
+  const auto beside = [&](double rise) {
+    FairResult answer;
+    answer.tolerance = 1e-5;
+    answer.splines = {parabola(0.5)};
+    answer.curves.emplace_back(parabola(10));
+    answer.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 1, 0.1, 0.1 + rise}}});
+    answer.curves.emplace_back(parabola(10));
+    return fair_figures({}, answer);
+  };
+  const FairFigures calm = beside(0.5);
+  EXPECT_NEAR(calm.answer.energy, 0.25, 1e-3);
+  EXPECT_NEAR(calm.rival().energy, variation_of_parabola(), 0.01 * variation_of_parabola());
+  EXPECT_TRUE(calm.fair);
+  const FairFigures wild = beside(std::sqrt(3 * variation_of_parabola()));
+  EXPECT_EQ(wild.unfair, 1U);
+  EXPECT_NEAR(wild.times, 3, 0.5);
+  // Too little variation to be seen, which the rival has none of.
+  FairResult arc;
+  arc.tolerance = 0.01;
+  arc.splines = {parabola(0)};
+  arc.curves.emplace_back(parabola(10));
+  arc.curves.emplace_back(lac::Chain{.start = {}, .pieces = {{-1, 2, 0.1, 0.1 + 0.9 * 0.008}}});
+  EXPECT_TRUE(fair_figures({}, arc).fair);
+}
+
 // A chain of length 2 departs from an arc by a tenth of a tolerance of 0.01 where its curvature
 // changes by 32 * 0.001 / 2^2.
 TEST(FairFigures, WhatIsAnArcToTheEyeIsCalm) {

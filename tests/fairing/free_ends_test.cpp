@@ -262,6 +262,9 @@ TEST(FreeEnds, StayWhereNothingIsToBeGained) {
   EXPECT_EQ(stays([](auto& l) { l.result.accept.tolerance = 7 * kError; }), both);  // not noisy
   EXPECT_EQ(stays([](auto& l) { l.run.clamp_start = Clamp::g0; }), start);
   EXPECT_EQ(stays([](auto& l) { l.run.clamp_end = Clamp::g0; }), end);
+  EXPECT_EQ(stays([](auto& l) { l.run.must_pass = {0, 90}; }), start);
+  EXPECT_EQ(stays([](auto& l) { l.run.must_pass = {kSteps}; }), end);
+  EXPECT_EQ(stays([](auto& l) { l.run.must_pass = {1, 90, kSteps - 1}; }), none);
   EXPECT_EQ(stays([](auto& l) { l.run.tie_start = core::Point2{}; }), start);
   EXPECT_EQ(stays([](auto& l) { l.run.tie_end = core::Point2{}; }), end);
   EXPECT_EQ(stays([](auto& l) { l.run.start_on_axis = HalfEnd::corner; }), start);
