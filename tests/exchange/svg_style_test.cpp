@@ -116,6 +116,20 @@ constexpr PaintCase kPaints[] = {
     {".x,.a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
     {".a{stroke:lime", "class='a'", "#000000", "#ffffff", 3},
     {".a{stroke:lime !important}", "class='a'", "#00ff00", "#ffffff", 3},
+    // The more a selector says the more it counts (Selectors 4, 17); of equal ones the later, in
+    // whatever order the element names its classes.
+    {"path.a{stroke:lime}.a{stroke:red}", "class='a'", "#00ff00", "#ffffff", 3},
+    {"path{stroke:lime}*{stroke:red;stroke-width:5}", "", "#00ff00", "#ffffff", 5},
+    {".b{stroke:red}.a{stroke:lime}", "class='a b'", "#00ff00", "#ffffff", 3},
+    {".b,.a{stroke:red}.b{stroke:lime}", "class='b a'", "#00ff00", "#ffffff", 3},
+    {"#i,.a{stroke:lime}path.a{stroke:red}", "class='a' id='i'", "#00ff00", "#ffffff", 3},
+    {"g.a{stroke:lime}", "class='a'", "#000000", "#ffffff", 3},
+    // What is let pass ends where it ends: a block at its own bracket, a statement behind strings.
+    {"@media print{.a{fill:red}}.a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {"@import url(a;b{.css);@import \"c;d{'\";.a{stroke:lime}", "class='a'", "#00ff00", "#ffffff",
+     3},
+    {".b{fill:red;.a{fill:red}}.a{stroke:lime}", "class='a b'", "#00ff00", "#ffffff", 3},
+    {"path#i{stroke:red}.a.b{stroke:red}", "class='a b' id='i'", "#000000", "#ffffff", 3},
     // Selectors of more than one word are let pass.
     {"g .a{stroke:lime} g>path{stroke:lime} path:hover{stroke:lime} path[d]{stroke:lime}",
      "class='a'", "#000000", "#ffffff", 3},
@@ -175,6 +189,23 @@ TEST(SvgStyles, AreToldWhereTheyAreLetPass) {
       "<svg xmlns='http://www.w3.org/2000/svg'><path stroke='lab(1 2 3)' d='M0 0L1 1'/></svg>");
   ASSERT_TRUE(once);
   EXPECT_EQ(once->skipped.size(), 1U);
+}
+
+TEST(SvgStyles, CountWhatTheyLetPass) {
+  SvgStyles styles;
+  styles.add_sheet(
+      "@media print{.b{stroke:red}.c{fill:red}} @import 'a;b.css'; g .a{stroke:red}"
+      ".a.b,.c,path#i{fill:red} .x{fill:red;.z{fill:red}} *,path.a,#i{fill:none}");
+  EXPECT_EQ(styles.passed(), 6U);
+}
+
+// As Illustrator and CorelDRAW write it: the sheet is its text and its CDATA together.
+TEST(SvgStyles, SheetsStandInCdata) {
+  const auto read = read_svg(
+      "<svg xmlns='http://www.w3.org/2000/svg'><style type='text/css'>/* <![CDATA[ */ "
+      ".st0{stroke:red} /* ]]> */</style><path class='st0' d='M0 0L1 1'/></svg>");
+  ASSERT_TRUE(read && read->curves.size() == 1);
+  EXPECT_EQ(read->curves[0].color, "#ff0000");
 }
 
 TEST(SvgPaint, AnOutlineHasTheColourOfItsStrokeElseOfItsFill) {

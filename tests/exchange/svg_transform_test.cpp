@@ -186,5 +186,68 @@ TEST(SvgReader, StrokesGrowWithTheArea) {
   EXPECT_NEAR(width("scale(-1 1)"), 3, 1e-12);
 }
 
+// SVG 2, 8.13: px of the page, whatever is between; for the element alone that says so.
+TEST(SvgReader, StrokesThatDoNotScaleCountPx) {
+  const auto width = [](const std::string& page, const std::string& group,
+                        const std::string& path) {
+    const auto read = read_svg(
+        "<svg xmlns='http://www.w3.org/2000/svg' " + page + "><g transform='scale(10)' " + group +
+        "><path stroke='red' stroke-width='3' d='M0 0h1' " + path + "/></g></svg>");
+    return read && read->curves.size() == 1 ? read->curves[0].stroke_width : -1;
+  };
+  const std::string effect = "vector-effect='non-scaling-stroke'";
+  const std::string paper = "width='10mm' height='10mm' viewBox='0 0 5 5'";
+  EXPECT_NEAR(width("", "", ""), 30, 1e-12);
+  EXPECT_NEAR(width("", "", effect), 3, 1e-12);
+  EXPECT_NEAR(width("", "", "style='vector-effect:non-scaling-stroke'"), 3, 1e-12);
+  EXPECT_NEAR(width("", effect, ""), 30, 1e-12);
+  EXPECT_NEAR(width("width='50' viewBox='0 0 5 5'", "", effect), 3, 1e-12);
+  EXPECT_NEAR(width(paper, "", effect), 3 * 25.4 / 96, 1e-12);
+  EXPECT_NEAR(width(paper, "", "vector-effect='none'"), 60, 1e-12);
+}
+
+SvgContents turned(const std::string& root, const std::string& d) {
+  const auto read =
+      read_svg("<svg xmlns='http://www.w3.org/2000/svg' " + root + "><path d='" + d + "'/></svg>");
+  EXPECT_TRUE(read);
+  return read ? *read : SvgContents{};
+}
+
+// CSS Transforms 1, transform-origin: in px, about the middle of the page, before the viewBox.
+// Chromium draws this triangle from (200, 100) to (220, 140).
+TEST(SvgReader, ATransformOfTheRootMovesThePage) {
+  const SvgContents c = turned(
+      "width='400' height='200' viewBox='10 0 100 50' "
+      "transform='translate(20 0) rotate(90)'",
+      "M60 25L70 25L70 30");
+  ASSERT_EQ(c.curves.size(), 1U);
+  const auto& pieces = c.curves[0].pieces;
+  EXPECT_NEAR(core::distance(pieces[0].control[0], {40 + 220, -100}), 0, 1e-12);
+  EXPECT_NEAR(core::distance(pieces[1].control[0], {40 + 220, -140}), 0, 1e-12);
+  EXPECT_NEAR(core::distance(pieces[1].control[1], {40 + 200, -140}), 0, 1e-12);
+  ASSERT_TRUE(c.page);
+  EXPECT_NEAR(core::distance(c.page->low, {40 + 120, -300}), 0, 1e-12);
+  EXPECT_NEAR(core::distance(c.page->high, {40 + 320, 100}), 0, 1e-12);
+  EXPECT_TRUE(c.skipped.empty());
+  const SvgContents paper =
+      turned("width='9cm' viewBox='0 0 9 9' transform='translate(96)'", "M0 0h1");
+  EXPECT_NEAR(paper.curves.at(0).pieces[0].control[0].x, 25.4, 1e-12);
+}
+
+TEST(SvgReader, WhatOfTheRootsTransformIsNotFollowedIsTold) {
+  const auto told = [](const std::string& root) {
+    const SvgContents c = turned(root, "M0 0h10");
+    return c.skipped.empty() ? std::string() : c.skipped[0].what;
+  };
+  EXPECT_EQ(told("transform='translate(3 4)'"), "");
+  EXPECT_EQ(told("transform='rotate(90)'"), "svg: turned about the origin, as it has no middle");
+  EXPECT_EQ(told("transform='turn'"), "svg: a transform that cannot be read is ignored");
+  EXPECT_EQ(told("width='9' height='9' transform='scale(0)'"), "svg: its transform leaves no area");
+  EXPECT_EQ(told("style='rotate:9deg'"), "svg: what CSS turns or shifts it by is ignored");
+  EXPECT_EQ(told("clip-path='url(#c)'"), "svg: is not clipped, whole here");
+  const auto read = turned("transform='rotate(90)'", "M0 0h10");
+  EXPECT_NEAR(core::distance(read.curves.at(0).pieces[0].control[1], {0, -10}), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace keyline::exchange::detail

@@ -47,5 +47,12 @@ TEST(XmlOddities, ElementsBehindTheEndAreTold) {
             std::vector<std::string>{"3: what stands behind the end of <svg>"});
 }
 
+TEST(XmlOddities, StyleSheetsBesideTheFileAreTold) {
+  EXPECT_EQ(
+      told("<?xml version='1.0'?>\n<?tool x?><?xml-stylesheet href='a.css'?>\n" + kRoot +
+           "<?xml-stylesheet href='b.css'?>" + kPath + "</svg>"),
+      std::vector<std::string>{"2: a style sheet that <?xml-stylesheet?> names: not followed"});
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -16,6 +16,7 @@
 #include "keyline/exchange/svg/svg_text.h"
 #include "keyline/exchange/svg/svg_transform.h"
 #include "keyline/exchange/svg/svg_unseen.h"
+#include "keyline/exchange/svg/svg_viewport.h"
 #include "keyline/exchange/svg/xml_oddities.h"
 #include "keyline/exchange/text/ascii.h"
 
@@ -51,9 +52,12 @@ class SvgReader {
     find_ids(root);
     Place place;
     place.map = outermost(root);
-    place.viewport = viewport_in(root, {});
-    place.paint = styles_.paint(root, {});
-    read_children(root, place);
+    place.viewport = detail::viewport_in(root, {});
+    take_paint(root, place);
+    if (is_invertible(place.map))
+      read_children(root, place);
+    else
+      skip(line(root), describe(root) + ": its transform leaves no area");
     for (const auto& [name, count] : ignored_)
       skip(count.first, name + ": " + core::counted(count.second, "element") + " without curves");
     if (styles_.passed() > 0)
@@ -84,7 +88,7 @@ class SvgReader {
   void find_ids(const pugi::xml_node& root) {
     const auto enter = [this](const pugi::xml_node& node) {
       if (const char* id = node.attribute("id").value(); *id) ids_.emplace(id, node);
-      if (local_name(node) == "style") styles_.add_sheet(node.text().get());
+      if (local_name(node) == "style") styles_.add_sheet(node);
     };
     detail::walk_svg(root, enter, [](const pugi::xml_node&) {});
   }
@@ -123,13 +127,17 @@ class SvgReader {
         size->reset();
       }
     check_view_box(root);
-    const detail::SvgFrame frame = detail::outermost_frame(
+    detail::SvgFrame frame = detail::outermost_frame(
         width, height, detail::parse_svg_view_box(root.attribute("viewBox").value()),
         root.attribute("preserveAspectRatio").value());
+    if (const Affine own = transform_of(root); own != Affine{}) {
+      frame = moved(frame, own);
+      if (!frame.page && own != Affine{1, 0, 0, 1, own.e, own.f})
+        skip(line(root), describe(root) + ": turned about the origin, as it has no middle");
+    }
     contents_.unit = frame.physical ? "mm" : "px";
     if (const auto& page = frame.page) {
-      const curve::Box2 box{apply(frame.map, {page->x, page->y + page->height}),
-                            apply(frame.map, {page->x + page->width, page->y})};
+      const curve::Box2 box = detail::box_of(*page, frame.map);
       const bool seen = curve::width(box) > 0 && curve::height(box) > 0;
       if (seen && core::is_finite(box.low) && core::is_finite(box.high)) contents_.page = box;
     }
@@ -166,7 +174,7 @@ class SvgReader {
       if (name == "svg") {
         check_lengths(node, {"x", "y", "width", "height"});
         check_view_box(node);
-        enter_viewport(node, node, place);
+        detail::enter_viewport(node, node, place.map, place.viewport);
       }
       if (name == "switch")
         read_switch(node, place);
@@ -197,16 +205,18 @@ class SvgReader {
     }
   }
 
-  bool add_transform(const pugi::xml_node& node, Place& place) {
+  /// By its attribute; what cannot be followed is told.
+  Affine transform_of(const pugi::xml_node& node) {
     if (styles_.moves(node))
       skip(line(node), describe(node) + ": what CSS turns or shifts it by is ignored");
-    if (const pugi::xml_attribute attribute = node.attribute("transform")) {
-      const auto own = detail::parse_svg_transform(attribute.value());
-      if (own)
-        place.map = combined(place.map, *own);
-      else
-        skip(line(node), describe(node) + ": a transform that cannot be read is ignored");
-    }
+    const auto own = detail::parse_svg_transform(node.attribute("transform").value());
+    if (!own) skip(line(node), describe(node) + ": a transform that cannot be read is ignored");
+    return own.value_or(Affine{});
+  }
+
+  bool add_transform(const pugi::xml_node& node, Place& place) {
+    const Affine own = transform_of(node);
+    if (own != Affine{}) place.map = combined(place.map, own);
     if (is_invertible(place.map)) return true;
     skip(line(node), describe(node) + ": its transform leaves no area");
     return false;
@@ -242,7 +252,7 @@ class SvgReader {
                      std::move(subpath.pieces),
                      subpath.closed,
                      place.paint.color(),
-                     place.paint.stroke.empty() ? 0 : place.paint.width * scale_of(place.map),
+                     width_of(place),
                      number};
       curve.pieces.shrink_to_fit();
       for (curve::Bezier2& piece : curve.pieces) piece = transformed(piece, place.map);
@@ -276,39 +286,13 @@ class SvgReader {
     full_ = true;
   }
 
-  /// How much lengths grow, on the whole.
-  static double scale_of(const Affine& m) { return std::sqrt(std::abs(m.a * m.d - m.b * m.c)); }
-
-  /// The user space within an element: that of its viewBox, else its size, else all around it.
-  static detail::SvgViewport viewport_in(const pugi::xml_node& node, detail::SvgViewport outer) {
-    if (const auto box = detail::parse_svg_view_box(node.attribute("viewBox").value()))
-      return {box->width, box->height};
-    return {detail::svg_length(node, "width", outer.width, outer),
-            detail::svg_length(node, "height", outer.height, outer)};
-  }
-
-  /// What x, y, width, height, viewBox and preserveAspectRatio of a nested <svg> or a <symbol> do;
-  /// the size may come from the <use> that shows it, and is all around where none is given.
-  static void enter_viewport(const pugi::xml_node& node, const pugi::xml_node& sized,
-                             Place& place) {
-    const detail::SvgViewport outer = place.viewport;
-    const auto length = [&](const pugi::xml_node& of, const char* name, double fallback) {
-      return detail::svg_length(of, name, fallback, outer);
-    };
-    const double x = length(node, "x", 0);
-    const double y = length(node, "y", 0);
-    if (std::isfinite(x) && std::isfinite(y))
-      place.map = combined(place.map, Affine{1, 0, 0, 1, x, y});
-    const double w = length(sized, "width", length(node, "width", outer.width));
-    const double h = length(sized, "height", length(node, "height", outer.height));
-    place.viewport = {w, h};
-    const auto box = detail::parse_svg_view_box(node.attribute("viewBox").value());
-    if (!box) return;
-    place.viewport = {box->width, box->height};
-    if (w > 0 && h > 0)
-      place.map =
-          combined(place.map,
-                   detail::fit_view_box(*box, w, h, node.attribute("preserveAspectRatio").value()));
+  /// Of the stroke: it grows as lengths do on the whole, or counts px of the page (SVG 2, 8.13).
+  double width_of(const Place& place) const {
+    if (place.paint.stroke.empty()) return 0;
+    const double px = contents_.unit == "mm" ? detail::kMillimetresPerPx : 1;
+    const Affine& m = place.map;
+    const double scale = place.paint.fixed_width ? px : std::sqrt(std::abs(m.a * m.d - m.b * m.c));
+    return place.paint.width * scale;
   }
 
   void read_use(const pugi::xml_node& node, Place place) {
@@ -329,7 +313,7 @@ class SvgReader {
     if (local_name(shown) != "symbol") return read_element(shown, place);
     if (!add_transform(shown, place)) return;
     take_paint(shown, place);
-    enter_viewport(shown, node, place);
+    detail::enter_viewport(shown, node, place.map, place.viewport);
     open_.push_back(shown);
     read_children(shown, place);
     open_.pop_back();
@@ -379,9 +363,9 @@ core::Result<SvgContents> read_svg(std::string_view bytes, const SvgReadLimits& 
   if (!text) return std::unexpected(text.error());
   bytes = text->in(bytes);
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed =
-      document.load_buffer(bytes.data(), bytes.size(),
-                           pugi::parse_default | pugi::parse_ws_pcdata_single, pugi::encoding_utf8);
+  const pugi::xml_parse_result parsed = document.load_buffer(
+      bytes.data(), bytes.size(),
+      pugi::parse_default | pugi::parse_ws_pcdata_single | pugi::parse_pi, pugi::encoding_utf8);
   if (!parsed)
     return core::fail(ErrorCode::bad_input,
                       std::string("the SVG file is no XML: ") + parsed.description(),

@@ -55,7 +55,8 @@ struct SvgReadLimits {
 ///
 /// Frame:   y up: a point of the file's outermost user space (x, y) comes back as scale * (x, -y),
 ///          so what write_svg() wrote in mm comes back bit for bit. scale turns user units into
-///          mm where the file states a physical size, else into px.
+///          mm where the file states a physical size, else into px. A transform of the root element
+///          moves the page, in px about its middle.
 /// Skipped: text, images and other elements that hold no curve are counted by name; paths whose
 ///          data end in an error are read up to it; nothing outside the file is looked at.
 /// Fails:   bad_input with path "line N" where the bytes are no XML or hold no <svg>, where

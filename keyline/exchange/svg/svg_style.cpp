@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "keyline/core/leading_number.h"
 #include "keyline/core/utf8.h"
+#include "keyline/exchange/svg/svg_shapes.h"
 #include "keyline/exchange/svg/svg_transform.h"
 #include "keyline/exchange/text/ascii.h"
 
@@ -52,6 +54,7 @@ void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
   }
   if (name == "stroke-opacity") paint.stroke_opaque = shows(value);
   if (name == "fill-opacity") paint.fill_opaque = shows(value);
+  if (name == "vector-effect") paint.fixed_width = value.contains("non-scaling-stroke");
   if (name != "stroke-width") return;
   if (const auto width = parse_svg_length(value); width && width->value >= 0)
     paint.width = in_px(*width);
@@ -106,6 +109,64 @@ std::string without_comments(std::string_view css) {
   return result;
 }
 
+/// Where one of `wanted` stands outside of strings and round brackets; the size where none does.
+std::size_t find_bare(std::string_view css, std::string_view wanted, std::size_t from) {
+  int brackets = 0;
+  char quote = 0;
+  for (std::size_t at = from; at < css.size(); ++at) {
+    const char c = css[at];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+      continue;
+    }
+    if (c == '"' || c == '\'') quote = c;
+    if (brackets == 0 && wanted.contains(c)) return at;
+    if (c == '(') ++brackets;
+    if (c == ')' && brackets > 0) --brackets;
+  }
+  return css.size();
+}
+
+/// Where the block that begins at `open` is closed; the size where it is not.
+std::size_t end_of_block(std::string_view css, std::size_t open) {
+  std::size_t at = open;
+  for (int depth = 1; depth > 0 && at < css.size();) {
+    at = find_bare(css, "{}", at + 1);
+    if (at < css.size()) depth += css[at] == '{' ? 1 : -1;
+  }
+  return at;
+}
+
+/// Of names in CSS those without escapes.
+bool is_plain_name(std::string_view text) {
+  const auto is_part = [](unsigned char c) {
+    return c >= 0x80 || c == '-' || c == '_' || std::isalnum(c) != 0;
+  };
+  return !text.empty() && std::ranges::all_of(text, is_part);
+}
+
+/// "*", "name", ".class", "name.class" and "#id".
+bool is_followed(std::string_view selector) {
+  if (selector == "*" || is_plain_name(selector)) return true;
+  const std::size_t mark = selector.find_first_of(".#");
+  if (mark == selector.npos || !is_plain_name(selector.substr(mark + 1))) return false;
+  return mark == 0 || (selector[mark] == '.' && is_plain_name(selector.substr(0, mark)));
+}
+
+/// Each once.
+std::vector<std::string_view> classes_of(const pugi::xml_node& node) {
+  std::vector<std::string_view> all;
+  std::string_view rest = node.attribute("class").value();
+  while (!(rest = trimmed(rest, kSpace)).empty()) {
+    all.push_back(rest.substr(0, rest.find_first_of(kSpace)));
+    rest.remove_prefix(all.back().size());
+  }
+  std::ranges::sort(all);
+  const auto repeated = std::ranges::unique(all);
+  all.erase(repeated.begin(), repeated.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> SvgPaint::unread() const {
@@ -121,41 +182,72 @@ std::vector<std::string> SvgPaint::unread() const {
 }
 
 void SvgStyles::add_sheet(std::string_view css) {
-  constexpr std::size_t kMost = 10'000;
   const std::string text = without_comments(css);
-  std::string_view rest = text;
-  while (rules_.size() < kMost) {
-    const std::size_t open = rest.find('{');
-    const std::size_t close = open == rest.npos ? open : rest.find('}', open);
-    if (close == rest.npos) return;
-    std::string_view selectors = rest.substr(0, open);
-    const std::string_view body = rest.substr(open + 1, close - open - 1);
-    while (!selectors.empty()) {
-      const std::string_view one = selectors.substr(0, selectors.find(','));
-      const std::string_view name = trimmed(one, kSpace);
-      const bool plain = name.find_first_of(" >+~:[@") == name.npos;
-      passed_ += !plain;
-      if (!name.empty() && plain) rules_[std::string(name)].append(";").append(body);
-      selectors.remove_prefix(std::min(selectors.size(), one.size() + 1));
-    }
-    rest.remove_prefix(close + 1);
+  for (std::string_view rest = text; !(rest = trimmed(rest, kSpace)).empty();) {
+    const bool at_rule = rest.front() == '@';
+    const std::size_t open = find_bare(rest, at_rule ? "{;" : "{", 0);
+    if (open == rest.size()) return;
+    const std::size_t end = rest[open] == ';' ? open : end_of_block(rest, open);
+    if (at_rule)
+      ++passed_;
+    else if (end < rest.size())
+      add_rule(rest.substr(0, open), rest.substr(open + 1, end - open - 1));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+void SvgStyles::add_sheet(const pugi::xml_node& style) {
+  std::string css;
+  for (const pugi::xml_node& part : style.children())
+    if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata) css += part.value();
+  add_sheet(css);
+}
+
+void SvgStyles::add_rule(std::string_view selectors, std::string_view body) {
+  constexpr std::size_t kMost = 10'000;
+  if (body.find('{') != body.npos) {  // rules within a rule
+    ++passed_;
+    return;
+  }
+  bodies_.emplace_back(body);
+  while (!selectors.empty()) {
+    const std::string_view one = selectors.substr(0, selectors.find(','));
+    const std::string_view selector = trimmed(one, kSpace);
+    const bool taken = is_followed(selector) && taken_ < kMost;
+    taken_ += taken;
+    passed_ += !taken;
+    if (taken) rules_[std::string(selector)].push_back(bodies_.size() - 1);
+    selectors.remove_prefix(std::min(selectors.size(), one.size() + 1));
   }
 }
 
 std::vector<std::string_view> SvgStyles::declarations(const pugi::xml_node& node) const {
   std::vector<std::string_view> all;
-  const auto add_rule = [&](const std::string& selector) {
-    if (const auto rule = rules_.find(selector); rule != rules_.end()) all.push_back(rule->second);
+  std::vector<std::size_t> found;
+  const auto find = [&](const std::string& selector) {
+    const auto rules = rules_.find(selector);
+    if (rules != rules_.end())
+      found.insert(found.end(), rules->second.begin(), rules->second.end());
+  };
+  // Of selectors that are equally specific the order in the sheets decides.
+  const auto take_found = [&] {
+    std::ranges::sort(found);
+    for (const std::size_t body : found) all.push_back(bodies_[body]);
+    found.clear();
   };
   if (!rules_.empty()) {
-    add_rule(node.name());
-    std::string_view classes = node.attribute("class").value();
-    while (!(classes = trimmed(classes, kSpace)).empty()) {
-      const std::string_view one = classes.substr(0, classes.find_first_of(kSpace));
-      add_rule("." + std::string(one));
-      classes.remove_prefix(one.size());
+    const std::string name(local_name(node));
+    find("*");
+    take_found();
+    find(name);
+    take_found();
+    const std::vector<std::string_view> classes = classes_of(node);
+    for (const std::string& before : {std::string(), name}) {
+      for (const std::string_view one : classes) find(before + "." + std::string(one));
+      take_found();
     }
-    if (const char* id = node.attribute("id").value(); *id) add_rule("#" + std::string(id));
+    if (const char* id = node.attribute("id").value(); *id) find("#" + std::string(id));
+    take_found();
   }
   if (const pugi::xml_attribute style = node.attribute("style")) all.push_back(style.value());
   return all;
@@ -164,10 +256,11 @@ std::vector<std::string_view> SvgStyles::declarations(const pugi::xml_node& node
 SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   paint.unknown.clear();
   paint.unknown_width.clear();
+  paint.fixed_width = false;
   const auto declared = declarations(node);
   const auto each = [&](auto take) {
     for (const char* name : {"color", "stroke", "fill", "stroke-width", "stroke-opacity",
-                             "fill-opacity", "display", "visibility", "opacity"})
+                             "fill-opacity", "vector-effect", "display", "visibility", "opacity"})
       if (const pugi::xml_attribute own = node.attribute(name)) take(paint, name, own.value());
     for (const std::string_view some : declared)
       each_declaration(

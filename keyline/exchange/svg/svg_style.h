@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <pugixml.hpp>
 #include <span>
@@ -20,8 +21,9 @@ struct SvgPaint {
   bool stroked = false;            ///< whether something is painted along its outline
   bool filled = true;              ///< or within it
   bool stroke_opaque = true, fill_opaque = true;  ///< not wholly transparent
-  bool cut_out = false;  ///< it or what is around it, by display or opacity: for all within
-  bool visible = true;   ///< which what is within may say anew
+  bool fixed_width = false;  ///< of this element alone: no transform changes that of its stroke
+  bool cut_out = false;      ///< it or what is around it, by display or opacity: for all within
+  bool visible = true;       ///< which what is within may say anew
 
   bool seen() const { return visible && !cut_out; }
   bool painted() const {
@@ -35,13 +37,16 @@ struct SvgPaint {
   const std::string& color() const { return stroke.empty() ? fill : stroke; }
 };
 
-/// Style of elements: their attributes, then the rules of <style> for their name, class or id (one
-/// plain selector each; others are let pass), then their own style attribute; CSS Cascading 4.
+/// Style of elements: their attributes, then the rules of <style> for "*", their name, ".class",
+/// "name.class" and "#id", in this order and within it in that of the sheets (others are let pass),
+/// then their own style attribute; CSS Cascading 4, Selectors 4.
 class SvgStyles {
  public:
-  /// Takes the rules of one <style> element; of very long sheets the first 10,000.
+  /// Takes the rules of a sheet; of very many the first 10,000.
   void add_sheet(std::string_view css);
-  /// Rules let pass, of selectors that are not plain.
+  /// Takes those of a <style> element, its text and CDATA in one.
+  void add_sheet(const pugi::xml_node& style);
+  /// Rules let pass: of other selectors, with rules within them, @media and the like.
   std::size_t passed() const { return passed_; }
   /// Paint of an element within one that is painted as given.
   SvgPaint paint(const pugi::xml_node& node, SvgPaint inherited) const;
@@ -52,13 +57,17 @@ class SvgStyles {
   bool clips(const pugi::xml_node& node) const;
 
  private:
+  void add_rule(std::string_view selectors, std::string_view body);
+
   /// Declarations of CSS that apply to the element, the strongest last.
   std::vector<std::string_view> declarations(const pugi::xml_node& node) const;
 
   /// Whether the element has one of these properties, by its attributes or in CSS.
   bool declares(const pugi::xml_node& node, std::span<const char* const> names) const;
 
-  std::map<std::string, std::string> rules_;  ///< declarations by selector
+  std::vector<std::string> bodies_;                        ///< of rules: their declarations
+  std::map<std::string, std::vector<std::size_t>> rules_;  ///< those of a selector, in order
+  std::size_t taken_ = 0;
   std::size_t passed_ = 0;
 };
 

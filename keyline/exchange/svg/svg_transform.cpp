@@ -195,4 +195,27 @@ SvgFrame outermost_frame(const std::optional<SvgLength>& width,
   return frame;
 }
 
+SvgFrame moved(SvgFrame frame, const Affine& own) {
+  const double px = frame.physical ? kMillimetresPerPx : 1;
+  const SvgViewBox page = frame.page.value_or(SvgViewBox{});
+  // From user units to px right of and below the middle of the page, and back.
+  const Affine in{frame.map.a / px, 0, 0, -frame.map.d / px, 0, 0};
+  const core::Point2 middle = apply(in, {page.x + page.width / 2, page.y + page.height / 2});
+  const Affine to_middle = combined(Affine{1, 0, 0, 1, -middle.x, -middle.y}, in);
+  const Affine from_middle =
+      combined(Affine{1 / in.a, 0, 0, 1 / in.d, 0, 0}, Affine{1, 0, 0, 1, middle.x, middle.y});
+  frame.map = combined(frame.map, combined(from_middle, combined(own, to_middle)));
+  return frame;
+}
+
+curve::Box2 box_of(const SvgViewBox& box, const Affine& map) {
+  const core::Point2 first = apply(map, {box.x, box.y});
+  curve::Box2 all{first, first};
+  for (const core::Point2 corner : {core::Point2{box.x + box.width, box.y},
+                                    {box.x, box.y + box.height},
+                                    {box.x + box.width, box.y + box.height}})
+    all = curve::united(all, apply(map, corner));
+  return all;
+}
+
 }  // namespace keyline::exchange::detail

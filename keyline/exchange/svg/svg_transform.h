@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "keyline/curve/bezier.h"
+#include "keyline/curve/bounding_box.h"
 
 namespace keyline::exchange::detail {
 
@@ -39,6 +40,9 @@ struct SvgViewBox {
 };
 std::optional<SvgViewBox> parse_svg_view_box(std::string_view text);
 
+/// Around that box, mapped.
+curve::Box2 box_of(const SvgViewBox& box, const Affine& map);
+
 /// The affine map that fits a viewBox into a box of this size at the origin, as the attribute
 /// preserveAspectRatio says ("" is "xMidYMid meet").
 Affine fit_view_box(const SvgViewBox& box, double width, double height, std::string_view aspect);
@@ -67,5 +71,10 @@ struct SvgFrame {
 SvgFrame outermost_frame(const std::optional<SvgLength>& width,
                          const std::optional<SvgLength>& height,
                          const std::optional<SvgViewBox>& box, std::string_view aspect);
+
+/// The frame where the root element has a transform of its own: that moves the whole page, in px
+/// and about its middle, about the origin where the page is not known (CSS Transforms 1,
+/// transform-origin).
+SvgFrame moved(SvgFrame frame, const Affine& own);
 
 }  // namespace keyline::exchange::detail

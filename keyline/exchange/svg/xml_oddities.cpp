@@ -32,6 +32,9 @@ std::vector<std::pair<pugi::xml_node, std::string>> xml_oddities(const pugi::xml
   if (twice > 0)
     lines.emplace_back(first, core::counted(twice, "element") +
                                   " with an attribute twice, the first of which is taken");
+  for (const pugi::xml_node& before : root.parent().children())
+    if (before.type() == pugi::node_pi && std::string_view(before.name()) == "xml-stylesheet")
+      lines.emplace_back(before, "a style sheet that <?xml-stylesheet?> names: not followed");
   for (pugi::xml_node next = root.next_sibling(); next; next = next.next_sibling()) {
     if (next.type() != pugi::node_element) continue;
     lines.emplace_back(next, "what stands behind the end of <" + std::string(root.name()) + '>');
