@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/document/document.h"
+#include "keyline/exchange/points/csv_writer.h"
 #include "keyline/exchange/points/lattice_reader.h"
 #include "keyline/exchange/points/points_reader.h"
 
@@ -27,6 +29,66 @@ TEST(WritePoints, ReadsBackToTheSameDoubles) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(read[i], (core::Point3{points[i].x, points[i].y, 0}));
   }
+}
+
+// Rows begin with the names of their curves; a name is none of what lines of tables begin with.
+TEST(WriteCsv, NamesReadBackAsTheyAre) {
+  const std::vector<std::string> names = {"#1",
+                                          "# side",
+                                          "%",
+                                          "!",
+                                          "//",
+                                          "/x",
+                                          " a",
+                                          "a ",
+                                          "a",
+                                          "",
+                                          "\"q\"",
+                                          ",",
+                                          "sep=;",
+                                          "ZONE I=3",
+                                          "#N/A",
+                                          "a;1;2;3;4;5;6",
+                                          "nan",
+                                          "1",
+                                          "x",
+                                          "mm",
+                                          "units: mm",
+                                          "VARIABLES = x",
+                                          "rear 10 20 30 40 50"};
+  for (const std::string& first : names) {
+    SCOPED_TRACE(first);
+    document::Document drawing;
+    const auto add = [&](const std::string& name) {
+      const double y = static_cast<double>(drawing.paths.size());
+      curve::Polyline2 line{{{0, y}, {1.5, y + 1}, {2, y}}};
+      drawing.paths.push_back({{name, {}, {}}, {{{std::move(line)}}, false}, 0});
+    };
+    add(first);
+    for (const std::string& name : names)
+      if (name != first) add(name);
+    const auto written = write_csv(drawing, 3);
+    ASSERT_TRUE(written) << written.error().message;
+    std::istringstream in(written->content);
+    const auto read = read_points(in, "names.csv");
+    ASSERT_TRUE(read) << read.error().message << " " << read.error().path;
+    ASSERT_EQ(read->size(), names.size());
+    for (std::size_t i = 0; i < read->size(); ++i) {
+      EXPECT_EQ((*read)[i].id, drawing.paths[i].label.name);
+      EXPECT_EQ((*read)[i].points.size(), 3U);
+      EXPECT_EQ((*read)[i].points[0].y, static_cast<double>(i));
+    }
+  }
+}
+
+// What the table shows as a blank makes no two names one.
+TEST(WriteCsv, NamesThatAreOneOnTheirLineAreNumbered) {
+  document::Document drawing;
+  for (const char* name : {"a\tb", "a b"})
+    drawing.paths.push_back({{name, {}, {}}, {{{curve::Polyline2{{{0, 0}, {1, 2}}}}}, false}, 0});
+  const auto written = write_csv(drawing, 3);
+  ASSERT_TRUE(written);
+  EXPECT_NE(written->content.find("\na b#2,"), std::string::npos) << written->content;
 }
 
 TEST(ReadLattice, BothForms) {

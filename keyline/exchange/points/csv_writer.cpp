@@ -9,16 +9,20 @@
 #include "keyline/analysis/split.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/points/points_writer.h"
+#include "keyline/exchange/text/ascii.h"
+#include "keyline/exchange/text/text_table.h"
 
 namespace keyline::exchange {
 namespace {
 
-/// A name as one field: quoted where it holds a separator.
+/// A name as one field: quoted where it holds a separator, or where a row that begins with it were
+/// read as something else, a comment, a statement ("sep=;"), or without its blanks.
 std::string field(const std::string& name) {
-  const std::string line = core::on_one_line(name);
-  if (line.find_first_of(",\"") == std::string::npos) return line;
+  const bool plain = name.find_first_of(",\"=") == std::string::npos && !detail::is_comment(name) &&
+                     detail::trimmed(name) == name;
+  if (plain) return name;
   std::string quoted = "\"";
-  for (const char c : line) {
+  for (const char c : name) {
     if (c == '"') quoted += '"';
     quoted += c;
   }
@@ -182,7 +186,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
   const bool several = document.paths.size() + document.space_curves.size() > 1;
   Ids ids;
   const auto id = [&](const document::Label& label) {
-    return several ? field(ids.next(label.name)) + ',' : std::string();
+    return several ? field(ids.next(core::on_one_line(label.name))) + ',' : std::string();
   };
   if (document.paths.empty() && document.space_curves.empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve to write as points",

@@ -37,7 +37,21 @@ bool tabs_part(const PointsHead& head, std::string_view line) {
          all_numbers(fields, head.style, 1);
 }
 
-void take_style(PointsHead& head, char separator, std::string_view line) {
+/// Whether the header's separator parts the row into its columns. Names of curves in it may hold
+/// others, and more numbers than there are coordinates.
+bool header_parts(const PointsHead& head, const PointsOptions& options, std::string_view line) {
+  if (head.separator == ' ' || !names_curves(head.names, options)) return false;
+  const TableStyle style{head.separator, head.separator != ',' && line.find(',') != line.npos};
+  const Fields fields = split(line, style);
+  const auto texts =
+      std::ranges::count_if(fields, [&](std::string_view f) { return !parse_number(f, style); });
+  return fields.size() >= 3 && fields.size() <= head.names.size() && texts <= 1;
+}
+
+void take_style(PointsHead& head, const PointsOptions& options, std::string_view line) {
+  const char separator = options.separator == 0 && header_parts(head, options, line)
+                             ? head.separator
+                             : options.separator;
   TableStyle& style = head.style;
   style = separator == 0 ? guess_style(line)
                          : TableStyle{separator, separator != ',' && line.find(',') != line.npos};
@@ -143,7 +157,7 @@ core::Result<bool> is_first_row(PointsHead& head, const PointsOptions& options,
   }
   if (take_unit_row(head, text, number) || lower_case(text).starts_with("sep=")) return false;
   if (!comment) {
-    take_style(head, options.separator, line);
+    take_style(head, options, line);
     const TableStyle& style = head.style;
     const Fields fields = split(line, style);
     if (!head.names.empty() && head.names.size() <= fields.size() + 1 && fields.size() >= 2)
