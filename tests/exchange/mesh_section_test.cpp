@@ -177,6 +177,20 @@ TEST(Section, TellsWhatWasSkippedWhereNothingIsMet) {
   EXPECT_THAT(cut.error().message, testing::HasSubstr("\"0,5\" is no number and others"));
 }
 
+// Lines of an OBJ stand beside its faces and points: no plane cuts them, and that is told.
+TEST(Section, TellsLinesOfAnObj) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("keyline-l-" + std::to_string(::getpid()) + ".obj");
+  const std::string vertices = "v 0 0 -1\nv 1 0 1\nv 0 1 1\nv 1 1 -1\nv 0.5 0 0\n";
+  for (const char* faces : {"f 1 2 3\n", ""}) {
+    std::ofstream(file) << vertices << faces << "l 4 5\nl 1 2 4\n";
+    const auto cut = section_of_file(file, parse_section("z=0").value(), 2);
+    ASSERT_TRUE(cut) << cut.error().message;
+    EXPECT_THAT(cut->curves.at(0).left_out, testing::ElementsAre("2 lines between vertices"));
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(StreamPoints, PropertiesMayStandInAnyOrder) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("keyline-stream-" + std::to_string(::getpid()) + ".ply");

@@ -3,7 +3,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
 #include "keyline/exchange/mesh/mesh.h"
 
@@ -25,6 +27,14 @@ inline std::string no_statement(std::string_view word, const char* format) {
 inline void note(Mesh& mesh, std::string place, std::string_view what) {
   if (mesh.skipped.size() < kMostNotes)
     mesh.skipped.push_back(std::move(place) + ": " + std::string(what));
+}
+
+/// What of a mesh its section and its points do not show.
+inline std::vector<std::string> left_out_of(const Mesh& mesh) {
+  std::vector<std::string> left = mesh.skipped;
+  if (!mesh.lines.empty())
+    left.insert(left.begin(), core::counted(mesh.lines.size(), "line") + " between vertices");
+  return left;
 }
 
 }  // namespace keyline::exchange::detail

@@ -7,6 +7,7 @@
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/file/standard_stream.h"
 #include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/mesh_notes.h"
 #include "keyline/exchange/mesh/ply_header.h"
 #include "keyline/exchange/points/points_columns.h"
 #include "keyline/exchange/text/ascii.h"
@@ -120,7 +121,7 @@ Result<Left> stream_mesh(const std::filesystem::path& file, const Take& take) {
   if (!mesh) return std::unexpected(mesh.error());
   for (const Point3 p : mesh->points)
     if (core::is_finite(p)) take(p);
-  return mesh->skipped;
+  return detail::left_out_of(*mesh);
 }
 
 /// Vertices of a fixed size, a million bytes at a time.

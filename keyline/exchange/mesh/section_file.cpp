@@ -12,6 +12,7 @@
 #include "keyline/core/text.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/mesh_notes.h"
 
 namespace keyline::exchange {
 namespace {
@@ -83,8 +84,8 @@ Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request
     curve.id = "section-" + std::to_string(result.curves.size() + 1);
     for (const core::Point2 p : line.points) curve.points.push_back({p.x, p.y, 0});
     curve.notes.push_back("section of a mesh at " + result.description);
-    curve.left_out =
-        core::told_in_part(mesh.skipped, "further part of the mesh", "further parts of the mesh");
+    curve.left_out = core::told_in_part(detail::left_out_of(mesh), "further part of the mesh",
+                                        "further parts of the mesh");
     result.curves.push_back(std::move(curve));
     result.closed.push_back(line.closed);
   }
