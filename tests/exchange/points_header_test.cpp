@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -53,6 +54,16 @@ TEST(PointsHeader, CommasMayStandBehindBlanks) {
             (std::vector<Point3>{{350, -90, 750}, {-55, 90, 156}, {0, 180, 0}}));
 }
 
+// A spreadsheet's error at the start of a row makes no comment of it.
+TEST(PointsHeader, ErrorsOfSpreadsheetsAreMissingNumbers) {
+  const RawCurve curve = only("x;y\n0;0\n#N/A;1,5\n2;#DIV/0!\n3;2\n");
+  ASSERT_EQ(curve.points.size(), 4U);
+  EXPECT_TRUE(std::isnan(curve.points[1].x));
+  EXPECT_EQ(curve.points[1].y, 1.5);
+  EXPECT_TRUE(std::isnan(curve.points[2].y));
+  EXPECT_TRUE(std::isnan(only("#N/A 1\n2 3\n4 5\n").points.at(0).x));
+}
+
 TEST(HeaderUnit, StandsBehindTheNameInManyWays) {
   for (const auto& [cell, unit] : {std::pair{"x [mm]", "mm"},
                                    {"X(in)", "in"},
@@ -65,12 +76,17 @@ TEST(HeaderUnit, StandsBehindTheNameInManyWays) {
                                    {"x", ""},
                                    {"x/c", ""},
                                    {"w_tr_right", ""},
-                                   {"x (upper)", ""},
+                                   {"x [\"]", "in"},
+                                   {"\"x [\"\"]\"", "in"},
+                                   {"x ('')", "in"},
+                                   {"\"y (')\"", "ft"},
+                                   {"x ['mm']", "mm"},
                                    {"x [-]", ""}}) {
     EXPECT_EQ(detail::unit_of(cell).known, unit) << cell;
     EXPECT_EQ(detail::unit_of(cell).unknown, "") << cell;
   }
   EXPECT_EQ(detail::unit_of("x [µm]").unknown, "µm");
+  EXPECT_EQ(detail::unit_of("x(um)").unknown, "um");
 }
 
 /// Of a file of that text.
@@ -108,6 +124,11 @@ TEST(ReadPoints, TheHeaderTellsTheUnit) {
   const RawCurve unknown = only("x [µm],y [µm]\n" + rows);
   ASSERT_EQ(unknown.left_out.size(), 2U);
   EXPECT_EQ(unknown.left_out[0].substr(0, 20), "line 1: the unit µm");
+  EXPECT_EQ(only("x (yd),y (yd)\n" + rows).left_out.size(), 2U);
+  // words of sides are none, and a line of text below the header is no line of units
+  EXPECT_TRUE(
+      file_of("x,y (upper),y (lower)\n0,0,0\n1,2,-2\n3,4,-4\n")->curves[0].left_out.empty());
+  EXPECT_FALSE(file_of("x,y\nmeasured (twice),by hand\n" + rows));
 }
 
 TEST(ReadPoints, LinesBeforeTheRowsTellTheUnit) {

@@ -44,12 +44,30 @@ TEST(Split, AnEndMarkPartsNoNumber) {
   EXPECT_FALSE(parse_number(fields.back(), spaces));
 }
 
+// The seven errors of ECMA-376 part 1, 18.17.3, and two in German.
+TEST(ParseNumber, ErrorsOfSpreadsheetsAreMissingValues) {
+  const TableStyle style{';', true};
+  for (const std::string error :
+       {"#NULL!", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#N/A", "#WERT!", "#NV"}) {
+    ASSERT_TRUE(parse_number(error, style)) << error;
+    EXPECT_TRUE(std::isnan(*parse_number("\"" + error + "\"", style))) << error;
+    for (const char* rest : {";1,5", "; 1,5", "\t2", " 0.5", ",-1", " ;1", ";", " #N/A"})
+      EXPECT_FALSE(is_comment(error + rest)) << error << rest;
+    EXPECT_TRUE(is_comment(error + " stands for what is missing")) << error;
+  }
+  for (const char* none : {"#", "#1", "#x;y", "# N/A;1", "#N/A", "#!", "# 1;2", "#Neu!;1", "##!;1"})
+    EXPECT_TRUE(is_comment(none)) << none;
+  EXPECT_FALSE(parse_number("#1", style));
+  EXPECT_FALSE(parse_number("#!", style));
+}
+
 TEST(HeaderUnit, StandsBehindAName) {
   EXPECT_EQ(start_of_unit("x_mm"), 1U);
   EXPECT_EQ(start_of_unit("_mm"), std::string_view::npos);
   EXPECT_EQ(unit_of("x [mm]").known, "mm");
   EXPECT_EQ(unit_of("x [chord]").unknown, "chord");
-  for (const char* none : {"x [1]", "x [-]", "x []", "x (chord)"}) {
+  EXPECT_EQ(unit_of("x (chord)").unknown, "chord");
+  for (const char* none : {"x [1]", "x [-]", "x []", "x ()"}) {
     EXPECT_EQ(unit_of(none).known, "") << none;
     EXPECT_EQ(unit_of(none).unknown, "") << none;
   }

@@ -94,7 +94,9 @@ bool take_unit_row(PointsHead& head, std::string_view text, int number) {
     if (parse_number(field, head.style) && !field.empty()) return false;
     units.push_back(unit_alone(field));
   }
-  const auto says = [](const HeaderUnit& u) { return !u.known.empty() || !u.unknown.empty(); };
+  const auto says = [](const HeaderUnit& u) {
+    return !u.known.empty() || (!u.unknown.empty() && !u.round);
+  };
   if (std::ranges::none_of(units, says)) return false;
   for (std::size_t i = 0; i < units.size(); ++i)
     if (says(units[i])) head.units[i] = units[i];
@@ -213,8 +215,9 @@ core::Result<std::string> unit_below(const PointsHead& head, const PointsColumns
   std::string unit;
   for (const int column : {columns.x, columns.y, columns.z, columns.x2, columns.y2}) {
     if (column < 0 || static_cast<std::size_t>(column) >= head.units.size()) continue;
-    const auto& [known, unknown] = head.units[static_cast<std::size_t>(column)];
-    if (!unknown.empty() && unit.empty())
+    const auto& [known, unknown, round] = head.units[static_cast<std::size_t>(column)];
+    const bool side = round && head.sides;  // every word of the cell has been understood
+    if (!unknown.empty() && unit.empty() && !side)
       left_out.push_back("line " + std::to_string(head.line) + ": the unit " + shortened(unknown) +
                          ", which is none of mm, cm, m, km, in, ft, pt, px");
     if (known.empty()) continue;

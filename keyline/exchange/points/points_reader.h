@@ -52,7 +52,7 @@ struct PointsFile {
 /// - Blank lines part rows into curves, as part_blocks says; not where an id column names them.
 /// - Numbers behind the columns of the first row are `left_out`, and a failure where commas
 ///   separate: a decimal comma makes two of one number.
-/// - Missing entries (empty, nan, inf, null, NA) give non-finite coordinates, left to
+/// - Missing entries (empty, nan, inf, null, NA, #N/A) give non-finite coordinates, left to
 ///   acquire_key_line to count and drop.
 ///
 /// Fails: bad_input with path "file:line" for text where a number belongs, too few columns, an

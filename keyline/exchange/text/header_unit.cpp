@@ -12,24 +12,12 @@
 namespace keyline::exchange::detail {
 
 std::string unit_in_words(std::string_view text) {
-  static constexpr std::array<std::pair<std::string_view, const char*>, 18> kWords = {
-      {{"millimeter", "mm"},
-       {"millimeters", "mm"},
-       {"millimetre", "mm"},
-       {"millimetres", "mm"},
-       {"centimeter", "cm"},
-       {"centimeters", "cm"},
-       {"centimetre", "cm"},
-       {"centimetres", "cm"},
-       {"meter", "m"},
-       {"meters", "m"},
-       {"metre", "m"},
-       {"metres", "m"},
-       {"inch", "in"},
-       {"inches", "in"},
-       {"in.", "in"},
-       {"foot", "ft"},
-       {"feet", "ft"},
+  static constexpr std::array<std::pair<std::string_view, const char*>, 21> kWords = {
+      {{"\"", "in"},          {"''", "in"},         {"'", "ft"},           {"millimeter", "mm"},
+       {"millimeters", "mm"}, {"millimetre", "mm"}, {"millimetres", "mm"}, {"centimeter", "cm"},
+       {"centimeters", "cm"}, {"centimetre", "cm"}, {"centimetres", "cm"}, {"meter", "m"},
+       {"meters", "m"},       {"metre", "m"},       {"metres", "m"},       {"inch", "in"},
+       {"inches", "in"},      {"in.", "in"},        {"foot", "ft"},        {"feet", "ft"},
        {"ft.", "ft"}}};
   std::string name = lower_case(trimmed(text));
   if (document::millimetres(name) > 0) return name;
@@ -77,23 +65,32 @@ std::string unquoted_cell(std::string_view cell) {
   return name;
 }
 
+/// A cell with nothing but marks in its brackets, those of inches or feet, doubled where a table
+/// has the cell in quotes: the mark.
+std::string mark_of(std::string_view cell) {
+  std::string_view mark = trimmed(cell);
+  const bool quoted = mark.starts_with('"');
+  mark = mark.substr(std::min(mark.find_first_of("[(") + 1, mark.size()));
+  mark = trimmed(mark.substr(0, mark.find_first_of("])")));
+  return std::string(quoted && mark == "\"\"" ? "\"" : mark);
+}
+
 }  // namespace
 
 HeaderUnit unit_alone(std::string_view cell) {
   const std::string unit = unit_in_words(unquoted_cell(cell));
-  return unit.empty() ? unit_of(cell) : HeaderUnit{unit, {}};
+  return unit.empty() ? unit_of(cell) : HeaderUnit{unit, {}, false};
 }
 
 HeaderUnit unit_of(std::string_view cell) {
   const std::string name = unquoted_cell(cell);
   const std::size_t at = start_of_unit(name);
   if (at == std::string::npos) return {};
-  const bool square = name[at] == '[';
   const std::string_view behind = std::string_view(name).substr(at + 1);
   const std::string_view text = trimmed(behind.substr(0, behind.find_first_of("])")));
-  const std::string unit = unit_in_words(text);
-  const bool said = square && unit.empty() && !text.empty() && text != "-" && text != "1";
-  return {unit, said ? std::string(text) : std::string()};
+  const std::string unit = unit_in_words(text.empty() ? mark_of(cell) : text);
+  const bool said = unit.empty() && !text.empty() && text != "-" && text != "1";
+  return {unit, said ? std::string(text) : std::string(), name[at] == '('};
 }
 
 }  // namespace keyline::exchange::detail

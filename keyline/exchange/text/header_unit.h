@@ -21,7 +21,8 @@ std::size_t start_of_unit(std::string_view cell);
 /// What a header's cell says beside its name.
 struct HeaderUnit {
   std::string known;    ///< as documents have it; empty: none, or unknown
-  std::string unknown;  ///< what stands in square brackets and is no unit of documents
+  std::string unknown;  ///< what stands in brackets and is no unit of documents
+  bool round = false;   ///< in ( ), where other words may stand
 };
 HeaderUnit unit_of(std::string_view cell);
 /// The same of a cell that holds a unit alone, in brackets or not.

@@ -13,7 +13,27 @@
 namespace keyline::exchange::detail {
 namespace {
 
+/// What spreadsheets show where a cell has no value: "#N/A", "#DIV/0!", "#VALUE!", "#NAME?"
+/// (ECMA-376 part 1, 18.17.3), or that in other languages ("#NV", "#WERT!").
+bool is_error_value(std::string_view field) {
+  if (field.size() < 3 || field[0] != '#') return false;
+  if (field == "#N/A" || field == "#NV") return true;
+  const auto is_other = [](char c) { return (c >= 'a' && c <= 'z') || c == ' ' || c == '#'; };
+  return (field.ends_with('!') || field.ends_with('?')) &&
+         std::none_of(field.begin() + 1, field.end(), is_other);
+}
+
+/// Whether a row begins with such a value: fields are behind it, or numbers.
+bool begins_with_error_value(std::string_view line) {
+  const std::size_t end = std::min(line.find_first_of(",;| \t"), line.size());
+  if (!is_error_value(line.substr(0, end))) return false;
+  line.remove_prefix(end);
+  const std::size_t next = line.find_first_not_of(" \t");
+  return next != line.npos && std::string_view(",;|#+-.0123456789").find(line[next]) != line.npos;
+}
+
 std::optional<double> missing_value(std::string_view field) {
+  if (is_error_value(field)) return std::numeric_limits<double>::quiet_NaN();
   if (field.size() > 9) return std::nullopt;
   std::string name = lower_case(field);
   const bool negative = name.starts_with('-');
@@ -150,8 +170,8 @@ std::string plain_name(std::string_view field) {
 
 bool is_comment(std::string_view line) {
   line = trimmed(line);
-  return line.starts_with('#') || line.starts_with('%') || line.starts_with('!') ||
-         line.starts_with("//");
+  if (line.starts_with('#')) return !begins_with_error_value(line);
+  return line.starts_with('%') || line.starts_with('!') || line.starts_with("//");
 }
 
 std::string_view comment_text(std::string_view line) {

@@ -21,8 +21,9 @@ std::string unquoted(std::string_view field);
 /// in Fortran's fixed columns ("0.9968-0.0004") are two.
 std::vector<std::string_view> split(std::string_view line, TableStyle style);
 
-/// A number written with point or comma, maybe in brackets; "nan", "inf", "null", "na", "n/a" and
-/// the empty field give NaN or infinity. Empty where the field is something else.
+/// A number written with point or comma, maybe in brackets; "nan", "inf", "null", "na", "n/a", the
+/// errors of spreadsheets ("#N/A", "#DIV/0!") and the empty field give NaN or infinity. Empty where
+/// the field is something else.
 std::optional<double> parse_number(std::string_view field, TableStyle style);
 
 /// The style in which the most fields of the line are numbers.
@@ -32,7 +33,7 @@ TableStyle guess_style(std::string_view line);
 /// underscore.
 std::string plain_name(std::string_view field);
 
-/// True for a line that is a comment.
+/// True for a line that is a comment, and no row that begins with a spreadsheet's error.
 bool is_comment(std::string_view line);
 
 /// The text of a comment line after its mark.
