@@ -10,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream in(std::string(reinterpret_cast<const char*>(data), size));
   const auto lattice = keyline::exchange::read_lattice(in, "fuzz");
   if (!lattice && lattice.error().message.empty()) std::abort();
-  if (lattice && lattice->points.size() != lattice->rows * lattice->columns) std::abort();
+  if (lattice && lattice->lattice.points.size() != lattice->lattice.rows * lattice->lattice.columns)
+    std::abort();
   return 0;
 }

@@ -42,15 +42,18 @@ NamedCurve named_line(KeyLine line) {
 
 namespace {
 
-Result<std::vector<RawCurve>> read_lattice_input(const InputRequest& input,
-                                                 const std::string& file) {
-  const auto lattice = exchange::read_lattice(file);
-  if (!lattice) return std::unexpected(lattice.error());
+Result<exchange::PointsFile> read_lattice_input(const InputRequest& input,
+                                                const std::string& file) {
+  exchange::PointsOptions options;
+  options.columns = input.columns;
+  auto read = exchange::read_lattice(file, options);
+  if (!read) return std::unexpected(read.error());
   const auto index = static_cast<std::size_t>(input.row ? *input.row : *input.column);
-  auto curve =
-      input.row ? acquire::lattice_row(*lattice, index) : acquire::lattice_column(*lattice, index);
+  auto curve = input.row ? acquire::lattice_row(read->lattice, index)
+                         : acquire::lattice_column(read->lattice, index);
   if (!curve) return std::unexpected(curve.error());
-  return std::vector<RawCurve>{std::move(*curve)};
+  curve->left_out = std::move(read->left_out);
+  return exchange::PointsFile{{std::move(*curve)}, std::move(read->unit)};
 }
 
 /// Clouds whose columns are told: read whole, then cut.
@@ -78,19 +81,14 @@ Result<std::vector<RawCurve>> cut_table(const InputRequest& input,
   return cuts;
 }
 
-Result<exchange::PointsFile> without_unit(Result<std::vector<RawCurve>> curves) {
-  if (!curves) return std::unexpected(curves.error());
-  return exchange::PointsFile{std::move(*curves), {}};
-}
-
 Result<exchange::PointsFile> read_raw(const InputRequest& input, const std::string& file) {
-  if (input.row || input.column) return without_unit(read_lattice_input(input, file));
+  if (input.row || input.column) return read_lattice_input(input, file);
   const bool told =
       !input.columns.empty() || !input.weight_column.empty() || !input.id_column.empty();
   if (!input.section.empty() && !told) {
     auto cut = cut_file(input, file);
     if (!cut) return std::unexpected(cut.error());
-    return exchange::PointsFile{std::move(cut->curves), {}};
+    return exchange::PointsFile{std::move(cut->curves), std::move(cut->unit)};
   }
   exchange::PointsOptions options;
   options.columns = input.columns;

@@ -66,6 +66,7 @@ Result<Opened> open_section(const InputRequest& input, const core::CancellationT
   const auto cut = cut_file(input, file);
   if (!cut) return std::unexpected(cut.error());
   document::Document document;
+  document.unit = cut->unit;
   if (!cut->curves.empty()) document.skipped = cut->curves.front().left_out;
   for (std::size_t i = 0; i < cut->curves.size(); ++i) {
     const acquire::RawCurve& curve = cut->curves[i];

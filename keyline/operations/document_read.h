@@ -44,11 +44,16 @@ struct InputRequest {
     using Request = InputRequest;
     constexpr unsigned kLattice = kLatticeRow | kLatticeColumn;
     constexpr unsigned kPoints = kTable | kCloud | kLattice;
-    return std::array{use<&Request::columns>(kTable),        use<&Request::weight_column>(kTable),
-                      use<&Request::id_column>(kTable),      use<&Request::select>(kAlone),
-                      use<&Request::glyphs>(kFont),          use<&Request::section>(kCloud | kMesh),
-                      use<&Request::band>(kCloud),           use<&Request::row>(kLatticeRow),
-                      use<&Request::column>(kLatticeColumn), use<&Request::acquiring>(kPoints),
+    return std::array{use<&Request::columns>(kTable | kLattice),
+                      use<&Request::weight_column>(kTable),
+                      use<&Request::id_column>(kTable),
+                      use<&Request::select>(kAlone),
+                      use<&Request::glyphs>(kFont),
+                      use<&Request::section>(kCloud | kMesh),
+                      use<&Request::band>(kCloud),
+                      use<&Request::row>(kLatticeRow),
+                      use<&Request::column>(kLatticeColumn),
+                      use<&Request::acquiring>(kPoints),
                       use<&Request::trims>(kSurfaces)};
   }
   static constexpr auto describe() {

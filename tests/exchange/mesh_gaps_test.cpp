@@ -178,7 +178,8 @@ std::vector<std::string> left_out(const std::string& text) {
   std::ofstream(file) << text;
   const auto left = stream_points(file, [](core::Point3) {});
   fs::remove(file);
-  return left ? *left : std::vector<std::string>{left.error().path + ": " + left.error().message};
+  return left ? left->left_out
+              : std::vector<std::string>{left.error().path + ": " + left.error().message};
 }
 
 TEST(MeshGaps, CloudsHaveThePointsTheyCount) {

@@ -54,6 +54,21 @@ TEST(PointsHeader, CommasMayStandBehindBlanks) {
             (std::vector<Point3>{{350, -90, 750}, {-55, 90, 156}, {0, 180, 0}}));
 }
 
+// "0,5, 1,5": commas part the columns, and fractions too.
+TEST(PointsHeader, DecimalCommasAmongCommasAreRefused) {
+  for (const char* rows : {"0,5, 1,5\n1,25, 2,5\n2,5, 3,75\n", "-0,5, +1,5\n1,25, 2,5\n"}) {
+    const auto read = parse(rows);
+    ASSERT_FALSE(read) << rows;
+    EXPECT_EQ(read.error().path, "data.csv:1");
+    EXPECT_EQ(read.error().message, "commas that part columns or fractions");
+  }
+  EXPECT_EQ(only("1, 2, 3, 4\n5, 6, 7, 8\n").points[1], (Point3{5, 6, 7}));
+  EXPECT_EQ(only("1,2,3,4\n5,6,7,8\n").points[1], (Point3{5, 6, 7}));
+  EXPECT_EQ(only("1,-2, 3,-4\n5,-6, 7,-8\n").points[1], (Point3{5, -6, 7}));
+  EXPECT_EQ(only("x,y,z,i\n1,2, 3,4\n5,6, 7,8\n").points[1], (Point3{5, 6, 7}));
+  EXPECT_EQ(only("10,000, 20,000, 30,000.5\n1,2,3,4,5,6\n").points[0].x, 10);
+}
+
 // A spreadsheet's error at the start of a row makes no comment of it.
 TEST(PointsHeader, ErrorsOfSpreadsheetsAreMissingNumbers) {
   const RawCurve curve = only("x;y\n0;0\n#N/A;1,5\n2;#DIV/0!\n3;2\n");

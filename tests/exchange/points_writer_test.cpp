@@ -95,17 +95,17 @@ TEST(ReadLattice, BothForms) {
   std::istringstream blank("0 0 0\n1 0 0\n2 0 0\n\n0 1 0\n1 1 1\n2 1 0\n");
   const auto a = read_lattice(blank, "blank.xyz");
   ASSERT_TRUE(a) << a.error().message;
-  EXPECT_EQ(a->rows, 2u);
-  EXPECT_EQ(a->columns, 3u);
+  EXPECT_EQ(a->lattice.rows, 2u);
+  EXPECT_EQ(a->lattice.columns, 3u);
   std::istringstream headed("3 2\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 1\n2 1 0\n");
   const auto b = read_lattice(headed, "headed.xyz");
   ASSERT_TRUE(b) << b.error().message;
-  EXPECT_EQ(b->rows, 3u);
-  EXPECT_EQ(a->points, b->points);
-  const auto column = acquire::lattice_column(*a, 1);
+  EXPECT_EQ(b->lattice.rows, 3u);
+  EXPECT_EQ(a->lattice.points, b->lattice.points);
+  const auto column = acquire::lattice_column(a->lattice, 1);
   ASSERT_TRUE(column);
   EXPECT_EQ(column->points[1], (core::Point3{1, 1, 1}));
-  EXPECT_FALSE(acquire::lattice_row(*a, 2));
+  EXPECT_FALSE(acquire::lattice_row(a->lattice, 2));
 }
 
 TEST(ReadLattice, TellsWhatIsWrong) {

@@ -67,7 +67,7 @@ TEST(ScapReader, OtherLinesAreNamed) {
   EXPECT_EQ(place("{\n}\n"), "");
 }
 
-core::Result<acquire::Lattice> lattice(const char* text) {
+core::Result<LatticeFile> lattice(const char* text) {
   std::istringstream in(text);
   return read_lattice(in, "file");
 }
@@ -75,14 +75,14 @@ core::Result<acquire::Lattice> lattice(const char* text) {
 TEST(LatticeReader, TakesItsShapeFromTheFirstLineOrFromBlankOnes) {
   const auto given = lattice("2 3\n0 0 1\n0 1 2\n0 2 3\n1 0 4\n1 1 nan\n1 2 6\n");
   ASSERT_TRUE(given);
-  EXPECT_EQ(given->rows, 2U);
-  EXPECT_EQ(given->columns, 3U);
-  EXPECT_EQ(given->points[3], (core::Point3{1, 0, 4}));
+  EXPECT_EQ(given->lattice.rows, 2U);
+  EXPECT_EQ(given->lattice.columns, 3U);
+  EXPECT_EQ(given->lattice.points[3], (core::Point3{1, 0, 4}));
   const auto parted = lattice("# a scan\nx y z\n0 0 1\n0 1 2\n\n\n1 0 3\n1 1 4\n\n2 0 5\n2 1 6\n");
   ASSERT_TRUE(parted);
-  EXPECT_EQ(parted->rows, 3U);
-  EXPECT_EQ(parted->columns, 2U);
-  EXPECT_EQ(parted->points[2], (core::Point3{1, 0, 3}));
+  EXPECT_EQ(parted->lattice.rows, 3U);
+  EXPECT_EQ(parted->lattice.columns, 2U);
+  EXPECT_EQ(parted->lattice.points[2], (core::Point3{1, 0, 3}));
 }
 
 // A decimal comma makes two of a number; blank lines may part other rows than the first line tells.

@@ -38,8 +38,8 @@ TEST(Examples, AreReadWithoutOptions) {
 TEST(Examples, LatticeHasItsShape) {
   const auto lattice = exchange::read_lattice(example("car-lattice.xyz"));
   ASSERT_TRUE(lattice) << lattice.error().message;
-  EXPECT_EQ(lattice->rows, 11u);
-  EXPECT_EQ(lattice->columns, 90u);
+  EXPECT_EQ(lattice->lattice.rows, 11u);
+  EXPECT_EQ(lattice->lattice.columns, 90u);
 }
 
 }  // namespace

@@ -56,14 +56,20 @@ struct SectionLine {
 /// triangles share an edge, lines part there. Points stand on the mesh's edges, in order.
 std::vector<SectionLine> section(const Mesh& mesh, const acquire::Plane& plane);
 
+/// What a cloud's file tells beside its points.
+struct StreamedPoints {
+  /// What in it is no point, in words: text behind the points, points without all coordinates,
+  /// counts of others than the points behind them, columns that are not taken.
+  std::vector<std::string> left_out;
+  std::string unit;  ///< of documents; empty where no header tells one
+};
+
 /// Calls `take` for every point of a cloud, in order, without keeping them: memory does not grow
-/// with the file. Text (XYZ, PTS, CSV: the first three numbers of a line; a count or header before
-/// the points is let pass) or PLY.
-/// Returns: what in it is no point, in words: text behind the points, points without all
-/// coordinates, counts of others than the points behind them. Fails: io; bad_input with "line N" or
-/// "byte N".
-core::Result<std::vector<std::string>> stream_points(const std::filesystem::path& file,
-                                                     const std::function<void(core::Point3)>& take);
+/// with the file. Text (XYZ, PTS, CSV) under the headers of read_points(), without one the first
+/// three numbers of a line; or PLY.
+/// Fails: io; bad_input with "line N" or "byte N", also where the header does not name x, y and z.
+core::Result<StreamedPoints> stream_points(const std::filesystem::path& file,
+                                           const std::function<void(core::Point3)>& take);
 
 /// True for files whose points have to be cut before there is a curve: .obj, .stl, .ply.
 bool is_mesh_file(const std::filesystem::path& file);

@@ -2,7 +2,6 @@
 #include <array>
 #include <optional>
 
-#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/file/read_file.h"
 #include "keyline/exchange/file/standard_stream.h"
@@ -10,6 +9,7 @@
 #include "keyline/exchange/mesh/mesh_notes.h"
 #include "keyline/exchange/mesh/ply_header.h"
 #include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/points/space_rows.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
@@ -30,15 +30,16 @@ class TextPoints {
   TextPoints(std::istream& in, const std::string& name, const Take& take)
       : lines_(in, name, std::size_t{1} << 20), name_(name), take_(take) {}
 
-  Result<Left> read() {
+  Result<StreamedPoints> read() {
     while (true) {
       bool end = false;
       const auto line = lines_.next(end);
       if (!line) return std::unexpected(line.error());
       if (end) break;
-      if (auto done = point(detail::trimmed(*line)); !done) return std::unexpected(done.error());
+      if (auto done = point(detail::trimmed_in_front(*line)); !done)
+        return std::unexpected(done.error());
     }
-    if (!started_)
+    if (!rows_.started())
       return core::fail(ErrorCode::bad_input, "there are no points in it",
                         "give x, y and z on each line", name_);
     check_count();
@@ -47,41 +48,43 @@ class TextPoints {
     if (lines_.ended_early())
       left_.push_back("line " + std::to_string(lines_.number()) +
                       ": what follows the end mark (^Z)");
-    return std::move(left_);
+    const std::vector<std::string> of_rows = rows_.left_out();
+    left_.insert(left_.begin(), of_rows.begin(), of_rows.end());
+    return StreamedPoints{std::move(left_), rows_.unit()};
   }
 
  private:
-  /// A header, a count or a comment before the points is let pass, text behind them left out.
-  Result<void> point(std::string_view line) {
-    if (line.empty() || detail::is_comment(line)) return {};
-    const detail::TableStyle style = detail::guess_style(line);
-    const auto fields = detail::split(line, style);
-    std::array<double, 3> c{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto value =
-          k < fields.size() ? detail::parse_number(fields[k], style) : std::optional<double>();
-      if (value && !core::is_too_large(*value)) {
-        c[k] = *value;
-        continue;
-      }
-      if (!value && k > 0 && fields.size() == 1) return take_count(c[0]), core::Result<void>{};
-      if (!value && !started_) return {};  // header
-      const core::Failure why{ErrorCode::bad_input, "three numbers (x y z) are needed here",
-                              "give every point all its coordinates", lines_.place()};
-      if (value || !detail::is_remark(fields, style, 0, 3)) return std::unexpected(why);
-      if (!remark_) remark_ = why;
+  /// Lines before the points tell their columns; text behind them is left out.
+  Result<void> point(std::string_view row) {
+    const std::string_view line = detail::trimmed(row);
+    if (line.empty()) return {};
+    if (const auto count = lone_number(line)) return take_count(*count), core::Result<void>{};
+    if (!rows_.started()) {
+      const auto first = rows_.is_first(row, lines_.number(), lines_.place());
+      if (!first) return std::unexpected(first.error());
+      if (!*first) return {};
+    }
+    if (detail::is_comment(line)) return {};
+    const auto fields = rows_.fields(line);
+    const auto p = rows_.point(fields, row, lines_.place());
+    if (!p) {
+      if (!rows_.is_text(fields)) return std::unexpected(p.error());
+      if (!remark_) remark_ = p.error();
       left_.push_back("line " + std::to_string(lines_.number()) + ": " + detail::shortened(line));
       return {};
     }
     if (remark_) return std::unexpected(*remark_);
-    started_ = true;
     ++behind_count_;
-    const Point3 p{c[0], c[1], c[2]};
-    if (core::is_finite(p))
-      take_(p);
+    if (core::is_finite(*p))
+      take_(*p);
     else
       ++missing_;
     return {};
+  }
+
+  static std::optional<double> lone_number(std::string_view line) {
+    if (line.find_first_of(" \t,;|") != line.npos) return std::nullopt;
+    return detail::parse_number(line, {});
   }
 
   /// A number by itself counts the points behind it.
@@ -107,7 +110,7 @@ class TextPoints {
   LineReader lines_;
   const std::string& name_;
   const Take& take_;
-  bool started_ = false;
+  detail::SpaceRows rows_{{}};
   std::optional<core::Failure> remark_;  ///< of the first line of text behind points
   std::size_t missing_ = 0;
   std::optional<Count> count_;  ///< the last that was met
@@ -116,17 +119,17 @@ class TextPoints {
 };
 
 /// Of a file that has to be read whole.
-Result<Left> stream_mesh(const std::filesystem::path& file, const Take& take) {
+Result<StreamedPoints> stream_mesh(const std::filesystem::path& file, const Take& take) {
   const auto mesh = read_mesh(file);
   if (!mesh) return std::unexpected(mesh.error());
   for (const Point3 p : mesh->points)
     if (core::is_finite(p)) take(p);
-  return detail::left_out_of(*mesh);
+  return StreamedPoints{detail::left_out_of(*mesh), {}};
 }
 
 /// Vertices of a fixed size, a million bytes at a time.
-Result<Left> stream_vertices(std::istream& in, const detail::PlyHeader& header,
-                             const detail::PlyElement& vertex, const Take& take) {
+Result<StreamedPoints> stream_vertices(std::istream& in, const detail::PlyHeader& header,
+                                       const detail::PlyElement& vertex, const Take& take) {
   std::size_t row = 0;
   for (const auto& property : vertex.properties) row += size_of(property.type);
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / row);
@@ -162,10 +165,11 @@ Result<Left> stream_vertices(std::istream& in, const detail::PlyHeader& header,
   }
   Left left = detail::other_elements(header);
   if (missing > 0) left.push_back(core::counted(missing, "point") + " that are not finite");
-  return left;
+  return StreamedPoints{std::move(left), {}};
 }
 
-Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, const Take& take) {
+Result<StreamedPoints> stream_ply(std::istream& in, const std::filesystem::path& file,
+                                  const Take& take) {
   std::string head(std::size_t{1} << 20, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
@@ -184,8 +188,7 @@ Result<Left> stream_ply(std::istream& in, const std::filesystem::path& file, con
 
 }  // namespace
 
-Result<std::vector<std::string>> stream_points(const std::filesystem::path& file,
-                                               const Take& take) {
+Result<StreamedPoints> stream_points(const std::filesystem::path& file, const Take& take) {
   auto in = open_file(file);
   if (!in) return std::unexpected(in.error());
   const std::string name = file.string();

@@ -152,7 +152,8 @@ Result<FileSection> cloud_section(const std::filesystem::path& file, const Secti
                          std::to_string(sample.count()) + " points lie within " +
                          core::number_text(reach, 4) + " of the plane and were moved onto it";
   result.curves = acquire::section_curves(*curve, *plane);
-  for (acquire::RawCurve& found : result.curves) found.left_out = *read;
+  for (acquire::RawCurve& found : result.curves) found.left_out = read->left_out;
+  result.unit = read->unit;
   result.closed.assign(result.curves.size(), false);
   return result;
 }

@@ -26,6 +26,7 @@ struct FileSection {
   /// them.
   std::vector<acquire::RawCurve> curves;
   std::vector<bool> closed;  ///< of each curve
+  std::string unit;          ///< of documents; empty where the file tells none
   bool ordered = false;      ///< true for a mesh
   acquire::Plane plane;
   std::string description;  ///< of the plane, for example "y = 0 (symmetry plane, found)"

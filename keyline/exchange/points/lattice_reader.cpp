@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "keyline/core/coordinate.h"
 #include "keyline/core/text.h"
 #include "keyline/exchange/file/read_file.h"
+#include "keyline/exchange/points/space_rows.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
 #include "keyline/exchange/text/text_table.h"
@@ -79,28 +79,22 @@ core::Result<acquire::Lattice> shaped(std::vector<core::Point3> points,
   return lattice;
 }
 
-core::Result<core::Point3> point_of(const std::vector<std::string_view>& fields,
-                                    const detail::TableStyle& style, const std::string& place) {
-  if (fields.size() > 3)
+core::Result<core::Point3> point_of(detail::SpaceRows& rows, std::string_view line,
+                                    const std::string& place) {
+  const auto fields = rows.fields(line);
+  if (rows.is_bare() && fields.size() > 3)
     return core::fail(ErrorCode::bad_input,
                       "three numbers (x y z) are needed here, not " + std::to_string(fields.size()),
                       "where numbers have a decimal comma, separate columns by ; or blanks", place);
-  double value[3] = {0, 0, 0};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto number = k < fields.size() ? detail::parse_number(fields[k], style) : std::nullopt;
-    if (!number || core::is_too_large(*number)) {
-      return core::fail(ErrorCode::bad_input, "three numbers (x y z) are needed here",
-                        "give every point of the lattice all its coordinates", place);
-    }
-    value[k] = *number;
-  }
-  return core::Point3{value[0], value[1], value[2]};
+  return rows.point(fields, line, place);
 }
 
 }  // namespace
 
-core::Result<acquire::Lattice> read_lattice(std::istream& in, const std::string& name) {
-  LineReader lines(in, name, PointsOptions{}.longest_line);
+core::Result<LatticeFile> read_lattice(std::istream& in, const std::string& name,
+                                       const PointsOptions& options) {
+  LineReader lines(in, name, options.longest_line);
+  detail::SpaceRows rows(options);
   std::vector<core::Point3> points;
   std::vector<std::size_t> lengths;
   std::optional<Shape> shape;
@@ -111,32 +105,32 @@ core::Result<acquire::Lattice> read_lattice(std::istream& in, const std::string&
     if (!read) return std::unexpected(read.error());
     if (end) break;
     const std::string_view line = detail::trimmed(*read);
-    if (line.empty() || detail::is_comment(line)) {
-      blank = blank || line.empty();
-      continue;
+    blank = blank || line.empty();
+    if (line.empty() || (rows.started() && detail::is_comment(line))) continue;
+    if (!rows.started()) {
+      if (!shape && (shape = shape_line(line))) continue;
+      const auto first =
+          rows.is_first(detail::trimmed_in_front(*read), lines.number(), lines.place());
+      if (!first) return std::unexpected(first.error());
+      if (!*first) continue;
     }
-    if (points.empty() && !shape) {
-      shape = shape_line(line);
-      if (shape) continue;
-    }
-    const detail::TableStyle style = detail::guess_style(line);
-    const auto fields = detail::split(line, style);
-    const bool header = points.empty() && !detail::parse_number(fields[0], style);
-    if (header) continue;
-    const auto point = point_of(fields, style, lines.place());
+    const auto point = point_of(rows, detail::trimmed_in_front(*read), lines.place());
     if (!point) return std::unexpected(point.error());
     if (blank) lengths.push_back(0);
     blank = false;
     ++lengths.back();
     points.push_back(*point);
   }
-  return shaped(std::move(points), shape, lengths, name);
+  auto lattice = shaped(std::move(points), shape, lengths, name);
+  if (!lattice) return std::unexpected(lattice.error());
+  return LatticeFile{std::move(*lattice), rows.unit(), rows.left_out()};
 }
 
-core::Result<acquire::Lattice> read_lattice(const std::filesystem::path& path) {
+core::Result<LatticeFile> read_lattice(const std::filesystem::path& path,
+                                       const PointsOptions& options) {
   auto in = open_file(path);
   if (!in) return std::unexpected(in.error());
-  return read_lattice(*in, path.string());
+  return read_lattice(*in, path.string(), options);
 }
 
 }  // namespace keyline::exchange

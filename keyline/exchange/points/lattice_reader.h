@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <istream>
 #include <string>
+#include <vector>
 
 #include "keyline/acquire/lattice.h"
 #include "keyline/core/error.h"
@@ -10,13 +11,22 @@
 
 namespace keyline::exchange {
 
-/// Reads a lattice of range data: one point (three columns, as in read_points) per line, row after
-/// row. The shape is given by a first line of two integers "rows columns" that agrees with the
-/// number of points, or by blank lines between rows of equal length. Missing points are written
-/// nan.
-/// Fails: bad_input where neither gives a shape or the two are not the same, and for points of more
-/// than three numbers; else as read_points.
-core::Result<acquire::Lattice> read_lattice(const std::filesystem::path& path);
-core::Result<acquire::Lattice> read_lattice(std::istream& in, const std::string& name);
+struct LatticeFile {
+  acquire::Lattice lattice;
+  std::string unit;                   ///< of documents; empty where the header tells none
+  std::vector<std::string> left_out;  ///< what of the header and its columns is not taken
+};
+
+/// Reads a lattice of range data: one point per line, row after row, in three columns or those that
+/// a header or options.columns name x, y and z (as in read_points). The shape is given by a first
+/// line of two integers "rows columns" that agrees with the number of points, or by blank lines
+/// between rows of equal length. Missing points are written nan.
+/// Fails: bad_input where neither gives a shape or the two are not the same, for columns that are
+/// not x, y and z, and for points of more than three numbers that no header names; else as
+/// read_points.
+core::Result<LatticeFile> read_lattice(const std::filesystem::path& path,
+                                       const PointsOptions& options = {});
+core::Result<LatticeFile> read_lattice(std::istream& in, const std::string& name,
+                                       const PointsOptions& options = {});
 
 }  // namespace keyline::exchange

@@ -37,6 +37,23 @@ bool tabs_part(const PointsHead& head, std::string_view line) {
          all_numbers(fields, head.style, 1);
 }
 
+/// Whether commas with a blank behind part the line into pairs of whole numbers: "0,5, 1,5".
+bool has_pairs(std::string_view line) {
+  std::size_t pairs = 0;
+  for (std::size_t end = 0; end != line.npos; ++pairs) {
+    end = line.find(", ");
+    const Fields pair = split(line.substr(0, end), {',', false});
+    const auto whole = [](std::string_view f) {
+      return !f.empty() && f.find_first_not_of("0123456789") == f.npos;
+    };
+    if (pair.size() != 2 || !whole(pair[1])) return false;
+    const bool sign = pair[0].starts_with('-') || pair[0].starts_with('+');
+    if (!whole(pair[0].substr(sign ? 1 : 0))) return false;
+    if (end != line.npos) line.remove_prefix(end + 1);
+  }
+  return pairs > 1;
+}
+
 /// Whether the header's separator parts the row into its columns. Names of curves in it may hold
 /// others, and more numbers than there are coordinates.
 bool header_parts(const PointsHead& head, const PointsOptions& options, std::string_view line) {
@@ -56,6 +73,7 @@ void take_style(PointsHead& head, const PointsOptions& options, std::string_view
   style = separator == 0 ? guess_style(line)
                          : TableStyle{separator, separator != ',' && line.find(',') != line.npos};
   if (separator == 0 && style.separator == ' ' && tabs_part(head, line)) style.separator = '\t';
+  head.pairs = style.separator == ',' && has_pairs(line);
   head.fraction_known =
       style.separator == ',' || style.separator == ' ' || line.find_first_of(".,") != line.npos;
 }
@@ -195,10 +213,13 @@ core::Result<PointsColumns> columns_below(PointsHead& head, const PointsOptions&
       head.text_lines > 0 && heads.separator != ' ' ? split(head.last_text, heads).size() : 0;
   head.unknown = head.headed == width;
   const std::size_t named = head.names.empty() ? head.headed : head.names.size();
-  if (has_decimal_commas(first_row, named, head.style))
-    return core::fail(ErrorCode::bad_input,
-                      std::to_string(width) + " columns below a header of " + std::to_string(named),
-                      "where numbers have a decimal comma, separate columns by ; or blanks", place);
+  const bool commas = has_decimal_commas(first_row, named, head.style);
+  if (commas || (head.pairs && named != width))
+    return core::fail(
+        ErrorCode::bad_input,
+        commas ? std::to_string(width) + " columns below a header of " + std::to_string(named)
+               : "commas that part columns or fractions",
+        "where numbers have a decimal comma, separate columns by ; or blanks", place);
   auto columns = choose_columns(head.names, options, width, head.text_id, place);
   if (columns && head.sides && options.columns.empty()) {
     columns->x = head.sides->first.x;
@@ -208,6 +229,31 @@ core::Result<PointsColumns> columns_below(PointsHead& head, const PointsOptions&
     columns->z = PointsColumns::kNone;
   }
   return columns;
+}
+
+void meet_fraction(PointsHead& head, std::string_view line) {
+  const std::size_t at = head.fraction_known ? line.npos : line.find_first_of(".,");
+  if (at == line.npos) return;
+  head.fraction_known = true;
+  head.style.decimal_comma = line[at] == ',';
+}
+
+std::size_t further_columns(const PointsHead& head, std::size_t width) {
+  const std::size_t known = !head.names.empty() ? head.names.size() : head.text_id ? 4 : 3;
+  return width - std::min(width, known);
+}
+
+std::vector<std::string> columns_beside(const PointsHead& head, const PointsColumns& columns,
+                                        std::size_t further) {
+  std::vector<std::string> lines;
+  if (further > 0) lines.push_back(core::counted(further, "further column"));
+  std::string others;
+  for (std::size_t k = 0; k < head.names.size(); ++k) {
+    if (columns.takes(static_cast<int>(k)) || head.names[k].empty()) continue;
+    others += (others.empty() ? "" : ", ") + head.names[k];
+  }
+  if (!others.empty()) lines.push_back("columns beside: " + shortened(others));
+  return lines;
 }
 
 core::Result<std::string> unit_below(const PointsHead& head, const PointsColumns& columns,

@@ -21,6 +21,7 @@ struct PointsHead {
   TableStyle style;             ///< of the rows
   bool fraction_known = false;  ///< whether style.decimal_comma is settled
   bool text_id = false;         ///< rows begin with a name
+  bool pairs = false;           ///< commas without and with a blank take turns in the first row
   std::vector<std::string> names;
   std::vector<HeaderUnit> units;  ///< of the columns that have names
   std::optional<Sides> sides;     ///< what the header says of two curves
@@ -50,6 +51,16 @@ core::Result<bool> is_first_row(PointsHead& head, const PointsOptions& options,
 core::Result<PointsColumns> columns_below(PointsHead& head, const PointsOptions& options,
                                           const std::vector<std::string_view>& first_row,
                                           const std::string& place);
+
+/// The first row with a fraction in it tells whether a comma parts it or a point.
+void meet_fraction(PointsHead& head, std::string_view line);
+
+/// Columns of a first row of that width behind those that are looked for, or that have names.
+std::size_t further_columns(const PointsHead& head, std::size_t width);
+
+/// These, and columns to which the head gives other names than are looked for, in words.
+std::vector<std::string> columns_beside(const PointsHead& head, const PointsColumns& columns,
+                                        std::size_t further);
 
 /// The unit that the head gives the coordinates; empty: none. Units that are not known are told.
 /// Fails: bad_input where it gives them two.

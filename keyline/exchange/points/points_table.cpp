@@ -21,6 +21,7 @@ constexpr std::size_t kFewest = 3;  // rows that make a table beyond doubt
 }  // namespace
 
 core::Result<void> PointsTable::take(std::string_view line, int number, const std::string& place) {
+  row_ = trimmed_in_front(line);
   line = trimmed(line);
   if (line.empty()) {
     meet_blank(number);
@@ -66,12 +67,11 @@ core::Result<void> PointsTable::start(const Fields& fields, int number, const st
   if (!columns) return std::unexpected(columns.error());
   columns_ = nodes_ ? nodes_->columns() : *columns;
   first_row_ = numbers_of(fields, head_.style);
-  most_ = std::max({width_, head_.names.size(), head_.headed});
+  row_width_ = {fields, row_, head_.style, std::max(head_.names.size(), head_.headed)};
   const auto unit = unit_below(head_, columns_, place, left_out_);
   if (!unit) return std::unexpected(unit.error());
   unit_ = *unit;
-  const std::size_t known = !head_.names.empty() ? head_.names.size() : head_.text_id ? 4 : 3;
-  if (options_.columns.empty()) ignored_columns_ = width_ - std::min(width_, known);
+  if (options_.columns.empty()) ignored_columns_ = further_columns(head_, width_);
   if (nodes_) ignored_columns_ = nodes_->others;
   auto row = row_of(fields, columns_, head_.style, place);
   if (!row) return std::unexpected(row.error());
@@ -102,12 +102,7 @@ std::string_view PointsTable::without_remark(std::string_view line) {
 
 core::Result<void> PointsTable::among_data(std::string_view line, int number,
                                            const std::string& place) {
-  // The first row with a fraction in it tells whether a comma parts it or a point.
-  const std::size_t at = head_.fraction_known ? line.npos : line.find_first_of(".,");
-  if (at != line.npos) {
-    head_.fraction_known = true;
-    head_.style.decimal_comma = line[at] == ',';
-  }
+  meet_fraction(head_, line);
   const Fields fields = split(line, head_.style);
   if (fields.empty()) {  // nothing but separators
     meet_blank(number);
@@ -128,7 +123,7 @@ core::Result<void> PointsTable::among_data(std::string_view line, int number,
   if (!row) return std::unexpected(row.error());
   if (nodes_ && !nodes_->is_next(fields, head_.style, rows_))
     return std::unexpected(nodes_->out_of_turn(fields, place));
-  if (auto done = surplus(fields, number, place); !done) return done;
+  if (auto done = check_width(fields, number, place); !done) return done;
   if (remark_)
     if (auto again = take_up_again(); !again) return again;
   watch_counter(fields);
@@ -169,23 +164,14 @@ core::Result<void> PointsTable::meet_count() {
   return {};
 }
 
-/// Numbers behind the columns of the first row are left out; where commas separate they are rather
-/// what a decimal comma makes of one number, and the row would be read wrongly.
-core::Result<void> PointsTable::surplus(const Fields& fields, int number,
-                                        const std::string& place) {
-  if (fields.size() <= most_) return {};
-  const auto is_number = [&](std::string_view f) {
-    return !f.empty() && parse_number(f, head_.style).has_value();
-  };
-  if (std::none_of(fields.begin() + static_cast<std::ptrdiff_t>(most_), fields.end(), is_number))
-    return {};
-  if (head_.style.separator == ',')
-    return core::fail(ErrorCode::bad_input,
-                      core::counted(fields.size(), "column") + " where the first row has " +
-                          std::to_string(most_),
-                      "where numbers have a decimal comma, separate columns by ; or blanks", place);
-  left_out_.push_back("line " + std::to_string(number) + ": what stands behind column " +
-                      std::to_string(most_));
+core::Result<void> PointsTable::check_width(const Fields& fields, int number,
+                                            const std::string& place) {
+  if (columns_.own_x()) return {};  // the shorter side ends early
+  const auto behind = row_width_.check(fields, row_, head_.style, place);
+  if (!behind) return std::unexpected(behind.error());
+  if (*behind)
+    left_out_.push_back("line " + std::to_string(number) + ": what stands behind column " +
+                        std::to_string(row_width_.most()));
   return {};
 }
 
@@ -272,18 +258,10 @@ void PointsTable::drop_counter() {
                    "column 1, which counts the points (--columns 1,2,3 takes it for x)");
 }
 
-/// Columns behind the first three, or to which the header gives other names than are looked for.
 void PointsTable::tell_columns() {
   if (!options_.columns.empty()) return;
-  std::string others;
-  for (std::size_t k = 0; k < head_.names.size(); ++k) {
-    const int column = static_cast<int>(k);
-    if (columns_.takes(column) || head_.names[k].empty()) continue;
-    others += (others.empty() ? "" : ", ") + head_.names[k];
-  }
-  if (!others.empty()) left_out_.insert(left_out_.begin(), "columns beside: " + shortened(others));
-  if (ignored_columns_ > 0)
-    left_out_.insert(left_out_.begin(), core::counted(ignored_columns_, "further column"));
+  const auto beside = columns_beside(head_, columns_, ignored_columns_);
+  left_out_.insert(left_out_.begin(), beside.begin(), beside.end());
   if (remarks_ > 0)
     left_out_.insert(left_out_.begin(), "remarks behind " + core::counted(remarks_, "row"));
 }

@@ -15,6 +15,7 @@
 #include "keyline/exchange/points/points_nodes.h"
 #include "keyline/exchange/points/points_reader.h"
 #include "keyline/exchange/points/points_row.h"
+#include "keyline/exchange/points/row_width.h"
 
 /// Internals of points_reader.cpp: lines of text become curves.
 namespace keyline::exchange::detail {
@@ -52,7 +53,7 @@ class PointsTable {
   bool is_first_of_many() const;
   bool is_behind_nodes(int number);
   std::string_view without_remark(std::string_view line);
-  core::Result<void> surplus(const Fields& fields, int number, const std::string& place);
+  core::Result<void> check_width(const Fields& fields, int number, const std::string& place);
   void add(const PointsRow& row, int number);
   void meet_blank(int number);
   acquire::RawCurve& curve_of(std::string_view id);
@@ -70,7 +71,8 @@ class PointsTable {
   std::string unit_;
   bool started_ = false;
   std::size_t width_ = 0;  // fields of the first row
-  std::size_t most_ = 0;  // the same, or of its header: empty fields at a row's end are not counted
+  RowWidth row_width_;     // the same, and which of them are numbers
+  std::string_view row_;   // the line being taken, with the tabs at its end
   std::size_t rows_ = 0;
   int first_line_ = 0;
   std::size_t ignored_columns_ = 0;

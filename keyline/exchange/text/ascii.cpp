@@ -17,6 +17,10 @@ std::string_view trimmed(std::string_view text, std::string_view blanks) {
   return text.substr(from, text.find_last_not_of(blanks) - from + 1);
 }
 
+std::string_view trimmed_in_front(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
+}
+
 std::size_t line_of(std::string_view text, std::ptrdiff_t offset) {
   const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));

@@ -17,6 +17,9 @@ inline constexpr std::string_view kBlanks = " \t\f\v\x1a";
 /// Without these at both ends.
 std::string_view trimmed(std::string_view text, std::string_view blanks = kBlanks);
 
+/// Without these in front: tabs at its end part empty cells of a row.
+std::string_view trimmed_in_front(std::string_view text);
+
 /// Number of the line, from 1, in which the byte at `offset` stands: 1 for what lies before the
 /// text, the last for what lies behind it.
 std::size_t line_of(std::string_view text, std::ptrdiff_t offset);

@@ -65,6 +65,15 @@ std::size_t count_numbers(std::string_view line, TableStyle style) {
   }));
 }
 
+/// The first field of a line, trimmed, and what is behind its separator; without one nothing is.
+std::string_view take_field(std::optional<std::string_view>& rest, char separator) {
+  std::string_view line = *rest;
+  line = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+  const std::size_t stop = line.find(separator, end_of_quoted(line));
+  rest = stop == line.npos ? std::nullopt : std::optional(line.substr(stop + 1));
+  return trimmed(line.substr(0, stop));
+}
+
 /// Two numbers of Fortran's fixed columns that touch ("0.9968-0.0004"): the length of the first;
 /// 0 where it is anything else.
 std::size_t end_of_touching(std::string_view field) {
@@ -101,15 +110,16 @@ std::vector<std::string_view> split(std::string_view line, TableStyle style) {
     }
     return fields;
   }
-  while (true) {
-    line = line.substr(std::min(line.find_first_not_of(' '), line.size()));
-    const std::size_t stop = line.find(style.separator, end_of_quoted(line));
-    fields.push_back(trimmed(line.substr(0, stop)));
-    if (stop == std::string_view::npos) break;
-    line.remove_prefix(stop + 1);
-  }
+  for (std::optional rest = line; rest;) fields.push_back(take_field(rest, style.separator));
   while (!fields.empty() && fields.back().empty()) fields.pop_back();
   return fields;
+}
+
+std::size_t count_cells(std::string_view line, TableStyle style) {
+  if (style.separator == ' ') return split(line, style).size();
+  std::size_t cells = 0;
+  for (std::optional rest = line; rest; ++cells) take_field(rest, style.separator);
+  return cells;
 }
 
 std::optional<double> parse_number(std::string_view field, TableStyle style) {

@@ -21,6 +21,9 @@ std::string unquoted(std::string_view field);
 /// in Fortran's fixed columns ("0.9968-0.0004") are two.
 std::vector<std::string_view> split(std::string_view line, TableStyle style);
 
+/// Fields of the line, empty ones after the last separator counted too.
+std::size_t count_cells(std::string_view line, TableStyle style);
+
 /// A number written with point or comma, maybe in brackets; "nan", "inf", "null", "na", "n/a", the
 /// errors of spreadsheets ("#N/A", "#DIV/0!") and the empty field give NaN or infinity. Empty where
 /// the field is something else.

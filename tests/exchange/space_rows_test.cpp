@@ -1,0 +1,126 @@
+#include "keyline/exchange/points/space_rows.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/section_file.h"
+#include "keyline/exchange/points/lattice_reader.h"
+
+namespace keyline::exchange {
+namespace {
+
+using core::Point3;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Cloud {
+  std::vector<Point3> points;
+  StreamedPoints beside;
+  std::string failure;
+};
+
+/// A cloud of that text, as --section streams it.
+Cloud cloud(const std::string& text) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-rows-" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(file) << text;
+  Cloud cloud;
+  auto read = stream_points(file, [&](Point3 p) { cloud.points.push_back(p); });
+  std::filesystem::remove(file);
+  if (read)
+    cloud.beside = std::move(*read);
+  else
+    cloud.failure = read.error().path.substr(file.string().size()) + " " + read.error().message;
+  return cloud;
+}
+
+// What a header names x is x; the number of a point is none.
+TEST(SpaceRows, ACloudsHeaderNamesItsColumnsAndUnit) {
+  const Cloud numbered = cloud("Point,X [m],Y [m],Z [m]\n1,10,0,-1\n2,11,0.5,-0.75\n");
+  EXPECT_THAT(numbered.points, ElementsAre(Point3{10, 0, -1}, Point3{11, 0.5, -0.75}));
+  EXPECT_EQ(numbered.beside.unit, "m");
+  EXPECT_THAT(numbered.beside.left_out, ElementsAre("columns beside: point"));
+  EXPECT_THAT(cloud("z,x,y\n-0.5,10,0\n").points, ElementsAre(Point3{10, 0, -0.5}));
+  const Cloud comma = cloud("X [m];Y [m];Z [m]\n10;0;-1\n10,5;0;-0,5\n");
+  EXPECT_THAT(comma.points, ElementsAre(Point3{10, 0, -1}, Point3{10.5, 0, -0.5}));
+  EXPECT_EQ(comma.beside.unit, "m");
+  EXPECT_THAT(cloud("3\n// z y x\n// units: mm\n1 2 3\n4 5 6\n7 8 9\n").points[1],
+              (Point3{6, 5, 4}));
+  EXPECT_EQ(cloud("# units: mm\n1 2 3\n").beside.unit, "mm");
+}
+
+TEST(SpaceRows, ACloudTellsColumnsThatItDoesNotTake) {
+  EXPECT_THAT(cloud("1 2 3\n4 5 6\n").beside.left_out, IsEmpty());
+  EXPECT_THAT(cloud("1 2 3 9 9\n4 5 6 9 9\n").beside.left_out, ElementsAre("2 further columns"));
+  EXPECT_THAT(cloud("P1;1;2;3\nP2;4;5;6\n").points, ElementsAre(Point3{1, 2, 3}, Point3{4, 5, 6}));
+  EXPECT_THAT(cloud("5 4\n1 2 3\n").beside.left_out,
+              ElementsAre("line 1: 2 numbers before the points"));
+}
+
+TEST(SpaceRows, ACloudsRowsHaveTheColumnsOfTheFirst) {
+  EXPECT_EQ(cloud("x y z i\n0 1 2 7\n1 3.5 9\n").failure, ":3 3 columns where the first row has 4");
+  EXPECT_EQ(cloud("x\ty\tz\ti\n0\t1\t2\t7\n1\t3.5\t9\t\n").points.size(), 2U);
+  EXPECT_THAT(cloud("1 2 3\n4 5 6 7\n8 9 10 11\n").beside.left_out,
+              ElementsAre("of 2 rows what stands behind column 3"));
+  EXPECT_EQ(cloud("1,2,3\n4,5,6,7\n").failure, ":2 4 columns where the first row has 3");
+}
+
+TEST(SpaceRows, ACloudOfDecimalCommasAndCommasIsRefused) {
+  const std::string rows = "10,000, 0,000, -0,500\n10,000, 0,000, -0,400\n";
+  EXPECT_EQ(cloud(rows).failure, ":1 commas that part columns or fractions");
+  EXPECT_EQ(cloud("x,y,z\n" + rows).failure, ":2 6 columns below a header of 3");
+}
+
+TEST(SpaceRows, ACloudWhoseHeaderNamesNoZIsRefused) {
+  EXPECT_EQ(cloud("x,y,height\n1,2,3\n4,5,6\n").failure,
+            ":2 these columns are not x, y and z of points in space");
+  EXPECT_THAT(cloud("x [m],y [m],z [mm]\n1,2,3\n").failure, HasSubstr("two units, m and mm"));
+}
+
+TEST(SpaceRows, ASectionHasTheUnitOfItsCloud) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-unit-" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(file) << "z [cm],x [cm],y [cm]\n0,0,0\n0,1,0\n0,2,0\n0,3,0\n5,0,9\n";
+  const auto cut = section_of_file(file, parse_section("y=0").value());
+  std::filesystem::remove(file);
+  ASSERT_TRUE(cut) << cut.error().message;
+  EXPECT_EQ(cut->unit, "cm");
+  EXPECT_EQ(cut->curves.at(0).points.size(), 4U);
+}
+
+TEST(SpaceRows, ALatticesHeaderNamesItsColumnsAndUnit) {
+  const std::string rows = "0,1,2\n0.5,2,3\n\n0,1,3\n0.5,2,4\n";
+  const auto read = [&](const std::string& header, const PointsOptions& options = {}) {
+    std::istringstream in(header + rows);
+    return read_lattice(in, "file", options);
+  };
+  const auto named = read("Z [m],X [m],Y [m]\n");
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_THAT(named->lattice.points,
+              ElementsAre(Point3{1, 2, 0}, Point3{2, 3, 0.5}, Point3{1, 3, 0}, Point3{2, 4, 0.5}));
+  EXPECT_EQ(named->unit, "m");
+  EXPECT_EQ(read("2,2\nz,x,y\n")->lattice.points[1], (Point3{2, 3, 0.5}));
+  EXPECT_EQ(read("")->lattice.points[1], (Point3{0.5, 2, 3}));
+  EXPECT_EQ(read("a,b,c\n")->lattice.points[1], (Point3{0.5, 2, 3}));
+  EXPECT_THAT(read("a,b,c\n")->left_out, ElementsAre(HasSubstr("names no x and y")));
+  PointsOptions asked;
+  asked.columns = {"2", "3", "1"};
+  EXPECT_EQ(read("", asked)->lattice.points[1], (Point3{2, 3, 0.5}));
+  const auto height = read("x,y,height\n");
+  ASSERT_FALSE(height);
+  EXPECT_EQ(height.error().path, "file:2");
+  EXPECT_EQ(read("x,y,z\n0,0\n").error().message, "3 columns where the first row has 2");
+}
+
+}  // namespace
+}  // namespace keyline::exchange
